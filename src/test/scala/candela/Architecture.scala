@@ -50,8 +50,9 @@ object Architecture:
   /** Lowest first: a package may use those before it. */
   val runtime: Vector[String] = floors(
     "base math color geometry sampling image textures shapes bsdf bsdf.microfacet bsdf.layered " +
-      "bsdf.measured bsdf.subsurface bsdf.composite lights media cameras accel accel.building " +
-      "accel.tracing scene film guiding integrators bidirectional render render.storage"
+      "bsdf.measured bsdf.subsurface bsdf.composite lights media cameras film accel " +
+      "accel.building accel.tracing scene layers guiding integrators bidirectional render " +
+      "render.storage"
   )
   val file: Vector[String] = floors("base math scenefile")
 
@@ -84,7 +85,7 @@ object Architecture:
       "job" -> job,
       "report" -> report,
       "suite" -> (report + "report"),
-      "watch" -> (report ++ Set("film", "render", "report"))
+      "watch" -> (report ++ Set("film", "layers", "render", "report"))
     ) ++ below(program).map: (room, lower) =>
       room -> (job ++ lower ++ Set("job", "measure", "convert", "report", "suite", "watch"))
 

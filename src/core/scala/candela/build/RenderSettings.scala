@@ -2,9 +2,10 @@ package candela.build
 
 import candela.build.recipe.Switches
 import candela.build.sampling.PointChoice
-import candela.film.{Fireflies, Layer, PixelBounds}
+import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.image.DisplayTransform
+import candela.layers.Layer
 import candela.scenefile.Dialect
 
 /** What is rendered of a scene. With the scene's files, these are the identity of a rendering:

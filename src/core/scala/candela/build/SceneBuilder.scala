@@ -4,11 +4,9 @@ import candela.accel.tracing.Hierarchies
 import candela.base.{Limit, Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
-import candela.film.{
-  Development, FilterReach, Fireflies, Layer, LayerFilm, PixelBounds, ScreenMotion, SpectralBands,
-  VisibleSurface
-}
+import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands}
 import candela.guiding.{Guide, GuidingMode}
+import candela.layers.{Layer, LayerFilm, ScreenMotion, VisibleSurface}
 import candela.math.{Motion, Still}
 import candela.render.{ErrorFile, LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.{CenteredSampler, IndependentSampler}

@@ -6,7 +6,8 @@ import candela.build.film.{FilmSettings, Films, Filters}
 import candela.build.integrators.IntegratorPlan
 import candela.build.sampling.{SamplerPlan, SamplerRequest, Samplers}
 import candela.cameras.{Camera, FilmFrame, MovingCamera, PixelCone, Shutter}
-import candela.film.{Filter, Layer, PixelBounds}
+import candela.film.{Filter, PixelBounds}
+import candela.layers.Layer
 import candela.math.*
 import candela.sampling.Sampler
 

@@ -7,7 +7,7 @@ import candela.build.settings.{Accelerators, BvhRecipe}
 import candela.build.textures.Textures
 import candela.cameras.Shutter
 import candela.color.{CameraSensor, ColorBasis}
-import candela.film.Cryptomatte
+import candela.layers.Cryptomatte
 import candela.lights.LightSelection
 import candela.render.RenderMethod
 import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}

@@ -40,7 +40,7 @@ final case class Development(
     else Image(image.width, image.height, image.channelNames, image.data, colorSpace = space)
 
   /** Develops the colour at `at`, but for its scale. */
-  private[film] def color(data: Array[Float], at: Int): Unit =
+  def color(data: Array[Float], at: Int): Unit =
     for response <- sensor do response(data(at), data(at + 1), data(at + 2), data, at)
     for m <- balance do
       val r = data(at)

@@ -100,7 +100,7 @@ final class ExactSums(val size: Int):
       require(at >= 0 && at < size, s"there is no sum $at")
       addRest(at, ExactSums.left(from.text()))
 
-private object ExactSums:
+object ExactSums:
   /** Decimal digits, before or behind the point, of numbers that are sums of Doubles. */
   private val MostDigits = 1100
 

@@ -2,8 +2,8 @@ package candela.integrators
 
 import candela.base.{CheckedInput, CheckedOutput}
 import candela.color.{Rgb, Wavelengths}
-import candela.film.LightParts
 import candela.geometry.Ray
+import candela.layers.LightParts
 import candela.sampling.Sampler
 import candela.scene.{PathReport, Scene}
 

@@ -1,8 +1,9 @@
 package candela.integrators
 
 import candela.color.{ColorBasis, Rgb, Wavelengths}
-import candela.film.{LightParts, Splats}
+import candela.film.Splats
 import candela.geometry.Ray
+import candela.layers.LightParts
 import candela.sampling.{SampleHash, Sampler}
 import candela.scene.PathReport
 

@@ -1,8 +1,8 @@
 package candela.integrators
 
 import candela.color.Rgb
-import candela.film.LightParts
 import candela.geometry.Ray
+import candela.layers.LightParts
 import candela.math.*
 import candela.media.Regions
 import candela.sampling.{RandomStream, Sampler}

@@ -2,8 +2,8 @@ package candela.integrators
 
 import candela.bsdf.PhaseLobe
 import candela.color.Rgb
-import candela.film.LightParts
 import candela.guiding.Guide
+import candela.layers.LightParts
 import candela.math.*
 import candela.media.{MediumWork, SceneMedia}
 import candela.sampling.{PhaseFunction, Sampler}

@@ -2,9 +2,9 @@ package candela.integrators
 
 import candela.bsdf.Bssrdf
 import candela.color.{MutableRgb, Rgb}
-import candela.film.LightParts
 import candela.geometry.{Hit, Ray}
 import candela.guiding.Guide
+import candela.layers.LightParts
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene

@@ -3,9 +3,10 @@ package candela.job
 import candela.build.{ColorMode, LightGrouping, RenderRegion}
 import candela.build.sampling.PointChoice
 import candela.color.ToneCurve
-import candela.film.{Fireflies, Layer, PixelBounds}
+import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.image.Exposure
+import candela.layers.Layer
 import candela.scenefile.Dialect
 
 /** A value as text, in film files and on command lines.

@@ -3,6 +3,7 @@ package candela.render
 import candela.film.*
 import candela.guiding.Guide
 import candela.integrators.{Integrator, PassIntegrator, SharedChains, SharedPasses}
+import candela.layers.*
 import candela.scene.PathReport
 
 /** Film, schedule and workers of a plan's method, each created once. */

@@ -4,6 +4,7 @@ import candela.cameras.{Camera, Shutter}
 import candela.color.ColorBasis
 import candela.film.*
 import candela.image.Image
+import candela.layers.*
 import candela.sampling.Sampler
 import candela.scene.SurfaceNames
 

@@ -1,8 +1,9 @@
 package candela.render
 
-import candela.film.{Development, Film, LayerFilm}
+import candela.film.{Development, Film}
 import candela.guiding.GuideOutcome
 import candela.image.Image
+import candela.layers.LayerFilm
 
 /** Progress of a rendering.
   *

@@ -4,6 +4,7 @@ import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.*
 import candela.integrators.Integrator
+import candela.layers.*
 
 /** Renders tiles, pixel by pixel.
   *

@@ -4,7 +4,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.{ColorMode, RenderRegion, RenderSettings}
 import candela.color.Rgb
-import candela.film.Layer
+import candela.layers.Layer
 import candela.render.{Cancellation, Renderer}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts

@@ -4,8 +4,9 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{Parallel, SceneError, Severity}
 import candela.color.{ColorSpace, Rgb}
-import candela.film.{BoxFilter, GaussianFilter, Layer, PixelBounds}
+import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
 import candela.integrators.{DirectLighting, Integrator, PathTracer}
+import candela.layers.Layer
 import candela.render.{RenderMethod, RenderPlan, Renderer, ThreadPool}
 import candela.build.sampling.{PointChoice, PointSet}
 import candela.sampling.{

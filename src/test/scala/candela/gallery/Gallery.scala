@@ -6,8 +6,8 @@ import candela.base.Problem
 import candela.build.{Category, RenderSettings, SceneBuilder}
 import candela.build.recipe.Recipe
 import candela.cli.files.Denoising
-import candela.film.Layer
 import candela.image.{Image, ImageFiles, Oidn}
+import candela.layers.Layer
 import candela.render.{ReferenceScenes, Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser}
 

@@ -3,7 +3,7 @@ package candela.integrators
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.RenderSettings
-import candela.film.Layer
+import candela.layers.Layer
 import candela.render.Renderer
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts

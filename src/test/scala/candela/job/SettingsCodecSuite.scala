@@ -3,9 +3,10 @@ package candela.job
 import candela.build.*
 import candela.build.sampling.PointChoice
 import candela.color.ToneCurve
-import candela.film.{Fireflies, Layer, PixelBounds}
+import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.image.{DisplayTransform, Exposure}
+import candela.layers.Layer
 import candela.scenefile.Dialect
 
 import org.scalacheck.Gen

@@ -2,7 +2,8 @@ package candela.build.film
 
 import candela.build.recipe.*
 import candela.color.CameraSensor
-import candela.film.{Development, Layer, SampleLimit}
+import candela.film.{Development, SampleLimit}
+import candela.layers.Layer
 import candela.scenefile.Dialect
 
 /** Recipes of films. */

@@ -3,7 +3,8 @@ package candela.build.film
 import candela.base.Suggest
 import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
-import candela.film.{Development, Layer, SampleLimit, SpectralBands}
+import candela.film.{Development, SampleLimit, SpectralBands}
+import candela.layers.Layer
 
 object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
   private val scale = float("scale", "scale of all pixel values", onlyV3)(1f)

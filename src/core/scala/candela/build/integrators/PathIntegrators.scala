@@ -1,9 +1,9 @@
 package candela.build.integrators
 
 import candela.build.recipe.*
-import candela.film.LightParts
 import candela.guiding.{Guide, GuideSettings}
 import candela.integrators.*
+import candela.layers.LightParts
 import candela.render.RenderMethod
 import candela.scene.Scene
 import candela.scenefile.Dialect

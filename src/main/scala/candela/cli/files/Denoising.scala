@@ -1,8 +1,8 @@
 package candela.cli.files
 
 import candela.cli.terminal.Figures
-import candela.film.Layer
 import candela.image.{Image, Oidn}
+import candela.layers.Layer
 import candela.measure.Metrics
 
 /** `candela render --denoise`: a denoised image beside the noisy one.

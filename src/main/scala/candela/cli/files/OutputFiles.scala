@@ -3,9 +3,9 @@ package candela.cli.files
 import candela.base.{FileName, Problem, SceneError, Severity}
 import candela.build.film.FilmRecipe
 import candela.cli.options.FilmOptions
-import candela.film.Layer
 import candela.image.{Contents, Image, ImageEdits, OutputFormat}
 import candela.job.{ImageName, Prepared}
+import candela.layers.Layer
 import candela.render.RenderPlan
 
 import java.nio.file.{InvalidPathException, Path}

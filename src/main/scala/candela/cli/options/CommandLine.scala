@@ -7,9 +7,9 @@ import candela.build.{RenderRegion, RenderSettings}
 import candela.build.sampling.PointChoice
 import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
 import candela.convert.Baking
-import candela.film.Layer
 import candela.image.DisplayTransform
 import candela.job.{Preparation, SceneLimits}
+import candela.layers.Layer
 import candela.scenefile.Dialect
 import candela.watch.WatchAddress
 

@@ -3,8 +3,8 @@ package candela.cli.rendering
 import candela.cli.files.{FileRegister, FilmKeeping, FilmName, Frame, Output, OutputFiles}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.terminal.Report
-import candela.film.Layer
 import candela.job.{Prepared, SceneLoader}
+import candela.layers.Layer
 import candela.render.storage.FilmFile
 import candela.scenefile.SceneFiles
 

@@ -5,8 +5,8 @@ import java.nio.file.Path
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.{ColorMode, RenderSettings, SceneBuilder}
-import candela.film.{Cryptomatte, Layer}
 import candela.image.{Image, ImageFiles}
+import candela.layers.{Cryptomatte, Layer}
 import candela.math.square
 import candela.render.Renderer
 import candela.scenefile.{Dialect, Parser}

@@ -5,8 +5,8 @@ import java.nio.file.{Files, Path}
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.{ColorMode, LightGrouping, RenderSettings, SceneBuilder}
-import candela.film.Layer
 import candela.image.Image
+import candela.layers.Layer
 import candela.render.{RenderPlan, Renderer}
 import candela.scenefile.{Dialect, Parser}
 import candela.testing.{SceneTexts, TempFolder}

@@ -5,9 +5,9 @@ import candela.cli.{Captured, Main}
 import candela.cli.files.Denoising
 import candela.cli.terminal.Interrupts
 import candela.color.Rgb
-import candela.film.Layer
 import candela.image.ImageFiles
 import candela.job.{Preparation, Prepared, SceneLoader}
+import candela.layers.Layer
 import candela.render.{Cancellation, RenderPlan, TinyPlan}
 import candela.scenefile.{Dialect, SceneDescription}
 import candela.testing.TempFolder

@@ -3,7 +3,7 @@ package candela.cli.options
 import candela.base.Version
 import candela.build.{LightGrouping, ReadSettings, RenderRegion}
 import candela.cli.terminal.ExitCode
-import candela.film.Layer
+import candela.layers.Layer
 import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect
 import candela.suite.Work

@@ -3,8 +3,8 @@ package candela.cli.rendering
 import candela.build.RenderSettings
 import candela.cli.Watched
 import candela.color.Rgb
-import candela.film.Layer
 import candela.image.ImageFiles
+import candela.layers.Layer
 import candela.render.{TinyPlan, Where}
 import candela.scenefile.Dialect
 import candela.testing.{Chromium, SceneTexts, TempFolder, WebClient}

@@ -1,6 +1,7 @@
-package candela.film
+package candela.layers
 
 import candela.color.{ColorBasis, Rgb}
+import candela.film.SampleLimit
 import candela.lights.LightGroups
 
 import java.util.Arrays

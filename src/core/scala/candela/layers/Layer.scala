@@ -1,6 +1,7 @@
-package candela.film
+package candela.layers
 
 import candela.color.{ColorSpace, Matrix3, Rgb}
+import candela.film.ExactSums
 import candela.math.Vec3
 
 import Statistic.*
@@ -21,7 +22,7 @@ enum Layer(
     val word: String,
     val channels: Vector[String],
     val meaning: String,
-    private[film] val statistic: Statistic,
+    private[layers] val statistic: Statistic,
     val needsFootprints: Boolean = false,
     val needsFloat: Boolean = false,
     val dividesLight: Boolean = false
@@ -161,7 +162,7 @@ enum Layer(
     case Lights => groups.flatMap(group => Layer.rgb(s"Combined_$group"))
     case _ => channels
 
-  private[film] def statisticOf(groups: Vector[String]): Statistic = this match
+  private[layers] def statisticOf(groups: Vector[String]): Statistic = this match
     case Lights => ScaledMeanOfAll(Tally.light(LightParts.Groups, groups.size))
     case _ => statistic
 
@@ -169,7 +170,7 @@ enum Layer(
   def isLight: Boolean = dividesLight || this == Emission
 
   /** Matrix from linear sRGB to the colour space of the image, for layers of colours. */
-  private[film] def to(space: ColorSpace): Option[Matrix3] = this match
+  private[layers] def to(space: ColorSpace): Option[Matrix3] = this match
     case Albedo | DenoisingAlbedo => Some(space.ofSrgbAdapted)
     case Emission => Some(space.ofSrgb)
     case _ => None
@@ -196,7 +197,7 @@ object Layer:
   *
   * @param size number of accumulators
   */
-private[film] abstract class Tally(val size: Int):
+private[layers] abstract class Tally(val size: Int):
   /** Whether it counts only samples that hit a surface. */
   def needsSurface: Boolean = true
 
@@ -212,7 +213,7 @@ private[film] abstract class Tally(val size: Int):
   /** Whether `join` does anything. */
   def joins: Boolean = false
 
-private[film] object Tally:
+private[layers] object Tally:
   /** A quantity accumulated with the filter weight. */
   trait Number:
     def apply(seen: VisibleSurface): Float
@@ -291,7 +292,7 @@ private[film] object Tally:
   * @param hitWeight sum of the filter weights of samples that hit a surface
   * @param scale     from accumulated values to image values
   */
-private[film] final class PixelTally(
+private[layers] final class PixelTally(
     sums: ExactSums,
     at: Int,
     val size: Int,
@@ -321,10 +322,10 @@ private[film] final class PixelTally(
   *
   * @param tally its accumulators; AOVs may share them
   */
-private[film] abstract class Statistic(val tally: Tally):
+private[layers] abstract class Statistic(val tally: Tally):
   def apply(pixel: PixelTally): Array[Double]
 
-private[film] object Statistic:
+private[layers] object Statistic:
   /** Average over samples that hit a surface. */
   final class Mean(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.hitWeight)

@@ -1,7 +1,8 @@
-package candela.film
+package candela.layers
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.film.ExactSums
 import candela.image.Image
 
 final class CryptomatteSuite extends AnyFunSuite:

@@ -1,4 +1,4 @@
-package candela.film
+package candela.layers
 
 import candela.cameras.{Camera, FilmPlace, MovingCamera, Shutter}
 import candela.math.*

@@ -1,11 +1,12 @@
-package candela.film
+package candela.layers
 
 import candela.base.{CheckedInput, CheckedOutput, loop}
 import candela.color.Rgb
+import candela.film.{Development, ExactSums}
 import candela.image.Image
 
-/** Accumulators of the requested AOVs, in addition to [[Film]]. Not synchronised either: one worker
-  * at a time owns a pixel.
+/** Accumulators of the requested AOVs, in addition to [[candela.film.Film]]. Not synchronised
+  * either: one worker at a time owns a pixel.
   *
   * Misses contribute to light, the albedo and the sample count only, as in pbrt-v4.
   *

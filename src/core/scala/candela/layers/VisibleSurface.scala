@@ -1,4 +1,4 @@
-package candela.film
+package candela.layers
 
 import candela.bsdf.{Bsdf, DirectionalAlbedo}
 import candela.color.{ColorBasis, Rgb}
@@ -67,7 +67,7 @@ final class VisibleSurface(
     if isHit then record(from, scene.bsdf(at))
 
   /** Records the hit in `at`. */
-  private[film] def record(from: Ray, scattering: Bsdf): Unit =
+  private[layers] def record(from: Ray, scattering: Bsdf): Unit =
     isHit = true
     isReflectionKnown = false
     bsdf = scattering

@@ -1,6 +1,7 @@
-package candela.film
+package candela.layers
 
 import candela.color.Rgb
+import candela.film.ExactSums
 import candela.image.Image
 
 import java.lang.Float.{floatToRawIntBits, intBitsToFloat}
@@ -56,7 +57,7 @@ object Cryptomatte:
     case c => c.toString
 
   /** Pairs of identifier and filter weight, in the order of their first samples. */
-  private[film] def tally(of: VisibleSurface => Float): Tally = new Tally(2 * Slots):
+  private[layers] def tally(of: VisibleSurface => Float): Tally = new Tally(2 * Slots):
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
       count(sums, at, of(seen).toDouble, weight)
 
@@ -81,7 +82,7 @@ object Cryptomatte:
           count(sums, at, id, rest)
 
   /** Identifiers by falling coverage, each with its coverage. */
-  private[film] final class Ranked(tally: Tally) extends Statistic(tally):
+  private[layers] final class Ranked(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] =
       val found = Vector.tabulate(Slots)(i => (pixel(2 * i), pixel(2 * i + 1))).filter(_._1 != 0.0)
       val ranked = found.sortBy((id, weight) => (-weight, id)).take(Ranks)

@@ -1,10 +1,11 @@
-package candela.film
+package candela.layers
 
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.bsdf.Lambert
 import candela.build.RenderSettings
 import candela.color.{ColorSpace, Rgb}
+import candela.film.Development
 import candela.geometry.{Frame, Ray}
 import candela.image.Image
 import candela.math.Vec3
