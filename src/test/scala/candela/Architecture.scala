@@ -84,7 +84,7 @@ object Architecture:
       "mitsuba" -> mitsuba,
       "job" -> job,
       "report" -> report,
-      "suite" -> (report + "report"),
+      "suite" -> (report ++ Set("report", "job")),
       "watch" -> (report ++ Set("film", "layers", "render", "report"))
     ) ++ below(program).map: (room, lower) =>
       room -> (job ++ lower ++ Set("job", "measure", "convert", "report", "suite", "watch"))

@@ -34,8 +34,13 @@ object SceneFormat:
 
   /** The format that a file has by its name, if it is one's. */
   def named(file: Path): Option[SceneFormat] =
-    val plain = if FileName.suffix(file) == "gz" then Path.of(FileName.stem(file)) else file
-    all.find(_.suffixes.contains(FileName.suffix(plain)))
+    all.find(_.suffixes.contains(FileName.suffix(unpacked(file))))
+
+  /** The name of a scene, without the suffixes of its file. */
+  def stem(file: Path): String = FileName.stem(unpacked(file))
+
+  private def unpacked(file: Path): Path =
+    if FileName.suffix(file) == "gz" then Path.of(FileName.stem(file)) else file
 
   /** The format to read a file as: by any other name, it is pbrt's. */
   def of(file: Path): SceneFormat = named(file).getOrElse(Pbrt)

@@ -1,6 +1,7 @@
 package candela.suite
 
 import candela.base.{Problem, SceneError}
+import candela.job.SceneFormat
 
 import com.typesafe.config.{Config, ConfigException, ConfigFactory, ConfigParseOptions}
 
@@ -123,21 +124,29 @@ object SuiteFile:
 
   private def wrong(message: String): SceneError = SceneError(Problem.general(message))
 
-/** A folder of scenes as a suite: each `NAME.pbrt`, with a reference `NAME.exr` if there is one. */
+/** A folder as a suite: all scenes of the known formats, such as `NAME.pbrt`, each with a reference
+  * `NAME.exr` if there is one.
+  */
 object SuiteFolder:
 
   /** @throws SceneError if there is no scene */
   def read(folder: Path, references: Path): Suite =
     val scenes = scala.util.Using.resource(Files.list(folder)): files =>
-      files.iterator.asScala.toVector.filter(_.toString.endsWith(".pbrt")).sorted
-    if scenes.isEmpty then throw SceneError(Problem.general(s"no scene NAME.pbrt in $folder"))
-    val pairs = scenes.map: s =>
-      val reference = references.resolve(s.getFileName.toString.stripSuffix(".pbrt") + ".exr")
-      s -> Option.when(Files.isRegularFile(reference))(reference)
+      files.iterator.asScala.toVector.filter(SceneFormat.named(_).isDefined).sorted
+    if scenes.isEmpty then
+      val help = s"scenes are of ${SceneFormat.inWords}"
+      throw SceneError(Problem.general(s"no scene in $folder", Some(help)))
+    val files = scenes.groupBy(SceneFormat.stem)
     Suite(
       folder.toAbsolutePath.getFileName.toString,
       Vector(candela),
-      pairs.map(scene),
+      scenes.map: file =>
+        val stem = SceneFormat.stem(file)
+        // Of several formats
+        val name = if files(stem).sizeIs > 1 then file.getFileName.toString else stem
+        val reference = references.resolve(s"$stem.exr")
+        scene(name, file, Option.when(Files.isRegularFile(reference))(reference))
+      ,
       Work.Samples(Vector(1, 4, 16)),
       3,
       SuiteFile.DefaultTimeout
@@ -159,8 +168,7 @@ object SuiteFolder:
       isThin = false
     )
 
-  private def scene(file: Path, reference: Option[Path]): SuiteScene =
-    val name = file.getFileName.toString.stripSuffix(".pbrt")
+  private def scene(name: String, file: Path, reference: Option[Path]): SuiteScene =
     SuiteScene(
       name,
       name,

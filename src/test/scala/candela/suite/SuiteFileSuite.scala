@@ -1,6 +1,7 @@
 package candela.suite
 
 import candela.base.SceneError
+import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
 
@@ -56,6 +57,22 @@ class SuiteFileSuite extends AnyFunSuite:
     ("reads = [v3], ", "", "reads"),
     ("scenes {", "scenes [", "suite")
   )
+
+  test("a folder is a suite of its scenes of all formats, with the references that there are"):
+    TempFolder.use: folder =>
+      for name <- Vector("a.pbrt", "b.xml", "b.exr", "c.pbrt.gz", "d.xml", "d.pbrt", "e.ply") do
+        Files.writeString(folder.resolve(name), ""): Unit
+      val scenes = SuiteFolder.read(folder, folder).scenes
+      assert(scenes.map(_.name) == Vector("a", "b", "c", "d.pbrt", "d.xml"))
+      assert(scenes.map(_.files("scene").getFileName.toString) ==
+        Vector("a.pbrt", "b.xml", "c.pbrt.gz", "d.pbrt", "d.xml"))
+      assert(scenes.filter(_.reference.isDefined).map(_.name) == Vector("b"))
+
+  test("a folder without scenes says which formats scenes have"):
+    TempFolder.use: folder =>
+      val e = intercept[SceneError](SuiteFolder.read(folder, folder))
+      assert(e.getMessage.startsWith("no scene in"))
+      assert(e.problems.head.help.exists(_.contains("Mitsuba (.xml)")))
 
   for (written, instead, message) <- wrong do
     test(s"`$instead` for `$written` is refused: $message"):
