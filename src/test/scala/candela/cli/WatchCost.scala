@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.image.ImageFiles
+import candela.testing.Eventually.eventually
 import candela.testing.{Chromium, OpenPage, TempFolder}
 
 import java.io.IOException
@@ -155,7 +156,7 @@ object WatchCost:
       .redirectOutput(folder.resolve("out.txt").toFile)
       .redirectError(folder.resolve("err.txt").toFile).start()
 
-  private[cli] def link(folder: Path): String = Chromium.eventually("link"):
+  private[cli] def link(folder: Path): String = eventually("link"):
     val err = folder.resolve("err.txt")
     Option.when(Files.exists(err))(Files.readString(err)).flatMap: text =>
       raw"watch at (http://\S+)\n".r.findFirstMatchIn(text).map(_.group(1))

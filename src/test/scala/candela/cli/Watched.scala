@@ -3,7 +3,7 @@ package candela.cli
 import candela.job.{Preparation, Prepared, SceneLoader}
 import candela.render.RenderPlan
 import candela.scenefile.{Dialect, SceneDescription}
-import candela.testing.Chromium
+import candela.testing.Eventually.eventually
 
 import java.util.concurrent.atomic.AtomicReference
 
@@ -25,7 +25,7 @@ final class Watched(plan: RenderPlan, args: String*):
   def err: String = captured.err
 
   /** The live page's address, once it is served. */
-  lazy val link: String = Chromium.eventually("link"):
+  lazy val link: String = eventually("link"):
     raw"watch at (http://\S+)\n".r.findFirstMatchIn(captured.err).map(_.group(1))
 
   /** The exit code, once it has ended. */

@@ -1,6 +1,7 @@
 package candela.gallery
 
 import candela.cli.Main
+import candela.testing.Eventually.eventually
 import candela.testing.Chromium
 
 import java.io.{ByteArrayOutputStream, PrintStream}
@@ -18,7 +19,7 @@ object LivePicture:
     val rendering = Thread: () =>
       val _ = Main.run(words :+ "--spp" :+ "1024", PrintStream(err), PrintStream(err, true))
     rendering.start()
-    val link = Chromium.eventually("link"):
+    val link = eventually("link"):
       raw"watch at (http://\S+)\n".r.findFirstMatchIn(err.toString).map(_.group(1))
     val _ = Files.createDirectories(file.getParent)
     Chromium.use(browser, s"$link#x=402&y=205&curve=agx&theme=light"): page =>

@@ -1,5 +1,7 @@
 package candela.testing
 
+import candela.testing.Eventually.eventually
+
 import java.io.File
 import java.net.URI
 import java.net.http.{HttpClient, WebSocket}
@@ -61,16 +63,6 @@ object Chromium:
       val list = Using.resource(URI(s"http://127.0.0.1:$line/json/list").toURL.openStream()): in =>
         ujson.read(in.readAllBytes())
       list.arr.find(_("type").str == "page").map(p => URI(p("webSocketDebuggerUrl").str))
-
-  /** The first result, tried again and again for two minutes. */
-  def eventually[A](what: String)(found: => Option[A]): A =
-    val tries = Iterator.continually:
-      val result = found
-      if result.isEmpty then Thread.sleep(50)
-      result
-    val end = System.nanoTime + 120_000_000_000L
-    tries.takeWhile(_ => System.nanoTime < end).flatten.nextOption
-      .getOrElse(throw IllegalStateException(s"no $what within two minutes"))
 
 /** A page, open in a browser. */
 final class OpenPage(address: URI) extends AutoCloseable:
@@ -174,7 +166,7 @@ final class OpenPage(address: URI) extends AutoCloseable:
 
   /** Waits until the script's expression is true, in a page that may not be there yet. */
   def until(script: String): Unit =
-    Chromium.eventually(script):
+    eventually(script):
       Try(value(s"!!($script)").bool).toOption.filter(identity)
     ()
 

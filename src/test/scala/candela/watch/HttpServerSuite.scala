@@ -1,11 +1,14 @@
 package candela.watch
 
 import candela.render.Background
+import candela.testing.Eventually.eventually
 
 import org.scalatest.funsuite.AnyFunSuite
 
 import java.io.{ByteArrayOutputStream, InputStream}
 import java.net.{InetAddress, InetSocketAddress, Socket}
+
+import scala.util.Try
 
 /** Real sockets: clients that are slow, many, or wrong, and one that is none of these. */
 class HttpServerSuite extends AnyFunSuite:
@@ -28,9 +31,9 @@ class HttpServerSuite extends AnyFunSuite:
       server.close()
       threads.shutdownNow(): Unit
 
-  /** Many clients do something, then another one is served within a second. */
+  /** Many clients do something, then another one is served while they still may. */
   private def besides(count: Int)(first: Socket => Unit): Unit =
-    serving(): port =>
+    serving(patience = 1000): port =>
       val crowd = Vector.newBuilder[Socket]
       try
         for _ <- 1 to count do
@@ -39,12 +42,7 @@ class HttpServerSuite extends AnyFunSuite:
           // It may have given way to others already.
           try first(socket)
           catch case _: java.io.IOException => ()
-        val times = Vector.fill(5):
-          val began = System.nanoTime
-          assert(asked(port, "GET", "/a?x=1").body == "GET /a Vector((x,1))")
-          System.nanoTime - began
-        // The best, as other programs may hold up the machine; a client that is blocked always is
-        assert(times.min < 1_000_000_000L): Unit
+        for _ <- 1 to 5 do assert(asked(port, "GET", "/a?x=1").body == "GET /a Vector((x,1))")
       finally crowd.result().foreach(_.close())
 
   for count <- Vector(16, 300) do
@@ -94,13 +92,12 @@ class HttpServerSuite extends AnyFunSuite:
           send(socket, words)
           assert(ends(socket), words)
         finally socket.close()
+    // Of 10 s, and a second for each 64 KiB
+    serving(patience = 0.004): port =>
       val reader = connected(port)
       try
         send(reader, "GET /large HTTP/1.1\r\nHost: a\r\n\r\n")
-        // 0.2 s, and as much for each 64 KiB/s: 5 s
-        Thread.sleep(7000)
-        val got = received(reader.getInputStream)
-        assert(got.bytes.length < large.length)
+        eventually("end of the connection")(Try(send(reader, " ")).failed.toOption): Unit
       finally reader.close()
 
   test("every answer has a length, and forbids what others may do with it"):
@@ -172,7 +169,8 @@ object HttpServerSuite:
   private def connected(port: Int, from: String = "127.0.0.1"): Socket =
     val socket = Socket()
     socket.bind(InetSocketAddress(from, 0))
-    socket.setSoTimeout(20000)
+    // Ends a test whose server does not answer; what it waits for takes its clients far longer
+    socket.setSoTimeout(60_000)
     socket.connect(InetSocketAddress(here, port), 2000)
     socket
 

@@ -3,13 +3,14 @@ package candela.accel.tracing
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.accel.{Accelerator, AcceleratorScenes, BruteForce, Primitives}
+import candela.base.Parallel
 import candela.geometry.{Hit, Ray}
 import candela.math.*
-import candela.render.ThreadPool
 import candela.testing.Draws
 
 /** All kernels find the very hits that testing everything finds, bit by bit. */
 class KernelSuite extends AnyFunSuite:
+  import KernelSuite.*
 
   private val hasVectors = Hierarchies.hasVectors
 
@@ -128,8 +129,9 @@ class KernelSuite extends AnyFunSuite:
     if hasVectors then
       val (_, primitives) = scenes.head
       val warmUps = WarmUps()
+      val later = Later()
       val (warming, reference) = (
-        Hierarchies.vector(primitives, parallel = ThreadPool(1), warmUps = warmUps),
+        Hierarchies.vector(primitives, parallel = later, warmUps = warmUps),
         BruteForce(primitives)
       )
       val draws = Draws(5)
@@ -144,8 +146,17 @@ class KernelSuite extends AnyFunSuite:
           assert(reference.closest(ray, hit) == found && hit.primitive == primitive)
           assert(ray.tMax == t)
       agree()
-      val end = System.nanoTime + 60_000_000_000L
-      while !warmUps.areOver && System.nanoTime < end do
-        Thread.sleep(10)
+      later.run()
       assume(warmUps.areOver, "scalar code remains faster here")
       agree()
+
+object KernelSuite:
+
+  /** One thread, in which the work aside is done when a test says so. */
+  private final class Later extends Parallel:
+    private var waiting = Vector.empty[() => Unit]
+    def threads: Int = 1
+    def each(count: Int)(task: Int => Unit): Unit = Parallel.Alone.each(count)(task)
+    def worksAside: Boolean = true
+    def aside(name: String)(task: => Unit): Unit = waiting :+= (() => task)
+    def run(): Unit = waiting.foreach(_())

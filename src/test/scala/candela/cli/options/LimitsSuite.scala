@@ -159,13 +159,10 @@ class LimitsSuite extends AnyFunSuite:
       val file = Files.writeString(folder.resolve("s.pbrt"), long).toString
       val (image, film) = (folder.resolve("o.exr"), folder.resolve("o.film"))
       val before = Files.writeString(image, "before")
-      val started = System.nanoTime
+      // The whole rendering takes hours, and would replace the image
       val (code, captured) =
         Captured.run(file, "--limit", "time=0.5s", "--outfile", s"$image", "--checkpoint")
-      val seconds = (System.nanoTime - started) * 1e-9
       assert(code == 1 && captured.err.contains("the time of 0.5 s is over"), captured.err)
-      // Far less than the rendering takes, which is hours
-      assert(seconds < 60)
       assert(Files.readString(before) == "before" && Files.exists(film))
 
   test("time: the statement that is read, or built, is named"):

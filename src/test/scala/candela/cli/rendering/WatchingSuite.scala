@@ -7,7 +7,8 @@ import candela.image.ImageFiles
 import candela.layers.Layer
 import candela.render.{TinyPlan, Where}
 import candela.scenefile.Dialect
-import candela.testing.{Chromium, SceneTexts, TempFolder, WebClient}
+import candela.testing.Eventually.eventually
+import candela.testing.{SceneTexts, TempFolder, WebClient}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -35,7 +36,7 @@ class WatchingSuite extends AnyFunSuite:
       val file = folder.resolve("a.exr")
       val running = Watched(plan(16, file), words :+ "--watch-after"*)
       try
-        Chromium.eventually("end")(Option.when(running.out.contains("wrote"))(()))
+        eventually("end")(Option.when(running.out.contains("wrote"))(()))
         test(running, file)
       finally
         val _ = WebClient.post(s"${running.link}end")
@@ -63,7 +64,7 @@ class WatchingSuite extends AnyFunSuite:
           Rgb(sampler.next1D(), 2 * sampler.next1D(), 0)
       val running = Watched(halting, "--watch", "0", "--watch-after", "--nthreads", "1")
       def state = ujson.read(WebClient.get(s"${running.link}state?viewer=a&shown=0").text)
-      val early = Chromium.eventually("snapshot"):
+      val early = eventually("snapshot"):
         Some(state).filter(_("version").num > 0)
       assert(early("stage").str == "rendering" && early("samples").num == 8)
       assert(early("tiles").arr.map(_.arr.map(_.num)) == Seq(Seq(0, 0, 16, 16)))
@@ -73,7 +74,7 @@ class WatchingSuite extends AnyFunSuite:
       val first = image("color")
       gate.countDown()
       val late =
-        Chromium.eventually("end")(Some(state).filter(_("stage").str == "done"))
+        eventually("end")(Some(state).filter(_("stage").str == "done"))
       assert(late("version").num > early("version").num && image("color") != first)
       assert(late("layers").arr.map(_("name").str) == Seq("color", "noise"))
       // Means of 16 uniform numbers, times 1, 2 and 0
@@ -109,7 +110,7 @@ class WatchingSuite extends AnyFunSuite:
       val _ = WebClient.post(s"${running.link}keep")
       assert(state("keepsOn").bool)
       gate.countDown()
-      val later = Chromium.eventually("more samples"):
+      val later = eventually("more samples"):
         Some(state).filter(_("samples").num >= 160)
       assert(later("stage").str == "rendering" && later("planned").num > 160)
       assert(later("part").num <= 1)
@@ -125,7 +126,7 @@ class WatchingSuite extends AnyFunSuite:
       def state = ujson.read(WebClient.get(s"${running.link}state").text)
       val _ = WebClient.post(s"${running.link}stop")
       val late =
-        Chromium.eventually("files")(Some(state).filter(!_("files").isNull))
+        eventually("files")(Some(state).filter(!_("files").isNull))
       assert(late("stage").str == "stopped" && late("stays").bool)
       Thread.sleep(300)
       assert(running.isRunning)
@@ -151,7 +152,7 @@ class WatchingSuite extends AnyFunSuite:
       val plan = SceneTexts.plan(text, Dialect.V3, layers)
       val running = Watched(plan, "--watch", "0", "--watch-after")
       try
-        val state = Chromium.eventually("files"):
+        val state = eventually("files"):
           Some(ujson.read(WebClient.get(s"${running.link}state").text)).filter(!_("files").isNull)
         val picture = folder.resolve("a.png")
         assert(state("files").arr.map(_.str) == Seq(file, picture).map(_.toAbsolutePath.toString))
