@@ -40,7 +40,7 @@ final class MarkovChains(
   import MarkovChains.*
 
   val count: Int = Math.max(1, Math.min(settings.chains, view.pixels.toInt))
-  private val states = new Array[MarkovChain](count)
+  private val states = new Array[MarkovChain | Null](count)
   private val bootstrap =
     Bootstrap(settings.bootstrap, view.crop.pixels * view.samplesPerPixel)
 

@@ -85,7 +85,7 @@ final class PhotonPasses(
   private val paths =
     if settings.paths > 0 then settings.paths else Math.min(view.crop.pixels, MostPaths).toInt
   private val shutter = view.shutter.getOrElse(Shutter(0f, 0f))
-  private val recent = new Array[Pass](SharedPasses.Open)
+  private val recent = new Array[Pass | Null](SharedPasses.Open)
 
   def integrator(report: Option[PathReport]): PassIntegrator =
     PhotonMapper(report.fold(scene)(scene.reported), maxDepth, settings, this, interfaces)

@@ -59,7 +59,7 @@ object LightBounds:
         (turned.normalized, Math.cos(half).toFloat)
 
 /** [[LightBounds]] in a flat array, for light sampling. Immutable. */
-final class LightNodes(bounds: Array[LightBounds]):
+final class LightNodes(bounds: Array[LightBounds | Null]):
   import LightNodes.*
 
   private val data = new Array[Float](Stride * bounds.length)

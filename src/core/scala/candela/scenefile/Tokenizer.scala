@@ -279,7 +279,7 @@ private object Escapes:
 
 /** Converts words to Strings; caches the few names that recur, with their hash. */
 private final class NameCache:
-  private val known = new Array[String](NameCache.Slots)
+  private val known = new Array[String | Null](NameCache.Slots)
 
   /** The text of a range of the window of `source`. */
   def of(source: Source, from: Int, until: Int): String =
@@ -294,7 +294,7 @@ private final class NameCache:
     known(slot)
 
   /** False for non-ASCII bytes, which don't occur in names. */
-  private def isSame(name: String, bytes: Array[Byte], from: Int, until: Int): Boolean =
+  private def isSame(name: String | Null, bytes: Array[Byte], from: Int, until: Int): Boolean =
     name != null && name.length == until - from && {
       var i = 0
       while i < name.length && name.charAt(i) == bytes(from + i) do i += 1
