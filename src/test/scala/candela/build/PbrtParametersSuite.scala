@@ -37,7 +37,7 @@ final class PbrtParametersSuite extends AnyFunSuite:
     val beyond =
       for
         category <- Language.categories
-        recipe <- category.recipes.all
+        recipe <- category.recipes.all if !recipe.isOwn
         field <- recipe.fields
         dialect <- Dialect.ofPbrt
         if recipe.dialects(dialect) && field.dialects(dialect)

@@ -19,9 +19,11 @@ object Examples:
   /** Categories whose types have images. */
   val categories: Vector[Category] = Language.categories.filter(c => tables.contains(c.name))
 
-  /** The example of a type, if any. */
+  /** The example of a type, if any. Materials without one are shown with their defaults. */
   def of(category: Category, recipe: Recipe[?]): Option[Example] =
-    tables(category.name).get(key(recipe))
+    val byDefault =
+      Option.when(category.name == "Material")(Lines(s"Material \"${recipe.name}\""))
+    tables(category.name).get(key(recipe)).orElse(byDefault)
 
   /** Examples of unknown types. */
   def strays: Vector[String] =

@@ -43,6 +43,9 @@ abstract class Recipe[A](
   /** Whether other dialects' scenes don't know it: their pbrt renders something else. */
   def isUnknownElsewhere: Boolean = false
 
+  /** Is the type Candela's own? The programs of its dialects don't have it. */
+  def isOwn: Boolean = false
+
   /** All parameters. A name may denote different parameters in different dialects. */
   final def fields: Vector[Field[?]] = declared.toVector
 
