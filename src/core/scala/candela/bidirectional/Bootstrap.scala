@@ -47,10 +47,10 @@ private[bidirectional] final class Bootstrap(asked: Int, mutations: Long):
     while part < round.parts && !isStopped() do
       val end = Math.min(round.strengths.length, (part + 1) * PartSize)
       var i = part * PartSize
-      while i < end do
+      while i < end && !isStopped() do
         round.strengths(i) = strength(round.first + i)
         i += 1
-      if round.done.incrementAndGet() == round.parts then finish(round)
+      if i == end && round.done.incrementAndGet() == round.parts then finish(round)
       part = round.next.getAndIncrement()
 
   private def finish(last: Round): Unit =

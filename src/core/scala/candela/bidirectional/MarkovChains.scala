@@ -90,6 +90,10 @@ final class MarkovChains(
       state.samples.load(from)
       state.current.load(from)
 
+  def settle(chain: Int, weight: Float): Unit =
+    // Forged films may speak of a chain that has not begun
+    for state <- Option(states(chain)) do state.current.addTo(view.splats, weight)
+
   private def seed(number: Int, purpose: Int): Long =
     SampleHash.pixel(number, purpose, settings.seed)
 

@@ -31,6 +31,7 @@ private[bidirectional] final class MarkovWalker(
   private val largeStep = settings.largeStep
 
   private var filmX, filmY = 0f
+  var pending = 0f
   var refused = 0L
   def x: Int = Math.floor(filmX).toInt
   def y: Int = Math.floor(filmY).toInt
@@ -41,19 +42,21 @@ private[bidirectional] final class MarkovWalker(
     chains.begin(this, isStopped)
     chains.start.isDefined
 
-  def advance(chain: Int, paths: Long, isLeft: () => Boolean): Unit =
+  def advance(chain: Int, paths: Long, weight: Float, isLeft: () => Boolean): Long =
     val start = chains.start.get
+    pending = weight
     if start.mean > 0f then walk(chains(chain, start, this), start.mean, paths, isLeft)
     else
       var i = 0L
       while i < paths do
         view.splats.begin()
         i += 1
+      paths
 
-  private def walk(chain: MarkovChain, mean: Float, count: Long, isLeft: () => Boolean): Unit =
+  private def walk(chain: MarkovChain, mean: Float, count: Long, isLeft: () => Boolean): Long =
     val samples = chain.samples
     // Accumulated weight of the current state, splatted when the chain leaves it
-    var currentWeight = 0f
+    var currentWeight = pending
     var i = 0L
     while i < count && !isLeft() do
       view.splats.begin()
@@ -75,7 +78,8 @@ private[bidirectional] final class MarkovWalker(
         if there > 0f then proposed.addTo(view.splats, proposedWeight)
         samples.reject()
       i += 1
-    chain.current.addTo(view.splats, currentWeight)
+    if i >= count then chain.current.addTo(view.splats, currentWeight) else pending = currentWeight
+    i
 
   /** Evaluates a point of primary sample space into `proposed`. */
   def follow(samples: PrimarySamples): Unit =

@@ -45,11 +45,19 @@ private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSe
 
   def raysTraced: Long = paths.raysTraced
 
-  /** Traces one part of a pass, deterministic for any worker. Direct light is left out. */
-  def trace(pass: Int, part: Int, count: Int, shutter: Shutter): Photons =
+  /** Traces one part of a pass, deterministic for any worker, unless it is stopped on the way.
+    * Direct light is left out.
+    */
+  def trace(
+      pass: Int,
+      part: Int,
+      count: Int,
+      shutter: Shutter,
+      isStopped: () => Boolean
+  ): Photons =
     val photons = Photons()
     var i = 0
-    while i < count do
+    while i < count && !isStopped() do
       sampler.start(part * PhotonPasses.PartSize + i, -1, pass)
       paths.trace(shutter.at(sampler.next1D()), sampler)
       var k = 0
@@ -146,6 +154,8 @@ object PhotonPasses:
       var part = next.getAndIncrement()
       while part < parts.length && !isStopped() do
         val count = Math.min(PartSize, paths - part * PartSize)
-        parts(part) = tracer.trace(number, part, count, shutter)
-        if done.incrementAndGet() == parts.length then map = Some(PhotonMap(parts, paths, radius))
+        parts(part) = tracer.trace(number, part, count, shutter, isStopped)
+        // Else it has a part of its paths
+        if !isStopped() && done.incrementAndGet() == parts.length then
+          map = Some(PhotonMap(parts, paths, radius))
         part = next.getAndIncrement()

@@ -77,6 +77,9 @@ abstract class SharedChains:
   /** Continues the saved chains; others stay as they are. */
   def load(from: CheckedInput): Unit
 
+  /** Splats the current path of a chain that was left, and is not continued. */
+  def settle(chain: Int, weight: Float): Unit
+
 /** Advances chains; mutable, one per worker. A chain may move from one worker to another, but is
   * never advanced by two at a time.
   */
@@ -86,8 +89,15 @@ abstract class ChainWalker:
     */
   def begin(isStopped: () => Boolean): Boolean
 
-  /** Advances a chain by `paths` mutations, unless it is left on the way. */
-  def advance(chain: Int, paths: Long, isLeft: () => Boolean): Unit
+  /** Advances a chain by `paths` mutations, unless it is left on the way.
+    *
+    * @param weight [[pending]] when the chain was left before; 0 if it was not
+    * @return how many have been made
+    */
+  def advance(chain: Int, paths: Long, weight: Float, isLeft: () => Boolean): Long
+
+  /** Weight of the current path of the chain that was left last, not splatted yet. */
+  def pending: Float
 
   /** Pixel of the last proposed path. */
   def x: Int

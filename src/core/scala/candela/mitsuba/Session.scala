@@ -53,7 +53,7 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
 
   /** Not looked for in scenes where everything is missing. */
   private def shown(help: => Option[String]): Option[String] =
-    if seen.size < Problems.MostErrors then help else None
+    if seen.size < Problems.MostHelped then help else None
 
   def found: Vector[Problem] = problems.result()
 

@@ -24,20 +24,28 @@ private[render] final class ChainWorker(
     val end = schedule.paths(chain, schedule.endSample(wave))
     var done =
       Math.max(schedule.paths(chain, schedule.firstSample(wave)), queue.progress.get(chain))
-    while done < end && queue.goesOn() do
+    while done < end && queue.goesOn() && !queue.isAbandoned do
       val some = Math.min(end - done, AtOnce)
-      walker.advance(chain, some, () => queue.isAbandoned)
-      if !queue.isAbandoned then
+      if walk(chain, some) then
         beat()
         queue.samplesTaken.add(some)
         done += some
         queue.progress.set(chain, done)
     done >= end
 
+  /** Makes so many paths, those included that are there; false if the chain was left before. */
+  private def walk(chain: Int, paths: Long): Boolean =
+    val begun = queue.begun.remove(chain)
+    val (first, weight) = if begun == null then (0, 0f) else (begun.done, begun.sums(0).toFloat)
+    val made = first + walker.advance(chain, paths - first, weight, () => queue.isAbandoned)
+    if made < paths && made > 0 && !queue.isLost then
+      queue.begun.put(chain, BegunPiece(made.toInt, Array(walker.pending.toDouble))): Unit
+    made >= paths
+
   protected def failure(cause: Throwable): RenderFailure =
     RenderFailure(walker.x, walker.y, 0, cause)
 
-private object ChainWorker:
+private[render] object ChainWorker:
   /** Paths between two checks for cancellation and pauses; part of the image's definition, as a
     * chain's state is splatted whenever it stops.
     */

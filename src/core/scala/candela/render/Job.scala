@@ -15,16 +15,21 @@ private[render] final class Job(
     val guide: Option[Guide],
     val worker: TaskQueue => Worker
 ):
-  /** Whether a piece may be left in the midst of a sample, which is continued later. */
-  def mayLeaveSamples: Boolean = chains.isEmpty
+  /** Whether a piece can have been left so. */
+  def isBegun(piece: Int, begun: BegunPiece): Boolean =
+    val isPiece = piece >= 0 && piece < schedule.pieces && begun.done > 0
+    isPiece && (schedule match
+      case tiled: TileSchedule =>
+        begun.done < tiled.tiles(piece).pixels &&
+        begun.sums.length == film.shares.fold(0)(_.size(piece))
+      case _ =>
+        begun.done < ChainWorker.AtOnce && begun.sums.length == 1 &&
+        begun.sums(0) >= 0 && begun.sums(0).toFloat < Float.PositiveInfinity)
 
-  /** Whether that is a sample of a tile in part. */
-  def isBegun(tile: Int, sample: BegunSample): Boolean = schedule match
-    case tiled: TileSchedule =>
-      tile >= 0 && tile < tiled.pieces &&
-      sample.pixels > 0 && sample.pixels < tiled.tiles(tile).pixels &&
-      sample.shared.length == film.shares.fold(0)(_.size(tile))
-    case _ => false
+  /** Completes the film of a rendering that ends and is not continued from here. */
+  def settle(queue: TaskQueue): Unit =
+    for all <- chains do
+      queue.begun.forEach((chain, begun) => all.settle(chain, begun.sums(0).toFloat))
 
 private[render] object Job:
 

@@ -32,37 +32,46 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
       for number <- Vector(r.x, r.y, r.sample, r.material) do to.int(number)
     if !queue.begun.isEmpty then saveBegun(to)
 
-  /** Only after a rendering that was stopped in the midst of long samples. */
+  /** A tail, only of a rendering that was stopped in the midst of long samples. Earlier versions
+    * ignore it: they take these samples again, so that some pixels have them twice, and chains lose
+    * the weight of one path each.
+    */
   private def saveBegun(to: CheckedOutput): Unit =
-    val begun = queue.begun.asScala.toVector.sortBy((tile, _) => tile.intValue)
+    val begun = queue.begun.asScala.toVector.sortBy((number, _) => number.intValue)
     to.int(begun.size)
-    for (tile, sample) <- begun do
-      to.int(tile)
-      to.int(sample.pixels)
-      to.int(sample.shared.length)
-      sample.shared.foreach(to.double(_))
+    for (number, piece) <- begun do
+      to.int(number)
+      to.int(piece.done)
+      to.int(piece.sums.length)
+      piece.sums.foreach(to.double(_))
 
   /** Continues from a saved state; several that are shards of one rendering add up. */
   def load(from: CheckedInput): Unit =
     if from.int() != job.schedule.pieces then throw IOException("its state is of another image")
-    for i <- 0 until job.schedule.pieces do
+    val progress = new Array[Long](job.schedule.pieces)
+    for i <- progress.indices do
       val done = from.long()
       require(done >= 0 && done <= job.schedule.mostProgress, s"piece $i has $done samples")
-      queue.progress.set(i, Math.max(queue.progress.get(i), done))
+      progress(i) = done
+      if done > queue.progress.get(i) then
+        queue.progress.set(i, done)
+        queue.begun.remove(i): Unit
     job.film.load(from)
     job.layers.foreach(_.load(from))
     job.chains.foreach(_.load(from))
     job.guide.foreach(_.load(from))
     for _ <- 0 until from.count(bytes = 24) do
       earlier :+= Refused(from.long(), from.int(), from.int(), from.int(), from.int())
-    if !from.isAtEnd then loadBegun(from)
+    if !from.isAtEnd then loadBegun(from, progress)
 
-  private def loadBegun(from: CheckedInput): Unit =
+  private def loadBegun(from: CheckedInput, progress: Array[Long]): Unit =
     for _ <- 0 until from.count(bytes = 12) do
-      val (tile, pixels) = (from.int(), from.int())
-      val sample = BegunSample(pixels, Array.fill(from.count(bytes = 8))(from.double()))
-      require(job.isBegun(tile, sample), s"piece $tile has $pixels pixels of a sample")
-      queue.begun.put(tile, sample): Unit
+      val (number, done) = (from.int(), from.int())
+      val piece = BegunPiece(done, Array.fill(from.count(bytes = 8))(from.double()))
+      require(job.isBegun(number, piece), s"piece $number has $done parts of a sample")
+      // Another shard may be farther
+      if progress(number) == queue.progress.get(number) then
+        queue.begun.put(number, piece): Unit
 
 /** Keeps the state of a rendering. */
 abstract class Checkpointer:

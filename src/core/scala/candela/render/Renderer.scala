@@ -67,7 +67,6 @@ object Renderer:
         k.finish()
     // Without a copy to keep, samples that are not complete in all pixels of a tile may be lost
     def isWorthWaiting() = checkpointer.isDefined && isMoving()
-    val mayLeave = job.mayLeaveSamples && shard.isWhole
     val looks = listener.looks
     listener.begins(earlier, job.film)
     def isNew(end: Int) = schedule.firstSample(end) > earlier
@@ -78,7 +77,7 @@ object Renderer:
       queue.openUntil(end, done)
       val begin = seconds
       lastBeat = System.nanoTime
-      Workers.run(workers, queue, () => isWorthWaiting(), mayLeave)(() => tick())
+      Workers.run(workers, queue, () => isWorthWaiting())(() => tick())
       if looks != Looks.Never && !queue.isStopped then
         val isWhole = done == schedule.firstSample(end)
         val isLast = isWhole && end >= schedule.waves
@@ -109,9 +108,9 @@ object Renderer:
     progress()
     for k <- checkpointer do
       // What some worker is at may be in the film in part
-      val isSound = !queue.isAbandoned || mayLeave && !queue.isLost
-      if isSound then k.save(state) else k.lose()
+      if queue.isLost then k.lose() else k.save(state)
       k.finish()
+    job.settle(queue)
 
     val result = live.rendering.copy(earlier = earlier)
     val hasAll = result.samplesDone >= samplesPerPixel
@@ -124,8 +123,10 @@ object Renderer:
     */
   def gather(plan: RenderPlan, load: RenderState => Unit): Rendering =
     val job = Job(plan, Shard.Whole)
-    val state = RenderState(job, TaskQueue(job.schedule, Cancellation()), Vector.empty)
+    val queue = TaskQueue(job.schedule, Cancellation())
+    val state = RenderState(job, queue, Vector.empty)
     load(state)
+    job.settle(queue)
     rendering(state, job, Vector.empty, state.samplesDone)
 
   private[render] def rendering(

@@ -83,7 +83,6 @@ private[render] final class TileWorker(
         if !begun then waveWeight = beginWave(first, getsOn)
         begun = true
         isWhole = waveWeight != TileWorker.Stopped && renderSample(tile)
-      else isWhole = true
       if isWhole then
         sample += 1
         queue.progress.set(tile, sample)
@@ -95,8 +94,8 @@ private[render] final class TileWorker(
     val begun = queue.begun.remove(number)
     var i = 0
     if begun != null then
-      i = begun.pixels
-      if shares != null then shares.resume(begun.shared)
+      i = begun.done
+      if shares != null then shares.resume(begun.sums)
     while i < tile.pixels && !queue.isAbandoned do
       x = tile.x0 + i % tile.width
       y = tile.y0 + i / tile.width
@@ -110,7 +109,7 @@ private[render] final class TileWorker(
         queue.samplesTaken.add(tile.pixels)
       else if i > 0 then
         val sums = if shares == null then Array.emptyDoubleArray else shares.suspend()
-        queue.begun.put(number, BegunSample(i, sums)): Unit
+        queue.begun.put(number, BegunPiece(i, sums)): Unit
     isWhole
 
   private def beginTile(number: Int): Unit =

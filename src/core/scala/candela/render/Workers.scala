@@ -30,8 +30,8 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   /** Of each piece, how much is done: samples of a tile, paths of a chain. */
   val progress: AtomicLongArray = AtomicLongArray(schedule.pieces)
 
-  /** Samples of tiles that have been taken in part. */
-  val begun: ConcurrentHashMap[Integer, BegunSample] = ConcurrentHashMap()
+  /** Pieces that were left between two values of their progress. */
+  val begun: ConcurrentHashMap[Integer, BegunPiece] = ConcurrentHashMap()
 
   /** Opens the steps of all waves before `wave`, until each piece has so many samples. */
   def openUntil(wave: Int, samples: Int): Unit =
@@ -112,12 +112,13 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
         closedWaves.set(wave + 1)
     finishedWaves.set(piece, wave + 1)
 
-/** A sample of a tile of which the first pixels have been taken.
+/** What is there of the next step of a piece's progress.
   *
-  * @param shared their sums, which are not part of the film until the sample is whole; empty: all
-  *   is part of the film
+  * @param done of a tile, how many pixels have their sample; of a chain, how many paths are made
+  * @param sums what becomes part of the film later: of a tile whose pixels share samples, the sums
+  *   of this one, otherwise nothing; of a chain, the weight of its current path
   */
-private[render] final case class BegunSample(pixels: Int, shared: Array[Double])
+private[render] final case class BegunPiece(done: Int, sums: Array[Double])
 
 private object TaskQueue:
   /** In nanoseconds; short beside the milliseconds of a step. */
@@ -145,10 +146,8 @@ private[render] object Workers:
     *
     * @param isMoving whether samples have been taken since it was last asked, and are worth waiting
     *   for
-    * @param mayLeave whether samples may be left and continued later; if not, those that move are
-    *   waited for
     */
-  def run(workers: Vector[Runnable], queue: TaskQueue, isMoving: () => Boolean, mayLeave: Boolean)(
+  def run(workers: Vector[Runnable], queue: TaskQueue, isMoving: () => Boolean)(
       onTick: () => Unit
   ): Unit =
     val threads = workers.zipWithIndex.map: (worker, i) =>
@@ -165,20 +164,15 @@ private[render] object Workers:
           thread.join(Tick)
           onTick()
     catch case e: Throwable => queue.fail(e)
-    end(threads, queue, isMoving, mayLeave)
+    end(threads, queue, isMoving)
     queue.failure.foreach(e => throw e)
 
-  private def end(
-      threads: Vector[Thread],
-      queue: TaskQueue,
-      isMoving: () => Boolean,
-      mayLeave: Boolean
-  ): Unit =
+  private def end(threads: Vector[Thread], queue: TaskQueue, isMoving: () => Boolean): Unit =
     val stopped = System.nanoTime
     var still = stopped
     def isTooLong =
       val now = System.nanoTime
-      now - still > Patience || mayLeave && now - stopped > MovingPatience
+      now - still > Patience || now - stopped > MovingPatience
     while threads.exists(_.isAlive) && !(queue.isStopped && isTooLong) do
       threads.find(_.isAlive).foreach(_.join(Tick))
       if isMoving() then still = System.nanoTime

@@ -35,5 +35,7 @@ final class Problems:
       Option.when(left > 0)(Problem(Severity.Warning, None, s"$left more warnings omitted"))
 
 object Problems:
+  /** Further ones get no help: it is looked for among thousands of names. */
+  val MostHelped = 200
   val MostErrors = 1000
   val MostWarnings = 10000

@@ -293,7 +293,7 @@ final class SceneWriter(
       case None =>
         unknownSystems += 1
         // The search takes its time, and may be asked for a million times
-        val isHelped = unknownSystems <= Problems.MostErrors
+        val isHelped = unknownSystems <= Problems.MostHelped
         val help = if isHelped then Suggest.help(name, coordinateSystems.keys) else None
         val message = s"unknown coordinate system `$name`; keeping the current transform"
         problem(Problem.warning(at, message, help))

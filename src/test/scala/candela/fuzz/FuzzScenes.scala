@@ -50,11 +50,11 @@ private final class Campaign(kind: Kind, count: Int, seconds: Int):
       val thread = Thread(() => attempts(own), s"fuzz-$i")
       thread.start()
       thread
-    var next = start + Campaign.Minute
+    var next = start + Campaign.Interval
     while all.exists(_.isAlive) do
       all.find(_.isAlive).foreach(_.join(1000))
       if System.nanoTime() >= next then
-        next += Campaign.Minute
+        next += Campaign.Interval
         println(summary)
     println(summary)
     findings.get
@@ -99,7 +99,7 @@ private final class Campaign(kind: Kind, count: Int, seconds: Int):
 
 private object Campaign:
   private val MostFindings = 50
-  private val Minute = 60_000_000_000L
+  private val Interval = 10_000_000_000L
 
 /** A file that tells the last attempt: native code may end the process. */
 private final class LastAttempt(folder: Path):

@@ -1,8 +1,11 @@
 package candela.render
 
 import candela.base.CheckedFile
+import candela.bidirectional.{ChainPaths, MarkovChains, MetropolisSettings}
 import candela.color.Rgb
 import candela.film.GaussianFilter
+import candela.geometry.Ray
+import candela.sampling.Sampler
 
 import java.nio.ByteBuffer
 import java.nio.ByteOrder.LITTLE_ENDIAN
@@ -85,12 +88,13 @@ class RenderStateSuite extends AnyFunSuite:
           assert(Files.readAllBytes(folder.resolve("b")).sameElements(last))
 
   test("a sample of a tile that takes long is left in its midst, and continued to the same image"):
-    for shares <- Vector(false, true) do
+    for shares <- Vector(false, true); shard <- Vector(Shard.Whole, Shard(1, 2)) do
       withFolder: folder =>
         val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
         def render(plan: RenderPlan, from: Option[Path], to: Path, stop: Cancellation) =
           val checkpointer = FileCheckpointer(from, to)
-          val done = Renderer.render(plan, threads = 2, stop, checkpointer = Some(checkpointer))
+          val keep = Some(checkpointer)
+          val done = Renderer.render(plan, threads = 2, stop, shard = shard, checkpointer = keep)
           assert(checkpointer.lost == 0)
           done
         val _ = render(plan(shares, 3)(), None, whole, Cancellation())
@@ -105,6 +109,66 @@ class RenderStateSuite extends AnyFunSuite:
         assert(stopped.samplesDone == 0 && taken.get < 500, taken)
         val _ = render(plan(shares, 3)(), Some(parts), parts, Cancellation())
         assert(Files.readAllBytes(parts).sameElements(Files.readAllBytes(whole)))
+
+  /** @param tick called for each path */
+  private def chains(tick: () => Unit = () => ()): RenderPlan =
+    final class Paths extends ChainPaths:
+      def raysTraced = 0L
+      def lastMaterial = -1
+      def radiance(ray: Ray, light: Sampler, joins: Sampler, onward: Sampler): Rgb =
+        tick()
+        // Nearly alike, so that few paths are made before the chains
+        Rgb(1f + light.next1D(), 1f + joins.next1D() * 0.1f, 1f - onward.next1D() * 0.2f)
+    val settings = MetropolisSettings(bootstrap = 1000, chains = 5, largeStep = 0.3f, sigma = 0.1f)
+    val method = RenderMethod.Chains(
+      (_, _) => Paths(),
+      (view, paths) => MarkovChains(paths, settings, view),
+      _ => throw AssertionError("single samples")
+    )
+    TinyPlan(50, 37, spp = 20, method = Some(method))((_, _) => Rgb.Black)
+
+  test("chains whose paths take long are left in their midst, and continued to the same image"):
+    withFolder: folder =>
+      val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
+      def render(plan: RenderPlan, from: Option[Path], to: Path, stop: Cancellation) =
+        val checkpointer = FileCheckpointer(from, to)
+        val done = Renderer.render(plan, threads = 2, stop, checkpointer = Some(checkpointer))
+        assert(checkpointer.lost == 0)
+        done
+      val complete = render(chains(), None, whole, Cancellation())
+      val size = Files.size(whole)
+      var from = Option.empty[Path]
+      for stop <- Vector(10_500, 5_700) do
+        val cancellation = Cancellation()
+        val made = AtomicInteger()
+        val slow = chains: () =>
+          if made.incrementAndGet() > stop then
+            cancellation.request()
+            Thread.sleep(20)
+        val stopped = render(slow, from, parts, cancellation)
+        assert(made.get < stop + 200 && stopped.samplesDone < 20, made)
+        // The tail, with at least one chain
+        assert(Files.size(parts) >= size + 4 + 20)
+        from = Some(parts)
+      val continued = render(chains(), from, parts, Cancellation())
+      assert(Files.readAllBytes(parts).sameElements(Files.readAllBytes(whole)))
+      val images = Vector(complete, continued).map(_.image(chains().development).data)
+      assert(images(0).sameElements(images(1)))
+
+  test("the light of chains that were left is in the image, but not in the state"):
+    withFolder: folder =>
+      val file = folder.resolve("a")
+      val cancellation = Cancellation()
+      val made = AtomicInteger()
+      val slow = chains: () =>
+        if made.incrementAndGet() > 2500 then
+          cancellation.request()
+          Thread.sleep(20)
+      val keep = Some(FileCheckpointer(None, file))
+      val stopped = Renderer.render(slow, threads = 1, cancellation, checkpointer = keep)
+      val read = Renderer.gather(chains(), s => CheckedFile.read(file, "state")(s.load))
+      def light(rendering: Rendering) = rendering.image(slow.development).data
+      assert(light(stopped).sum > 0 && light(stopped).sameElements(light(read)))
 
   test("no piece has a progress that it can't have"):
     withFolder: folder =>
@@ -139,7 +203,7 @@ class RenderStateSuite extends AnyFunSuite:
         val checkpointer = FileCheckpointer(Some(file), folder.resolve("b"))
         val why = intercept[IllegalArgumentException]:
           Renderer.render(plain, 1, checkpointer = Some(checkpointer))
-        assert(why.getMessage.endsWith(s"piece $tile has $pixels pixels of a sample"))
+        assert(why.getMessage.endsWith(s"piece $tile has $pixels parts of a sample"))
 
   test("shards share the samples of every pixel, and the work"):
     for count <- Vector(2, 5, 64) do

@@ -25,7 +25,8 @@ object TinyPlan:
       filter: Filter = BoxFilter(0.5f, 0.5f),
       sharesSamples: Boolean = false,
       development: Development = Development(),
-      fireflies: Fireflies = Fireflies.Kept
+      fireflies: Fireflies = Fireflies.Kept,
+      method: Option[RenderMethod] = None
   )(radiance: (Where, Sampler) => Rgb): RenderPlan =
     val bounds = crop.getOrElse(PixelBounds(0, 0, width, height))
     RenderPlan(
@@ -35,7 +36,7 @@ object TinyPlan:
       FlatCamera,
       filter,
       HashSampler(spp),
-      RenderMethod.Tiles(Formula(radiance)),
+      method.getOrElse(RenderMethod.Tiles(Formula(radiance))),
       candela.color.ColorBasis.Srgb,
       limit,
       development,

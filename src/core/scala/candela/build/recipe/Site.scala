@@ -88,7 +88,8 @@ final class Findings(
       if told.add((problem.severity, problem.at, problem.message)) then
         if isError then errors += 1 else warnings += 1
         if isError || warnings <= Problems.MostWarnings then
-          all += problem.withHelp(help): Unit
+          val isHelped = errors + warnings <= Problems.MostHelped
+          all += (if isHelped then problem.withHelp(help) else problem): Unit
         else all += Problem(Severity.Warning, None, "more warnings are omitted"): Unit
         if errors >= Problems.MostErrors then
           val stop = s"building stopped after $errors errors"
