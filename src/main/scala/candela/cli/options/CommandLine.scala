@@ -93,12 +93,25 @@ object CommandLine:
 
   private def parseOurs(args: Seq[String]): Either[Answer, Options] =
     val all = withCommand(args)
-    val (options, effects) =
-      OParser.runParser(CommandTable.table, FilmOptions.withValues(joined(all)), Options(), setup)
-    val errors = effects.collect:
-      case OEffect.ReportError(text) => text
     val command = commandOf(all.head).getOrElse(Command.Render)
-    options.toRight(refusal(UsageErrors.explained(errors.toVector, command), command))
+    val words = FilmOptions.withValues(joined(all))
+    words.find(isTooLong) match
+      case Some(word) =>
+        Left(refusal(Vector(s"no option begins with `${word.take(MostShort)}`"), command))
+      case None =>
+        val (options, effects) = OParser.runParser(CommandTable.table, words, Options(), setup)
+        val errors = effects.collect:
+          case OEffect.ReportError(text) => text
+        options.toRight(refusal(UsageErrors.explained(errors.toVector, command), command))
+
+  /** Whether it is a word whose parts scopt would all take for short options: their size is that of
+    * the word, squared.
+    */
+  private def isTooLong(word: String): Boolean =
+    word.length > LongestWord && word.startsWith("-") && !word.startsWith("--")
+
+  private val LongestWord = 1000
+  private val MostShort = 20
 
   private val setup: OParserSetup = new DefaultOParserSetup:
     override def showUsageOnError: Option[Boolean] = Some(false)

@@ -221,3 +221,9 @@ class CommandLineSuite extends AnyFunSuite:
   test("a file of a command's name, or nearly, is a file"):
     assert(parse("render version") == Right(one.copy(files = Vector("version"))))
     assert(parse("viw.pbrt") == Right(one.copy(files = Vector("viw.pbrt"))))
+
+  test("no word behind a single dash is so long that memory does not suffice for its parts"):
+    for (count, more) <- Vector(1000 -> "", 100_000 -> "", 100_000 -> "check ") do
+      val answer = parse(s"${more}a.pbrt -${"x" * count}").left.toOption.get
+      assert(answer.err.startsWith(s"error: no option begins with `-${"x" * 19}`"))
+      assert(answer.code == ExitCode.BadUsage)
