@@ -57,11 +57,12 @@ class LivePageSuite extends AnyFunSuite:
       try
         Chromium.use(browser, s"${running.link}#x=3&y=2"): page =>
           page.until("[...document.querySelector('#layer').options].length == 2")
-          def painted = page.value("document.querySelector('canvas').toDataURL()").str
+          val painted = "document.querySelector('canvas').toDataURL()"
           def chosen(id: String) = page.value(s"document.getElementById('$id').value").str
-          val first = painted
+          page.value(s"window.first = $painted")
           page.press("e", "e")
-          assert(chosen("ev") == "0.5" && painted != first)
+          assert(chosen("ev") == "0.5")
+          page.until(s"$painted != window.first")
           page.press("c", "c")
           assert(chosen("curve") == "filmic")
           page.value("document.querySelector('.stage').focus()")
@@ -70,9 +71,9 @@ class LivePageSuite extends AnyFunSuite:
           page.press("l", "l")
           assert(chosen("layer") == "noise")
           page.until("document.querySelector('#live').dataset.mean < 0.5")
-          val before = painted
+          page.value(s"window.before = $painted")
           page.press("+", "+")
-          assert(painted != before)
+          page.until(s"$painted != window.before")
       finally
         val _ = WebClient.post(s"${running.link}stop")
       assert(running.ended == 130)
