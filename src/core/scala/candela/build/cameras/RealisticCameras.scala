@@ -29,7 +29,7 @@ object RealisticRecipe
     "aperture",
     "shape of the aperture: gaussian, square, pentagon, star, or an image",
     onlyV4,
-    "round"
+    shown = "round"
   )("")
 
   protected def make()(using site: Site): CameraPlan =

@@ -93,7 +93,7 @@ final class DiffuseLightRecipe(
       -1f
     )
   private val filename =
-    string("filename", "image over the surface's uv, instead of `L`", onlyV4, "none")("")
+    string("filename", "image over the surface's uv, instead of `L`", onlyV4, shown = "none")("")
   private val wrap =
     oneOf(
       "wrap",

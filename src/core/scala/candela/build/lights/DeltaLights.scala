@@ -58,7 +58,12 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
   private val power =
     float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
   private val slide =
-    string("mapname", "image that scales the light across the cone", onlyMitsuba, "none")("")
+    string(
+      "mapname",
+      "image that scales the light across the cone",
+      onlyMitsuba,
+      shown = "none"
+    )("")
 
   protected def make()(using site: Site): LightPlan =
     val image = if slide().isEmpty then None else LightImages.read("mapname")

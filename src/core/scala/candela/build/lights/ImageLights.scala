@@ -12,14 +12,19 @@ object GoniometricLightRecipe
   private val intensity =
     color("I", "scale of the image", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
   private val mapname =
-    string("mapname", "equirectangular image, or a photometric file, `.ies`", untilV3, "none")("")
+    string(
+      "mapname",
+      "equirectangular image, or a photometric file, `.ies`",
+      untilV3,
+      shown = "none"
+    )("")
   private val filename =
 
     string(
       "filename",
       "equal-area octahedral image, whose channels are averaged, or a photometric file, `.ies`",
       onlyV4,
-      "none"
+      shown = "none"
     )("")
   private val power =
     float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
@@ -78,8 +83,9 @@ object GoniometricLightRecipe
 object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"):
   private val intensity =
     color("I", "scale of the image", SpectrumRole.Emission, untilV3, "W/sr")(Rgb.White)
-  private val mapname = string("mapname", "image of the slide; none: white", untilV3, "none")("")
-  private val filename = string("filename", "image of the slide", onlyV4, "none")("")
+  private val mapname =
+    string("mapname", "image of the slide; none: white", untilV3, shown = "none")("")
+  private val filename = string("filename", "image of the slide", onlyV4, shown = "none")("")
   private val fov =
     float("fov", "field of view along the shorter side", unit = "degrees")(if v4 then 90f else 45f)
   private val power =

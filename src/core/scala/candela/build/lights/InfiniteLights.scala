@@ -16,8 +16,9 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     color("L", "radiance, or scale of the image", SpectrumRole.Emission, unit = "W/(m² sr)")(
       Rgb.White
     )
-  private val mapname = string("mapname", "equirectangular image", untilV3, "none")("")
-  private val filename = string("filename", "equal-area octahedral image", onlyV4, "none")("")
+  private val mapname = string("mapname", "equirectangular image", untilV3, shown = "none")("")
+  private val filename =
+    string("filename", "equal-area octahedral image", onlyV4, shown = "none")("")
   private val illuminance =
     float(
       "illuminance", "illuminance on a plane, overrides the magnitude of `L`", onlyV4, "lx", "none"

@@ -81,7 +81,7 @@ abstract class MaterialRecipe(
   private val displacements: Option[Field[FloatTexture]] = Option.when(bumps):
     floatTexture("displacement", "bump map height", onlyV4, "scene units", "none")(0f)
   private val normals: Option[Field[String]] = Option.when(bumps):
-    string("normalmap", "normal map image", onlyV4, "none")("")
+    string("normalmap", "normal map image", onlyV4, shown = "none")("")
   private val places: Option[Field[Array[Float]]] = Option.when(bumps):
     numbers(
       "normalmapuv",

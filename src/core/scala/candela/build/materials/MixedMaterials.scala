@@ -9,8 +9,10 @@ import candela.textures.{GrayTexture, RgbTexture}
 
 object MixRecipe
     extends MaterialRecipe("mix", "blend of two named materials", every, bumps = false):
-  private val first = string("namedmaterial1", "material where `amount` is 1", untilV3, "none")("")
-  private val second = string("namedmaterial2", "material where `amount` is 0", untilV3, "none")("")
+  private val first =
+    string("namedmaterial1", "material where `amount` is 1", untilV3, shown = "none")("")
+  private val second =
+    string("namedmaterial2", "material where `amount` is 0", untilV3, shown = "none")("")
   private val part = rgbTexture("amount", "fraction of the first material", untilV3)(Rgb.gray(0.5f))
   private val both =
     strings("materials", "string[2]", "materials where `amount` is 0 and where it is 1", onlyV4)

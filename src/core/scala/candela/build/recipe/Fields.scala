@@ -16,47 +16,43 @@ trait Fields:
   protected final def v3(using d: Dialect): Boolean = d == Dialect.V3
   protected final def v4(using d: Dialect): Boolean = d.base == Dialect.V4
 
-  protected final def float(
-      name: String,
-      doc: String,
-      in: Set[Dialect] = every,
-      unit: String = "",
-      shown: String = ""
-  )(default: Dialect ?=> Float): Field[Float] =
-    field(name, "float", doc, in, unit, shown, default)(DefaultText.number)(
-      floats(1, _, _).map(_(0))
-    )
+  /** Declares parameters of one value of a type.
+    *
+    * @param typeName its name in scene files
+    * @param text     a default, for the reference
+    */
+  protected final class ValueType[T](typeName: String, text: T => String)(
+      read: (Param, Site) => Option[T]
+  ):
+    def apply(
+        name: String,
+        doc: String,
+        in: Set[Dialect] = every,
+        unit: String = "",
+        shown: String = ""
+    )(default: Dialect ?=> T): Field[T] =
+      field(name, typeName, doc, in, unit, shown, default)(text)(read)
 
-  protected final def integer(
-      name: String,
-      doc: String,
-      in: Set[Dialect] = every,
-      unit: String = "",
-      shown: String = ""
-  )(default: Dialect ?=> Int): Field[Int] =
-    field(name, "integer", doc, in, unit, shown, default)(_.toString): (p, site) =>
-      if p.paramType == ParamType.Integer && p.ints.length == 1 then Some(p.ints(0))
-      else wrong(p, site, "one integer", "integer")
+  protected final val float =
+    ValueType[Float]("float", DefaultText.number)(floats(1, _, _).map(_(0)))
 
-  protected final def bool(
-      name: String,
-      doc: String,
-      in: Set[Dialect] = every,
-      shown: String = ""
-  )(default: Dialect ?=> Boolean): Field[Boolean] =
-    field(name, "bool", doc, in, "", shown, default)(_.toString): (p, site) =>
-      if p.paramType == ParamType.Bool && p.bools.size == 1 then Some(p.bools(0))
-      else wrong(p, site, "one bool", "bool")
+  protected final val integer = ValueType[Int]("integer", _.toString): (p, site) =>
+    if p.paramType == ParamType.Integer && p.ints.length == 1 then Some(p.ints(0))
+    else wrong(p, site, "one integer", "integer")
 
-  protected final def string(
-      name: String,
-      doc: String,
-      in: Set[Dialect] = every,
-      shown: String = ""
-  )(default: Dialect ?=> String): Field[String] =
-    field(name, "string", doc, in, "", shown, default)(DefaultText.quoted): (p, site) =>
-      if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
-      else wrong(p, site, "one string", "string")
+  protected final val bool = ValueType[Boolean]("bool", _.toString): (p, site) =>
+    if p.paramType == ParamType.Bool && p.bools.size == 1 then Some(p.bools(0))
+    else wrong(p, site, "one bool", "bool")
+
+  protected final val string = ValueType[String]("string", DefaultText.quoted): (p, site) =>
+    if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
+    else wrong(p, site, "one string", "string")
+
+  protected final val point = ValueType[Vec3]("point3", DefaultText.triple)(triple)
+  protected final val vector = ValueType[Vec3]("vector3", DefaultText.triple)(triple)
+
+  private def triple(p: Param, site: Site): Option[Vec3] =
+    floats(3, p, site).map(v => Vec3(v(0), v(1), v(2)))
 
   /** A string from a fixed set of values. Another one is an error, or a warning where this
     * dialect's pbrt uses its default.
@@ -88,31 +84,6 @@ trait Fields:
             site.problems.warn(p.valuesAt, s"$message; using $used, as pbrt does", help)
           Option.when(instead.nonEmpty)(instead)
         }
-
-  protected final def point(
-      name: String,
-      doc: String,
-      in: Set[Dialect] = every,
-      shown: String = ""
-  )(default: Dialect ?=> Vec3): Field[Vec3] = triple("point3", name, doc, in, shown, default)
-
-  protected final def vector(
-      name: String,
-      doc: String,
-      in: Set[Dialect] = every,
-      shown: String = ""
-  )(default: Dialect ?=> Vec3): Field[Vec3] = triple("vector3", name, doc, in, shown, default)
-
-  private def triple(
-      typeName: String,
-      name: String,
-      doc: String,
-      in: Set[Dialect],
-      shown: String,
-      default: Dialect ?=> Vec3
-  ): Field[Vec3] =
-    field(name, typeName, doc, in, "", shown, default)(DefaultText.triple): (p, site) =>
-      floats(3, p, site).map(v => Vec3(v(0), v(1), v(2)))
 
   /** An array of numbers of any length; empty by default.
     *

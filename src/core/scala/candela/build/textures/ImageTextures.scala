@@ -25,13 +25,13 @@ abstract class ImageMapRecipe[A](standIn: String)
   protected val invert = bool("invert", "invert values: 1 − value", onlyV4)(false)
   private val gammaNumber = float("gamma", "exponent that linearises values", onlyV2)(1f)
   private val gammaFlag =
-    bool("gamma", "decode sRGB values", onlyV3, "for .png and .tga")(true)
+    bool("gamma", "decode sRGB values", onlyV3, shown = "for .png and .tga")(true)
   private val encoding =
     string(
       "encoding",
       "encoding: sRGB, linear, or `gamma` and an exponent",
       onlyV4,
-      "\"sRGB\" for .png, else \"linear\""
+      shown = "\"sRGB\" for .png, else \"linear\""
     )("sRGB")
   private val filter =
     oneOf(
