@@ -37,9 +37,7 @@ final class HomogeneousMedium(
     // The hero's pdf of this event is ofHero·exp(−ofHero·length), or without the factor
     val s = scattering
     val t = extinction
-    w.r *= weight(t.r, ofHero, length)
-    w.g *= weight(t.g, ofHero, length)
-    w.b *= weight(t.b, ofHero, length)
+    w.scale(weight(t.r, ofHero, length), weight(t.g, ofHero, length), weight(t.b, ofHero, length))
     w.scaleDensity(
       weight(s.r, ofHero, length),
       weight(s.g, ofHero, length),
@@ -59,9 +57,11 @@ final class HomogeneousMedium(
   def attenuate(ray: Ray, work: MediumWork): Unit =
     val w = work.shadow
     val length = Math.min(ray.tMax * ray.direction.length, Float.MaxValue)
-    w.r *= weight(extinction.r, 0f, length)
-    w.g *= weight(extinction.g, 0f, length)
-    w.b *= weight(extinction.b, 0f, length)
+    w.scale(
+      weight(extinction.r, 0f, length),
+      weight(extinction.g, 0f, length),
+      weight(extinction.b, 0f, length)
+    )
     w.scaleDensity(
       weight(scattering.r, 0f, length),
       weight(scattering.g, 0f, length),

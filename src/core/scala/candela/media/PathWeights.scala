@@ -35,29 +35,32 @@ final class PathWeights:
   def start(colour: Int, lightDensity: Float): Unit =
     hero = colour
     isAlone = false
-    r = 1f
-    g = 1f
-    b = 1f
-    ur = 1f
-    ug = 1f
-    ub = 1f
-    lr = lightDensity
-    lg = lightDensity
-    lb = lightDensity
+    setThroughput(1f, 1f, 1f)
+    setDensity(1f, 1f, 1f)
+    setLight(lightDensity, lightDensity, lightDensity)
 
   /** Becomes those of another path. */
   def set(from: PathWeights): Unit =
     hero = from.hero
     isAlone = from.isAlone
-    r = from.r
-    g = from.g
-    b = from.b
-    ur = from.ur
-    ug = from.ug
-    ub = from.ub
-    lr = from.lr
-    lg = from.lg
-    lb = from.lb
+    setThroughput(from.r, from.g, from.b)
+    setDensity(from.ur, from.ug, from.ub)
+    setLight(from.lr, from.lg, from.lb)
+
+  private inline def setThroughput(cr: Float, cg: Float, cb: Float): Unit =
+    r = cr
+    g = cg
+    b = cb
+
+  private inline def setDensity(pr: Float, pg: Float, pb: Float): Unit =
+    ur = pr
+    ug = pg
+    ub = pb
+
+  private inline def setLight(pr: Float, pg: Float, pb: Float): Unit =
+    lr = pr
+    lg = pg
+    lb = pb
 
   def ofHero(r: Float, g: Float, b: Float): Float =
     if hero == 0 then r else if hero == 1 then g else b
@@ -78,25 +81,17 @@ final class PathWeights:
   def keepHero(): Unit =
     isAlone = true
     hero = 0
-    r *= 3f
-    g = 0f
-    b = 0f
-    ur += ug + ub
-    ug = 0f
-    ub = 0f
-    lr += lg + lb
-    lg = 0f
-    lb = 0f
+    setThroughput(r * 3f, 0f, 0f)
+    setDensity(ur + (ug + ub), 0f, 0f)
+    setLight(lr + (lg + lb), 0f, 0f)
 
-  def scale(c: Rgb): Unit =
-    r *= c.r
-    g *= c.g
-    b *= c.b
+  def scale(c: Rgb): Unit = scale(c.r, c.g, c.b)
+  def scale(s: Float): Unit = scale(s, s, s)
 
-  def scale(s: Float): Unit =
-    r *= s
-    g *= s
-    b *= s
+  inline def scale(sr: Float, sg: Float, sb: Float): Unit =
+    r *= sr
+    g *= sg
+    b *= sb
 
   def scaleDensity(sr: Float, sg: Float, sb: Float): Unit =
     ur *= sr
@@ -108,14 +103,17 @@ final class PathWeights:
     lg *= sg
     lb *= sb
 
+  private inline def scaleAll(sr: Float, sg: Float, sb: Float): Unit =
+    scale(sr, sg, sb)
+    scaleDensity(sr, sg, sb)
+    scaleLight(sr, sg, sb)
+
   /** Starts a new segment in a direction of this pdf (0 if light sampling does not compete with
     * it).
     */
   def turn(pdf: Float): Unit =
     val l = if pdf > 0f then 1f / pdf else 0f
-    lr = ur * l
-    lg = ug * l
-    lb = ub * l
+    setLight(ur * l, ug * l, ub * l)
 
   /** Passes the optical depths `t` without a collision, for throughput and both kinds of pdf. */
   def pass(tr: Float, tg: Float, tb: Float): Unit =
@@ -125,11 +123,7 @@ final class PathWeights:
       val er = exp(th - tr)
       val eg = exp(th - tg)
       val eb = exp(th - tb)
-      r *= er
-      g *= eg
-      b *= eb
-      scaleDensity(er, eg, eb)
-      scaleLight(er, eg, eb)
+      scaleAll(er, eg, eb)
 
   /** Rescales the mean of the pdfs to 1. */
   def balance(): Unit =
@@ -137,9 +131,7 @@ final class PathWeights:
       val sum = ur + ug + ub
       if sum > 0f then
         val s = 3f / sum
-        scale(s)
-        scaleDensity(s, s, s)
-        scaleLight(s, s, s)
+        scaleAll(s, s, s)
       else scale(0f)
 
   /** Russian roulette: terminates a faint path with probability 1 − `chance`, and compensates

@@ -22,54 +22,59 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
 
   final def follow(ray: Ray, first: Float, emits: Boolean, work: MediumWork): Float =
     val w = work.weights
-    val walk = work.walk
     val point = work.point
-    val unit = ray.direction.length
     val glows = emits && isEmissive
     var scattered = -1f
-    if !w.isLost && enter(ray, walk) then
-      var left = VaryingMedium.MostSteps
-      var u = first
-      while scattered < 0f && !w.isDead && !w.isLost && walk.next() do
-        val mr = most.r * walk.most * unit
-        val mg = most.g * walk.most * unit
-        val mb = most.b * walk.most * unit
-        val mh = w.ofHero(mr, mg, mb)
-        var t = walk.begin
-        while t < walk.end do
-          val rest = walk.end - t
-          val step = if mh > 0f then -log(1f - u) / mh else Float.PositiveInfinity
-          if mh > 0f then u = work.random.next()
-          if !(step < rest) then
-            w.pass(mr * rest, mg * rest, mb * rest)
-            t = walk.end
-          else
-            w.pass(mr * step, mg * step, mb * step)
-            t += step
-            left -= 1
-            at(walk, t, point)
-            if glows then addGlow(work, mr, mg, mb, unit)
-            val chance = unit * w.ofHero(point.scatterR, point.scatterG, point.scatterB) / mh
-            if work.random.next() < chance then
-              scattered = t
-              scatter(w, point)
-              t = walk.end
-            else
-              collideUnscattered(w, point, mr, mg, mb, unit, 1f - chance)
-              if w.brightest < VaryingMedium.Faint then w.gamble(work.random.next(), 0.5f)
-              if left == 0 then w.lose()
-              if w.isDead || w.isLost then t = walk.end
+    var u = first
+    track(ray, w, work)(
+      sample =
+        val now = u
+        u = work.random.next()
+        now
+      ,
+      collide = (t, mr, mg, mb, mh, unit) =>
+        if glows then addGlow(work, mr, mg, mb, unit)
+        val chance = unit * w.ofHero(point.scatterR, point.scatterG, point.scatterB) / mh
+        val scatters = work.random.next() < chance
+        if scatters then
+          scattered = t
+          scatter(w, point)
+        else
+          collideUnscattered(w, point, mr, mg, mb, unit, 1f - chance)
+          if w.brightest < VaryingMedium.Faint then w.gamble(work.random.next(), 0.5f)
+        !scatters
+    )
     w.balance()
     scattered
 
   final def attenuate(ray: Ray, work: MediumWork): Unit =
     val w = work.shadow
+    track(ray, w, work)(
+      sample = work.random.next(),
+      collide = (_, mr, mg, mb, _, unit) =>
+        collideUnscattered(w, work.point, mr, mg, mb, unit, 1f)
+        if w.brightest < VaryingMedium.Faint * w.lightDensity then
+          w.gamble(work.random.next(), 0.5f)
+        true
+    )
+
+  /** Delta tracking: visits the collisions along the ray, real and null ones.
+    *
+    * @param sample  uniform in [0, 1): the next distance
+    * @param collide what happens at parameter t of the ray, whose point `work` has, given the pdf
+    *                of collisions per unit of t, for the three colours and the hero, and the length
+    *                of that unit; false if the path turns there
+    */
+  private inline def track(ray: Ray, w: PathWeights, work: MediumWork)(
+      inline sample: Float,
+      inline collide: (Float, Float, Float, Float, Float, Float) => Boolean
+  ): Unit =
     val walk = work.walk
-    val point = work.point
     val unit = ray.direction.length
     if !w.isLost && enter(ray, walk) then
       var left = VaryingMedium.MostSteps
-      while !w.isDead && !w.isLost && walk.next() do
+      var isStraight = true
+      while isStraight && !w.isDead && !w.isLost && walk.next() do
         val mr = most.r * walk.most * unit
         val mg = most.g * walk.most * unit
         val mb = most.b * walk.most * unit
@@ -77,8 +82,7 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
         var t = walk.begin
         while t < walk.end do
           val rest = walk.end - t
-          val step =
-            if mh > 0f then -log(1f - work.random.next()) / mh else Float.PositiveInfinity
+          val step = if mh > 0f then -log(1f - sample) / mh else Float.PositiveInfinity
           if !(step < rest) then
             w.pass(mr * rest, mg * rest, mb * rest)
             t = walk.end
@@ -86,12 +90,13 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
             w.pass(mr * step, mg * step, mb * step)
             t += step
             left -= 1
-            at(walk, t, point)
-            collideUnscattered(w, point, mr, mg, mb, unit, 1f)
-            if w.brightest < VaryingMedium.Faint * w.lightDensity then
-              w.gamble(work.random.next(), 0.5f)
-            if left == 0 then w.lose()
-            if w.isDead || w.isLost then t = walk.end
+            at(walk, t, work.point)
+            if collide(t, mr, mg, mb, mh, unit) then
+              if left == 0 then w.lose()
+              if w.isDead || w.isLost then t = walk.end
+            else
+              isStraight = false
+              t = walk.end
 
   private def enter(ray: Ray, walk: MajorantWalk): Boolean =
     walk.enter(toUnit.point(ray.origin), toUnit.vector(ray.direction), ray.tMax, bounds)
@@ -104,9 +109,7 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
     val r = p.scatterR * inverse
     val g = p.scatterG * inverse
     val b = p.scatterB * inverse
-    w.r *= r
-    w.g *= g
-    w.b *= b
+    w.scale(r, g, b)
     w.scaleDensity(r, g, b)
 
   /** A null or absorbing collision: absorption is a weight.
@@ -127,9 +130,11 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
     val kr = Math.max(0f, mr - unit * p.scatterR) * inverse
     val kg = Math.max(0f, mg - unit * p.scatterG) * inverse
     val kb = Math.max(0f, mb - unit * p.scatterB) * inverse
-    w.r *= Math.max(0f, kr - unit * p.absorbR * inverse)
-    w.g *= Math.max(0f, kg - unit * p.absorbG * inverse)
-    w.b *= Math.max(0f, kb - unit * p.absorbB * inverse)
+    w.scale(
+      Math.max(0f, kr - unit * p.absorbR * inverse),
+      Math.max(0f, kg - unit * p.absorbG * inverse),
+      Math.max(0f, kb - unit * p.absorbB * inverse)
+    )
     w.scaleDensity(kr, kg, kb)
     w.scaleLight(mr * inverse, mg * inverse, mb * inverse)
 

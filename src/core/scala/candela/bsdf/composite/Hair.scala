@@ -69,8 +69,8 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
       val off = wrapped(phi - exit(p, gammaO, gammaT))
       Logistic.density(off, shape.azimuthal)
 
-  def f(wo: Vec3, wi: Vec3): Rgb =
-    val cosine = Math.abs(wi.z)
+  /** Visits the lobes with their attenuation, longitudinal and azimuthal terms. */
+  private inline def lobes(wo: Vec3, wi: Vec3)(inline visit: (Rgb, Float, Float) => Unit): Unit =
     val sinO = wo.x
     val sinI = wi.x
     val cosO = safeSqrt(1f - sinO * sinO)
@@ -79,34 +79,26 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     val phi = azimuth(wi) - azimuth(wo)
     val r = fresnel(cosO)
     val t = transmitted(sinO, inside)
-    var sum = Rgb.Black
     var p = 0
     while p < Parts do
       val along =
         longitudinal(cosI, tiltedCos(sinO, cosO, p), sinI, tiltedSin(sinO, cosO, p), shape.v(p))
-      sum += share(p, r, t) * (along * around(p, phi, inside))
+      visit(share(p, r, t), along, around(p, phi, inside))
       p += 1
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    val cosine = Math.abs(wi.z)
+    var sum = Rgb.Black
+    lobes(wo, wi)((share, along, around) => sum += share * (along * around))
     if cosine > Hemisphere.Horizon then sum * (1f / cosine) else Rgb.Black
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    val sinO = wo.x
-    val sinI = wi.x
-    val cosO = safeSqrt(1f - sinO * sinO)
-    val cosI = safeSqrt(1f - sinI * sinI)
-    val inside = gammaT(sinO, cosO)
-    val phi = azimuth(wi) - azimuth(wo)
-    val r = fresnel(cosO)
-    val t = transmitted(sinO, inside)
     var sum = 0f
     var total = 0f
-    var p = 0
-    while p < Parts do
-      val along =
-        longitudinal(cosI, tiltedCos(sinO, cosO, p), sinI, tiltedSin(sinO, cosO, p), shape.v(p))
-      val weight = share(p, r, t).average
-      sum += weight * along * around(p, phi, inside)
+    lobes(wo, wi): (share, along, around) =>
+      val weight = share.average
+      sum += weight * along * around
       total += weight
-      p += 1
     if total > 0f then sum / total else 0f
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
