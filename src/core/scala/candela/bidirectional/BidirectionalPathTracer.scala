@@ -4,7 +4,7 @@ import candela.cameras.Camera
 import candela.color.Rgb
 import candela.film.Splats
 import candela.geometry.{Hit, Ray, ShadingPoint}
-import candela.integrators.{LightConnection, LightTransport, SceneIntegrator}
+import candela.integrators.{Integrator, LightConnection, LightTransport}
 import candela.math.*
 import candela.media.SceneMedia
 import candela.sampling.{RandomStream, Sampler}
@@ -37,7 +37,7 @@ final class BidirectionalPathTracer(
     compresses: Boolean,
     regularizes: Boolean = false,
     sceneMedia: SceneMedia | Null = null
-) extends SceneIntegrator(scene)
+) extends Integrator
     with ChainPaths:
   import BidirectionalPaths.*
   import PartialWeights.mis
@@ -65,11 +65,6 @@ final class BidirectionalPathTracer(
   private val lastP, lastN = MutableVec3()
 
   private val camera = CameraConnection(scene, imageCamera, splats, lightMedia)
-
-  protected def over(scene: Scene): BidirectionalPathTracer =
-    BidirectionalPathTracer(
-      scene, imageCamera, splats, maxDepth, rouletteAfter, compresses, regularizes, sceneMedia
-    )
 
   def raysTraced: Long =
     rays + connection.raysTraced + lightPaths.raysTraced + camera.raysTraced +

@@ -4,7 +4,7 @@ import candela.cameras.Camera
 import candela.color.Rgb
 import candela.film.Splats
 import candela.geometry.Ray
-import candela.integrators.{LightTransport, SceneIntegrator, SurfaceWalk}
+import candela.integrators.{Integrator, LightTransport, SurfaceWalk}
 import candela.sampling.Sampler
 import candela.scene.Scene
 
@@ -26,7 +26,7 @@ final class LightTracer(
     maxDepth: Int,
     countsPassed: Boolean = false,
     showsSky: Boolean = false
-) extends SceneIntegrator(scene):
+) extends Integrator:
   private val paths = LightPaths(
     scene,
     maxDepth,
@@ -37,9 +37,6 @@ final class LightTracer(
   )
   private val camera = CameraConnection(scene, imageCamera, splats)
   private val walk = SurfaceWalk(scene)
-
-  protected def over(scene: Scene): LightTracer =
-    LightTracer(scene, imageCamera, splats, maxDepth, countsPassed, showsSky)
 
   def raysTraced: Long = walk.raysTraced + paths.raysTraced + camera.raysTraced
   override def lastMaterial: Int = walk.vertex.at.material

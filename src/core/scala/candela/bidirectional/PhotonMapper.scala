@@ -2,9 +2,7 @@ package candela.bidirectional
 
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.integrators.{
-  Interfaces, LightTransport, PassIntegrator, SceneIntegrator, SurfaceWalk, WalkOptions
-}
+import candela.integrators.{Interfaces, LightTransport, PassIntegrator, SurfaceWalk, WalkOptions}
 import candela.sampling.Sampler
 import candela.scene.Scene
 
@@ -31,8 +29,7 @@ private[bidirectional] final class PhotonMapper(
     settings: PhotonSettings,
     passes: PhotonPasses,
     interfaces: Interfaces = Interfaces.Open
-) extends SceneIntegrator(scene)
-    with PassIntegrator:
+) extends PassIntegrator:
   import PhotonMapper.Sharp
 
   private val tracer = PhotonTracer(scene, settings)
@@ -44,9 +41,6 @@ private[bidirectional] final class PhotonMapper(
     val prepared = passes(pass, tracer, isStopped)
     for map <- prepared do photons = map
     prepared.isDefined
-
-  protected def over(scene: Scene): PhotonMapper =
-    PhotonMapper(scene, maxDepth, settings, passes, interfaces)
 
   def raysTraced: Long = walk.raysTraced + tracer.raysTraced
   override def lastMaterial: Int = walk.vertex.at.material

@@ -93,8 +93,8 @@ private[build] final class MediaBuilder(
     else if regions.nonEmpty && plan.throughVolumes.isDefined then
       val volumes = Regions(regions)
       val method = volumeMethod.copy(stepSize = stepSize(volumes))
-      val march = VolumeMarch(scene, volumes, method.stepSize, method.scatters)
-      (Surroundings.Volumes(march), s"${volumes.describe}, ${method.describe}")
+      def march() = VolumeMarch(scene, volumes, method.stepSize, method.scatters)
+      (Surroundings.Volumes(() => march()), s"${volumes.describe}, ${method.describe}")
     else (Surroundings.Nothing, "none")
 
   /** The step size that is asked for, if a ray can have so many. */

@@ -17,11 +17,11 @@ private[build] object Preview:
   def integrator(context: BuildContext): IntegratorPlan =
     val white = context.resources.basis.fromSrgb(Rgb.White)
     IntegratorPlan(
-      (scene, _) => RenderMethod.Tiles(Headlight(scene, white)),
+      (scene, _) => RenderMethod.tiles(scene)(Headlight(_, white)),
       samplesBsdf = false,
       "headlight shading",
       followsSpecular = false,
       isLit = false,
-      throughMedia = Some((scene, _) => RenderMethod.Tiles(Headlight(scene, white))),
-      throughVolumes = Some((scene, _, _) => Headlight(scene, white))
+      throughMedia = Some((scene, _) => RenderMethod.tiles(scene)(Headlight(_, white))),
+      throughVolumes = Some((scene, _, _) => RenderMethod.tiles(scene)(Headlight(_, white)))
     )

@@ -31,7 +31,7 @@ final case class Occlusion(
   * Rendering 1998.
   */
 final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch | Null = null)
-    extends SceneIntegrator(scene):
+    extends Integrator:
   import rule.*
 
   private val walk = SurfaceWalk(scene, volumes)
@@ -41,9 +41,6 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
 
   def raysTraced: Long = walk.raysTraced + shadowRays
   override def lastMaterial: Int = walk.vertex.at.material
-
-  protected def over(scene: Scene): AmbientOcclusion =
-    AmbientOcclusion(scene, rule, VolumeMarch.copy(volumes))
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     shadowRay.time = ray.time

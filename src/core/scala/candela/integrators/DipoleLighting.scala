@@ -25,9 +25,6 @@ final class DipoleLighting(
   private val entry = SurfaceVertex(scene)
   private var time = 0f
 
-  override protected def over(scene: Scene): DipoleLighting =
-    DipoleLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes))
-
   override def raysTraced: Long = super.raysTraced + probe.raysTraced
 
   override def radiance(ray: Ray, sampler: Sampler): Rgb =

@@ -27,9 +27,6 @@ class DirectLighting(
   private val emitter = ShadingPoint()
   private var bsdfRays = 0L
 
-  protected def over(scene: Scene): DirectLighting =
-    DirectLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes), interfaces)
-
   override def raysTraced: Long = super.raysTraced + bsdfRays
 
   override def radiance(ray: Ray, sampler: Sampler): Rgb =

@@ -12,12 +12,11 @@ import candela.scene.Scene
   *
   * @param white of the scene's colours
   */
-final class Headlight(scene: Scene, white: Rgb) extends SceneIntegrator(scene):
+final class Headlight(scene: Scene, white: Rgb) extends Integrator:
   private val hit = Hit()
   private val at = scene.newPoint()
   private var rays = 0L
 
-  protected def over(scene: Scene): Headlight = Headlight(scene, white)
   def raysTraced: Long = rays
   override def lastMaterial: Int = at.material
 

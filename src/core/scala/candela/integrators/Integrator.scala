@@ -8,11 +8,10 @@ import candela.sampling.Sampler
 import candela.scene.{PathReport, Scene}
 
 /** Estimates the radiance that arrives along a ray. One object per worker, as it owns mutable work
-  * space; `copy` makes the next worker's.
+  * space; [[WorkerIntegrators]] make them.
   */
 abstract class Integrator:
   def radiance(ray: Ray, sampler: Sampler): Rgb
-  def copy(): Integrator
 
   /** Wavelengths of the last radiance, and the radiance at these; null: it has none. */
   def lastWavelengths: Wavelengths | Null = null
@@ -27,17 +26,26 @@ abstract class Integrator:
   /** Index of the material that was hit last, −1: unknown. Says where a bad sample comes from. */
   def lastMaterial: Int = -1
 
-  /** A copy that reports to `report` what it does. */
-  def reported(report: PathReport): Integrator
+/** Makes the integrators of a rendering, one for each worker. */
+abstract class WorkerIntegrators:
+  /** @param report receives what the integrator does, if given */
+  def make(report: Option[PathReport]): Integrator
 
-/** An [[Integrator]] whose copies differ in the scene alone. */
-abstract class SceneIntegrator(scene: Scene) extends Integrator:
-  protected def over(scene: Scene): Integrator
-  final def copy(): Integrator = over(scene)
-  final def reported(report: PathReport): Integrator = over(scene.reported(report))
+  /** Whether they divide their light as the scene asks; see [[Integrator.lightParts]]. */
+  def divideLight: Boolean
+
+object WorkerIntegrators:
+  /** Integrators that differ in their scratch memory alone. */
+  def apply(scene: Scene)(integrator: Scene => Integrator): WorkerIntegrators =
+    new WorkerIntegrators:
+      def make(report: Option[PathReport]): Integrator =
+        integrator(report.fold(scene)(scene.reported))
+
+      lazy val divideLight: Boolean =
+        scene.lightGroups.isDefined && make(None).lightParts != null
 
 /** Base of integrators that follow one unidirectional path per sample. */
-abstract class CameraPathIntegrator(scene: Scene) extends SceneIntegrator(scene):
+abstract class CameraPathIntegrator extends Integrator:
   protected def walk: Walk
   final def raysTraced: Long = walk.raysTraced
   override final def lastMaterial: Int = walk.vertex.at.material

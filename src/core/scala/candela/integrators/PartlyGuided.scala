@@ -10,17 +10,17 @@ import candela.scene.Scene
 /** Guides the paths that the guide takes, and leaves the others to the integrator that would follow
   * them without it, at its speed.
   *
-  * @param guided,plain make the two integrators of a worker, which divide light in the same place
+  * @param guided,plain make the two integrators, which divide light in the same place
   */
 final class PartlyGuided(
     scene: Scene,
     guide: Guide,
-    guided: (Scene, LightParts | Null) => Integrator,
-    plain: (Scene, LightParts | Null) => Integrator
-) extends SceneIntegrator(scene):
+    guided: (LightParts | Null) => Integrator,
+    plain: (LightParts | Null) => Integrator
+) extends Integrator:
   private val parts = scene.lightGroups.map(LightParts(_)).orNull
-  private val itsGuided = guided(scene, parts)
-  private val itsPlain = plain(scene, parts)
+  private val itsGuided = guided(parts)
+  private val itsPlain = plain(parts)
   private var last = itsPlain
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
@@ -30,4 +30,3 @@ final class PartlyGuided(
   def raysTraced: Long = itsGuided.raysTraced + itsPlain.raysTraced
   override def lastMaterial: Int = last.lastMaterial
   override def lightParts: LightParts | Null = parts
-  protected def over(scene: Scene): PartlyGuided = PartlyGuided(scene, guide, guided, plain)

@@ -14,19 +14,12 @@ import candela.scene.Scene
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed.,
   * §13.4; in media also [[candela.media.PathWeights]]. Both kinds of densities are combined by the
   * power heuristic, where Miller, Georgiev and Jarosz 2019 use the balance heuristic.
-  *
-  * @param walk    of this worker
-  * @param newWalk for another
   */
 final class PathTracer private[integrators] (
     scene: Scene,
     limits: PathLimits,
-    protected val walk: Walk,
-    newWalk: Scene => Walk
-) extends CameraPathIntegrator(scene):
-
-  protected def over(scene: Scene): PathTracer =
-    new PathTracer(scene, limits, newWalk(scene), newWalk)
+    protected val walk: Walk
+) extends CameraPathIntegrator:
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)
@@ -97,14 +90,8 @@ object PathTracer:
       guide: Guide | Null = null,
       parts: LightParts | Null = null
   ): PathTracer =
-    def another(over: Scene) =
-      SurfaceWalk(over, VolumeMarch.copy(volumes), options = options, guide = guide)
-    new PathTracer(
-      scene,
-      limits,
-      SurfaceWalk(scene, volumes, options = options, guide = guide, sharedParts = parts),
-      another
-    )
+    val walk = SurfaceWalk(scene, volumes, options = options, guide = guide, sharedParts = parts)
+    new PathTracer(scene, limits, walk)
 
 /** Path tracing through participating media. Not with [[PathTracer]]'s own: a JVM should load the
   * one kind of walk that it needs.
@@ -118,9 +105,4 @@ object VolumePathTracer:
       guide: Guide | Null = null,
       parts: LightParts | Null = null
   ): PathTracer =
-    new PathTracer(
-      scene,
-      limits,
-      VolumeWalk(scene, media, options, guide, parts),
-      VolumeWalk(_, media, options, guide)
-    )
+    new PathTracer(scene, limits, VolumeWalk(scene, media, options, guide, parts))

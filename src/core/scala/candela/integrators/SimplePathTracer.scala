@@ -27,7 +27,7 @@ final class SimplePathTracer(
     samplesLights: Boolean,
     onward: Onward,
     crosses: Boolean = true
-) extends CameraPathIntegrator(scene):
+) extends CameraPathIntegrator:
   protected val walk: SurfaceWalk = SurfaceWalk(
     scene,
     options = WalkOptions(
@@ -36,9 +36,6 @@ final class SimplePathTracer(
       countsPassed = true
     )
   )
-
-  protected def over(scene: Scene): SimplePathTracer =
-    SimplePathTracer(scene, maxDepth, samplesLights, onward, crosses)
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)

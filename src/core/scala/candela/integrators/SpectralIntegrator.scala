@@ -41,9 +41,6 @@ final class SpectralIntegrator(
   override def lastWavelengths: Wavelengths = bases(current)
   override def lastComponents: Rgb = components
 
-  def copy(): SpectralIntegrator = SpectralIntegrator(integrators.map(_.copy()), bases)
-  def reported(report: PathReport): SpectralIntegrator =
-    SpectralIntegrator(integrators.map(_.reported(report)), bases, Some(report))
   def raysTraced: Long = integrators.iterator.map(_.raysTraced).sum
   override def lastMaterial: Int = integrators(current).lastMaterial
 
@@ -53,6 +50,14 @@ object SpectralIntegrator:
     * @param u uniform in [0, 1)
     */
   def choose(u: Float, count: Int): Int = Math.min((u * count).toInt, count - 1)
+
+/** Makes them of the integrators of each basis. */
+final class SpectralIntegrators(each: Vector[WorkerIntegrators], bases: Array[Wavelengths])
+    extends WorkerIntegrators:
+  def make(report: Option[PathReport]): SpectralIntegrator =
+    SpectralIntegrator(each.map(_.make(report)).toArray, bases, report)
+
+  def divideLight: Boolean = each.head.divideLight
 
 /** Spectral rendering in passes: all samples of a pass take the same wavelengths.
   *
@@ -91,8 +96,6 @@ object SpectralPasses:
     override def lastWavelengths: Wavelengths = bases(current)
     override def lastComponents: Rgb = components
 
-    def copy(): Integrator = OfWorker(shared, integrators, bases)
-    def reported(report: PathReport): Integrator = shared.integrator(Some(report))
     def raysTraced: Long = integrators.iterator.map(_.raysTraced).sum
     override def lastMaterial: Int = integrators(current).lastMaterial
 

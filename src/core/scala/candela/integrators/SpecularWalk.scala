@@ -19,7 +19,7 @@ abstract class SpecularWalk(
     volumes: VolumeMarch | Null,
     steps: Float = VolumeMarch.StepsToLights,
     interfaces: Interfaces = Interfaces.Open
-) extends SceneIntegrator(scene):
+) extends Integrator:
   protected val walk: SurfaceWalk =
     SurfaceWalk(scene, volumes, steps, WalkOptions(interfaces = interfaces))
   protected val connection: LightConnection = walk.connection

@@ -27,7 +27,6 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
   var added, transmitted: Rgb = Rgb.Black
 
   def raysTraced: Long = connection.raysTraced
-  def copy(): VolumeMarch = VolumeMarch(scene, regions, stepSize, scatters)
 
   /** Starts a new camera path. */
   def start(ray: Ray, sampler: Sampler): Unit =
@@ -113,10 +112,6 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
     work.transmittance
 
 object VolumeMarch:
-  /** A copy for the next worker. */
-  def copy(march: VolumeMarch | Null): VolumeMarch | Null =
-    if march == null then null else march.copy()
-
   private val Faint = 1e-3f
 
   /** Step size towards lights, in units of that along the camera ray, as in pbrt-v2. */

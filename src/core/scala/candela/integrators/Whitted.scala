@@ -20,9 +20,6 @@ final class Whitted(
     interfaces: Interfaces = Interfaces.Open
 ) extends SpecularWalk(scene, maxDepth, volumes, steps = 1f, interfaces):
 
-  protected def over(scene: Scene): Whitted =
-    Whitted(scene, maxDepth, VolumeMarch.copy(volumes), interfaces)
-
   protected def direct(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     var sum = Rgb.Black
     var i = 0

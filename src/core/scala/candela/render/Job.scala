@@ -2,7 +2,9 @@ package candela.render
 
 import candela.film.*
 import candela.guiding.Guide
-import candela.integrators.{Integrator, PassIntegrator, SharedChains, SharedPasses}
+import candela.integrators.{
+  Integrator, PassIntegrator, SharedChains, SharedPasses, WorkerIntegrators
+}
 import candela.layers.*
 import candela.scene.PathReport
 
@@ -36,22 +38,24 @@ private[render] object Job:
   def apply(plan: RenderPlan, shard: Shard): Job =
     val samples = plan.samplesPerPixel
     plan.method match
-      case RenderMethod.Tiles(integrator) =>
+      case RenderMethod.Tiles(integrators) =>
         val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes)
-        tiles.job(tiles.worker(integrator.copy(), _))
-      case RenderMethod.Guided(_, asked, integrator) =>
+        tiles.job(tiles.worker(integrators.make(None), _))
+      case RenderMethod.Guided(_, asked, guided) =>
         val schedule = TileSchedule(plan.sampled, samples, openWaves = 1)
         // Fireflies are told from other samples by how many there are of each brightness
         val settings = asked.copy(weighs = plan.fireflies != Fireflies.Reweighted)
         val guide = Guide(settings, samples, plan.sampled.pixels)
         val tiles = TileJobs(plan, schedule, plan.crop, shard.takes, guide = Some(guide))
-        tiles.job(queue => tiles.worker(integrator(guide).copy(), queue, begin(guide, queue)))
+        val integrators = guided(guide)
+        tiles.job: queue =>
+          tiles.worker(integrators.make(None), queue, begin(guide, queue))
       case RenderMethod.SplattedTiles(make) =>
         val splats = splatFilm(plan)
-        val integrator = make(plan.view(splats))
+        val integrators = make(plan.view(splats))
         val tiles =
           TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes, Some(splats))
-        tiles.job(tiles.worker(integrator.copy(), _))
+        tiles.job(tiles.worker(integrators.make(None), _))
       case RenderMethod.Passes(make) =>
         val passes = make(plan.view(Splats.Discarded))
         val schedule = TileSchedule(
@@ -82,15 +86,16 @@ private[render] object Job:
     val tiles = TileJobs(plan, schedule, pixel, (_, _) => true, isSingle = true)
     val queue = TaskQueue(schedule, Cancellation())
     val view = plan.view(Splats.Discarded)
-    val worker = plan.method match
-      case RenderMethod.Tiles(integrator) => tiles.worker(integrator.reported(report), queue)
-      case RenderMethod.Guided(unguided, _, _) => tiles.worker(unguided.reported(report), queue)
-      case RenderMethod.SplattedTiles(make) => tiles.worker(make(view).reported(report), queue)
-      case RenderMethod.Chains(_, _, make) => tiles.worker(make(view).reported(report), queue)
+    def worker(integrators: WorkerIntegrators) = tiles.worker(integrators.make(Some(report)), queue)
+    val only = plan.method match
+      case RenderMethod.Tiles(integrators) => worker(integrators)
+      case RenderMethod.Guided(unguided, _, _) => worker(unguided)
+      case RenderMethod.SplattedTiles(make) => worker(make(view))
+      case RenderMethod.Chains(_, _, make) => worker(make(view))
       case RenderMethod.Passes(make) =>
         val integrator = make(view).integrator(Some(report))
         tiles.worker(integrator, queue, begin(integrator, queue))
-    (tiles.film, worker)
+    (tiles.film, only)
 
   /** Begins waves of samples, with their weights. */
   private def begin(guide: Guide, queue: TaskQueue): TileWorker.BeginWave = (sample, moves) =>

@@ -5,8 +5,10 @@ import candela.color.Wavelengths
 import candela.film.{Splats, View}
 import candela.guiding.{Guide, GuideSettings}
 import candela.integrators.{
-  ConvertedSplats, Integrator, SharedChains, SharedPasses, SpectralIntegrator, SpectralPasses
+  ConvertedSplats, Integrator, SharedChains, SharedPasses, SpectralIntegrators, SpectralPasses,
+  WorkerIntegrators
 }
+import candela.scene.Scene
 
 /** Organisation of an image's samples, selected by the integrator's recipe. Parts that depend on
   * the camera or film are created once these are known. Each method says all that others ask of it.
@@ -33,36 +35,39 @@ enum RenderMethod(
 ):
 
   /** Independent camera samples, tile by tile. */
-  case Tiles(integrator: Integrator)
+  case Tiles(integrators: WorkerIntegrators)
       extends RenderMethod(
         takesCameraSamples = true,
         canShareSamples = true,
         learns = false,
         canKeepOn = true,
         hasWavelengths = true,
-        dividesLight = integrator.lightParts != null,
+        dividesLight = integrators.divideLight,
         seesLightPaths = false
       )
 
   /** Camera samples, tile by tile, whose paths learn from those of earlier passes.
     *
-    * @param unguided   their integrator, if nothing is learnt
-    * @param settings   of what is learnt
-    * @param integrator learns, and is guided
+    * @param unguided their integrators, if nothing is learnt
+    * @param settings of what is learnt
+    * @param guided   learn, and are guided
     */
-  case Guided(unguided: Integrator, settings: GuideSettings, integrator: Guide => Integrator)
-      extends RenderMethod(
+  case Guided(
+      unguided: WorkerIntegrators,
+      settings: GuideSettings,
+      guided: Guide => WorkerIntegrators
+  ) extends RenderMethod(
         takesCameraSamples = true,
         canShareSamples = true,
         learns = true,
         canKeepOn = false,
         hasWavelengths = true,
-        dividesLight = unguided.lightParts != null,
+        dividesLight = unguided.divideLight,
         seesLightPaths = false
       )
 
   /** Camera samples, tile by tile; their light paths splat to the whole film. */
-  case SplattedTiles(integrator: View => Integrator)
+  case SplattedTiles(integrators: View => WorkerIntegrators)
       extends RenderMethod(
         takesCameraSamples = true,
         canShareSamples = false,
@@ -87,14 +92,14 @@ enum RenderMethod(
 
   /** Markov chains, which choose film positions themselves.
     *
-    * @param paths      the paths that they explore, with their splats
-    * @param chains     the chains of such paths
-    * @param integrator evaluates a single camera sample without chains
+    * @param paths       the paths that they explore, with their splats
+    * @param chains      the chains of such paths
+    * @param integrators evaluate a single camera sample without chains
     */
   case Chains(
       paths: (View, Splats) => ChainPaths,
       chains: (View, Splats => ChainPaths) => SharedChains,
-      integrator: View => Integrator
+      integrators: View => WorkerIntegrators
   ) extends RenderMethod(
         takesCameraSamples = false,
         canShareSamples = false,
@@ -106,6 +111,10 @@ enum RenderMethod(
       )
 
 object RenderMethod:
+  /** Independent camera samples, whose integrators are made from the scene alone. */
+  def tiles(scene: Scene)(integrator: Scene => Integrator): RenderMethod =
+    Tiles(WorkerIntegrators(scene)(integrator))
+
   /** The method of spectral rendering, made of those of the single bases.
     *
     * @param parts of the same kind, at least one
@@ -115,20 +124,18 @@ object RenderMethod:
     val methods = parts.map(_._2)
     def converted(view: View, basis: Wavelengths) =
       view.copy(splats = ConvertedSplats(view.splats, basis))
-    def ofView(integrators: Vector[View => Integrator])(view: View): Integrator =
+    def ofView(integrators: Vector[View => WorkerIntegrators])(view: View): WorkerIntegrators =
       val made = integrators.zip(bases).map((make, basis) => make(converted(view, basis)))
-      SpectralIntegrator(made.toArray, bases)
+      SpectralIntegrators(made, bases)
     methods.head match
       case Tiles(_) =>
-        val made = methods.collect { case Tiles(i) => i }
-        Tiles(SpectralIntegrator(made.toArray, bases))
+        Tiles(SpectralIntegrators(methods.collect { case Tiles(i) => i }, bases))
       case Guided(_, settings, _) =>
         val made = methods.collect { case g: Guided => g }
-        def all(integrators: Vector[Integrator]) = SpectralIntegrator(integrators.toArray, bases)
         Guided(
-          all(made.map(_.unguided)),
+          SpectralIntegrators(made.map(_.unguided), bases),
           settings,
-          shared => all(made.map(_.integrator(shared)))
+          shared => SpectralIntegrators(made.map(_.guided(shared)), bases)
         )
       case SplattedTiles(_) =>
         SplattedTiles(ofView(methods.collect {

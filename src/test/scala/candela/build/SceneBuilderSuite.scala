@@ -20,7 +20,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
   private val film = """Film "image" "integer xresolution" 80 "integer yresolution" 40"""
 
   private def integrator(plan: RenderPlan): Integrator = plan.method match
-    case RenderMethod.Tiles(integrator) => integrator
+    case RenderMethod.Tiles(integrators) => integrators.make(None)
     case other => fail(s"$other")
 
   private def feature(plan: RenderPlan, name: String): String =

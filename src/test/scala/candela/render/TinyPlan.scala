@@ -4,7 +4,7 @@ import candela.cameras.Camera
 import candela.color.Rgb
 import candela.film.{BoxFilter, Development, Filter, Fireflies, PixelBounds, SampleLimit}
 import candela.geometry.Ray
-import candela.integrators.Integrator
+import candela.integrators.{Integrator, WorkerIntegrators}
 import candela.math.Vec3
 import candela.sampling.Sampler
 import candela.scene.PathReport
@@ -36,7 +36,7 @@ object TinyPlan:
       FlatCamera,
       filter,
       HashSampler(spp),
-      method.getOrElse(RenderMethod.Tiles(Formula(radiance))),
+      method.getOrElse(RenderMethod.Tiles(Formulas(radiance))),
       candela.color.ColorBasis.Srgb,
       limit,
       development,
@@ -53,11 +53,13 @@ object TinyPlan:
 
   private def floor(v: Float): Int = Math.floor(v).toInt
 
+  private final class Formulas(radiance: (Where, Sampler) => Rgb) extends WorkerIntegrators:
+    def make(report: Option[PathReport]): Integrator = Formula(radiance)
+    def divideLight: Boolean = false
+
   private final class Formula(radiance: (Where, Sampler) => Rgb) extends Integrator:
     private var rays = 0L
     def raysTraced: Long = rays
-    def copy(): Formula = Formula(radiance)
-    def reported(report: PathReport): Formula = copy()
     def radiance(ray: Ray, sampler: Sampler): Rgb =
       rays += 1
       // A box filter of radius one half leaves samples in their pixel, as sharing does.

@@ -39,7 +39,7 @@ object Garbage:
   private final class Paths(plan: RenderPlan):
     private val sampler = plan.sampler.copy()
     private val integrator = plan.method match
-      case RenderMethod.Tiles(integrator) => integrator.copy()
+      case RenderMethod.Tiles(integrators) => integrators.make(None)
       case other => sys.error(s"only camera paths are counted: $other")
     private val filter = new FilterSampler(plan.filter)
     private val rays = CameraRays(plan.camera, plan.shutter, plan.differentialScale)

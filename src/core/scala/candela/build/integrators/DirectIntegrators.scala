@@ -23,20 +23,16 @@ object DirectLightingRecipe
     val interfaces = IntegratorPlan.interfaces
     windowed(IntegratorPlan(
       (scene, samples) =>
-        RenderMethod.Tiles(
-          DirectLighting(
-            scene,
-            depth,
-            if every then samples else Array.empty,
-            interfaces = interfaces
-          )
-        ),
+        val each = if every then samples else Array.empty[Int]
+        RenderMethod.tiles(scene)(DirectLighting(_, depth, each, interfaces = interfaces))
+      ,
       // Lights can rely on BSDF sampling only if every light is sampled
       samplesBsdf = every,
       s"directlighting, ${if every then "all lights" else "one light"} at each point",
       interfaces = interfaces,
       throughVolumes = Some((scene, samples, march) =>
-        DirectLighting(scene, depth, if every then samples else Array.empty, march)
+        val each = if every then samples else Array.empty[Int]
+        RenderMethod.tiles(scene)(DirectLighting(_, depth, each, march()))
       )
     ))
 
@@ -52,11 +48,12 @@ object WhittedRecipe
     val depth = Math.max(1, maxDepth())
     val interfaces = IntegratorPlan.interfaces
     windowed(IntegratorPlan(
-      (scene, _) => RenderMethod.Tiles(Whitted(scene, depth, interfaces = interfaces)),
+      (scene, _) => RenderMethod.tiles(scene)(Whitted(_, depth, interfaces = interfaces)),
       samplesBsdf = false,
       "whitted",
       interfaces = interfaces,
-      throughVolumes = Some((scene, _, march) => Whitted(scene, depth, march))
+      throughVolumes =
+        Some((scene, _, march) => RenderMethod.tiles(scene)(Whitted(_, depth, march())))
     ))
 
 /** Differs between dialects: v2 computes the unoccluded fraction of the rays, v3 their
@@ -106,9 +103,10 @@ object AmbientOcclusionRecipe
       case Dialect.V4 | Dialect.Mitsuba =>
         Occlusion(1, 0f, distanceV4(), cosine(), weighs = true, white, showsSky = false)
     windowed(IntegratorPlan(
-      (scene, _) => RenderMethod.Tiles(AmbientOcclusion(scene, rule)),
+      (scene, _) => RenderMethod.tiles(scene)(AmbientOcclusion(_, rule)),
       samplesBsdf = true,
       s"ambientocclusion, ${rule.samples} rays per point",
       isLit = false,
-      throughVolumes = Some((scene, _, march) => AmbientOcclusion(scene, rule, march))
+      throughVolumes =
+        Some((scene, _, march) => RenderMethod.tiles(scene)(AmbientOcclusion(_, rule, march())))
     ))

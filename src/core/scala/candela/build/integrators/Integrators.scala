@@ -57,7 +57,7 @@ object Integrators:
   * @param hasVeils     whether the openings of masks are interfaces, too
   * @param finish       what the integrator makes of each material
   * @param throughMedia   render method for scenes with participating media, if supported
-  * @param throughVolumes creates the integrator for scenes with v2's volumes, if supported
+  * @param throughVolumes the same for scenes with v2's volumes, through which each worker marches
   */
 final case class IntegratorPlan(
     method: (Scene, Array[Int]) => RenderMethod,
@@ -75,7 +75,7 @@ final case class IntegratorPlan(
     hasVeils: Boolean = false,
     finish: Material => Material = identity,
     throughMedia: Option[(Scene, SceneMedia) => RenderMethod] = None,
-    throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
+    throughVolumes: Option[(Scene, Array[Int], () => VolumeMarch) => RenderMethod] = None
 ):
   /** Whether [[throughMedia]] renders the scene.
     *
@@ -89,8 +89,7 @@ final case class IntegratorPlan(
   def methodIn(around: Surroundings, scene: Scene, lightSamples: Array[Int]): RenderMethod =
     (around, throughMedia, throughVolumes) match
       case (Surroundings.Media(all), Some(make), _) => make(scene, all)
-      case (Surroundings.Volumes(march), _, Some(make)) =>
-        RenderMethod.Tiles(make(scene, lightSamples, march))
+      case (Surroundings.Volumes(march), _, Some(make)) => make(scene, lightSamples, march)
       case _ => method(scene, lightSamples)
 
 /** What is between the surfaces of a scene, as far as its integrator renders it. */
@@ -98,8 +97,8 @@ enum Surroundings:
   case Nothing
   case Media(all: SceneMedia)
 
-  /** The volumes of pbrt-v2. */
-  case Volumes(march: VolumeMarch)
+  /** The volumes of pbrt-v2, and what marches through them for a worker. */
+  case Volumes(march: () => VolumeMarch)
 
 object IntegratorPlan:
   /** What interfaces are to integrators without media. pbrt-v2 has none. */
@@ -175,11 +174,13 @@ trait PathInstead extends Recipe[IntegratorPlan]:
     val interfaces = IntegratorPlan.interfaces
     val options = WalkOptions(interfaces = interfaces)
     IntegratorPlan(
-      (scene, _) => RenderMethod.Tiles(PathTracer(scene, limits, options)),
+      (scene, _) => RenderMethod.tiles(scene)(PathTracer(_, limits, options)),
       samplesBsdf = true,
       s"path, up to $most scattering events",
       followsSpecular = site.dialect == Dialect.V4,
       interfaces = interfaces,
       throughVolumes =
-        Some((scene, _, march) => PathTracer(scene, limits, volumes = march))
+        Some((scene, _, march) =>
+          RenderMethod.tiles(scene)(PathTracer(_, limits, volumes = march()))
+        )
     )

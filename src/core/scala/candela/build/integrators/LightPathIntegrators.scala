@@ -3,7 +3,9 @@ package candela.build.integrators
 import candela.bidirectional.*
 import candela.build.recipe.*
 import candela.film.{Splats, View}
-import candela.integrators.{Interfaces, PathLimits, PathTracer, VolumePathTracer, WalkOptions}
+import candela.integrators.{
+  Interfaces, PathLimits, PathTracer, VolumePathTracer, WalkOptions, WorkerIntegrators
+}
 import candela.integrators.LightTransport.RouletteAfter
 import candela.media.SceneMedia
 import candela.render.RenderMethod
@@ -92,7 +94,9 @@ object LightPathRecipe
     IntegratorPlan(
       (scene, _) =>
         SplattedTiles: v =>
-          LightTracer(scene, v.camera, v.splats, most, passes, showsSky = passes),
+          WorkerIntegrators(scene):
+            LightTracer(_, v.camera, v.splats, most, passes, showsSky = passes)
+      ,
       samplesBsdf = false,
       s"$name, up to $most scattering events",
       interfaces = Interfaces.Closed,
@@ -128,19 +132,18 @@ private[build] object BidirectionalPlans:
     val most = Math.max(0, depth)
     val dialect = site.dialect
     IntegratorPlan(
-      (scene, _) => SplattedTiles(v => tracer(scene, v, most, regularizes)(v.splats)),
+      (scene, _) => SplattedTiles(tracers(scene, most, regularizes)),
       samplesBsdf = false,
       s"$name, up to $most scattering events" + (if regularizes then ", regularised" else ""),
       followsSpecular = dialect == Dialect.V4,
       throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
         limit(scene, media) match
-          case None => SplattedTiles(v => tracer(scene, v, most, regularizes, media)(v.splats))
-          case Some(what) =>
-            RenderMethod.Tiles(inVolpath(name, what, scene, media, most, regularizes))
+          case None => SplattedTiles(tracers(scene, most, regularizes, media))
+          case Some(what) => inVolpath(name, what, scene, media, most, regularizes)
       ,
       throughVolumes = Some: (scene, _, march) =>
         site.warn(s"\"$name\" does not support volumes yet; using \"path\", which $Lack")
-        PathTracer(scene, PathLimits(most), volumes = march)
+        RenderMethod.tiles(scene)(PathTracer(_, PathLimits(most), volumes = march()))
     )
 
   /** What of a scene with media is not supported. */
@@ -159,21 +162,26 @@ private[build] object BidirectionalPlans:
       media: SceneMedia,
       depth: Int,
       regularizes: Boolean
-  )(using site: Site): PathTracer =
+  )(using site: Site): RenderMethod =
     site.warn(s"\"$name\" does not support $what yet; using \"volpath\", which $Lack")
-    VolumePathTracer(
-      scene,
-      media,
-      PathLimits(depth, seesThrough = site.dialect == Dialect.V3),
-      WalkOptions(regularizes, subsurface = scene.hasSubsurface)
-    )
+    val limits = PathLimits(depth, seesThrough = site.dialect == Dialect.V3)
+    val options = WalkOptions(regularizes, subsurface = scene.hasSubsurface)
+    RenderMethod.tiles(scene)(VolumePathTracer(_, media, limits, options))
+
+  private def tracers(
+      scene: Scene,
+      depth: Int,
+      regularizes: Boolean,
+      media: SceneMedia | Null = null
+  )(using Site): View => WorkerIntegrators =
+    v => WorkerIntegrators(scene)(tracer(_, v, depth, regularizes, media)(v.splats))
 
   private def tracer(
       scene: Scene,
       view: View,
       depth: Int,
       regularizes: Boolean,
-      media: SceneMedia | Null = null
+      media: SceneMedia | Null
   )(splats: Splats)(using site: Site): BidirectionalPathTracer =
     val compresses = site.dialect != Dialect.V2
     BidirectionalPathTracer(
@@ -208,15 +216,14 @@ private[build] object BidirectionalPlans:
       RenderMethod.Chains(
         (view, splats) => tracer(scene, view, most, regularizes, media)(splats),
         (view, paths) => MarkovChains(paths, seeded, view),
-        v => tracer(scene, v, most, regularizes, media)(v.splats)
+        tracers(scene, most, regularizes, media)
       )
     plan(name, depth, regularizes).copy(
       method = (scene, _) => chains(scene, null),
       throughMedia = Option.when(!isV2): (scene, media) =>
         limit(scene, media) match
           case None => chains(scene, media)
-          case Some(what) =>
-            RenderMethod.Tiles(inVolpath(name, what, scene, media, most, regularizes))
+          case Some(what) => inVolpath(name, what, scene, media, most, regularizes)
       ,
       describe = s"$name, up to $most scattering events, ${settings.chains} chains",
       samples = Some(Math.max(1, mutations))

@@ -101,16 +101,16 @@ object DipoleSubsurfaceRecipe
     val depth = events() + 1
     IntegratorPlan(
       (scene, samples) =>
-        RenderMethod.Tiles(
-          if scene.hasSubsurface then DipoleLighting(scene, depth, samples)
-          else DirectLighting(scene, depth, samples)
-        ),
+        RenderMethod.tiles(scene): over =>
+          if scene.hasSubsurface then DipoleLighting(over, depth, samples)
+          else DirectLighting(over, depth, samples),
       samplesBsdf = true,
       "dipolesubsurface, all lights at each point",
       goesBeneath = true,
       throughVolumes = Some((scene, samples, march) =>
-        if scene.hasSubsurface then DipoleLighting(scene, depth, samples, march)
-        else DirectLighting(scene, depth, samples, march)
+        RenderMethod.tiles(scene): over =>
+          if scene.hasSubsurface then DipoleLighting(over, depth, samples, march())
+          else DirectLighting(over, depth, samples, march())
       )
     )
 
@@ -131,11 +131,13 @@ abstract class RadianceTransferRecipe(name: String, meaning: String)
   protected def finish(using Site): Material => Material
 
   protected def make()(using Site): IntegratorPlan = IntegratorPlan(
-    (scene, samples) => RenderMethod.Tiles(DirectLighting(scene, 1, samples)),
+    (scene, samples) => RenderMethod.tiles(scene)(DirectLighting(_, 1, samples)),
     samplesBsdf = true,
     s"directlighting for $name",
     finish = finish,
-    throughVolumes = Some(DirectLighting(_, 1, _, _))
+    throughVolumes = Some((scene, samples, march) =>
+      RenderMethod.tiles(scene)(DirectLighting(_, 1, samples, march()))
+    )
   )
 
 object DiffusePrtRecipe

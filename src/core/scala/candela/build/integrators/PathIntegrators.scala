@@ -61,7 +61,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           VolumePathTracer(over, media, limits, options, guide, parts)
       ,
       throughVolumes = Some((scene, _, march) =>
-        PathTracer(scene, limits, volumes = march)
+        RenderMethod.tiles(scene)(PathTracer(_, limits, volumes = march()))
       )
     ))
 
@@ -71,14 +71,16 @@ private object GuidedMethod:
   def apply(scene: Scene)(tracer: (Scene, Guide | Null, LightParts | Null) => Integrator)(
       using site: Site
   ): RenderMethod =
-    val unguided = tracer(scene, null, null)
+    val unguided = WorkerIntegrators(scene)(tracer(_, null, null))
     GuideSettings.of(site.resources.switches.guiding) match
       case None => RenderMethod.Tiles(unguided)
       case Some(settings) =>
         RenderMethod.Guided(
           unguided,
           settings,
-          guide => PartlyGuided(scene, guide, tracer(_, guide, _), tracer(_, null, _))
+          guide =>
+            WorkerIntegrators(scene): over =>
+              PartlyGuided(over, guide, tracer(over, guide, _), tracer(over, null, _))
         )
 
 object SimplePathRecipe extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4):
@@ -105,7 +107,7 @@ object SimpleVolPathRecipe
       .plan(name, most, samplesLights = false, Onward.Bsdf)
       .copy(throughMedia =
         Some((scene, media) =>
-          RenderMethod.Tiles(VolumePathTracer(scene, media, PathLimits(most), options))
+          RenderMethod.tiles(scene)(VolumePathTracer(_, media, PathLimits(most), options))
         )
       )
 
@@ -132,7 +134,7 @@ private object SimplePlans:
     val by = if samplesLights then "" else ", without light sampling"
     IntegratorPlan(
       (scene, _) =>
-        RenderMethod.Tiles(SimplePathTracer(scene, most, samplesLights, onward, crosses)),
+        RenderMethod.tiles(scene)(SimplePathTracer(_, most, samplesLights, onward, crosses)),
       samplesBsdf = !samplesLights,
       s"$name, up to $most scattering events$by",
       samplesLights = samplesLights,
