@@ -35,6 +35,12 @@ final case class FilmHeader(
   def isWhole: Boolean = shards.size == count
   def isComplete: Boolean = done >= samples
 
+  /** A merger of all shards is a film of the whole if each is complete: then `resume` may go on.
+    * Otherwise it stays a merger, whose state does not tell how far each shard is.
+    */
+  def joined: FilmHeader =
+    if isWhole && isComplete then copy(shards = Set(0), count = 1) else this
+
   /** That of a part of it. */
   def of(shards: Set[Int], count: Int, state: RenderState): FilmHeader =
     copy(shards = shards, count = count, done = state.samplesDone)

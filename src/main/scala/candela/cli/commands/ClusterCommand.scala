@@ -118,14 +118,13 @@ private[cli] final class ClusterCommand(
       val (films, shards) = ShardRenderer.distinct(submitted.run.films(scratch.folder))
       val header = submitted.work.header
       val count = films.headOption.fold(1)(_.header.count)
-      val isWhole = shards.size == count
+      val least = films.map(_.header.done).minOption.getOrElse(0)
       def load(state: RenderState): Unit =
         films.foreach(_.load(state))
         for path <- submitted.film do
-          val part = header.of(shards, count, state)
-          save(path, if isWhole then part.copy(shards = Set(0), count = 1) else part, state)
+          save(path, header.of(shards, count, state).copy(done = least).joined, state)
       val rendering = submitted.prepared.gather(load)
-      val samples = films.map(_.header.done).minOption.getOrElse(0).toLong * shards.size / count
+      val samples = least.toLong * shards.size / count
       val done = rendering.copy(samplesDone = samples.toInt, samplesPerPixel = header.samples)
       renderer.finish(submitted.writer, submitted.prepared, done)
         .worseOf(if done.isComplete then ExitCode.Done else ExitCode.Interrupted)

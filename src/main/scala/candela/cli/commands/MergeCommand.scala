@@ -73,8 +73,7 @@ final class MergeCommand(
       films.foreach(_.load(state))
       for path <- merged do
         Using.resource(FilmKeeping.locked(path)): _ =>
-          val whole = if header.isWhole then header.copy(shards = Set(0), count = 1) else header
-          Prepared.write(whole, state, path)
+          Prepared.write(header.joined, state, path)
         if !options.quiet then terminal.out.println(s"wrote $path")
     val rendering = loaded.gather(load)
     val planned = if options.film.partial then done else header.samples
