@@ -44,7 +44,7 @@ final class ShardRenderer(header: FilmHeader, scene: Path, threads: Int) extends
     if good.nonEmpty then
       prepared.gather: state =>
         good.foreach(_.load(state))
-        Prepared.write(header.of(shards, good.head.header.count, state), state, to)
+        Prepared.write(header.merging(good.map(_.header)), state, to)
       : Unit
     shards
 

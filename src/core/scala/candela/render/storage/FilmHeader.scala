@@ -35,6 +35,17 @@ final case class FilmHeader(
   def isWhole: Boolean = shards.size == count
   def isComplete: Boolean = done >= samples
 
+  /** That of the merger of films of this rendering: it is as far as the least of them. */
+  def merging(parts: Seq[FilmHeader]): FilmHeader =
+    copy(
+      shards = parts.flatMap(_.shards).toSet,
+      count = parts.headOption.fold(count)(_.count),
+      done = parts.map(_.done).minOption.getOrElse(0)
+    )
+
+  /** Samples per pixel, averaged over all shards: missing ones have none. */
+  def averageDone: Int = (done.toLong * shards.size / count).toInt
+
   /** A merger of all shards is a film of the whole if each is complete: then `resume` may go on.
     * Otherwise it stays a merger, whose state does not tell how far each shard is.
     */

@@ -13,6 +13,7 @@ import candela.base.{
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal}
+import candela.job.SceneFormat
 import candela.render.Cancellation
 import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
 import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults}
@@ -71,7 +72,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     else throw SceneError(Problem.general(s"no such suite: `$source`"))
 
   private def notSuite(file: Path): Option[String] =
-    if Set("pbrt", "xml")(FileName.suffix(file)) then Some("a scene")
+    if SceneFormat.named(file).isDefined then Some("a scene")
     else ForeignFile.of(file).filter(_.kind != ForeignKind.Suite).map(_.what)
 
   private def seeded(suite: Suite): Suite = asked.seeds.fold(suite)(n => suite.copy(seeds = n))

@@ -115,17 +115,15 @@ private[cli] final class ClusterCommand(
   private def finish(submitted: Submitted): ExitCode =
     terminal.interrupts.checkTime()
     Using.resource(Scratch.make()): scratch =>
-      val (films, shards) = ShardRenderer.distinct(submitted.run.films(scratch.folder))
-      val header = submitted.work.header
-      val count = films.headOption.fold(1)(_.header.count)
-      val least = films.map(_.header.done).minOption.getOrElse(0)
+      val (films, _) = ShardRenderer.distinct(submitted.run.films(scratch.folder))
+      val header = submitted.work.header.merging(films.map(_.header))
       def load(state: RenderState): Unit =
         films.foreach(_.load(state))
         for path <- submitted.film do
-          save(path, header.of(shards, count, state).copy(done = least).joined, state)
+          save(path, header.joined, state)
       val rendering = submitted.prepared.gather(load)
-      val samples = least.toLong * shards.size / count
-      val done = rendering.copy(samplesDone = samples.toInt, samplesPerPixel = header.samples)
+      val done =
+        rendering.copy(samplesDone = header.averageDone, samplesPerPixel = header.samples)
       renderer.finish(submitted.writer, submitted.prepared, done)
         .worseOf(if done.isComplete then ExitCode.Done else ExitCode.Interrupted)
 

@@ -53,20 +53,14 @@ final class MergeCommand(
     register.read(SceneFiles.of(loaded.description))
     outputs.foreach(register.write)
     FilmInput.verify(first, now.copy(count = header.count))
-    val shards = films.flatMap(_.header.shards).toSet
-    val all = films.map(_.header.done).min
-    val done =
-      if shards.size == header.count then all else (all.toLong * shards.size / header.count).toInt
-    val film = header.copy(shards = shards, done = all)
-    write(film, films, outfiles, loaded, saved, done)
+    write(header.merging(films.map(_.header)), films, outfiles, loaded, saved)
 
   private def write(
       header: FilmHeader,
       films: Vector[FilmFile],
       outfiles: OutputFiles,
       loaded: Prepared,
-      saved: Options,
-      done: Int
+      saved: Options
   ): ExitCode =
     val merged = options.outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
     def load(state: RenderState): Unit =
@@ -76,6 +70,7 @@ final class MergeCommand(
           Prepared.write(header.joined, state, path)
         if !options.quiet then terminal.out.println(s"wrote $path")
     val rendering = loaded.gather(load)
+    val done = header.averageDone
     val planned = if options.film.partial then done else header.samples
     val command = RenderCommand(saved, terminal, report, loader)
     val writer = command.writer(header.scene, loaded, outfiles.paths)

@@ -15,3 +15,8 @@ class FilmHeaderSuite extends AnyFunSuite:
     assert(all.joined == all)
     val two = complete.copy(shards = Set(0, 1))
     assert(two.joined == two)
+
+  test("a merger is as far as the least of its shards, and has no samples of missing ones"):
+    val merged = shard.merging(Vector(shard.copy(done = 16), shard.copy(shards = Set(2))))
+    assert(merged.shards == Set(0, 2) && merged.count == 3 && merged.done == 4)
+    assert(merged.averageDone == 2)
