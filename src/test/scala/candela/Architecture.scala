@@ -68,7 +68,7 @@ object Architecture:
     measure ++ Set("bsdf", "bsdf.microfacet", "lights", "sampling", "scenefile")
   private val mitsuba = Set("base", "math", "color", "scenefile", "build.shapes")
   private val towers = (runtime ++ file).toSet
-  private val job = towers ++ bridge + "mitsuba"
+  private val job = towers ++ bridge ++ Set("mitsuba", "measure")
 
   /** Rooms of the program. */
   val program: Vector[String] =
@@ -87,7 +87,7 @@ object Architecture:
       "suite" -> (report ++ Set("report", "job")),
       "watch" -> (report ++ Set("film", "layers", "render", "report"))
     ) ++ below(program).map: (room, lower) =>
-      room -> (job ++ lower ++ Set("job", "measure", "convert", "report", "suite", "watch"))
+      room -> (job ++ lower ++ Set("job", "convert", "report", "suite", "watch"))
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */
   private val libraries = Map(

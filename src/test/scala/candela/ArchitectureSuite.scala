@@ -23,7 +23,11 @@ class ArchitectureSuite extends AnyFunSuite:
 
   test("the core is the two towers, the bridge and the job, and all of them"):
     val towers = Architecture.runtime ++ Architecture.file ++ Architecture.bridge
-    assert(core.flatMap(Architecture.home).toSet == towers.toSet + "mitsuba" + "job")
+    assert(core.flatMap(Architecture.home).toSet == towers.toSet ++ Set(
+      "measure",
+      "mitsuba",
+      "job"
+    ))
 
   test("every use points to a lower floor"):
     holds(Architecture.floors(main))

@@ -5,8 +5,8 @@ import java.nio.file.{Files, Path}
 import candela.base.Problem
 import candela.build.{Category, RenderSettings, SceneBuilder}
 import candela.build.recipe.Recipe
-import candela.cli.files.Denoising
 import candela.image.{Image, ImageFiles, Oidn}
+import candela.job.Denoising
 import candela.layers.Layer
 import candela.render.{ReferenceScenes, Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser}

@@ -2,12 +2,12 @@ package candela.cli.commands
 
 import candela.base.{Problem, SceneError}
 import candela.build.RenderRegion
-import candela.cli.files.{Denoising, FileRegister, FilmKeeping, Frame, Sequence}
+import candela.cli.files.{FileRegister, FilmKeeping, Frame, Sequence}
 import candela.cli.options.Options
 import candela.cli.rendering.{ImageWriter, RenderOutputs, SceneRun, Summary}
 import candela.cli.terminal.{ExitCode, Printer, Report, Terminal, Thumbnail}
 import candela.image.Oidn
-import candela.job.{Prepared, SceneLoader}
+import candela.job.{Denoising, Prepared, SceneLoader}
 import candela.render.{Cancellation, RenderPlan, Rendering}
 import candela.render.storage.FilmFile
 import candela.scene.PathReport

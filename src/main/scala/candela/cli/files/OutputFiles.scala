@@ -3,7 +3,7 @@ package candela.cli.files
 import candela.base.{FileName, Problem, SceneError, Severity}
 import candela.build.film.FilmRecipe
 import candela.cli.options.FilmOptions
-import candela.image.{Contents, Image, ImageEdits, OutputFormat}
+import candela.image.{Contents, OutputFormat}
 import candela.job.{ImageName, Prepared}
 import candela.layers.Layer
 import candela.render.RenderPlan
@@ -62,18 +62,6 @@ object OutputFiles:
   def needLayers(plan: RenderPlan, denoises: Boolean): Boolean =
     val guides = Layer.Alpha +: (if denoises then Layer.denoising else Vector.empty)
     plan.layers.exists(_.layers.diff(guides).nonEmpty) || plan.development.bands.nonEmpty
-
-  /** The opacity of each pixel, if it is a layer. */
-  def alpha(plan: RenderPlan, image: Image): Option[Array[Float]] =
-    val at = image.channelNames.indexOf("A")
-    Option.when(at >= 0 && plan.layers.exists(_.layers.contains(Layer.Alpha))):
-      Array.tabulate(image.width * image.height)(i => image.data(i * image.channels + at))
-
-  /** What a display format shows, its colours divided by alpha if it keeps that. */
-  def picture(path: Path, image: Image, alpha: Option[Array[Float]]): Option[Image] =
-    for format <- OutputFormat.of(path) if format.contents == Contents.Display yield
-      val opaque = Denoising.shown(image)
-      alpha.filter(_ => format.keepsAlpha).fold(opaque)(ImageEdits.divided(opaque, _))
 
   /** Exactly the requested images. */
   def asked(names: Vector[String]): OutputFiles =

@@ -1,31 +1,25 @@
 package candela.cli.rendering
 
-import candela.base.{GivenUp, Problem, SceneError}
+import candela.base.{Problem, SceneError}
 import candela.cli.files.OutputFiles
 import candela.cli.terminal.Figures
-import candela.film.{Development, Film}
+import candela.film.Development
 import candela.image.{Image, ImageFiles}
-import candela.measure.{CurvePoint, ErrorEstimate, Errors, PixelWindow}
-import candela.render.{Looks, Pass, RenderListener, RenderPlan}
+import candela.job.ErrorRecorder
+import candela.measure.PixelWindow
+import candela.render.{Pass, RenderPlan}
 import candela.report.{PassSpan, Picture}
 
-/** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
+/** Measures errors, and keeps what reports show: passes and pictures.
   *
   * @param reference same size as the image; None: errors are estimated from the noise
   */
 final class RenderRecorder(development: Development, reference: Option[Image])
-    extends RenderListener:
-  private val foundPoints = Vector.newBuilder[CurvePoint]
+    extends ErrorRecorder(development, reference):
   private val foundPasses = Vector.newBuilder[PassSpan]
   private var first, last: Option[(Image, Int)] = None
-  private val estimate = ErrorEstimate()
-  private var spent = 0.0
 
-  def points: Vector[CurvePoint] = foundPoints.result()
   def passes: Vector[PassSpan] = foundPasses.result()
-
-  /** Time spent on measuring, in seconds. */
-  def seconds: Double = spent
 
   /** The final image, the first pass, and the reference. */
   def pictures: Vector[Picture] =
@@ -34,43 +28,7 @@ final class RenderRecorder(development: Development, reference: Option[Image])
     last.map(named).toVector ++ begin.map(named) ++
       reference.map(Picture("reference", _, isReference = true))
 
-  /** The estimate compares parts of the samples. */
-  override def looks: Looks = if reference.isEmpty then Looks.Waves else Looks.Doublings
-
-  override def begins(samples: Int, film: Film): Unit =
-    if reference.isEmpty && samples > 0 then
-      val weights = new Array[Float](film.width * film.height)
-      val _ = estimate.add(samples, development(film, Some(weights)), weights, isLast = false)
-
-  /** The relative error after so many samples per pixel, as far as known: the root of the relative
-    * MSE.
-    */
-  override def errorAt(samples: Double): Option[Double] =
-    val errors =
-      if reference.isEmpty then estimate.at(samples) else points.lastOption.map(_.errors)
-    errors.map(e => Math.sqrt(e.relativeMse))
-
-  /** Samples per pixel at which the relative error falls to this, by its trend. */
-  def samplesUntil(error: Double): Option[Double] =
-    val relativeMse = error * error
-    if reference.isEmpty then estimate.samplesUntil(relativeMse)
-    else points.lastOption.map(p => p.samples * p.errors.relativeMse / relativeMse)
-
-  override def passed(pass: Pass, film: Film): Unit =
-    val started = System.nanoTime
-    try measure(pass, film)
-    catch case _: GivenUp => () // the rendering ends without
-    spent += (System.nanoTime - started) * 1e-9
-
-  private def measure(pass: Pass, film: Film): Unit =
-    val weights = new Array[Float](film.width * film.height)
-    val image = development(film, Some(weights), pass.isStopped)
-    val errors = reference match
-      case Some(r) => Option.when(pass.isMain)(Errors.against(r)(image))
-      case None =>
-        val anew = estimate.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
-        anew.orElse(Option.when(pass.isLast)(estimate.at(pass.samples)).flatten)
-    errors.foreach(e => foundPoints += CurvePoint(pass.samples, pass.end, e))
+  override protected def measured(pass: Pass, image: Image): Unit =
     foundPasses += PassSpan(pass.samples, pass.begin, pass.end, pass.workers)
     if first.isEmpty then first = Some((image, pass.samples))
     last = Some((image, pass.samples))

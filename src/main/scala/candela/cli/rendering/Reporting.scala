@@ -5,10 +5,10 @@ import java.nio.file.Path
 
 import candela.base.{FileName, Problem, SceneError, Version, WholeFile}
 import candela.build.RenderRegion
-import candela.cli.files.{Denoised, Denoising, FileRegister, OutputFiles}
+import candela.cli.files.{Denoised, FileRegister, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.Figures
-import candela.job.{Prepared, TextForm}
+import candela.job.{Denoising, ImageFile, Prepared, TextForm}
 import candela.render.Rendering
 import candela.report.{Machine, Picture, RenderData, RenderPage, RenderReport, Span}
 
@@ -84,7 +84,7 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
       "image" -> s"${rendering.film.width}×${rendering.film.height}",
       "rays" -> Figures.metric(rendering.rays.toDouble)
     ) ++
-      Bias.fireflies(loaded.plan, rendering).map("fireflies" -> _) ++
+      ImageFile.fireflies(loaded.plan, rendering).map("fireflies" -> _) ++
       rendering.film.levels.map: l =>
         "memory of brightness levels" -> s"${Figures.metric(l.memory.toDouble)}B"
       ++

@@ -1,10 +1,10 @@
 package candela.cli.rendering
 
-import candela.cli.files.{Denoised, Denoising, FilmKeeping}
+import candela.cli.files.{Denoised, FilmKeeping}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
-import candela.job.{Prepared, RenderControl}
+import candela.job.{Denoising, ErrorRecorder, Goal, Prepared, RenderControl}
 import candela.render.{Cancellation, Rendering, RenderListener}
 import candela.render.storage.Checkpoints
 
@@ -30,7 +30,7 @@ private[cli] final class SceneRun(
   private val reporting =
     Option.when(options.reports.nonEmpty)(Reporting(options, writer.name, prepared))
   private val goal = Option.when(settings.goal.isGiven):
-    def recorder = RenderRecorder.of(plan, None)
+    def recorder = ErrorRecorder(plan.development, None)
     Goal(settings.goal, plan.samplesPerPixel, reporting.fold(recorder)(_.recorder))
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
@@ -107,7 +107,7 @@ private[cli] final class SceneRun(
     val files = written ++ films
     Summary.print(options, terminal, files, prepared, rendering, writeSeconds, isLate)
     // A preview has neither goals nor options of its own to reach them
-    if !isPreview then goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
+    if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
     val threads = options.threadCount
     val pages = reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
     for path <- pages if told do terminal.out.println(s"wrote $path")

@@ -2,10 +2,10 @@ package candela.cli.commands
 
 import candela.base.{Problem, SceneError, SourcePos, Version}
 import candela.cli.{Captured, Main}
-import candela.cli.files.Denoising
 import candela.cli.terminal.Interrupts
 import candela.color.Rgb
 import candela.image.ImageFiles
+import candela.job.Denoising
 import candela.job.{Preparation, Prepared, SceneLoader}
 import candela.layers.Layer
 import candela.render.{Cancellation, RenderPlan, TinyPlan}

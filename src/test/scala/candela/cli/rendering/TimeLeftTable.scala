@@ -1,7 +1,7 @@
 package candela.cli.rendering
 
 import candela.cli.options.CommandLine
-import candela.job.SceneLoader
+import candela.job.{ErrorRecorder, Goal, SceneLoader}
 import candela.render.{Progress, RenderListener, Renderer}
 
 /** Renders scenes, and tells how far off the time left was at a part of the time.
@@ -33,7 +33,7 @@ object TimeLeftTable:
     val plan = SceneLoader.FromFile.load(options.files.head, options.preparation).plan
     val looks = Vector.newBuilder[Progress]
     val goal = Option.when(options.settings.goal.isGiven):
-      Goal(options.settings.goal, plan.samplesPerPixel, RenderRecorder.of(plan, None))
+      Goal(options.settings.goal, plan.samplesPerPixel, ErrorRecorder(plan.development, None))
     val _ = Renderer.render(
       plan,
       options.threadCount,

@@ -1,7 +1,6 @@
-package candela.cli.rendering
+package candela.job
 
 import candela.build.RenderGoal
-import candela.cli.terminal.Figures
 import candela.film.Film
 import candela.render.{ExpectedEnd, Looks, Pass, RenderListener, Rendering}
 
@@ -11,7 +10,7 @@ import candela.render.{ExpectedEnd, Looks, Pass, RenderListener, Rendering}
   * @param planned  samples per pixel at which it ends in any case
   * @param recorder measures the error
   */
-final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder)
+final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     extends RenderListener:
   private var isReached = false
   private var seen, step, parts = 0
@@ -69,19 +68,10 @@ final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder)
 
   override def errorAt(samples: Double): Option[Double] = recorder.errorAt(samples)
 
-  /** What is missing, if the rendering ended before its goal because all samples were taken. */
-  def missed(rendering: Rendering): Option[String] =
+  /** Whether the rendering ended before its goal, because all samples were taken. */
+  def isMissed(rendering: Rendering): Boolean =
     val isEarly = options.time.forall(rendering.seconds < Goal.Nearly * _)
-    Option.when(!isReached && isEarly && rendering.samplesDone >= planned):
-      val time = options.time.map: asked =>
-        s"the rendering ended after ${Figures.duration(rendering.seconds)}, " +
-          s"not ${Figures.duration(asked)}"
-      val error = options.error.map: asked =>
-        val found = recorder.errorAt(rendering.samplesDone)
-        val known = found.fold("not known")(e => s"${Figures.percentage(e)}")
-        s"the error is $known, not ${Figures.percentage(asked)}"
-      s"warning: ${(error ++ time).mkString(", and ")}: all ${Figures.count(planned, "sample")} " +
-        "per pixel are taken; a larger --spp, or none, allows more"
+    !isReached && isEarly && rendering.samplesDone >= planned
 
 object Goal:
   /** Of a time; what ends later was asked for. */

@@ -1,15 +1,13 @@
-package candela.cli.files
+package candela.job
 
-import candela.cli.terminal.Figures
 import candela.image.{Image, Oidn}
 import candela.layers.Layer
-import candela.measure.Metrics
 
-/** `candela render --denoise`: a denoised image beside the noisy one.
+/** Adds a denoised image beside the noisy one.
   *
   * @param denoiser the library
   */
-private[candela] final class Denoising(denoiser: Oidn, threads: Int):
+final class Denoising(denoiser: Oidn, threads: Int):
   import Denoising.*
 
   /** The image with a layer of denoised colours behind the others. */
@@ -36,24 +34,7 @@ private[candela] final class Denoising(denoiser: Oidn, threads: Int):
   def describe: String =
     s"Open Image Denoise ${denoiser.version}, prefiltered albedo and normals"
 
-/** A denoised image, and the time that denoising took.
-  *
-  * @param image with the noisy colours
-  */
-private[cli] final case class Denoised(image: Image, renderSeconds: Double, seconds: Double):
-
-  /** Relative MSE of the noisy and of the denoised image; between them that of the noisy image if
-    * the time had been spent on samples, whose error falls as 1/time.
-    */
-  def errors(reference: Image): String =
-    def error(of: Image) = Metrics.compare(of, reference).relativeMse
-    val noisy = error(image.toRgb)
-    val atEqualTime = noisy * renderSeconds / (renderSeconds + seconds)
-    val figures = Vector(noisy, atEqualTime, error(Denoising.shown(image).toRgb))
-    val names = Vector("noisy", "noisy in the same time", "denoised")
-    figures.map(Figures.scientific).zip(names).map((e, name) => s"$e $name").mkString(", ")
-
-private[candela] object Denoising:
+object Denoising:
   /** Its result. */
   val Channels: Vector[String] = Vector("Denoised.R", "Denoised.G", "Denoised.B")
 

@@ -1,4 +1,4 @@
-package candela.cli.rendering
+package candela.job
 
 import candela.build.RenderGoal
 import candela.color.Rgb
@@ -13,7 +13,7 @@ class GoalSuite extends AnyFunSuite:
     Rgb.gray(0.5f + sampler.next1D())
 
   private def goal(options: RenderGoal) =
-    Goal(options, 1000, RenderRecorder(Development(), None))
+    Goal(options, 1000, ErrorRecorder(Development(), None))
 
   private def rendered(goal: Goal): Rendering = Renderer.render(plan, 2, listener = goal)
 
@@ -99,21 +99,6 @@ class GoalSuite extends AnyFunSuite:
     both.begins(0, film)
     both.passed(Pass(8, 0, 1, Vector.empty, isWhole = false, clock = 1), film)
     assert(!both.isEnough)
-
-  test("what ends before its goal because all samples are taken says so, and what to do"):
-    def missed(options: RenderGoal) =
-      val ended = goal(options)
-      ended.missed(rendered(ended))
-    val why = "all 1000 samples per pixel are taken; a larger --spp, or none, allows more"
-    // The root of 0.0833 / 1000
-    val noisy = missed(RenderGoal(error = Some(1e-4))).get
-    assert(noisy.matches(raw"warning: the error is 0\.9\d* %, not 0\.01 %: " + why))
-    val early = missed(RenderGoal(time = Some(3600))).get
-    assert(early.matches(raw"warning: the rendering ended after [\d.]+ m?s, not .*: " + why))
-    val both = missed(RenderGoal(error = Some(1e-4), time = Some(3600))).get
-    assert(both.contains("not 0.01 %, and the rendering ended after "))
-    assert(missed(RenderGoal(error = Some(0.5))).isEmpty)
-    assert(missed(RenderGoal(time = Some(1e-6))).isEmpty)
 
   test("a time ends a rendering with whole passes"):
     val rendering = rendered(goal(RenderGoal(time = Some(1e-6))))

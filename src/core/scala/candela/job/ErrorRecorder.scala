@@ -1,0 +1,66 @@
+package candela.job
+
+import candela.base.GivenUp
+import candela.film.{Development, Film}
+import candela.image.Image
+import candela.measure.{CurvePoint, ErrorEstimate, Errors}
+import candela.render.{Looks, Pass, RenderListener}
+
+/** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
+  *
+  * @param reference same size as the image; None: errors are estimated from the noise
+  */
+class ErrorRecorder(development: Development, reference: Option[Image]) extends RenderListener:
+  private val foundPoints = Vector.newBuilder[CurvePoint]
+  private val estimate = ErrorEstimate()
+  private var spent = 0.0
+
+  def points: Vector[CurvePoint] = foundPoints.result()
+
+  /** Time spent on measuring, in seconds. */
+  def seconds: Double = spent
+
+  /** The estimated error of each value of the image: squared, in the order of its data. */
+  def squares: Option[Array[Float]] = estimate.squares
+
+  /** The estimate compares parts of the samples. */
+  override def looks: Looks = if reference.isEmpty then Looks.Waves else Looks.Doublings
+
+  override def begins(samples: Int, film: Film): Unit =
+    if reference.isEmpty && samples > 0 then
+      val weights = new Array[Float](film.width * film.height)
+      val _ = estimate.add(samples, development(film, Some(weights)), weights, isLast = false)
+
+  /** The relative error after so many samples per pixel, as far as known: the root of the relative
+    * MSE.
+    */
+  override def errorAt(samples: Double): Option[Double] =
+    val errors =
+      if reference.isEmpty then estimate.at(samples) else points.lastOption.map(_.errors)
+    errors.map(e => Math.sqrt(e.relativeMse))
+
+  /** Samples per pixel at which the relative error falls to this, by its trend. */
+  def samplesUntil(error: Double): Option[Double] =
+    val relativeMse = error * error
+    if reference.isEmpty then estimate.samplesUntil(relativeMse)
+    else points.lastOption.map(p => p.samples * p.errors.relativeMse / relativeMse)
+
+  override def passed(pass: Pass, film: Film): Unit =
+    val started = System.nanoTime
+    try measured(pass, measure(pass, film))
+    catch case _: GivenUp => () // the rendering ends without
+    spent += (System.nanoTime - started) * 1e-9
+
+  /** Called with the image of each pass that was measured. */
+  protected def measured(pass: Pass, image: Image): Unit = ()
+
+  private def measure(pass: Pass, film: Film): Image =
+    val weights = new Array[Float](film.width * film.height)
+    val image = development(film, Some(weights), pass.isStopped)
+    val errors = reference match
+      case Some(r) => Option.when(pass.isMain)(Errors.against(r)(image))
+      case None =>
+        val anew = estimate.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
+        anew.orElse(Option.when(pass.isLast)(estimate.at(pass.samples)).flatten)
+    errors.foreach(e => foundPoints += CurvePoint(pass.samples, pass.end, e))
+    image

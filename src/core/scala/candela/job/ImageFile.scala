@@ -1,0 +1,123 @@
+package candela.job
+
+import candela.base.Version
+import candela.build.RenderSettings
+import candela.film.{Fireflies, PixelBounds, SpectralBands}
+import candela.image.{
+  Contents, Image, ImageEdits, ImageFiles, ImageWindow, OutputFormat, WriteOptions
+}
+import candela.layers.Layer
+import candela.render.{Rendering, RenderPlan}
+
+import java.nio.file.Path
+import java.util.Locale
+
+/** Image files of a rendering, with what they say of it.
+  *
+  * @param name of the scene, as users named it
+  */
+final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared):
+  private val plan = prepared.plan
+  private val output = settings.output
+
+  /** Writes an image in the format of its file.
+    *
+    * @param more     to say of it
+    * @param denoiser that made the denoised colours, if there are any
+    */
+  def write(
+      path: Path,
+      image: Image,
+      rendering: Rendering,
+      more: Vector[(String, String)] = Vector.empty,
+      denoiser: Option[String] = None
+  ): Unit =
+    val alpha = ImageFile.alpha(plan, image)
+    val about = facts ++ more ++ taken(rendering) ++ ImageFile.bias(plan, rendering, denoiser)
+    val how = WriteOptions(
+      plan.development.isHalf,
+      precisions,
+      output.display,
+      window,
+      alpha
+    )
+    val (written, last) = ImageFile.picture(path, image, alpha) match
+      case Some(picture) => (picture, output.display.describe(picture))
+      case None => (image, plan.layers.fold(Vector.empty)(_.metadata(image)))
+    ImageFiles.write(path, written, about ++ last, how)
+
+  /** What does not depend on the samples. */
+  private def facts: Vector[(String, String)] =
+    val PixelBounds(x0, y0, x1, y1) = plan.crop
+    val crop = Option.when(isCropped):
+      "crop" -> s"x $x0 to $x1, y $y0 to $y1 of ${plan.width}x${plan.height}"
+    Vector(
+      "software" -> s"Candela ${Version.current}",
+      "scene" -> name,
+      "dialect" -> prepared.description.dialect.toString.toLowerCase,
+      "seed" -> settings.seed.toString
+    ) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
+      plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata)
+
+  /** Which samples the image has. */
+  private def taken(rendering: Rendering): Vector[(String, String)] =
+    val time = Option.when(output.storeTime):
+      "renderSeconds" -> ImageFile.hundredths(rendering.seconds)
+    // Those of earlier runs took no part of the time
+    val earlier = Option.when(output.storeTime && rendering.earlier > 0):
+      "samplesPerPixelOfEarlierRuns" -> rendering.earlier.toString
+    Vector("samplesPerPixel" -> rendering.samplesDone.toString) ++ time ++ earlier
+
+  /** Channels whose layers have another precision than the image: whether it is half. */
+  private def precisions: Map[String, Boolean] =
+    val all =
+      for
+        layers <- plan.layers.toVector
+        own = layers.layers.filter(_.needsFloat).map(_ -> false)
+        (layer, isHalf) <- own ++ output.precisions
+        channel <- layers.channels(layer)
+      yield channel -> isHalf
+    all.toMap
+
+  private def isCropped: Boolean = plan.crop != PixelBounds(0, 0, plan.width, plan.height)
+
+  private def window: Option[ImageWindow] = Option.when(isCropped):
+    ImageWindow(plan.crop.x0, plan.crop.y0, plan.width, plan.height)
+
+object ImageFile:
+
+  /** The opacity of each pixel, if it is a layer. */
+  private def alpha(plan: RenderPlan, image: Image): Option[Array[Float]] =
+    val at = image.channelNames.indexOf("A")
+    Option.when(at >= 0 && plan.layers.exists(_.layers.contains(Layer.Alpha))):
+      Array.tabulate(image.width * image.height)(i => image.data(i * image.channels + at))
+
+  /** What a display format shows, its colours divided by alpha if it keeps that. */
+  private def picture(path: Path, image: Image, alpha: Option[Array[Float]]): Option[Image] =
+    for format <- OutputFormat.of(path) if format.contents == Contents.Display yield
+      val opaque = Denoising.shown(image)
+      alpha.filter(_ => format.keepsAlpha).fold(opaque)(ImageEdits.divided(opaque, _))
+
+  /** What makes the image biased: what was done, and the channels that it biased. */
+  private def bias(
+      plan: RenderPlan,
+      rendering: Rendering,
+      denoiser: Option[String]
+  ): Vector[(String, String)] =
+    val changed = fireflies(plan, rendering)
+    val channels =
+      changed.toVector.flatMap(_ => Image.RgbNames) ++
+        denoiser.toVector.flatMap(_ => Denoising.Channels)
+    changed.map("fireflies" -> _).toVector ++
+      denoiser.map("denoiser" -> _) ++
+      Option.when(channels.nonEmpty)("biased" -> channels.mkString(", "))
+
+  /** What was done about fireflies, if anything. */
+  def fireflies(plan: RenderPlan, rendering: Rendering): Option[String] = plan.fireflies match
+    case Fireflies.Kept => None
+    case Fireflies.Reweighted =>
+      val lost = hundredths(100 * rendering.film.leftOut)
+      Some(s"re-weighted (Zirr, Hanika, Dachsbacher 2018), $lost % of the light left out")
+    case Fireflies.Clamped(most) => Some(s"indirect light of samples limited to $most")
+
+  private def hundredths(value: Double): String = "%.2f".formatLocal(Locale.ROOT, value)

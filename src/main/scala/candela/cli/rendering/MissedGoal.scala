@@ -1,0 +1,22 @@
+package candela.cli.rendering
+
+import candela.cli.terminal.Figures
+import candela.job.Goal
+import candela.render.Rendering
+
+/** What is said of a rendering that ended before its goal. */
+private[cli] object MissedGoal:
+
+  /** A warning, if all samples were taken before the goal was reached. */
+  def warning(goal: Goal, rendering: Rendering): Option[String] =
+    Option.when(goal.isMissed(rendering)):
+      val time = goal.options.time.map: asked =>
+        s"the rendering ended after ${Figures.duration(rendering.seconds)}, " +
+          s"not ${Figures.duration(asked)}"
+      val error = goal.options.error.map: asked =>
+        val found = goal.errorAt(rendering.samplesDone)
+        val known = found.fold("not known")(e => s"${Figures.percentage(e)}")
+        s"the error is $known, not ${Figures.percentage(asked)}"
+      val planned = Figures.count(rendering.samplesPerPixel, "sample")
+      s"warning: ${(error ++ time).mkString(", and ")}: all $planned " +
+        "per pixel are taken; a larger --spp, or none, allows more"

@@ -1,0 +1,29 @@
+package candela.cli.rendering
+
+import candela.build.RenderGoal
+import candela.color.Rgb
+import candela.film.Development
+import candela.job.{ErrorRecorder, Goal}
+import candela.render.{Renderer, TinyPlan}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class MissedGoalSuite extends AnyFunSuite:
+  /** Uniform numbers around 1: their relative error is the root of 1/12 over the samples. */
+  private val plan = TinyPlan(width = 40, height = 30, spp = 1000): (_, sampler) =>
+    Rgb.gray(0.5f + sampler.next1D())
+
+  test("what ends before its goal because all samples are taken says so, and what to do"):
+    def missed(options: RenderGoal) =
+      val ended = Goal(options, 1000, ErrorRecorder(Development(), None))
+      MissedGoal.warning(ended, Renderer.render(plan, 2, listener = ended))
+    val why = "all 1000 samples per pixel are taken; a larger --spp, or none, allows more"
+    // The root of 0.0833 / 1000
+    val noisy = missed(RenderGoal(error = Some(1e-4))).get
+    assert(noisy.matches(raw"warning: the error is 0\.9\d* %, not 0\.01 %: " + why))
+    val early = missed(RenderGoal(time = Some(3600))).get
+    assert(early.matches(raw"warning: the rendering ended after [\d.]+ m?s, not .*: " + why))
+    val both = missed(RenderGoal(error = Some(1e-4), time = Some(3600))).get
+    assert(both.contains("not 0.01 %, and the rendering ended after "))
+    assert(missed(RenderGoal(error = Some(0.5))).isEmpty)
+    assert(missed(RenderGoal(time = Some(1e-6))).isEmpty)
