@@ -2,7 +2,8 @@ package candela.cli
 
 import candela.base.{Problem, Severity}
 import candela.cli.commands.{
-  AverageCommand, BenchCommand, CheckCommand, ClusterCommand, CompareCommand, ConvertCommand,
+  AverageCommand, BenchCommand, CheckCommand, ClusterCommand, CompareCommand, CompletionCommand,
+  ConvertCommand,
   DescribeCommand, ImageCommand, InfoCommand, MergeCommand, PreviewCommand, RenderCommand,
   ResumeCommand, ViewCommand
 }
@@ -80,6 +81,7 @@ object Main:
       case Command.Average => AverageCommand(options, terminal, report).run()
       case Command.Info => InfoCommand(options, terminal, report).run()
       case Command.Convert => ConvertCommand(options, terminal, report).run()
+      case Command.Completion => CompletionCommand(options, terminal, report).run()
 
   /** Nobody wants to hear of output that its reader did not want, such as `head`. */
   private def lost(failure: IOException, terminal: Terminal): ExitCode =

@@ -6,7 +6,7 @@ import candela.base.{Problem, SceneError, Suggest, WholeFile}
 import candela.build.{Category, Language}
 import candela.build.recipe.{Dialects, Field, Recipe, Support}
 import candela.cli.files.{FileRegister, Output, OutputFiles}
-import candela.cli.options.{Options, PbrtOptions}
+import candela.cli.options.{CommandsPage, ManPage, Options, Page, PbrtOptions}
 import candela.cli.terminal.{ExitCode, Report, Terminal, TextTable}
 import candela.scenefile.Dialect
 
@@ -20,9 +20,12 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
     val outputs = options.outfiles.map(OutputFiles.path)
     FileRegister().write(Output(outputs, "reference", "Candela"))
     val lines =
-      if options.pbrtOptions then PbrtOptions.page.linesIterator.toVector
-      else if options.markdown then ReferenceMarkdown(described).page
-      else answer(options.files)
+      options.pages.lastOption match
+        case Some(Page.PbrtOptions) => PbrtOptions.page.linesIterator.toVector
+        case Some(Page.Reference) => ReferenceMarkdown(described).page
+        case Some(Page.Commands) => CommandsPage.lines
+        case Some(Page.Manual) => ManPage.lines
+        case None => answer(options.files)
     outputs match
       case Vector() =>
         lines.foreach(terminal.out.println)

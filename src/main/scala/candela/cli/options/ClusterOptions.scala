@@ -16,7 +16,10 @@ private[cli] object ClusterTable:
 
   val options: Vector[OParser[?, Options]] = Vector(
     opt[String]("spark").valueName("MASTER")
-      .text("render on Apache Spark, e.g. spark://host:7077; needs Spark and candela-spark.jar")
+      .text(OptionText(
+        "render on Apache Spark, e.g. spark://host:7077; needs Spark and candela-spark.jar",
+        "[Clusters](CLUSTERS.md)."
+      ))
       .action((m, o) => o.copy(cluster = o.cluster.copy(master = Some(m)))),
     opt[Int]("shards").valueName("N")
       .text("number of parts for --spark (default: four per processor of the cluster)")

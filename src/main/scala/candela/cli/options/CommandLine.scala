@@ -145,6 +145,14 @@ enum Command(val word: String):
   case Image extends Command("image")
   case Average extends Command("average")
   case Info extends Command("info")
+  case Completion extends Command("completion")
+
+/** Whole pages that `describe` prints, by the options that ask for them. */
+enum Page(val option: String):
+  case Reference extends Page("markdown")
+  case PbrtOptions extends Page("pbrt-options")
+  case Commands extends Page("commands")
+  case Manual extends Page("man")
 
 /** A parsed command line; None if an option was not given.
   *
@@ -159,8 +167,7 @@ enum Command(val word: String):
   * @param pixelMaterial pixel whose material is printed, instead of rendering
   * @param partialImages whether to write the image of each pass
   * @param notes on words of the command line that have no effect
-  * @param markdown whether `describe` prints the whole reference
-  * @param pbrtOptions whether `describe` prints the options of pbrt's command lines
+  * @param pages what `describe` prints instead of an entry
   * @param to target dialect of `convert`
   * @param toPly minimum number of triangles for writing a mesh as a PLY file
   * @param bake  width and height of images that replace textures, in pixels
@@ -207,8 +214,7 @@ final case class Options(
     compare: CompareOptions = CompareOptions(),
     bench: BenchOptions = BenchOptions(),
     image: ImageOptions = ImageOptions(),
-    markdown: Boolean = false,
-    pbrtOptions: Boolean = false,
+    pages: Vector[Page] = Vector.empty,
     to: Option[Dialect] = None,
     toPly: Option[Int] = None,
     bake: Option[Int] = None,

@@ -5,11 +5,15 @@ import scopt.{OParser, OptionDef}
 /** What a command is for, and its arguments.
   *
   * @param arguments what follows its name, except options
+  * @param takes     what the arguments are, for shells
+  * @param more      what pages add to the meaning, in Markdown whose links start at `docs`
   */
 private[cli] final case class CommandRow(
     command: Command,
     meaning: String,
-    arguments: Vector[OParser[?, Options]]
+    arguments: Vector[OParser[?, Options]],
+    takes: Words,
+    more: String = ""
 ):
   /** As in `candela view [options] image...`. */
   def usage: String =
@@ -39,42 +43,72 @@ private[cli] object CommandTable extends OptionRows:
     files("scene.pbrt...", "scene files; each is rendered or checked by itself")
 
   val rows: Vector[CommandRow] = Vector(
-    CommandRow(Command.Render, "render scenes (the default command)", Vector(scenes)),
+    CommandRow(
+      Command.Render,
+      "render scenes (the default command)",
+      Vector(scenes),
+      Words.scenes,
+      "It writes one image per scene, or as many as `--frames` asks for: see [output " +
+        "files](#output-files)."
+    ),
     CommandRow(
       Command.Preview,
       "show scenes within seconds: small, shaded by a headlight",
-      Vector(files("scene.pbrt...", "scene files"))
+      Vector(files("scene.pbrt...", "scene files")),
+      Words.scenes,
+      "For a first look: it shows any scene within about two seconds of reading it, with few " +
+        "pixels and headlight shading, which has no noise. Missing files become placeholders. " +
+        "For a draft with the scene's own light use `render --quick`, or few samples with " +
+        "`--denoise`."
     ),
-    CommandRow(Command.Check, "parse and build scenes, and report errors", Vector(scenes)),
+    CommandRow(
+      Command.Check,
+      "parse and build scenes, and report errors",
+      Vector(scenes),
+      Words.scenes,
+      "It lists unsupported features without rendering. With several scenes the last line has " +
+        "the number of accepted ones."
+    ),
     CommandRow(
       Command.Convert,
       "convert a scene to another dialect",
-      Vector(file("scene.pbrt", "the scene to convert"))
+      Vector(file("scene.pbrt", "the scene to convert")),
+      Words.scenes,
+      "[Converting scenes](CONVERTING.md) has the mapping of every type and " + "parameter."
     ),
     CommandRow(
       Command.Describe,
       "print the scene reference: types, parameters, defaults",
-      Vector(file("[category] [type]", "what to describe").optional().unbounded())
+      Vector(file("[category] [type]", "what to describe").optional().unbounded()),
+      Words.Categories,
+      "[The reference](REFERENCE.md) has all entries on one page."
     ),
     CommandRow(
       Command.Resume,
       "continue a saved rendering, or add samples",
-      Vector(file("film.film", "the film file, as --checkpoint or --outfile FILE.film wrote it"))
+      Vector(file("film.film", "the film file, as --checkpoint or --outfile FILE.film wrote it")),
+      Words.films,
+      "[Film files](FILMS.md)."
     ),
     CommandRow(
       Command.Merge,
       "make an image of shards, or of a saved rendering",
-      Vector(files("film.film...", "film files of all shards of a rendering"))
+      Vector(files("film.film...", "film files of all shards of a rendering")),
+      Words.films,
+      "[Several machines](FILMS.md#several-machines)."
     ),
     CommandRow(
       Command.View,
       "show images, or write them as a picture; several: a contact sheet",
-      Vector(files("image...", "images in any readable format"))
+      Vector(files("image...", "images in any readable format")),
+      Words.images,
+      "[Pictures](PICTURES.md)."
     ),
     CommandRow(
       Command.Info,
       "print size, channels, metadata and statistics of images",
-      Vector(files("image...", "images in any readable format; film files, too"))
+      Vector(files("image...", "images in any readable format; film files, too")),
+      Words.images
     ),
     CommandRow(
       Command.Compare,
@@ -82,22 +116,35 @@ private[cli] object CommandTable extends OptionRows:
       Vector(
         file("image", "an image, or a folder of images"),
         file("reference", "its reference, or a folder of references by the same names")
-      )
+      ),
+      Words.images,
+      "[Definitions of the metrics](METRICS.md)."
     ),
     CommandRow(
       Command.Image,
       "convert an image: format, size, range, primaries, environment map",
-      Vector(file("image", "an image in any readable format"))
+      Vector(file("image", "an image in any readable format")),
+      Words.images
     ),
     CommandRow(
       Command.Average,
       "average images of one size, such as renderings with several seeds",
-      Vector(files("image...", "images with the same channels"))
+      Vector(files("image...", "images with the same channels")),
+      Words.images
     ),
     CommandRow(
       Command.Bench,
       "measure error against time, for several renderers",
-      Vector(file("suite.conf", "the suite, or a folder of scenes with references"))
+      Vector(file("suite.conf", "the suite, or a folder of scenes with references")),
+      Words.suites,
+      "[Error against time](BENCH.md)."
+    ),
+    CommandRow(
+      Command.Completion,
+      "print the completion of command lines for a shell",
+      Vector(file(Words.shells.mkString("|"), "the shell")),
+      Words.Of(Words.shells),
+      Completion.Install
     )
   )
 

@@ -92,8 +92,12 @@ private[cli] object CompareTable extends OptionRows:
           s"${OutputFormat.listed(Contents.Radiance, Contents.Channels)} as numbers"
       )
       .action((f, o) => change(o)(_.copy(heatMap = Some(f)))),
-    opt[Metric]("heatmap-metric").valueName("METRIC")
-      .text("metric of the heat map: mse, rmse, mae, relmse or flip (default flip)")
+    opt[Metric]("heatmap-metric")
+      .valueName(Metric.values.filter(_.hasMap).map(_.word).mkString("|"))
+      .text(OptionText(
+        "metric of the heat map (default flip)",
+        "[Definitions of the metrics](METRICS.md)."
+      ))
       .action((m, o) => change(o)(_.copy(heatMapMetric = m))),
     opt[Double]("heatmap-max").valueName("X")
       .text("top of its scale (default: 1 for flip, else the 99th percentile)")

@@ -29,12 +29,13 @@ private[cli] object DisplayTable extends OptionRows:
 
   /** All but those of the terminal. */
   def shown: Vector[Row] = Vector(
-    opt[ToneCurve]("tonemap").valueName("CURVE")
-      .text(
+    opt[ToneCurve]("tonemap").valueName(ToneCurve.values.map(_.word).mkString("|"))
+      .text(OptionText(
         s"tone curve of $pictures: " +
           ToneCurve.values.map(c => s"${c.word} (${c.meaning})").mkString(", ") +
-          "; default linear"
-      )
+          "; default linear",
+        "[The curves and their sources](PICTURES.md)."
+      ))
       .action(show((c, d) => d.copy(curve = c))),
     opt[Exposure]("exposure").valueName("STOPS")
       .text(s"scale of the light in $pictures, in stops; auto: the mean becomes middle grey")
@@ -53,9 +54,6 @@ private[cli] object DisplayTable extends OptionRows:
   )
 
   private def thumbnail: Row =
-    opt[ThumbnailKind]("thumbnail").valueName("KIND")
-      .text(
-        "show the image in the terminal: " +
-          s"${ThumbnailKind.values.map(_.word).mkString(", ")}; auto: what the terminal supports"
-      )
+    opt[ThumbnailKind]("thumbnail").valueName(ThumbnailKind.values.map(_.word).mkString("|"))
+      .text("show the image in the terminal, by this protocol; auto: what the terminal supports")
       .action((k, o) => o.copy(thumbnail = Some(k)))

@@ -69,27 +69,45 @@ private[cli] object FilmTable extends OptionRows:
 
   private def goals: Vector[Row] = Vector(
     opt[Double]("time")(using seconds).valueName("TIME")
-      .text("end after this time of rendering, e.g. 10m; --spp N, if given, is a ceiling")
+      .text(OptionText(
+        "end after this time of rendering, e.g. 10m; --spp N, if given, is a ceiling",
+        "Times are like `90s`, `10m` and `2h`, and begin when the scene was read and built. " +
+          "With `--error`, too, whichever comes first ends it. The scene's own number of " +
+          "samples is no bound: [time and error](NOISE.md#time-and-error)."
+      ))
       .action(setGoal((t, g) => g.copy(time = Some(t)))),
     opt[Double]("error").valueName("X")
-      .text("end when the relative error, estimated from the noise, is below X: 0.02 for 2 %")
+      .text(OptionText(
+        "end when the relative error, estimated from the noise, is below X: 0.02 for 2 %",
+        "The relative error is the root of the relative MSE; `--spp N`, if given, is a ceiling: " +
+          "[how the error is estimated](NOISE.md#time-and-error)."
+      ))
       .validate(x => if x > 0 then success else failure(s"--error must be positive, found `$x`"))
       .action(setGoal((x, g) => g.copy(error = Some(x))))
   )
 
   def render: Vector[Row] = Vector(
     opt[String]("checkpoint").valueName("[FILE.film]")
-      .text("save the rendering every 60 s, by default beside the image; see resume")
+      .text(OptionText(
+        "save the rendering every 60 s, by default beside the image; see resume",
+        "[Film files](FILMS.md)."
+      ))
       .validate: f =>
         if f.isEmpty || FilmOptions.isFilm(f) then success
         else failure(s"--checkpoint must be a name that ends with .film, found `$f`")
       .action((f, o) => change(o)(_.copy(checkpoint = Some(f)))),
     every,
     opt[Shard]("shard").valueName("I/N")
-      .text("take the I-th of N parts of the samples, 0 <= I < N; needs --outfile FILE.film")
+      .text(OptionText(
+        "take the I-th of N parts of the samples, 0 <= I < N; needs --outfile FILE.film",
+        "`merge` adds the parts up: [several machines](FILMS.md#several-machines)."
+      ))
       .action((s, o) => change(o)(_.copy(shard = s))),
     opt[Range]("frames").valueName("FIRST-LAST")
-      .text("render a sequence: the scene's name has %d, or %04d, for the number")
+      .text(OptionText(
+        "render a sequence: the scene's name has %d, or %04d, for the number",
+        "It implies `--skip-done`: [sequences](FILMS.md#sequences)."
+      ))
       .validate: r =>
         if r.size <= FilmOptions.MostFrames then success
         else

@@ -1,7 +1,7 @@
 package candela.cli.options
 
 import candela.base.{Suggest, Version}
-import candela.cli.terminal.TextTable
+import candela.cli.terminal.{ExitCode, TextTable}
 
 import scopt.OptionDef
 
@@ -37,7 +37,7 @@ private[cli] final class HelpText(columns: Int):
   private def option(o: OptionDef[?, Options]): Vector[String] =
     val short = o.shortOpt.fold("")(s => s"-$s, ")
     val value = o.valueName.fold("")(v => s" $v")
-    row(s"$short--${o.name}$value", o.desc)
+    row(s"$short--${o.name}$value", OptionText.short(o.desc))
 
   /** A name, and behind it, or below if it is long, the text. */
   private def row(name: String, text: String, width: Int = NameWidth): Vector[String] =
@@ -58,7 +58,7 @@ private[cli] final class HelpText(columns: Int):
 private[cli] object HelpText:
   private val Indent = "  "
   private val NameWidth = 26
-  private val CommandWidth = 10
+  private val CommandWidth = 12
   private val LeastText = 24
 
   /** Options in the overview. */
@@ -72,7 +72,7 @@ private[cli] object HelpText:
       "preview is written next to it: what --outfile x.exr,x.png does.",
     "Ctrl-C stops rendering and writes the partial image; a second Ctrl-C quits at once.",
     "Film files (.film) save renderings: --checkpoint, resume, --shard, merge.",
-    "Exit codes: 0 success, 1 invalid input, 2 invalid usage, 3 internal error, 130 interrupted."
+    ExitCode.values.map(c => s"${c.number} ${c.word}").mkString("Exit codes: ", ", ", ".")
   )
 
 /** Errors of command lines, in one form: what is wrong with which option or file, what was found,

@@ -22,7 +22,7 @@ private[cli] object IdleOptions:
     case Command.Compare => compared(o.compare)
     case Command.Describe => described(o)
     case Command.Bench => measured(o)
-    case Command.Merge | Command.Info => Vector.empty
+    case Command.Merge | Command.Info | Command.Completion => Vector.empty
 
   private def idle(option: String, why: String)(isSo: Boolean): Vector[String] =
     Option.when(isSo)(s"--$option has no effect$why").toVector
@@ -104,18 +104,14 @@ private[cli] object IdleOptions:
       )
 
   private def described(o: Options): Vector[String] =
-    val page =
-      if o.pbrtOptions then Some("pbrt-options")
-      else Option.when(o.markdown)("markdown")
-    idle(
-      "dialect",
-      " with --pbrt-options"
-    )(o.pbrtOptions && o.settings.reading.dialect.isDefined) ++
-      idle("markdown", " with --pbrt-options, which prints Markdown")(
-        o.pbrtOptions && o.markdown
-      ) ++
-      page.filter(_ => o.files.nonEmpty).map: name =>
-        s"`${o.files.mkString(" ")}` has no effect: --$name prints a whole page"
+    val page = o.pages.lastOption
+    val others = page.filter(_ => o.settings.reading.dialect.isDefined).filter(_ != Page.Reference)
+    others.toVector.flatMap(p => idle("dialect", s" with --${p.option}")(true)) ++
+      page.toVector.flatMap: p =>
+        o.pages.distinct.filter(_ != p).flatMap: other =>
+          idle(other.option, s" with --${p.option}, which prints a page of its own")(true)
+      ++ page.filter(_ => o.files.nonEmpty).map: p =>
+        s"`${o.files.mkString(" ")}` has no effect: --${p.option} prints a whole page"
 
   private def measured(o: Options): Vector[String] =
     val isPage = o.reports.isEmpty || o.reports.exists(_.toLowerCase.endsWith(".html"))

@@ -91,7 +91,11 @@ private[cli] object ImageTable extends OptionRows:
       .text("keep only these pixels, x1 and y1 excluded; a negative end is a size")
       .action((w, o) => change(o)(_.copy(crop = Some(w)))),
     opt[MapShape]("environment").valueName("equalarea|latlong")
-      .text("turn an environment map of the other shape into this one (width by --resize)")
+      .text(OptionText(
+        "turn an environment map of the other shape into this one (width by --resize)",
+        "pbrt-v2, v3 and most programs have maps twice as wide as high (`latlong`), pbrt-v4 has " +
+          "square ones (`equalarea`)."
+      ))
       .action((s, o) => change(o)(_.copy(environment = Some(s)))),
     opt[ImageSize]("resize").valueName("WIDTHxHEIGHT")
       .text("resize; WIDTH or xHEIGHT keeps the shape")
@@ -104,13 +108,11 @@ private[cli] object ImageTable extends OptionRows:
       .text("scale brighter pixels down so that no channel exceeds X")
       .validate(positive("clamp"))
       .action((x, o) => change(o)(_.copy(clamp = Some(x.toFloat)))),
-    opt[ColorSpace]("colorspace").valueName("NAME")
-      .text(
-        s"primaries of an .exr image: ${ColorSpace.all.map(_.name).mkString(", ")}"
-      )
+    opt[ColorSpace]("colorspace").valueName(ColorSpace.all.map(_.name).mkString("|"))
+      .text("primaries of an .exr image")
       .action((s, o) => change(o)(_.copy(colorSpace = Some(s)))),
     opt[Unit]("flip")
-      .text("turn upside down")
+      .text("turn the image upside down")
       .action((_, o) => change(o)(_.copy(flips = true))),
     half
   )

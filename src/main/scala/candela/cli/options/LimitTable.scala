@@ -52,10 +52,11 @@ private[cli] object LimitTable:
 
   def options: Vector[OParser[?, Options]] = Vector(
     opt[Unit]("sandbox")
-      .text(
+      .text(OptionText(
         "for scenes of strangers: they read files of their own folder only, images go there or " +
-          "beside --outfile, and the limits of --limit hold; see SECURITY.md"
-      )
+          "beside --outfile, and the limits of --limit hold; see SECURITY.md",
+        "[What it promises](../SECURITY.md)."
+      ))
       .action((_, o) => o.copy(limits = o.limits.copy(sandbox = true))),
     opt[Seq[Changed]]("limit").unbounded().valueName("NAME=N[,NAME=N]")
       .text(

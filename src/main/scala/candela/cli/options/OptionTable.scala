@@ -34,17 +34,29 @@ private[cli] object OptionTable extends OptionRows:
     dialect("parse the scene as this pbrt version (default: auto-detected)")
 
   private def keepGoing: Row = opt[Unit]("keep-going")
-    .text("replace missing files and types with placeholders, with a warning each")
+    .text(OptionText(
+      "replace missing files and types with placeholders, with a warning each",
+      "Missing or unreadable images, textures and materials become magenta (float textures 1), " +
+        "meshes and objects are dropped, includes are skipped; the last line counts these " +
+        "placeholders."
+    ))
     .action(setReading((_, r) => r.copy(keepGoing = true)))
 
   private def defines: Row =
     opt[(String, String)]('D', "define")(using reading(TextForm.definition))
       .unbounded().valueName("NAME=VALUE")
-      .text("set $NAME of a Mitsuba scene; also -DNAME=VALUE")
+      .text(OptionText(
+        "set $NAME of a Mitsuba scene; also -DNAME=VALUE",
+        "[Mitsuba's scenes](MITSUBA.md) have such parameters."
+      ))
       .action(setReading((d, r) => r.copy(defines = r.defines + d)))
 
   private def color: Row = opt[ColorMode]("color").valueName("auto|rgb|spectral")
-    .text("what paths carry: three numbers or wavelengths (default: as accurate colours need)")
+    .text(OptionText(
+      "what paths carry: three numbers or wavelengths (default: as accurate colours need)",
+      "`auto` takes three numbers where they are off by less than half a percent, and light at " +
+        "sampled wavelengths elsewhere."
+    ))
     .action(set((mode, s) => s.copy(color = mode)))
 
   private def explain: Row = opt[Unit]("explain")
@@ -98,23 +110,31 @@ private[cli] object OptionTable extends OptionRows:
   private def sampler: Row =
     val words = PointChoice.all.map(_.word).mkString("|")
     opt[PointChoice]("sampler").valueName(words)
-      .text(
+      .text(OptionText(
         "sample points: those with the least noise instead of the scene's (best, the default), " +
-          "the scene's own, or these"
-      )
+          "the scene's own, or these",
+        "`progressive` is the default with `--time` and `--error`; " +
+          "[which points have the least noise](SAMPLERS.md)."
+      ))
       .action(set((p, s) => s.copy(points = p)))
 
   private def fireflies: Row =
     opt[Fireflies]("fireflies").valueName("keep|reweight|clamp:X")
-      .text(
+      .text(OptionText(
         "less noise, but bias: leave out light that few samples have found, or limit each " +
-          "sample's indirect light to X (default: keep)"
-      )
+          "sample's indirect light to X (default: keep)",
+        "[What it brings and costs](NOISE.md#fireflies)."
+      ))
       .action(set((f, s) => s.copy(fireflies = f)))
 
   private val renderOptions: Vector[Row] = Vector(
     opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
-      .text(s"output image, ${OutputFormat.listed()}; several: the same image in each format")
+      .text(OptionText(
+        s"output image, ${OutputFormat.listed()}; several: the same image in each format",
+        "The suffix selects the format; `x.exr,x.png` are image and preview. A name that ends " +
+          "with `.film` is a [film file](FILMS.md). Without it the scene names the image: see " +
+          "[output files](#output-files)."
+      ))
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
     threads,
     samples("samples per pixel; overrides the scene"),
@@ -136,25 +156,31 @@ private[cli] object OptionTable extends OptionRows:
       .text("trace one sample and print the events along its path; writes no image")
       .action((_, o) => o.copy(debug = true)),
     opt[Seq[(Layer, Option[Boolean])]]("aov").unbounded().valueName("LAYER[,LAYER]")
-      .text(
+      .text(OptionText(
         s"add AOVs to the ${OutputFormat.listed(Contents.Channels)} image: $layers; " +
-          "LAYER:half and LAYER:float select its precision"
-      )
+          "LAYER:half and LAYER:float select its precision",
+        "[All layers](LAYERS.md)."
+      ))
       .action(set(withLayers)),
     opt[LightGrouping]("light-groups").valueName("statement|type|NAME=LIGHT[+LIGHT],…")
-      .text(
+      .text(OptionText(
         "groups of the layer lights, which is added: each light statement (default), each type, " +
-          "or named groups of statements (point_12: type and line) and types"
-      )
+          "or named groups of statements (point_12: type and line) and types",
+        "For example `key=point_12+spot_14,sky=infinite`."
+      ))
       .action(set(grouped)),
     opt[Unit]("denoise")
-      .text(
+      .text(OptionText(
         "add the image denoised by Open Image Denoise; .png and .jpg show it " +
-          s"(layers ${Layer.denoising.map(_.word).mkString(" and ")} are added, too)"
-      )
+          s"(layers ${Layer.denoising.map(_.word).mkString(" and ")} are added, too)",
+        "[How to install Open Image Denoise](DENOISING.md)."
+      ))
       .action(set((_, s) => denoised(s))),
     opt[String]("film").valueName("gbuffer|rgba")
-      .text("add all AOVs of pbrt-v4's gbuffer film, or alpha")
+      .text(OptionText(
+        "add all AOVs of pbrt-v4's gbuffer film, or alpha",
+        "PNG and TGA images have the alpha, too."
+      ))
       .validate: f =>
         if Layer.films.contains(f) then success
         else failure(s"--film must be gbuffer or rgba, found `$f`")
@@ -163,7 +189,10 @@ private[cli] object OptionTable extends OptionRows:
       .text("store the render time in the image file; equal images are then different files")
       .action(setOutput((_, w) => w.copy(storeTime = true))),
     opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
-      .text("write error over time as .html, .json or .csv; the image is unaffected")
+      .text(OptionText(
+        "write error over time as .html, .json or .csv; the image is unaffected",
+        "[What a report shows](BENCH.md#a-single-rendering)."
+      ))
       .action((f, o) => o.copy(reports = o.reports ++ f)),
     opt[String]("reference").valueName("FILE")
       .text(
@@ -172,16 +201,20 @@ private[cli] object OptionTable extends OptionRows:
       )
       .action((f, o) => o.copy(reference = Some(f))),
     opt[Option[WatchAddress]]("watch").valueName("[PORT]")
-      .text(
+      .text(OptionText(
         "serve a live page of the image, on this machine only (default: a usual port); with " +
-          "ADDRESS:PORT elsewhere, too, for those who have the link"
-      )
+          "ADDRESS:PORT elsewhere, too, for those who have the link",
+        "[The live page](WATCHING.md)."
+      ))
       .action((a, o) => o.copy(watch = Some(a.getOrElse(WatchAddress(None, None))))),
     opt[Unit]("watch-after")
       .text("keep the live page when rendering has ended, until Ctrl-C or its button `end`")
       .action((_, o) => o.copy(watchAfter = true)),
     opt[(String, Int)]("display-server").valueName("HOST[:PORT]")
-      .text(s"show the image in the viewer tev (default port: ${TevDisplay.UsualPort})")
+      .text(OptionText(
+        s"show the image in the viewer tev (default port: ${TevDisplay.UsualPort})",
+        "[tev](https://github.com/Tom94/tev) must be running; pbrt-v4 has the same option."
+      ))
       .action((a, o) => o.copy(displayServer = Some(a))),
     parsedAs,
     defines,
@@ -216,11 +249,17 @@ private[cli] object OptionTable extends OptionRows:
   private val describeOptions: Vector[Row] = Vector(
     opt[Unit]("pbrt-options")
       .text("print the options of pbrt's command lines, and what they are here, as Markdown")
-      .action((_, o) => o.copy(pbrtOptions = true)),
+      .action((_, o) => o.copy(pages = o.pages :+ Page.PbrtOptions)),
+    opt[Unit]("commands")
+      .text("print all commands and options as a Markdown page")
+      .action((_, o) => o.copy(pages = o.pages :+ Page.Commands)),
+    opt[Unit]("man")
+      .text("print the manual page candela(1), for man")
+      .action((_, o) => o.copy(pages = o.pages :+ Page.Manual)),
     dialect("only types and parameters of this pbrt version"),
     opt[Unit]("markdown")
-      .text("print the whole reference as a Markdown page")
-      .action((_, o) => o.copy(markdown = true)),
+      .text("print the whole reference as a Markdown page, docs/REFERENCE.md")
+      .action((_, o) => o.copy(pages = o.pages :+ Page.Reference)),
     opt[String]('o', "outfile").valueName("FILE")
       .text("where to write the page (default: standard output)")
       .action((f, o) => o.copy(outfiles = Vector(f)))
@@ -238,10 +277,11 @@ private[cli] object OptionTable extends OptionRows:
       .validate(atLeast("to-ply", 1))
       .action((n, o) => o.copy(toPly = Some(n))),
     opt[Int]("bake").valueName("[N]")
-      .text(
+      .text(OptionText(
         s"paint textures that the dialect lacks as images of N × N pixels " +
-          s"(default ${Baking.DefaultSize})"
-      )
+          s"(default ${Baking.DefaultSize})",
+        "[What is painted](CONVERTING.md)."
+      ))
       .validate(atLeast("bake", 1))
       .validate: n =>
         if n <= 8192 then success else failure(s"--bake must be at most 8192, found `$n`")
@@ -294,7 +334,7 @@ private[cli] object OptionTable extends OptionRows:
     case Command.Preview => previewOptions
     case Command.Image => imageOptions
     case Command.Average => averageOptions
-    case Command.Info => Vector.empty
+    case Command.Info | Command.Completion => Vector.empty
 
   /** Long option names of a command, without dashes. */
   def names(command: String): Vector[String] =

@@ -2,8 +2,6 @@ package candela.cli.options
 
 import java.nio.file.{Files, Path}
 
-import scala.jdk.CollectionConverters.*
-
 import org.scalatest.funsuite.AnyFunSuite
 
 /** Every option that the parser knows is explained to people. */
@@ -19,25 +17,6 @@ class OptionTableSuite extends AnyFunSuite:
       // The meaning stands behind the option, or below if that is long
       val row = s"(?m)^  (-\\w, )?--$option( \\S+)? *\\n? {2,}(\\w.+)".r
       assert(row.findFirstIn(sections(command)).isDefined, s"candela $command --$option")
-
-  private val page = Files.readAllLines(Path.of("README.md")).asScala.toVector
-
-  /** Command and option of each row of README's table; a row without name goes on with the last. */
-  private def told: Set[(String, String)] =
-    val table = page.dropWhile(!_.startsWith("| option |")).drop(2).takeWhile(_.startsWith("|"))
-    val cells = table.map(_.split("(?<!\\\\)\\|", -1).map(_.trim).toVector)
-    val names = cells.map(_(1)).scanLeft("")((last, name) => if name.isEmpty then last else name)
-    val pairs =
-      for
-        (row, name) <- cells.zip(names.tail)
-        command <- row(2).split(", ") if command.nonEmpty
-        option <- "--([a-z][a-z-]*)".r.findAllMatchIn(s"$name ${row(3)}").map(_.group(1))
-      yield command -> option
-    pairs.toSet
-
-  test("README's table has every option, with the commands that know it"):
-    assert((known -- told).isEmpty, "missing")
-    assert((told -- known).isEmpty, "unknown to the program")
 
   test("the page of layers has every layer with its first channel"):
     val text = Files.readString(Path.of("docs/LAYERS.md"))

@@ -1,0 +1,20 @@
+package candela.cli.commands
+
+import candela.base.{Problem, SceneError, Suggest}
+import candela.cli.options.{Completion, Options, Words}
+import candela.cli.terminal.{ExitCode, Report, Terminal}
+
+/** `candela completion`: prints what makes a shell complete command lines. */
+final class CompletionCommand(options: Options, terminal: Terminal, report: Report):
+
+  def run(): ExitCode = report.guarded:
+    val shell = options.files.head
+    val lines = Completion.of(shell).getOrElse:
+      val known = s"${Words.shells.init.mkString(", ")} and ${Words.shells.last}"
+      val near = Suggest.nearest(shell, Words.shells).map(n => s"did you mean `$n`?")
+      throw SceneError(
+        Problem.general(s"there is no completion for `$shell`", near.orElse(Some(s"known: $known")))
+      )
+    lines.foreach(terminal.out.println(_))
+    terminal.out.flush()
+    ExitCode.Done

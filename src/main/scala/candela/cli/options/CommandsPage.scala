@@ -1,0 +1,58 @@
+package candela.cli.options
+
+import scopt.OptionDef
+
+/** docs/COMMANDS.md: all commands and options, as the option tables have them. */
+private[cli] object CommandsPage:
+
+  def lines: Vector[String] =
+    Introduction.linesIterator.toVector ++ overview ++ CommandTable.rows.flatMap(command) ++
+      Manual.sections.flatMap(section)
+
+  private def overview: Vector[String] =
+    val links = Manual.sections.map(s => s"[${s.title.toLowerCase}](#${anchor(s.title)})")
+    "" +: table(
+      Vector("command", "effect"),
+      CommandTable.rows.map: r =>
+        Vector(s"[`${r.command.word}`](#candela-${r.command.word})", r.meaning)
+    ) :++ Vector(
+      "",
+      "`candela help` lists the commands, `candela help COMMAND` or `candela COMMAND --help` the " +
+        "options of one; `candela version` prints the version.",
+      "",
+      s"For all commands: ${links.init.mkString(", ")} and ${links.last}."
+    )
+
+  private def command(row: CommandRow): Vector[String] =
+    val arguments = row.arguments.flatMap(_.toList).map(a => Vector(s"`${a.name}`", a.desc))
+    val options = row.options.map(o => Vector(name(o), OptionText.whole(o.desc)))
+    val all = arguments ++ options
+    val meaning = OptionText.whole(OptionText(row.meaning, row.more))
+    Vector("", s"## candela ${row.command.word}", "", s"`${row.usage}`", "", meaning, "") ++
+      table(Vector(if options.isEmpty then "argument" else "option", "effect"), all)
+
+  private def name(o: OptionDef[?, Options]): String =
+    val value = o.valueName.fold("")(v => s" $v")
+    s"`--${o.name}$value`${o.shortOpt.fold("")(s => s", `-$s`")}"
+
+  private def section(s: Manual.Section): Vector[String] =
+    "" +: s"## ${s.title}" +: s.parts.flatMap: part =>
+      "" +: (part match
+        case Manual.Part.Paragraph(text) => Vector(text)
+        case Manual.Part.Table(head, rows) => table(head, rows))
+
+  private def anchor(title: String): String = title.toLowerCase.replace(' ', '-')
+
+  private def table(head: Vector[String], rows: Vector[Vector[String]]): Vector[String] =
+    row(head) +: ("|" + "---|" * head.size) +: rows.map(row)
+
+  private def row(cells: Vector[String]): String =
+    cells.map(_.replace("|", "\\|")).mkString("| ", " | ", " |")
+
+  private val Introduction: String =
+    """# Commands
+      |
+      |All commands and options of `candela`. This page is generated from the tables that `--help`
+      |prints: `./sbt "run describe --commands --outfile docs/COMMANDS.md"`. The same as a manual
+      |page: `candela describe --man`. The words of pbrt's command lines are understood, too:
+      |[pbrt's options](PBRT-OPTIONS.md).""".stripMargin
