@@ -15,7 +15,7 @@ final class AverageCommand(options: Options, terminal: Terminal, report: Report)
       name -> ImageFiles.read(OutputFiles.path(name)).linear
     val mean = ImageEdits.mean(images)
     val how = WriteOptions(isHalf = options.image.isHalf, display = options.display)
-    for out <- outputs.paths do
+    OutputFiles.writeAll(outputs.paths): out =>
       ImageFiles.write(out, mean, Vector("images" -> options.files.mkString(", ")), how)
       if !options.quiet then
         val count = Figures.count(options.files.size, "image")

@@ -58,7 +58,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
 
   /** Each file is written whole, so an interrupted run leaves the previous version. */
   private def write(paths: Vector[Path], results: SuiteReport): Unit =
-    for path <- paths do
+    OutputFiles.writeAll(paths): path =>
       WholeFile.write(path, text(path, results).getBytes(UTF_8))
 
   private def read(source: Path): Suite =

@@ -48,20 +48,24 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     asked.crop.fold(pair)(pair.cropped)
 
   private def write(comparison: Comparison): Unit =
-    for name <- asked.difference do
-      ImageFiles.write(Path.of(name), comparison.pair.difference)
-    for name <- asked.heatMap do
-      val metric = asked.heatMapMetric
-      val map = ErrorMap(metric, comparison.pair)
-      val isFalseColor = OutputFormat.of(Path.of(name)).exists(_.contents == Contents.Display)
-      if !isFalseColor then ImageFiles.write(Path.of(name), map)
-      else
-        val most = asked.heatMapMax.getOrElse(HeatMap.usualBrightest(metric, map))
-        val about = Vector("metric" -> metric.word, "brightest" -> most.toString)
-        ImageFiles.write(Path.of(name), HeatMap.of(map, most), about)
-        terminal.out.println(
-          s"heat map      ${metric.title} from 0 to ${Figures.scientific(most)}, in $name"
-        )
+    val difference = asked.difference.map(OutputFiles.path)
+    val heatMap = asked.heatMap.map(OutputFiles.path)
+    OutputFiles.writeAll((difference ++ heatMap).toVector): path =>
+      if difference.contains(path) then ImageFiles.write(path, comparison.pair.difference)
+      else writeHeatMap(comparison.pair, path)
+
+  private def writeHeatMap(pair: ImagePair, path: Path): Unit =
+    val metric = asked.heatMapMetric
+    val map = ErrorMap(metric, pair)
+    val isFalseColor = OutputFormat.of(path).exists(_.contents == Contents.Display)
+    if !isFalseColor then ImageFiles.write(path, map)
+    else
+      val most = asked.heatMapMax.getOrElse(HeatMap.usualBrightest(metric, map))
+      val about = Vector("metric" -> metric.word, "brightest" -> most.toString)
+      ImageFiles.write(path, HeatMap.of(map, most), about)
+      terminal.out.println(
+        s"heat map      ${metric.title} from 0 to ${Figures.scientific(most)}, in $path"
+      )
 
   /** Compares each image of a folder with the reference of the same name, or all with one
     * reference.
@@ -191,7 +195,7 @@ object ReferenceSet:
   private def files(folder: Path): Vector[Path] =
     Using.resource(Files.list(folder)): all =>
       all.iterator.asScala.toVector.filter(f =>
-        ImageFiles.readable.contains(FileName.suffix(f))
+        ImageFiles.readable.contains(FileName.suffix(f)) && Files.isRegularFile(f)
       ).sorted
 
 /** Bounds on metrics that a comparison exceeds. */

@@ -28,7 +28,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
     val window = asked.crop.filter(_ => isPlaced).map: c =>
       ImageWindow(c.x0, c.y0, whole.width, whole.height)
     val how = WriteOptions(isHalf = asked.isHalf, display = options.display, window = window)
-    for out <- outputs.paths do
+    OutputFiles.writeAll(outputs.paths): out =>
       if OutputFormat.of(out).exists(_.contents != Contents.Channels) then
         ImageFiles.colored(path, made): Unit
       val shown =

@@ -124,13 +124,18 @@ final class RenderCommand(
   private[cli] def writer(scene: String, prepared: Prepared, paths: Vector[Path]): ImageWriter =
     ImageWriter(options, report, denoising, scene, prepared, paths)
 
-  /** Writes the image of a rendering that was put together from film files. */
+  /** Writes the image of a rendering that was put together from film files; one without samples
+    * replaces none.
+    */
   private[cli] def finish(
       writer: ImageWriter,
       prepared: Prepared,
       rendering: Rendering
   ): ExitCode =
-    val written = writer.write(writer.paths, rendering, writer.image(rendering))
+    val wanted = writer.writable(rendering)
+    val written = writer.write(wanted, rendering, writer.image(rendering))
+    if wanted.size < writer.paths.size then
+      terminal.err.println(Summary.kept(writer.paths.diff(wanted), rendering))
     Summary.print(options, terminal, written, prepared, rendering)
     if written.size < writer.paths.size then ExitCode.BadInput else ExitCode.Done
 

@@ -39,7 +39,7 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
       how: DisplayTransform,
       about: Vector[(String, String)]
   ): Unit =
-    for path <- paths do
+    OutputFiles.writeAll(paths): path =>
       ImageFiles.write(path, picture, about, WriteOptions(display = how))
       if !options.quiet then
         terminal.out.println(s"wrote $path  ${picture.width}x${picture.height}")

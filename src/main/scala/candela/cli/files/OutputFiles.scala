@@ -3,11 +3,12 @@ package candela.cli.files
 import candela.base.{FileName, Problem, SceneError, Severity}
 import candela.build.film.FilmRecipe
 import candela.cli.options.FilmOptions
-import candela.image.{Contents, OutputFormat}
+import candela.image.{Contents, ImageError, OutputFormat}
 import candela.job.{ImageName, Prepared}
 import candela.layers.Layer
 import candela.render.RenderPlan
 
+import java.io.IOException
 import java.nio.file.{InvalidPathException, Path}
 
 /** Output files of an image, one per format, and the warnings about them. */
@@ -55,6 +56,22 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
       throw SceneError(Problem.general(message, Some(help)))
 
 object OutputFiles:
+
+  /** Writes every file that can be written; what is wrong with the others. */
+  def failures(paths: Vector[Path])(write: Path => Unit): Vector[Problem] =
+    paths.flatMap: path =>
+      try
+        write(path)
+        None
+      catch case e: (ImageError | IOException) => Some(Problem.general(e.getMessage))
+
+  /** Writes every file that can be written.
+    *
+    * @throws SceneError if some can't be
+    */
+  def writeAll(paths: Vector[Path])(write: Path => Unit): Unit =
+    val problems = failures(paths)(write)
+    if problems.nonEmpty then throw SceneError(problems)
 
   /** Whether a file must store layers; alpha, which scenes ask for, and those that only guide the
     * denoiser need none.

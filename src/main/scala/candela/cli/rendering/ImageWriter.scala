@@ -44,7 +44,7 @@ private[cli] final class ImageWriter(
 
   /** An image without samples must not replace another one. */
   def writable(rendering: Rendering): Vector[Path] =
-    if rendering.samplesDone > 0 || rendering.isComplete then paths
+    if rendering.samplesDone > 0 then paths
     else paths.filterNot(Files.isRegularFile(_))
 
   /** Writes every file that can be written; returns those written. Viewers may ask for it, too. */

@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.WholeFile
+import candela.base.{Problem, WholeFile}
 import candela.cli.files.OutputFiles
 import candela.cli.terminal.Figures
 import candela.film.{Development, Film}
@@ -15,13 +15,17 @@ import java.nio.file.Path
 private[cli] final class ErrorLog(development: Development, reference: Image, file: Path)
     extends RenderListener:
   private val lines = StringBuilder()
+  private var lost = Vector.empty[Problem]
 
   override def looks: Looks = Looks.Doublings
 
   override def passed(pass: Pass, film: Film): Unit =
     val mse = Errors.quickly(reference)(development(film)).mse
     lines ++= s"${pass.samples}, ${Figures.general(mse)}\n"
-    WholeFile.write(file, lines.toString.getBytes(UTF_8))
+    lost = OutputFiles.failures(Vector(file))(WholeFile.write(_, lines.toString.getBytes(UTF_8)))
+
+  /** Why the last lines could not be written. */
+  def failure: Vector[Problem] = lost
 
 private[cli] object ErrorLog:
   /** None unless the plan asks for one. */

@@ -19,17 +19,18 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
 
   val recorder: RenderRecorder = RenderRecorder.of(loaded.plan, options.reference)
 
-  /** Writes the reports and returns their paths; writes none if no pass completed. */
+  /** Writes the reports that can be written, none if no pass completed.
+    *
+    * @return those written, and what is wrong with the others
+    */
   def write(
       rendering: Rendering,
       threads: Int,
       writeSeconds: Double,
       denoised: Option[Denoised] = None
-  ): Vector[Path] =
-    if recorder.pictures.forall(_.isReference) then Vector.empty
-    else
-      ReportFiles.write(paths, report(rendering, threads, writeSeconds, denoised))
-      paths
+  ): (Vector[Path], Vector[Problem]) =
+    if recorder.pictures.forall(_.isReference) then (Vector.empty, Vector.empty)
+    else ReportFiles.write(paths, report(rendering, threads, writeSeconds, denoised))
 
   private def report(
       rendering: Rendering,
@@ -117,10 +118,17 @@ object ReportFiles:
     if problems.nonEmpty then throw SceneError(problems)
     paths
 
-  def write(paths: Vector[Path], report: RenderReport): Unit =
-    for path <- paths do
+  /** Writes every file that can be written.
+    *
+    * @return those written, and what is wrong with the others
+    */
+  def write(paths: Vector[Path], report: RenderReport): (Vector[Path], Vector[Problem]) =
+    val written = Vector.newBuilder[Path]
+    val failures = OutputFiles.failures(paths): path =>
       val text = FileName.suffix(path) match
         case "html" => RenderPage.html(report)
         case "json" => RenderData.json(report)
         case _ => RenderData.csv(report)
       WholeFile.write(path, text.getBytes(UTF_8))
+      written += path
+    (written.result(), failures)

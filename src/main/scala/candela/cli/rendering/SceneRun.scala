@@ -1,5 +1,6 @@
 package candela.cli.rendering
 
+import candela.base.{Problem, SceneError}
 import candela.cli.files.{Denoised, FilmKeeping}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
@@ -29,6 +30,7 @@ private[cli] final class SceneRun(
 
   private val reporting =
     Option.when(options.reports.nonEmpty)(Reporting(options, writer.name, prepared))
+  private val errorLog = ErrorLog.of(plan)
   private val goal = Option.when(settings.goal.isGiven):
     def recorder = ErrorRecorder(plan.development, None)
     Goal(settings.goal, plan.samplesPerPixel, reporting.fold(recorder)(_.recorder))
@@ -46,8 +48,10 @@ private[cli] final class SceneRun(
       val result = results(rendering)
       val films = keeping.map(_.path)
         .filter(_ => writer.paths.isEmpty && checkpoints.forall(_.failure.isEmpty))
-      val files = tell(result, films.toVector)
+      val (files, failures) = tell(result, films.toVector)
       watching.foreach(_.await(files))
+      val lost = failures ++ errorLog.toVector.flatMap(_.failure)
+      if lost.nonEmpty then throw SceneError(lost)
       if !result.isComplete || checkpoints.exists(_.failure.nonEmpty) then ExitCode.BadInput
       else if !rendering.isComplete then ExitCode.Interrupted
       else ExitCode.Done
@@ -62,7 +66,7 @@ private[cli] final class SceneRun(
     val followed = watching.map(w => RenderListener.onStart(w.start))
     val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
     val listeners =
-      shown ++ goal.orElse(reporting.map(_.recorder)) ++ ErrorLog.of(plan) ++ images ++ followed
+      shown ++ goal.orElse(reporting.map(_.recorder)) ++ errorLog ++ images ++ followed
     val control = RenderControl(
       options.threadCount,
       cancellation,
@@ -98,18 +102,22 @@ private[cli] final class SceneRun(
     val written = writer.write(wanted, rendering, image)
     Result(rendering, image, wanted, written, denoised, (System.nanoTime - finished) * 1e-9)
 
-  /** Tells of the result, and writes the reports; all files. */
-  private def tell(result: Result, films: Vector[Path]): Vector[Path] =
+  /** Tells of the result, and writes the reports.
+    *
+    * @return all files, and what is wrong with those that can't be written
+    */
+  private def tell(result: Result, films: Vector[Path]): (Vector[Path], Vector[Problem]) =
     import result.*
     val told = !options.quiet
     if wanted.size < writer.paths.size && told then
-      terminal.err.println(Summary.kept(writer.paths.diff(wanted), isLate))
+      terminal.err.println(Summary.kept(writer.paths.diff(wanted), rendering, isLate))
     val files = written ++ films
     Summary.print(options, terminal, files, prepared, rendering, writeSeconds, isLate)
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
     val threads = options.threadCount
-    val pages = reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
+    val (pages, failures) = reporting.fold((Vector.empty, Vector.empty)):
+      _.write(rendering, threads, writeSeconds, denoised)
     for path <- pages if told do terminal.out.println(s"wrote $path")
     terminal.out.flush()
     for r <- reference; d <- denoised if told do
@@ -118,7 +126,7 @@ private[cli] final class SceneRun(
       val shown = Denoising.shown(image)
       terminal.out.control(Thumbnail.of(shown, options.display, kind, terminal))
     terminal.out.flush()
-    files ++ pages
+    (files ++ pages, failures)
 
   /** Whether a rendering that did not end by itself ended by its time, and not by its user. */
   private def isLate: Boolean = settings.goal.time.isDefined && !cancellation.isRequested

@@ -26,7 +26,8 @@ object Summary:
     val missing = placeholders(standIns) + darkness(r)
     val names = written.mkString(", ")
     if r.isComplete && r.seconds == 0 then
-      s"wrote $names  ${r.film.width}x${r.film.height}, ${r.samplesDone} spp$missing"
+      val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
+      s"wrote $names  ${r.film.width}x${r.film.height}, $done spp$missing"
     else if r.isComplete then
       val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
       val size = s"${r.film.width}x${r.film.height}"
@@ -62,9 +63,9 @@ object Summary:
   private val LeastLoss = 1000
 
   /** Of images that a rendering without samples did not replace. */
-  def kept(images: Vector[Path], isLate: Boolean): String =
-    val names = images.mkString(", ")
-    s"${ended(isLate)}: kept $names: the new image has less than 1 sample per pixel"
+  def kept(images: Vector[Path], r: Rendering, isLate: Boolean = false): String =
+    val why = if r.isComplete then "" else s"${ended(isLate)}: "
+    s"${why}kept ${images.mkString(", ")}: the new image has less than 1 sample per pixel"
 
   /** `continuing x.film at 12 samples per pixel` */
   def continues(film: FilmFile): String =

@@ -63,6 +63,39 @@ class ReportingSuite extends AnyFunSuite:
       assert(nowhere.err.contains("no such folder"))
       assert(TempFolder.names(folder) == Set("s.pbrt", "small.exr"))
 
+  test("a file that can't be written prevents no other one, and fails the command"):
+    withScene: (folder, file) =>
+      assume(Files.exists(Path.of("/dev/full")), "needs a device that is always full")
+      def full(name: String) =
+        Files.createSymbolicLink(folder.resolve(name), Path.of("/dev/full")).toString
+      def fails(names: String*)(words: String*) =
+        val (code, captured) = run(words*)
+        assert(code == 1)
+        for name <- names do
+          val why = s"can't write `$folder/$name`: No space left on device"
+          assert(captured.err.contains(why), captured.err)
+        captured
+      val first = s"$folder/a.exr"
+      assert(run(file, "--outfile", first)._1 == 0)
+      val (csv, log) = (full("r.csv"), full("log"))
+      val reports = s"$csv,$folder/r.html,$folder/r.json"
+      val errors = Vector("--mse-reference-image", first, "--mse-reference-out", log)
+      val words = Vector(file, "--outfile", s"$folder/b.exr", "--report", reports) ++ errors
+      val captured = fails("r.csv", "log")(words*)
+      assert(captured.out.endsWith(s"\nwrote $folder/r.html\nwrote $folder/r.json\n"))
+      val (a, b) = (ImageFiles.read(Path.of(first)), ImageFiles.read(folder.resolve("b.exr")))
+      assert(a.data.sameElements(b.data))
+      val picture = full("p.png")
+      def outputs(name: String) = Vector("--outfile", s"$picture,$folder/$name.png")
+      fails("p.png")(Vector("view", first) ++ outputs("view")*)
+      fails("p.png")(Vector("image", first) ++ outputs("image")*)
+      fails("p.png")(Vector("average", first, first) ++ outputs("average")*)
+      val map = s"$folder/map.png"
+      fails("p.png")("compare", first, first, "--difference", picture, "--heatmap", map)
+      val written = TempFolder.names(folder)
+      for name <- Vector("r.html", "r.json", "view.png", "image.png", "average.png", "map.png") do
+        assert(written(name), name)
+
   test("of a cropped rendering the reference is cropped, too"):
     withScene: (folder, file) =>
       val (whole, part) = (folder.resolve("w.exr"), folder.resolve("p.exr"))
