@@ -89,7 +89,7 @@ final class InputFile private[base] (
   private def attributes = Files.readAttributes(place, classOf[BasicFileAttributes])
 
 object InputFile:
-  private[base] val Irregular = "it is no regular file, but a pipe or a device"
+  val Irregular = "it is no regular file, but a pipe or a device"
 
   /** A file that the user has named. */
   def asked(path: Path): InputFile = InputFile(path, path, _ => (), mayBePipe = true, shown = true)

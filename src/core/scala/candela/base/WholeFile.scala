@@ -4,6 +4,7 @@ import java.io.IOException
 import java.nio.ByteBuffer
 import java.nio.channels.{FileChannel, OverlappingFileLockException}
 import java.nio.file.*
+import java.nio.file.LinkOption.NOFOLLOW_LINKS
 import java.nio.file.StandardCopyOption.{ATOMIC_MOVE, REPLACE_EXISTING}
 import java.nio.file.StandardOpenOption.{APPEND, CREATE_NEW, WRITE}
 import java.nio.file.attribute.BasicFileAttributes
@@ -188,7 +189,10 @@ object NextFile:
       finally files.close()
 
   private def isLeft(name: String, path: Path, beginning: String): Boolean =
-    name.startsWith(beginning) && name.endsWith(".tmp") && {
+    // A pipe of this name would wait, and a link might lead anywhere
+    val isOurs = name.startsWith(beginning) && name.endsWith(".tmp") &&
+      Files.isRegularFile(path, NOFOLLOW_LINKS)
+    isOurs && {
       val owner = name.drop(beginning.length).takeWhile(_.isDigit).toLongOption
       owner.flatMap(pid => Option(ProcessHandle.of(pid).orElse(null))).forall: process =>
         // Another process may have had the number, even ours
@@ -198,7 +202,7 @@ object NextFile:
 
   private def removeUnlocked(path: Path): Unit =
     val _ = Try:
-      val channel = FileChannel.open(path, WRITE)
+      val channel = FileChannel.open(path, WRITE, NOFOLLOW_LINKS)
       try
         // Where there are no locks: the process has ended
         if isFree(channel, withoutLocks = true) then

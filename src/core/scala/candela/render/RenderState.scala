@@ -15,6 +15,11 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
   /** Samples that every pixel has at least, of those of its shard. */
   def samplesDone: Int = job.schedule.samplesDone(queue.progress)
 
+  /** Whether some pixel can have so many samples. */
+  private[render] def hasReached(samples: Int): Boolean = (0 until job.schedule.pieces).exists(i =>
+    job.schedule.hasReached(i, queue.progress.get(i), samples)
+  )
+
   private[render] def refused: Option[Refused] = Refused.of(earlier ++ workers.flatMap(_.refused))
 
   /** Writes the state, in a form that depends on the samples only. */

@@ -61,6 +61,9 @@ private[render] abstract class Schedule(
   /** Samples per pixel that a piece with this progress has at least. */
   protected def samplesOf(piece: Int, progress: Long): Int
 
+  /** Whether a piece with this progress has so many samples per pixel, planned or beyond. */
+  def hasReached(piece: Int, progress: Long, samples: Int): Boolean
+
   final def samplesDone(progress: AtomicLongArray): Int =
     (0 until pieces).map(i => samplesOf(i, progress.get(i))).min
 
@@ -104,6 +107,8 @@ private[render] final class TileSchedule(
 
   protected def samplesOf(tile: Int, progress: Long): Int = progress.toInt
 
+  def hasReached(tile: Int, progress: Long, samples: Int): Boolean = progress >= samples
+
   val tiles: Vector[PixelBounds] =
     Vector.tabulate(pieces)(TileSchedule.tile(bounds, _))
 
@@ -125,6 +130,9 @@ private[render] final class ChainSchedule(
   def paths(chain: Int, samples: Int): Long = (samples * pixels + pieces - 1 - chain) / pieces
 
   override def mostProgress: Long = paths(0, Int.MaxValue)
+
+  def hasReached(chain: Int, progress: Long, samples: Int): Boolean =
+    progress >= paths(chain, samples)
 
   protected def samplesOf(chain: Int, progress: Long): Int =
     if !takes(chain) then samplesPerPixel

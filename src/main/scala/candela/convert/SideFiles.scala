@@ -2,6 +2,7 @@ package candela.convert
 
 import java.nio.file.{Files, Path}
 import java.security.MessageDigest
+import java.util.Arrays
 
 import scala.util.Try
 
@@ -28,7 +29,7 @@ final class SideFiles(val folder: Path, check: Path => Unit = _ => ()):
       check(path)
       WholeFile.write(path, bytes)
       created :+= path
-    else if !java.util.Arrays.equals(Files.readAllBytes(path), bytes) then
+    else if !Files.isRegularFile(path) || !Arrays.equals(Files.readAllBytes(path), bytes) then
       throw SceneError(Problem.general(s"`$path` exists with different content"))
     name
 

@@ -1,19 +1,19 @@
 package candela.base
 
-import candela.testing.TempFolder
+import candela.testing.{Pipes, TempFolder}
 
 import org.scalatest.funsuite.AnyFunSuite
 
 import java.nio.file.Files
 
-import scala.util.{Try, Using}
+import scala.util.Using
 
 class InputFileSuite extends AnyFunSuite:
 
   test("a pipe is read to its end, in whatever pieces its text comes"):
     TempFolder.use: folder =>
       val pipe = folder.resolve("pipe")
-      assume(Try(ProcessBuilder("mkfifo", pipe.toString).start().waitFor()).toOption.contains(0))
+      assume(Pipes.make(pipe), "needs mkfifo")
       val writer = Thread: () =>
         Using.resource(Files.newOutputStream(pipe)): out =>
           for piece <- Vector("Shape", " \"disk", "\"") do

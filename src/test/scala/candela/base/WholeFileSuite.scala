@@ -10,7 +10,7 @@ import java.nio.file.{Files, Path}
 
 import scala.util.Using
 
-import candela.testing.TempFolder
+import candela.testing.{Pipes, TempFolder}
 
 class WholeFileSuite extends AnyFunSuite:
 
@@ -81,6 +81,16 @@ class WholeFileSuite extends AnyFunSuite:
         WholeFile.write(path, Array[Byte](1))
       assert(TempFolder.names(folder) == Set("a", ofAnother, ours, locked))
       assert(!Files.exists(folder.resolve(dead)))
+
+  test("a pipe or a link with the name of what a killed run leaves is left alone"):
+    TempFolder.use: folder =>
+      val path = folder.resolve("a")
+      val beginning = f".candela-${"a".hashCode}%08x-${Int.MaxValue}-"
+      val pipe = folder.resolve(s"${beginning}1.tmp")
+      assume(Pipes.make(pipe), "needs mkfifo")
+      val link = Files.createSymbolicLink(folder.resolve(s"${beginning}2.tmp"), pipe)
+      Pipes.unblocked(WholeFile.write(path, Array[Byte](1)))
+      assert(bytes(path) == Vector(1) && Files.exists(pipe) && Files.isSymbolicLink(link))
 
   test("a name as long as the file system allows can be written, a longer one is an obstacle"):
     TempFolder.use: folder =>

@@ -62,10 +62,12 @@ class FilmFilesSuite extends AnyFunSuite:
 
   test("more frames than can be listed are a wrong option"):
     withScene(): f =>
-      val words = Vector(f("s%d.pbrt"), "--frames", "1-2147483647", "--outfile", f("o%d.exr"))
-      val (code, captured) = f.captured(words)
-      assert(code == 2)
-      assert(captured.err.contains("--frames must be at most 1000000 frames, found `2147483647`"))
+      for (first, size) <- Vector("1" -> "2147483647", "0" -> "2147483648") do
+        val frames = s"$first-2147483647"
+        val words = Vector(f("s%d.pbrt"), "--frames", frames, "--outfile", f("o%d.exr"))
+        val (code, captured) = f.captured(words)
+        assert(code == 2)
+        assert(captured.err.contains(s"--frames must be at most 1000000 frames, found `$size`"))
 
   test("shards of millions that are missing are summed up"):
     withScene(): f =>

@@ -142,7 +142,7 @@ private object ForgedFilms:
   final case class Film(scene: Path, bytes: Array[Byte])
 
 /** A value of a film file. */
-private enum FilmValue:
+private[candela] enum FilmValue:
   case Number(value: Int)
   case Real(value: Float)
   case Text(value: String)
@@ -151,7 +151,7 @@ private enum FilmValue:
   case State(bytes: Array[Byte])
 
 /** The format of film files, as far as their headers go: said again, so that it can be broken. */
-private object FilmValues:
+private[candela] object FilmValues:
   import FilmValue.*
 
   /** Bytes of length and checksum. */

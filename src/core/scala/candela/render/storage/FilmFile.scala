@@ -1,7 +1,8 @@
 package candela.render.storage
 
 import candela.base.{
-  CheckedFile, ForeignFile, ForeignKind, IoReason, NextFile, Problem, SceneError, WholeFile
+  CheckedFile, ForeignFile, ForeignKind, InputFile, IoReason, NextFile, Problem, SceneError,
+  WholeFile
 }
 import candela.render.RenderState
 
@@ -30,8 +31,9 @@ final class FilmFile private (
     try
       FilmFile.sound:
         CheckedFile.read(source, FilmFile.Mark): in =>
-          val _ = FilmHeader.load(in)
+          val done = FilmHeader.load(in).done
           state.load(in)
+          require(state.hasReached(done), s"it has fewer than $done samples per pixel")
     catch
       case e: IOException =>
         throw SceneError(Problem.general(s"can't read `$source`: ${FilmFile.reason(e)}"))
@@ -69,6 +71,7 @@ object FilmFile:
     try
       if !Files.exists(path) then Left("no such file")
       else if Files.isDirectory(path) then Left("it is a folder")
+      else if !Files.isRegularFile(path) then Left(InputFile.Irregular)
       else
         ForeignFile.of(path).filter(_.kind != ForeignKind.Film) match
           case Some(other) => Left(s"it is ${other.what}, not a saved rendering")

@@ -43,9 +43,6 @@ final case class FilmHeader(
       done = parts.map(_.done).minOption.getOrElse(0)
     )
 
-  /** Samples per pixel, averaged over all shards: missing ones have none. */
-  def averageDone: Int = (done.toLong * shards.size / count).toInt
-
   /** A merger of all shards is a film of the whole if each is complete: then `resume` may go on.
     * Otherwise it stays a merger, whose state does not tell how far each shard is.
     */
@@ -103,6 +100,12 @@ final case class FilmHeader(
     shards.toVector.sorted.foreach(to.int)
 
 object FilmHeader:
+  /** Samples per pixel of films of one rendering, averaged over all shards: missing ones have none.
+    */
+  def averageDone(parts: Seq[FilmHeader]): Int =
+    val all = parts.map(p => p.done.toLong * p.shards.size).sum
+    parts.headOption.fold(0)(p => (all / p.count).toInt)
+
   /** Runs of numbers that follow each other: the first and last of each. */
   private def runs(sorted: Vector[Int]): Vector[(Int, Int)] =
     sorted.foldLeft(Vector.empty[(Int, Int)]):

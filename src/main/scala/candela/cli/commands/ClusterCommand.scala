@@ -122,8 +122,10 @@ private[cli] final class ClusterCommand(
         for path <- submitted.film do
           save(path, header.joined, state)
       val rendering = submitted.prepared.gather(load)
-      val done =
-        rendering.copy(samplesDone = header.averageDone, samplesPerPixel = header.samples)
+      val done = rendering.copy(
+        samplesDone = FilmHeader.averageDone(films.map(_.header)),
+        samplesPerPixel = header.samples
+      )
       renderer.finish(submitted.writer, submitted.prepared, done)
         .worseOf(if done.isComplete then ExitCode.Done else ExitCode.Interrupted)
 

@@ -53,15 +53,38 @@ final class MergeCommand(
     register.read(SceneFiles.of(loaded.description))
     outputs.foreach(register.write)
     FilmInput.verify(first, now.copy(count = header.count))
-    write(header.merging(films.map(_.header)), films, outfiles, loaded, saved)
+    try write(films, outfiles, loaded, saved)
+    catch
+      case e: SceneError if options.film.partial =>
+        val sound = this.sound(films, loaded)
+        if sound.size == films.size then throw e
+        write(sound, outfiles, loaded, saved)
+
+  /** The films whose states are sound; the others are left out with a warning, unless all are. */
+  private def sound(films: Vector[FilmFile], loaded: Prepared): Vector[FilmFile] =
+    def damage(film: FilmFile) =
+      try
+        val _ = loaded.gather(film.load)
+        Vector.empty
+      catch case e: SceneError => e.problems
+    val found = films.map(film => film -> damage(film))
+    val bad = found.flatMap(_._2)
+    if found.forall(_._2.nonEmpty) then throw SceneError(bad)
+    leaveOut(bad)
+    found.collect { case (film, Vector()) => film }
+
+  private def leaveOut(bad: Vector[Problem]): Unit = report.warnings(
+    bad.map(p => p.copy(severity = Severity.Warning, message = s"${p.message}; it is left out")),
+    all = true
+  )
 
   private def write(
-      header: FilmHeader,
       films: Vector[FilmFile],
       outfiles: OutputFiles,
       loaded: Prepared,
       saved: Options
   ): ExitCode =
+    val header = films.head.header.merging(films.map(_.header))
     val merged = options.outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
     def load(state: RenderState): Unit =
       films.foreach(_.load(state))
@@ -70,7 +93,7 @@ final class MergeCommand(
           Prepared.write(header.joined, state, path)
         if !options.quiet then terminal.out.println(s"wrote $path")
     val rendering = loaded.gather(load)
-    val done = header.averageDone
+    val done = FilmHeader.averageDone(films.map(_.header))
     val planned = if options.film.partial then done else header.samples
     val command = RenderCommand(saved, terminal, report, loader)
     val writer = command.writer(header.scene, loaded, outfiles.paths)
@@ -91,12 +114,7 @@ final class MergeCommand(
     val (single, doubled) = withoutDoubles(own)
     val bad = opened.flatMap(_.left.toOption).flatten ++ foreign ++ doubled
     if options.film.partial && single.nonEmpty then
-      report.warnings(
-        bad.map(p =>
-          p.copy(severity = Severity.Warning, message = s"${p.message}; it is left out")
-        ),
-        all = true
-      )
+      leaveOut(bad)
     else
       val gaps = if bad.isEmpty && !options.film.partial then missing(single) else Vector.empty
       val all = bad ++ gaps ++ (if options.film.partial then Vector.empty else unfinished(single))
@@ -145,8 +163,13 @@ final class MergeCommand(
   private def unfinished(films: Vector[FilmFile]): Vector[Problem] =
     for film <- films if films.size > 1 && !film.header.isComplete yield
       val header = film.header
+      val isOne = header.shards.size == 1
+      val which = if isOne then s"shard ${header.part} is" else s"shards ${header.part} are"
+      val completed =
+        if isOne then s"`candela resume ${film.path}` completes it"
+        else "`candela resume` completes the film of each shard, from which it was merged"
       Problem.general(
-        s"shard ${header.part} is unfinished, with ${header.done} of ${header.samples} samples " +
+        s"$which unfinished, with ${header.done} of ${header.samples} samples " +
           s"per pixel: `${film.path}`",
-        Some(s"`candela resume ${film.path}` completes it; --partial merges what there is")
+        Some(s"$completed; --partial merges what there is")
       )

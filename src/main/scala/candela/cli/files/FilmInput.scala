@@ -1,13 +1,13 @@
 package candela.cli.files
 
-import candela.base.{Problem, SceneError, SceneFolder, Version}
+import candela.base.{InputFile, Problem, SceneError, SceneFolder, Version}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
 import candela.job.{FilmHeaders, SceneLoader}
 import candela.render.storage.{FilmFile, FilmHeader}
 
 import java.io.IOException
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 
 /** Reads film files, and finds their scenes. */
 private[cli] object FilmInput:
@@ -35,9 +35,13 @@ private[cli] object FilmInput:
     */
   def options(film: FilmFile, now: Options): Options =
     val scene = at(film, film.header.scene)
+    val file = OutputFiles.path(scene)
     if now.limits.sandbox then
       val folder = SceneFolder.of(film.path, isConfined = true)
-      val _ = SceneLoader.refusing(folder.scene(OutputFiles.path(scene)))
+      val _ = SceneLoader.refusing(folder.scene(file))
+    // The film names it, and its user may not know it
+    if Files.exists(file) && !Files.isDirectory(file) && !Files.isRegularFile(file) then
+      fail(s"can't read `$scene`, the scene of `${film.path}`: ${InputFile.Irregular}")
     Options(
       files = Vector(scene),
       settings = FilmHeaders.settings(film.header).copy(goal = now.settings.goal),

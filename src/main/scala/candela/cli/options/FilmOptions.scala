@@ -109,9 +109,10 @@ private[cli] object FilmTable extends OptionRows:
         "It implies `--skip-done`: [sequences](FILMS.md#sequences)."
       ))
       .validate: r =>
-        if r.size <= FilmOptions.MostFrames then success
-        else
-          failure(s"--frames must be at most ${FilmOptions.MostFrames} frames, found `${r.size}`")
+        // Java has no range so long
+        val size = r.end.toLong - r.start + 1
+        if size <= FilmOptions.MostFrames then success
+        else failure(s"--frames must be at most ${FilmOptions.MostFrames} frames, found `$size`")
       .action((r, o) => change(o)(_.copy(frames = Some(r), skipDone = true))),
     opt[Unit]("skip-done")
       .text("skip scenes whose images are whole, and of this scene and these options")
