@@ -81,15 +81,32 @@ final class InputFile private[base] (
 
   /** Pipes and devices might never end. */
   private def readable: Path =
-    for a <- Try(attributes) do
-      if a.isDirectory then throw IOException("it is a folder")
-      else if !mayBePipe && !a.isRegularFile then throw IOException(InputFile.Irregular)
+    if isFolder then throw IOException(InputFile.Folder)
+    else if !mayBePipe then for why <- InputFile.obstacle(place) do throw IOException(why)
     place
 
   private def attributes = Files.readAttributes(place, classOf[BasicFileAttributes])
 
 object InputFile:
-  val Irregular = "it is no regular file, but a pipe or a device"
+  private val Folder = "it is a folder"
+
+  /** Why an existing file is not to be opened unless its user named it as a stream: reading might
+    * never end.
+    */
+  def obstacle(file: Path): Option[String] =
+    Try(Files.readAttributes(file, classOf[BasicFileAttributes])).toOption.flatMap: a =>
+      if a.isDirectory then Some(Folder)
+      else if !a.isRegularFile then Some("it is no regular file, but a pipe or a device")
+      else if !hasSize(a.size) && Try(file.toRealPath()).toOption.exists(ofKernel) then
+        Some("it is no regular file, but made by the kernel as it is read")
+      else None
+
+  /** What the kernel makes has none, or an absurd one. */
+  private def hasSize(size: Long) = size > 0 && size < (1L << 45)
+
+  private def ofKernel(file: Path) = KernelFolders.exists(file.startsWith)
+
+  private val KernelFolders = Vector("/proc", "/sys").map(Path.of(_))
 
   /** A file that the user has named. */
   def asked(path: Path): InputFile = InputFile(path, path, _ => (), mayBePipe = true, shown = true)

@@ -48,6 +48,21 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
   def belonging(name: String): Option[Path] =
     SceneFolder.resolved(path, name).filter(guard.mayOpen).filter(Files.isRegularFile(_))
 
+  /** What is said after `find` has found nothing, and what may help.
+    *
+    * @param nothing what is said if nothing has this name
+    */
+  def absence(
+      name: String,
+      at: Option[SourcePos],
+      nothing: String,
+      folders: Seq[Path] = Vector(path)
+  ): (String, Option[String]) =
+    existing(folders, name, at) match
+      case Some(other) if other.isFolder => (s"`$name` is a folder", None)
+      case Some(_) => (s"`$name` is no regular file, but a pipe or a device", None)
+      case None => (nothing, suggestion(name))
+
   /** As `belonging`, to look at in passing. */
   def glance(name: String): Option[InputFile] =
     belonging(name).flatMap(_ => find(name, None))

@@ -172,9 +172,11 @@ private[build] final class SurfaceBuilder(
       solidStatements += dressed.declared
 
     private def hasArea(shape: Shape): Boolean =
-      val hasArea = shape.area > 0f && java.lang.Float.isFinite(shape.area)
-      if !hasArea then here.warn("this area light has no area; it is ignored")
-      hasArea
+      val isFinite = java.lang.Float.isFinite(shape.area)
+      if !isFinite then
+        here.warn("the area of this area light is too large for a number; it is ignored")
+      else if shape.area <= 0f then here.warn("this area light has no area; it is ignored")
+      isFinite && shape.area > 0f
 
     private def addMesh(mesh: ShapeGeometry.Triangles): Unit =
       val count = mesh.indices.length / 3

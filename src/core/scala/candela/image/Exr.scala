@@ -44,6 +44,12 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
 
   override def keepsTexts: Boolean = true
 
+  private[image] override def hasEnd(file: Array[Byte]): Boolean =
+    ExrHeader.parts(file) match
+      case Vector(part) if part.tiling.isEmpty =>
+        ExrWindow.end(file, ExrHeader.chunks(part).toInt) == file.length
+      case _ => true // not of ours
+
   /** ZIP compression; every channel under its own name. Encoded images are decoded first. */
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do

@@ -115,7 +115,7 @@ private[image] object ExrHeader:
       throw ImageError(s"${p.width}×${p.height} pixels can't be in a file of ${file.length} bytes")
     found.toVector
 
-  private def chunks(part: ExrPart): Long = part.tiling match
+  private[image] def chunks(part: ExrPart): Long = part.tiling match
     case Some(tiling) => tiling.tiles(part.width, part.height)
     case None =>
       val rows = ChunkRows(part.compression)

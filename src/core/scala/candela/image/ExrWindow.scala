@@ -33,6 +33,19 @@ private[image] object ExrWindow:
     // Each chunk begins with the row of its first scanline.
     loop((height + rows - 1) / rows)(i => move(bytes.getLong(table + 8 * i).toInt, window.y))
 
+  /** Where the last of the chunks of scanlines ends. */
+  def end(file: Array[Byte], chunks: Int): Long =
+    val bytes = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)
+    val table = attributes(bytes)((_, _) => ())
+    // Each begins with its first row and its size
+    val ends =
+      for
+        i <- 0 until chunks
+        chunk = bytes.getLong(table + 8 * i)
+        if chunk >= 0 && chunk + 8 <= file.length
+      yield chunk + 8 + bytes.getInt(chunk.toInt + 4)
+    ends.maxOption.getOrElse(0L)
+
   /** Visits the attributes' names and places; returns where the table of chunks begins. */
   private def attributes(bytes: ByteBuffer)(visit: (String, Int) => Unit): Int =
     var at = HeaderStart

@@ -57,7 +57,8 @@ object ImageFiles:
 
   /** What an image file says of itself: its coding, windows and texts. Only EXR files do. */
   def facts(path: Path): Vector[(String, String)] =
-    val bytes = Files.readAllBytes(path)
+    // A pipe is read once
+    val bytes = if Files.isRegularFile(path) then Files.readAllBytes(path) else Array.emptyByteArray
     if bytes.startsWith(ExrMark) then ExrHeader.parts(bytes).head.facts else Vector.empty
 
   /** What pbrt-v4 makes of the file, if it is another image; or that pixels are missing. */

@@ -47,7 +47,8 @@ abstract class OutputFormat(val suffix: String, val contents: Contents):
   /** Whether its files show transparency; formats of channels store any. */
   def keepsAlpha: Boolean = false
 
-  /** Whether a file that can be decoded has its last byte, too: decoders are lenient. */
+  /** Whether a file that can be decoded has its last byte, too, and no more: decoders are lenient.
+    */
   private[image] def hasEnd(file: Array[Byte]): Boolean = true
 
   /** Encodes an image file.

@@ -37,6 +37,13 @@ private[image] object Pfm extends OutputFormat("pfm", Contents.Radiance):
     if factor != 1f then loop(data.length)(i => data(i) *= factor)
     Image(width, height, names, data)
 
+  private[image] override def hasEnd(file: Array[Byte]): Boolean =
+    val words = Words(file)
+    val values = if words.next("type") == "PF" then 3L else 1L
+    val (width, height) = (size(words.next("width")), size(words.next("height")))
+    val _ = words.next("scale")
+    file.length == words.at + 4 * values * width * height
+
   /** Little-endian, as most programs expect. */
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     val isGray = image.indicesOf(Image.RgbNames).isEmpty

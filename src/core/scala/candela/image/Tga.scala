@@ -71,7 +71,7 @@ private[image] object Tga extends OutputFormat("tga", Contents.Display):
     val header = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)
     def size(at: Int) = header.getShort(at) & 0xffff
     // Others compress
-    file(2) != TrueColor || file.length >= HeaderSize + size(12) * size(14) * (file(16) / 8)
+    file(2) != TrueColor || file.length == HeaderSize + size(12) * size(14) * (file(16) / 8)
 
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     val picture = Bitmap.of(image, options.display.copy(bits = 8), options.alpha)

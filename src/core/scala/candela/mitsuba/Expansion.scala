@@ -76,7 +76,9 @@ final class Expansion(file: Path, folder: SceneFolder, defines: Map[String, Stri
     val name = required(e, "filename")
     if !SceneFolder.isName(name) then fail(e, s"`$name` is not a valid file name")
     val file = folder.existing(folders, name, Some(e.at)).filter(_.isRegular).getOrElse:
-      fail(e, s"no such file: `$name`", folder.suggestion(name))
+      val (message, help) =
+        folder.absence(name, Some(e.at), s"no such file: `$name`", folders)
+      fail(e, message, help)
     folder.allowance.check(Limit.Depth, files.size, Some(e.at)):
       s"includes are nested ${files.size} deep"
     if files.exists(_.isSame(file)) then fail(e, s"`$name` includes itself")

@@ -94,7 +94,9 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
     else
       val there = found(name, at).map(noted)
       if there.isEmpty then
-        missing(at, s"no such file: `$name`", standIn, folder.suggestion(name))
+        val nothing = s"no such file: `$name`"
+        val (message, help) = folder.absence(name, Some(at), nothing, expanded.folders)
+        missing(at, message, standIn, help)
       there
 
   /** The name of a file for a parameter, relative to the folder of the scene. */

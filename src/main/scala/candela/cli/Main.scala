@@ -25,11 +25,20 @@ object Main:
     // Before the first class of AWT loads: a renderer must not open a display
     if sys.props.get(Headless).isEmpty then
       val _ = System.setProperty(Headless, "true")
-    val code = run(args.toVector, Terminal.ofProcess)
+    val code =
+      try run(args.toVector, Terminal.ofProcess)
+      catch
+        case _: OutOfMemoryError =>
+          // So early that nothing else can tell it
+          System.err.println(NoHeap)
+          1
     System.err.flush()
     System.exit(code)
 
   private val Headless = "java.awt.headless"
+
+  private val NoHeap =
+    "error: out of memory: Java's heap is too small to begin; raise the limit, e.g. by -Xmx8g"
 
   /** Runs a command line within another program; returns the exit code. */
   def run(args: Seq[String], out: PrintStream, err: PrintStream): Int =

@@ -120,6 +120,8 @@ final class BuildErrorsSuite extends AnyFunSuite:
       "\"point P\" [0 0 0 1 0 0 0 1 0]"
     val lamp = only(s"AreaLightSource \"diffuse\" $flat")
     assertWarning(lamp, "1 of 2 triangles of this area light have no area")
+    val huge = only("AreaLightSource \"diffuse\" Shape \"sphere\" \"float radius\" 1e30")
+    assertWarning(huge, "the area of this area light is too large for a number; it is ignored")
 
   test("lights without what they need are errors"):
     def light(rest: String) = only(s"LightSource $rest", Dialect.V4)

@@ -230,6 +230,14 @@ class FilmFilesSuite extends AnyFunSuite:
       assert(second.out.endsWith("\n4 scenes: 2 rendered, 2 skipped (done already)\n"))
       assert(f.run(words :+ "--spp" :+ "3").endsWith("4 scenes: 4 rendered\n"))
 
+  test("of many scenes that fail, the first are named"):
+    withScene(): f =>
+      val words = Vector(f("no%d.pbrt"), "--frames", "1-1000", "--outfile", f("out%d.exr"))
+      val (code, captured) = f.captured(words)
+      val first = (1 to 20).map(n => f(s"no$n.pbrt")).mkString(", ")
+      assert(code == 1)
+      assert(captured.out == s"1000 scenes: 1000 failed ($first, … and 980 more)\n")
+
   test("options that contradict each other are refused"):
     withScene(): f =>
       def usage(words: String*) =

@@ -133,8 +133,9 @@ class LostDataSuite extends AnyFunSuite:
         assert(again().startsWith("wrote "), format)
         assert(again().contains("1 skipped (done already)"), format)
         val whole = f.bytes(s"a.$format")
-        for size <- Vector(whole.size - 1, whole.size / 2, 20, 0) do
-          val _ = Files.write(file, whole.take(size).toArray)
+        val longer = Vector.fill[Byte](500)(0)
+        for size <- Vector(whole.size + 500, whole.size - 1, whole.size / 2, 20, 0) do
+          val _ = Files.write(file, (whole ++ longer).take(size).toArray)
           assert(again().startsWith("wrote "), s"$format, $size of ${whole.size} bytes")
           assert(f.bytes(s"a.$format") == whole)
           assert(again().contains("1 skipped (done already)"), format)

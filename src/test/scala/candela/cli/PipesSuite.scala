@@ -60,3 +60,53 @@ class PipesSuite extends AnyFunSuite:
       assert(Pipes.make(images.resolve("b.png")))
       val said = Pipes.unblocked(f.run(Vector("compare", s"$images", s"$images")))
       assert(said.contains("a.png") && !said.contains("b.png"))
+
+  private val header = "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4 "
+
+  private def sceneOf(f: FilmFilesSuite.Folder, text: String, film: String = ""): String =
+    val options = Vector("Sampler \"independent\" \"integer pixelsamples\" 1", header + film)
+    val lines = options ++ Vector("WorldBegin", "LightSource \"infinite\"", text)
+    Files.writeString(f.folder.resolve("t.pbrt"), lines.mkString("\n")).toString
+
+  test("what a scene names is no device, no pipe and nothing that the kernel makes"):
+    withScene: f =>
+      val made = "no regular file, but made by the kernel as it is read"
+      val other = "no regular file, but a pipe or a device"
+      for
+        (name, what) <- Vector("/dev/zero" -> other, "/dev/null" -> other, "pipe" -> other) ++
+          Vector("." -> "a folder", "/proc/self/stat" -> made, "/proc/kmsg" -> made)
+        if Files.exists(f.folder.resolve(name))
+        text <- Vector(
+          s"Shape \"plymesh\" \"string filename\" \"$name\"",
+          s"Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"$name\"",
+          s"LightSource \"infinite\" \"string filename\" \"$name\"",
+          s"Include \"$name\""
+        )
+      do
+        val why = Pipes.unblocked(f.fail(Vector("check", sceneOf(f, text))))
+        assert(why.contains(what) && !why.contains("did you mean"), s"$text: $why")
+        assert(why.linesIterator.next.contains("t.pbrt:5:"), why)
+
+  test("a scene's image and its preview go to no pipe; one that the user names does"):
+    withScene: f =>
+      val film = s"\"string filename\" \"${f("pipe.exr")}\""
+      assert(Pipes.make(Path.of(f("pipe.exr"))))
+      val why = refused(f)(sceneOf(f, "", film))
+      assert(why.contains("t.pbrt:2:") && why.contains("expected a regular file for the image"))
+      assert(Pipes.make(Path.of(f("new.png"))))
+      val preview = s"\"string filename\" \"${f("new.exr")}\""
+      val said = Pipes.unblocked(f.run(Vector(sceneOf(f, "", preview))))
+      assert(said.contains(s"no preview is written: `${f("new.png")}` is no regular file"))
+      assert(f.image("new.exr").width == 4)
+      val out = s"\"string msereferenceout\" \"${f("pipe")}\""
+      val errors = s"Option \"string msereferenceimage\" \"${f("new.exr")}\"\nOption $out\n"
+      val scene = sceneOf(f, "")
+      val _ = Files.writeString(Path.of(scene), errors + Files.readString(Path.of(scene)))
+      val lines = refused(f)(scene, "--outfile", f("b.exr"))
+      assert(lines.contains("t.pbrt:2:") && lines.contains("regular file for the list of errors"))
+
+  test("a reference image is a regular file, as it may be read more than once"):
+    withScene: f =>
+      val words = Vector(f.scene, "--outfile", f("a.exr"), "--report", f("r.csv"))
+      val why = refused(f)(words ++ Vector("--reference", f("pipe"))*)
+      assert(why == s"error: can't read the reference `${f("pipe")}`: $Irregular\n")

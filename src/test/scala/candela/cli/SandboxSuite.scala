@@ -125,6 +125,7 @@ class SandboxSuite extends AnyFunSuite:
       val _ = Files.copy(f.root.resolve("secret.exr"), f.home.resolve("r.exr"))
       val (code, captured) = Captured.run("--sandbox", f.scene("s.pbrt", errors).toString)
       assert(code == 1 && captured.err.contains("in the folder of the image"), captured.err)
+      assert(captured.err.contains("s.pbrt:1:"), captured.err)
       assert(f.outside == before)
 
   test("a film names no scene, no image and no options beyond its folder"):

@@ -89,7 +89,9 @@ final class SharedResources(
       found match
         case Some(there) => files.put((from.folder, name), there): Unit
         case None =>
-          problems.missing(p.valuesAt, s"no file `$name`", standIn, from.folder.suggestion(name))
+          val at = p.valuesAt
+          val (message, help) = from.folder.absence(name, Some(at), s"no file `$name`")
+          problems.missing(at, message, standIn, help)
       found
 
   private def load(file: InputFile, at: SourcePos): Either[String, StoredImage] = synchronized:

@@ -168,12 +168,10 @@ object Spectra:
       folder.find(name, Some(p.valuesAt)) match
         case None =>
           val near = Suggest.nearest(name, NamedSpectra.names).map(n => s"did you mean `$n`?")
-          site.problems.missing(
-            p.valuesAt,
-            s"`$name` is neither a named spectrum nor a file",
-            standIn,
-            near.orElse(folder.suggestion(name)).orElse(Some(s"known: ${NamedSpectra.inWords}"))
-          )
+          val nothing = s"`$name` is neither a named spectrum nor a file"
+          val (message, help) = folder.absence(name, Some(p.valuesAt), nothing)
+          val known = near.orElse(help).orElse(Some(s"known: ${NamedSpectra.inWords}"))
+          site.problems.missing(p.valuesAt, message, standIn, known)
           None
         case Some(file) =>
           numbers(file, name) match

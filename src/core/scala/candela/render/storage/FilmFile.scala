@@ -70,12 +70,10 @@ object FilmFile:
   private def header(path: Path): Either[String, FilmHeader] =
     try
       if !Files.exists(path) then Left("no such file")
-      else if Files.isDirectory(path) then Left("it is a folder")
-      else if !Files.isRegularFile(path) then Left(InputFile.Irregular)
       else
-        ForeignFile.of(path).filter(_.kind != ForeignKind.Film) match
-          case Some(other) => Left(s"it is ${other.what}, not a saved rendering")
-          case None => Right(sound(CheckedFile.read(path, Mark)(FilmHeader.load)))
+        def foreign = ForeignFile.of(path).filter(_.kind != ForeignKind.Film)
+        InputFile.obstacle(path).orElse(foreign.map(f => s"it is ${f.what}, not a saved rendering"))
+          .toLeft(sound(CheckedFile.read(path, Mark)(FilmHeader.load)))
     catch case e: IOException => Left(reason(e))
 
   private def reason(e: IOException): String = e match

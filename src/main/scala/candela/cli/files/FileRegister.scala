@@ -15,6 +15,7 @@ import scala.util.Try
   * @param option that names them
   * @param beside what is written with them, such as previous copies
   * @param at     the parameter that names them, if a scene does
+  * @param isAsked whether the user has named them: pipes and devices, too
   */
 private[cli] final case class Output(
     files: Vector[Path],
@@ -22,7 +23,8 @@ private[cli] final case class Output(
     of: String,
     option: String = "outfile",
     beside: Vector[Path] = Vector.empty,
-    at: Option[SourcePos] = None
+    at: Option[SourcePos] = None,
+    isAsked: Boolean = true
 )
 
 /** What a run reads and writes. The one place where outputs are checked, before the work begins:
@@ -50,7 +52,8 @@ private[cli] final class FileRegister:
     def isInput(file: Path) = Option.when(hasRead(file)):
       val help = s"choose another name with --${output.option} FILE"
       Problem.general(s"`$file` is an input file; refusing to overwrite it", Some(help))
-    def problem(file: Path) = outside(file, output).orElse(obstacle(file)).orElse(isInput(file))
+    def problem(file: Path) = outside(file, output).orElse(irregular(file, output))
+      .orElse(obstacle(file)).orElse(isInput(file))
     val problems = output.files.flatMap(problem)
     if problems.nonEmpty then throw SceneError(problems)
     for first <- output.beside.flatMap(problem).headOption do throw SceneError(first)
@@ -62,6 +65,14 @@ private[cli] final class FileRegister:
       message = s"expected a place for the ${output.kind} in the folder of the image, found `$file`"
     yield
       val help = Some("--sandbox lets files be written in that of --outfile or of the scene only")
+      output.at.fold(Problem.general(message, help))(Problem.error(_, message, help))
+
+  /** A pipe would be written to for ever, if nobody reads it. */
+  private def irregular(file: Path, output: Output): Option[Problem] =
+    Option.when(!output.isAsked && Files.exists(file) && place(file).isEmpty):
+      val message = s"expected a regular file for the ${output.kind}, found a pipe or a device: " +
+        s"`$file`"
+      val help = Some(s"--${output.option} FILE names another one")
       output.at.fold(Problem.general(message, help))(Problem.error(_, message, help))
 
   /** Notes files that will be written.

@@ -7,7 +7,7 @@ import candela.job.{FilmHeaders, SceneLoader}
 import candela.render.storage.{FilmFile, FilmHeader}
 
 import java.io.IOException
-import java.nio.file.{Files, Path}
+import java.nio.file.Path
 
 /** Reads film files, and finds their scenes. */
 private[cli] object FilmInput:
@@ -40,8 +40,8 @@ private[cli] object FilmInput:
       val folder = SceneFolder.of(film.path, isConfined = true)
       val _ = SceneLoader.refusing(folder.scene(file))
     // The film names it, and its user may not know it
-    if Files.exists(file) && !Files.isDirectory(file) && !Files.isRegularFile(file) then
-      fail(s"can't read `$scene`, the scene of `${film.path}`: ${InputFile.Irregular}")
+    for why <- InputFile.obstacle(file) do
+      fail(s"can't read `$scene`, the scene of `${film.path}`: $why")
     Options(
       files = Vector(scene),
       settings = FilmHeaders.settings(film.header).copy(goal = now.settings.goal),

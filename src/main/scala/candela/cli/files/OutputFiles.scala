@@ -9,7 +9,7 @@ import candela.layers.Layer
 import candela.render.RenderPlan
 
 import java.io.IOException
-import java.nio.file.{InvalidPathException, Path}
+import java.nio.file.{Files, InvalidPathException, Path}
 
 /** Output files of an image, one per format, and the warnings about them. */
 final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
@@ -32,12 +32,15 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
     register.read(inputs.map(OutputFiles.path))
     register.write(Output(paths, kind, inputs.headOption.mkString))
 
-  /** Leaves out a preview that would overwrite a file that was read: nobody asked for it. */
+  /** Leaves out a preview that would overwrite a file that was read, or go to a pipe: nobody asked
+    * for it.
+    */
   def without(isRead: Path => Boolean): OutputFiles =
-    val (lost, kept) = paths.drop(1).partition(isRead)
+    def isPipe(path: Path) = Files.exists(path) && !Files.isRegularFile(path)
+    val (lost, kept) = paths.drop(1).partition(path => isRead(path) || isPipe(path))
     val told = lost.map: path =>
-      val message = s"no preview is written: `$path` is an input file"
-      Problem(Severity.Warning, None, message)
+      val why = if isRead(path) then "an input file" else "no regular file"
+      Problem(Severity.Warning, None, s"no preview is written: `$path` is $why")
     OutputFiles(paths.take(1) ++ kept, warnings ++ told)
 
   /** @throws SceneError if no file can store alpha */

@@ -13,7 +13,8 @@ private[cli] final case class Frame(scene: String, outfiles: Vector[String])
 /** The scenes of a command line, and what became of them. */
 private[cli] final class Sequence(options: Options):
   private var worst = ExitCode.Done
-  private var skipped, rendered = Vector.empty[String]
+  private var skipped = Set.empty[String]
+  private var skippedCount, rendered = 0
   private var failed = Vector.empty[String]
 
   val frames: Vector[Frame] = options.film.frames match
@@ -28,26 +29,32 @@ private[cli] final class Sequence(options: Options):
   def code: ExitCode = worst
 
   /** Notes that a scene is done already. */
-  def skip(scene: String): Unit = skipped :+= scene
+  def skip(scene: String): Unit =
+    skipped += scene
+    skippedCount += 1
 
   def ended(scene: String)(render: => ExitCode): Unit =
     val code = render
     worst = worst.worseOf(code)
     if code != ExitCode.Done then failed :+= scene
-    else if !skipped.contains(scene) then rendered :+= scene
+    else if !skipped.contains(scene) then rendered += 1
 
   /** `4 scenes: 2 rendered, 1 skipped (done already), 1 failed: b.pbrt`; of several scenes only. */
   def summary: Option[String] =
     Option.when(frames.size > 1 || skipped.nonEmpty):
-      def part(names: Vector[String], what: String) =
-        Option.when(names.nonEmpty)(s"${names.size} $what")
-      val missing = frames.size - failed.size - rendered.size - skipped.size
-      val parts = part(rendered, "rendered") ++ part(skipped, "skipped (done already)") ++
-        part(failed, failed.mkString("failed (", ", ", ")")) ++
-        Option.when(missing > 0)(s"$missing not begun")
+      def part(count: Int, what: String) = Option.when(count > 0)(s"$count $what")
+      val more = failed.size - Sequence.MostNamed
+      val names = failed.take(Sequence.MostNamed) ++ Option.when(more > 0)(s"… and $more more")
+      val missing = frames.size - failed.size - rendered - skippedCount
+      val parts = part(rendered, "rendered") ++ part(skippedCount, "skipped (done already)") ++
+        part(failed.size, names.mkString("failed (", ", ", ")")) ++
+        part(missing, "not begun")
       s"${Figures.count(frames.size, "scene")}: ${parts.mkString(", ")}"
 
 private[cli] object Sequence:
+  /** Failed scenes in the summary. */
+  private val MostNamed = 20
+
   /** Name of the metadata that identify a complete rendering. */
   val Digest = "rendering"
 

@@ -1,5 +1,6 @@
 package candela.cli.rendering
 
+import candela.base.SourcePos
 import candela.cli.files.{FileRegister, FilmKeeping, FilmName, Frame, Output, OutputFiles}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.terminal.Report
@@ -8,7 +9,7 @@ import candela.layers.Layer
 import candela.render.storage.FilmFile
 import candela.scenefile.SceneFiles
 
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 
 /** The files that a rendering reads and writes. */
 private[cli] final class RenderOutputs(
@@ -19,14 +20,14 @@ private[cli] final class RenderOutputs(
 ):
 
   /** Checks that no two scenes have one image, before any of them is rendered: that would lose
-    * hours. Scenes that can't be read tell nothing yet.
+    * hours. Scenes that can't be read tell nothing yet, and missing ones take no time.
     *
     * @throws SceneError if two have
     */
   def checkAll(frames: Vector[Frame], loader: SceneLoader): Unit =
     if frames.size > 1 then
       val together = FileRegister()
-      for Frame(scene, outfiles) <- frames do
+      for Frame(scene, outfiles) <- frames if Files.exists(OutputFiles.path(scene)) do
         val images =
           if outfiles.nonEmpty then Some(OutputFiles.asked(outfiles))
           else loader.imageName(scene, options.preparation).map(OutputFiles.named(scene, _))
@@ -49,7 +50,8 @@ private[cli] final class RenderOutputs(
     others(
       scene,
       film.map(OutputFiles.path),
-      options.settings.output.errors
+      options.settings.output.errors,
+      at = None
     ).foreach(register.check)
 
   /** The images to write, each by one scene.
@@ -70,9 +72,12 @@ private[cli] final class RenderOutputs(
       files.checkLayers()
     if options.settings.layers.contains(Layer.Alpha) && files.paths.nonEmpty then files.checkAlpha()
     val at = if outfiles.isEmpty then FilmName.place(loaded.description) else None
-    register.write(Output(files.paths, "image", scene, at = at))
+    // Those of a film are not named now
+    val isAsked = outfiles.nonEmpty && resumed.isEmpty
+    register.write(Output(files.paths, "image", scene, at = at, isAsked = isAsked))
     val film = FilmKeeping.path(options, outfiles, files.paths, resumed)
-    others(scene, film, plan.errors.map(_.file)).foreach(register.write)
+    val errorsAt = loaded.description.options.find(_.name == "msereferenceout").map(_.valuesAt)
+    others(scene, film, plan.errors.map(_.file), errorsAt).foreach(register.write)
     files.paths
 
   /** Where a sandbox lets files be written. */
@@ -81,9 +86,23 @@ private[cli] final class RenderOutputs(
     val all = if beside.isEmpty then Vector(OutputFiles.path(scene)) else beside
     all.map(file => Option(file.getParent).getOrElse(Path.of(""))).distinct
 
-  private def others(scene: String, film: Option[Path], errors: Option[String]) =
+  /** @param at where the scene names the list of errors */
+  private def others(
+      scene: String,
+      film: Option[Path],
+      errors: Option[String],
+      at: Option[SourcePos]
+  ): Vector[Output] =
+    val isAsked = options.settings.output.errors.nonEmpty
     val named = if options.film.checkpoint.isDefined then "checkpoint" else "outfile"
     film.toVector.map(Output.film(_, scene, named)) ++ Vector(
       Output(ReportFiles.checked(options.reports), "report", scene, "report"),
-      Output(errors.toVector.map(OutputFiles.path), "list of errors", scene, "mse-reference-out")
+      Output(
+        errors.toVector.map(OutputFiles.path),
+        "list of errors",
+        scene,
+        "mse-reference-out",
+        at = at.filterNot(_ => isAsked),
+        isAsked = isAsked
+      )
     )

@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.{Problem, SceneError}
+import candela.base.{InputFile, Problem, SceneError}
 import candela.cli.files.OutputFiles
 import candela.cli.terminal.Figures
 import candela.film.Development
@@ -43,7 +43,11 @@ object RenderRecorder:
     * @throws SceneError if its size differs from the image's
     */
   def fitting(plan: RenderPlan, name: String): Image =
-    val image = ImageFiles.read(OutputFiles.path(name)).toRgb
+    val file = OutputFiles.path(name)
+    // It may be read more than once, and a scene may have named it
+    for why <- InputFile.obstacle(file) do
+      throw SceneError(Problem.general(s"can't read the reference `$name`: $why"))
+    val image = ImageFiles.read(file).toRgb
     val crop = plan.crop
     def has(width: Int, height: Int) = image.width == width && image.height == height
     if has(crop.width, crop.height) then image
