@@ -22,6 +22,15 @@ object ImageEdits:
       data(i) = image.data(i / from.length * image.channels + from(i % from.length))
     Image(image.width, image.height, names, data, image.encoding, image.colorSpace)
 
+  /** The three channels of a layer, such as `N.X`, `N.Y` and `N.Z`, as R, G and B: how a picture
+    * shows it. Other images are returned as they are.
+    */
+  def layerAsColors(image: Image): Image =
+    val components = image.channelNames.map(_.split('.').last)
+    if components == Image.RgbNames || components == Vector("X", "Y", "Z") then
+      Image(image.width, image.height, Image.RgbNames, image.data, image.encoding, image.colorSpace)
+    else image
+
   /** All channels times a factor, except alpha. */
   def scaled(image: Image, factor: Float): Image =
     val isScaled = image.channelNames.map(_ != "A").toArray

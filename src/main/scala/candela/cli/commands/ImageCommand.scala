@@ -29,13 +29,14 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
       ImageWindow(c.x0, c.y0, whole.width, whole.height)
     val how = WriteOptions(isHalf = asked.isHalf, display = options.display, window = window)
     OutputFiles.writeAll(outputs.paths): out =>
-      if OutputFormat.of(out).exists(_.contents != Contents.Channels) then
-        ImageFiles.colored(path, made): Unit
+      val hasColors = OutputFormat.of(out).exists(_.contents != Contents.Channels)
+      val written =
+        if hasColors then ImageFiles.colored(path, ImageEdits.layerAsColors(made)) else made
       val shown =
         if OutputFormat.of(out).exists(_.contents == Contents.Display) then
-          options.display.describe(made)
+          options.display.describe(written)
         else Vector.empty
-      ImageFiles.write(out, made, ("image" -> path.toString) +: shown, how)
+      ImageFiles.write(out, written, ("image" -> path.toString) +: shown, how)
       if !options.quiet then terminal.out.println(s"wrote $out  ${made.width}x${made.height}")
     terminal.out.flush()
     ExitCode.Done

@@ -54,6 +54,22 @@ class ImageCommandSuite extends AnyFunSuite:
       assert(code == 0, captured.err)
       assert(run("info", out.toString)._2.out.contains("x 10 to 40, y 5 to 20 of 64x32"))
 
+  test("the three channels of a layer are the colours of a picture, and keep their names in .exr"):
+    TempFolder.use: folder =>
+      val (names, values) = (Vector("Z", "N.X", "N.Y", "N.Z"), Array(9f, 0.2f, 0.5f, 1f))
+      val file = folder.resolve("layers.exr")
+      ImageFiles.write(file, Image(1, 1, names, values))
+      def image(out: String): Image =
+        val path = folder.resolve(out)
+        val words = Vector("image", file.toString, "--channels", "N.X,N.Y,N.Z", "--outfile")
+        val (code, captured) = run(words :+ path.toString*)
+        assert(code == 0, captured.err)
+        ImageFiles.read(path).linear
+      same(image("n.pfm"), Image(1, 1, Image.RgbNames, values.drop(1)), 0)
+      assert(image("n.exr").channelNames.toSet == names.drop(1).toSet)
+      // Half a step of 8 bits at the slope of sRGB's decoding, which is at most 2.3
+      same(image("n.png"), Image(1, 1, Image.RgbNames, values.drop(1)), 2.3f / 510)
+
   test("image resizes by width, height or both"):
     for (size, width, height) <- Vector(("32", 32, 16), ("x8", 16, 8), ("10x30", 10, 30)) do
       val small = made(sky, "--resize", size)
