@@ -1,10 +1,14 @@
 ThisBuild / scalaVersion := "3.3.7"
-ThisBuild / organization := "candela"
 ThisBuild / version := "0.1.0"
-ThisBuild / licenses := Seq(License.Apache2)
+Publishing.ofBuild
 
 val lwjgl = "3.4.3"
 val spark = "4.2.0"
+val lwjglModules = Seq("lwjgl", "lwjgl-tinyexr", "lwjgl-stb")
+
+/** Releases whose promises the next one keeps. */
+val released = Set.empty[String]
+
 val lwjglNatives = Seq(
   "natives-linux",
   "natives-linux-arm64",
@@ -80,11 +84,24 @@ lazy val core: Project = (project in file("src/core"))
     Compile / scalaSource := baseDirectory.value / "scala",
     Compile / resourceDirectory := baseDirectory.value / "resources",
     compiled,
-    libraryDependencies ++= Seq("lwjgl", "lwjgl-tinyexr", "lwjgl-stb").flatMap(module =>
-      ("org.lwjgl" % module % lwjgl) +:
-        lwjglNatives.map(n => "org.lwjgl" % module % lwjgl classifier n)
+    // Natives are for the platforms that the library's users choose
+    libraryDependencies ++= lwjglModules.map("org.lwjgl" % _ % lwjgl),
+    Compile / sourceGenerators += versionSource,
+
+    // `sbt core/doc`: what users are promised.
+    Compile / doc / scalacOptions := Seq(
+      "-project",
+      "Candela",
+      "-project-version",
+      version.value,
+      "-skip-by-id:" + Publishing.hidden((Compile / scalaSource).value).mkString(","),
+      "-no-link-warnings",
+      "-Werror"
     ),
-    Compile / sourceGenerators += versionSource
+
+    // `sbt core/mimaReportBinaryIssues`: whether a release breaks what the one before promised.
+    mimaPreviousArtifacts := released.map(organization.value %% moduleName.value % _),
+    mimaBinaryIssueFilters += Promised.only
   )
 
 /** The program: commands, pages, reports, suites, converters. */
@@ -98,13 +115,17 @@ lazy val root: Project = (project in file("."))
     test / aggregate := true,
     scalafmtAll / aggregate := true,
     scalafmtCheckAll / aggregate := true,
-    description := "A physically based renderer for pbrt scenes",
+    description := "A physically based renderer for pbrt and Mitsuba scenes: the program",
     compiled,
+    Publishing.withoutDocumentation,
     libraryDependencies ++= Seq(
       "com.github.scopt" %% "scopt" % "4.1.0",
       "com.lihaoyi" %% "scalatags" % "0.13.1",
       "com.lihaoyi" %% "ujson" % "4.1.0",
-      "com.typesafe" % "config" % "1.4.3",
+      "com.typesafe" % "config" % "1.4.3"
+    ) ++ lwjglModules.flatMap(module =>
+      lwjglNatives.map(n => "org.lwjgl" % module % lwjgl % Runtime classifier n)
+    ) ++ Seq(
       "org.scalatest" %% "scalatest" % "3.2.19" % Test,
       "org.scalacheck" %% "scalacheck" % "1.19.0" % Test,
       "org.scalatestplus" %% "scalacheck-1-18" % "3.2.19.0" % Test
@@ -119,7 +140,8 @@ lazy val root: Project = (project in file("."))
     Universal / mappings ++= program.value,
     stage := withArchive(stage.value, streams.value.log),
 
-    // `sbt test`: a separate JVM, suites in parallel.
+    // `sbt test`: a separate JVM, suites in parallel. The library's example is compiled, too.
+    Test / unmanagedSourceDirectories += baseDirectory.value / "examples" / "scala" / "src",
     Test / fork := true,
     Test / testForkedParallel := true,
     Test / javaOptions ++= jvmOptions ++ Seq("-Xmx3g", "-ea:candela..."), // Assertions
@@ -132,8 +154,10 @@ lazy val root: Project = (project in file("."))
 lazy val cluster: Project = (project in file("cluster"))
   .dependsOn(core, root % "test->test")
   .settings(
-    name := "candela-cluster",
+    name := "candela-spark",
+    description := "A physically based renderer for pbrt and Mitsuba scenes, on Apache Spark",
     compiled,
+    Publishing.withoutDocumentation,
     libraryDependencies ++= Seq(
       ("org.apache.spark" %% "spark-core" % spark % Provided).cross(CrossVersion.for3Use2_13)
     ),
@@ -166,6 +190,7 @@ lazy val bench = (project in file("bench"))
   .dependsOn(root)
   .enablePlugins(JmhPlugin)
   .settings(
+    Publishing.nothing,
     scalacOptions ++= Seq("-encoding", "UTF-8", "-deprecation", "-Werror"),
     // `bench/runMain`: JVM options like the renderer's, in the project folder; 10⁷ triangles fit.
     run / fork := true,

@@ -83,6 +83,7 @@ object Architecture:
       "convert" -> convert,
       "mitsuba" -> mitsuba,
       "job" -> job,
+      "api" -> (job + "job"),
       "report" -> report,
       "suite" -> (report ++ Set("report", "job")),
       "watch" -> (report ++ Set("film", "layers", "render", "report"))

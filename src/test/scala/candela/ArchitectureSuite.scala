@@ -21,13 +21,10 @@ class ArchitectureSuite extends AnyFunSuite:
     holds(Architecture.packages(main))
     assert(main.flatMap(Architecture.home).toSet == Architecture.allowed.keySet)
 
-  test("the core is the two towers, the bridge and the job, and all of them"):
+  test("the core is the two towers, the bridge, the job and the library on top, and all of them"):
     val towers = Architecture.runtime ++ Architecture.file ++ Architecture.bridge
-    assert(core.flatMap(Architecture.home).toSet == towers.toSet ++ Set(
-      "measure",
-      "mitsuba",
-      "job"
-    ))
+    val others = Set("measure", "mitsuba", "job", "api")
+    assert(core.flatMap(Architecture.home).toSet == towers.toSet ++ others)
 
   test("every use points to a lower floor"):
     holds(Architecture.floors(main))

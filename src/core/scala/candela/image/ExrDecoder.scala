@@ -24,6 +24,7 @@ private[image] object ExrDecoder:
       order: Array[Int],
       target: Array[Float]
   ): Unit =
+    Natives.need("tinyexr")
     val stack = stackPush()
     val native = MemoryUtil.memAlloc(file.length)
     try

@@ -28,6 +28,7 @@ private[image] object ExrEncoder:
       metadata: Vector[(String, String)],
       isHalf: String => Boolean
   ): Array[Byte] =
+    Natives.need("tinyexr")
     // Readers look channels up by binary search: the file must have them sorted by name.
     val order = image.channelNames.indices.sortBy(image.channelNames)
     val halves = order.map(i => isHalf(image.channelNames(i)))

@@ -21,6 +21,7 @@ private[image] final class NativeLibrary private (
 private[image] object NativeLibrary:
   /** The first that can be loaded of these paths or names. */
   def first(name: String, paths: Vector[String]): Option[NativeLibrary] =
+    Natives.need("")
     paths.iterator.flatMap(path => opened(name, path)).nextOption()
 
   private def opened(name: String, path: String): Option[NativeLibrary] =

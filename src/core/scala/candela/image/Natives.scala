@@ -40,6 +40,25 @@ object Natives:
     val processor = if Set("aarch64", "arm64")(property("os.arch")) then "arm64" else "x64"
     s"$system-$processor"
 
+  /** Called before LWJGL is: without its libraries, that prints advice of its own.
+    *
+    * @param module of LWJGL, such as `tinyexr`; empty: its base
+    * @throws MissingNatives if a library is not there
+    */
+  private[image] def need(module: String): Unit =
+    for m <- Vector("", module).distinct if !isThere(m) do throw MissingNatives(m, platform)
+
+  private def isThere(module: String): Boolean =
+    val suffix = if module.isEmpty then "" else s"_$module"
+    val file = System.mapLibraryName(s"lwjgl$suffix")
+    val part = if module.isEmpty then "" else s"$module/"
+    val folder = s"${platform.replace('-', '/')}/org/lwjgl/$part"
+    def onPath = sys.props.get("java.library.path").toVector
+      .flatMap(_.split(java.io.File.pathSeparator)).filter(_.nonEmpty)
+    sys.props.contains(Place) ||
+    classOf[org.lwjgl.PointerBuffer].getClassLoader.getResource(folder + file) != null ||
+    onPath.exists(p => Try(Files.isRegularFile(Path.of(p, file))).getOrElse(false))
+
   /** What is missing, and what to do, if that is why `e` was thrown. */
   def missing(e: Throwable): Option[(String, String)] = e match
     case l: LinkageError if isOfLwjgl(l) =>
@@ -58,6 +77,23 @@ object Natives:
   private val Place = "org.lwjgl.librarypath"
   private val Stream = "org.lwjgl.util.DebugStream"
   private val Frames = 20
+
+/** A native library of LWJGL is not there.
+  *
+  * @param module of LWJGL; empty: its base
+  */
+final class MissingNatives private[image] (module: String, platform: String)
+    extends UnsatisfiedLinkError(
+      s"no native library ${if module.isEmpty then "lwjgl" else s"lwjgl_$module"} for $platform"
+    ):
+
+  /** For who depends on the library. */
+  def help: String =
+    val classifier = "natives-" + platform.stripSuffix("-x64")
+    val name = if module.isEmpty then "lwjgl" else s"lwjgl-$module"
+    s"add org.lwjgl:$name:${org.lwjgl.Version.getVersion.takeWhile(_ != '+')} with the " +
+      s"classifier $classifier to the dependencies; EXR files need lwjgl and lwjgl-tinyexr, " +
+      "PNG, JPEG and TGA files that are read need lwjgl and lwjgl-stb"
 
 /** What LWJGL prints is lost. */
 final class NoStream extends Supplier[PrintStream]:

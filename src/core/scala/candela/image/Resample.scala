@@ -15,6 +15,7 @@ object Resample:
   def apply(image: Image, width: Int, height: Int): Image =
     if width == image.width && height == image.height then image
     else
+      Natives.need("stb")
       val source = image.linear
       val made = new Array[Float](Image.valueCount(width, height, source.channels))
       val from = MemoryUtil.memAllocFloat(source.width * source.height)

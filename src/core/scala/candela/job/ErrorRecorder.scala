@@ -20,8 +20,10 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
   /** Time spent on measuring, in seconds. */
   def seconds: Double = spent
 
-  /** The estimated error of each value of the image: squared, in the order of its data. */
-  def squares: Option[Array[Float]] = estimate.squares
+  /** The estimated error of each value of the image after so many samples per pixel: squared, in
+    * the order of its data.
+    */
+  def squares(samples: Double): Option[Array[Float]] = estimate.squares(samples)
 
   /** The estimate compares parts of the samples. */
   override def looks: Looks = if reference.isEmpty then Looks.Waves else Looks.Doublings

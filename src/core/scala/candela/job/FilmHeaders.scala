@@ -65,12 +65,19 @@ object FilmHeaders:
     s"${plan.width}x${plan.height}, pixels $x0 to $x1, $y0 to $y1, " +
       (if plan.sharesSamples then "splatted" else "one pixel each")
 
-  /** SHA-256 of the scene's files, by their names relative to the scene's folder. */
+  /** SHA-256 of the scene's files, by their names relative to the scene's folder, and of what is in
+    * no file.
+    */
   private def digests(scene: SceneDescription): Vector[(String, String)] =
     val files = SceneFiles.of(scene).map(_.toAbsolutePath.normalize)
     val folder = scene.sources.headOption.map(_.toAbsolutePath.normalize.getParent)
-    files.map: file =>
+    val filed = files.map: file =>
       folder.fold(file)(relative(_, file)).toString -> digest(file)
+    filed ++ scene.unfiled
+
+  /** SHA-256 of a text. */
+  def digest(text: String): String =
+    HexFormat.of.formatHex(MessageDigest.getInstance("SHA-256").digest(text.getBytes("UTF-8")))
 
   private def digest(file: Path): String =
     val sum = MessageDigest.getInstance("SHA-256")

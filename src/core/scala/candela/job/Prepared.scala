@@ -51,6 +51,7 @@ final case class RenderControl(
   * rendered in one process. Its threads end when it is closed.
   *
   * @param warnings of reading and building
+  * @param settings it was prepared by
   * @param pool     of its threads
   */
 final case class Prepared(
@@ -59,7 +60,8 @@ final case class Prepared(
     warnings: Vector[Problem],
     readSeconds: Double = 0,
     buildSeconds: Double = 0,
-    pool: ThreadPool = ThreadPool(1)
+    pool: ThreadPool = ThreadPool(1),
+    settings: RenderSettings = RenderSettings()
 ) extends AutoCloseable:
   def close(): Unit = pool.close()
 

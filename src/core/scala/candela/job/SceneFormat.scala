@@ -23,6 +23,12 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
   /** The readable part of a scene; see [[SceneDescription.errors]]. */
   def read(file: Path, within: SceneFolder, how: Preparation): SceneDescription
 
+  /** The readable part of a scene in a string.
+    *
+    * @param name in messages
+    */
+  def readText(name: Path, text: String, within: SceneFolder, how: Preparation): SceneDescription
+
   /** The image that a scene names, if that can be told before it is read.
     *
     * @return none: it can't; a missing file name: it names none
@@ -56,14 +62,29 @@ object SceneFormat:
 
     def read(file: Path, within: SceneFolder, how: Preparation): SceneDescription =
       val reading = how.settings.reading
-      if reading.defines.nonEmpty then
-        val help = "-D sets parameters of Mitsuba's XML files"
-        throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
+      checkDefines(file, how)
       val read =
         Parser.readable(file, reading.dialect, reading.keepGoing, how.world, Some(within))
       val scene = DialectChoice.of(read, reading.dialect)
       if !scene.isFollowed || !how.isFirst then scene
       else scene.copy(warnings = scene.warnings :+ Problem(Severity.Warning, None, FirstOnly))
+
+    def readText(
+        name: Path,
+        text: String,
+        within: SceneFolder,
+        how: Preparation
+    ): SceneDescription =
+      val reading = how.settings.reading
+      checkDefines(name, how)
+      val dialect = reading.dialect
+      val read = Parser.readableText(name.toString, text, within, dialect, reading.keepGoing)
+      DialectChoice.of(read, dialect)
+
+    private def checkDefines(file: Path, how: Preparation): Unit =
+      if how.settings.reading.defines.nonEmpty then
+        val help = "-D sets parameters of Mitsuba's XML files"
+        throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
 
     def imageName(file: Path, within: SceneFolder, how: Preparation): Option[Option[String]] =
       if !Files.isRegularFile(file) then None // it can be read once
@@ -81,6 +102,15 @@ object SceneFormat:
     def read(file: Path, within: SceneFolder, how: Preparation): SceneDescription =
       val reading = how.settings.reading
       MitsubaScene.readable(file, reading.defines, reading.keepGoing, Some(within))
+
+    def readText(
+        name: Path,
+        text: String,
+        within: SceneFolder,
+        how: Preparation
+    ): SceneDescription =
+      val reading = how.settings.reading
+      MitsubaScene.readable(name, reading.defines, reading.keepGoing, Some(within), Some(text))
 
     def imageName(file: Path, within: SceneFolder, how: Preparation): Option[Option[String]] =
       Some(None)

@@ -33,18 +33,8 @@ object SceneLoader:
       val file = existing(scene)
       val started = System.nanoTime
       val description = readable(file, how)
-      val read = System.nanoTime
-      val pool = ThreadPool(how.threads, worksAside = how.isRendered)
-      try
-        val control = BuildControl(pool, how.taken, how.footprint)
-        val (plan, warnings) = SceneBuilder.build(description, how.settings, control)
-        val built = System.nanoTime
-        val all = description.warnings ++ warnings
-        Prepared(description, plan, all, (read - started) * 1e-9, (built - read) * 1e-9, pool)
-      catch
-        case e: Throwable =>
-          pool.close()
-          throw e
+      val seconds = (System.nanoTime - started) * 1e-9
+      built(description, how).copy(readSeconds = seconds)
 
     override def imageName(scene: String, how: Preparation): Option[ImageName] =
       // A refusal is told when the scene is loaded
@@ -54,6 +44,24 @@ object SceneLoader:
       val within = how.limits.folder(file)
       val folder = if within.isConfined then within.path else Path.of("")
       SceneFormat.of(file).imageName(file, within, how).map(ImageName(_, folder))
+
+  /** A description, ready to be rendered.
+    *
+    * @throws SceneError if the scene has errors
+    */
+  def built(description: SceneDescription, how: Preparation): Prepared =
+    val started = System.nanoTime
+    val pool = ThreadPool(how.threads, worksAside = how.isRendered)
+    try
+      val control = BuildControl(pool, how.taken, how.footprint)
+      val (plan, warnings) = SceneBuilder.build(description, how.settings, control)
+      val seconds = (System.nanoTime - started) * 1e-9
+      val all = description.warnings ++ warnings
+      Prepared(description, plan, all, 0, seconds, pool, how.settings)
+    catch
+      case e: Throwable =>
+        pool.close()
+        throw e
 
   /** Makes an error of what a scene must not do. */
   def refusing[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)

@@ -20,10 +20,10 @@ object SettingsCodec:
     */
   final class Stored private[SettingsCodec] (
       val name: String,
-      private[SettingsCodec] val takesValue: Boolean,
+      val takesValue: Boolean,
       private[SettingsCodec] val isIdentity: Boolean,
       private[SettingsCodec] val values: S => Vector[String],
-      private[SettingsCodec] val put: (S, String) => Option[S]
+      val put: (S, String) => Option[S]
   ):
     private[SettingsCodec] def words(s: S): Vector[String] =
       if takesValue then values(s).flatMap(v => Vector(s"--$name", v))

@@ -16,12 +16,16 @@ final class ErrorEstimate:
   private var whole, halves = Option.empty[Array[Float]] // scatter D(n) and D(n/2) of the last
   private var last = Option.empty[(Int, Errors, ScatterTrend)]
 
-  /** The squared error of each value of the image, as estimated last; none before. */
-  def squares: Option[Array[Float]] =
+  /** The squared error of each value of the image after so many samples per pixel; none before the
+    * first estimate.
+    */
+  def squares(samples: Double): Option[Array[Float]] =
     for
-      (_, _, trend) <- last
+      (known, _, trend) <- last
       scatter <- whole
-    yield scatter.map(s => (s * trend.factor).toFloat)
+    yield
+      val factor = trend.factor * Math.pow(samples / known, slope(trend))
+      scatter.map(s => (s * factor).toFloat)
 
   /** Adds the state of the image after so many samples per pixel, more than before. Uses those
     * after 2ᵏ and 3 · 2ᵏ, and of a continued rendering the first.

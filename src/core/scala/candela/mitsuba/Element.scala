@@ -30,12 +30,15 @@ object XmlFile:
     * @param includedFrom the element that includes the file
     */
   def read(file: InputFile, includedFrom: Option[SourcePos]): Element =
-    val name = file.toString
+    read(file.toString, file.stream(), includedFrom)
+
+  /** @param open its bytes */
+  def read(name: String, open: => InputStream, includedFrom: Option[SourcePos]): Element =
     def place(l: Location) =
       SourcePos(name, l.getLineNumber.max(1), l.getColumnNumber.max(1), includedFrom)
     try
       Refusal.placed(SourcePos(name, 1, 1, includedFrom)):
-        Using.resource(file.stream()): in =>
+        Using.resource(open): in =>
           val reader = factory.createXMLStreamReader(text(in))
           try Document(reader, place).root()
           finally reader.close()

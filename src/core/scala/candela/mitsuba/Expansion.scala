@@ -2,6 +2,8 @@ package candela.mitsuba
 
 import candela.base.{InputFile, Limit, Problem, SceneError, SceneFolder, SourcePos, Suggest}
 
+import java.io.ByteArrayInputStream
+import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
 
 import scala.collection.mutable
@@ -24,18 +26,29 @@ final class Expanded(
   *
   * @param folder  its folder
   * @param defines values of `$name` that override those of `default`
+  * @param text    what is read instead of the file
   */
-final class Expansion(file: Path, folder: SceneFolder, defines: Map[String, String]):
+final class Expansion(
+    file: Path,
+    folder: SceneFolder,
+    defines: Map[String, String],
+    text: Option[String] = None
+):
   private val values = mutable.HashMap.from(defines)
   private val used = mutable.HashSet.empty[String]
   private val aliases = mutable.HashMap.empty[String, String]
   private val paths = mutable.LinkedHashSet.empty[Path]
-  private val sources = mutable.ArrayBuffer(file)
+  private val sources = mutable.ArrayBuffer.from(Option.when(text.isEmpty)(file))
   private var room = Expansion.MostText
 
   def result(): Expanded =
-    val main = folder.scene(file)
-    val elements = contents(XmlFile.read(main, None), List(main))
+    val elements = text match
+      case Some(all) =>
+        def bytes = ByteArrayInputStream(all.getBytes(UTF_8))
+        contents(XmlFile.read(file.toString, bytes, None), Nil)
+      case None =>
+        val main = folder.scene(file)
+        contents(XmlFile.read(main, None), List(main))
     val unused = defines.keySet -- used
     if unused.nonEmpty then
       val name = unused.min

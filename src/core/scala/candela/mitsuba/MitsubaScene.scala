@@ -13,17 +13,19 @@ object MitsubaScene:
     * @param defines   values of `$name` in the file
     * @param keepGoing if true, replaces missing files
     * @param within    the scene's folder, if it is confined or has limits
+    * @param text      what is read instead of the file
     * @throws SceneError if the file contains no scene at all
     */
   def readable(
       file: Path,
       defines: Map[String, String],
       keepGoing: Boolean,
-      within: Option[SceneFolder] = None
+      within: Option[SceneFolder] = None,
+      text: Option[String] = None
   ): SceneDescription =
     val folder = within.getOrElse(SceneFolder.of(file))
     val expanded =
-      try Expansion(file, folder, defines).result()
+      try Expansion(file, folder, defines, text).result()
       catch case e: SceneError => throw SceneError(Excerpts.fill(e.problems))
     val session = Session(expanded, folder, keepGoing)
     val scene = Translation(session, file).result()

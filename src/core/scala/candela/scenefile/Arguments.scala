@@ -2,40 +2,82 @@ package candela.scenefile
 
 import candela.base.{Problem, SceneError, SourcePos}
 
-/** Reads the arguments of a directive; each method reads some, or throws a located error.
+/** The arguments of a directive; each method takes some, or throws a located error.
   *
   * @param at position of the directive's name
   */
-final class Arguments(
-    directive: Directive,
-    val at: SourcePos,
-    in: Tokenizer,
-    parameters: Parameters,
-    val report: Problem => Unit,
-    including: (String, SourcePos, SourcePos) => Unit
-):
+abstract class Arguments(directive: Directive, val at: SourcePos, val report: Problem => Unit):
 
-  private def fail(at: SourcePos, message: String) =
+  protected final def fail(at: SourcePos, message: String): Nothing =
     throw SceneError(Problem.error(at, message, Some(usage)))
 
   private def usage = s"usage: ${directive.name} ${directive.usage}".trim
 
-  /** Reads the statements of another file in place.
+  protected final def wrongNumber(at: SourcePos, count: Int, i: Int, found: String): Nothing =
+    fail(at, s"${directive.name} expects $count numbers; number ${i + 1} is $found")
+
+  protected final def notQuoted(at: SourcePos, what: String, found: String): Nothing =
+    fail(at, s"${directive.name} expects $what in quotes, found $found")
+
+  protected final def notOneOf(at: SourcePos, choices: Seq[String], found: String): Nothing =
+    val known = choices.mkString("`", "`, `", "`")
+    fail(at, s"${directive.name} expects one of $known, found $found")
+
+  /** Runs the statements of another file in place.
     *
     * @param nameAt position of the file's name
     */
-  def include(file: String, nameAt: SourcePos): Unit = including(file, nameAt, at)
+  def include(file: String, nameAt: SourcePos): Unit
 
   /** The next `count` numbers. */
+  def numbers(count: Int): Vector[Double]
+
+  /** A 4×4 matrix in column order. */
+  def matrix(): Vector[Double]
+
+  /** A quoted string and its position. */
+  def quoted(what: String): (String, SourcePos)
+
+  /** A quoted string, if one is next. */
+  def another: Option[String]
+
+  /** One of the keywords `choices`. */
+  def word(choices: String*): String
+
+  def params(): Vector[Param]
+
+  /** A quoted name and parameters. */
+  final def named(what: String = "a name"): Named =
+    val (name, at) = quoted(what)
+    Named(name, at, params())
+
+  /** One value without a preceding `"type name"`. */
+  def value(paramType: ParamType, name: String): Param
+
+/** Arguments that a file contains.
+  *
+  * @param including reads a file: its name, where that is, and where its directive is
+  */
+private[scenefile] final class WrittenArguments(
+    directive: Directive,
+    at: SourcePos,
+    in: Tokenizer,
+    parameters: Parameters,
+    report: Problem => Unit,
+    including: (String, SourcePos, SourcePos) => Unit
+) extends Arguments(directive, at, report):
+
+  def include(file: String, nameAt: SourcePos): Unit = including(file, nameAt, at)
+
   def numbers(count: Int): Vector[Double] =
     Vector.tabulate(count): i =>
       val value = in.numberHere.getOrElse:
         val found = if in.current == Token.End then "missing: the file ends here" else in.shown
-        fail(in.at, s"${directive.name} expects $count numbers; number ${i + 1} is $found")
+        wrongNumber(in.at, count, i, found)
       in.advance()
       value
 
-  /** A 4×4 matrix in column order, with or without brackets. */
+  /** With or without brackets. */
   def matrix(): Vector[Double] =
     val isList = in.current == Token.Open
     if isList then in.advance()
@@ -46,36 +88,25 @@ final class Arguments(
       in.advance()
     values
 
-  /** A quoted string and its position. */
   def quoted(what: String): (String, SourcePos) =
-    if in.current != Token.Text then
-      fail(in.at, s"${directive.name} expects $what in quotes, found ${in.shown}")
+    if in.current != Token.Text then notQuoted(in.at, what, in.shown)
     val text = (in.text, in.at)
     in.advance()
     text
 
-  /** A quoted string, if one is next. */
   def another: Option[String] =
     Option.when(in.current == Token.Text):
       val text = in.text
       in.advance()
       text
 
-  /** One of the keywords `choices`, without quotes. */
+  /** Without quotes. */
   def word(choices: String*): String =
     if in.current != Token.Word || !choices.contains(in.text) then
-      val known = choices.mkString("`", "`, `", "`")
-      fail(in.at, s"${directive.name} expects one of $known, found ${in.shown}")
+      notOneOf(in.at, choices, in.shown)
     val text = in.text
     in.advance()
     text
 
   def params(): Vector[Param] = parameters.list(in)
-
-  /** A quoted name and parameters. */
-  def named(what: String = "a name"): Named =
-    val (name, at) = quoted(what)
-    Named(name, at, params())
-
-  /** One value without a preceding `"type name"`. */
   def value(paramType: ParamType, name: String): Param = parameters.value(paramType, name, in)

@@ -13,7 +13,14 @@ enum Place:
   */
 final class Directive(val name: String, val usage: String, val place: Place)(
     val run: (Arguments, SceneWriter) => Unit
-)
+):
+  /** What is wrong with it at a place before or behind the beginning of the world. */
+  def misplaced(worldBegin: Option[SourcePos]): Option[String] = (place, worldBegin) match
+    case (Place.Options, Some(begin)) if name == "WorldBegin" =>
+      Some(s"WorldBegin is repeated; the first is at $begin")
+    case (Place.Options, Some(begin)) => Some(s"$name must be before WorldBegin (at $begin)")
+    case (Place.World, None) => Some(s"$name must be after WorldBegin")
+    case _ => None
 
 /** All directives of all dialects. */
 object Directives:

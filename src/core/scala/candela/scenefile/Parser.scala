@@ -69,6 +69,16 @@ object Parser:
     val here = SceneFolder(folder)
     whole(read(Source.fromText(name, text), here, None, dialect, keepGoing, world))
 
+  /** The readable part of a scene in a string; see [[SceneDescription.errors]]. */
+  def readableText(
+      name: String,
+      text: String,
+      within: SceneFolder,
+      dialect: Option[Dialect],
+      keepGoing: Boolean
+  ): SceneDescription =
+    read(Source.fromText(name, text), within, None, dialect, keepGoing, world = 0)
+
   /** The scene, if it has no errors. */
   def whole(scene: SceneDescription): SceneDescription =
     if scene.errors.isEmpty then scene

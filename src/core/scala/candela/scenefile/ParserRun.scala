@@ -162,7 +162,7 @@ private[scenefile] final class ParserRun(
     if evidence.dialect == Dialect.V2 then scene.keepSettings(before)
 
   private def run(directive: Directive, at: SourcePos, in: Tokenizer): Unit =
-    val arguments = Arguments(directive, at, in, parameters, doubts.add, include(in))
+    val arguments = WrittenArguments(directive, at, in, parameters, doubts.add, include(in))
     try losing(directive.name)(directive.run(arguments, scene))
     catch
       case e: SceneError =>
@@ -198,19 +198,13 @@ private[scenefile] final class ParserRun(
 
   /** Reports a statement on the wrong side of WorldBegin: an error in v4, ignored in v2 and v3. */
   private def isMisplaced(directive: Directive, at: SourcePos): Boolean =
-    val message = (directive.place, scene.worldBegin) match
-      case (Place.Options, Some(begin)) if directive.name == "WorldBegin" =>
-        s"WorldBegin is repeated; the first is at $begin"
-      case (Place.Options, Some(begin)) =>
-        s"${directive.name} must be before WorldBegin (at $begin)"
-      case (Place.World, None) => s"${directive.name} must be after WorldBegin"
-      case _ => ""
-    if message.nonEmpty && !misplaced.isFull then
+    val found = directive.misplaced(scene.worldBegin)
+    for message <- found if !misplaced.isFull do
       misplaced.add(
         if isV4 then Problem.error(at, message)
         else Problem.warning(at, s"$message; ignored")
       )
-    message.nonEmpty
+    found.nonEmpty
 
   /** Reads the statements of another file, which `from` includes. */
   private def include(from: Tokenizer)(name: String, nameAt: SourcePos, at: SourcePos): Unit =

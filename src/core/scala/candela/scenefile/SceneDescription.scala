@@ -96,6 +96,7 @@ final case class TextureDescription(
   * @param dialectReason why it is that dialect, for the user
   * @param isFollowed whether the file has another world, another image, after this one
   * @param folder the folder of the scene file, through which its files are opened
+  * @param unfiled SHA-256 of its parts that are in no file, by name
   */
 final case class SceneDescription(
     dialect: Dialect,
@@ -126,7 +127,8 @@ final case class SceneDescription(
     clues: Vector[DialectClue] = Vector.empty,
     dialectReason: String = "",
     isFollowed: Boolean = false,
-    folder: SceneFolder = SceneFolder.Nowhere
+    folder: SceneFolder = SceneFolder.Nowhere,
+    unfiled: Vector[(String, String)] = Vector.empty
 ):
   /** Whether the camera sees no lamps and no sky. */
   def hidesEmitters: Boolean =

@@ -11,12 +11,14 @@ import candela.math.Transform
   * @param folder folder of the scene file
   * @param isV4 queried only where the dialects differ in the meaning of a statement
   * @param problem receives errors and warnings that don't abort the statement
+  * @param foreign dialect of the declarations, if not that of the scene
   */
 final class SceneWriter(
     folder: SceneFolder,
     evidence: DialectGuess,
     isV4: () => Boolean,
-    problem: Problem => Unit
+    problem: Problem => Unit,
+    foreign: Option[Dialect] = None
 ):
   private val names = UniqueNames()
   private val textures = Vector.newBuilder[TextureDescription]
@@ -31,6 +33,9 @@ final class SceneWriter(
   private val objectNames = mutable.HashMap.empty[String, String]
   private var inObject = Option.empty[(String, mutable.ArrayBuffer[ShapeDescription])]
   private var result = SceneDescription(Dialect.V4, folder = folder)
+
+  /** Whether it began with another scene. */
+  private var isBased = false
 
   val blocks: Blocks = Blocks(isV4, problem)
 
@@ -70,7 +75,7 @@ final class SceneWriter(
   def inV4: Boolean = isV4()
 
   private def state = blocks.state
-  private def change(f: GraphicsState => GraphicsState): Unit = blocks.state = f(blocks.state)
+  private def changeState(f: GraphicsState => GraphicsState): Unit = blocks.state = f(blocks.state)
   private def fail(at: SourcePos, message: String, help: Option[String]) =
     throw SceneError(Problem.error(at, message, help))
 
@@ -78,7 +83,7 @@ final class SceneWriter(
     result.copy(
       dialect = dialect,
       // v4 resolves names at the Camera statement, v2 and v3 at the end of the world.
-      cameraMedium = if dialect == Dialect.V4 then result.cameraMedium else state.outsideMedium,
+      cameraMedium = if keepsMedium(dialect) then result.cameraMedium else state.outsideMedium,
       textures = textures.result(),
       lights = lights.result(),
       shapes = shapes.result(),
@@ -88,13 +93,16 @@ final class SceneWriter(
       warnings = warnings
     )
 
+  private def keepsMedium(dialect: Dialect) = dialect == Dialect.V4 || isBased
+
   // Declarations
 
   private def declare(category: String, from: Named, defaults: String = ""): Declaration =
     evidence.uses(category, from.name, from.at)
     val inherited = state.defaults.getOrElse(defaults, Vector.empty)
     val all = from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
-    Declaration(category, from.name, state.scope.resolve(all), from.at, folder, state.colorSpace)
+    val params = state.scope.resolve(all)
+    Declaration(category, from.name, params, from.at, folder, state.colorSpace, foreign)
 
   /** A declaration named by the value of its "string type". */
   private def declareByType(category: String, from: Named, defaults: String): Declaration =
@@ -104,7 +112,8 @@ final class SceneWriter(
       case Some(t) =>
         evidence.uses(category, t.strings.head, t.valuesAt)
         val params = whole.params.filterNot(_ eq t)
-        Declaration(category, t.strings.head, params, t.valuesAt, folder, state.colorSpace)
+        val name = t.strings.head
+        Declaration(category, name, params, t.valuesAt, folder, state.colorSpace, foreign)
       case None => fail(from.at, s"\"${from.name}\" must have a \"string type\"", missing)
 
   /** A statement before WorldBegin; each overrides the previous one. */
@@ -137,6 +146,40 @@ final class SceneWriter(
       accelerator = old.accelerator
     )
 
+  /** Begins with all that another scene has; what there is once may be replaced. */
+  def keepAll(of: SceneDescription): Unit =
+    result = of
+    isBased = true
+    worldBegin = Some(SourcePos.Nowhere)
+    coordinateSystems("camera") = GraphicsState.inverse(of.worldToCamera)
+    coordinateSystems("world") = GraphicsState.Identity
+    for t <- of.textures do
+      keep(t)
+      names.take(t.valueType, t.name): Unit
+    for (name, _) <- of.namedMaterials do names.take("material", name): Unit
+    for name <- of.objects.keys do
+      names.take("object", name): Unit
+      objectNames(name) = name
+    lights ++= of.lights
+    shapes ++= of.shapes
+    objects ++= of.objects
+    instances ++= of.instances
+    media ++= of.media.map(m => m.name -> m)
+
+  /** Changes all that there is so far. */
+  def change(f: SceneDescription => SceneDescription): Unit =
+    val changed = f(description(result.dialect, Vector.empty))
+    for all <- Vector(textures, lights, shapes, instances) do all.clear()
+    for all <- Vector(texturesByName, objects, media, objectNames) do all.clear()
+    val begun = worldBegin
+    keepAll(changed)
+    worldBegin = begun
+
+  /** Where the camera is, by the current transform. */
+  def placeCamera(): Unit =
+    coordinateSystems("camera") = GraphicsState.inverse(state.transform)
+    result = result.copy(worldToCamera = state.transform)
+
   def option(param: Param): Unit = result = result.copy(options = result.options :+ param)
 
   def transformTimes(start: Float, end: Float): Unit =
@@ -146,7 +189,7 @@ final class SceneWriter(
 
   def beginWorld(at: SourcePos): Unit =
     worldBegin = Some(at)
-    change(_.copy(transform = GraphicsState.Identity, active = ActiveTransform.All))
+    changeState(_.copy(transform = GraphicsState.Identity, active = ActiveTransform.All))
     coordinateSystems("world") = GraphicsState.Identity
 
   def shape(from: Named): Unit =
@@ -175,15 +218,15 @@ final class SceneWriter(
   /** An empty name ends the area light. */
   def areaLight(from: Named): Unit =
     val light = Option.when(from.name.nonEmpty)(declare("AreaLightSource", from, "light"))
-    change(_.copy(areaLight = light))
+    changeState(_.copy(areaLight = light))
 
   def material(from: Named): Unit =
     val material = MaterialRef.Inline(noteParts(declare("Material", from, "material")))
-    change(_.copy(material = material))
+    changeState(_.copy(material = material))
 
   def namedMaterial(name: String, at: SourcePos): Unit =
     val unique = state.scope.materials.getOrElse(name, name)
-    change(_.copy(material = MaterialRef.Named(unique, at)))
+    changeState(_.copy(material = MaterialRef.Named(unique, at)))
 
   def makeNamedMaterial(from: Named): Unit =
     val material = noteParts(declareByType("Material", from, "material"))
@@ -196,7 +239,9 @@ final class SceneWriter(
         names.fresh(List("material"), from.name)
     val _ = names.take("material", unique)
     if unique != current then
-      change(_.copy(scope = scope.copy(materials = scope.materials.updated(from.name, unique))))
+      changeState(_.copy(scope =
+        scope.copy(materials = scope.materials.updated(from.name, unique))
+      ))
     result = result.copy(namedMaterials = result.namedMaterials :+ (unique -> material))
 
   def makeNamedMedium(from: Named): Unit =
@@ -225,7 +270,7 @@ final class SceneWriter(
         val _ = names.take(kind, made.name)
       keep(made)
       val _ = names.take(valueType, made.name)
-      change(_.copy(scope = scope.copy(textures = scope.textures.updated(name, made.name))))
+      changeState(_.copy(scope = scope.copy(textures = scope.textures.updated(name, made.name))))
 
   private def keep(texture: TextureDescription): Unit =
     textures += texture
@@ -236,7 +281,7 @@ final class SceneWriter(
       fail(at, s"$kind \"$name\" is already defined", Some("names must be unique in v4"))
 
   def mediumInterface(inside: String, outside: String): Unit =
-    change(_.copy(insideMedium = inside, outsideMedium = outside))
+    changeState(_.copy(insideMedium = inside, outsideMedium = outside))
 
   def attribute(target: String, at: SourcePos, params: Vector[Param]): Unit =
     if !SceneWriter.Targets.contains(target) then
@@ -248,11 +293,12 @@ final class SceneWriter(
     val all = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(
       _.asDefault(state.colorSpace)
     )
-    change(s => s.copy(defaults = s.defaults.updated(target, all)))
+    changeState(s => s.copy(defaults = s.defaults.updated(target, all)))
 
-  def colorSpace(name: String): Unit = change(_.copy(colorSpace = name))
+  def colorSpace(name: String): Unit = changeState(_.copy(colorSpace = name))
 
-  def reverseOrientation(): Unit = change(s => s.copy(reverseOrientation = !s.reverseOrientation))
+  def reverseOrientation(): Unit =
+    changeState(s => s.copy(reverseOrientation = !s.reverseOrientation))
 
   // Objects
 
@@ -281,15 +327,15 @@ final class SceneWriter(
 
   // Transforms
 
-  def transform(f: Transform => Transform): Unit = change(_.transformed(f))
+  def transform(f: Transform => Transform): Unit = changeState(_.transformed(f))
 
-  def activate(active: ActiveTransform): Unit = change(_.copy(active = active))
+  def activate(active: ActiveTransform): Unit = changeState(_.copy(active = active))
 
   def nameCoordinates(name: String): Unit = coordinateSystems(name) = state.transform
 
   def useCoordinates(name: String, at: SourcePos): Unit =
     coordinateSystems.get(name) match
-      case Some(found) => change(_.copy(transform = found))
+      case Some(found) => changeState(_.copy(transform = found))
       case None =>
         unknownSystems += 1
         // The search takes its time, and may be asked for a million times

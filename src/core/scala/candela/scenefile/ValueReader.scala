@@ -123,7 +123,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
   /** A list must consist of whole pairs or triples; v2 and v3 ignore the rest. An empty list is
     * reported.
     */
-  private def checkCount(param: Param): Param =
+  def checkCount(param: Param): Param =
     val n = count(param)
     val size = param.paramType match
       case ParamType.Point2 | ParamType.Vector2 => 2

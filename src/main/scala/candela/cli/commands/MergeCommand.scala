@@ -4,7 +4,7 @@ import candela.base.{Problem, SceneError, Severity}
 import candela.cli.files.{FileRegister, FilmInput, FilmKeeping, Output, OutputFiles}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
-import candela.job.{FilmHeaders, Prepared, SceneLoader}
+import candela.job.{FilmHeaders, FilmKeeper, Prepared, SceneLoader}
 import candela.render.RenderState
 import candela.render.storage.{FilmFile, FilmHeader}
 import candela.scenefile.SceneFiles
@@ -52,7 +52,7 @@ final class MergeCommand(
     val now = FilmHeaders.of(saved.settings, header.scene, loaded, first.path, images)
     register.read(SceneFiles.of(loaded.description))
     outputs.foreach(register.write)
-    FilmInput.verify(first, now.copy(count = header.count))
+    FilmKeeper.verify(first, now.copy(count = header.count))
     try write(films, outfiles, loaded, saved)
     catch
       case e: SceneError if options.film.partial =>

@@ -7,7 +7,7 @@ import candela.cli.options.Options
 import candela.cli.rendering.{ImageWriter, RenderOutputs, SceneRun, Summary}
 import candela.cli.terminal.{ExitCode, Printer, Report, Terminal, Thumbnail}
 import candela.image.Oidn
-import candela.job.{Denoising, Prepared, SceneLoader}
+import candela.job.{Denoising, FilmKeeper, Prepared, SceneLoader}
 import candela.render.{Cancellation, RenderPlan, Rendering}
 import candela.render.storage.FilmFile
 import candela.scene.PathReport
@@ -105,9 +105,10 @@ final class RenderCommand(
         SceneRun(options, terminal, prepared, writer, keeping, cancellation).run()
     finally keeping.foreach(_.close())
 
-  private def isDone(writer: ImageWriter, keeping: Option[FilmKeeping]): Boolean =
+  private def isDone(writer: ImageWriter, keeping: Option[FilmKeeper]): Boolean =
     writer.isDone ||
-      (options.film.skipDone && writer.paths.isEmpty && keeping.exists(_.isDone))
+      (options.film.skipDone && writer.paths.isEmpty && !options.settings.isEndless &&
+        keeping.exists(_.isDone))
 
   /** The images of a scene that is rendered elsewhere.
     *

@@ -3,7 +3,7 @@ package candela.cli.commands
 import candela.cli.files.{FilmInput, FilmKeeping, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal}
-import candela.job.SceneLoader
+import candela.job.{FilmKeeper, SceneLoader}
 import candela.render.{RenderPlan, Shard}
 import candela.render.storage.FilmFile
 
@@ -25,7 +25,7 @@ final class ResumeCommand(
   private def resume(film: FilmFile): ExitCode =
     val header = film.header
     if header.shards.size != 1 then
-      FilmInput.fail(s"`${film.path}` is a merger of shards; resume the shards, and merge them")
+      FilmKeeper.fail(s"`${film.path}` is a merger of shards; resume the shards, and merge them")
     val saved = FilmInput.options(film, options).copy(
       outfiles = header.outfiles.map(FilmInput.at(film, _)),
       film = options.film.copy(shard = Shard(header.shards.head, header.count))

@@ -1,12 +1,11 @@
 package candela.cli.files
 
-import candela.base.{InputFile, Problem, SceneError, SceneFolder, Version}
+import candela.base.{InputFile, SceneFolder}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
-import candela.job.{FilmHeaders, SceneLoader}
-import candela.render.storage.{FilmFile, FilmHeader}
+import candela.job.{FilmHeaders, FilmKeeper, SceneLoader}
+import candela.render.storage.FilmFile
 
-import java.io.IOException
 import java.nio.file.Path
 
 /** Reads film files, and finds their scenes. */
@@ -17,17 +16,7 @@ private[cli] object FilmInput:
     * @throws SceneError if it can't be read, or is another version's
     */
   def open(name: String, report: Report): FilmFile =
-    val film =
-      try FilmFile.open(OutputFiles.path(name))
-      catch case e: IOException => fail(e.getMessage)
-    for damage <- film.damage do
-      val message = s"can't read `$name`: $damage; using its previous copy, " +
-        s"`${FilmFile.previous(film.path).getFileName}`"
-      report.warnings(Vector(Problem.general(message).copy(severity = Warning)), all = true)
-    val version = film.header.version
-    if version != Version.current then
-      fail(s"`$name` was written by Candela $version; this is ${Version.current}")
-    film
+    FilmKeeper.open(OutputFiles.path(name), p => report.warnings(Vector(p), all = true))
 
   /** The options of the rendering, with its scene as found from here.
     *
@@ -41,7 +30,7 @@ private[cli] object FilmInput:
       val _ = SceneLoader.refusing(folder.scene(file))
     // The film names it, and its user may not know it
     for why <- InputFile.obstacle(file) do
-      fail(s"can't read `$scene`, the scene of `${film.path}`: $why")
+      FilmKeeper.fail(s"can't read `$scene`, the scene of `${film.path}`: $why")
     Options(
       files = Vector(scene),
       settings = FilmHeaders.settings(film.header).copy(goal = now.settings.goal),
@@ -56,15 +45,3 @@ private[cli] object FilmInput:
   def at(film: FilmFile, name: String): String =
     val folder = film.path.toAbsolutePath.getParent.resolve(film.header.folder).normalize
     if folder == Path.of("").toAbsolutePath then name else folder.resolve(name).toString
-
-  /** @throws SceneError if the scene is no longer what was rendered */
-  def verify(film: FilmFile, now: FilmHeader): Unit =
-    // The samples per pixel may change.
-    for difference <- film.header.difference(now.copy(samples = film.header.samples)) do
-      val message = s"the scene of `${film.path}` has changed: $difference"
-      fail(message, "render it again; or restore what has changed")
-
-  def fail(message: String, help: String = ""): Nothing =
-    throw SceneError(Problem.general(message, Option.when(help.nonEmpty)(help)))
-
-  private val Warning = candela.base.Severity.Warning

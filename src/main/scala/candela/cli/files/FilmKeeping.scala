@@ -1,52 +1,14 @@
 package candela.cli.files
 
-import candela.base.{FileName, Problem, SceneError, Severity}
+import candela.base.{FileName, Problem}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.terminal.Report
-import candela.job.{FilmHeaders, Prepared}
-import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmLock, FilmWriter}
+import candela.job.{FilmHeaders, FilmKeeper, Prepared}
+import candela.render.storage.{FilmFile, FilmLock}
 
-import java.nio.file.{Files, Path}
+import java.nio.file.Path
 
-/** The film file of one rendering, which no other rendering can write until it is closed.
-  *
-  * @param header of the rendering; its number of samples done is not used
-  * @param start  the saved rendering to continue, if any
-  */
-private[cli] final class FilmKeeping(
-    val path: Path,
-    header: FilmHeader,
-    val start: Option[FilmFile],
-    mayEndEarly: Boolean,
-    lock: Option[FilmLock],
-    options: Options,
-    report: Report
-) extends AutoCloseable:
-  def close(): Unit = lock.foreach(_.close())
-
-  /** Whether there is nothing left to render. */
-  def isDone: Boolean =
-    !options.settings.isEndless && start.exists(f =>
-      f.header.isComplete && f.header.samples == header.samples
-    )
-
-  /** Samples that every pixel has already. */
-  def samplesDone: Int = start.fold(0)(_.header.done)
-
-  /** @param isEnough whether the rendering ended because its goal was reached */
-  def checkpointer(isEnough: () => Boolean): Checkpoints =
-    def of(done: Int) =
-      val isEarly = mayEndEarly && isEnough()
-      val planned = if isEarly then Math.min(done, header.samples) else header.samples
-      header.copy(done = done, samples = planned)
-    // A damaged file must not replace its previous copy.
-    val writer = FilmWriter(path, isGood = start.forall(_.damage.isEmpty))
-    Checkpoints(writer, of, start, options.film.every, warn)
-
-  private def warn(why: String): Unit =
-    val message = s"can't write the film file `$path`: $why"
-    report.warnings(Vector(Problem(Severity.Warning, None, message)), all = true)
-
+/** Which film file a rendering of the command line keeps. */
 private[cli] object FilmKeeping:
 
   /** The film file named on the command line. */
@@ -81,60 +43,17 @@ private[cli] object FilmKeeping:
       outfiles: Vector[String],
       images: Vector[Path],
       resumed: Option[FilmFile]
-  ): Option[FilmKeeping] =
+  ): Option[FilmKeeper] =
     for path <- path(options, outfiles, images, resumed) yield
-      val now = FilmHeaders.of(options.settings, scene, loaded, path, images, options.film.shard)
+      val shard = options.film.shard
+      val now = FilmHeaders.of(options.settings, scene, loaded, path, images, shard)
+      def warn(problem: Problem) = report.warnings(Vector(problem), all = true)
+      val how = FilmKeeper.How(options.film.every, warn)
       resumed match
-        case Some(film) =>
-          val obstacle = film.header.obstacle(loaded.plan)
-          val next = continued(film, now, loaded.plan.samplesPerPixel, obstacle)
-          FilmKeeping(path, next, resumed, obstacle.isEmpty, None, options, report)
-        case None =>
-          val lock = locked(path)
-          try
-            val start = existing(path, now, report)
-            val mayEndEarly = now.obstacle(loaded.plan).isEmpty
-            FilmKeeping(path, now, start, mayEndEarly, Some(lock), options, report)
-          catch
-            case e: Throwable =>
-              lock.close()
-              throw e
+        case Some(film) => FilmKeeper.resumed(film, now, loaded.plan, how)
+        case None => FilmKeeper.of(path, now, loaded.plan, how)(locked(path))
 
   /** @throws SceneError if another rendering writes this film file */
   def locked(path: Path): FilmLock =
     FileRegister().check(Output.film(path, path.toString))
-    FilmLock.take(path).getOrElse:
-      FilmInput.fail(s"`$path` is being written by another rendering", "wait for it, or stop it")
-
-  /** The rendering that continues a saved one. */
-  private def continued(
-      film: FilmFile,
-      now: FilmHeader,
-      samples: Int,
-      obstacle: Option[String]
-  ): FilmHeader =
-    FilmInput.verify(film, now.copy(count = film.header.count))
-    val header = film.header
-    if now.samples != header.samples then
-      for why <- obstacle do
-        FilmInput.fail(
-          s"can't change the ${header.samples} samples per pixel of `${film.path}`: $why",
-          "render with --spp N --checkpoint, N being the most you may want, and --time or --error"
-        )
-    if samples < header.done then
-      FilmInput.fail(s"`${film.path}` has ${header.done} samples per pixel already")
-    header.copy(samples = now.samples)
-
-  /** The saved rendering at `path`, if there is one. */
-  private def existing(path: Path, now: FilmHeader, report: Report): Option[FilmFile] =
-    Option.when(Files.isRegularFile(path) || Files.exists(FilmFile.previous(path))):
-      val film =
-        try FilmInput.open(path.toString, report)
-        catch case e: SceneError => FilmInput.fail(e.problems.head.message, Remove)
-      for difference <- now.difference(film.header) do
-        FilmInput.fail(s"`$path` is of another rendering: it has $difference", Remove)
-      if film.header.shards != now.shards then
-        FilmInput.fail(s"`$path` is of another shard: ${film.header.part}", Remove)
-      film
-
-  private val Remove = "remove it, or name another file"
+    FilmKeeper.locked(path)

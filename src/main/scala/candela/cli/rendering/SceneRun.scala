@@ -1,11 +1,11 @@
 package candela.cli.rendering
 
 import candela.base.{Problem, SceneError}
-import candela.cli.files.{Denoised, FilmKeeping}
+import candela.cli.files.Denoised
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
-import candela.job.{Denoising, ErrorRecorder, Goal, Prepared, RenderControl}
+import candela.job.{Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, RenderControl}
 import candela.render.{Cancellation, Rendering, RenderListener}
 import candela.render.storage.Checkpoints
 
@@ -20,7 +20,7 @@ private[cli] final class SceneRun(
     terminal: Terminal,
     prepared: Prepared,
     writer: ImageWriter,
-    keeping: Option[FilmKeeping],
+    keeping: Option[FilmKeeper],
     cancellation: Cancellation
 ):
   private val plan = prepared.plan

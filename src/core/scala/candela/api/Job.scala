@@ -1,0 +1,129 @@
+package candela.api
+
+import candela.image.{Image, Oidn}
+import candela.job.{
+  Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared,
+  RenderControl as CoreControl
+}
+import candela.render.{RenderFailure, Rendering, RenderListener as CoreListener}
+
+import java.nio.file.Path
+import java.util.concurrent.CancellationException
+import java.util.function.Consumer
+import java.util.{LinkedHashMap, List as JList, Map as JMap}
+
+import scala.collection.mutable.ArrayBuffer
+
+/** A scene that is ready to be rendered, any number of times, by several callers at once if need
+  * be. It holds all of the scene's memory. Its threads, which are daemons, end when it is closed.
+  */
+final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: Prepared)
+    extends AutoCloseable:
+  private val plan = prepared.plan
+  private val display = settings.of.output.display
+  private val files = ImageFile(prepared.settings, scene.name, prepared)
+
+  /** Columns of the image, which may be a part of a larger one. */
+  def width: Int = plan.crop.width
+
+  /** Rows of the image. */
+  def height: Int = plan.crop.height
+
+  /** Samples per pixel that are planned. */
+  def samplesPerPixel: Int = plan.samplesPerPixel
+
+  /** Warnings of reading and building. */
+  def problems: JList[Problem] = Problems.ofCore(prepared.warnings)
+
+  /** What the scene contains, and how it is rendered, in words: integrator, lights, triangles, … */
+  def features: JMap[String, String] =
+    val all = LinkedHashMap[String, String]()
+    for (what, value) <- plan.features do all.put(what, value): Unit
+    java.util.Collections.unmodifiableMap(all)
+
+  /** Renders by as many threads as there are processors. */
+  def render(): RenderResult = render(RenderControl())
+
+  /** @param threads at least 1 */
+  def render(threads: Int): RenderResult = render(RenderControl().withThreads(threads))
+
+  /** @param listener follows the rendering */
+  def render(threads: Int, listener: RenderListener): RenderResult =
+    render(RenderControl().withThreads(threads).withListener(listener))
+
+  /** @param progressed called about ten times a second */
+  def render(threads: Int, progressed: Consumer[Progress]): RenderResult =
+    render(threads, RenderListener.onProgress(progressed))
+
+  /** Renders, and returns when the image is complete, a goal is reached, or the rendering is
+    * cancelled. The image does not depend on the threads.
+    *
+    * @throws SceneException        if the film file is of another rendering, or can't be read
+    * @throws RenderException       if a sample fails
+    * @throws CancellationException if the calling thread is interrupted
+    */
+  def render(control: RenderControl): RenderResult =
+    val problems = ArrayBuffer.empty[candela.base.Problem]
+    Problems.thrown:
+      control.film match
+        case None => rendered(control, None, problems)
+        case Some(file) =>
+          val keeper = keeping(file, control, problems)
+          try rendered(control, Some(keeper), problems)
+          finally keeper.close()
+
+  def close(): Unit = prepared.close()
+
+  private def keeping(
+      file: Path,
+      control: RenderControl,
+      problems: ArrayBuffer[candela.base.Problem]
+  ): FilmKeeper =
+    val path = file.toAbsolutePath
+    val header = FilmHeaders.of(prepared.settings, scene.name, prepared, path)
+    val how = FilmKeeper.How(control.every.map(_.toNanos * 1e-9), problems += _)
+    FilmKeeper.of(path, header, plan, how)(FilmKeeper.locked(path))
+
+  private def rendered(
+      control: RenderControl,
+      keeper: Option[FilmKeeper],
+      problems: ArrayBuffer[candela.base.Problem]
+  ): RenderResult =
+    val asked = settings.of.goal
+    val recorder =
+      Option.when(control.estimates || asked.isGiven)(ErrorRecorder(plan.development, None))
+    val goal = for r <- recorder if asked.isGiven yield Goal(asked, plan.samplesPerPixel, r)
+    val followed = Followed(control.listener, r => image(r, r.image(plan.development), None))
+    val listener = CoreListener.all(goal.orElse(recorder) ++ Some(followed))
+    val checkpoints = keeper.map(_.checkpointer(() => goal.exists(_.isEnough)))
+    val stop = control.cancellation.of
+    val how =
+      CoreControl(control.threads, stop, listener, checkpointer = checkpoints)
+    val rendering =
+      try prepared.render(how)
+      catch
+        case e: RenderFailure =>
+          throw RenderException(e.x, e.y, e.sample, Option(e.getCause).getOrElse(e))
+        case _: InterruptedException =>
+          Thread.currentThread.interrupt()
+          throw CancellationException("the rendering thread was interrupted")
+    val noisy = rendering.image(plan.development)
+    val denoising =
+      Option.when(settings.of.output.denoise)(Denoising(Oidn.load(), control.threads))
+    val done = denoising.fold(noisy)(_(noisy))
+    RenderResult(
+      rendering,
+      image(rendering, done, denoising.map(_.describe)),
+      recorder.flatMap(_.errorAt(rendering.samplesDone)).filter(!_.isNaN),
+      recorder.flatMap(_.squares(rendering.samplesDone)).map(errors(_, noisy)),
+      problems.toVector
+    )
+
+  private def image(rendering: Rendering, image: Image, denoiser: Option[String]): RenderedImage =
+    RenderedImage.of(image, display, files, rendering, denoiser)
+
+  private def errors(squares: Array[Float], like: Image): RenderedImage =
+    val data = squares.map(s => Math.sqrt(s.toDouble).toFloat)
+    RenderedImage.plain(
+      Image(like.width, like.height, Image.RgbNames, data, colorSpace = like.colorSpace)
+    )

@@ -1,0 +1,56 @@
+package candela.api
+
+import candela.base.SourcePos
+
+import java.util.Optional
+
+import scala.jdk.OptionConverters.*
+
+/** How grave a [[Problem]] is. */
+enum Severity extends java.lang.Enum[Severity]:
+  /** The scene is rendered all the same. */
+  case Warning
+
+  /** The scene is not rendered. */
+  case Error
+
+/** What is wrong with a scene, or with a setting. Immutable. */
+final class Problem private[api] (found: candela.base.Problem):
+  private def at: Option[SourcePos] = found.at
+
+  def severity: Severity = found.severity match
+    case candela.base.Severity.Warning => Severity.Warning
+    case candela.base.Severity.Error => Severity.Error
+
+  /** Expected and found, on one line. */
+  def message: String = found.message
+
+  /** The cure, if one is known: what to write instead. */
+  def help: Optional[String] = found.help.toJava
+
+  /** The file, as it was named; of a scene made in code, the source file that made the statement.
+    */
+  def file: Optional[String] = at.map(_.file).toJava
+
+  /** Line in the file, from 1; 0 if there is no file. */
+  def line: Int = at.fold(0)(_.line)
+
+  /** Column in the line, from 1; 0 if there is no file. Of a scene made in code always 1. */
+  def column: Int = at.fold(0)(_.column)
+
+  /** The text of the line, if it is known. */
+  def excerpt: Optional[String] = found.excerpt.toJava
+
+  /** On one line: `scene.pbrt:3:7: error: unknown material "matt"; did you mean "matte"?` */
+  override def toString: String =
+    val place = at.fold("")(p => s"$p: ")
+    s"$place${severity.toString.toLowerCase}: $message${found.help.fold("")(h => s"; $h")}"
+
+/** A scene that can't be rendered, or a setting that means nothing. [[Candela.read]] and
+  * [[Scene.check]] return problems instead of throwing them.
+  */
+final class SceneException private[api] (found: Vector[candela.base.Problem])
+    extends RuntimeException(Problems.ofCore(found).iterator.next().toString):
+
+  /** All of them, errors and warnings, in the order of the scene; at least one. */
+  def problems: java.util.List[Problem] = Problems.ofCore(found)

@@ -1,0 +1,23 @@
+package candela.api
+
+import candela.base.SceneError
+import candela.image.{ImageError, MissingNatives}
+
+import scala.jdk.CollectionConverters.*
+
+/** Problems of the core, for callers. */
+private[api] object Problems:
+
+  def ofCore(found: Vector[candela.base.Problem]): java.util.List[Problem] =
+    java.util.List.copyOf(found.map(Problem(_)).asJava)
+
+  /** Runs `body`; what it refuses is a [[SceneException]]. */
+  def thrown[A](body: => A): A =
+    try body
+    catch
+      case e: SceneError => throw SceneException(e.problems)
+      case e: ImageError => fail(e.getMessage)
+      case e: MissingNatives => fail(e.getMessage, Some(e.help))
+
+  def fail(message: String, help: Option[String] = None): Nothing =
+    throw SceneException(Vector(candela.base.Problem.general(message, help)))

@@ -1,0 +1,97 @@
+package candela.api
+
+import candela.image.{DisplayTransform, Image, ImageFiles}
+import candela.job.{Denoising, ImageFile}
+import candela.render.Rendering
+
+import java.nio.file.Path
+import java.util.List as JList
+
+import scala.jdk.CollectionConverters.*
+
+/** An image: some channels of Floats, in rows from the top. The first three are `R`, `G` and `B`,
+  * linear light in the film's colour space, which is linear sRGB unless the scene says otherwise;
+  * those of layers are behind them. Immutable.
+  */
+final class RenderedImage private[api] (
+    image: Image,
+    display: DisplayTransform,
+    write: Path => Unit
+):
+  def width: Int = image.width
+  def height: Int = image.height
+
+  /** Names of the channels, in the order of the values of a pixel. */
+  def channels: JList[String] = java.util.List.copyOf(image.channelNames.asJava)
+
+  /** A value.
+    *
+    * @param x       column, from 0 at the left
+    * @param y       row, from 0 at the top
+    * @param channel index in [[channels]]
+    */
+  def value(x: Int, y: Int, channel: Int): Float =
+    def check(index: Int, size: Int): Unit = java.util.Objects.checkIndex(index, size): Unit
+    check(x, width)
+    check(y, height)
+    check(channel, image.channels)
+    image(x, y, channel)
+
+  /** A copy of all values: of each pixel those of its channels. */
+  def values: Array[Float] = image.data.clone()
+
+  /** A copy of a channel's values.
+    *
+    * @throws SceneException if there is no such channel
+    */
+  def channel(name: String): Array[Float] =
+    val at = index(name)
+    Array.tabulate(width * height)(pixel => image.data(pixel * image.channels + at))
+
+  /** Mean of a channel's values.
+    *
+    * @throws SceneException if there is no such channel
+    */
+  def mean(name: String): Double =
+    val at = index(name)
+    val count = width * height
+    var sum = 0.0
+    var pixel = 0
+    while pixel < count do
+      sum += image.data(pixel * image.channels + at)
+      pixel += 1
+    sum / count
+
+  private def index(name: String): Int =
+    val at = image.channelNames.indexOf(name)
+    if at < 0 then
+      val all = image.channelNames.mkString(", ")
+      Problems.fail(s"the image has no channel `$name`", Some(s"it has $all"))
+    at
+
+  /** Writes a file in the format of its name: `.exr` with all channels, `.pfm` with the colours,
+    * `.png`, `.jpg`, `.qoi` or `.tga` as shown on a screen. The file is written whole, or not at
+    * all.
+    *
+    * @throws SceneException if it can't be written
+    */
+  def save(file: Path): Unit = Problems.thrown(write(file))
+
+  /** The bytes of a PNG file. */
+  def png: Array[Byte] = Problems.thrown(ImageFiles.png(Denoising.shown(image), display))
+
+private[api] object RenderedImage:
+  /** The image of a rendering, whose files tell of it. */
+  def of(
+      image: Image,
+      display: DisplayTransform,
+      files: ImageFile,
+      rendering: Rendering,
+      denoiser: Option[String]
+  ): RenderedImage =
+    def write(file: Path) = files.write(file, image, rendering, denoiser = denoiser)
+    RenderedImage(image, display, write)
+
+  /** Any other image. */
+  def plain(image: Image): RenderedImage =
+    RenderedImage(image, DisplayTransform.Plain, ImageFiles.write(_, image))

@@ -1,0 +1,279 @@
+package candela.api
+
+import candela.base.{SceneFolder, SourcePos}
+import candela.scenefile.{GivenStatement, Param, StatementRunner}
+
+import java.util.function.UnaryOperator
+
+/** A setting of a scene, of which there is one. */
+enum SceneSetting extends java.lang.Enum[SceneSetting]:
+  case Camera, Film, Sampler, Filter, Integrator
+
+/** The type of a texture's values. */
+enum TextureValues extends java.lang.Enum[TextureValues]:
+  /** Numbers. */
+  case Float
+
+  /** Colours and spectra. */
+  case Spectrum
+
+/** Makes a scene of the statements of pbrt-v4, or adds them to another scene. Names, parameters and
+  * values are those of a file (docs/REFERENCE.md lists them), and are checked as in a file, with
+  * the same messages: what is wrong is among the problems of [[scene]], and names the line of
+  * source code that called the builder.
+  * {{{
+  * val scene = Candela.build()
+  *   .film("rgb", Parameters().integer("xresolution", 64).integer("yresolution", 48))
+  *   .lookAt(0, 1, -5, 0, 0, 0, 0, 1, 0)
+  *   .camera("perspective", Parameters().number("fov", 40))
+  *   .world()
+  *   .light("infinite", Parameters().rgb("L", 0.4, 0.5, 0.6))
+  *   .material("diffuse", Parameters().rgb("reflectance", 0.8, 0.2, 0.1))
+  *   .shape("sphere", Parameters().number("radius", 1))
+  *   .scene()
+  * }}}
+  * Mutable, for one thread; each method returns the builder itself.
+  */
+final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: Option[Scene]):
+  private val runner = StatementRunner(folder, base.flatMap(_.description))
+  private val sum = StatementSum()
+  private var shownName = name
+
+  // The image, before the world
+
+  /** What the camera is; it stands at the origin of the current transform, looking along z. */
+  def camera(kind: String, parameters: Parameters): SceneBuilder =
+    named("Camera", kind, parameters)
+
+  /** The size of the image, and what it stores. */
+  def film(kind: String, parameters: Parameters): SceneBuilder = named("Film", kind, parameters)
+
+  def sampler(kind: String, parameters: Parameters): SceneBuilder =
+    named("Sampler", kind, parameters)
+
+  /** The reconstruction filter. */
+  def filter(kind: String, parameters: Parameters): SceneBuilder =
+    named("PixelFilter", kind, parameters)
+
+  /** The method of rendering. */
+  def integrator(kind: String, parameters: Parameters): SceneBuilder =
+    named("Integrator", kind, parameters)
+
+  /** An `Option` of pbrt-v4: one parameter. */
+  def option(parameter: Parameters): SceneBuilder =
+    for p <- parameter.at(place) do
+      run(GivenStatement(
+        "Option",
+        p.at,
+        texts = Vector(p.name),
+        params = Vector(p)
+      ))
+    this
+
+  /** The times of the start and the end of transforms, in seconds. */
+  def transformTimes(start: Double, end: Double): SceneBuilder =
+    plain("TransformTimes", start, end)
+
+  /** Begins the world: lights and shapes. The transform is then the identity. */
+  def world(): SceneBuilder = plain("WorldBegin")
+
+  // Transforms of what follows
+
+  def identity(): SceneBuilder = plain("Identity")
+  def translate(x: Double, y: Double, z: Double): SceneBuilder = plain("Translate", x, y, z)
+  def scale(x: Double, y: Double, z: Double): SceneBuilder = plain("Scale", x, y, z)
+
+  /** @param degrees counterclockwise about the axis x, y, z */
+  def rotate(degrees: Double, x: Double, y: Double, z: Double): SceneBuilder =
+    plain("Rotate", degrees, x, y, z)
+
+  /** From eye to target; up is up in the image. */
+  def lookAt(
+      eyeX: Double,
+      eyeY: Double,
+      eyeZ: Double,
+      targetX: Double,
+      targetY: Double,
+      targetZ: Double,
+      upX: Double,
+      upY: Double,
+      upZ: Double
+  ): SceneBuilder =
+    plain("LookAt", eyeX, eyeY, eyeZ, targetX, targetY, targetZ, upX, upY, upZ)
+
+  /** Replaces the transform.
+    *
+    * @param columns 16 numbers in column order
+    */
+  def transform(columns: Array[Double]): SceneBuilder = plain("Transform", columns*)
+
+  /** @param columns 16 numbers in column order */
+  def concatTransform(columns: Array[Double]): SceneBuilder =
+    plain("ConcatTransform", columns*)
+
+  /** Names the current transform. */
+  def coordinateSystem(name: String): SceneBuilder = words("CoordinateSystem", name)
+
+  /** Replaces the transform by a named one: `camera`, `world`, or one's own. */
+  def useCoordinateSystem(name: String): SceneBuilder = words("CoordSysTransform", name)
+
+  /** Which transform is changed from here on, of what moves: `All`, `StartTime` or `EndTime`. */
+  def activeTransform(which: String): SceneBuilder = words("ActiveTransform", which)
+
+  // Blocks
+
+  /** Materials, transforms and all other state that `body` sets end with it. */
+  def attributes(body: UnaryOperator[SceneBuilder]): SceneBuilder =
+    plain("AttributeBegin")
+    body(this): Unit
+    plain("AttributeEnd")
+
+  /** The shapes of `body` become an object, which [[instance]] places any number of times. */
+  def define(name: String, body: UnaryOperator[SceneBuilder]): SceneBuilder =
+    words("ObjectBegin", name)
+    body(this): Unit
+    plain("ObjectEnd")
+
+  /** Places an object, by the current transform. */
+  def instance(name: String): SceneBuilder = words("ObjectInstance", name)
+
+  // The world
+
+  def shape(kind: String, parameters: Parameters): SceneBuilder = named("Shape", kind, parameters)
+
+  def light(kind: String, parameters: Parameters): SceneBuilder =
+    named("LightSource", kind, parameters)
+
+  /** Makes the shapes that follow lamps, until the end of the block. */
+  def areaLight(kind: String, parameters: Parameters): SceneBuilder =
+    named("AreaLightSource", kind, parameters)
+
+  /** The material of the shapes that follow, until the end of the block. */
+  def material(kind: String, parameters: Parameters): SceneBuilder =
+    named("Material", kind, parameters)
+
+  /** Names a material, for [[useMaterial]] and for mixtures. */
+  def nameMaterial(name: String, kind: String, parameters: Parameters): SceneBuilder =
+    typed("MakeNamedMaterial", name, kind, parameters)
+
+  def useMaterial(name: String): SceneBuilder = words("NamedMaterial", name)
+
+  /** Names a texture, for the parameters that follow. */
+  def texture(
+      name: String,
+      values: TextureValues,
+      kind: String,
+      parameters: Parameters
+  ): SceneBuilder =
+    val at = place
+    val texts = Vector(name, values.toString.toLowerCase, kind)
+    run(GivenStatement("Texture", at, texts = texts, params = parameters.at(at)))
+
+  /** Names a medium, for [[mediumInterface]]. */
+  def nameMedium(name: String, kind: String, parameters: Parameters): SceneBuilder =
+    typed("MakeNamedMedium", name, kind, parameters)
+
+  /** The media inside and outside of the shapes that follow, and around the camera and the lights:
+    * names, or nothing.
+    */
+  def mediumInterface(inside: String, outside: String): SceneBuilder =
+    words("MediumInterface", inside, outside)
+
+  def reverseOrientation(): SceneBuilder = plain("ReverseOrientation")
+
+  /** The space of the colours that follow: `srgb`, `dci-p3`, `rec2020` or `aces2065-1`. */
+  def colorSpace(name: String): SceneBuilder = words("ColorSpace", name)
+
+  /** Parameters that the statements that follow have by default.
+    *
+    * @param target `shape`, `light`, `material`, `medium` or `texture`
+    */
+  def defaults(target: String, parameters: Parameters): SceneBuilder =
+    named("Attribute", target, parameters)
+
+  // Changes of another scene
+
+  /** Changes parameters of what there is once, and keeps its others. */
+  def change(setting: SceneSetting, parameters: Parameters): SceneBuilder =
+    edited(s"change $setting", "", parameters)(SceneEdits.setting(setting, _))
+
+  /** Changes parameters of a named material, and keeps its others. */
+  def changeMaterial(name: String, parameters: Parameters): SceneBuilder =
+    edited("change material", name, parameters)(SceneEdits.material(name, _))
+
+  /** Changes parameters of a texture, and keeps its others. */
+  def changeTexture(name: String, parameters: Parameters): SceneBuilder =
+    edited("change texture", name, parameters)(SceneEdits.texture(name, _))
+
+  /** Puts the camera, which keeps its parameters, where the current transform is. */
+  def placeCamera(): SceneBuilder =
+    sum.add(GivenStatement("place camera", SourcePos.Nowhere))
+    runner.placeCamera()
+    this
+
+  /** Removes all lights but those of shapes. */
+  def removeLights(): SceneBuilder =
+    edited("remove lights", "", Parameters())(_ => _.copy(lights = Vector.empty))
+
+  /** Removes all shapes, objects and instances. */
+  def removeShapes(): SceneBuilder =
+    edited("remove shapes", "", Parameters())(_ =>
+      _.copy(shapes = Vector.empty, objects = Map.empty, instances = Vector.empty)
+    )
+
+  /** What the scene is called, in image files and messages. */
+  def called(name: String): SceneBuilder =
+    shownName = name
+    this
+
+  /** The scene so far. The builder may go on, and make other scenes. */
+  def scene(): Scene =
+    val made = runner.result
+    val whole = made.copy(folder = folder, unfiled = made.unfiled :+ ("statements" -> sum.digest))
+    Scene.of(shownName, whole, base.fold(ReadSettings())(_.how))
+
+  private def run(statement: GivenStatement): SceneBuilder =
+    sum.add(statement)
+    runner.run(statement)
+    this
+
+  private def plain(directive: String, numbers: Double*): SceneBuilder =
+    run(GivenStatement(directive, place, numbers = numbers.toVector))
+
+  private def words(directive: String, texts: String*): SceneBuilder =
+    run(GivenStatement(directive, place, texts = texts.toVector))
+
+  private def named(directive: String, name: String, parameters: Parameters): SceneBuilder =
+    val at = place
+    run(GivenStatement(directive, at, texts = Vector(name), params = parameters.at(at)))
+
+  private def typed(
+      directive: String,
+      name: String,
+      kind: String,
+      parameters: Parameters
+  ): SceneBuilder =
+    val at = place
+    val params = Param.string("type", at, kind) +: parameters.at(at)
+    run(GivenStatement(directive, at, texts = Vector(name), params = params))
+
+  private def edited(what: String, name: String, parameters: Parameters)(
+      f: Vector[Param] => SceneEdits.Edit
+  ): SceneBuilder =
+    val at = place
+    val params = parameters.at(at)
+    sum.add(GivenStatement(what, at, texts = Vector(name), params = params))
+    runner.change(at)(f(runner.checked(params)))
+    this
+
+  private def place: SourcePos = SceneBuilder.caller
+
+private object SceneBuilder:
+  private val walker = StackWalker.getInstance()
+  private val own = Set("candela.api.SceneBuilder", "candela.api.SceneBuilder$")
+
+  /** The line that calls the builder. */
+  private def caller: SourcePos =
+    val frame = walker.walk(_.dropWhile(f => own(f.getClassName)).findFirst())
+    frame.map(f => SourcePos(String.valueOf(f.getFileName), Math.max(1, f.getLineNumber), 1))
+      .orElse(SourcePos("code", 1, 1))

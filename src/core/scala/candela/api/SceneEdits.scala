@@ -1,0 +1,96 @@
+package candela.api
+
+import candela.base.{Problem as Found, SceneError, SourcePos, Suggest}
+import candela.scenefile.{Declaration, GivenStatement, Param, SceneDescription}
+
+import java.nio.ByteBuffer
+import java.nio.charset.StandardCharsets.UTF_8
+import java.security.MessageDigest
+import java.util.HexFormat
+
+/** Changes of what a scene has. */
+private[api] object SceneEdits:
+  type Edit = SceneDescription => SceneDescription
+
+  /** @throws SceneError if there is none */
+  def setting(setting: SceneSetting, params: Vector[Param]): Edit = scene =>
+    def changed(old: Option[Declaration]): Option[Declaration] =
+      if old.isEmpty then
+        val what = setting.toString.toLowerCase
+        fail(params, s"the scene has no $what to change", Some(s"call $what(…) to give it one"))
+      old.map(put(_, params))
+    setting match
+      case SceneSetting.Camera => scene.copy(camera = changed(scene.camera))
+      case SceneSetting.Film => scene.copy(film = changed(scene.film))
+      case SceneSetting.Sampler => scene.copy(sampler = changed(scene.sampler))
+      case SceneSetting.Filter => scene.copy(filter = changed(scene.filter))
+      case SceneSetting.Integrator => scene.copy(integrator = changed(scene.integrator))
+
+  /** @throws SceneError if there is no such material */
+  def material(name: String, params: Vector[Param]): Edit = scene =>
+    val names = scene.namedMaterials.map(_._1)
+    if !names.contains(name) then
+      fail(params, s"unknown material `$name`", Suggest.help(name, names))
+    scene.copy(namedMaterials = scene.namedMaterials.map: (other, made) =>
+      other -> (if other == name then put(made, params) else made))
+
+  /** @throws SceneError if there is no such texture */
+  def texture(name: String, params: Vector[Param]): Edit = scene =>
+    val names = scene.textures.map(_.name)
+    if !names.contains(name) then
+      fail(params, s"unknown texture `$name`", Suggest.help(name, names))
+    scene.copy(textures = scene.textures.map: t =>
+      if t.name == name then t.copy(texture = put(t.texture, params)) else t)
+
+  private def put(to: Declaration, params: Vector[Param]): Declaration =
+    to.copy(params = to.params.filterNot(old => params.exists(_.name == old.name)) ++ params)
+
+  private def fail(params: Vector[Param], message: String, help: Option[String]): Nothing =
+    val at = params.headOption.fold(SourcePos.Nowhere)(_.at)
+    throw SceneError(Found.error(at, message, help))
+
+/** SHA-256 of statements. Mutable. */
+private[api] final class StatementSum:
+  private val sum = MessageDigest.getInstance("SHA-256")
+
+  def add(s: GivenStatement): Unit =
+    text(s.directive)
+    count(s.numbers.size)
+    s.numbers.foreach(x => bytes(8)(_.putDouble(x)))
+    texts(s.texts)
+    count(s.params.size)
+    for p <- s.params do
+      text(p.paramType.spelling)
+      text(p.name)
+      floats(p.floats)
+      floats(p.rests)
+      count(p.ints.length)
+      bytes(4 * p.ints.length)(b => p.ints.foreach(b.putInt))
+      count(p.bools.size)
+      p.bools.foreach(b => count(if b then 1 else 0))
+      texts(p.strings)
+
+  /** Of all so far. */
+  def digest: String =
+    val now = sum.clone().asInstanceOf[MessageDigest]
+    HexFormat.of.formatHex(now.digest)
+
+  private def floats(all: Array[Float]): Unit =
+    count(all.length)
+    bytes(4 * all.length)(b => all.foreach(b.putFloat))
+
+  private def texts(all: Vector[String]): Unit =
+    count(all.size)
+    all.foreach(text)
+
+  private def text(s: String): Unit =
+    val encoded = s.getBytes(UTF_8)
+    count(encoded.length)
+    sum.update(encoded)
+
+  private def count(n: Int): Unit = bytes(4)(_.putInt(n))
+
+  private def bytes(count: Int)(put: ByteBuffer => Any): Unit =
+    val buffer = ByteBuffer.allocate(count)
+    val _ = put(buffer)
+    sum.update(buffer.array)

@@ -1,0 +1,139 @@
+package candela.job
+
+import candela.base.{Problem, SceneError, Severity, Version}
+import candela.render.RenderPlan
+import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmLock, FilmWriter}
+
+import java.io.IOException
+import java.nio.file.{Files, Path}
+
+/** The film file of one rendering, which no other rendering can write until it is closed.
+  *
+  * @param header of the rendering; its number of samples done is not used
+  * @param start  the saved rendering to continue, if any
+  * @param how    it is written
+  */
+final class FilmKeeper private (
+    val path: Path,
+    header: FilmHeader,
+    val start: Option[FilmFile],
+    mayEndEarly: Boolean,
+    lock: Option[FilmLock],
+    how: FilmKeeper.How
+) extends AutoCloseable:
+  def close(): Unit = lock.foreach(_.close())
+
+  /** Whether all planned samples are taken. */
+  def isDone: Boolean = start.exists(f => f.header.isComplete && f.header.samples == header.samples)
+
+  /** Samples that every pixel has already. */
+  def samplesDone: Int = start.fold(0)(_.header.done)
+
+  /** @param isEnough whether the rendering ended because its goal was reached */
+  def checkpointer(isEnough: () => Boolean): Checkpoints =
+    def of(done: Int) =
+      val isEarly = mayEndEarly && isEnough()
+      val planned = if isEarly then Math.min(done, header.samples) else header.samples
+      header.copy(done = done, samples = planned)
+    // A damaged file must not replace its previous copy.
+    val writer = FilmWriter(path, isGood = start.forall(_.damage.isEmpty))
+    Checkpoints(writer, of, start, how.every, why => how.warn(FilmKeeper.unwritable(path, why)))
+
+object FilmKeeper:
+
+  /** @param every seconds between two copies; none: as often as is worth it
+    * @param warn  receives what can't be read or written
+    */
+  final case class How(every: Option[Double], warn: Problem => Unit)
+
+  /** A new film file, or the saved rendering of an existing one.
+    *
+    * @param lock takes the file, for this rendering alone
+    * @throws SceneError if the file is of another rendering
+    */
+  def of(path: Path, now: FilmHeader, plan: RenderPlan, how: How)(lock: => FilmLock): FilmKeeper =
+    val taken = lock
+    try
+      val start = existing(path, now, how.warn)
+      FilmKeeper(path, now, start, now.obstacle(plan).isEmpty, Some(taken), how)
+    catch
+      case e: Throwable =>
+        taken.close()
+        throw e
+
+  /** The film of a saved rendering that goes on, and whose file is locked already.
+    *
+    * @throws SceneError if it can't
+    */
+  def resumed(film: FilmFile, now: FilmHeader, plan: RenderPlan, how: How): FilmKeeper =
+    val obstacle = film.header.obstacle(plan)
+    val next = continued(film, now, plan.samplesPerPixel, obstacle)
+    FilmKeeper(film.path, next, Some(film), obstacle.isEmpty, None, how)
+
+  /** @throws SceneError if another rendering writes this film file */
+  def locked(path: Path): FilmLock =
+    FilmLock.take(path).getOrElse:
+      fail(s"`$path` is being written by another rendering", "wait for it, or stop it")
+
+  /** Opens a film file; warns if its previous copy has to be used.
+    *
+    * @throws SceneError if it can't be read, or is another version's
+    */
+  def open(path: Path, warn: Problem => Unit): FilmFile =
+    val film =
+      try FilmFile.open(path)
+      catch case e: IOException => fail(e.getMessage)
+    for damage <- film.damage do
+      val message = s"can't read `$path`: $damage; using its previous copy, " +
+        s"`${FilmFile.previous(film.path).getFileName}`"
+      warn(Problem.general(message).copy(severity = Severity.Warning))
+    val version = film.header.version
+    if version != Version.current then
+      fail(s"`$path` was written by Candela $version; this is ${Version.current}")
+    film
+
+  /** @throws SceneError if the scene is no longer what was rendered */
+  def verify(film: FilmFile, now: FilmHeader): Unit =
+    // The samples per pixel may change.
+    for difference <- film.header.difference(now.copy(samples = film.header.samples)) do
+      val message = s"the scene of `${film.path}` has changed: $difference"
+      fail(message, "render it again; or restore what has changed")
+
+  def fail(message: String, help: String = ""): Nothing =
+    throw SceneError(Problem.general(message, Option.when(help.nonEmpty)(help)))
+
+  private def unwritable(path: Path, why: String): Problem =
+    Problem(Severity.Warning, None, s"can't write the film file `$path`: $why")
+
+  /** The rendering that continues a saved one. */
+  private def continued(
+      film: FilmFile,
+      now: FilmHeader,
+      samples: Int,
+      obstacle: Option[String]
+  ): FilmHeader =
+    verify(film, now.copy(count = film.header.count))
+    val header = film.header
+    if now.samples != header.samples then
+      for why <- obstacle do
+        fail(
+          s"can't change the ${header.samples} samples per pixel of `${film.path}`: $why",
+          "render with --spp N --checkpoint, N being the most you may want, and --time or --error"
+        )
+    if samples < header.done then
+      fail(s"`${film.path}` has ${header.done} samples per pixel already")
+    header.copy(samples = now.samples)
+
+  /** The saved rendering at `path`, if there is one. */
+  private def existing(path: Path, now: FilmHeader, warn: Problem => Unit): Option[FilmFile] =
+    Option.when(Files.isRegularFile(path) || Files.exists(FilmFile.previous(path))):
+      val film =
+        try open(path, warn)
+        catch case e: SceneError => fail(e.problems.head.message, Remove)
+      for difference <- now.difference(film.header) do
+        fail(s"`$path` is of another rendering: it has $difference", Remove)
+      if film.header.shards != now.shards then
+        fail(s"`$path` is of another shard: ${film.header.part}", Remove)
+      film
+
+  private val Remove = "remove it, or name another file"

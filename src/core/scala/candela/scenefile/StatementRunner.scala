@@ -1,0 +1,136 @@
+package candela.scenefile
+
+import scala.collection.mutable
+
+import candela.base.{Problem, SceneError, SceneFolder, Severity, SourcePos}
+
+/** A statement of pbrt-v4 that a program makes, instead of a file.
+  *
+  * @param at where the program makes it
+  */
+final case class GivenStatement(
+    directive: String,
+    at: SourcePos,
+    numbers: Vector[Double] = Vector.empty,
+    texts: Vector[String] = Vector.empty,
+    params: Vector[Param] = Vector.empty
+)
+
+/** Runs statements that a program makes one after the other; each is checked as in a file. What is
+  * wrong with one is kept as a problem, and the next goes on.
+  *
+  * @param folder that file names are relative to
+  * @param base   the scene that the statements add to, if any: of what there is once, they replace
+  *               its own
+  */
+final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] = None):
+  private val problems = Problems()
+  private val values = ValueReader(problems.add, () => true)
+  private var lost = Set.empty[NameKind]
+
+  /** Statements of older dialects have other meanings. */
+  private val foreign = base.map(_.dialect).filter(_ != Dialect.V4).map(_ => Dialect.V4)
+  private val scene = SceneWriter(folder, DialectGuess(), () => true, problems.add, foreign)
+  base.foreach(scene.keepAll)
+
+  def run(statement: GivenStatement): Unit =
+    val directive = Directives.all(statement.directive)
+    try
+      // To what is whole, everything may be added
+      val place = if base.isEmpty then directive.misplaced(scene.worldBegin) else None
+      for message <- place do throw SceneError(Problem.error(statement.at, message))
+      directive.run(GivenArguments(directive, statement, problems.add, values), scene)
+    catch
+      case e: SceneError =>
+        lost ++= NameKind.madeBy(statement.directive)
+        e.problems.foreach(problems.add)
+
+  /** Changes what the scene has so far.
+    *
+    * @param at where the program does so
+    */
+  def change(at: SourcePos)(f: SceneDescription => SceneDescription): Unit =
+    try scene.change(f)
+    catch case e: SceneError => e.problems.map(p => p.copy(at = Some(at))).foreach(problems.add)
+
+  /** Parameters as a statement has them. */
+  def checked(params: Vector[Param]): Vector[Param] =
+    try GivenParameters.checked(params, values, problems.add)
+    catch
+      case e: SceneError =>
+        e.problems.foreach(problems.add)
+        Vector.empty
+
+  /** Where the camera is, by the current transform. */
+  def placeCamera(): Unit = scene.placeCamera()
+
+  /** What there is so far, with all problems found. */
+  def result: SceneDescription =
+    val unclosed = scene.blocks.unclosed
+    val noWorld = Option.when(base.isEmpty && scene.worldBegin.isEmpty):
+      Problem.general("the scene has no WorldBegin: nothing is in it")
+    val (errors, warnings) =
+      (problems.result() ++ unclosed ++ noWorld).partition(_.severity == Severity.Error)
+    val old = base.getOrElse(SceneDescription(Dialect.V4))
+    val whole = scene.description(old.dialect, old.warnings ++ warnings)
+    whole.copy(
+      errors = old.errors ++ errors,
+      lost = old.lost ++ lost,
+      dialectReason = base.fold("as it is made in code")(_.dialectReason)
+    )
+
+/** Arguments that a program has given. */
+private final class GivenArguments(
+    directive: Directive,
+    made: GivenStatement,
+    report: Problem => Unit,
+    values: ValueReader
+) extends Arguments(directive, made.at, report):
+  private val numbersLeft = made.numbers.iterator
+  private val textsLeft = made.texts.iterator
+
+  def include(file: String, nameAt: SourcePos): Unit =
+    fail(nameAt, s"${directive.name} is for files only")
+
+  def numbers(count: Int): Vector[Double] =
+    Vector.tabulate(count): i =>
+      if !numbersLeft.hasNext then wrongNumber(at, count, i, "missing")
+      val x = numbersLeft.next()
+      if x.isNaN || x.isInfinite then wrongNumber(at, count, i, x.toString)
+      x
+
+  def matrix(): Vector[Double] = numbers(16)
+
+  def quoted(what: String): (String, SourcePos) =
+    if !textsLeft.hasNext then notQuoted(at, what, "nothing")
+    (textsLeft.next(), at)
+
+  def another: Option[String] = textsLeft.nextOption()
+
+  def word(choices: String*): String =
+    val found = textsLeft.nextOption()
+    found.filter(choices.contains).getOrElse:
+      notOneOf(at, choices, found.fold("nothing")(f => s"`$f`"))
+
+  def params(): Vector[Param] = GivenParameters.checked(made.params, values, report)
+
+  def value(paramType: ParamType, name: String): Param =
+    val found = made.params.headOption.getOrElse(fail(at, s"`$name` must have a value"))
+    if found.paramType != paramType then
+      val kinds = s"${paramType.spelling}, found ${found.paramType.spelling}"
+      fail(at, s"the value of `$name` must be of type $kinds")
+    found.renamed(name)
+
+private object GivenParameters:
+
+  /** Of each name one; values as many as its type has, and finite. */
+  def checked(written: Vector[Param], values: ValueReader, report: Problem => Unit): Vector[Param] =
+    val all = mutable.LinkedHashMap.empty[String, Param]
+    for p <- written do
+      for x <- p.floats.find(!_.isFinite) do
+        throw SceneError(Problem.error(p.at, s"values of `${p.name}` must be numbers, found $x"))
+      for earlier <- all.remove(p.name) do
+        val message = s"`${p.name}` is repeated; the earlier value is ignored"
+        report(Problem.warning(earlier.at, message))
+      all(p.name) = values.checkCount(p)
+    all.values.toVector

@@ -1,0 +1,247 @@
+package candela.api
+
+import candela.cli.Captured
+import candela.testing.{Eventually, TempFolder}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import java.io.{ByteArrayOutputStream, PrintStream}
+import java.nio.file.{Files, Path}
+import java.time.Duration
+import java.util.concurrent.{CancellationException, CyclicBarrier}
+import java.util.concurrent.TimeUnit.SECONDS
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+class LibrarySuite extends AnyFunSuite:
+
+  private def rendered(scene: Scene, settings: RenderSettings, control: RenderControl) =
+    Using.resource(scene.prepare(settings, 2))(_.render(control))
+
+  private def rendered(scene: Scene, settings: RenderSettings = RenderSettings()): RenderResult =
+    rendered(scene, settings, RenderControl().withThreads(2))
+
+  private val endless = RenderSettings().withTime(Duration.ofHours(1))
+
+  test("a scene's image files are the program's, byte for byte"):
+    TempFolder.use: folder =>
+      val scene = Files.writeString(folder.resolve("scene.pbrt"), LibraryScenes.text())
+      def program(name: String) = folder.resolve(s"program.$name")
+      val words = Vector("--spp", "4", "--seed", "3", "--aov", "albedo,normal", "-j", "2")
+      val files = Vector("exr", "png").flatMap(s => Vector("--outfile", program(s).toString))
+      val (code, captured) = Captured.run(("render" +: scene.toString +: words) ++ files*)
+      assert(code == 0, captured.err)
+      val settings = RenderSettings(samples = 4).withSeed(3).withLayers("albedo", "normal")
+      val image = rendered(Candela.read(scene), settings).image
+      assert(image.channels.asScala.take(4) == Vector("R", "G", "B", "Albedo.R"))
+      for suffix <- Vector("exr", "png") do
+        val own = folder.resolve(s"own.$suffix")
+        image.save(own)
+        assert(Files.readAllBytes(own).toVector == Files.readAllBytes(program(suffix)).toVector)
+
+  test("renderings at once have the bytes that each has alone"):
+    val texts = Vector("\"path\"", "\"bdpt\"", "\"mlt\" \"integer bootstrapsamples\" 500")
+    val scenes = texts.map(i => Candela.parse(LibraryScenes.text(i)))
+    val alone = scenes.map(rendered(_).image.values.toVector)
+    val start = CyclicBarrier(scenes.size)
+    val together = Array.fill(scenes.size)(Vector.empty[Float])
+    val threads = scenes.indices.map: i =>
+      Thread: () =>
+        start.await(60, SECONDS): Unit
+        together(i) = rendered(scenes(i)).image.values.toVector
+    threads.foreach(_.start())
+    threads.foreach(_.join(60_000))
+    assert(together.toVector == alone && alone.distinct.size == alone.size)
+
+  test("one job may be rendered several times at once"):
+    Using.resource(LibraryScenes.built().scene().prepare(RenderSettings(), 2)): job =>
+      val images = Array.fill(2)(Vector.empty[Float])
+      val threads = images.indices.map: i =>
+        Thread(() => images(i) = job.render(2).image.values.toVector)
+      threads.foreach(_.start())
+      threads.foreach(_.join(60_000))
+      assert(images(0).nonEmpty && images(0) == images(1))
+      assert(job.width == 24 && job.height == 16 && job.samplesPerPixel == 8)
+      assert(!job.features.isEmpty)
+
+  test("a cancelled rendering returns its image within a second"):
+    val stop = Cancellation()
+    var asked = 0L
+    val listener = new RenderListener:
+      override def progressed(progress: Progress): Unit =
+        if progress.samples > 1000 && !stop.isCancelled then
+          asked = System.nanoTime
+          stop.cancel()
+    val control = RenderControl().withThreads(2).withListener(listener).withCancellation(stop)
+    val result = rendered(LibraryScenes.built().scene(), endless, control)
+    // On a machine that others use, too: three times the promise
+    assert(asked > 0 && System.nanoTime - asked < 3_000_000_000L)
+    assert(!result.isComplete && result.samplesPerPixel >= 1 && result.image.mean("R") > 0)
+
+  test("an interrupted thread stops rendering"):
+    @volatile var thrown = Option.empty[Throwable]
+    @volatile var runs = false
+    val thread = Thread: () =>
+      val listener = new RenderListener:
+        override def started(rendering: LiveRendering): Unit = runs = true
+      val control = RenderControl().withThreads(1).withListener(listener)
+      try rendered(LibraryScenes.built().scene(), endless, control): Unit
+      catch case e: Throwable => thrown = Some(e)
+    thread.start()
+    Eventually.eventually("rendering")(Option.when(runs)(()))
+    thread.interrupt()
+    thread.join(60_000)
+    assert(thrown.exists(_.isInstanceOf[CancellationException]))
+
+  test("no thread stays behind a closed job"):
+    def ours =
+      Thread.getAllStackTraces.keySet.asScala.toSet.filter(_.getName.startsWith("candela-"))
+    val before = ours
+    val job = LibraryScenes.built().scene().prepare(RenderSettings(), 4)
+    assert(!job.render(4).image.values.forall(_ == 0f))
+    job.close()
+    // Suites that run at the same time have threads of their own
+    val own = ours -- before
+    Eventually.eventually("end of all threads")(Option.when(!own.exists(_.isAlive))(()))
+
+  test("nothing is printed, no property is set"):
+    val (out, err) = (System.out, System.err)
+    val bytes = ByteArrayOutputStream()
+    val all = PrintStream(bytes, true)
+    val properties = System.getProperties.clone()
+    System.setOut(all)
+    System.setErr(all)
+    try
+      val scene = Candela.parse(LibraryScenes.text() + "Shape \"spher\"\n")
+      assert(!scene.check(RenderSettings()).isEmpty)
+      rendered(LibraryScenes.built().scene(), RenderSettings(samples = 2)): Unit
+      val _ = Candela.isVectorized
+    finally
+      System.setOut(out)
+      System.setErr(err)
+    // Those of suites that run at the same time are not the library's
+    assert(!bytes.toString.contains("candela"), bytes.toString)
+    assert(System.getProperties == properties)
+
+  test("progress, passes and the image so far are told while a scene is rendered"):
+    val passes = Vector.newBuilder[(Int, Double)]
+    var last = Option.empty[Progress]
+    var live = Option.empty[LiveRendering]
+    val listener = new RenderListener:
+      override def started(rendering: LiveRendering): Unit = live = Some(rendering)
+      override def progressed(progress: Progress): Unit = last = Some(progress)
+      override def wantsPasses: Boolean = true
+      override def passed(pass: Pass): Unit = passes += ((pass.samples, pass.image.mean("G")))
+    val control = RenderControl().withThreads(2).withListener(listener)
+    val result = rendered(LibraryScenes.built().scene(), RenderSettings(), control)
+    assert(passes.result().map(_._1) == Vector(1, 2, 4, 8))
+    assert(passes.result().last._2 == result.image.mean("G"))
+    assert(last.exists(p => p.part == 1 && p.samples == p.planned && p.planned == 24 * 16 * 8))
+    assert(live.exists(_.image.values.sameElements(result.image.values)))
+    assert(result.samples == 24 * 16 * 8 && result.rays > result.samples && result.isComplete)
+
+  test("errors are estimated on request: of the image, and of each value"):
+    val scene = LibraryScenes.built(samples = 64).scene()
+    val control = RenderControl().withThreads(2).withErrorEstimates
+    val result = rendered(scene, RenderSettings(), control)
+    val truth = rendered(scene, RenderSettings(samples = 1024).withSeed(7)).image.values
+    val errors = result.errors.get
+    val off = result.image.values.zip(truth).map((a, b) => Math.pow(a - b, 2)).sum
+    val told = errors.values.map(e => e.toDouble * e).sum
+    // Two halves of 64 samples tell a variance within a factor
+    assert(result.error.getAsDouble > 0 && told > off / 4 && told < off * 4, s"$told, $off")
+    assert(rendered(scene).error.isEmpty && rendered(scene).errors.isEmpty)
+
+  test("a goal ends a rendering, with whole passes"):
+    val scene = LibraryScenes.built().scene()
+    val result = rendered(scene, RenderSettings().withError(0.2))
+    assert(result.isComplete && result.error.getAsDouble <= 0.2)
+    assert(result.samples == 24L * 16 * result.samplesPerPixel)
+
+  test("a film file continues a rendering, to the same bytes"):
+    TempFolder.use: folder =>
+      val film = folder.resolve("image.film")
+      val scene = LibraryScenes.built(samples = 256).scene()
+      val stop = Cancellation()
+      val listener = new RenderListener:
+        override def progressed(progress: Progress): Unit = stop.cancel()
+      val control = RenderControl().withThreads(2).withFilm(film)
+      val first =
+        rendered(scene, RenderSettings(), control.withCancellation(stop).withListener(listener))
+      assert(!first.isComplete && Files.exists(film))
+      val second = rendered(scene, RenderSettings(), control)
+      assert(second.isComplete && second.samplesPerPixel == 256 && second.problems.isEmpty)
+      assert(second.image.values.sameElements(rendered(scene).image.values))
+      val other = LibraryScenes.built(samples = 256).light("infinite", Parameters()).scene()
+      val refused = intercept[SceneException](rendered(other, RenderSettings(), control))
+      assert(refused.problems.get(0).message.contains("of another rendering"))
+
+  test("problems have severity, message, cure and place, and are values"):
+    val scene = Candela.parse(LibraryScenes.text() + "Shape \"spher\" \"float radius\" 1\n")
+    assert(!scene.hasErrors)
+    val problem = scene.check(RenderSettings()).get(0)
+    assert(problem.severity == Severity.Error && problem.message.contains("\"spher\""))
+    assert(problem.help.get.contains("sphere") && problem.file.get == "scene.pbrt")
+    assert(problem.line == LibraryScenes.text().linesIterator.size + 1 && problem.column == 7)
+    assert(problem.toString.startsWith(s"scene.pbrt:${problem.line}:7: error: "))
+    val none = Candela.read(Path.of("/nowhere/scene.pbrt"))
+    assert(none.hasErrors && none.dialect.isEmpty && none.files.isEmpty)
+    assert(none.problems.get(0).message == "no such scene file: `/nowhere/scene.pbrt`")
+    assert(intercept[SceneException](none.prepare(RenderSettings())).problems.size == 1)
+    assert(intercept[SceneException](none.edit()).problems.size == 1)
+
+  test("scenes of Mitsuba are read from texts, too"):
+    val scene = Candela.parse(
+      LibrarySuite.mitsuba,
+      Path.of("scene.xml"),
+      ReadSettings().withDefine("spp", "2")
+    )
+    assert(scene.problems.isEmpty && scene.dialect == "mitsuba", scene.problems)
+    assert(rendered(scene).image.mean("R") > 0)
+    val unknown = Candela.parse(
+      LibrarySuite.mitsuba,
+      Path.of("scene.xml"),
+      ReadSettings().withDefine("samples", "2")
+    )
+    assert(unknown.hasErrors)
+
+  test("settings that mean nothing say what they may be"):
+    def refused(body: => Any): Problem = intercept[SceneException](body).problems.get(0)
+    assert(refused(RenderSettings().withLayers("albdo")).help.get.contains("albedo"))
+    assert(refused(RenderSettings().withOption("firefly", "keep")).message
+      == "unknown setting `firefly`")
+    assert(refused(RenderSettings().withOption(
+      "seed",
+      "x"
+    )).message == "wrong value of `seed`: `x`")
+    assert(refused(
+      RenderSettings().withOption("seed")
+    ).message == "setting `seed` takes a value, found none")
+    assert(refused(RenderSettings(samples = 0)).message.contains("`spp`"))
+    assert(refused(RenderSettings().withError(0)).message == "the error must be above 0, found 0.0")
+    assert(refused(ReadSettings().withDialect("v5")).help.get == "expected v2, v3 or v4")
+    assert(
+      refused(RenderControl().withThreads(0)).message == "`threads` must be at least 1, found 0"
+    )
+    val two = RenderSettings(samples = 2).withOption("color", "spectral")
+    assert(two == RenderSettings(samples = 2).withOption("color", "spectral"))
+    assert(two.words.asScala == Vector("--color", "spectral", "--spp", "2"))
+
+object LibrarySuite:
+  private val mitsuba =
+    """<scene version="3.0.0">
+      |  <default name="spp" value="4"/>
+      |  <integrator type="path"/>
+      |  <sensor type="perspective">
+      |    <transform name="to_world"><lookat origin="0,0,-4" target="0,0,0" up="0,1,0"/>
+      |    </transform>
+      |    <film type="hdrfilm"><integer name="width" value="16"/>
+      |      <integer name="height" value="12"/>
+      |    </film>
+      |    <sampler type="independent"><integer name="sample_count" value="$spp"/></sampler>
+      |  </sensor>
+      |  <emitter type="constant"/>
+      |  <shape type="sphere"/>
+      |</scene>
+      |""".stripMargin
