@@ -1,6 +1,6 @@
 package candela.bidirectional
 
-import candela.base.loop
+import candela.base.{GivenUp, loop}
 import candela.color.Rgb
 import candela.integrators.SurfaceVertex
 import candela.math.*
@@ -36,8 +36,14 @@ private[bidirectional] final class Photons:
   * @param parts  photons in accumulation order
   * @param paths  number of light paths traced for them
   * @param radius query radius
+  * @param isStopped whether nobody waits for it any more, which is a GivenUp
   */
-private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, radius: Float):
+private[bidirectional] final class PhotonMap(
+    parts: Array[Photons],
+    paths: Int,
+    radius: Float,
+    isStopped: () => Boolean = GivenUp.Never
+):
   import PhotonMap.*
 
   val count: Int = parts.foldLeft(0)((n, p) => Math.addExact(n, p.count))
@@ -51,6 +57,7 @@ private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, 
   private def sort(): Unit =
     inline def each(inline use: (Array[Float], Int, Int) => Unit): Unit =
       for part <- parts do
+        GivenUp.check(isStopped)
         loop(part.count): i =>
           val at = i * Numbers
           val d = part.data

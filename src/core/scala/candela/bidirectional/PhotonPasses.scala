@@ -1,5 +1,6 @@
 package candela.bidirectional
 
+import candela.base.GivenUp
 import candela.cameras.Shutter
 import candela.film.View
 import candela.integrators.{Interfaces, PassIntegrator, SharedPasses}
@@ -157,5 +158,6 @@ object PhotonPasses:
         parts(part) = tracer.trace(number, part, count, shutter, isStopped)
         // Else it has a part of its paths
         if !isStopped() && done.incrementAndGet() == parts.length then
-          map = Some(PhotonMap(parts, paths, radius))
+          try map = Some(PhotonMap(parts, paths, radius, isStopped))
+          catch case _: GivenUp => () // as the parts of the others
         part = next.getAndIncrement()

@@ -4,6 +4,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.accel.Instances
 import candela.accel.tracing.Bvh
+import candela.base.GivenUp
 import candela.bsdf.{ConstantMaterial, Lambert}
 import candela.color.Rgb
 import candela.lights.{LightSelection, PointLight}
@@ -63,3 +64,15 @@ final class PhotonMapSuite extends AnyFunSuite:
     val vertex = PathVertex(scene)
     vertex.scatterBy(scene.bsdf(vertex.at), Vec3.Z)
     assert(PhotonMap(Array(Photons()), 1, 1f).gather(vertex, 1f).isBlack)
+
+  test("a map that nobody waits for any more is given up after the next part"):
+    val photons = Photons()
+    photons.add(Vec3.Zero, Vec3.Z, Rgb.White)
+    val parts = Array.fill(1000)(photons)
+    for last <- Vector(1, 7, 1007) do
+      var asked = 0
+      def isStopped() =
+        asked += 1
+        asked > last
+      intercept[GivenUp](PhotonMap(parts, 1, 1f, () => isStopped()))
+      assert(asked == last + 1)

@@ -110,6 +110,40 @@ class RenderStateSuite extends AnyFunSuite:
         val _ = render(plan(shares, 3)(), Some(parts), parts, Cancellation())
         assert(Files.readAllBytes(parts).sameElements(Files.readAllBytes(whole)))
 
+  test("merged shards have no tail of one that others are ahead of, in any order"):
+    withFolder: folder =>
+      val (left, other) = (folder.resolve("left"), folder.resolve("other"))
+      def render(plan: RenderPlan, index: Int, to: Path, stop: Cancellation) =
+        val checkpointer = Some(FileCheckpointer(None, to))
+        Renderer.render(plan, 2, stop, shard = Shard(index, 2), checkpointer = checkpointer)
+      val cancellation = Cancellation()
+      val taken = AtomicInteger()
+      val slow = plan(shares = false, 3): _ =>
+        if taken.incrementAndGet() > 300 then
+          cancellation.request()
+          Thread.sleep(20)
+      val _ = render(slow, 0, left, cancellation)
+      val _ = render(plan(shares = false, 3)(), 1, other, Cancellation())
+      def merged(films: Path*) =
+        val to = folder.resolve("merged")
+        val _ = Renderer.gather(
+          plan(shares = false, 3)(),
+          state =>
+            for film <- films do CheckedFile.read(film, "state")(state.load)
+            CheckedFile.write(to, "state")(state.save)
+        )
+        Files.readAllBytes(to).toVector
+      // Without mark, length and checksum; a tail is its length, and three numbers for each tile
+      val numbers = Files.readAllBytes(left).drop(9).dropRight(16).grouped(4)
+        .map(ByteBuffer.wrap(_).order(LITTLE_ENDIAN).getInt).toVector
+      val tail = (1 to 2).find(k => numbers(numbers.size - 1 - 3 * k) == k).map(1 + 3 * _)
+      assert(tail.nonEmpty)
+      val cut = folder.resolve("cut")
+      CheckedFile.write(cut, "state")(out => numbers.dropRight(tail.getOrElse(0)).foreach(out.int))
+      assert(Files.size(cut) < Files.size(left))
+      val all = merged(left, other)
+      assert(merged(other, left) == all && merged(cut, other) == all)
+
   /** @param tick called for each path */
   private def chains(tick: () => Unit = () => ()): RenderPlan =
     final class Paths extends ChainPaths:

@@ -31,15 +31,18 @@ object Interrupts:
   object Ignored extends Interrupts:
     def during[A](cancellation: Cancellation)(body: => A): A = body
 
-  /** @param isInteractive whether the terminal echoes `^C` on the line */
-  def fromSignals(err: PrintStream, isInteractive: Boolean): Interrupts =
-    Signals(err, isInteractive)
+  /** @param isInteractive whether the terminal echoes `^C` on the line
+    * @param signal        of Ctrl-C
+    */
+  def fromSignals(err: PrintStream, isInteractive: Boolean, signal: String = "INT"): Interrupts =
+    Signals(err, isInteractive, signal)
 
   /** The first SIGINT cancels, the second quits at once. SIGTERM (from a batch system, or from sbt
     * passing on a Ctrl-C) cancels too, and waits until `body` has written its image.
     */
-  private final class Signals(err: PrintStream, echoes: Boolean) extends Interrupts:
-    private val interrupt = Signal("INT")
+  private final class Signals(err: PrintStream, echoes: Boolean, signal: String)
+      extends Interrupts:
+    private val interrupt = Signal(signal)
 
     override def quitting(): Unit =
       val onInterrupt: SignalHandler = _ =>
