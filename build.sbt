@@ -199,6 +199,20 @@ lazy val bench = (project in file("bench"))
     run / javaOptions ++= jvmOptions :+ "-Xmx2g"
   )
 
+/** The site: the pages of this repository as static HTML, `./sbt site/run`. Not part of `root`. */
+lazy val site = (project in file("site")).settings(
+  Publishing.nothing,
+  compiled,
+  target := (ThisBuild / baseDirectory).value / "target" / "site-build",
+  Compile / scalaSource := baseDirectory.value / "scala",
+  Compile / resourceDirectory := baseDirectory.value / "resources",
+  libraryDependencies ++= Seq("commonmark", "commonmark-ext-gfm-tables").map(module =>
+    "org.commonmark" % module % "0.24.0"
+  ),
+  run / fork := true,
+  run / baseDirectory := (ThisBuild / baseDirectory).value
+)
+
 /** Files that the launcher in src/universal/bin needs: one jar, the native libraries, and the JVM
   * options.
   */
