@@ -1,5 +1,15 @@
+import packaging.{Distribution, Facts, JavaRuntime, Revision}
+
+/** The number of the next release. Sources of the tag `v0.1.0` are the release; all others are
+  * `0.1.0-SNAPSHOT`.
+  */
+val nextRelease = "0.1.0"
+val manifests = taskKey[Unit]("Makes sums and manifests of the packages in target/dist.")
+val revision = settingKey[Revision]("Release, version and commit of these sources.")
+
+ThisBuild / revision := Revision.of((ThisBuild / baseDirectory).value, nextRelease)
 ThisBuild / scalaVersion := "3.3.7"
-ThisBuild / version := "0.1.0"
+ThisBuild / version := revision.value.version
 Publishing.ofBuild
 
 val lwjgl = "3.4.3"
@@ -131,6 +141,7 @@ lazy val root: Project = (project in file("."))
       "org.scalatestplus" %% "scalacheck-1-18" % "3.2.19.0" % Test
     ),
     Compile / mainClass := Some("candela.cli.Main"),
+    Compile / resourceGenerators += versionFacts,
 
     // `sbt run`: a separate JVM in the project folder, attached to the terminal.
     Compile / run / javaOptions ++= jvmOptions ++ memory,
@@ -139,6 +150,18 @@ lazy val root: Project = (project in file("."))
     // `sbt stage`: src/universal, the program's jar, native libraries, and the same JVM options.
     Universal / mappings ++= program.value,
     stage := withArchive(stage.value, streams.value.log),
+
+    // `sbt dist`: the files of a release, in target/dist.
+    dist := {
+      Distribution.make(packages.value, streams.value.log.info(_))
+      target.value / "dist"
+    },
+    manifests := Distribution.describe(packages.value, streams.value.log.info(_)),
+
+    // What makes the packages is tested, too.
+    Test / unmanagedSources ++=
+      Seq("Facts", "JavaRuntime", "Manifests", "ProgramFiles", "Revision", "Wheel", "ZipWriter")
+        .map(name => (ThisBuild / baseDirectory).value / "project" / s"$name.scala"),
 
     // `sbt test`: a separate JVM, suites in parallel. The library's example is compiled, too.
     Test / unmanagedSourceDirectories += baseDirectory.value / "examples" / "scala" / "src",
@@ -245,16 +268,70 @@ def withArchive(folder: File, log: Logger): File = {
   folder
 }
 
-/** `candela.base.Version`: the program's version, for its output files. */
+/** What the packages of a release are made of. CANDELA_RUNTIME_JDK or JAVA_HOME makes the runtime. */
+def packages = Def.task {
+  val base = (ThisBuild / baseDirectory).value
+  val files = (Universal / mappings).value.map { case (file, name) => name -> file.toPath } :+
+    ("LICENSE" -> (base / "LICENSE").toPath)
+  val program = files ++ shared(files.toMap.apply("lib/candela.jar"), target.value / "share")
+  Distribution.Plan(
+    facts.value,
+    program,
+    (base / "packaging" / "python" / "candela").toPath,
+    JavaRuntime.jdk(sys.env, file(sys.props("java.home")).toPath, facts.value.bestJava),
+    Seq(s"${organization.value}:candela_3:${version.value}"),
+    jvmOptions ++ memory,
+    (target.value / "dist").toPath
+  )
+}
+
+/** Manual page and completions, as the program prints them. */
+def shared(jar: java.nio.file.Path, folder: File): Seq[(String, java.nio.file.Path)] = {
+  val java = (file(sys.props("java.home")) / "bin" / "java").getPath
+  for {
+    (name, words) <- Seq(
+      "share/man/man1/candela.1" -> Seq("describe", "--man"),
+      "share/bash-completion/completions/candela" -> Seq("completion", "bash"),
+      "share/zsh/site-functions/_candela" -> Seq("completion", "zsh"),
+      "share/fish/vendor_completions.d/candela.fish" -> Seq("completion", "fish")
+    )
+  } yield {
+    val to = folder / name
+    IO.createDirectory(to.getParentFile)
+    val made = (sys.process.Process(Seq(java, "-jar", jar.toString) ++ words) #> to).!
+    if (made != 0) sys.error(s"candela ${words.mkString(" ")} failed")
+    name -> to.toPath
+  }
+}
+
+/** The table of facts. CANDELA_HOMEPAGE is the project's address where a release is made. */
+def facts = Def.setting {
+  val revised = (ThisBuild / revision).value
+  val known = (ThisBuild / homepage).value.fold("")(_.toString)
+  Facts(revised.release, revised.version, sys.env.getOrElse("CANDELA_HOMEPAGE", known))
+}
+
+/** `candela.base.Version`: the release's number, for output files; those of all its snapshots are
+  * the same.
+  */
 def versionSource = Def.task {
   val file = (Compile / sourceManaged).value / "candela" / "base" / "Version.scala"
   val text =
     s"""package candela.base
        |
-       |/** The version in build.sbt, which writes this file. */
+       |/** The number of this release, or of the next one; build.sbt writes this file. */
        |object Version:
-       |  val current: String = "${version.value}"
+       |  val current: String = "${(ThisBuild / revision).value.release}"
        |""".stripMargin
+  if (!file.exists || IO.read(file) != text) IO.write(file, text)
+  Seq(file)
+}
+
+/** What `--version` says of the sources; a resource, so that no commit compiles anything anew. */
+def versionFacts = Def.task {
+  val file = (Compile / resourceManaged).value / "candela" / "build.properties"
+  val of = Revision.of((ThisBuild / baseDirectory).value, nextRelease)
+  val text = s"version=${of.version}\ncommit=${of.commit}\n"
   if (!file.exists || IO.read(file) != text) IO.write(file, text)
   Seq(file)
 }

@@ -1,4 +1,5 @@
 import java.io.{BufferedOutputStream, File, FileOutputStream}
+import java.time.LocalDateTime
 import java.util.jar.{JarFile, JarOutputStream}
 import java.util.zip.{CRC32, ZipEntry}
 
@@ -25,7 +26,7 @@ object ProgramJar {
       val sum = new CRC32
       sum.update(bytes)
       val entry = new ZipEntry(name)
-      entry.setTime(SameForAll)
+      entry.setTimeLocal(SameForAll)
       entry.setSize(bytes.length.toLong)
       entry.setCrc(sum.getValue)
       out.putNextEntry(entry)
@@ -55,8 +56,10 @@ object ProgramJar {
       target
     }
 
-  /** Fixed timestamp for reproducible jars: 1980, the start of the zip format's time. */
-  private val SameForAll = 315619200000L
+  /** Fixed timestamp for reproducible jars: in 1980, the start of the zip format's time. It has no
+    * time zone, as the format has none.
+    */
+  private val SameForAll = LocalDateTime.of(1980, 1, 2, 0, 0)
 
   private val Native = "(linux|macos|windows)/(x64|arm64)/(?:.*/)?([^/]+\\.(?:so|dylib|dll))".r
   private val Legal = "(?:META-INF/)?((?i:license|notice|copyright)[^/]*)".r
@@ -65,7 +68,7 @@ object ProgramJar {
   private def entries(jar: File): Seq[(String, Array[Byte])] = {
     val file = new JarFile(jar)
     try
-      for (e <- file.entries.asScala.toVector if !e.isDirectory)
+      for (e <- file.entries.asScala.toVector.sortBy(_.getName) if !e.isDirectory)
         yield e.getName -> IO.readBytes(file.getInputStream(e))
     finally file.close()
   }

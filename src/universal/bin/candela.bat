@@ -1,9 +1,11 @@
 @echo off
-rem Starts Candela with the newest JDK on this machine, 17 or later.
+rem Starts Candela with the newest JDK on this machine, 17 or later, or with the Java runtime in the
+rem program's folder: a JDK must be newer, and have the module of the SIMD kernels, to replace that.
 rem   CANDELA_JAVA  folder of the JDK to use instead
 rem   JAVA_OPTS     additional JVM options, such as -Xmx4g
 setlocal EnableExtensions
 for %%L in ("%~dp0..\lib") do set "LIB=%%~fL"
+for %%L in ("%~dp0..\runtime") do set "BUNDLED=%%~fL"
 set "BEST=0"
 set "HOME_FOUND="
 if defined CANDELA_JAVA call :consider "%CANDELA_JAVA%"
@@ -35,6 +37,7 @@ for %%C in (G1 Serial Z Shenandoah Epsilon) do if "%~1"=="-XX:+Use%%CGC" set "CO
 exit /b 0
 
 :search
+call :consider "%BUNDLED%"
 if defined JAVA_HOME call :consider "%JAVA_HOME%"
 for %%F in ("%ProgramFiles%\Java" "%ProgramFiles%\Eclipse Adoptium" "%ProgramFiles%\Microsoft" ^
   "%ProgramFiles%\Amazon Corretto" "%ProgramFiles%\Zulu" "%USERPROFILE%\.jdks") do call :within %%F
@@ -47,6 +50,7 @@ exit /b 0
 :consider
 if not exist "%~1\bin\java.exe" exit /b 0
 if not exist "%~1\release" exit /b 0
+if "%HOME_FOUND%"=="%BUNDLED%" (findstr /c:"jdk.incubator.vector" "%~1\release" >nul || exit /b 0)
 for /f "usebackq tokens=1,2 delims==" %%K in ("%~1\release") do if "%%K"=="JAVA_VERSION" call :compare "%~1" %%L
 exit /b 0
 

@@ -90,7 +90,7 @@ object ImageFiles:
         val bytes = Files.readAllBytes(path)
         val holds = !format.keepsTexts || String(bytes, ISO_8859_1).contains(text)
         holds && {
-          val _ = decode(bytes, path, (_, _) => ())
+          if format.isReadable then decode(bytes, path, (_, _) => ()): Unit
           format.hasEnd(bytes)
         }
       catch case _: ImageError | _: IOException | _: OutOfMemoryError => false

@@ -44,6 +44,9 @@ abstract class OutputFormat(val suffix: String, val contents: Contents):
   /** Whether its files hold metadata, as plain text. */
   def keepsTexts: Boolean = false
 
+  /** Whether [[ImageFiles]] reads them, too. */
+  def isReadable: Boolean = true
+
   /** Whether its files show transparency; formats of channels store any. */
   def keepsAlpha: Boolean = false
 
@@ -62,7 +65,7 @@ abstract class OutputFormat(val suffix: String, val contents: Contents):
   ): Array[Byte]
 
 object OutputFormat:
-  val all: Vector[OutputFormat] = Vector(Exr, Pfm, Png, Jpeg, Qoi, Tga)
+  val all: Vector[OutputFormat] = Vector(Exr, Pfm, Png, Jpeg, Qoi, Tga, Npz)
 
   /** Replaces formats that are not supported. */
   val default: OutputFormat = Exr

@@ -37,6 +37,20 @@ class LauncherSuite extends AnyFunSuite:
         assert(p.run(env = Map(None_, "CANDELA_JAVA" -> given_)).code == 0)
       assert(p.starts.map(_.head) == Vector.fill(2)(javaOf(asked)))
 
+  test("the runtime in the program's folder is used, unless a newer JDK has SIMD kernels, too"):
+    staged: p =>
+      val vectors = "java.base jdk.incubator.vector"
+      val runtime = Files.move(p.jdk("98.0.1", in = "x", modules = vectors), p.runtime)
+      def chosen =
+        assert(p.run().code == 0)
+        p.starts.last.head
+      val _ = p.jdk("97", modules = vectors)
+      val _ = p.jdk("98.0.9", modules = vectors)
+      val _ = p.jdk("99")
+      assert(chosen == runtime.toRealPath().resolve("bin/java").toString)
+      val newer = p.jdk("100", modules = vectors)
+      assert(chosen == javaOf(newer))
+
   test("a JDK that is too old or not there is a message and exit code 2, and nothing starts"):
     staged: p =>
       val old = p.jdk("11.0.9", in = "elsewhere")

@@ -16,6 +16,9 @@ final class StagedProgram(folder: Path, name: String = "stage"):
   val launcher: Path = folder.resolve(name).resolve("bin").resolve("candela")
   val lib: Path = Files.createDirectories(folder.resolve(name).resolve("lib"))
   val home: Path = Files.createDirectories(folder.resolve("home"))
+
+  /** Where the program's own Java runtime would be. */
+  val runtime: Path = folder.resolve(name).resolve("runtime")
   private val calls = folder.resolve("calls")
   private val CallEnd = "= end of call ="
 

@@ -30,7 +30,8 @@ private[cli] final class ClusterCommand(
   import ClusterCommand.*
   private val renderer = RenderCommand(options, terminal, report, loader)
   private val cancellation = Cancellation()
-  private val progress = ProgressLine(terminal.err, terminal.isInteractive)
+  private val progress =
+    ProgressLine(terminal.err, terminal.isInteractive, terminal.isReadByProgram)
   private val started = System.nanoTime
   private val sequence = Sequence(options)
   private var open = Vector.empty[Submitted]

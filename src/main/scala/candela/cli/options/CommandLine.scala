@@ -2,7 +2,7 @@ package candela.cli.options
 
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
-import candela.base.{Problem, Suggest, Version}
+import candela.base.{Problem, Suggest}
 import candela.build.{RenderRegion, RenderSettings}
 import candela.build.sampling.PointChoice
 import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
@@ -44,7 +44,7 @@ object CommandLine:
       near.map(n => usage(Vector(s"`$word` is no command; did you mean `$n`?"), "candela help"))
     if args.exists(HelpWords) then Some(told(named))
     else if args.exists(VersionWords) || (first == "version" && args.size == 1) then
-      Some(Answer(Vector(s"candela ${Version.current}")))
+      Some(Answer(VersionText.lines()))
     else if first == "help" then
       args.lift(1) match
         case None => Some(told(None))

@@ -84,6 +84,10 @@ private[cli] object Manual:
           "[Open Image Denoise](DENOISING.md), its library or the library's folder"
         ),
         Vector("`CANDELA_OPENEXR`", "OpenEXR's library, which reads rare kinds of EXR files"),
+        Vector(
+          "`CANDELA_PROGRESS`",
+          "`lines`: messages have the progress four times a second, for programs that show it"
+        ),
         Vector("`SPARK_HOME`", "[Apache Spark](CLUSTERS.md) for `--spark`"),
         Vector("`NO_COLOR`", "if it is not empty, messages and thumbnails have no colours"),
         Vector("`COLUMNS`", "width of the help and of tables, instead of the terminal's"),

@@ -38,7 +38,7 @@ private[cli] final class SceneRun(
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
 
   def run(): ExitCode = terminal.interrupts.during(cancellation):
-    val progress = ProgressLine(terminal.err, terminal.isInteractive)
+    val progress = ProgressLine(terminal.err, terminal.isInteractive, terminal.isReadByProgram)
     val checkpoints = keeping.map(_.checkpointer(() => goal.exists(_.isEnough)))
     val watching = Option.when(options.isWatched)(watched())
     try

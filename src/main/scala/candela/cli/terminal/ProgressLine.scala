@@ -7,8 +7,10 @@ import java.util.Locale
 /** Progress of a rendering: one redrawn line on a terminal, occasional lines in a log.
   *
   * No library's progress bar: those support terminals only, and a log must get no carriage returns.
+  *
+  * @param isForPrograms whether another program reads the log, to show progress itself: more lines
   */
-final class ProgressLine(err: Printer, isInteractive: Boolean):
+final class ProgressLine(err: Printer, isInteractive: Boolean, isForPrograms: Boolean = false):
   import ProgressLine.*
 
   private var shownAt = 0.0
@@ -34,8 +36,11 @@ final class ProgressLine(err: Printer, isInteractive: Boolean):
 
   private def log(progress: Progress): Unit =
     val steps = (progress.part * LogSteps).toInt
-    if steps > shownSteps && steps < LogSteps && progress.seconds - shownAt >= LogSeconds then
-      err.println(line(progress))
+    val isDue =
+      if isForPrograms then progress.seconds - shownAt >= ProgramSeconds
+      else steps > shownSteps && steps < LogSteps && progress.seconds - shownAt >= LogSeconds
+    if isDue then
+      err.println(if isForPrograms then fineLine(progress) else line(progress))
       shownAt = progress.seconds
       shownSteps = steps
 
@@ -44,6 +49,7 @@ object ProgressLine:
   /** Slow enough not to flood a remote terminal. */
   private val RedrawSeconds = 0.1
   private val LogSeconds = 10.0
+  private val ProgramSeconds = 0.25
 
   /** Maximum number of lines in a log. */
   private val LogSteps = 10
@@ -53,6 +59,11 @@ object ProgressLine:
   /** `render  42%  12.0 s, 1.31 M samples/s, 0:17 left` */
   def line(progress: Progress): String =
     s"render ${percent(progress)}  ${Figures.duration(progress.seconds)}, ${speed(progress)}"
+
+  /** With hundredths of a percent, for programs: `render 42.17%  12.0 s, …`. */
+  private def fineLine(p: Progress): String =
+    val part = "%5.2f%%".formatLocal(Locale.ROOT, p.part * 100)
+    s"render $part  ${Figures.duration(p.seconds)}, ${speed(p)}"
 
   /** Narrower than 80 columns: `render  42% [========>          ] 1.31 M samples/s, 0:17 left`, or
     * `… 1.31 M samples/s, error 1.23 %, 0:17 left`.

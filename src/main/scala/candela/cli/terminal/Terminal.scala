@@ -47,6 +47,9 @@ final class Terminal(
   /** Whether `err` shows colours. Source: "NO_COLOR", no-color.org. */
   def hasColor: Boolean = isInteractive && environment.getOrElse("NO_COLOR", "").isEmpty
 
+  /** Whether a program reads `err`, for its own display of the progress. */
+  def isReadByProgram: Boolean = environment.get("CANDELA_PROGRESS").contains("lines")
+
 object Terminal:
 
   def ofProcess: Terminal =

@@ -213,10 +213,16 @@ class CommandLineSuite extends AnyFunSuite:
       assert(parse(line) == Right(one.copy(outfiles = Vector("x.exr"))))
     assert(parse("merge a.film -o x.exr").toOption.get.outfiles == Vector("x.exr"))
 
-  test("--version prints name and version"):
+  test("--version prints version, commit, the Java that runs it, and whether SIMD kernels do"):
     for line <- Vector("--version", "version", "-V") do
       val answer = parse(line).left.toOption.get
-      assert(answer.out == s"candela ${Version.current}\n" && answer.code == ExitCode.Done)
+      assert(answer.code == ExitCode.Done && answer.lines.size == 3)
+      val Vector(program, java, kernels) = answer.lines: @unchecked
+      assert(program.matches(
+        s"candela ${Version.current}(-SNAPSHOT)?(, commit [0-9a-f]{12}\\+?)?"
+      ))
+      assert(java.startsWith(s"Java ${System.getProperty("java.vm.version")}, "))
+      assert(kernels.matches("SIMD kernels: (active|none: .*)"))
 
   test("a file of a command's name, or nearly, is a file"):
     assert(parse("render version") == Right(one.copy(files = Vector("version"))))

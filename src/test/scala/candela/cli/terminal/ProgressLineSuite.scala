@@ -54,6 +54,14 @@ class ProgressLineSuite extends AnyFunSuite:
       val progress = Progress(123_456_789, 99_999_999_999L, 99_999.0, outlook)
       assert(ProgressLine.bar(progress).length < 80)
 
+  test("a log that a program reads gets four lines a second, with hundredths of a percent"):
+    val captured = Captured()
+    val line = ProgressLine(captured.terminal.err, isInteractive = false, isForPrograms = true)
+    for i <- 1 to 1000 do line.update(Progress(i, 10_000, i * 0.125))
+    val lines = captured.err.linesIterator.toVector
+    assert(lines.size == 500 && lines.head == "render  0.02%  0.25 s, 8 samples/s")
+    assert(lines.last == "render 10.00%  2:05, 8 samples/s", lines.last)
+
   test("a log gets plain lines, at most one in ten seconds and for a tenth of the work"):
     val text = shown(isInteractive = false): line =>
       for i <- 0 to 1000 do line.update(Progress(i, 1000, i * 0.2))

@@ -1,0 +1,101 @@
+package packaging
+
+import java.nio.file.{Files, Path}
+
+import scala.collection.mutable
+
+/** Makes the files of a release. */
+object Distribution {
+
+  /** @param program   all files of the program, by their names
+    * @param module    folder of the Python package
+    * @param jdk       makes the runtime; or why there is none
+    * @param libraries the program's Maven modules, for Coursier
+    * @param options   of the JVM, for Coursier
+    * @param folder    for the files
+    */
+  final case class Plan(
+      facts: Facts,
+      program: Seq[(String, Path)],
+      module: Path,
+      jdk: Either[String, Path],
+      libraries: Seq[String],
+      options: Seq[String],
+      folder: Path
+  )
+
+  /** Makes all packages that can be made here; what is in the folder is deleted. */
+  def make(plan: Plan, say: String => Unit): Unit = {
+    import plan.{facts, folder}
+    delete(folder)
+    Files.createDirectories(folder)
+    val program = for ((name, path) <- plan.program if Files.isRegularFile(path))
+      yield Entry.file(name, path, isExecutable = name == "bin/candela")
+    def zip(platform: Platform, runtime: Option[Seq[Entry]]): Seq[Entry] = {
+      val entries = ProgramFiles.of(platform, program, runtime.getOrElse(Nil))
+      val file = folder.resolve(facts.zip(platform, runtime.isDefined))
+      ZipWriter.write(entries.map(_.in(facts.folder)), file)
+      entries
+    }
+    for (platform <- Platform.all) zip(platform, None)
+    withRuntime(plan, say) { (platform, runtime) =>
+      val entries = zip(platform, Some(runtime))
+      Wheel.write(
+        facts,
+        platform,
+        entries,
+        ProgramFiles.module(plan.module),
+        folder.resolve(facts.wheelFile(platform))
+      )
+    }
+    describe(plan, say)
+  }
+
+  /** Makes sums and manifests of the packages in the folder, wherever each was made. */
+  def describe(plan: Plan, say: String => Unit): Unit = {
+    import plan.{facts, folder}
+    val made = mutable.ArrayBuffer.empty[Artifact]
+    for {
+      platform <- Platform.all
+      (name, hasRuntime) <- Seq(
+        facts.zip(platform, true) -> true,
+        facts.zip(platform, false) -> false,
+        facts.wheelFile(platform) -> true
+      )
+      path = folder.resolve(name) if Files.isRegularFile(path)
+    } made += Artifact(name, platform, hasRuntime, ZipWriter.sha256(path), Files.size(path))
+    val texts = Manifests.all(facts, made.toSeq, plan.libraries, plan.options) :+
+      ("SHA256SUMS" -> made.map(a => s"${a.sha256}  ${a.file}\n").mkString)
+    for ((name, text) <- texts) {
+      val file = folder.resolve(name)
+      Files.createDirectories(file.getParent)
+      Files.writeString(file, text)
+    }
+    for (a <- made) say("%6.1f MB  %s".format(a.size / 1e6, a.file))
+  }
+
+  private def withRuntime(plan: Plan, say: String => Unit)(
+      body: (Platform, Seq[Entry]) => Unit
+  ): Unit = {
+    val maker = for {
+      platform <- Platform.here.toRight("no package is made for this system")
+      jdk <- plan.jdk
+    } yield (platform, jdk)
+    maker match {
+      case Left(why) => say(s"no package with a Java runtime, and no wheel: $why")
+      case Right((platform, jdk)) =>
+        say(s"the Java runtime for ${platform.name} is made by $jdk")
+        val to = plan.folder.resolve("runtime")
+        try {
+          JavaRuntime.make(jdk, to)
+          body(platform, ProgramFiles.runtime(to))
+        } finally delete(to)
+    }
+  }
+
+  private def delete(folder: Path): Unit = if (Files.exists(folder)) {
+    val all = Files.walk(folder)
+    try all.sorted(java.util.Comparator.reverseOrder[Path]).forEach(p => Files.delete(p))
+    finally all.close()
+  }
+}
