@@ -30,10 +30,4 @@ object Publishing {
   val withoutDocumentation: Seq[Setting[?]] = Seq(Compile / doc / sources := Nil)
 
   val nothing: Seq[Setting[?]] = Seq(publish / skip := true)
-
-  /** Packages of the core that its users are not promised. */
-  def hidden(sources: File): Seq[String] = {
-    val packages = IO.listFiles(sources / "candela").filter(_.isDirectory).map(_.getName)
-    packages.filter(_ != "api").sorted.map("candela." + _).toSeq
-  }
 }

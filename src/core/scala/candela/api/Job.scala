@@ -58,9 +58,9 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   /** Renders, and returns when the image is complete, a goal is reached, or the rendering is
     * cancelled. The image does not depend on the threads.
     *
-    * @throws SceneException        if the film file is of another rendering, or can't be read
-    * @throws RenderException       if a sample fails
-    * @throws CancellationException if the calling thread is interrupted
+    * @throws SceneException if the film file is of another rendering, or can't be read
+    * @throws RenderException if a sample fails
+    * @throws java.util.concurrent.CancellationException if the calling thread is interrupted
     */
   def render(control: RenderControl): RenderResult =
     val problems = ArrayBuffer.empty[candela.base.Problem]
