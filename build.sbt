@@ -83,7 +83,7 @@ val compiled = Seq(
   scalacOptions ++= Seq("-encoding", "UTF-8"),
   scalacOptions ++= Seq("-deprecation", "-feature", "-Wunused:all", "-Wvalue-discard", "-Werror"),
   scalacOptions += "-java-output-version:17"
-)
+) ++ Publishing.ofModule
 
 /** The renderer without the program: no command line, no pages. Its tests are among the root's. */
 lazy val core: Project = (project in file("src/core"))

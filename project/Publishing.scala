@@ -26,6 +26,10 @@ object Publishing {
     }
   )
 
+  /** `publishM2` replaces what an earlier one has put there, as `publishLocal` does. */
+  val ofModule: Seq[Setting[?]] =
+    Seq(publishM2Configuration := publishM2Configuration.value.withOverwrite(true))
+
   /** The program is described by its pages; its documentation for programmers is empty. */
   val withoutDocumentation: Seq[Setting[?]] = Seq(Compile / doc / sources := Nil)
 
