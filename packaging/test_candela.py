@@ -76,6 +76,7 @@ class Scenes(unittest.TestCase):
         self.assertEqual(error.line, 1 + SCENE.count("\n"))
         self.assertEqual(Path(error.file), scene)
         self.assertEqual(error.problems[0].severity, "error")
+        self.assertEqual(error.problems[0].number, "E0401")
         self.assertEqual(candela.check(scene)[0].line, error.line)
         with self.assertRaises(candela.SceneError) as caught:
             candela.render(self.folder / "missing.pbrt")

@@ -11,7 +11,8 @@ from typing import Iterable, List, Optional, Tuple
 class Problem:
     """An error or a warning.
 
-    ``text`` is the whole of it, with the line of the scene and the advice below it.
+    ``text`` is the whole of it, with the line of the scene and the advice below it; ``number``
+    is that which ``candela explain`` explains, such as ``E0401``.
     """
 
     severity: str
@@ -20,6 +21,7 @@ class Problem:
     file: Optional[str] = None
     line: Optional[int] = None
     column: Optional[int] = None
+    number: Optional[str] = None
 
     def __str__(self) -> str:
         return self.text
@@ -60,7 +62,7 @@ class CandelaWarning(UserWarning):
 
 _FIRST = re.compile(
     r"^(?:(?P<file>.+?):(?P<line>\d+):(?P<column>\d+): )?"
-    r"(?P<severity>error|warning)(?:\[\w+\])?: (?P<message>.*)$"
+    r"(?P<severity>error|warning): (?P<message>.*?)(?: \[(?P<number>E\d{4})\])?$"
 )
 
 
@@ -86,6 +88,7 @@ def _problem(lines: List[str]) -> Problem:
         file=place,
         line=int(first["line"]) if place else None,
         column=int(first["column"]) if place else None,
+        number=first["number"],
     )
 
 

@@ -22,6 +22,11 @@ final class Problem private[api] (found: candela.base.Problem):
     case candela.base.Severity.Warning => Severity.Warning
     case candela.base.Severity.Error => Severity.Error
 
+  /** What it is, as in `E0201`: one number for all with one meaning and one cure.
+    * `candela explain` prints both.
+    */
+  def number: String = found.code.word
+
   /** Expected and found, on one line. */
   def message: String = found.message
 

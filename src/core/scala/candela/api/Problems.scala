@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.base.SceneError
+import candela.base.{Code, SceneError}
 import candela.image.{ImageError, MissingNatives}
 
 import scala.jdk.CollectionConverters.*
@@ -16,8 +16,8 @@ private[api] object Problems:
     try body
     catch
       case e: SceneError => throw SceneException(e.problems)
-      case e: ImageError => fail(e.getMessage)
-      case e: MissingNatives => fail(e.getMessage, Some(e.help))
+      case e: ImageError => fail(e.code, e.getMessage)
+      case e: MissingNatives => fail(Code.MissingLibrary, e.getMessage, Some(e.help))
 
-  def fail(message: String, help: Option[String] = None): Nothing =
-    throw SceneException(Vector(candela.base.Problem.general(message, help)))
+  def fail(code: Code, message: String, help: Option[String] = None): Nothing =
+    throw SceneException(Vector(candela.base.Problem.general(code, message, help)))

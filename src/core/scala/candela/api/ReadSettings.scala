@@ -1,5 +1,7 @@
 package candela.api
 
+import candela.base.Code
+
 import candela.build.ReadSettings as CoreSettings
 import candela.job.{Preparation, TextForm}
 import candela.scenefile.Dialect
@@ -16,7 +18,11 @@ final class ReadSettings private (private[api] val of: Preparation):
   def withDialect(name: String): ReadSettings =
     val form = summon[TextForm[Dialect]]
     val dialect = form.read(name).getOrElse:
-      Problems.fail(s"unknown dialect `$name`", Some(s"expected ${form.expected}"))
+      Problems.fail(
+        Code.UnknownEntry,
+        s"unknown dialect `$name`",
+        Some(s"expected ${form.expected}")
+      )
     reading(_.copy(dialect = Some(dialect)))
 
   /** Gives a parameter of a Mitsuba scene, `$name` in its text, another value than its default. */

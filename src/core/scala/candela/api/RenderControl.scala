@@ -1,5 +1,7 @@
 package candela.api
 
+import candela.base.Code
+
 import java.nio.file.Path
 import java.time.Duration
 
@@ -23,7 +25,7 @@ final class RenderControl private (
 
   /** @param count at least 1; without it, as many as there are processors */
   def withThreads(count: Int): RenderControl =
-    if count < 1 then Problems.fail(s"`threads` must be at least 1, found $count")
+    if count < 1 then Problems.fail(Code.OptionValue, s"`threads` must be at least 1, found $count")
     copy(threads = count)
 
   def withListener(listener: RenderListener): RenderControl = copy(listener = listener)

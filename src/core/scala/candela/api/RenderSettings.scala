@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.base.Suggest
+import candela.base.{Code, Suggest}
 import candela.build.{RenderGoal, RenderSettings as CoreSettings}
 import candela.job.{SettingsCodec, TextForm}
 import candela.layers.Layer
@@ -43,7 +43,7 @@ final class RenderSettings private (private[api] val of: CoreSettings):
     val added = names.toVector.map: name =>
       TextForm.layer.read(name).getOrElse:
         val help = Suggest.help(name, Layer.values.map(_.word).toVector)
-        Problems.fail(s"unknown layer `$name`", help)
+        Problems.fail(Code.UnknownEntry, s"unknown layer `$name`", help)
     change: s =>
       val precisions = added.collect { case (layer, Some(isHalf)) => layer -> isHalf }
       val output = s.output.copy(precisions = s.output.precisions ++ precisions)
@@ -73,17 +73,20 @@ final class RenderSettings private (private[api] val of: CoreSettings):
   private def put(name: String, value: Option[String]): RenderSettings =
     val known = SettingsCodec.all.find(_.name == name).getOrElse:
       val help = Suggest.help(name, SettingsCodec.all.map(_.name))
-      Problems.fail(s"unknown setting `$name`", help)
+      Problems.fail(Code.UnknownEntry, s"unknown setting `$name`", help)
     if known.takesValue != value.isDefined then
       val found = if value.isDefined then "found one" else "found none"
       val wanted = if known.takesValue then "a value" else "no value"
-      Problems.fail(s"setting `$name` takes $wanted, $found")
+      Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $found")
     val text = value.getOrElse("")
-    known.put(of, text).fold(Problems.fail(s"wrong value of `$name`: `$text`"))(RenderSettings(_))
+    known.put(
+      of,
+      text
+    ).fold(Problems.fail(Code.OptionValue, s"wrong value of `$name`: `$text`"))(RenderSettings(_))
 
   private def positive(what: String, value: Double): Double =
     if value > 0 && !value.isInfinite then value
-    else Problems.fail(s"$what must be above 0, found $value")
+    else Problems.fail(Code.OptionValue, s"$what must be above 0, found $value")
 
   /** The settings that are not the default, as words of a command line. */
   def words: JList[String] = java.util.List.copyOf(SettingsCodec.words(of).asJava)

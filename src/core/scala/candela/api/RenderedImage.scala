@@ -1,5 +1,7 @@
 package candela.api
 
+import candela.base.Code
+
 import candela.image.{DisplayTransform, Image, ImageFiles}
 import candela.job.{Denoising, ImageFile}
 import candela.render.Rendering
@@ -66,7 +68,7 @@ final class RenderedImage private[api] (
     val at = image.channelNames.indexOf(name)
     if at < 0 then
       val all = image.channelNames.mkString(", ")
-      Problems.fail(s"the image has no channel `$name`", Some(s"it has $all"))
+      Problems.fail(Code.ImageEdit, s"the image has no channel `$name`", Some(s"it has $all"))
     at
 
   /** Writes a file in the format of its name: `.exr` with all channels, `.pfm` with the colours,

@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.base.{SceneError, Severity as Grade}
+import candela.base.{Code, SceneError, Severity as Grade}
 import candela.job.{Prepared, SceneLoader}
 import candela.scenefile.SceneDescription
 
@@ -43,7 +43,8 @@ final class Scene private[api] (
     * @throws SceneException if it has errors
     */
   def prepare(settings: RenderSettings, threads: Int): Job =
-    if threads < 1 then Problems.fail(s"`threads` must be at least 1, found $threads")
+    if threads < 1 then
+      Problems.fail(Code.OptionValue, s"`threads` must be at least 1, found $threads")
     Job(this, settings, Problems.thrown(prepared(settings, threads, isRendered = true)))
 
   /** All that is wrong with it, its files included: builds it, and throws the result away. */

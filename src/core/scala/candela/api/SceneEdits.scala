@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.base.{Problem as Found, SceneError, SourcePos, Suggest}
+import candela.base.{Code, Problem as Found, SceneError, SourcePos, Suggest}
 import candela.scenefile.{Declaration, GivenStatement, Param, SceneDescription}
 
 import java.nio.ByteBuffer
@@ -17,7 +17,12 @@ private[api] object SceneEdits:
     def changed(old: Option[Declaration]): Option[Declaration] =
       if old.isEmpty then
         val what = setting.toString.toLowerCase
-        fail(params, s"the scene has no $what to change", Some(s"call $what(…) to give it one"))
+        fail(
+          Code.Undefined,
+          params,
+          s"the scene has no $what to change",
+          Some(s"call $what(…) to give it one")
+        )
       old.map(put(_, params))
     setting match
       case SceneSetting.Camera => scene.copy(camera = changed(scene.camera))
@@ -30,7 +35,7 @@ private[api] object SceneEdits:
   def material(name: String, params: Vector[Param]): Edit = scene =>
     val names = scene.namedMaterials.map(_._1)
     if !names.contains(name) then
-      fail(params, s"unknown material `$name`", Suggest.help(name, names))
+      fail(Code.Undefined, params, s"unknown material `$name`", Suggest.help(name, names))
     scene.copy(namedMaterials = scene.namedMaterials.map: (other, made) =>
       other -> (if other == name then put(made, params) else made))
 
@@ -38,16 +43,21 @@ private[api] object SceneEdits:
   def texture(name: String, params: Vector[Param]): Edit = scene =>
     val names = scene.textures.map(_.name)
     if !names.contains(name) then
-      fail(params, s"unknown texture `$name`", Suggest.help(name, names))
+      fail(Code.Undefined, params, s"unknown texture `$name`", Suggest.help(name, names))
     scene.copy(textures = scene.textures.map: t =>
       if t.name == name then t.copy(texture = put(t.texture, params)) else t)
 
   private def put(to: Declaration, params: Vector[Param]): Declaration =
     to.copy(params = to.params.filterNot(old => params.exists(_.name == old.name)) ++ params)
 
-  private def fail(params: Vector[Param], message: String, help: Option[String]): Nothing =
+  private def fail(
+      code: Code,
+      params: Vector[Param],
+      message: String,
+      help: Option[String]
+  ): Nothing =
     val at = params.headOption.fold(SourcePos.Nowhere)(_.at)
-    throw SceneError(Found.error(at, message, help))
+    throw SceneError(Found.error(code, at, message, help))
 
 /** SHA-256 of statements. Mutable. */
 private[api] final class StatementSum:

@@ -15,8 +15,8 @@ final class Refusal(val problem: Problem) extends ControlThrowable:
     if problem.at.nonEmpty then this else new Refusal(problem.copy(at = Some(at)))
 
 object Refusal:
-  def apply(at: Option[SourcePos], message: String, help: String): Refusal =
-    val problem = at.fold(Problem.general(message))(Problem.error(_, message))
+  def apply(code: Code, at: Option[SourcePos], message: String, help: String): Refusal =
+    val problem = at.fold(Problem.general(code, message))(Problem.error(code, _, message))
     new Refusal(problem.copy(help = Some(help)))
 
   /** Runs `body`; a refusal in it that has no place is here. */
@@ -61,6 +61,7 @@ final class Allowance(limits: Map[Limit, Long] = Map.empty, endsAt: Option[Long]
     checkTime(at)
     for most <- limits.get(limit) if amount > most do
       throw Refusal(
+        Code.LimitExceeded,
         at,
         s"$what, where at most $most are allowed",
         s"--limit ${limit.word}=N allows others"
@@ -100,6 +101,7 @@ object Allowance:
   def outOfTime(limit: Long): Problem =
     val seconds = BigDecimal(limit) / 1000
     Problem.general(
+      Code.LimitExceeded,
       s"the time of ${seconds.bigDecimal.stripTrailingZeros.toPlainString} s is over; " +
         "no image is written",
       Some("--limit time=T allows another; --time T ends a rendering in time, with its image")

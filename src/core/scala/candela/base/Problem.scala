@@ -29,6 +29,8 @@ enum Severity:
 
 /** A problem with the user's input.
   *
+  * @param code what it is: its number, which [[ProblemGuide]] explains
+  * @param code what it is: its number, which [[ProblemGuide]] explains
   * @param message expected and found, on one line
   * @param help the cure, e.g. what to write instead
   * @param excerpt text of the line at `at`, without its line end
@@ -36,6 +38,7 @@ enum Severity:
   *   used under --keep-going
   */
 final case class Problem(
+    code: Code,
     severity: Severity,
     at: Option[SourcePos],
     message: String,
@@ -53,11 +56,11 @@ object Problem:
     val (placed, others) = problems.partition(_.at.nonEmpty)
     placed.sortBy(_.at.map(_.path)) ++ others
 
-  def error(at: SourcePos, message: String, help: Option[String] = None): Problem =
-    Problem(Severity.Error, at.known, line(message), help.map(line))
+  def error(code: Code, at: SourcePos, message: String, help: Option[String] = None): Problem =
+    Problem(code, Severity.Error, at.known, line(message), help.map(line))
 
-  def warning(at: SourcePos, message: String, help: Option[String] = None): Problem =
-    Problem(Severity.Warning, at.known, line(message), help.map(line))
+  def warning(code: Code, at: SourcePos, message: String, help: Option[String] = None): Problem =
+    Problem(code, Severity.Warning, at.known, line(message), help.map(line))
 
   /** `text` as a single printable line, whatever names it contains: no control characters, and at
     * most a few terminal lines long.
@@ -75,6 +78,7 @@ object Problem:
     * @param keepGoing if true, a warning; otherwise an error
     */
   def missing(
+      code: Code,
       at: SourcePos,
       message: String,
       standIn: String,
@@ -83,11 +87,11 @@ object Problem:
   ): Problem =
     val (severity, text) =
       if keepGoing then (Severity.Warning, s"$message; $standIn") else (Severity.Error, message)
-    Problem(severity, at.known, line(text), help.map(line), standIn = Some(standIn))
+    Problem(code, severity, at.known, line(text), help.map(line), standIn = Some(standIn))
 
   /** An error without a position in a scene file, e.g. an output folder that can't be written. */
-  def general(message: String, help: Option[String] = None): Problem =
-    Problem(Severity.Error, None, message, help)
+  def general(code: Code, message: String, help: Option[String] = None): Problem =
+    Problem(code, Severity.Error, None, message, help)
 
 /** Thrown where reading can't continue; caught only in `cli`. Not a bug, so it has no stack trace.
   */

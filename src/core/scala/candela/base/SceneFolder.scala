@@ -24,7 +24,12 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
     if !isConfined then guard.asked(file)
     else
       guard.open(file, None).filter(_.isRegular).getOrElse:
-        throw Refusal(None, s"`$file` is no regular file", "--sandbox reads no others")
+        throw Refusal(
+          Code.Sandboxed,
+          None,
+          s"`$file` is no regular file",
+          "--sandbox reads no others"
+        )
 
   /** The regular file of a name, if there is one.
     *
@@ -123,6 +128,7 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
     Option.when(Files.exists(place)):
       if isConfined && !Files.isRegularFile(place) && !Files.isDirectory(place) then
         throw Refusal(
+          Code.Sandboxed,
           at,
           s"expected a regular file, found a pipe or a device: `$path`",
           "--sandbox reads no others"
@@ -139,7 +145,7 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
     val isLink = path.toAbsolutePath.normalize.startsWith(root.toAbsolutePath.normalize)
     val what =
       if isLink then s"`$path`, a link that leads out of it or nowhere" else s"`$path`"
-    Refusal(at, s"expected a file in the scene's folder, found $what", Help)
+    Refusal(Code.Sandboxed, at, s"expected a file in the scene's folder, found $what", Help)
 
   private val Help = "--sandbox lets scenes read the files of their own folder only"
 

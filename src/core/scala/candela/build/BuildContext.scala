@@ -2,7 +2,7 @@ package candela.build
 
 import java.util.IdentityHashMap
 
-import candela.base.{Parallel, SceneFolder, SourcePos}
+import candela.base.{Code, Parallel, SceneFolder, SourcePos}
 import candela.build.lights.{AreaLightPlan, AreaLights}
 import candela.build.recipe.*
 import candela.build.settings.OptionRecipe
@@ -46,7 +46,7 @@ private[build] final class BuildContext(
     * @param what subject of the warning
     */
   def stillSite(d: Declaration, toWorld: AnimatedTransform, what: String): Site =
-    if toWorld.isAnimated then problems.warn(d.at, Motions.notAnimated(what))
+    if toWorld.isAnimated then problems.warn(Code.NotAnimated, d.at, Motions.notAnimated(what))
     site(d, toWorld.start)
 
   /** Builds the statement, or `default` if the statement is missing or invalid. */
@@ -79,6 +79,7 @@ private[build] object BuildContext:
     val problems = Findings(settings.reading.keepGoing, description.lost, description.errors)
     if isBlind then
       problems.warn(
+        Code.Transform,
         whole.camera.fold(start(whole))(_.at),
         "the camera's transform is singular; the image shows the background only, as in pbrt-v4"
       )

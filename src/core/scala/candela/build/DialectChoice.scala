@@ -2,7 +2,7 @@ package candela.build
 
 import scala.collection.mutable
 
-import candela.base.Problem
+import candela.base.{Code, Problem}
 import candela.build.recipe.{Dialects, Recipes, ValueTypes}
 import candela.scenefile.*
 
@@ -52,6 +52,7 @@ object DialectChoice:
       val name = Dialects.name(chosen)
       val other = Dialect.ofPbrt.maxBy(d => contrary.map(_.weight(d)).sum)
       Problem.warning(
+        Code.MixedDialects,
         first.at.get,
         s"the scene is read as $name (${reason(clues, chosen)}), but ${all.mkString(", ")}",
         Some(s"`--dialect ${Dialects.name(other)}` reads it as ${Dialects.name(other)}, " +

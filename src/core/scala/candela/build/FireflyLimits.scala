@@ -1,5 +1,7 @@
 package candela.build
 
+import candela.base.Code
+
 import candela.film.Fireflies
 import candela.render.RenderMethod
 
@@ -14,6 +16,7 @@ private[build] final class FireflyLimits(context: BuildContext, fireflies: Firef
       refuse("a photon brightens many samples alike, none of which is an outlier")
     case (Fireflies.Reweighted, RenderMethod.SplattedTiles(_)) =>
       context.problems.warn(
+        Code.OptionMisfit,
         place,
         "--fireflies reweight leaves light paths that reach the camera as they are"
       )
@@ -22,7 +25,7 @@ private[build] final class FireflyLimits(context: BuildContext, fireflies: Firef
     case _ => ()
 
   private def refuse(why: String): Unit =
-    context.problems.error(place, s"--fireflies ${fireflies.word}: $why")
+    context.problems.error(Code.OptionMisfit, place, s"--fireflies ${fireflies.word}: $why")
 
   private def place =
     val description = context.description

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.SourcePos
+import candela.base.{Code, SourcePos}
 import candela.build.sampling.PointChoice
 import candela.guiding.GuidingMode
 import candela.render.RenderMethod
@@ -32,7 +32,7 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
       "no mesh is displaced"
 
   private def idle(option: String, isSo: Boolean)(why: => String): Unit =
-    if isSo then context.problems.warn(place, s"--$option has no effect: $why")
+    if isSo then context.problems.warn(Code.IdleOption, place, s"--$option has no effect: $why")
 
   private def integrator: String =
     val described = context.description.renderer.filter(_.name == "metropolis")

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.{Problem, SceneError, Suggest}
+import candela.base.{Code, Problem, SceneError, Suggest}
 import candela.lights.LightGroups
 import candela.scenefile.Declaration
 
@@ -39,6 +39,7 @@ object LightGrouping:
     val all = found.distinct
     if all.size > Most then
       throw error(
+        Code.OptionMisfit,
         s"the scene has ${all.size} light groups, more than $Most",
         Some("--light-groups type merges those of equal types; NAME=LIGHT+LIGHT,… names them")
       )
@@ -54,15 +55,19 @@ object LightGrouping:
       case LightGrouping.Named(groups) =>
         val known = all.flatMap(l => Vector(l.kind, l.name)).distinct
         for (_, members) <- groups; member <- members if !known.contains(member) do
-          throw error(s"--light-groups: no light `$member`", Suggest.help(member, known))
+          throw error(
+            Code.UnknownEntry,
+            s"--light-groups: no light `$member`",
+            Suggest.help(member, known)
+          )
         light =>
           groups
             .collectFirst { case (name, in) if in.contains(light.name) => name }
             .orElse(groups.collectFirst { case (name, in) if in.contains(light.kind) => name })
             .getOrElse(Rest)
 
-  private def error(message: String, help: Option[String]): SceneError =
-    SceneError(Problem.general(message, help))
+  private def error(code: Code, message: String, help: Option[String]): SceneError =
+    SceneError(Problem.general(code, message, help))
 
   /** The shortest names that tell all statements apart. */
   private def names(statements: Vector[Declaration]): Declaration => String =

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.Suggest
+import candela.base.{Code, Suggest}
 import candela.build.integrators.{IntegratorPlan, Surroundings, VolumeIntegrators, VolumeMethod}
 import candela.build.media.{Media, Volumes}
 import candela.build.recipe.*
@@ -66,7 +66,7 @@ private[build] final class MediaBuilder(
         name, {
           val message = s"medium `$name` is not defined"
           def help = Suggest.help(name, indexOf.keys)
-          problems.unnamed(NameKind.Medium, at, message, StandIns.LeftOut, help)
+          problems.unnamed(Code.Undefined, NameKind.Medium, at, message, StandIns.LeftOut, help)
           -1
         }
       )
@@ -104,6 +104,7 @@ private[build] final class MediaBuilder(
     if asked >= least || !least.isFinite then asked
     else
       problems.warn(
+        Code.CorrectedValue,
         description.volumeIntegrator.map(_.at),
         s"`stepsize` of $asked needs more than ${Regions.MostAcross} steps through the volumes; " +
           s"using $least"
@@ -117,6 +118,7 @@ private[build] final class MediaBuilder(
       val places = description.media.map(_.medium.at) ++ description.volumes.map(_.light.at)
       for at <- description.integrator.map(_.at).orElse(places.headOption) do
         problems.warn(
+          Code.IntegratorLacks,
           at,
           "this integrator ignores participating media, as in pbrt",
           Option.when(description.dialect != Dialect.V2)("use \"volpath\"")

@@ -2,7 +2,7 @@ package candela.build
 
 import scala.collection.mutable.ArrayBuffer
 
-import candela.base.Suggest
+import candela.base.{Code, Suggest}
 import candela.build.recipe.*
 import candela.math.{Motion, MotionProduct, Position, RecentredMotion}
 import candela.scenefile.*
@@ -43,7 +43,11 @@ private[build] final class ObjectUses(
       objects += placed(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)))
     else
       if s.objectToWorld.isAnimated then
-        problems.warn(s.shape.at, Motions.notAnimated("a shape under a perspective transform"))
+        problems.warn(
+          Code.NotAnimated,
+          s.shape.at,
+          Motions.notAnimated("a shape under a perspective transform")
+        )
       own += s
 
   for (name, uses) <- description.instances.groupBy(_.name).toVector.sortBy(_._1) do
@@ -51,6 +55,7 @@ private[build] final class ObjectUses(
       case None =>
         for use <- uses do
           problems.unnamed(
+            Code.Undefined,
             NameKind.Object,
             use.at,
             s"object `$name` is not defined",
@@ -74,7 +79,11 @@ private[build] final class ObjectUses(
     val (affine, seen) = uses.partition(u => Motions.isAffine(u.instanceToWorld))
     for u <- seen do
       if u.instanceToWorld.isAnimated || shapes.exists(s => Motions.moves(s.objectToWorld)) then
-        problems.warn(u.at, Motions.notAnimated("a shape under a perspective transform"))
+        problems.warn(
+          Code.NotAnimated,
+          u.at,
+          Motions.notAnimated("a shape under a perspective transform")
+        )
       own ++= shapes.map(copied(_, u))
     val (moving, still) = shapes.partition(s => Motions.moves(s.objectToWorld))
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated
@@ -108,6 +117,7 @@ private[build] final class ObjectUses(
     else
       for light <- s.areaLight do
         problems.warn(
+          Code.AsInPbrt,
           light.at,
           "area lights of an object are seen, but light nothing, as in pbrt",
           Some("place the lamp outside of the object")
@@ -115,7 +125,7 @@ private[build] final class ObjectUses(
       s.copy(inObject = true)
 
   private def withoutLight(s: ShapeDescription, message: String): ShapeDescription =
-    for light <- s.areaLight do problems.warn(light.at, message)
+    for light <- s.areaLight do problems.warn(Code.AsInPbrt, light.at, message)
     s.copy(areaLight = None)
 
   private def atOrigin(s: ShapeDescription): ShapeDescription =

@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.accel.tracing.Hierarchies
-import candela.base.{Limit, Parallel, Problem}
+import candela.base.{Code, Limit, Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
 import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands}
@@ -58,6 +58,7 @@ object SceneBuilder:
     val crop = image.crop(integrator.window, settings)
     if crop.pixels > MostPixels then
       context.problems.error(
+        Code.TooLarge,
         context.placeOf(context.description.film),
         s"can't render ${crop.width}×${crop.height} pixels at once",
         Some("give the film a crop window, or render parts of it with --cropwindow")
@@ -93,6 +94,7 @@ object SceneBuilder:
     if plan.crop.pixels * (layers + 2 * bands) > Int.MaxValue - 8 then
       val what = Vector("layers" -> layers, "bands" -> bands.toLong).maxBy(_._2)._1
       context.problems.error(
+        Code.TooLarge,
         context.placeOf(context.description.film),
         s"can't render ${plan.crop.width}×${plan.crop.height} pixels with all their $what at once",
         Some(s"ask for fewer $what, or render parts of the image with --cropwindow")
@@ -142,6 +144,7 @@ object SceneBuilder:
     if method.seesLightPaths && !camera.camera.isTraceable then
       for at <- description.camera.map(_.at) do
         context.problems.warn(
+          Code.IntegratorLacks,
           at,
           "light-traced paths can't reach this camera yet: caustics from point lights will be " +
             "missing"
@@ -149,6 +152,7 @@ object SceneBuilder:
     if !method.takesCameraSamples && image.layers.nonEmpty then
       for at <- description.integrator.orElse(description.renderer).map(_.at) do
         context.problems.warn(
+          Code.IntegratorLacks,
           at,
           "Metropolis rendering writes no AOVs; the image contains colour only"
         )
@@ -156,6 +160,7 @@ object SceneBuilder:
       val divided = image.layers.filter(_.dividesLight)
       if divided.nonEmpty && !method.dividesLight then
         context.problems.error(
+          Code.IntegratorLacks,
           context.placeOf(description.integrator.orElse(description.renderer)),
           s"this integrator does not divide light: AOVs ${divided.map(_.word).mkString(", ")} " +
             "need \"path\" or \"volpath\""
@@ -194,7 +199,7 @@ object SceneBuilder:
     val samples = taken.getOrElse(sampling.sampler.samplesPerPixel)
     if usesSampler && !settings.preview then
       for remark <- sampling.remarks do
-        context.problems.warn(context.description.sampler.map(_.at), remark)
+        context.problems.warn(Code.AsInPbrt, context.description.sampler.map(_.at), remark)
     val moves = camera.motion.isDefined || world.moves
     RenderPlan(
       width = image.width,

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.{Problem, SceneError, Severity}
+import candela.base.{Code, Problem, SceneError, Severity}
 import candela.build.cameras.Cameras
 import candela.build.film.{FilmSettings, Films, Filters}
 import candela.build.integrators.IntegratorPlan
@@ -61,6 +61,7 @@ private[build] final case class ImageSetup(
     if bounds.width < 1 || bounds.height < 1 then
       throw SceneError(
         Problem(
+          Code.OptionMisfit,
           Severity.Error,
           None,
           settings.region.pixels match
@@ -171,9 +172,9 @@ private[build] object CameraSetup:
     val fromWorld = description.worldToCamera
     for c <- description.camera do
       if fromWorld.start.isFlat then
-        context.problems.error(c.at, "the camera's transform is singular")
+        context.problems.error(Code.Transform, c.at, "the camera's transform is singular")
       else if fromWorld.isAnimated && !Motions.moves(fromWorld) then
-        context.problems.warn(c.at, Motions.notAnimated("this camera"))
+        context.problems.warn(Code.NotAnimated, c.at, Motions.notAnimated("this camera"))
     val plan = context.made(description.camera, Cameras.all, "perspective")
     val toWorld = fromWorld.start.inverse
     val motion = Motions(description, context.origin.at).camera

@@ -1,5 +1,7 @@
 package candela.build
 
+import candela.base.Code
+
 import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Mask, Masks, SolidMask}
@@ -94,7 +96,8 @@ private[build] final class SurfaceBuilder(
 
   private def isUnlit(material: Int, here: Site): Boolean =
     val is = !context.rules.glows && materials.materials(material).isInterface
-    if is then here.warn("a shape of material \"interface\" gives no light, as in pbrt-v4")
+    if is then
+      here.warn(Code.DarkLight, "a shape of material \"interface\" gives no light, as in pbrt-v4")
     is
 
   def result(): LitSurfaces =
@@ -140,7 +143,10 @@ private[build] final class SurfaceBuilder(
       case ShapeGeometry.Solids(make, emits) =>
         if lamp.isDefined && !emits then
           val name = dressed.shape.shape.name
-          here.warn(s"a \"$name\" can't be an area light, as in pbrt; emission is ignored")
+          here.warn(
+            Code.DarkLight,
+            s"a \"$name\" can't be an area light, as in pbrt; emission is ignored"
+          )
         for shape <- make(toWorld, isReversed) do
           addSolid(shape, lamp.filter(_ => emits), isInverted = false)
       case ShapeGeometry.Several(parts) => parts.foreach(place)
@@ -174,15 +180,19 @@ private[build] final class SurfaceBuilder(
     private def hasArea(shape: Shape): Boolean =
       val isFinite = java.lang.Float.isFinite(shape.area)
       if !isFinite then
-        here.warn("the area of this area light is too large for a number; it is ignored")
-      else if shape.area <= 0f then here.warn("this area light has no area; it is ignored")
+        here.warn(
+          Code.DarkLight,
+          "the area of this area light is too large for a number; it is ignored"
+        )
+      else if shape.area <= 0f then
+        here.warn(Code.DarkLight, "this area light has no area; it is ignored")
       isFinite && shape.area > 0f
 
     private def addMesh(mesh: ShapeGeometry.Triangles): Unit =
       val count = mesh.indices.length / 3
       val most = SurfaceBuilder.MostTriangles
       if soup.triangleCount.toLong + count > most then
-        here.error(s"more than $most triangles in the world or in one object")
+        here.error(Code.TooLarge, s"more than $most triangles in the world or in one object")
       else
         val light = lamp.fold(-1)(_ => lightCount)
         val flipNormals = !context.isV2

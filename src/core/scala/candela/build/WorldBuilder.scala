@@ -1,5 +1,7 @@
 package candela.build
 
+import candela.base.Code
+
 import candela.accel.{Accelerator, Instances, Primitives}
 import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{LightPlan, Lights}
@@ -195,6 +197,7 @@ private[build] final class WorldBuilder(
     val name = description.integrator.fold("path")(_.name)
     val whose = if context.rules.dialect == Dialect.Mitsuba then "Mitsuba" else "pbrt"
     problems.warn(
+      Code.IntegratorLacks,
       surface.at,
       s"\"$name\" lets no light sample pass this surface, though paths pass it: it casts a " +
         s"shadow, as in $whose",
@@ -204,10 +207,11 @@ private[build] final class WorldBuilder(
   private def warnOfDarkness(scene: Scene, mediaGlow: Boolean): Unit =
     if scene.lights.isEmpty && !mediaGlow && integrator.isLit && !problems.hasErrors then
       for c <- description.camera do
-        problems.warn(c.at, "the scene has no light; its image will be black")
+        problems.warn(Code.DarkScene, c.at, "the scene has no light; its image will be black")
     if !integrator.samplesLights && scene.lights.exists(_.isDelta) then
       for i <- description.integrator do
         problems.warn(
+          Code.IntegratorLacks,
           i.at,
           s"\"${i.name}\" does not sample lights: those that no ray hits, such as point lights, " +
             "do not shine, as in pbrt",

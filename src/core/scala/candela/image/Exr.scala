@@ -1,5 +1,7 @@
 package candela.image
 
+import candela.base.Code
+
 /** OpenEXR images, through tinyexr.
   *
   * Reads half, float and integer channels of any names, in scanlines or tiles (the finest level);
@@ -29,8 +31,12 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
     parts.flatMap(_.obstacle).headOption match
       case None => decoded(file, parts, chosen)
       case Some(why) =>
-        if parts.size > 1 then throw ImageError(s"$why in files of several parts")
-        OpenExr.load(environment).getOrElse(throw ImageError(s"$why; ${OpenExr.help}"))
+        if parts.size > 1 then
+          throw ImageError(Code.UnsupportedImage, s"$why in files of several parts")
+        OpenExr.load(environment).getOrElse(throw ImageError(
+          Code.UnsupportedImage,
+          s"$why; ${OpenExr.help}"
+        ))
           .read(file, part, why)
 
   private def decoded(file: Array[Byte], parts: Vector[ExrPart], chosen: Int): Image =
@@ -53,7 +59,10 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
   /** ZIP compression; every channel under its own name. Encoded images are decoded first. */
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do
-      throw ImageError(s"metadata `$name`: the name must have 1 to 255 bytes")
+      throw ImageError(
+        Code.UnsupportedImage,
+        s"metadata `$name`: the name must have 1 to 255 bytes"
+      )
     val file =
       ExrEncoder.encode(image.linear, metadata, options.others.getOrElse(_, options.isHalf))
     for window <- options.window do ExrWindow.place(file, window, image.height, ExrEncoder.Rows)

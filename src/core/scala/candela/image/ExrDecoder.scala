@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 
 import org.lwjgl.PointerBuffer
 import org.lwjgl.system.MemoryStack.stackPush
@@ -76,7 +76,8 @@ private[image] object ExrDecoder:
     val pointers = list.getPointerBuffer(0, count.get(0))
     def header(i: Int) = EXRHeader.create(pointers.get(i))
     try
-      if count.get(0) != parts.size then throw ImageError("the header is damaged")
+      if count.get(0) != parts.size then
+        throw ImageError(Code.DamagedImage, "the header is damaged")
       loop(parts.size)(i => requestFloats(header(i)))
       val images = EXRImage.calloc(parts.size)
       try
@@ -108,7 +109,7 @@ private[image] object ExrDecoder:
   ): Unit =
     val agrees = image.width == part.width && image.height == part.height &&
       image.num_channels == order.length && header.num_channels == order.length
-    if !agrees then throw ImageError("the header is damaged")
+    if !agrees then throw ImageError(Code.DamagedImage, "the header is damaged")
     loop(order.length): to =>
       val from = order(to)
       val isInteger = part.channels(from).pixelType == TINYEXR_PIXELTYPE_UINT
@@ -124,7 +125,7 @@ private[image] object ExrDecoder:
             val (x, y) = (tile.offset_x * tw, tile.offset_y * th)
             val inside = x >= 0 && y >= 0 && x + tile.width <= part.width &&
               y + tile.height <= part.height && tile.width <= tw && tile.height <= th
-            if !inside then throw ImageError("a tile lies outside the image")
+            if !inside then throw ImageError(Code.DamagedImage, "a tile lies outside the image")
             val plane = Plane(tile.images(order.length).get(from), tw, isInteger)
             plane.copy(target, part.width, order.length, to, x, y, tile.width, tile.height)
 
@@ -153,7 +154,8 @@ private[image] object ExrDecoder:
     val _ = FreeEXRImage(image)
 
   private def check(code: Int, error: PointerBuffer): Unit =
-    if code != TINYEXR_SUCCESS then throw ImageError(s"can't be decoded: ${message(code, error)}")
+    if code != TINYEXR_SUCCESS then
+      throw ImageError(Code.DamagedImage, s"can't be decoded: ${message(code, error)}")
 
   /** Reads and frees the library's error message. */
   private[image] def message(code: Int, error: PointerBuffer): String =

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.color.ColorSpace
 
 import org.lwjgl.PointerBuffer
@@ -98,9 +98,13 @@ private[image] object ExrEncoder:
       val memory: PointerBuffer = stack.callocPointer(1)
       val size = SaveEXRImageToMemory(native, header, memory, error)
       if size <= 0 then
-        throw ImageError(s"can't be encoded as EXR: ${ExrDecoder.message(0, error)}")
+        throw ImageError(
+          Code.UnsupportedImage,
+          s"can't be encoded as EXR: ${ExrDecoder.message(0, error)}"
+        )
       try
-        if size > Int.MaxValue - 8 then throw ImageError("an EXR file of more than 2 GB")
+        if size > Int.MaxValue - 8 then
+          throw ImageError(Code.TooLarge, "an EXR file of more than 2 GB")
         val bytes = new Array[Byte](size.toInt)
         val _ = MemoryUtil.memByteBuffer(memory.get(0), size.toInt).get(bytes)
         bytes

@@ -1,5 +1,7 @@
 package candela.image
 
+import candela.base.Code
+
 import candela.color.{ColorSpace, Primaries}
 
 import java.nio.charset.StandardCharsets.UTF_8
@@ -99,7 +101,8 @@ private[image] object ExrHeader:
     val _ = in.int()
     val word = in.int()
     val version = word & 0xff
-    if version != 2 then throw ImageError(s"EXR version $version is not supported")
+    if version != 2 then
+      throw ImageError(Code.UnsupportedImage, s"EXR version $version is not supported")
     val isMultipart = (word & 0x1000) != 0
     val flags = Option.when(!isMultipart)(word)
     val found = mutable.ArrayBuffer(part(in.attributes(), flags))
@@ -110,9 +113,13 @@ private[image] object ExrHeader:
         more = in.attributes()
     val rest = file.length.toLong - in.position
     // A chunk has 8 bytes in the table and 8 or more of its own.
-    if found.map(chunks).sum * 16 > rest then throw ImageError("the file is cut short")
+    if found.map(chunks).sum * 16 > rest then
+      throw ImageError(Code.DamagedImage, "the file is cut short")
     for p <- found if p.storedBytes > file.length.toLong * p.maxRatio do
-      throw ImageError(s"${p.width}×${p.height} pixels can't be in a file of ${file.length} bytes")
+      throw ImageError(
+        Code.DamagedImage,
+        s"${p.width}×${p.height} pixels can't be in a file of ${file.length} bytes"
+      )
     found.toVector
 
   private[image] def chunks(part: ExrPart): Long = part.tiling match
@@ -128,24 +135,28 @@ private[image] object ExrHeader:
     def value(name: String, kind: String, size: Int): Option[ByteBuffer] =
       attributes.get(name).map: (found, data) =>
         if found != kind || data.remaining < size then
-          throw ImageError(s"attribute `$name` is damaged")
+          throw ImageError(Code.DamagedImage, s"attribute `$name` is damaged")
         data
     def required(name: String, kind: String, size: Int): ByteBuffer =
-      value(name, kind, size).getOrElse(throw ImageError(s"attribute `$name` is missing"))
+      value(
+        name,
+        kind,
+        size
+      ).getOrElse(throw ImageError(Code.DamagedImage, s"attribute `$name` is missing"))
 
     val kind = value("type", "string", 0).map(UTF_8.decode(_).toString)
     val isDeep = flags.exists(f => (f & 0x800) != 0) || kind.exists(_.startsWith("deep"))
-    if isDeep then throw ImageError("deep EXR files are not supported")
+    if isDeep then throw ImageError(Code.UnsupportedImage, "deep EXR files are not supported")
     val isTiled = flags.fold(kind.contains("tiledimage"))(f => (f & 0x200) != 0)
     if kind.exists(_ != (if isTiled then "tiledimage" else "scanlineimage")) then
-      throw ImageError(s"parts of type `${kind.mkString}` are not supported")
+      throw ImageError(Code.UnsupportedImage, s"parts of type `${kind.mkString}` are not supported")
     val tiling = Option.when(isTiled)(tilesOf(required("tiles", "tiledesc", 9)))
     val window = required("dataWindow", "box2i", 16)
     val Vector(x0, y0, x1, y1) = Vector.fill(4)(window.getInt().toLong): @unchecked
     val channels = channelList(required("channels", "chlist", 1))
     val compression = required("compression", "compression", 1).get() & 0xff
     val (width, height) = (x1 - x0 + 1, y1 - y0 + 1)
-    if width < 1 || height < 1 then throw ImageError("the data window is empty")
+    if width < 1 || height < 1 then throw ImageError(Code.DamagedImage, "the data window is empty")
     checkSize(width, height, channels.size, tiling)
     val unread = obstacle(compression, channels)
     val space = value("chromaticities", "chromaticities", 32).fold(ColorSpace.Srgb)(spaceOf)
@@ -165,34 +176,45 @@ private[image] object ExrHeader:
     )
     // The decoder trusts this number, and a wrong one crashes the process.
     for count <- value("chunkCount", "int", 4) if count.getInt() != chunks(part) do
-      throw ImageError("attribute `chunkCount` is damaged")
+      throw ImageError(Code.DamagedImage, "attribute `chunkCount` is damaged")
     part
 
   private def tilesOf(data: ByteBuffer): ExrTiling =
     val (width, height, mode) = (data.getInt(), data.getInt(), data.get() & 0xff)
-    if (mode & 15) > 2 || mode >> 4 > 1 then throw ImageError("attribute `tiles` is damaged")
+    if (mode & 15) > 2 || mode >> 4 > 1 then
+      throw ImageError(Code.DamagedImage, "attribute `tiles` is damaged")
     ExrTiling(width, height, mode & 15, mode >> 4 == 1)
 
   private def spaceOf(data: ByteBuffer): ColorSpace =
     val primaries = Primaries.ofFloats(Array.fill(8)(data.getFloat()))
     ColorSpace.of(primaries)
-      .getOrElse(throw ImageError("attribute `chromaticities` is damaged"))
+      .getOrElse(throw ImageError(Code.DamagedImage, "attribute `chromaticities` is damaged"))
 
   private def checkSize(w: Long, h: Long, channels: Int, tiling: Option[ExrTiling]): Unit =
     val fits = w <= Int.MaxValue && h <= Int.MaxValue && w * h <= (Int.MaxValue - 8) / channels
     if !fits then
-      throw ImageError(s"$w×$h pixels of $channels channels are more than fit into memory")
+      throw ImageError(
+        Code.TooLarge,
+        s"$w×$h pixels of $channels channels are more than fit into memory"
+      )
     for t <- tiling do
       // Tiles may extend past the image; the decoder allocates each in full.
       def padded(size: Long, tile: Long) = (size + tile - 1) / tile * tile
       val sane = t.width > 0 && t.height > 0 && t.width <= MaxTile && t.height <= MaxTile &&
         padded(w, t.width) * padded(h, t.height) <= (Int.MaxValue - 8) / channels
-      if !sane then throw ImageError(s"tiles of ${t.width}×${t.height} pixels are not supported")
+      if !sane then
+        throw ImageError(
+          Code.UnsupportedImage,
+          s"tiles of ${t.width}×${t.height} pixels are not supported"
+        )
 
   /** What of this coding the decoder can't read. */
   private def obstacle(compression: Int, channels: Vector[ExrChannel]): Option[String] =
     val name = Compressions.lift(compression)
-      .getOrElse(throw ImageError(s"EXR compression number $compression is not supported"))
+      .getOrElse(throw ImageError(
+        Code.UnsupportedImage,
+        s"EXR compression number $compression is not supported"
+      ))
     val isB44 = name == "B44" || name == "B44A"
     if compression > LastRead then Some(s"EXR compression $name is not supported")
     else if isB44 && channels.exists(_.pixelType != Half) then
@@ -209,14 +231,16 @@ private[image] object ExrHeader:
     while name.nonEmpty do
       val pixelType = in.int()
       if pixelType < 0 || pixelType > 2 then
-        throw ImageError(s"channel `$name` has an unknown type")
+        throw ImageError(Code.DamagedImage, s"channel `$name` has an unknown type")
       val _ = in.int() // the perceptual-linearity hint and padding
       found += ExrChannel(name, pixelType, in.int(), in.int())
-      if found.size > MaxChannels then throw ImageError(s"more than $MaxChannels channels")
+      if found.size > MaxChannels then
+        throw ImageError(Code.DamagedImage, s"more than $MaxChannels channels")
       name = in.name()
-    if found.isEmpty then throw ImageError("it has no channels")
+    if found.isEmpty then throw ImageError(Code.DamagedImage, "it has no channels")
     val names = found.map(_.name)
-    if names.distinct.size != names.size then throw ImageError("two channels have the same name")
+    if names.distinct.size != names.size then
+      throw ImageError(Code.DamagedImage, "two channels have the same name")
     found.toVector
 
   /** Little-endian reader with bounds checks. */
@@ -226,7 +250,8 @@ private[image] object ExrHeader:
     def position: Int = bytes.position
 
     private def need(count: Int): Unit =
-      if count < 0 || count > bytes.remaining then throw ImageError("the header is damaged")
+      if count < 0 || count > bytes.remaining then
+        throw ImageError(Code.DamagedImage, "the header is damaged")
 
     def int(): Int =
       need(4)
@@ -238,7 +263,7 @@ private[image] object ExrHeader:
       need(1)
       while bytes.get() != 0 do need(1)
       val length = bytes.position - 1 - start
-      if length > 255 then throw ImageError("the header is damaged")
+      if length > 255 then throw ImageError(Code.DamagedImage, "the header is damaged")
       val text = new Array[Byte](length)
       bytes.get(start, text)
       String(text, UTF_8)
@@ -253,8 +278,10 @@ private[image] object ExrHeader:
         need(size)
         val value = bytes.slice(bytes.position, size).order(ByteOrder.LITTLE_ENDIAN)
         bytes.position(bytes.position + size)
-        if found.contains(key) then throw ImageError(s"duplicate attribute `$key`")
+        if found.contains(key) then
+          throw ImageError(Code.DamagedImage, s"duplicate attribute `$key`")
         found(key) = (kind, value)
-        if found.size > MaxAttributes then throw ImageError(s"more than $MaxAttributes attributes")
+        if found.size > MaxAttributes then
+          throw ImageError(Code.DamagedImage, s"more than $MaxAttributes attributes")
         key = name()
       found.toMap

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 
 import java.nio.charset.StandardCharsets.ISO_8859_1
 
@@ -29,7 +29,10 @@ private[image] object Hdr:
       val (width, height, fromBottom, fromRight) = resolution()
       val available = (file.length - at).toLong * MaxPixelsPerByte
       if width.toLong * height > Math.min(available, (Int.MaxValue - 8) / 3) then
-        throw ImageError(s"$width×$height pixels can't be in a file of ${file.length} bytes")
+        throw ImageError(
+          Code.DamagedImage,
+          s"$width×$height pixels can't be in a file of ${file.length} bytes"
+        )
       val result = Image.rgb(width, height)
       val row = new Array[Byte](4 * width)
       loop(height): i =>
@@ -45,7 +48,10 @@ private[image] object Hdr:
       while next.nonEmpty do
         next match
           case s"FORMAT=$format" if format.trim != "32-bit_rle_rgbe" =>
-            throw ImageError(s"pixel format `${format.trim}`: only 32-bit_rle_rgbe is supported")
+            throw ImageError(
+              Code.UnsupportedImage,
+              s"pixel format `${format.trim}`: only 32-bit_rle_rgbe is supported"
+            )
           case _ => ()
         next = line()
 
@@ -57,17 +63,21 @@ private[image] object Hdr:
         case form(ySign, h, xSign, w) if h.toInt > 0 && w.toInt > 0 =>
           (w.toInt, h.toInt, ySign == "+", xSign == "-")
         case other =>
-          throw ImageError(s"expected a size such as `-Y 480 +X 640`, found `${other.take(40)}`")
+          throw ImageError(
+            Code.DamagedImage,
+            s"expected a size such as `-Y 480 +X 640`, found `${other.take(40)}`"
+          )
 
     private def line(): String =
       val start = at
       while at < file.length && file(at) != '\n' do at += 1
-      if at == file.length then throw ImageError("the header does not end")
+      if at == file.length then throw ImageError(Code.DamagedImage, "the header does not end")
       at += 1
       String(file, start, at - 1 - start, ISO_8859_1).stripSuffix("\r")
 
     private def byte(): Int =
-      if at >= file.length then throw ImageError("the file ends within the pixels")
+      if at >= file.length then
+        throw ImageError(Code.DamagedImage, "the file ends within the pixels")
       at += 1
       file(at - 1) & 0xff
 
@@ -76,7 +86,8 @@ private[image] object Hdr:
         file(at) == 2 && file(at + 1) == 2 && file(at + 2) >= 0
       if coded then
         at += 2
-        if (byte() << 8 | byte()) != width then throw ImageError("a row of another width")
+        if (byte() << 8 | byte()) != width then
+          throw ImageError(Code.DamagedImage, "a row of another width")
         loop(4)(component => runs(row, component, width))
       else flat(row, width)
 
@@ -88,7 +99,8 @@ private[image] object Hdr:
       while x < width do
         val code = byte()
         val count = if code > 128 then code - 128 else code
-        if count == 0 || x + count > width then throw ImageError("a run exceeds its row")
+        if count == 0 || x + count > width then
+          throw ImageError(Code.DamagedImage, "a run exceeds its row")
         if code > 128 then
           val value = byte().toByte
           loop(count)(i => row(4 * (x + i) + component) = value)
@@ -106,7 +118,7 @@ private[image] object Hdr:
         if r == 1 && g == 1 && b == 1 then
           val count = if shift > 16 then -1L else e.toLong << shift
           if x == 0 || count < 0 || x + count > width then
-            throw ImageError("a run exceeds its row")
+            throw ImageError(Code.DamagedImage, "a run exceeds its row")
           loop(count.toInt)(i => System.arraycopy(row, 4 * (x - 1), row, 4 * (x + i), 4))
           x += count.toInt
           shift += 8

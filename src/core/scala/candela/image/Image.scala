@@ -1,12 +1,13 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.color.{ColorSpace, Encoding, Matrix3, Rgb}
 
 /** An image can't be read or written: cause and cure on one line. Not a bug, so without a stack
   * trace.
   */
-final class ImageError(message: String) extends RuntimeException(message, null, false, false)
+final class ImageError(val code: Code, message: String)
+    extends RuntimeException(message, null, false, false)
 
 /** An image as stored in its file: `channels` numbers per pixel, interleaved; rows from the top.
   */
@@ -37,7 +38,10 @@ sealed abstract class StoredImage:
     indicesOf(Image.RgbNames)
       .orElse(indicesOf(Vector("Y")).map(y => Vector.fill(3)(y.head)))
       .orElse(Option.when(channels == 1)(Vector.fill(3)(0)))
-      .getOrElse(throw ImageError(s"no channels R, G, B or Y, only ${channelNames.mkString(", ")}"))
+      .getOrElse(throw ImageError(
+        Code.ImageContents,
+        s"no channels R, G, B or Y, only ${channelNames.mkString(", ")}"
+      ))
 
 /** An image of Floats, in the layout of [[StoredImage]]; linear by default. */
 final class Image(
@@ -127,7 +131,10 @@ object Image:
   def valueCount(width: Int, height: Int, channels: Int): Int =
     val count = width.toLong * height * channels
     if count > MostValues then
-      throw ImageError(s"$width×$height pixels of $channels channels are too many for an image")
+      throw ImageError(
+        Code.TooLarge,
+        s"$width×$height pixels of $channels channels are too many for an image"
+      )
     count.toInt
 
   /** Of arrays in Java. */

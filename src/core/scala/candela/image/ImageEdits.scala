@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.color.{ColorSpace, Rgb}
 
 /** Changes of linear images that keep all of their channels. */
@@ -14,6 +14,7 @@ object ImageEdits:
     val missing = names.filterNot(image.channelNames.contains)
     if missing.nonEmpty then
       throw ImageError(
+        Code.ImageEdit,
         s"no channel ${missing.mkString(", ")}, only ${image.channelNames.mkString(", ")}"
       )
     val from = names.map(image.channelNames.indexOf).toArray
@@ -75,7 +76,10 @@ object ImageEdits:
     */
   def in(image: Image, space: ColorSpace): Image =
     val source = image.indicesOf(Image.RgbNames)
-      .getOrElse(throw ImageError("only images with R, G and B have a colour space"))
+      .getOrElse(throw ImageError(
+        Code.ImageEdit,
+        "only images with R, G and B have a colour space"
+      ))
     val Vector(r, g, b) = source: @unchecked
     val matrix = space.ofSrgb * image.colorSpace.toSrgb
     val data = image.data.clone
@@ -96,7 +100,8 @@ object ImageEdits:
     val sum = first.data.map(_.toDouble)
     var count = 1
     for (name, image) <- images do
-      def differs(what: String) = throw ImageError(s"$name and $firstName differ in $what")
+      def differs(what: String) =
+        throw ImageError(Code.ImageEdit, s"$name and $firstName differ in $what")
       if image.width != first.width || image.height != first.height then differs("size")
       if image.channelNames != first.channelNames then differs("their channels")
       if image.colorSpace ne first.colorSpace then differs("their colour space")

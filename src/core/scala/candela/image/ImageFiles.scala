@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.{FileName, ForeignFile, InputFile, IoReason, WholeFile, WriteError}
+import candela.base.{Code, FileName, ForeignFile, InputFile, IoReason, WholeFile, WriteError}
 
 import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
@@ -34,16 +34,20 @@ object ImageFiles:
     val bytes =
       try file.bytes()
       catch
-        case _: NoSuchFileException => throw ImageError(s"$file: there is no such file")
-        case e: IOException => throw ImageError(s"$file: can't be read: ${IoReason(e)}")
-        case _: OutOfMemoryError => throw ImageError(s"$file: a file of 2 GB or more")
+        case _: NoSuchFileException =>
+          throw ImageError(Code.NoSuchFile, s"$file: there is no such file")
+        case e: IOException =>
+          throw ImageError(Code.Unreadable, s"$file: can't be read: ${IoReason(e)}")
+        case _: OutOfMemoryError =>
+          throw ImageError(Code.TooLarge, s"$file: a file of 2 GB or more")
     try
       val image = decode(bytes, file.path, admit)
       admit(image.width, image.height)
       image
     catch
-      case e: ImageError => throw ImageError(s"$file: ${e.getMessage}")
-      case _: OutOfMemoryError => throw ImageError(s"$file: not enough memory for its pixels")
+      case e: ImageError => throw ImageError(e.code, s"$file: ${e.getMessage}")
+      case _: OutOfMemoryError =>
+        throw ImageError(Code.TooLarge, s"$file: not enough memory for its pixels")
 
   /** The image of a file, which must have colours.
     *
@@ -53,7 +57,7 @@ object ImageFiles:
     try
       val _ = image.colorChannels
       image
-    catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
+    catch case e: ImageError => throw ImageError(e.code, s"$path: ${e.getMessage}")
 
   /** What an image file says of itself: its coding, windows and texts. Only EXR files do. */
   def facts(path: Path): Vector[(String, String)] =
@@ -109,7 +113,7 @@ object ImageFiles:
     def begins(mark: Int*) =
       bytes.length >= mark.size && mark.indices.forall(i => (bytes(i) & 0xff) == mark(i))
     def beginsWith(mark: String) = begins(mark.map(_.toInt)*)
-    if bytes.isEmpty then throw ImageError("the file is empty")
+    if bytes.isEmpty then throw ImageError(Code.DamagedImage, "the file is empty")
     else if bytes.startsWith(ExrMark) then Exr.read(bytes, admit = admit)
     else if beginsWith("#?") then Hdr.read(bytes)
     else if beginsWith("PF") || beginsWith("Pf") then Pfm.read(bytes)
@@ -121,6 +125,7 @@ object ImageFiles:
     else
       val other = ForeignFile.of(path, bytes)
       throw ImageError(
+        Code.UnknownFormat,
         if readable.contains(extension) then
           val found = other.fold("it begins with other bytes")(o => s"it is ${o.what}")
           s"not a valid .$extension file: $found"
@@ -146,11 +151,13 @@ object ImageFiles:
       try
         (OutputFormat.of(path), FileName.suffix(path)) match
           case (Some(format), _) => format.write(image, metadata, options)
-          case (None, "") => throw ImageError(s"the name has no extension; $Writable")
-          case (None, other) => throw ImageError(s"can't write .$other files; $Writable")
-      catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
+          case (None, "") =>
+            throw ImageError(Code.UnknownFormat, s"the name has no extension; $Writable")
+          case (None, other) =>
+            throw ImageError(Code.UnknownFormat, s"can't write .$other files; $Writable")
+      catch case e: ImageError => throw ImageError(e.code, s"$path: ${e.getMessage}")
     try WholeFile.write(path, bytes)
-    catch case e: WriteError => throw ImageError(e.getMessage)
+    catch case e: WriteError => throw ImageError(Code.Unwritable, e.getMessage)
 
   /** The bytes that `write` stores in an `.exr` file. */
   def exr(image: Image): Array[Byte] = Exr.write(image, Vector.empty)

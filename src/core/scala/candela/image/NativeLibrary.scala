@@ -1,5 +1,7 @@
 package candela.image
 
+import candela.base.Code
+
 import org.lwjgl.system.{APIUtil, SharedLibrary}
 
 /** A shared library, loaded at run time.
@@ -15,7 +17,8 @@ private[image] final class NativeLibrary private (
   /** Address of a function, for LWJGL's calls. */
   def function(symbol: String): Long =
     val address = library.getFunctionAddress(symbol)
-    if address == 0 then throw ImageError(s"$path: not $name: it lacks $symbol")
+    if address == 0 then
+      throw ImageError(Code.MissingLibrary, s"$path: not $name: it lacks $symbol")
     address
 
 private[image] object NativeLibrary:

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 
 import java.io.ByteArrayOutputStream
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_8}
@@ -24,7 +24,8 @@ private[image] object Npz extends OutputFormat("npz", Contents.Channels):
     val linear = image.linear
     val arrays = groups(linear.channelNames)
     val size = 4L * linear.data.length + 1024L * (arrays.size + 1)
-    if size > Int.MaxValue - 8 then throw ImageError("a NumPy file of more than 2 GB")
+    if size > Int.MaxValue - 8 then
+      throw ImageError(Code.TooLarge, "a NumPy file of more than 2 GB")
     val bytes = ByteArrayOutputStream(size.toInt)
     val zip = ZipOutputStream(bytes, UTF_8)
     zip.setMethod(ZipOutputStream.STORED)

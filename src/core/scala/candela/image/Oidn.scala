@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 
 import org.lwjgl.system.JNI.*
 import org.lwjgl.system.MemoryStack.stackPush
@@ -106,7 +106,7 @@ final class Oidn private (library: NativeLibrary):
       if invokePPI(device, MemoryUtil.memAddress(message), deviceError) != 0 then
         val text =
           if message.get(0) == 0 then "unknown error" else MemoryUtil.memUTF8(message.get(0))
-        throw ImageError(s"Open Image Denoise: $text")
+        throw ImageError(Code.Denoiser, s"Open Image Denoise: $text")
     finally stack.close()
 
   /** Binds an image of three floats per pixel. LWJGL has no call with these nine arguments: libffi
@@ -123,7 +123,7 @@ final class Oidn private (library: NativeLibrary):
           val _ = types.put(i, kind.address)
         val signature = FFICIF.calloc(stack)
         if ffi_prep_cif(signature, FFI_DEFAULT_ABI, ffi_type_void: FFIType, types) != FFI_OK then
-          throw ImageError("this platform can't call Open Image Denoise")
+          throw ImageError(Code.MissingLibrary, "this platform can't call Open Image Denoise")
         val numbers = Vector(filter, text, MemoryUtil.memAddress(data), Float3) ++
           Vector[Long](width, height, 0, 0, 0)
         val values = stack.mallocLong(numbers.size)
@@ -150,6 +150,7 @@ object Oidn:
     else OidnLibrary.Names.take(1)
     NativeLibrary.first("Open Image Denoise 2", files ++ others).map(Oidn(_)).getOrElse:
       throw ImageError(
+        Code.MissingLibrary,
         environment.get(OidnLibrary.Variable).fold("Open Image Denoise is not installed")(named =>
           s"${OidnLibrary.Variable}=$named: no library of Open Image Denoise 2"
         ) + "; `pip install pyoidn` installs it, or set " +

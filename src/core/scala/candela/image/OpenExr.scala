@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.{IoReason, loop, Scratch, WholeFile}
+import candela.base.{Code, IoReason, Scratch, WholeFile, loop}
 
 import org.lwjgl.system.JNI.*
 import org.lwjgl.system.MemoryStack.stackPush
@@ -38,7 +38,10 @@ private[image] final class OpenExr private (library: NativeLibrary):
         read(copy, part, why)
     catch
       case e: IOException =>
-        throw ImageError(s"$why, and no copy can be made for the OpenEXR library: ${IoReason(e)}")
+        throw ImageError(
+          Code.UnsupportedImage,
+          s"$why, and no copy can be made for the OpenEXR library: ${IoReason(e)}"
+        )
 
   private def read(copy: Path, part: ExrPart, why: String): Image =
     val stack = stackPush()
@@ -68,7 +71,7 @@ private[image] final class OpenExr private (library: NativeLibrary):
   /** Its last error, without the name of the file. */
   private def fail(why: String): Nothing =
     val message = MemoryUtil.memUTF8(invokeP(errorMessage)).replaceAll("^[^\"]*\"[^\"]*\"\\. *", "")
-    throw ImageError(s"$why, and the OpenEXR library says: $message")
+    throw ImageError(Code.UnsupportedImage, s"$why, and the OpenEXR library says: $message")
 
   private def image(pixels: FloatBuffer, part: ExrPart, channels: Int): Image =
     val isGray = (channels & (OpenExr.Luminance | OpenExr.Chroma)) == OpenExr.Luminance

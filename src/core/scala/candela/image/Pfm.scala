@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 
 import java.nio.charset.StandardCharsets.US_ASCII
 import java.nio.{ByteBuffer, ByteOrder}
@@ -22,11 +22,14 @@ private[image] object Pfm extends OutputFormat("pfm", Contents.Radiance):
     val (width, height) = (size(words.next("width")), size(words.next("height")))
     val word = words.next("scale")
     val scale = word.toFloatOption.filter(s => s != 0f && java.lang.Float.isFinite(s))
-      .getOrElse(throw ImageError(s"expected a scale such as -1, found `$word`"))
+      .getOrElse(throw ImageError(Code.DamagedImage, s"expected a scale such as -1, found `$word`"))
     val count = width.toLong * height * names.size
     val rest = file.length - words.at
     if count * 4 > rest then
-      throw ImageError(s"$width×$height pixels need ${count * 4} bytes, found $rest")
+      throw ImageError(
+        Code.DamagedImage,
+        s"$width×$height pixels need ${count * 4} bytes, found $rest"
+      )
     val order = if scale < 0f then ByteOrder.LITTLE_ENDIAN else ByteOrder.BIG_ENDIAN
     val values = ByteBuffer.wrap(file, words.at, rest).slice.order(order).asFloatBuffer
     val data = new Array[Float](count.toInt)
@@ -52,14 +55,17 @@ private[image] object Pfm extends OutputFormat("pfm", Contents.Radiance):
     val kind = if isGray then "Pf" else "PF"
     val header = s"$kind\n${image.width} ${image.height}\n-1.0\n".getBytes(US_ASCII)
     val size = header.length + 4L * image.width * image.height * channels.size
-    if size > Int.MaxValue - 8 then throw ImageError("a PFM file of more than 2 GB")
+    if size > Int.MaxValue - 8 then throw ImageError(Code.TooLarge, "a PFM file of more than 2 GB")
     val bytes = ByteBuffer.allocate(size.toInt).order(ByteOrder.LITTLE_ENDIAN).put(header)
     for y <- image.height - 1 to 0 by -1; x <- 0 until image.width; c <- channels do
       val _ = bytes.putFloat(source(x, y, c))
     bytes.array
 
   private def size(word: String): Int =
-    word.toIntOption.filter(_ > 0).getOrElse(throw ImageError(s"expected a size, found `$word`"))
+    word.toIntOption.filter(_ > 0).getOrElse(throw ImageError(
+      Code.DamagedImage,
+      s"expected a size, found `$word`"
+    ))
 
   /** The words of the header, each ended by one or more blanks; a single one ends the last. */
   private final class Words(file: Array[Byte]):
@@ -69,7 +75,8 @@ private[image] object Pfm extends OutputFormat("pfm", Contents.Radiance):
       while at < file.length && isBlank(at) do at += 1
       val start = at
       while at < file.length && at - start < 32 && !isBlank(at) do at += 1
-      if at == file.length || !isBlank(at) then throw ImageError(s"its header has no $what")
+      if at == file.length || !isBlank(at) then
+        throw ImageError(Code.DamagedImage, s"its header has no $what")
       at += 1
       // A line end of two bytes
       if file(at - 1) == '\r' && at < file.length && file(at) == '\n' then at += 1

@@ -1,5 +1,7 @@
 package candela.image
 
+import candela.base.Code
+
 import java.nio.charset.StandardCharsets.US_ASCII
 import javax.imageio.metadata.{IIOInvalidTreeException, IIOMetadata, IIOMetadataNode}
 
@@ -40,4 +42,4 @@ private[image] object Png extends OutputFormat("png", Contents.Display):
     try chunks.mergeTree(NativeFormat, root)
     catch
       case e: IIOInvalidTreeException =>
-        throw ImageError(s"metadata that PNG can't hold: ${e.getMessage}")
+        throw ImageError(Code.UnsupportedImage, s"metadata that PNG can't hold: ${e.getMessage}")

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.color.Encoding
 
 import java.nio.charset.StandardCharsets.US_ASCII
@@ -45,7 +45,10 @@ private[image] object Pnm:
       val (width, height) = (number("width", Int.MaxValue), number("height", Int.MaxValue))
       val most = if isBits then 1 else number("maximum", 65535)
       if width < 1 || height < 1 || most < 1 then
-        throw ImageError(s"expected sizes and a maximum above 0, found $width $height $most")
+        throw ImageError(
+          Code.DamagedImage,
+          s"expected sizes and a maximum above 0, found $width $height $most"
+        )
       Header(width, height, most)
 
     def image(): StoredImage =
@@ -58,7 +61,7 @@ private[image] object Pnm:
       val least = if isBinary then bytesOfRow * height else count
       val rest = Math.max(file.length - at, 0)
       if least > rest || count > Int.MaxValue - 8 then
-        throw ImageError(s"$width×$height pixels need $least bytes, found $rest")
+        throw ImageError(Code.DamagedImage, s"$width×$height pixels need $least bytes, found $rest")
       val start = at
       def value(i: Int): Int =
         if !isBinary then if isBits then bit() else number("value", 65535)
@@ -87,13 +90,16 @@ private[image] object Pnm:
       val text = String(file, start, at - start, US_ASCII)
       text.toIntOption.filter(_ <= largest).getOrElse:
         val found = String(file, start, Math.min(file.length - start, 10), US_ASCII)
-        throw ImageError(s"expected its $what, at most $largest, found `${found.trim}`")
+        throw ImageError(
+          Code.DamagedImage,
+          s"expected its $what, at most $largest, found `${found.trim}`"
+        )
 
     /** Bits need no blanks between them. */
     private def bit(): Int =
       skip()
       if at == file.length || (file(at) != '0' && file(at) != '1') then
-        throw ImageError("expected bits, 0 or 1, for all of its pixels")
+        throw ImageError(Code.DamagedImage, "expected bits, 0 or 1, for all of its pixels")
       at += 1
       file(at - 1) - '0'
 

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.color.Encoding
 
 import java.io.ByteArrayOutputStream
@@ -29,17 +29,23 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
 
   /** @param admit receives width and height before the pixels are decoded */
   def read(file: Array[Byte], admit: (Int, Int) => Unit = (_, _) => ()): ByteImage =
-    if file.length < HeaderSize + End.length then throw ImageError("the file is cut short")
+    if file.length < HeaderSize + End.length then
+      throw ImageError(Code.DamagedImage, "the file is cut short")
     val header = ByteBuffer.wrap(file)
     val (width, height) = (header.getInt(4), header.getInt(8))
     admit(width, height)
     val (channels, coding) = (file(12).toInt, file(13).toInt)
-    if channels != 3 && channels != 4 then throw ImageError(s"$channels channels, expected 3 or 4")
-    if coding != 0 && coding != 1 then throw ImageError(s"unknown colour space $coding")
+    if channels != 3 && channels != 4 then
+      throw ImageError(Code.DamagedImage, s"$channels channels, expected 3 or 4")
+    if coding != 0 && coding != 1 then
+      throw ImageError(Code.DamagedImage, s"unknown colour space $coding")
     val fits = width > 0 && height > 0 && width.toLong * height <= (Int.MaxValue - 8) / channels
     if !fits || width.toLong * height > file.length.toLong * LongestRun then
       val size = s"${width & 0xffffffffL}×${height & 0xffffffffL}"
-      throw ImageError(s"$size pixels can't be in a file of ${file.length} bytes")
+      throw ImageError(
+        Code.DamagedImage,
+        s"$size pixels can't be in a file of ${file.length} bytes"
+      )
     val bytes = new Array[Byte](width * height * channels)
     Decoder(file, channels).decode(bytes)
     val names = if channels == 4 then Image.RgbNames :+ "A" else Image.RgbNames

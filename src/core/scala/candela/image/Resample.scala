@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 
 import org.lwjgl.stb.STBImageResize.*
 import org.lwjgl.system.MemoryUtil
@@ -28,7 +28,8 @@ object Resample:
             MemoryUtil.memAddress(to), width, height, 0,
             STBIR_1CHANNEL, STBIR_TYPE_FLOAT, STBIR_EDGE_CLAMP, STBIR_FILTER_TRIANGLE
           )
-          if done == 0 then throw ImageError(s"can't be resized to $width×$height pixels")
+          if done == 0 then
+            throw ImageError(Code.TooLarge, s"can't be resized to $width×$height pixels")
           loop(to.capacity)(i => made(i * source.channels + c) = to.get(i))
       finally
         MemoryUtil.memFree(from)

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.color.Encoding
 
 import org.lwjgl.stb.STBImage
@@ -40,10 +40,13 @@ private[image] object StbReader:
     admit(w.get(0), height)
     val values = w.get(0).toLong * height * c.get(0)
     if values <= 0 || values > Int.MaxValue - 8 then
-      throw ImageError(s"${w.get(0)}×$height pixels are more than fit into memory")
+      throw ImageError(Code.TooLarge, s"${w.get(0)}×$height pixels are more than fit into memory")
     if stored(file, w.get(0), height, values) > file.remaining.toLong * MostPacked then
       val bytes = file.remaining
-      throw ImageError(s"${w.get(0)}×$height pixels can't be in a file of $bytes bytes")
+      throw ImageError(
+        Code.DamagedImage,
+        s"${w.get(0)}×$height pixels can't be in a file of $bytes bytes"
+      )
     if STBImage.stbi_is_16_bit_from_memory(file) then
       val pixels = STBImage.stbi_load_16_from_memory(file, w, h, c, 0)
       if pixels == null then failed()
@@ -78,4 +81,4 @@ private[image] object StbReader:
 
   private def failed(): Nothing =
     val why = Option(STBImage.stbi_failure_reason).getOrElse("unknown reason")
-    throw ImageError(s"can't be decoded: $why")
+    throw ImageError(Code.DamagedImage, s"can't be decoded: $why")

@@ -1,5 +1,7 @@
 package candela.image
 
+import candela.base.Code
+
 import java.nio.{ByteBuffer, ByteOrder}
 
 /** Reads TGA, and writes it, since films of pbrt-v2 and v3 may name it: 24 bits, or 32 with alpha,
@@ -77,7 +79,7 @@ private[image] object Tga extends OutputFormat("tga", Contents.Display):
     val picture = Bitmap.of(image, options.display.copy(bits = 8), options.alpha)
     val (width, height) = (picture.getWidth, picture.getHeight)
     if width > 0xffff || height > 0xffff then
-      throw ImageError(s"TGA holds at most 65535×65535 pixels, found $width×$height")
+      throw ImageError(Code.TooLarge, s"TGA holds at most 65535×65535 pixels, found $width×$height")
     val alphaBits = if options.alpha.isDefined then 8 else 0
     val depth = 24 + alphaBits
     val file = ByteBuffer.allocate(HeaderSize + depth / 8 * width * height)

@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Problem, SceneError, Version}
+import candela.base.{Code, Problem, SceneError, Version}
 import candela.build.{RenderGoal, RenderSettings}
 import candela.film.PixelBounds
 import candela.render.{RenderPlan, Shard}
@@ -53,7 +53,7 @@ object FilmHeaders:
       case Right(saved) => saved.copy(samples = Some(header.samples))
       case Left(why) =>
         val message = s"the film of `${header.scene}` has invalid settings: $why"
-        throw SceneError(Problem.general(message))
+        throw SceneError(Problem.general(Code.OtherRendering, message))
 
   private def here: Path = Path.of("").toAbsolutePath
 

@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Problem, SceneError, Severity, Version}
+import candela.base.{Code, Problem, SceneError, Severity, Version}
 import candela.render.RenderPlan
 import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmLock, FilmWriter}
 
@@ -73,7 +73,11 @@ object FilmKeeper:
   /** @throws SceneError if another rendering writes this film file */
   def locked(path: Path): FilmLock =
     FilmLock.take(path).getOrElse:
-      fail(s"`$path` is being written by another rendering", "wait for it, or stop it")
+      fail(
+        Code.FilmInUse,
+        s"`$path` is being written by another rendering",
+        "wait for it, or stop it"
+      )
 
   /** Opens a film file; warns if its previous copy has to be used.
     *
@@ -82,14 +86,17 @@ object FilmKeeper:
   def open(path: Path, warn: Problem => Unit): FilmFile =
     val film =
       try FilmFile.open(path)
-      catch case e: IOException => fail(e.getMessage)
+      catch case e: IOException => fail(Code.DamagedFilm, e.getMessage)
     for damage <- film.damage do
       val message = s"can't read `$path`: $damage; using its previous copy, " +
         s"`${FilmFile.previous(film.path).getFileName}`"
-      warn(Problem.general(message).copy(severity = Severity.Warning))
+      warn(Problem.general(Code.DamagedFilm, message).copy(severity = Severity.Warning))
     val version = film.header.version
     if version != Version.current then
-      fail(s"`$path` was written by Candela $version; this is ${Version.current}")
+      fail(
+        Code.OtherRendering,
+        s"`$path` was written by Candela $version; this is ${Version.current}"
+      )
     film
 
   /** @throws SceneError if the scene is no longer what was rendered */
@@ -97,13 +104,13 @@ object FilmKeeper:
     // The samples per pixel may change.
     for difference <- film.header.difference(now.copy(samples = film.header.samples)) do
       val message = s"the scene of `${film.path}` has changed: $difference"
-      fail(message, "render it again; or restore what has changed")
+      fail(Code.OtherRendering, message, "render it again; or restore what has changed")
 
-  def fail(message: String, help: String = ""): Nothing =
-    throw SceneError(Problem.general(message, Option.when(help.nonEmpty)(help)))
+  def fail(code: Code, message: String, help: String = ""): Nothing =
+    throw SceneError(Problem.general(code, message, Option.when(help.nonEmpty)(help)))
 
   private def unwritable(path: Path, why: String): Problem =
-    Problem(Severity.Warning, None, s"can't write the film file `$path`: $why")
+    Problem(Code.Unwritable, Severity.Warning, None, s"can't write the film file `$path`: $why")
 
   /** The rendering that continues a saved one. */
   private def continued(
@@ -117,11 +124,12 @@ object FilmKeeper:
     if now.samples != header.samples then
       for why <- obstacle do
         fail(
+          Code.NothingToAdd,
           s"can't change the ${header.samples} samples per pixel of `${film.path}`: $why",
           "render with --spp N --checkpoint, N being the most you may want, and --time or --error"
         )
     if samples < header.done then
-      fail(s"`${film.path}` has ${header.done} samples per pixel already")
+      fail(Code.NothingToAdd, s"`${film.path}` has ${header.done} samples per pixel already")
     header.copy(samples = now.samples)
 
   /** The saved rendering at `path`, if there is one. */
@@ -129,11 +137,11 @@ object FilmKeeper:
     Option.when(Files.isRegularFile(path) || Files.exists(FilmFile.previous(path))):
       val film =
         try open(path, warn)
-        catch case e: SceneError => fail(e.problems.head.message, Remove)
+        catch case e: SceneError => fail(Code.OtherRendering, e.problems.head.message, Remove)
       for difference <- now.difference(film.header) do
-        fail(s"`$path` is of another rendering: it has $difference", Remove)
+        fail(Code.OtherRendering, s"`$path` is of another rendering: it has $difference", Remove)
       if film.header.shards != now.shards then
-        fail(s"`$path` is of another shard: ${film.header.part}", Remove)
+        fail(Code.OtherRendering, s"`$path` is of another shard: ${film.header.part}", Remove)
       film
 
   private val Remove = "remove it, or name another file"

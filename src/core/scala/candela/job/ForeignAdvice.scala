@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{ForeignKind, InputFile, Problem, Suggest}
+import candela.base.{Code, ForeignKind, InputFile, Problem, Suggest}
 import candela.scenefile.{Directives, Source, Token, Tokenizer}
 
 import java.nio.file.{Files, Path}
@@ -22,11 +22,11 @@ private[job] object ForeignAdvice:
       source.foreign(file) match
         case Some(found) =>
           val what = s"`$file` is ${found.what}, not a scene"
-          Some(Problem.general(what, advice(found.kind, file)))
+          Some(Problem.general(Code.NoScene, what, advice(found.kind, file)))
         case None =>
           Option.when(SceneFormat.named(file).isEmpty && !mayBeOurs(source)):
             val what = s"`$file` is no scene: it begins with no directive of pbrt"
-            Problem.general(what, Some(Formats))
+            Problem.general(Code.NoScene, what, Some(Formats))
     finally source.close()
 
   /** Whether a text begins with a directive, though a mistyped one; or has nothing to tell by. */

@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{FileName, Problem, SceneError, SceneFolder, Severity}
+import candela.base.{Code, FileName, Problem, SceneError, SceneFolder, Severity}
 import candela.build.DialectChoice
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Parser, SceneDescription}
@@ -67,7 +67,10 @@ object SceneFormat:
         Parser.readable(file, reading.dialect, reading.keepGoing, how.world, Some(within))
       val scene = DialectChoice.of(read, reading.dialect)
       if !scene.isFollowed || !how.isFirst then scene
-      else scene.copy(warnings = scene.warnings :+ Problem(Severity.Warning, None, FirstOnly))
+      else
+        scene.copy(warnings =
+          scene.warnings :+ Problem(Code.SeveralWorlds, Severity.Warning, None, FirstOnly)
+        )
 
     def readText(
         name: Path,
@@ -84,7 +87,11 @@ object SceneFormat:
     private def checkDefines(file: Path, how: Preparation): Unit =
       if how.settings.reading.defines.nonEmpty then
         val help = "-D sets parameters of Mitsuba's XML files"
-        throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
+        throw SceneError(Problem.general(
+          Code.SceneParameter,
+          s"`$file` has no parameters",
+          Some(help)
+        ))
 
     def imageName(file: Path, within: SceneFolder, how: Preparation): Option[Option[String]] =
       if !Files.isRegularFile(file) then None // it can be read once

@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Problem, Refusal, SceneError, Suggest}
+import candela.base.{Code, Problem, Refusal, SceneError, Suggest}
 import candela.build.{BuildControl, SceneBuilder}
 import candela.render.ThreadPool
 import candela.scenefile.{Excerpts, SceneDescription}
@@ -80,15 +80,18 @@ object SceneLoader:
       try Path.of(scene)
       catch
         case e: InvalidPathException =>
-          throw SceneError(Problem.general(s"`$scene` is not a valid file name: ${e.getReason}"))
+          throw SceneError(Problem.general(
+            Code.NoSuchScene,
+            s"`$scene` is not a valid file name: ${e.getReason}"
+          ))
     if Files.isDirectory(file) then
       val help = "name a scene file in it".concat(scenesIn(file).mkString(": ", ", ", ""))
-      throw SceneError(Problem.general(s"`$scene` is a folder", Some(help)))
+      throw SceneError(Problem.general(Code.NoSuchScene, s"`$scene` is a folder", Some(help)))
     else if !Files.exists(file) then
       val folder = Option(file.toAbsolutePath.getParent)
       val near = folder.flatMap(f => Suggest.nearest(file.getFileName.toString, scenesIn(f)))
       val help = near.map(name => s"did you mean `${file.resolveSibling(name)}`?")
-      throw SceneError(Problem.general(s"no such scene file: `$scene`", help))
+      throw SceneError(Problem.general(Code.NoSuchScene, s"no such scene file: `$scene`", help))
     else file
 
   private def scenesIn(folder: Path): Vector[String] =

@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Code, Problem, SceneError}
 import candela.render.Rendering
 import candela.render.storage.{FilmFile, FilmHeader}
 
@@ -26,7 +26,7 @@ final class ShardRenderer(header: FilmHeader, scene: Path, threads: Int) extends
   for difference <- header.difference(FilmHeaders.of(settings, header.scene, prepared, scene)) do
     val help = "all files must be in one folder or below it, named relative to the scene"
     val message = s"the scene is not the same on every machine: $difference"
-    throw SceneError(Problem.general(message, Some(help)))
+    throw SceneError(Problem.general(Code.Cluster, message, Some(help)))
 
   /** Renders a shard to a film file.
     *

@@ -1,6 +1,6 @@
 package candela.measure
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.color.{Encoding, Magma}
 import candela.image.{Image, ImageError}
 
@@ -38,9 +38,10 @@ object ErrorMap:
       val squares = apply(Metric.Mse, pair)
       gray(pair, squares.data.map(v => Math.sqrt(v.toDouble).toFloat))
     case Metric.Flip =>
-      if !pair.isColor then throw ImageError("FLIP needs the channels R, G, B")
+      if !pair.isColor then
+        throw ImageError(Code.DifferentImages, "FLIP needs the channels R, G, B")
       Flip.map(pair)
-    case Metric.Psnr => throw ImageError("PSNR has no per-pixel map")
+    case Metric.Psnr => throw ImageError(Code.DifferentImages, "PSNR has no per-pixel map")
 
   def mean(map: Image): Double =
     var sum = 0.0

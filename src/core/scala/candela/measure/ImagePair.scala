@@ -1,6 +1,6 @@
 package candela.measure
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.image.{Image, ImageError}
 
 /** Half-open pixel bounds: x0 ≤ x < x1, y0 ≤ y < y1. */
@@ -13,7 +13,10 @@ final case class PixelWindow(x0: Int, x1: Int, y0: Int, y1: Int):
   def of(image: Image): Image =
     if x0 < 0 || y0 < 0 || x1 > image.width || y1 > image.height || x0 >= x1 || y0 >= y1 then
       val size = s"${image.width}×${image.height}"
-      throw ImageError(s"window x $x0 to $x1, y $y0 to $y1 is outside the image of $size pixels")
+      throw ImageError(
+        Code.DifferentImages,
+        s"window x $x0 to $x1, y $y0 to $y1 is outside the image of $size pixels"
+      )
     val row = (x1 - x0) * image.channels
     val data = new Array[Float](row * (y1 - y0))
     loop(y1 - y0): y =>
@@ -60,7 +63,10 @@ object ImagePair:
   def of(image: Image, reference: Image, channels: Vector[String]): ImagePair =
     if image.width != reference.width || image.height != reference.height then
       def size(i: Image) = s"${i.width}×${i.height}"
-      throw ImageError(s"image sizes differ: ${size(image)} and ${size(reference)} pixels")
+      throw ImageError(
+        Code.DifferentImages,
+        s"image sizes differ: ${size(image)} and ${size(reference)} pixels"
+      )
     new ImagePair(picked(image, channels), picked(reference, channels))
 
   private def commonChannels(image: Image, reference: Image): Vector[String] =
@@ -70,7 +76,10 @@ object ImagePair:
     else if image.channelNames.toSet == reference.channelNames.toSet then reference.channelNames
     else
       def list(i: Image) = i.channelNames.mkString(", ")
-      throw ImageError(s"image channels differ: ${list(image)} and ${list(reference)}")
+      throw ImageError(
+        Code.DifferentImages,
+        s"image channels differ: ${list(image)} and ${list(reference)}"
+      )
 
   private def picked(image: Image, names: Vector[String]): Image =
     val isConverted = names == Image.RgbNames && !image.colorSpace.isSrgb
@@ -80,7 +89,10 @@ object ImagePair:
       val missing = names.filterNot(linear.channelNames.contains)
       if missing.nonEmpty then
         val has = linear.channelNames.mkString(", ")
-        throw ImageError(s"unknown channel ${missing.mkString(", ")}; known: $has")
+        throw ImageError(
+          Code.DifferentImages,
+          s"unknown channel ${missing.mkString(", ")}; known: $has"
+        )
       val sources = names.map(linear.channelNames.indexOf).toArray
       val count = names.size
       val data = new Array[Float](linear.width * linear.height * count)

@@ -1,6 +1,6 @@
 package candela.measure
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.color.Srgb
 import candela.image.{Image, ImageError}
 
@@ -106,7 +106,7 @@ object Metrics:
       Srgb.encode(Math.min(1f, Math.max(0f, value))).toDouble
 
     def result: Metrics =
-      if pixels == 0 then throw ImageError("no pixel is finite in both images")
+      if pixels == 0 then throw ImageError(Code.NothingFinite, "no pixel is finite in both images")
       val n = pixels.toDouble
       val perChannel = Vector.tabulate(count): c =>
         ChannelMetrics(

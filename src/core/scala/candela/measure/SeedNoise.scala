@@ -1,6 +1,6 @@
 package candela.measure
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.image.{Image, ImageEdits, ImageError}
 
 /** Errors of images of several seeds from each other, where no reference is given: the variance
@@ -39,7 +39,7 @@ object SeedNoise:
             relatives(c) += relative * relative
             sums(c) += image.data(at + c)
             scales(c) += scale.data(at + c)
-      if count == 0 then throw ImageError("no pixel is finite in all images")
+      if count == 0 then throw ImageError(Code.NothingFinite, "no pixel is finite in all images")
       def figure(of: Array[Double]) = correction * of.sum / (3.0 * count)
       val ratios =
         Vector.tabulate(3)(c => if sums(c) == scales(c) then 1.0 else sums(c) / scales(c))

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{SourcePos, Suggest}
+import candela.base.{Code, SourcePos, Suggest}
 import candela.math.Transform
 
 import scala.collection.mutable
@@ -18,6 +18,7 @@ final class Asked(val plugin: Plugin, val session: Session):
     found.foreach(taken.add)
     if found.size > 1 then
       session.warn(
+        Code.IdleParameter,
         found.head.at,
         s"`$name` is repeated at ${found.last.at}; this value is ignored"
       )
@@ -31,6 +32,7 @@ final class Asked(val plugin: Plugin, val session: Session):
       val found = read.lift(p.value)
       if found.isEmpty then
         session.error(
+          Code.ParameterValue,
           p.at,
           s"`$name` of ${plugin.shown} must be $expected, found ${p.value.shown}"
         )
@@ -45,7 +47,7 @@ final class Asked(val plugin: Plugin, val session: Session):
   def integer(name: String, default: Int): Int =
     number(name).fold(default): x =>
       if x != Math.rint(x) || Math.abs(x) > Int.MaxValue then
-        session.error(atOf(name), s"`$name` must be a whole number")
+        session.error(Code.ParameterType, atOf(name), s"`$name` must be a whole number")
       x.toInt
 
   def flag(name: String, default: Boolean): Boolean =
@@ -63,7 +65,12 @@ final class Asked(val plugin: Plugin, val session: Session):
     val found = text(name, default)
     if known.contains(found) then found
     else
-      session.error(atOf(name), s"unknown $name `$found`", Suggest.help(found, known))
+      session.error(
+        Code.UnknownType,
+        atOf(name),
+        s"unknown $name `$found`",
+        Suggest.help(found, known)
+      )
       default
 
   /** Nested and referenced objects of a kind; all of them if no name is given. */
@@ -97,17 +104,30 @@ final class Asked(val plugin: Plugin, val session: Session):
   /** Properties without effect here: each use is a warning. */
   def lose(consequence: String, others: String*): Unit =
     for name <- others; p <- property(name) do
-      session.warn(p.at, s"`$name` of ${plugin.shown} is not supported; $consequence")
+      session.warn(
+        Code.Unsupported,
+        p.at,
+        s"`$name` of ${plugin.shown} is not supported; $consequence"
+      )
 
   def finish(): Unit =
     for p <- plugin.properties if !taken(p) do
       p.value match
         case Value.Nested(inner) =>
-          session.warn(p.at, s"${plugin.shown} takes no ${inner.shown} here; it is ignored")
+          session.warn(
+            Code.UnknownParameter,
+            p.at,
+            s"${plugin.shown} takes no ${inner.shown} here; it is ignored"
+          )
         case Value.Reference(id) =>
-          session.warn(p.at, s"${plugin.shown} takes no `$id` here; it is ignored")
+          session.warn(
+            Code.UnknownParameter,
+            p.at,
+            s"${plugin.shown} takes no `$id` here; it is ignored"
+          )
         case _ =>
           session.warn(
+            Code.IdleParameter,
             p.at,
             s"`${p.name}` is not a parameter of ${plugin.shown}; it is ignored",
             Suggest.help(p.name, names)

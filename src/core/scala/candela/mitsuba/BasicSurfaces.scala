@@ -1,5 +1,7 @@
 package candela.mitsuba
 
+import candela.base.Code
+
 import candela.color.Rgb
 import candela.scenefile.Param
 
@@ -48,11 +50,15 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
         pigments.map((name, default) => Param.float(name, in.at, in.number(name, default).toFloat))
       else
         for (name, _) <- pigments if in.has(name) do
-          session.error(in.atOf(name), s"hair has `sigma_a` or `$name`, not both")
+          session.error(
+            Code.MissingParameter,
+            in.atOf(name),
+            s"hair has `sigma_a` or `$name`, not both"
+          )
         val shade = colors.shade(in, "sigma_a", Rgb.Black, Role.Unbounded)
         Seq(textures.color("sigma_a", shade, in.atOf("sigma_a"), scale))
     if scale != 1f && !in.has("sigma_a") then
-      session.warn(in.atOf("scale"), "`scale` is for `sigma_a`; it is ignored")
+      session.warn(Code.IdleParameter, in.atOf("scale"), "`scale` is for `sigma_a`; it is ignored")
     def number(name: String, property: String, default: Double) =
       Param.float(name, in.atOf(property), in.number(property, default).toFloat)
     made(in, "hair", isOneSided = false)(

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.SourcePos
+import candela.base.{Code, SourcePos}
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.math.clamp
 import candela.scenefile.{Param, ParamType}
@@ -51,12 +51,20 @@ final class Colors(session: Session):
         case Value.Nested(_) | Value.Reference(_) =>
           in.objectNamed(name).flatMap(ofPlugin(_, role, in, name))
         case other =>
-          session.error(p.at, s"`$name` must be a colour or a texture, found ${other.shown}")
+          session.error(
+            Code.ParameterValue,
+            p.at,
+            s"`$name` must be a colour or a texture, found ${other.shown}"
+          )
           None
 
   private def ofPlugin(p: Plugin, role: Role, in: Asked, name: String): Option[Shade] =
     if p.kind != "texture" && p.kind != "spectrum" then
-      session.error(p.at, s"`$name` of ${in.plugin.shown} must be a colour or a texture")
+      session.error(
+        Code.ParameterValue,
+        p.at,
+        s"`$name` of ${in.plugin.shown} must be a colour or a texture"
+      )
       None
     else if p.name == "irregular" then Some(session.of(p)(in => measured(irregular(in), role)))
     else if p.name == "regular" then Some(session.of(p)(in => measured(regular(in), role)))
@@ -95,7 +103,7 @@ final class Colors(session: Session):
   private def raw(in: Asked): Rgb = in.property("value").map(_.value) match
     case Some(Value.Triple(x, y, z)) => Rgb(x.toFloat, y.toFloat, z.toFloat)
     case None =>
-      session.error(in.at, s"${in.plugin.shown} must have a `value`")
+      session.error(Code.MissingParameter, in.at, s"${in.plugin.shown} must have a `value`")
       Rgb.White
     case _ => Rgb.gray(in.number("value", 1).toFloat)
 
@@ -109,6 +117,7 @@ final class Colors(session: Session):
       case c: Shade.Constant => c
       case Shade.Textured(t) =>
         session.warn(
+          Code.CorrectedValue,
           t.at,
           s"`$name` of ${in.plugin.shown} must be constant here; using the default"
         )
@@ -123,7 +132,11 @@ final class Colors(session: Session):
       case None =>
         val (lambda, values) = (list(in, "wavelengths"), list(in, "values"))
         if lambda.size != values.size then
-          Values.fail(in.at, s"${lambda.size} wavelengths, but ${values.size} values")
+          Values.fail(
+            Code.SpectrumFile,
+            in.at,
+            s"${lambda.size} wavelengths, but ${values.size} values"
+          )
         Values.spectrum(lambda.zip(values).flatMap((l, v) => Vector(l, v)), in.at)
 
   private def regular(in: Asked): Spectrum =
@@ -144,7 +157,11 @@ final class Colors(session: Session):
   /** Light with positive channels, too, is rendered. */
   def warnOfNegative(c: Rgb, at: SourcePos): Unit =
     if Math.min(c.r, Math.min(c.g, c.b)) < 0f && c.max <= 0f then
-      session.warn(at, "negative light, which takes light away in Mitsuba, is not supported")
+      session.warn(
+        Code.Unsupported,
+        at,
+        "negative light, which takes light away in Mitsuba, is not supported"
+      )
 
   /** Light of a constant colour, times a factor: of its spectrum, if it has one. pbrt-v4 scales
     * spectra of light to luminance 1.
@@ -161,7 +178,8 @@ final class Colors(session: Session):
 
   /** In W/(m² sr nm), as Mitsuba's. */
   private def blackbody(kelvin: Float, at: SourcePos): Rgb =
-    if !(kelvin > 0) then Values.fail(at, "the temperature of a black body must be positive")
+    if !(kelvin > 0) then
+      Values.fail(Code.ParameterValue, at, "the temperature of a black body must be positive")
     val relative = Spectrum.blackbody(kelvin)
     // Wien's displacement law, and Planck's at that wavelength
     val peak = 2.8977721e-3 / kelvin

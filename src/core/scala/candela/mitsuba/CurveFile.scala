@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, IoReason, SourcePos}
+import candela.base.{Code, InputFile, IoReason, SourcePos}
 import candela.math.{Position, Transform, Vec3, lerp}
 import candela.scenefile.{Param, ParamType}
 
@@ -52,7 +52,7 @@ object CurveFile:
   /** @param least control points of a curve */
   def read(file: InputFile, least: Int, at: SourcePos): Vector[CurvePoints] =
     def fail(why: String) =
-      Values.fail(at, s"can't read the curves `${file.path.getFileName}`: $why")
+      Values.fail(Code.DamagedMesh, at, s"can't read the curves `${file.path.getFileName}`: $why")
     val lines =
       try file.lines()
       catch case e: IOException => fail(IoReason(e))

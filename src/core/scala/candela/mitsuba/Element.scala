@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, IoReason, Problem, Refusal, SceneError, SourcePos}
+import candela.base.{Code, InputFile, IoReason, Problem, Refusal, SceneError, SourcePos}
 
 import java.io.{BufferedInputStream, InputStream, InputStreamReader, IOException, Reader}
 import java.nio.charset.{CharacterCodingException, Charset}
@@ -45,15 +45,18 @@ object XmlFile:
     catch
       case e: XMLStreamException =>
         val at = Option(e.getLocation).fold(SourcePos(name, 1, 1, includedFrom))(place)
-        throw SceneError(Problem.error(at, s"malformed XML: ${message(e)}"))
+        throw SceneError(Problem.error(Code.MalformedXml, at, s"malformed XML: ${message(e)}"))
       case e: SceneError => throw e
       // The JDK's parser has faults of its own with damaged document types
       case e: RuntimeException =>
         val at = SourcePos(name, 1, 1, includedFrom)
-        throw SceneError(Problem.error(at, s"malformed XML: ${message(e)}"))
+        throw SceneError(Problem.error(Code.MalformedXml, at, s"malformed XML: ${message(e)}"))
       case e: IOException =>
         val why = s"can't read `$name`: ${IoReason(e)}"
-        throw SceneError(includedFrom.fold(Problem.general(why))(Problem.error(_, why)))
+        throw SceneError(includedFrom.fold(Problem.general(
+          Code.Unreadable,
+          why
+        ))(Problem.error(Code.MalformedXml, _, why)))
 
   /** Decoded here, as the JDK's parser prints what it can't decode. The encoding is that of the
     * byte order mark or of the declaration, else UTF-8.
@@ -111,7 +114,11 @@ object XmlFile:
       */
     private def element(at: SourcePos, depth: Int): Element =
       if depth > Deepest then
-        throw SceneError(Problem.error(at, s"more than $Deepest elements within each other"))
+        throw SceneError(Problem.error(
+          Code.Circle,
+          at,
+          s"more than $Deepest elements within each other"
+        ))
       val tag = reader.getLocalName
       val attributes = (0 until reader.getAttributeCount)
         .map(i => reader.getAttributeLocalName(i) -> reader.getAttributeValue(i)).toMap
@@ -122,7 +129,7 @@ object XmlFile:
         if event == START then children += element(before, depth + 1)
         else if event == ENTITY then
           val name = reader.getLocalName
-          throw SceneError(Problem.error(before, s"unknown entity `&$name;`"))
+          throw SceneError(Problem.error(Code.MalformedXml, before, s"unknown entity `&$name;`"))
         val end = place(reader.getLocation)
         // The parser knows that text ends once it has read the character after it
         before = if event == TEXT then end.copy(column = (end.column - 1).max(1)) else end

@@ -1,5 +1,7 @@
 package candela.mitsuba
 
+import candela.base.Code
+
 import candela.color.Rgb
 import candela.math.Transform
 import candela.scenefile.{Declaration, Dialect, GraphicsState, LightDescription, Param, ParamType}
@@ -16,7 +18,7 @@ final class Emitters(
   /** The area light of a shape. */
   def area(p: Plugin): Option[Declaration] =
     if p.name != "area" then
-      session.error(p.at, s"a shape can't contain an ${p.shown}; expected \"area\"")
+      session.error(Code.Nesting, p.at, s"a shape can't contain an ${p.shown}; expected \"area\"")
       None
     else
       session.of(p): in =>
@@ -48,7 +50,7 @@ final class Emitters(
         case "directional" => Some(directional(in))
         case "projector" => projector(in, around)
         case "area" =>
-          session.warn(in.at, "an emitter \"area\" outside a shape gives no light")
+          session.warn(Code.Nesting, in.at, "an emitter \"area\" outside a shape gives no light")
           in.ignore("radiance")
           None
         case _ =>
@@ -74,7 +76,7 @@ final class Emitters(
     val scale = in.number("scale", 1).toFloat
     for
       name <- in.text("filename").orElse:
-        session.error(in.at, "an envmap must have a `filename`")
+        session.error(Code.MissingParameter, in.at, "an envmap must have a `filename`")
         None
       path <- session.file(name, in.atOf("filename"), "skipped")
     yield
@@ -128,7 +130,11 @@ final class Emitters(
         Some(lit(Textures.rgb("I", c * scale, in.at)))
       case Shade.Textured(t) =>
         for axis <- in.text("fov_axis") if axis != "x" do
-          session.warn(in.atOf("fov_axis"), "only x can be the axis beside an image; using x")
+          session.warn(
+            Code.CorrectedValue,
+            in.atOf("fov_axis"),
+            "only x can be the axis beside an image; using x"
+          )
         picture(t).map: (_, params) =>
           lit((Textures.rgb("I", scale, in.at) +: slides(params))*)
 
@@ -162,14 +168,18 @@ final class Emitters(
       more: Asked => Seq[Param] = whole
   ): Option[(String, Seq[Param])] =
     if p.name != "bitmap" then
-      session.warn(p.at, s"${p.shown} can't emit here; using nothing")
+      session.warn(Code.Unsupported, p.at, s"${p.shown} can't emit here; using nothing")
       None
     else
       session.of(p): in =>
         in.ignore("format", "accel")
         val others = more(in)
         if in.flag("raw", false) then
-          session.warn(in.atOf("raw"), "images that emit are decoded if they have 8 bits")
+          session.warn(
+            Code.CorrectedValue,
+            in.atOf("raw"),
+            "images that emit are decoded if they have 8 bits"
+          )
         for
           name <- in.text("filename")
           path <- session.file(name, in.atOf("filename"), "skipped")

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, Limit, Problem, SceneError, SceneFolder, SourcePos, Suggest}
+import candela.base.{Code, InputFile, Limit, Problem, SceneError, SceneFolder, SourcePos, Suggest}
 
 import java.io.ByteArrayInputStream
 import java.nio.charset.StandardCharsets.UTF_8
@@ -53,14 +53,18 @@ final class Expansion(
     if unused.nonEmpty then
       val name = unused.min
       val help = Suggest.help(name, values.keySet.toSet -- unused)
-      throw SceneError(Problem.general(s"the scene has no parameter `$$$name`", help))
+      throw SceneError(Problem.general(
+        Code.SceneParameter,
+        s"the scene has no parameter `$$$name`",
+        help
+      ))
     Expanded(elements, aliases.toMap, folders, sources.toVector)
 
   private def folders: Vector[Path] = paths.toVector :+ folder.path
 
   /** @param files files being read, innermost first */
   private def contents(root: Element, files: List[InputFile]): Vector[Element] =
-    if root.tag != "scene" then fail(root, s"expected <scene>, found <${root.tag}>")
+    if root.tag != "scene" then fail(Code.Nesting, root, s"expected <scene>, found <${root.tag}>")
     val isOld = root("version").flatMap(_.takeWhile(_ != '.').toIntOption).exists(_ < 2)
     root.children.flatMap: child =>
       folder.allowance.checkTime(Some(child.at))
@@ -75,7 +79,8 @@ final class Expansion(
         case "path" =>
           val e = substituted(child)
           val name = required(e, "value")
-          if !SceneFolder.isName(name) then fail(e, s"`$name` is not a valid file name")
+          if !SceneFolder.isName(name) then
+            fail(Code.NoSuchFile, e, s"`$name` is not a valid file name")
           paths ++= folder.existing(folders, name, Some(e.at)).map(_.path)
           Vector.empty
         case "alias" =>
@@ -87,18 +92,18 @@ final class Expansion(
 
   private def included(e: Element, files: List[InputFile]): Vector[Element] =
     val name = required(e, "filename")
-    if !SceneFolder.isName(name) then fail(e, s"`$name` is not a valid file name")
+    if !SceneFolder.isName(name) then fail(Code.NoSuchFile, e, s"`$name` is not a valid file name")
     val file = folder.existing(folders, name, Some(e.at)).filter(_.isRegular).getOrElse:
       val (message, help) =
         folder.absence(name, Some(e.at), s"no such file: `$name`", folders)
-      fail(e, message, help)
+      fail(Code.NoSuchFile, e, message, help)
     folder.allowance.check(Limit.Depth, files.size, Some(e.at)):
       s"includes are nested ${files.size} deep"
-    if files.exists(_.isSame(file)) then fail(e, s"`$name` includes itself")
+    if files.exists(_.isSame(file)) then fail(Code.IncludeCircle, e, s"`$name` includes itself")
     else if files.size > Expansion.MostIncludes then
-      fail(e, s"more than ${Expansion.MostIncludes} files include each other")
+      fail(Code.IncludeCircle, e, s"more than ${Expansion.MostIncludes} files include each other")
     else if sources.size > Expansion.MostFiles then
-      fail(e, s"more than ${Expansion.MostFiles} files are included")
+      fail(Code.IncludeCircle, e, s"more than ${Expansion.MostFiles} files are included")
     sources += file.path
     contents(root(file, e), file :: files)
 
@@ -106,6 +111,7 @@ final class Expansion(
     */
   private def root(file: InputFile, include: Element): Element =
     def failed() = fail(
+      Code.Nesting,
       include,
       s"can't include `$file`: it is no scene: expected <scene>, found what is not shown here, " +
         "as it is outside of the scene's folder"
@@ -118,7 +124,11 @@ final class Expansion(
       if root.tag == "scene" then root else failed()
 
   private def required(e: Element, attribute: String): String =
-    e(attribute).getOrElse(fail(e, s"<${e.tag}> must have the attribute `$attribute`"))
+    e(attribute).getOrElse(fail(
+      Code.UnknownElement,
+      e,
+      s"<${e.tag}> must have the attribute `$attribute`"
+    ))
 
   private def substituted(e: Element): Element =
     val attributes =
@@ -136,6 +146,7 @@ final class Expansion(
           name,
           throw SceneError(
             Problem.error(
+              Code.SceneParameter,
               at,
               s"undefined parameter `$$$name`",
               Suggest.nearest(name, values.keys).map(n => s"did you mean `$$$n`?").orElse(
@@ -147,12 +158,17 @@ final class Expansion(
         room -= value.length
         if room < 0 then
           val message = s"values of parameters add up to more than ${Expansion.MostText} characters"
-          throw SceneError(Problem.error(at, message))
+          throw SceneError(Problem.error(Code.TooLarge, at, message))
         java.util.regex.Matcher.quoteReplacement(value)
     )
 
-  private def fail(e: Element, message: String, help: Option[String] = None): Nothing =
-    throw SceneError(Problem.error(e.at, message, help))
+  private def fail(
+      code: Code,
+      e: Element,
+      message: String,
+      help: Option[String] = None
+  ): Nothing =
+    throw SceneError(Problem.error(code, e.at, message, help))
 
 object Expansion:
   private val Variable = raw"\$$(\w+)".r

@@ -1,5 +1,7 @@
 package candela.mitsuba
 
+import candela.base.Code
+
 /** The field of view of cameras and projectors, by an angle or a focal length. */
 private[mitsuba] object FieldOfView:
 
@@ -17,7 +19,11 @@ private[mitsuba] object FieldOfView:
     val half = (in.number("fov"), focal) match
       case (Some(degrees), _) =>
         if !(degrees > 0 && degrees < 180) then
-          session.error(in.atOf("fov"), "`fov` must be between 0 and 180 degrees")
+          session.error(
+            Code.ParameterValue,
+            in.atOf("fov"),
+            "`fov` must be between 0 and 180 degrees"
+          )
         axis match
           case "x" => tan(degrees)
           case "y" => tan(degrees) * aspect

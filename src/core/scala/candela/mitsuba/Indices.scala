@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.Suggest
+import candela.base.{Code, Suggest}
 import candela.color.Rgb
 
 /** Materials that Mitsuba knows by name. */
@@ -84,7 +84,7 @@ object Indices:
     metals.getOrElse(
       name.stripSuffix("_palik"), {
         val help = Suggest.help(name, metals.keys)
-        in.session.error(in.atOf("material"), s"unknown metal `$name`", help)
+        in.session.error(Code.UnknownType, in.atOf("material"), s"unknown metal `$name`", help)
         metals("Cu")
       }
     )
@@ -96,7 +96,12 @@ object Indices:
         dielectrics.getOrElse(
           material.toLowerCase, {
             val help = Suggest.help(material, dielectrics.keys)
-            in.session.error(in.atOf(name), s"unknown dielectric `$material`", help)
+            in.session.error(
+              Code.UnknownType,
+              in.atOf(name),
+              s"unknown dielectric `$material`",
+              help
+            )
             1.5
           }
         )

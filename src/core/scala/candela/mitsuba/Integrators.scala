@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Limit, SourcePos}
+import candela.base.{Code, Limit, SourcePos}
 import candela.scenefile.{Declaration, Param}
 
 /** Translates integrators. */
@@ -10,6 +10,7 @@ final class Integrators(session: Session):
     val roulette = in.integer("rr_depth", 5)
     if roulette < 1 then
       session.warn(
+        Code.IdleParameter,
         in.atOf("rr_depth"),
         s"`rr_depth` is $roulette; Mitsuba takes 1 and more only. It is ignored here"
       )
@@ -31,7 +32,12 @@ final class Integrators(session: Session):
         in.ignore("aovs")
         if p.name == "aov" then
           val layers = Some("--aov writes layers: depth, normal, albedo and others")
-          session.warn(in.at, "the layers of \"aov\" are chosen on the command line", layers)
+          session.warn(
+            Code.Unsupported,
+            in.at,
+            "the layers of \"aov\" are chosen on the command line",
+            layers
+          )
         in.nested("integrator").headOption.fold(Integrators.default(session, in.at))(apply)
       case _ =>
         val depth = "using \"path\""
@@ -45,11 +51,16 @@ final class Integrators(session: Session):
     val edges = if depth < 0 then Integrators.unlimited(session) else Math.max(0, depth - 1)
     if depth < -1 then
       session.warn(
+        Code.CorrectedValue,
         in.atOf("max_depth"),
         s"`max_depth` is $depth; Mitsuba takes 0 and more, or -1 for no limit, which is used"
       )
     if depth == 0 then
-      session.warn(in.atOf("max_depth"), "paths of depth 0 see nothing; the image is black")
+      session.warn(
+        Code.DarkScene,
+        in.atOf("max_depth"),
+        "paths of depth 0 see nothing; the image is black"
+      )
     session.declare(
       "Integrator",
       name,

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.SourcePos
+import candela.base.{Code, SourcePos}
 import candela.color.Rgb
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{GraphicsState, MediumDescription, Param, ParamType}
@@ -88,7 +88,11 @@ final class Media(session: Session, colors: Colors):
       case Some(v) if v.name == "constvolume" =>
         colors.everywhere(v, Rgb.gray(default), Role.Unbounded)
       case Some(v) =>
-        session.warn(v.at, s"${v.shown} is not supported as `$name`; using $default")
+        session.warn(
+          Code.Unsupported,
+          v.at,
+          s"${v.shown} is not supported as `$name`; using $default"
+        )
         Rgb.gray(default)
       case None => colors.fixed(in, name, Rgb.gray(default), Role.Reflectance)
 
@@ -136,7 +140,7 @@ final class Media(session: Session, colors: Colors):
   /** A grid of albedos alone: empty beyond its box, unlike Mitsuba's. */
   private def shares(in: Asked, v: Plugin, phase: Phase, scale: Float): Option[MediumDescription] =
     session.of(v)(volumes(_)).map: albedo =>
-      session.warn(v.at, "the medium ends at the box of its albedos")
+      session.warn(Code.CorrectedValue, v.at, "the medium ends at the box of its albedos")
       val parted = albedo.sharing(fixed(in, "sigma_t", 1f))
       placed(in, "rgbgrid", cells(in, parted, v.at, phase, scale), albedo, v.at)
 

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{SceneError, SceneFolder, Severity, SourcePos}
+import candela.base.{Code, SceneError, SceneFolder, Severity, SourcePos}
 import candela.scenefile.{Declaration, Dialect, Excerpts, SceneDescription}
 
 import java.nio.file.Path
@@ -68,11 +68,20 @@ private final class Translation(session: Session, file: Path):
     val scene = SceneDescription(Dialect.Mitsuba)
     val seen = of("sensor").toList match
       case Nil =>
-        session.error(start, "the scene has no sensor", Some("add <sensor type=\"perspective\">"))
+        session.error(
+          Code.Nesting,
+          start,
+          "the scene has no sensor",
+          Some("add <sensor type=\"perspective\">")
+        )
         scene
       case first :: others =>
         others.foreach(o =>
-          session.warn(o.at, "only the first sensor is rendered; this one is ignored")
+          session.warn(
+            Code.Unsupported,
+            o.at,
+            "only the first sensor is rendered; this one is ignored"
+          )
         )
         session.attempt(views.seen(first, scene)).getOrElse(scene)
     val integrator =
@@ -100,5 +109,6 @@ private final class Translation(session: Session, file: Path):
 
   /** Paths from lights find no coverage. */
   private def opaque(film: Declaration): Declaration =
-    for p <- film.param("alpha") do session.warn(p.at, "\"ptracer\" gives no alpha here")
+    for p <- film.param("alpha") do
+      session.warn(Code.Unsupported, p.at, "\"ptracer\" gives no alpha here")
     film.copy(params = film.params.filterNot(_.name == "alpha"))

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{FloatBuffer, InputFile, IntBuffer, IoReason, loop, RestBuffer, SourcePos}
+import candela.base.{Code, FloatBuffer, InputFile, IntBuffer, IoReason, RestBuffer, SourcePos, loop}
 
 import java.io.IOException
 import java.nio.ByteBuffer
@@ -19,7 +19,7 @@ object ObjFile:
     try new ObjReader(file.map(), file, at).read(flipped)
     catch
       case e: IOException =>
-        Values.fail(at, s"can't read the mesh `$file`: ${IoReason(e)}")
+        Values.fail(Code.DamagedMesh, at, s"can't read the mesh `$file`: ${IoReason(e)}")
 
 private final class ObjReader(in: ByteBuffer, file: InputFile, at: SourcePos):
   private val p, n, t = FloatBuffer()
@@ -36,7 +36,8 @@ private final class ObjReader(in: ByteBuffer, file: InputFile, at: SourcePos):
   private var hasNormals, hasUvs = true
   private val token = StringBuilder()
 
-  private def fail(why: String): Nothing = Values.fail(at, s"mesh `$file`, line $line: $why")
+  private def fail(why: String): Nothing =
+    Values.fail(Code.DamagedMesh, at, s"mesh `$file`, line $line: $why")
 
   def read(flipped: Boolean): Mesh =
     while in.hasRemaining do

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.SourcePos
+import candela.base.{Code, SourcePos}
 import candela.scenefile.{Param, ParamType}
 
 /** A phase function, as parameters of a medium. */
@@ -42,6 +42,7 @@ object Phase:
       of("tabulated", values.size.toFloat +: values)
     else
       in.session.error(
+        Code.ParameterValue,
         in.atOf("values"),
         s"`values` of ${in.plugin.shown} must be two numbers or more, at least 0, and not all 0, " +
           s"found ${values.size}: ${values.take(8).mkString(", ")}"
@@ -58,6 +59,7 @@ object Phase:
         ))
       case found =>
         session.error(
+          Code.ParameterValue,
           in.at,
           s"${in.plugin.shown} must have two phase functions, found ${found.size}"
         )

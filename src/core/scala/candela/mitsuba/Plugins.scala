@@ -1,5 +1,7 @@
 package candela.mitsuba
 
+import candela.base.Code
+
 /** The types of Mitsuba 3 that are read, by the element that names them. Those it has besides are
   * known, too, so that messages can tell them from misspelled ones.
   */
@@ -62,9 +64,10 @@ object Plugins:
   /** Reports a type that is not read: a warning if Mitsuba has it. */
   def unsupported(p: Plugin, instead: String, session: Session): Unit =
     if others.getOrElse(p.kind, Vector.empty).contains(p.name) then
-      session.warn(p.at, s"${p.shown} is not supported; $instead")
+      session.warn(Code.Unsupported, p.at, s"${p.shown} is not supported; $instead")
     else
       session.missing(
+        Code.UnknownType,
         p.at,
         s"unknown ${p.shown}",
         instead,

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{FloatBuffer, InputFile, IntBuffer, IoReason, RestBuffer, SourcePos}
+import candela.base.{Code, FloatBuffer, InputFile, IntBuffer, IoReason, RestBuffer, SourcePos}
 
 import java.io.{ByteArrayInputStream, EOFException, IOException, InputStream}
 import java.nio.{ByteBuffer, ByteOrder}
@@ -16,7 +16,7 @@ object SerializedFile:
     * @param at    position of the reference in the scene
     */
   def read(from: InputFile, index: Int, at: SourcePos): Mesh =
-    def fail(why: String) = Values.fail(at, s"can't read the mesh `$from`: $why")
+    def fail(why: String) = Values.fail(Code.DamagedMesh, at, s"can't read the mesh `$from`: $why")
     try
       val file = from.map().order(ByteOrder.LITTLE_ENDIAN)
       if file.limit() < 8 || file.getShort(0) != Magic then fail("it is not a serialized mesh")

@@ -1,6 +1,8 @@
 package candela.mitsuba
 
-import candela.base.{Allowance, InputFile, Problem, SceneError, SceneFolder, SourcePos, Suggest}
+import candela.base.{
+  Code, Allowance, InputFile, Problem, SceneError, SceneFolder, SourcePos, Suggest
+}
 import candela.scenefile.{Declaration, Dialect, Param, Problems}
 
 import java.nio.file.Path
@@ -33,7 +35,7 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
     def collect(p: Plugin): Unit =
       for id <- p.id do
         if all.contains(id) then
-          error(p.at, s"the id `$id` is repeated; the first is at ${all(id).at}")
+          error(Code.Redefined, p.at, s"the id `$id` is repeated; the first is at ${all(id).at}")
         else all(id) = p
       p.properties.map(_.value).foreach:
         case Value.Nested(inner) => collect(inner)
@@ -44,12 +46,18 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
     all.toMap
 
   def report(p: Problem): Unit = if seen.add(p) then problems.add(p)
-  def warn(at: SourcePos, message: String, help: => Option[String] = None): Unit =
-    report(Problem.warning(at, message).withHelp(shown(help)))
-  def error(at: SourcePos, message: String, help: => Option[String] = None): Unit =
-    report(Problem.error(at, message).withHelp(shown(help)))
-  def missing(at: SourcePos, message: String, standIn: String, help: => Option[String]): Unit =
-    report(Problem.missing(at, message, standIn, keepGoing).withHelp(shown(help)))
+  def warn(code: Code, at: SourcePos, message: String, help: => Option[String] = None): Unit =
+    report(Problem.warning(code, at, message).withHelp(shown(help)))
+  def error(code: Code, at: SourcePos, message: String, help: => Option[String] = None): Unit =
+    report(Problem.error(code, at, message).withHelp(shown(help)))
+  def missing(
+      code: Code,
+      at: SourcePos,
+      message: String,
+      standIn: String,
+      help: => Option[String]
+  ): Unit =
+    report(Problem.missing(code, at, message, standIn, keepGoing).withHelp(shown(help)))
 
   /** Not looked for in scenes where everything is missing. */
   private def shown(help: => Option[String]): Option[String] =
@@ -71,6 +79,7 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
     val there = known(id)
     if there.isEmpty then
       error(
+        Code.Undefined,
         at,
         s"no object has the id `$id`",
         Suggest.help(id, byId.keySet.view ++ expanded.aliases.keySet)
@@ -89,14 +98,14 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
   /** An existing file, which becomes part of the scene. */
   def file(name: String, at: SourcePos, standIn: String): Option[InputFile] =
     if !SceneFolder.isName(name) then
-      missing(at, s"`$name` is not a valid file name", standIn, None)
+      missing(Code.NoSuchFile, at, s"`$name` is not a valid file name", standIn, None)
       None
     else
       val there = found(name, at).map(noted)
       if there.isEmpty then
         val nothing = s"no such file: `$name`"
         val (message, help) = folder.absence(name, Some(at), nothing, expanded.folders)
-        missing(at, message, standIn, help)
+        missing(Code.NoSuchFile, at, message, standIn, help)
       there
 
   /** The name of a file for a parameter, relative to the folder of the scene. */

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, loop}
+import candela.base.{Code, InputFile, loop}
 import candela.build.shapes.PlyFile
 import candela.math.Transform
 import candela.scenefile.*
@@ -32,13 +32,17 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         for g <- in.nested("shape").headOption do
           val place = GraphicsState.still(in.transform("to_world"))
           if g.name != "shapegroup" then
-            session.error(in.at, "an instance must contain a shapegroup, or refer to one")
+            session.error(
+              Code.MissingParameter,
+              in.at,
+              "an instance must contain a shapegroup, or refer to one"
+            )
           else placed += InstanceDescription(group(g), in.at, place)
       Vector.empty
     case "merge" =>
       depth += 1
       if depth > Session.Deepest then
-        Values.fail(p.at, s"more than ${Session.Deepest} shapes within each other")
+        Values.fail(Code.Circle, p.at, s"more than ${Session.Deepest} shapes within each other")
       try session.of(p)(_.nested("shape").flatMap(parts))
       finally depth -= 1
     case _ => session.of(p)(one)
@@ -54,7 +58,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         val inner = session.of(p)(_.nested("shape"))
         val flat = inner.filterNot: s =>
           val isNested = s.name == "instance" || s.name == "shapegroup"
-          if isNested then session.error(s.at, s"a shapegroup can't contain an ${s.shown}")
+          if isNested then
+            session.error(Code.Nesting, s.at, s"a shapegroup can't contain an ${s.shown}")
           isNested
         (name, flat.flatMap(parts))
       }
@@ -64,7 +69,9 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     in.ignore("silhouette_sampling_weight", "filename_id")
     val emitter = in.nested("emitter").headOption
     val bsdf = in.nested("bsdf")
-    bsdf.drop(1).foreach(b => session.warn(b.at, "a shape has one bsdf; this one is ignored"))
+    bsdf.drop(1).foreach(b =>
+      session.warn(Code.Nesting, b.at, "a shape has one bsdf; this one is ignored")
+    )
     val attributes = bsdf.headOption.flatMap(attributesFor(in, _))
     val (surface, material) = bsdf.headOption match
       case Some(p) =>
@@ -113,6 +120,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     else
       if types("bitmap") || types("checkerboard") then
         session.warn(
+          Code.Unsupported,
           in.at,
           "textures by u and v are not supported beside a mesh_attribute; they lie elsewhere"
         )
@@ -179,7 +187,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val (x1, y1, z1) = in.triple("p1").getOrElse((0.0, 0.0, 1.0))
     val (dx, dy, dz) = (x1 - x0, y1 - y0, z1 - z0)
     val length = Math.sqrt(dx * dx + dy * dy + dz * dz)
-    if !(length > 0) then session.error(in.at, "the ends of a cylinder must differ")
+    if !(length > 0) then
+      session.error(Code.ParameterValue, in.at, "the ends of a cylinder must differ")
     Option.when(length > 0):
       val frame = Shapes.frame(dx / length, dy / length, dz / length)
       (toWorld * Transform.translate(x0, y0, z0) * frame, length)
@@ -197,7 +206,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
 
   private def fileOf(in: Asked): Option[InputFile] = in.text("filename") match
     case None =>
-      session.error(in.at, s"${in.plugin.shown} must have a `filename`")
+      session.error(Code.MissingParameter, in.at, s"${in.plugin.shown} must have a `filename`")
       None
     case Some(name) => session.file(name, in.atOf("filename"), "skipped")
 

@@ -1,5 +1,7 @@
 package candela.mitsuba
 
+import candela.base.Code
+
 import candela.color.Rgb
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{Declaration, Param, ParamType}
@@ -17,16 +19,21 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
         val both = Skies.Times.filter(in.has)
         if both.nonEmpty then
           session.error(
+            Code.ExclusiveParameters,
             in.atOf(both.head),
             s"`sun_direction` and `${both.head}` are mutually exclusive"
           )
         toWorld.inverse.vector(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
       case None => SunPosition(if in.plugin.name == "sunsky" then fixed(in) else timed(in))
     if in.flag("complex_sun", false) then
-      session.warn(in.atOf("complex_sun"), "`complex_sun` is not supported; using a uniform disk")
+      session.warn(
+        Code.Unsupported,
+        in.atOf("complex_sun"),
+        "`complex_sun` is not supported; using a uniform disk"
+      )
     val albedo = colors.fixed(in, "albedo", Rgb.gray(0.3f), Role.Reflectance)
     if Seq(albedo.r, albedo.g, albedo.b).exists(c => !(c >= 0f && c <= 1f)) then
-      session.error(in.atOf("albedo"), "`albedo` must be from 0 to 1")
+      session.error(Code.ParameterValue, in.atOf("albedo"), "`albedo` must be from 0 to 1")
     val numbers = Seq(
       number(in, "turbidity", "turbidity", 3, "from 1 to 10")(x => x >= 1 && x <= 10),
       number(in, "sun_aperture", "sunaperture", 0.5358, "between 0 and 180")(x => x > 0 && x < 180),
@@ -51,7 +58,7 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
     val x = in.number(name, default)
     if isIn(x) then x
     else
-      session.error(in.atOf(name), s"`$name` must be $range, found $x")
+      session.error(Code.ParameterValue, in.atOf(name), s"`$name` must be $range, found $x")
       default
 
   private def fixed(in: Asked): PlaceAndTime =
@@ -74,15 +81,29 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
       checked(in, name, default, "from 0 to 24")(x => x >= 0 && x <= 24)
     val (from, to) = (hour("window_start_time", 7), hour("window_end_time", 19))
     if from > to then
-      session.error(in.atOf("window_end_time"), "`window_end_time` is before `window_start_time`")
+      session.error(
+        Code.ParameterValue,
+        in.atOf("window_end_time"),
+        "`window_end_time` is before `window_start_time`"
+      )
     val (open, close) = (in.number("shutter_open", 0), in.number("shutter_close", 1))
     if !(close > open) then
-      session.error(in.atOf("shutter_close"), "`shutter_close` must be after `shutter_open`")
+      session.error(
+        Code.ParameterValue,
+        in.atOf("shutter_close"),
+        "`shutter_close` must be after `shutter_open`"
+      )
     val count = SunPosition.days(end) - SunPosition.days(at(in, year, month, day, 0))
-    if count < 0 then session.error(in.at, "the period of \"timed_sunsky\" ends before it begins")
+    if count < 0 then
+      session.error(
+        Code.ParameterValue,
+        in.at,
+        "the period of \"timed_sunsky\" ends before it begins"
+      )
     val (first, last) = shutter
     if last > first then
       session.warn(
+        Code.CorrectedValue,
         in.at,
         "the sun can't move while the shutter is open; using its position at the middle of the time"
       )

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.SourcePos
+import candela.base.{Code, SourcePos}
 import candela.scenefile.{Declaration, MaterialRef, Param, ParamType}
 
 import scala.collection.mutable
@@ -39,7 +39,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       (p, textures.mesh), {
         depth += 1
         if depth > Session.Deepest then
-          Values.fail(p.at, s"more than ${Session.Deepest} BSDFs refer to each other")
+          Values.fail(Code.Circle, p.at, s"more than ${Session.Deepest} BSDFs refer to each other")
         val surface =
           try session.of(p)(translated)
           finally depth -= 1
@@ -96,7 +96,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     in.nested("bsdf").toList match
       case only :: Nil => apply(only)
       case Nil =>
-        session.error(in.at, s"${in.plugin.shown} must contain a bsdf")
+        session.error(Code.MissingParameter, in.at, s"${in.plugin.shown} must contain a bsdf")
         basic.grey(in)
       case first :: others =>
         surplus(in, others)
@@ -104,12 +104,20 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
 
   private def surplus(in: Asked, others: List[Plugin]): Unit =
     for p <- others do
-      session.warn(p.at, s"${in.plugin.shown} has one bsdf too many; this one is ignored")
+      session.warn(
+        Code.Nesting,
+        p.at,
+        s"${in.plugin.shown} has one bsdf too many; this one is ignored"
+      )
 
   private def twoSided(in: Asked): Surface =
     val inner = in.nested("bsdf").toList
     for p <- inner.find(p => kinds.isTransmissive(apply(p))) do
-      session.warn(p.at, "Mitsuba refuses a bsdf \"twosided\" of one that light passes through")
+      session.warn(
+        Code.Nesting,
+        p.at,
+        "Mitsuba refuses a bsdf \"twosided\" of one that light passes through"
+      )
     inner match
       case front :: back :: others =>
         surplus(in, others)
@@ -120,7 +128,11 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
 
   private def sides(in: Asked, front: Plugin, back: Plugin): Surface =
     for p <- List(front, back).distinct; alpha <- apply(p).alpha if front ne back do
-      session.warn(alpha.at, "a mask of one side alone is not supported; it is opaque")
+      session.warn(
+        Code.Unsupported,
+        alpha.at,
+        "a mask of one side alone is not supported; it is opaque"
+      )
     val names = List(front, back).map(p => nameOf(p, apply(p)))
     Surface(
       session.declare(
@@ -188,7 +200,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     val maps = in.nested("texture", "normalmap") ++ in.nested("texture")
     val file = maps.headOption.flatMap: t =>
       if t.name != "bitmap" then
-        session.warn(t.at, "only bitmaps can be normal maps; this one is ignored")
+        session.warn(Code.Unsupported, t.at, "only bitmaps can be normal maps; this one is ignored")
         None
       else
         session.of(t): of =>
@@ -216,7 +228,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
           Param.floats(ParamType.Float, "normalmapuv", d.at, mapping.toArray)
         plain.copy(params = (plain.params :+ Param.string("normalmap", d.at, file)) ++ place)
       case Relief.Normals(_, _) =>
-        session.warn(d.at, "normal maps of this BSDF are not supported; ignored")
+        session.warn(Code.Unsupported, d.at, "normal maps of this BSDF are not supported; ignored")
         d
     s.copy(material = material)
 
@@ -231,7 +243,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
           nameOf(p, if isOneSided then s else one(s))
         mixed(in.at, first, second, weight).copy(isOneSided = isOneSided)
       case _ =>
-        session.error(in.at, "blendbsdf must contain two bsdfs")
+        session.error(Code.MissingParameter, in.at, "blendbsdf must contain two bsdfs")
         basic.grey(in)
 
 /** What is known of materials by their declarations.

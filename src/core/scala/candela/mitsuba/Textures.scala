@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{SourcePos, Suggest}
+import candela.base.{Code, SourcePos, Suggest}
 import candela.color.Rgb
 import candela.scenefile.{
   AnimatedTransform, Declaration, GraphicsState, Param, ParamType, TextureDescription
@@ -53,7 +53,11 @@ final class Textures(session: Session, colors: Colors):
       (p, valueType, scale, mesh), {
         depth += 1
         if depth > Session.Deepest then
-          Values.fail(p.at, s"more than ${Session.Deepest} textures refer to each other")
+          Values.fail(
+            Code.Circle,
+            p.at,
+            s"more than ${Session.Deepest} textures refer to each other"
+          )
         try define(p, valueType, scale)
         finally depth -= 1
       }
@@ -103,7 +107,7 @@ final class Textures(session: Session, colors: Colors):
     val mapping = coordinates(in, flipped = true)
     for
       name <- in.text("filename").orElse:
-        session.error(at, "a bitmap must have a `filename`")
+        session.error(Code.MissingParameter, at, "a bitmap must have a `filename`")
         None
       path <- session.file(name, in.atOf("filename"), s"using ${Textures.Fallback.r}")
     yield "imagemap" -> (Seq(
@@ -132,7 +136,11 @@ final class Textures(session: Session, colors: Colors):
   ): Option[((String, Seq[Param]), AnimatedTransform)] =
     for
       v <- in.objectNamed("volume").filter(_.name == "gridvolume").orElse:
-        session.error(in.at, s"${in.plugin.shown} must have a `volume` of type \"gridvolume\"")
+        session.error(
+          Code.MissingParameter,
+          in.at,
+          s"${in.plugin.shown} must have a `volume` of type \"gridvolume\""
+        )
         None
       grid <- session.of(v)(volumes(_))
     yield
@@ -147,6 +155,7 @@ final class Textures(session: Session, colors: Colors):
     val found = mesh.flatMap(_.grid(name))
     if found.isEmpty then
       session.warn(
+        Code.CorrectedValue,
         in.atOf("name"),
         s"the mesh has no attribute `$name`; using ${Textures.Fallback.r}",
         mesh.flatMap(m => Suggest.help(name, m.names.toVector))

@@ -1,6 +1,8 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, IoReason, Problem, SceneError, SceneFolder, SourcePos, Suggest}
+import candela.base.{
+  Code, InputFile, IoReason, Problem, SceneError, SceneFolder, SourcePos, Suggest
+}
 import candela.color.{Rgb, Spectrum}
 import candela.math.Transform
 
@@ -22,8 +24,17 @@ final class Values(
   /** The object of an element; children with errors are left out. */
   def plugin(e: Element): Option[Plugin] = attempt:
     if !Kinds.contains(e.tag) then
-      fail(e.at, s"unknown element <${e.tag}>", Suggest.help(e.tag, Kinds ++ Tags))
-    val name = e("type").getOrElse(fail(e.at, s"<${e.tag}> must have the attribute `type`"))
+      fail(
+        Code.UnknownElement,
+        e.at,
+        s"unknown element <${e.tag}>",
+        Suggest.help(e.tag, Kinds ++ Tags)
+      )
+    val name = e("type").getOrElse(fail(
+      Code.UnknownElement,
+      e.at,
+      s"<${e.tag}> must have the attribute `type`"
+    ))
     Plugin(e.tag, name, e("id"), e.at, e.children.flatMap(property))
 
   private def attempt[A](body: => A): Option[A] =
@@ -42,18 +53,27 @@ final class Values(
         Property(e("name").getOrElse(""), v, e.at)
 
   private def value(e: Element): Value =
-    def text = e("value").getOrElse(fail(e.at, s"<${e.tag}> must have the attribute `value`"))
+    def text = e("value").getOrElse(fail(
+      Code.UnknownElement,
+      e.at,
+      s"<${e.tag}> must have the attribute `value`"
+    ))
     if e.tag != "ref" && e("name").isEmpty then
       if !Tags.contains(e.tag) then
-        fail(e.at, s"unknown element <${e.tag}>", Suggest.help(e.tag, Kinds ++ Tags))
-      else fail(e.at, s"<${e.tag}> must have the attribute `name`")
+        fail(
+          Code.UnknownElement,
+          e.at,
+          s"unknown element <${e.tag}>",
+          Suggest.help(e.tag, Kinds ++ Tags)
+        )
+      else fail(Code.UnknownElement, e.at, s"<${e.tag}> must have the attribute `name`")
     e.tag match
       case "float" | "integer" => Value.Number(number(text, e.at))
       case "boolean" =>
         text.trim.toLowerCase match
           case "true" => Value.Flag(true)
           case "false" => Value.Flag(false)
-          case other => fail(e.at, s"expected true or false, found `$other`")
+          case other => fail(Code.ParameterValue, e.at, s"expected true or false, found `$other`")
       case "string" => Value.Text(text)
       case "vector" | "point" =>
         e("value") match
@@ -79,26 +99,39 @@ final class Values(
         )
       case "transform" => Value.Placed(Transforms.of(e))
       case "ref" =>
-        Value.Reference(e("id").getOrElse(fail(e.at, "<ref> must have the attribute `id`")))
-      case other => fail(e.at, s"unknown element <$other>", Suggest.help(other, Kinds ++ Tags))
+        Value.Reference(e("id").getOrElse(fail(
+          Code.UnknownElement,
+          e.at,
+          "<ref> must have the attribute `id`"
+        )))
+      case other => fail(
+          Code.UnknownElement,
+          e.at,
+          s"unknown element <$other>",
+          Suggest.help(other, Kinds ++ Tags)
+        )
 
   private def triple(xs: Vector[Double], at: SourcePos): Value = xs match
     case Vector(x) => Value.Triple(x, x, x)
     case Vector(x, y, z) => Value.Triple(x, y, z)
-    case _ => fail(at, s"expected three numbers, found ${xs.size}")
+    case _ => fail(Code.ParameterCount, at, s"expected three numbers, found ${xs.size}")
 
   /** Three numbers, one for all, or `#rrggbb`. */
   private def color(text: String, at: SourcePos): Rgb =
     if text.trim.startsWith("#") then
       val code = Try(Integer.parseInt(text.trim.drop(1), 16)).toOption
       val c = code.filter(_ => text.trim.length == 7)
-        .getOrElse(fail(at, s"expected a colour such as #ff8000, found `$text`"))
+        .getOrElse(fail(
+          Code.ParameterValue,
+          at,
+          s"expected a colour such as #ff8000, found `$text`"
+        ))
       Rgb((c >> 16 & 255) / 255f, (c >> 8 & 255) / 255f, (c & 255) / 255f)
     else
       numbers(text, at).map(_.toFloat) match
         case Vector(v) => Rgb.gray(v)
         case Vector(r, g, b) => Rgb(r, g, b)
-        case more => fail(at, s"expected three numbers, found ${more.size}")
+        case more => fail(Code.ParameterCount, at, s"expected three numbers, found ${more.size}")
 
   /** One number, or pairs `wavelength:value`, or those of a file. */
   private def spectrum(e: Element): Value =
@@ -107,19 +140,25 @@ final class Values(
         Value.Wavelengths(pairs(words(text).flatMap(_.split(':')), e.at))
       case (Some(text), _) => Value.Flat(number(text, e.at))
       case (None, Some(name)) => Value.Wavelengths(file(name, e.at))
-      case _ => fail(e.at, "<spectrum> must have the attribute `value` or `filename`")
+      case _ =>
+        fail(Code.SpectrumFile, e.at, "<spectrum> must have the attribute `value` or `filename`")
 
   def file(name: String, at: SourcePos): Spectrum =
     def fails(why: String) =
-      fail(at, s"can't read the spectrum `$name`: $why", suggest(name))
-    if !SceneFolder.isName(name) then fail(at, s"can't read the spectrum `$name`")
+      fail(Code.SpectrumFile, at, s"can't read the spectrum `$name`: $why", suggest(name))
+    if !SceneFolder.isName(name) then
+      fail(Code.SpectrumFile, at, s"can't read the spectrum `$name`")
     val file = find(name, at).getOrElse(fails("no such file"))
     val lines =
       try file.lines()
       catch case e: java.io.IOException => fails(IoReason(e))
     val texts = lines.filterNot(_.trim.startsWith("#")).flatMap(words)
     for odd <- texts.find(_.toDoubleOption.isEmpty) do
-      fail(at, s"spectrum `$name`: expected a number, found ${file.quoted(odd.take(20))}")
+      fail(
+        Code.SpectrumFile,
+        at,
+        s"spectrum `$name`: expected a number, found ${file.quoted(odd.take(20))}"
+      )
     try pairs(texts, at)
     catch
       case e: SceneError => throw SceneError(e.problems.map: p =>
@@ -138,8 +177,8 @@ object Values:
   private val Tags =
     Set("boolean", "float", "integer", "point", "ref", "rgb", "string", "transform", "vector")
 
-  def fail(at: SourcePos, message: String, help: Option[String] = None): Nothing =
-    throw SceneError(Problem.error(at, message, help))
+  def fail(code: Code, at: SourcePos, message: String, help: Option[String] = None): Nothing =
+    throw SceneError(Problem.error(code, at, message, help))
 
   private def words(text: String): Vector[String] =
     text.split("[\\s,]+").toVector.filter(_.nonEmpty)
@@ -148,14 +187,14 @@ object Values:
 
   def number(text: String, at: SourcePos): Double =
     text.trim.toDoubleOption.filter(java.lang.Double.isFinite(_))
-      .getOrElse(fail(at, s"expected a number, found `${text.trim}`"))
+      .getOrElse(fail(Code.ParameterValue, at, s"expected a number, found `${text.trim}`"))
 
   /** Of wavelengths and values in turn. */
   def spectrum(xs: Vector[Double], at: SourcePos): Spectrum =
-    if xs.size % 2 != 0 then fail(at, "a wavelength has no value")
+    if xs.size % 2 != 0 then fail(Code.SpectrumFile, at, "a wavelength has no value")
     val (lambda, values) = xs.grouped(2).map(p => (p(0).toFloat, p(1).toFloat)).toVector.unzip
     if lambda.isEmpty || lambda.zip(lambda.drop(1)).exists((a, b) => a >= b) then
-      fail(at, "expected ascending wavelengths, each with a value")
+      fail(Code.SpectrumFile, at, "expected ascending wavelengths, each with a value")
     Spectrum(lambda.toArray, values.toArray, Spectrum.Outside.Zero)
 
 /** Transforms, as elements. */
@@ -183,14 +222,18 @@ private[mitsuba] object Transforms:
     def or(name: String, default: Double) = e(name).fold(default)(number(_, e.at))
     def list(name: String) =
       e(name).map(numbers(_, e.at)).filter(_.size == 3)
-        .getOrElse(fail(e.at, s"<${e.tag}> must have the attribute `$name`, of three numbers"))
+        .getOrElse(fail(
+          Code.ParameterCount,
+          e.at,
+          s"<${e.tag}> must have the attribute `$name`, of three numbers"
+        ))
     def regular(t: Option[Transform], why: String) =
-      t.getOrElse(fail(e.at, s"transform can't be inverted: $why"))
+      t.getOrElse(fail(Code.Transform, e.at, s"transform can't be inverted: $why"))
     def axes(default: Double) =
       e("value").map(numbers(_, e.at)) match
         case Some(Vector(s)) => Vector(s, s, s)
         case Some(v) if v.size == 3 => v
-        case Some(v) => fail(e.at, s"expected three numbers, found ${v.size}")
+        case Some(v) => fail(Code.ParameterCount, e.at, s"expected three numbers, found ${v.size}")
         case None => Vector(or("x", default), or("y", default), or("z", default))
     e.tag match
       case "translate" =>
@@ -201,7 +244,11 @@ private[mitsuba] object Transforms:
         regular(Transform.scale(v(0), v(1), v(2)), "zero scale")
       case "rotate" =>
         val v = axes(0)
-        val degrees = e("angle").fold(fail(e.at, "<rotate> must have the attribute `angle`")):
+        val degrees = e("angle").fold(fail(
+          Code.UnknownElement,
+          e.at,
+          "<rotate> must have the attribute `angle`"
+        )):
           number(_, e.at)
         regular(rotation(degrees, v), "axis of length 0, or far from 1")
       case "lookat" =>
@@ -214,8 +261,13 @@ private[mitsuba] object Transforms:
           case 16 => m
           case 9 => Vector(m.take(3) :+ 0.0, m.slice(3, 6) :+ 0.0, m.drop(6) :+ 0.0).flatten ++
               Vector(0.0, 0.0, 0.0, 1.0)
-          case n => fail(e.at, s"expected 16 numbers, found $n")
+          case n => fail(Code.ParameterCount, e.at, s"expected 16 numbers, found $n")
         regular(Transform.fromRows(rows), "matrix of determinant 0")
       case other =>
         val known = List("lookat", "matrix", "rotate", "scale", "translate")
-        fail(e.at, s"unknown element <$other>", candela.base.Suggest.help(other, known))
+        fail(
+          Code.UnknownElement,
+          e.at,
+          s"unknown element <$other>",
+          candela.base.Suggest.help(other, known)
+        )

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{FileName, SourcePos}
+import candela.base.{Code, FileName, SourcePos}
 import candela.math.Transform
 import candela.scenefile.{Declaration, GraphicsState, Param, SceneDescription}
 
@@ -80,7 +80,8 @@ final class Views(session: Session, media: Media, scene: Path):
     if !Plugins.films.contains(in.plugin.name) then
       Plugins.unsupported(in.plugin, "using \"hdrfilm\"", session)
     val (width, height) = (in.integer("width", 768), in.integer("height", 576))
-    if width < 1 || height < 1 then Values.fail(in.at, s"a film can't have $width × $height pixels")
+    if width < 1 || height < 1 then
+      Values.fail(Code.TooLarge, in.at, s"a film can't have $width × $height pixels")
     in.nested("rfilter"): Unit
     in.ignore(
       "file_format", "banner", "compensate", "sample_border", "gamma",
@@ -95,12 +96,17 @@ final class Views(session: Session, media: Media, scene: Path):
     val at = in.atOf("pixel_format")
     if !Views.PixelFormats.contains(format) then
       session.error(
+        Code.UnknownType,
         at,
         s"unknown pixel_format `$format`",
         candela.base.Suggest.help(format, Views.PixelFormats)
       )
     else if !format.startsWith("rgb") then
-      session.warn(at, s"pixel_format `$format` is not supported; red, green and blue are written")
+      session.warn(
+        Code.Unsupported,
+        at,
+        s"pixel_format `$format` is not supported; red, green and blue are written"
+      )
     val alpha =
       Option.when(format.endsWith("a"))(Param.bool("alpha", at, true))
     val isHalf = in.text("component_format", "float16").toLowerCase == "float16"
@@ -139,7 +145,8 @@ final class Views(session: Session, media: Media, scene: Path):
   private def samplerOf(in: Asked): Declaration =
     in.ignore("seed", "jitter", "strength")
     val count = in.integer("sample_count", 4)
-    if count < 1 then Values.fail(in.atOf("sample_count"), "`sample_count` must be at least 1")
+    if count < 1 then
+      Values.fail(Code.ParameterValue, in.atOf("sample_count"), "`sample_count` must be at least 1")
     def sampler(name: String, params: Param*) = session.declare("Sampler", name, in.at, params)
     val at = in.atOf("sample_count")
     in.plugin.name match

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, IoReason, loop, SourcePos}
+import candela.base.{Code, InputFile, IoReason, SourcePos, loop}
 
 import java.io.IOException
 import java.nio.ByteOrder
@@ -24,7 +24,7 @@ private[mitsuba] object VolumeFile:
 
   def read(file: InputFile, at: SourcePos): VolumeFile =
     def fail(why: String) =
-      Values.fail(at, s"can't read the volume `${file.path.getFileName}`: $why")
+      Values.fail(Code.DamagedVolume, at, s"can't read the volume `${file.path.getFileName}`: $why")
     val bytes =
       try file.map()
       catch case e: IOException => fail(IoReason(e))

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{SourcePos, loop}
+import candela.base.{Code, SourcePos, loop}
 import candela.color.Rgb
 import candela.math.*
 import candela.scenefile.{Param, ParamType}
@@ -11,14 +11,22 @@ private[mitsuba] final class Volumes(session: Session):
   def apply(in: Asked): Option[PlacedGrid] =
     in.ignore("raw", "accel")
     if in.word("filter_type", "trilinear", "trilinear", "nearest") == "nearest" then
-      session.warn(in.atOf("filter_type"), "a gridvolume is interpolated; using `trilinear`")
+      session.warn(
+        Code.CorrectedValue,
+        in.atOf("filter_type"),
+        "a gridvolume is interpolated; using `trilinear`"
+      )
     if in.word("wrap_mode", "clamp", "clamp", "repeat", "mirror") != "clamp" then
-      session.warn(in.atOf("wrap_mode"), "a gridvolume ends at its box; using `clamp`")
+      session.warn(
+        Code.CorrectedValue,
+        in.atOf("wrap_mode"),
+        "a gridvolume ends at its box; using `clamp`"
+      )
     val toWorld = in.transform("to_world")
     val usesBox = in.flag("use_grid_bbox", false)
     for
       name <- in.text("filename").orElse:
-        session.error(in.at, "a gridvolume must have a `filename`")
+        session.error(Code.MissingParameter, in.at, "a gridvolume must have a `filename`")
         None
       path <- session.file(name, in.atOf("filename"), "skipped")
       file <- session.attempt(VolumeFile.read(path, in.atOf("filename")))

@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Problem, SceneError, SourcePos}
+import candela.base.{Code, Problem, SceneError, SourcePos}
 
 /** The arguments of a directive; each method takes some, or throws a located error.
   *
@@ -9,7 +9,7 @@ import candela.base.{Problem, SceneError, SourcePos}
 abstract class Arguments(directive: Directive, val at: SourcePos, val report: Problem => Unit):
 
   protected final def fail(at: SourcePos, message: String): Nothing =
-    throw SceneError(Problem.error(at, message, Some(usage)))
+    throw SceneError(Problem.error(Code.Arguments, at, message, Some(usage)))
 
   private def usage = s"usage: ${directive.name} ${directive.usage}".trim
 

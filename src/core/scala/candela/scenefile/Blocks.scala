@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Problem, SceneError, SourcePos}
+import candela.base.{Code, Problem, SceneError, SourcePos}
 
 /** The graphics state and its stack of open blocks.
   *
@@ -46,9 +46,9 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
         case Some(block) => s"$name, but the ${block.begin} at ${block.at} is still open"
         case None => s"$name without $begin"
       val help = crossed.map(block => s"write ${block.end} first")
-      if !isOld then throw SceneError(Problem.error(at, message, help))
+      if !isOld then throw SceneError(Problem.error(Code.OpenBlock, at, message, help))
       val done = rest.headOption.fold("ignored")(b => s"closing the ${b.begin} at ${b.at}")
-      warn(Problem.warning(at, s"$message; $done", help))
+      warn(Problem.warning(Code.OpenBlock, at, s"$message; $done", help))
 
   private def close(block: OpenBlock): Unit =
     val transforms = state.withTransformsOf(block.saved)
@@ -62,8 +62,8 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
       open.reverse.toVector.map: block =>
         val help = Some(s"add a matching ${block.end}")
         val message = s"${block.begin} is never closed"
-        if isV4() then Problem.error(block.at, message, help)
-        else Problem.warning(block.at, message, help)
+        if isV4() then Problem.error(Code.OpenBlock, block.at, message, help)
+        else Problem.warning(Code.OpenBlock, block.at, message, help)
 
   /** Runs `body` with an empty block stack, then restores stack and state. */
   def isolated(body: => Unit): Vector[Problem] =

@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Problem, SceneError, SourcePos, Suggest}
+import candela.base.{Code, Problem, SceneError, SourcePos, Suggest}
 import candela.math.Transform
 
 /** Valid position of a directive: before `WorldBegin`, after it, or both. */
@@ -100,23 +100,31 @@ object Directives:
   private def noAxis(in: Arguments, inV4: Boolean): Transform =
     val message = "transform can't be inverted: axis of length 0"
     if inV4 then
-      in.report(Problem.warning(in.at, s"$message; what it places is invisible, as in pbrt-v4"))
+      in.report(Problem.warning(
+        Code.Transform,
+        in.at,
+        s"$message; what it places is invisible, as in pbrt-v4"
+      ))
       Transform.nowhere
     else
-      in.report(Problem.warning(in.at, s"$message; the rotation is ignored"))
+      in.report(Problem.warning(Code.Transform, in.at, s"$message; the rotation is ignored"))
       Transform.Identity
 
   private def noDirection(in: Arguments, inV4: Boolean): Transform =
     val message = "transform can't be inverted: eye equals look-at point"
-    if !inV4 then throw SceneError(Problem.error(in.at, message))
-    in.report(Problem.warning(in.at, s"$message; what it places is invisible, as in pbrt-v4"))
+    if !inV4 then throw SceneError(Problem.error(Code.Transform, in.at, message))
+    in.report(Problem.warning(
+      Code.Transform,
+      in.at,
+      s"$message; what it places is invisible, as in pbrt-v4"
+    ))
     Transform.nowhere
 
   /** pbrt-v2 and v3 go on, v4 stops. */
   private def noUp(in: Arguments, inV4: Boolean): Transform =
     val message = "transform can't be inverted: up is parallel to the view direction"
-    if inV4 then throw SceneError(Problem.error(in.at, message))
-    in.report(Problem.warning(in.at, s"$message; LookAt is ignored, as pbrt does"))
+    if inV4 then throw SceneError(Problem.error(Code.Transform, in.at, message))
+    in.report(Problem.warning(Code.Transform, in.at, s"$message; LookAt is ignored, as pbrt does"))
     Transform.Identity
 
   /** pbrt accepts transforms that flatten meshes, and some scenes use them. */
@@ -126,7 +134,7 @@ object Directives:
     t.getOrElse:
       val message =
         s"singular transform ($why); meshes are flattened, everything else it places is ignored"
-      in.report(Problem.warning(in.at, message))
+      in.report(Problem.warning(Code.Transform, in.at, message))
       flat
 
   private def matrixOf(in: Arguments): Transform =
@@ -177,7 +185,12 @@ object Directives:
     case "color" => "spectrum"
     case _ =>
       val help = Suggest.help(written, List("float", "spectrum", "color"))
-      throw SceneError(Problem.error(at, s"unknown texture value type `$written`", help))
+      throw SceneError(Problem.error(
+        Code.UnknownType,
+        at,
+        s"unknown texture value type `$written`",
+        help
+      ))
 
   /** Names of colour spaces, in lower case. */
   private[candela] val ColorSpaces: List[String] = List("srgb", "dci-p3", "rec2020", "aces2065-1")
@@ -192,7 +205,7 @@ object Directives:
       if ColorSpaces.contains(name.toLowerCase) then scene.colorSpace(name.toLowerCase)
       else
         val help = Suggest.help(name, ColorSpaces)
-        in.report(Problem.error(at, s"unknown colour space `$name`", help))
+        in.report(Problem.error(Code.UnknownSystem, at, s"unknown colour space `$name`", help))
     ,
     Directive("Import", "\"file\"", World): (in, scene) =>
       val (file, at) = in.quoted("a file name")
@@ -237,6 +250,11 @@ object SceneOptions:
     Types.getOrElse(
       name,
       throw SceneError(
-        Problem.error(at, s"unknown option `$name`", Suggest.help(name, Types.keys))
+        Problem.error(
+          Code.UnknownSystem,
+          at,
+          s"unknown option `$name`",
+          Suggest.help(name, Types.keys)
+        )
       )
     )

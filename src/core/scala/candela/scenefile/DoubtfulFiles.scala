@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Problem, Severity}
+import candela.base.{Code, Problem, Severity}
 
 import scala.collection.mutable
 
@@ -34,5 +34,5 @@ private[scenefile] final class DoubtfulFiles(to: Problem => Unit):
       case Some(at) if justified.add(at.file) =>
         val message = s"can't include `${at.file}`: it is no scene: expected a statement in line " +
           s"${at.line}, found what is not shown here, as it is outside of the scene's folder"
-        to(Problem.error(at.includedFrom.getOrElse(at), message))
+        to(Problem.error(Code.NoScene, at.includedFrom.getOrElse(at), message))
       case _ => ()

@@ -2,7 +2,7 @@ package candela.scenefile
 
 import scala.collection.mutable
 
-import candela.base.{Problem, SceneError, Suggest}
+import candela.base.{Code, Problem, SceneError, Suggest}
 
 /** Parses parameter lists: any number of `"type name" value` or `"type name" [ values ]`.
   *
@@ -69,7 +69,7 @@ final class Parameters(
             if isTexture(earlier) && !isTexture(param) && !isV4() then (param, earlier)
             else (earlier, param)
           val message = s"`${param.name}` is repeated at ${used.at}; this value is ignored"
-          warn(Problem.warning(ignored.at, message))
+          warn(Problem.warning(Code.Redefined, ignored.at, message))
           params.replace(earlier, used)
 
   private def isTexture(param: Param): Boolean = param.paramType == ParamType.Texture
@@ -80,7 +80,7 @@ final class Parameters(
 
   private def keyHere(in: Tokenizer): Parameters.Key =
     def fail(message: String, help: String) =
-      throw SceneError(Problem.error(in.at, message, Some(help)))
+      throw SceneError(Problem.error(Code.ParameterSyntax, in.at, message, Some(help)))
     val types = Parameters.Types
     in.text.split("[ \t]+").filter(_.nonEmpty) match
       case Array(spelling, name, _*) if types.contains(spelling) =>

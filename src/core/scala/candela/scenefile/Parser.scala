@@ -2,7 +2,7 @@ package candela.scenefile
 
 import java.nio.file.Path
 
-import candela.base.{InputFile, Problem, Refusal, SceneError, SceneFolder, SourcePos}
+import candela.base.{Code, InputFile, Problem, Refusal, SceneError, SceneFolder, SourcePos}
 
 /** Parses scene files. */
 object Parser:
@@ -33,7 +33,10 @@ object Parser:
     Refusal.placed(start(file))(Source.read(opened)) match
       case Right(source) => read(source, folder, Some(opened), dialect, keepGoing, world)
       case Left(why) =>
-        throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
+        throw SceneError(Problem.general(
+          Code.Unreadable,
+          s"can't read the scene file `$file`: $why"
+        ))
 
   private def start(file: Path) = SourcePos(file.toString, 1, 1)
 
@@ -96,7 +99,10 @@ object Parser:
       case Right(scene) => scene
       case Left(better) =>
         val once = source.again.getOrElse:
-          throw SceneError(Problem.general(s"can't read `${source.name}` a second time"))
+          throw SceneError(Problem.general(
+            Code.Unreadable,
+            s"can't read `${source.name}` a second time"
+          ))
         folder.allowance.readAgain()
         attempt(once, folder, file, Some(better), keepGoing, world).toOption.get
 

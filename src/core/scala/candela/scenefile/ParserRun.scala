@@ -6,7 +6,7 @@ import scala.collection.mutable
 import scala.util.Try
 
 import candela.base.{
-  InputFile, Limit, Problem, SceneError, SceneFolder, Severity, SourcePos, Suggest
+  Code, InputFile, Limit, Problem, SceneError, SceneFolder, Severity, SourcePos, Suggest
 }
 
 /** One pass over a scene file.
@@ -96,16 +96,16 @@ private[scenefile] final class ParserRun(
       // this:
       case None if problems.errors == 0 =>
         val what = "it is a file to Include, not a scene"
-        problems.add(Problem.general(s"`${source.name}` has no WorldBegin; $what"))
+        problems.add(Problem.general(Code.NoWorld, s"`${source.name}` has no WorldBegin; $what"))
       case None => ()
       case Some(begin) =>
         misplaced.result().foreach(problems.add)
         scene.lateParts(dialect).foreach(problems.add)
         for at <- trailing if !isFollowed || dialect == Dialect.V4 do
-          problems.add(Problem.warning(at, "statements after WorldEnd are ignored"))
+          problems.add(Problem.warning(Code.NoWorld, at, "statements after WorldEnd are ignored"))
         if dialect != Dialect.V4 && scene.worldEnd.isEmpty && problems.errors == 0 then
           val message = "WorldBegin has no WorldEnd; the file may be incomplete"
-          problems.add(Problem.warning(begin, message))
+          problems.add(Problem.warning(Code.NoWorld, begin, message))
 
   private def statements(in: Tokenizer): Unit =
     attempt(in)(in.advance())
@@ -188,11 +188,11 @@ private[scenefile] final class ParserRun(
     val problem =
       if in.current != Token.Word || in.numberHere.nonEmpty then
         val help = "write several values of a parameter in brackets: [ … ]"
-        Problem.error(at, s"expected a directive, found $shown", Some(help))
+        Problem.error(Code.NoDirective, at, s"expected a directive, found $shown", Some(help))
       else
         scene.blocks.isDoubtful = true
         val help = Suggest.help(in.text, Directives.all.keys)
-        Problem.error(at, s"unknown directive $shown", help)
+        Problem.error(Code.UnknownDirective, at, s"unknown directive $shown", help)
     in.advance()
     throw SceneError(problem)
 
@@ -201,8 +201,8 @@ private[scenefile] final class ParserRun(
     val found = directive.misplaced(scene.worldBegin)
     for message <- found if !misplaced.isFull do
       misplaced.add(
-        if isV4 then Problem.error(at, message)
-        else Problem.warning(at, s"$message; ignored")
+        if isV4 then Problem.error(Code.WrongPlace, at, message)
+        else Problem.warning(Code.WrongPlace, at, s"$message; ignored")
       )
     found.nonEmpty
 
@@ -214,7 +214,8 @@ private[scenefile] final class ParserRun(
 
   /** Passes over a file that can't be read, if that is asked for. */
   private def skip(why: Missing, from: Tokenizer, nameAt: SourcePos): Unit =
-    val problem = Problem.missing(nameAt, why.message, "skipped", keepGoing, why.help)
+    val problem =
+      Problem.missing(why.code, nameAt, why.message, "skipped", keepGoing, why.help)
     if !keepGoing then throw SceneError(problem)
     problems.add(problem)
     // Skips the parameters that continue the missing file's last statement.
@@ -230,12 +231,13 @@ private[scenefile] final class ParserRun(
         val shown = folders.map(f => if f.toString.isEmpty then "`.`" else s"`$f`")
         val near = folders.flatMap(f => folder.at(f).suggestion(name)).headOption
         val help = near.getOrElse(s"looked in ${shown.mkString(" and ")}")
-        Left(Missing(s"can't include `$name`: no such file", Some(help)))
+        Left(Missing(Code.NoSuchFile, s"can't include `$name`: no such file", Some(help)))
       case Some(file) =>
-        for why <- circle(file, name) do throw SceneError(Problem.error(nameAt, why))
+        for why <- circle(file, name) do
+          throw SceneError(Problem.error(Code.IncludeCircle, nameAt, why))
         countInclude(nameAt)
         Source.readNamed(file) match
-          case Left(why) => Left(Missing(s"can't include `$name`: $why", None))
+          case Left(why) => Left(Missing(Code.NoScene, s"can't include `$name`: $why", None))
           case Right(source) =>
             sources += file.path
             if !file.isShown then doubts.raise(file.toString)
@@ -284,7 +286,11 @@ private[scenefile] final class ParserRun(
     includes += 1
     if includes > MostIncludes then
       isDone = true
-      throw SceneError(Problem.error(at, s"more than ${MostIncludes} files are included"))
+      throw SceneError(Problem.error(
+        Code.IncludeCircle,
+        at,
+        s"more than ${MostIncludes} files are included"
+      ))
 
   /** Why a file can't be included here. */
   private def circle(file: InputFile, name: String): Option[String] =
@@ -309,7 +315,7 @@ private[scenefile] object ParserRun:
   private final case class Included(file: InputFile, text: Tokenizer)
 
   /** Why a file is not included. */
-  private final case class Missing(message: String, help: Option[String])
+  private final case class Missing(code: Code, message: String, help: Option[String])
 
   /** More than any scene needs, and far from a stack overflow. */
   private val DeepestInclude = 200

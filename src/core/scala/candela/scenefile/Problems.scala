@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Problem, Severity}
+import candela.base.{Code, Problem, Severity}
 
 /** Collects problems, up to a limit that bounds memory. */
 final class Problems:
@@ -31,8 +31,13 @@ final class Problems:
     val left = warningCount - Problems.MostWarnings
     val stop = s"parsing stopped after ${Problems.MostErrors} errors"
     collected.result() ++
-      Option.when(isFull)(Problem.general(stop)) ++
-      Option.when(left > 0)(Problem(Severity.Warning, None, s"$left more warnings omitted"))
+      Option.when(isFull)(Problem.general(Code.TooManyProblems, stop)) ++
+      Option.when(left > 0)(Problem(
+        Code.TooManyProblems,
+        Severity.Warning,
+        None,
+        s"$left more warnings omitted"
+      ))
 
 object Problems:
   /** Further ones get no help: it is looked for among thousands of names. */

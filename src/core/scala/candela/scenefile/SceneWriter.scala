@@ -3,7 +3,7 @@ package candela.scenefile
 import scala.collection.immutable.VectorMap
 import scala.collection.mutable
 
-import candela.base.{Problem, SceneError, SceneFolder, SourcePos, Suggest}
+import candela.base.{Code, Problem, SceneError, SceneFolder, SourcePos, Suggest}
 import candela.math.Transform
 
 /** Executes statements: maintains the graphics state and collects the description.
@@ -65,6 +65,7 @@ final class SceneWriter(
     yield
       val name = part.strings.head
       Problem.warning(
+        Code.DefinedLater,
         part.valuesAt,
         s"material `$name` is defined only later, at $later; pbrt mixes a grey \"matte\" instead " +
           "and prints an error",
@@ -76,8 +77,8 @@ final class SceneWriter(
 
   private def state = blocks.state
   private def changeState(f: GraphicsState => GraphicsState): Unit = blocks.state = f(blocks.state)
-  private def fail(at: SourcePos, message: String, help: Option[String]) =
-    throw SceneError(Problem.error(at, message, help))
+  private def fail(code: Code, at: SourcePos, message: String, help: Option[String]) =
+    throw SceneError(Problem.error(code, at, message, help))
 
   def description(dialect: Dialect, warnings: Vector[Problem]): SceneDescription =
     result.copy(
@@ -114,7 +115,12 @@ final class SceneWriter(
         val params = whole.params.filterNot(_ eq t)
         val name = t.strings.head
         Declaration(category, name, params, t.valuesAt, folder, state.colorSpace, foreign)
-      case None => fail(from.at, s"\"${from.name}\" must have a \"string type\"", missing)
+      case None => fail(
+          Code.MissingParameter,
+          from.at,
+          s"\"${from.name}\" must have a \"string type\"",
+          missing
+        )
 
   /** A statement before WorldBegin; each overrides the previous one. */
   def option(directive: String, from: Named): Unit =
@@ -278,7 +284,12 @@ final class SceneWriter(
 
   private def refuseInV4(at: SourcePos, kind: String, name: String): Unit =
     if isV4() then
-      fail(at, s"$kind \"$name\" is already defined", Some("names must be unique in v4"))
+      fail(
+        Code.Redefined,
+        at,
+        s"$kind \"$name\" is already defined",
+        Some("names must be unique in v4")
+      )
 
   def mediumInterface(inside: String, outside: String): Unit =
     changeState(_.copy(insideMedium = inside, outsideMedium = outside))
@@ -286,10 +297,15 @@ final class SceneWriter(
   def attribute(target: String, at: SourcePos, params: Vector[Param]): Unit =
     if !SceneWriter.Targets.contains(target) then
       val help = Suggest.help(target, SceneWriter.Targets)
-      fail(at, s"unknown Attribute target `$target`", help)
+      fail(Code.UnknownSystem, at, s"unknown Attribute target `$target`", help)
     val earlier = state.defaults.getOrElse(target, Vector.empty)
     if earlier.size > SceneWriter.MostDefaults then
-      fail(at, s"more than ${SceneWriter.MostDefaults} defaults of \"$target\"", None)
+      fail(
+        Code.TooLarge,
+        at,
+        s"more than ${SceneWriter.MostDefaults} defaults of \"$target\"",
+        None
+      )
     val all = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(
       _.asDefault(state.colorSpace)
     )
@@ -304,7 +320,7 @@ final class SceneWriter(
 
   def beginObject(name: String, at: SourcePos): Unit =
     if inObject.nonEmpty then
-      fail(at, "ObjectBegin inside an object", Some("objects can't be nested"))
+      fail(Code.WrongPlace, at, "ObjectBegin inside an object", Some("objects can't be nested"))
     val unique =
       if names.take("object", name) then name
       else
@@ -322,7 +338,7 @@ final class SceneWriter(
 
   def instance(name: String, at: SourcePos): Unit =
     if inObject.nonEmpty then
-      fail(at, "ObjectInstance inside an object", Some("objects can't be nested"))
+      fail(Code.WrongPlace, at, "ObjectInstance inside an object", Some("objects can't be nested"))
     instances += InstanceDescription(objectNames.getOrElse(name, name), at, state.transform)
 
   // Transforms
@@ -342,7 +358,7 @@ final class SceneWriter(
         val isHelped = unknownSystems <= Problems.MostHelped
         val help = if isHelped then Suggest.help(name, coordinateSystems.keys) else None
         val message = s"unknown coordinate system `$name`; keeping the current transform"
-        problem(Problem.warning(at, message, help))
+        problem(Problem.warning(Code.UnknownSystem, at, message, help))
 
 object SceneWriter:
   private val TextureKinds = List("float", "spectrum")

@@ -2,7 +2,7 @@ package candela.scenefile
 
 import scala.collection.mutable
 
-import candela.base.{Problem, SceneError, SceneFolder, Severity, SourcePos}
+import candela.base.{Code, Problem, SceneError, SceneFolder, Severity, SourcePos}
 
 /** A statement of pbrt-v4 that a program makes, instead of a file.
   *
@@ -38,7 +38,8 @@ final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] 
     try
       // To what is whole, everything may be added
       val place = if base.isEmpty then directive.misplaced(scene.worldBegin) else None
-      for message <- place do throw SceneError(Problem.error(statement.at, message))
+      for message <- place do
+        throw SceneError(Problem.error(Code.WrongPlace, statement.at, message))
       directive.run(GivenArguments(directive, statement, problems.add, values), scene)
     catch
       case e: SceneError =>
@@ -68,7 +69,7 @@ final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] 
   def result: SceneDescription =
     val unclosed = scene.blocks.unclosed
     val noWorld = Option.when(base.isEmpty && scene.worldBegin.isEmpty):
-      Problem.general("the scene has no WorldBegin: nothing is in it")
+      Problem.general(Code.NoWorld, "the scene has no WorldBegin: nothing is in it")
     val (errors, warnings) =
       (problems.result() ++ unclosed ++ noWorld).partition(_.severity == Severity.Error)
     val old = base.getOrElse(SceneDescription(Dialect.V4))
@@ -128,9 +129,13 @@ private object GivenParameters:
     val all = mutable.LinkedHashMap.empty[String, Param]
     for p <- written do
       for x <- p.floats.find(!_.isFinite) do
-        throw SceneError(Problem.error(p.at, s"values of `${p.name}` must be numbers, found $x"))
+        throw SceneError(Problem.error(
+          Code.ParameterValue,
+          p.at,
+          s"values of `${p.name}` must be numbers, found $x"
+        ))
       for earlier <- all.remove(p.name) do
         val message = s"`${p.name}` is repeated; the earlier value is ignored"
-        report(Problem.warning(earlier.at, message))
+        report(Problem.warning(Code.Redefined, earlier.at, message))
       all(p.name) = values.checkCount(p)
     all.values.toVector

@@ -4,7 +4,7 @@ import java.io.{ByteArrayOutputStream, IOException}
 import java.nio.charset.StandardCharsets.UTF_8
 
 import candela.base.{
-  FloatBuffer, IntBuffer, IoReason, Problem, Refusal, RestBuffer, SceneError, SourcePos
+  Code, FloatBuffer, IntBuffer, IoReason, Problem, Refusal, RestBuffer, SceneError, SourcePos
 }
 
 /** Splits a scene file into tokens, with one current token. Reads lists of numbers without creating
@@ -214,7 +214,12 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     if isEnd || source.bytes(next) != '"' then
       content = Some("")
       val what = if isEnd then "string not closed at the end of the file" else "string not closed"
-      throw SceneError(Problem.error(at, what, Some("end it with `\"` on the same line")))
+      throw SceneError(Problem.error(
+        Code.Token,
+        at,
+        what,
+        Some("end it with `\"` on the same line")
+      ))
     next += 1
     if hasEscapes then content = Some(unescaped(start + 1, next - 1))
 
@@ -226,7 +231,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
         val place = SourcePos(source.name, line, tokenColumn + i - start - 1, includedFrom)
         val what = s"unknown escape sequence `\\${source.text(i, i + 1)}`"
         val help = Some("write `\\\\` for a backslash, `/` between folders")
-        throw SceneError(Problem.error(place, what, help))
+        throw SceneError(Problem.error(Code.Token, place, what, help))
 
   private inline def isContinuation(c: Byte): Boolean = (c & 0xc0) == 0x80
 
@@ -246,7 +251,11 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
           next = source.limit
           start = next
           kind = Token.End
-          throw SceneError(Problem.error(here, s"can't read further: ${IoReason(e)}"))
+          throw SceneError(Problem.error(
+            Code.Unreadable,
+            here,
+            s"can't read further: ${IoReason(e)}"
+          ))
       start = 0
       next -= from
       lineStart -= from

@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{FloatBuffer, IntBuffer, Problem, RestBuffer, SceneError, SourcePos}
+import candela.base.{Code, FloatBuffer, IntBuffer, Problem, RestBuffer, SceneError, SourcePos}
 
 /** Reads parameter values and checks them against the parameter's type.
   *
@@ -54,7 +54,11 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
     in.sawFraction = false
     if isList then in.readInts(ints) else if in.readInt(ints) then in.advance()
     if in.sawFraction then
-      warn(Problem.warning(at, s"values of `$name` must be integers; truncating fractions"))
+      warn(Problem.warning(
+        Code.ParameterType,
+        at,
+        s"values of `$name` must be integers; truncating fractions"
+      ))
     ints.take()
 
   private def texts(in: Tokenizer, isList: Boolean): Vector[String] =
@@ -84,11 +88,24 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
     val isDirective = word.headOption.exists(_.isUpper)
     openAt match
       case Some(at) if in.current == Token.End =>
-        Problem.error(at, s"$name has no closing `]` before the end of the file")
+        Problem.error(
+          Code.ParameterSyntax,
+          at,
+          s"$name has no closing `]` before the end of the file"
+        )
       case None if in.current == Token.End || in.current == Token.Close || isDirective =>
-        Problem.error(param.at, s"$name must have a value", Some(example(param)))
+        Problem.error(
+          Code.ParameterSyntax,
+          param.at,
+          s"$name must have a value",
+          Some(example(param))
+        )
       case _ if param.paramType == ParamType.Integer && isNumber =>
-        Problem.error(in.at, s"values of $name must be 32-bit integers, found ${in.shown}")
+        Problem.error(
+          Code.ParameterType,
+          in.at,
+          s"values of $name must be 32-bit integers, found ${in.shown}"
+        )
       case _ =>
         val help =
           if isDirective then "a `]` may be missing before it"
@@ -96,7 +113,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
           else if isQuotedNumber then "write it without quotes"
           else example(param)
         val message = s"values of $name must be ${kindOf(param)}, found ${in.shown}"
-        Problem.error(in.at, message, Some(help))
+        Problem.error(Code.ParameterSyntax, in.at, message, Some(help))
 
   private def kindOf(param: Param): String = param.paramType match
     case ParamType.Bool => "`true` or `false`"
@@ -132,8 +149,14 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
       case ParamType.Spectrum if param.strings.isEmpty => 2
       case _ => 1
     val help = Some(example(param))
-    def fail(message: String) = throw SceneError(Problem.error(param.valuesAt, message, help))
-    if n == 0 then warn(Problem.warning(param.valuesAt, s"`${param.name}` is an empty list"))
+    def fail(message: String) =
+      throw SceneError(Problem.error(Code.ParameterSyntax, param.valuesAt, message, help))
+    if n == 0 then
+      warn(Problem.warning(
+        Code.ParameterSyntax,
+        param.valuesAt,
+        s"`${param.name}` is an empty list"
+      ))
     if param.paramType == ParamType.Texture && n > 1 then
       fail(s"`${param.name}` must be one texture, found $n names")
     val excess = n % size
@@ -145,5 +168,10 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
       if n < size || isV4() then fail(message)
       else
         val ignored = if excess == 1 then "the last is" else s"the last $excess are"
-        warn(Problem.warning(param.valuesAt, s"$message; $ignored ignored", help))
+        warn(Problem.warning(
+          Code.ParameterSyntax,
+          param.valuesAt,
+          s"$message; $ignored ignored",
+          help
+        ))
         param.first(n - excess)

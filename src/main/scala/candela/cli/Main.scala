@@ -1,10 +1,11 @@
 package candela.cli
 
-import candela.base.{Problem, Severity}
+import candela.base.{Code, Problem, Severity}
 import candela.cli.commands.{
   AverageCommand, BenchCommand, CheckCommand, ClusterCommand, CompareCommand, CompletionCommand,
   ConvertCommand,
-  DescribeCommand, ImageCommand, InfoCommand, MergeCommand, PreviewCommand, RenderCommand,
+  DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand, PreviewCommand,
+  RenderCommand,
   ResumeCommand, ViewCommand
 }
 import candela.cli.options.{Command, CommandLine, OptionTable, Options}
@@ -69,7 +70,7 @@ object Main:
     )
     if !options.quiet then
       for note <- options.notes do
-        val warning = Problem(Severity.Warning, None, note)
+        val warning = Problem(Code.IdleOption, Severity.Warning, None, note)
         ProblemText.print(warning, terminal.err, terminal.hasColor)
     // Those have children, or shards, to end
     val isAlone = options.command != Command.Bench && options.cluster.master.isEmpty
@@ -90,13 +91,14 @@ object Main:
       case Command.Average => AverageCommand(options, terminal, report).run()
       case Command.Info => InfoCommand(options, terminal, report).run()
       case Command.Convert => ConvertCommand(options, terminal, report).run()
+      case Command.Explain => ExplainCommand(options, terminal, report).run()
       case Command.Completion => CompletionCommand(options, terminal, report).run()
 
   /** Nobody wants to hear of output that its reader did not want, such as `head`. */
   private def lost(failure: IOException, terminal: Terminal): ExitCode =
     if failure.getMessage != "Broken pipe" then
       val message = s"can't write to standard output: ${failure.getMessage}"
-      ProblemText.print(Problem.general(message), terminal.err, terminal.hasColor)
+      ProblemText.print(Problem.general(Code.Unwritable, message), terminal.err, terminal.hasColor)
     ExitCode.BadInput
 
 /** What Java prints about the program's own code, which its user can't change. */

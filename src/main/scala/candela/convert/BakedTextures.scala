@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.color.Rgb
 import candela.math.Vec3
 import candela.scenefile.*
@@ -28,7 +30,7 @@ object BakedTextures:
       val file = baking.write(s.run.files): (x, y) =>
         change(value(window.u(x), window.v(y), Vec3.Zero))
       val repeats = if window.repeats then "" else ", which repeats where u or v is not in [0, 1]"
-      s.warn(s.declaration.at, s"$why; using ${baking.describe}$repeats")
+      s.warn(Code.Inexpressible, s.declaration.at, s"$why; using ${baking.describe}$repeats")
       s.run.define(of.copy(
         name = s"${of.name} baked",
         texture = window.image(of.texture, file, s.run.pass.to),

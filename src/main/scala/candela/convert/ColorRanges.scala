@@ -2,7 +2,7 @@ package candela.convert
 
 import scala.collection.mutable
 
-import candela.base.Problem
+import candela.base.{Code, Problem}
 import candela.scenefile.{Declaration, Param, ParamType}
 
 /** Clamps the colours that pbrt-v4 refuses: negative ones, and reflectances above 1. */
@@ -21,7 +21,7 @@ private[convert] object ColorRanges:
     else
       val range = if most == 1f then "in [0, 1]" else "not negative"
       val message = s"a colour is ${written(p.floats)}; pbrt-v4 takes only colours $range: clamping"
-      val _ = warn(Problem.warning(p.at, message))
+      val _ = warn(Problem.warning(Code.ShiftedColors, p.at, message))
       p.withFloats(values)
 
   private def written(values: Array[Float]) = values.map(NumberText.of).mkString(" ")

@@ -2,7 +2,7 @@ package candela.convert
 
 import scala.collection.mutable
 
-import candela.base.Problem
+import candela.base.{Code, Problem}
 import candela.color.{ColorSpace, Rgb}
 import candela.scenefile.{Declaration, Param, ParamType, SceneDescription}
 
@@ -14,9 +14,11 @@ object ColorSpaces:
     val warnings = mutable.LinkedHashSet.empty[Problem]
     for film <- scene.film if film.colorSpace != Srgb do
       val message = s"v3 writes sRGB images, not ${film.colorSpace}"
-      warnings += Problem.warning(film.at, message)
+      warnings += Problem.warning(Code.ShiftedColors, film.at, message)
     val converted = Declarations.map(scene): d =>
-      val params = d.params.map(p => inSrgb(p, d, m => warnings += Problem.warning(p.at, m)))
+      val params = d.params.map(p =>
+        inSrgb(p, d, m => warnings += Problem.warning(Code.ShiftedColors, p.at, m))
+      )
       d.copy(params = params ++ ownWhite(d), colorSpace = Srgb)
     Converted(converted, warnings.toVector)
 

@@ -4,7 +4,7 @@ import java.nio.file.Path
 
 import scala.collection.mutable
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Code, Problem, SceneError}
 import candela.scenefile.{
   Declaration,
   Dialect,
@@ -43,7 +43,7 @@ object Converter:
       baking: Option[Baking]
   ): Converted =
     if toPly.nonEmpty && to == Dialect.V2 then
-      throw SceneError(Problem.general("v2 has no PLY meshes; remove --to-ply"))
+      throw SceneError(Problem.general(Code.NoConversion, "v2 has no PLY meshes; remove --to-ply"))
     val isMitsubas = scene.dialect == Dialect.Mitsuba
     val from = scene.dialect.base
     val own =
@@ -89,7 +89,11 @@ object Converter:
     def both(shapes: Vector[ShapeDescription]) = shapes.map(_.copy(oneSided = false))
     val lost = oneSided.headOption.map: first =>
       val count = if oneSided.size == 1 then "1 shape is" else s"${oneSided.size} shapes are"
-      Problem.warning(first.shape.at, s"$count black from behind in Mitsuba, but not in pbrt")
+      Problem.warning(
+        Code.Inexpressible,
+        first.shape.at,
+        s"$count black from behind in Mitsuba, but not in pbrt"
+      )
     Converted(
       scene.copy(
         shapes = both(scene.shapes),
@@ -108,6 +112,7 @@ object Converter:
       first <- (scene.shapes ++ scene.objects.values.flatten).find(isOpen)
       if Set(from, to) == Set(Dialect.V3, Dialect.V4) && !ThroughMedia(integrator)
     yield Problem.warning(
+      Code.Inexpressible,
       first.shape.at,
       s"\"$integrator\" finds other light behind surfaces without a BSDF in pbrt-v3 than in " +
         "pbrt-v4; \"volpath\" finds the same"
@@ -140,7 +145,7 @@ object Converter:
     case (Dialect.V4, Dialect.V3) => Vector(ToV3View.pass)
     case _ =>
       val message = s"can't convert a ${from.toString.toLowerCase} scene to v2"
-      throw SceneError(Problem.general(message, Some("use --to v3")))
+      throw SceneError(Problem.general(Code.NoConversion, message, Some("use --to v3")))
 
 /** Traverses the declarations of a description. */
 object Declarations:

@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Param, ParamType}
@@ -32,7 +34,11 @@ object Emission:
       for p <- s.take(power); value <- s.numberOf(p) if value > 0f do
         absolute(value, s) match
           case Some(f) => factor *= f
-          case None => s.warn(p.at, s"`$power` has no computable equivalent in v3; ignored")
+          case None => s.warn(
+              Code.Inexpressible,
+              p.at,
+              s"`$power` has no computable equivalent in v3; ignored"
+            )
       for p <- base do
         p.paramType match
           case ParamType.Rgb => s.addRaw(p)

@@ -3,7 +3,7 @@ package candela.convert
 import scala.collection.mutable
 import scala.util.Try
 
-import candela.base.{Problem, SceneFolder, loop}
+import candela.base.{Code, Problem, SceneFolder, loop}
 import candela.bsdf.Fresnel
 import candela.color.Rgb
 import candela.image.ImageFiles
@@ -49,11 +49,13 @@ object FromMitsuba:
       else
         for p <- d.param("normalmapuv") do
           problems += Problem.warning(
+            Code.Inexpressible,
             p.at,
             "pbrt's normal maps lie on u and v as they are; `to_uv` of this one is lost"
           )
         for p <- d.params if FromMitsuba.Reliefs(p.name) && isSoft(d) do
           problems += Problem.warning(
+            Code.Inexpressible,
             p.at,
             "pbrt does not darken the edge of the shadow on bumps, as Mitsuba does"
           )
@@ -100,13 +102,14 @@ object FromMitsuba:
         case _ => d
 
     private def warn(d: Declaration, message: String): Unit =
-      problems += Problem.warning(d.at, message)
+      problems += Problem.warning(Code.Inexpressible, d.at, message)
 
     private def light(d: Declaration): Declaration =
       d.name match
         case "infinite" =>
           for p <- d.param("mapname") do
             problems += Problem.warning(
+              Code.Inexpressible,
               p.at,
               "pbrt's environment maps begin and end half a row beyond Mitsuba's, whose first " +
                 "and last rows are centred on the poles; using pbrt's"
@@ -152,7 +155,11 @@ object FromMitsuba:
       upright.copy(params = upright.params.map: p =>
         if p.name != "wrap" || !p.strings.contains("mirror") then p
         else
-          problems += Problem.warning(p.at, "pbrt has no wrap `mirror`; using `repeat`")
+          problems += Problem.warning(
+            Code.Inexpressible,
+            p.at,
+            "pbrt has no wrap `mirror`; using `repeat`"
+          )
           Param.string("wrap", p.at, "repeat"))
 
     /** u and v of disks differ. */
@@ -171,6 +178,7 @@ object FromMitsuba:
         pane <- (own ++ scene.namedMaterials.map(_._2)).find(_.name == "thindielectric")
       do
         problems += Problem.warning(
+          Code.Inexpressible,
           depth.at,
           "what thin glass transmits is a scattering event in pbrt, not in Mitsuba's volumetric " +
             s"path tracing; `maxdepth` ${depth.ints.head} may be too low",
@@ -184,6 +192,7 @@ object FromMitsuba:
       val others = without(d, "", "distribution")
       d.param("distribution").filter(_.strings.contains("beckmann")).fold(others): p =>
         problems += Problem.warning(
+          Code.Inexpressible,
           p.at,
           "pbrt has no distribution `beckmann`; using `ggx` of equal median slope"
         )
@@ -211,7 +220,11 @@ object FromMitsuba:
 
     private def without(d: Declaration, instead: String, names: String*): Declaration =
       for p <- d.params if names.contains(p.name) && instead.nonEmpty do
-        problems += Problem.warning(p.at, s"pbrt has no `${p.name}` of \"${d.name}\"; $instead")
+        problems += Problem.warning(
+          Code.Inexpressible,
+          p.at,
+          s"pbrt has no `${p.name}` of \"${d.name}\"; $instead"
+        )
       d.copy(params = d.params.filterNot(p => names.contains(p.name)))
 
     private def color(d: Declaration, name: String): Option[Rgb] =
@@ -240,6 +253,7 @@ object FromMitsuba:
               val name = tint.renamed("reflectance")
               times(name, "spectrum", ConductorAlbedo.normal(own.luminance))
           problems += Problem.warning(
+            Code.Inexpressible,
             tint.at,
             "pbrt has no `scale` of \"conductor\"; using a `reflectance` of equal albedo"
           )

@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.scenefile.{Dialect, ShapeDescription}
 
 /** Options, lights and shapes, from v2 to v3. */
@@ -43,6 +45,7 @@ object FromV2:
         val widths = Seq("xwidth", "ywidth").map(s.look(_).flatMap(s.numberOf).getOrElse(4f))
         if widths.exists(_ != tau) then
           s.warn(
+            Code.Inexpressible,
             s.declaration.at,
             "a sinc filter has another width in v3, unless its `tau` equals " +
               "its width"
@@ -155,7 +158,7 @@ object FromV2:
         if isDisk then
           "v2 shows this disk bright on its unlit side, v3 on the other"
         else "v2 shows this reflected area light bright outside, v3 inside"
-      run.warn(s.shape.at, text)
+      run.warn(Code.Inexpressible, s.shape.at, text)
     Vector(s)
 
   private val accelerators = Table("Accelerator")(

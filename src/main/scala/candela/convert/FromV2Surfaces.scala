@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.color.Rgb
 import candela.math.pow
 
@@ -84,7 +86,7 @@ object FromV2Surfaces:
           val (scale, delta) = (s.takeNumber("vscale", 1f), s.takeNumber("vdelta", 0f))
           s.addFloat("vscale", -scale)
           s.addFloat("vdelta", 1f - delta)
-        else s.warn(s.declaration.at, "v3 flips this image vertically")
+        else s.warn(Code.Inexpressible, s.declaration.at, "v3 flips this image vertically")
 
   private def common = Seq(
     Rule("constant" -> "constant")(keep("value")),

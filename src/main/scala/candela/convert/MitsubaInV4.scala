@@ -2,7 +2,7 @@ package candela.convert
 
 import scala.collection.mutable
 
-import candela.base.{Problem, SceneFolder}
+import candela.base.{Code, Problem, SceneFolder}
 import candela.scenefile.{
   Declaration, MaterialRef, Param, ParamType, SceneDescription, ShapeDescription
 }
@@ -32,6 +32,7 @@ private[convert] object MitsubaInV4:
     val lost = (scene.shapes ++ scene.objects.values.flatten).find(isNull).zip(shaded).map:
       (lamp, point) =>
         Problem.warning(
+          Code.Inexpressible,
           lamp.shape.at,
           "pbrt-v4 has no lamps that light passes; this one casts shadows",
           Some(s"of the light at ${point.light.at}")
@@ -61,7 +62,11 @@ private[convert] object MitsubaInV4:
         RewrittenImages.raw(d.folder, p, files) match
           case Right(name) => name
           case Left(why) =>
-            problems += Problem.warning(p.at, s"can't read the image, leaving it unchanged: $why")
+            problems += Problem.warning(
+              Code.UnconvertedImage,
+              p.at,
+              s"can't read the image, leaving it unchanged: $why"
+            )
             p.strings.head
       )
       p.withStrings(Vector(name))

@@ -2,7 +2,7 @@ package candela.convert
 
 import scala.collection.mutable
 
-import candela.base.{Problem, SceneFolder, SourcePos}
+import candela.base.{Code, Problem, SceneFolder, SourcePos}
 import candela.math.Transform
 import candela.scenefile.*
 
@@ -49,9 +49,11 @@ final class PassRun(
   /** Transform of the texture being converted. */
   def textureToWorld: AnimatedTransform = place
 
-  val values: Values = Values(pass.from, pass.to, (p, message) => warn(p.at, message))
+  val values: Values =
+    Values(pass.from, pass.to, (p, message) => warn(Code.Inexpressible, p.at, message))
 
-  def warn(at: SourcePos, message: String): Unit = problems += Problem.warning(at, message)
+  def warn(code: Code, at: SourcePos, message: String): Unit =
+    problems += Problem.warning(code, at, message)
   def warnings: Vector[Problem] = problems.toVector
 
   def texture(name: String, valueType: String): Option[TextureDescription] =
@@ -80,7 +82,8 @@ final class PassRun(
       case None =>
         val dialect = pass.to.toString.toLowerCase
         val instead = table.fallback.fold("ignored")(f => s"using \"$f\"")
-        warn(d.at, s"$dialect has no equivalent of ${category.toLowerCase} \"${d.name}\"; $instead")
+        val what = s"${category.toLowerCase} \"${d.name}\""
+        warn(Code.Inexpressible, d.at, s"$dialect has no equivalent of $what; $instead")
         table.fallback.map(name => d.copy(name = name, params = Vector.empty))
 
   /** Converts a declaration that several shapes may share, once. */
@@ -124,7 +127,8 @@ final class PassRun(
       renderer = scene.renderer.flatMap(convert(_, "Renderer")),
       volumeIntegrator = scene.volumeIntegrator.flatMap(convert(_, "VolumeIntegrator")),
       options = scene.options.filter: o =>
-        if pass.to != Dialect.V4 then warn(o.at, s"Option \"${o.name}\" exists only in v4; ignored")
+        if pass.to != Dialect.V4 then
+          warn(Code.Inexpressible, o.at, s"Option \"${o.name}\" exists only in v4; ignored")
         pass.to == Dialect.V4
       ,
       namedMaterials = materials,

@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.bsdf.microfacet.Roughness
 import candela.color.Rgb
 import candela.math.sqrt
@@ -74,7 +76,11 @@ object RoughnessSteps:
       if baked.contains(name) then s.addTexture(name, baked(name))(using p.at)
       else if isTexture(p, s) then
         if remap then
-          s.warn(p.at, s"texture of `$name` is unchanged, but maps differently in ${s.target}")
+          s.warn(
+            Code.Inexpressible,
+            p.at,
+            s"texture of `$name` is unchanged, but maps differently in ${s.target}"
+          )
         s.add(name, p)
       else s.numberOf(p).foreach(r => s.addFloat(name, said(r))(using p.at))
     if given_.isEmpty then s.addFloat("roughness", alpha(default))

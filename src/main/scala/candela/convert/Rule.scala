@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.scenefile.Dialect
 
 /** Converts some parameters of a statement.
@@ -66,7 +68,11 @@ object Steps:
   def lose(name: String, instead: String)(isNeutral: (Param, Statement) => Boolean): Step =
     Step(s"`$name`", s"dropped: $instead"): s =>
       for p <- s.take(name) if !isNeutral(p, s) do
-        s.warn(p.at, s"`$name` of \"${s.name}\" is not supported in ${s.target}; $instead")
+        s.warn(
+          Code.Inexpressible,
+          p.at,
+          s"`$name` of \"${s.name}\" is not supported in ${s.target}; $instead"
+        )
 
   def lose(name: String, instead: String): Step = lose(name, instead)((_, _) => false)
 

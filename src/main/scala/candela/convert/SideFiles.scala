@@ -6,7 +6,7 @@ import java.util.Arrays
 
 import scala.util.Try
 
-import candela.base.{InputFile, loop, Problem, SceneError, SceneFolder, WholeFile}
+import candela.base.{Code, InputFile, Problem, SceneError, SceneFolder, WholeFile, loop}
 import candela.color.{Encoding, Rgb}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.lights.{Picture, PictureLookup}
@@ -30,7 +30,7 @@ final class SideFiles(val folder: Path, check: Path => Unit = _ => ()):
       WholeFile.write(path, bytes)
       created :+= path
     else if !Files.isRegularFile(path) || !Arrays.equals(Files.readAllBytes(path), bytes) then
-      throw SceneError(Problem.general(s"`$path` exists with different content"))
+      throw SceneError(Problem.general(Code.SideFile, s"`$path` exists with different content"))
     name
 
   /** Deletes what has been created. */
@@ -103,8 +103,8 @@ object RewrittenImages:
   private def file(folder: SceneFolder, p: Param): InputFile =
     folder.find(p.strings.head, Some(p.valuesAt)).getOrElse:
       if SceneFolder.isName(p.strings.head) then
-        throw ImageError(s"${folder.path.resolve(name(p))}: there is no such file")
-      else throw ImageError("the name is not valid")
+        throw ImageError(Code.NoSuchFile, s"${folder.path.resolve(name(p))}: there is no such file")
+      else throw ImageError(Code.UnconvertedImage, "the name is not valid")
 
   /** The image with `change` applied to its stored values (8 bits: 0 to 1) and their channel,
     * in sRGB.
@@ -140,7 +140,7 @@ object RewrittenImages:
   private def written(s: Statement, p: Param)(change: Image => Image): String =
     val name = p.strings.head
     def failed(why: String) =
-      s.warn(p.at, s"can't read the image, leaving it unchanged: $why")
+      s.warn(Code.UnconvertedImage, p.at, s"can't read the image, leaving it unchanged: $why")
       name
     try
       val image = ImageFiles.load(file(s, p)).toImage

@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.color.Rgb
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.lights.{EqualAreaMap, IesError, IesFile, LatLongMap, SphereMap}
@@ -42,7 +42,11 @@ object SkyImages:
       Some(s.run.files.add(kind, "exr", ImageFiles.exr(tinted)))
     catch
       case e: (ImageError | IesError) =>
-        s.warn(p.at, s"can't convert the image, ignoring it: ${e.getMessage}")
+        s.warn(
+          Code.UnconvertedImage,
+          p.at,
+          s"can't convert the image, ignoring it: ${e.getMessage}"
+        )
         None
 
   /** Each pixel averages the source over the pixel's directions.

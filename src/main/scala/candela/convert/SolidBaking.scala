@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.base.Problem
+import candela.base.{Code, Problem}
 import candela.color.Rgb
 import candela.math.Transform
 import candela.scenefile.*
@@ -56,6 +56,7 @@ final class SolidBaking(
         val image = points.flatMap(paint(s, solids(texture), _))
         val what = s"pbrt-v3 colours the marble of \"$texture\" differently"
         warnings += Problem.warning(
+          Code.Inexpressible,
           s.shape.at,
           if image.isDefined then s"$what; using ${baking.describe} for this shape"
           else s"$what, and it can't be baked: u and v do not tell this shape's points apart"
@@ -78,6 +79,7 @@ final class SolidBaking(
         color.map(c => Math.max(c, 0f))
       if to == Dialect.V4 then
         warnings += Problem.warning(
+          Code.Inexpressible,
           texture.texture.at,
           "v4 clamps reflectances to 1, which the colours that pbrt-v3 extrapolates may exceed"
         )

@@ -3,7 +3,7 @@ package candela.convert
 import scala.collection.mutable
 import scala.util.Try
 
-import candela.base.{Problem, SourcePos, loop}
+import candela.base.{Code, Problem, SourcePos, loop}
 import candela.color.{ColorError, ColoredSpectrum, Rgb, SmoothSpectra}
 import candela.image.ImageFiles
 import candela.scenefile.{Declaration, Param, ParamType, SceneDescription}
@@ -30,6 +30,7 @@ private[convert] object SpectralColors:
     census.worst.filter(_.error > visible).map: found =>
       val percent = Math.round(found.error * 100)
       Problem.warning(
+        Code.ShiftedColors,
         found.on.at,
         s"pbrt-v4 multiplies spectra, $from red, green and blue: this colour differs by up to " +
           s"$percent % of the brightest channel, and by more after several reflections",

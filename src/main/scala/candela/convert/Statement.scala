@@ -2,7 +2,7 @@ package candela.convert
 
 import scala.collection.mutable
 
-import candela.base.SourcePos
+import candela.base.{Code, SourcePos}
 import candela.color.Rgb
 import candela.scenefile.*
 
@@ -61,7 +61,7 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
     made += Param(ParamType.Texture, name, at, at, strings = Vector(texture))
   def addRaw(p: Param): Unit = made += p
 
-  def warn(at: SourcePos, message: String): Unit = run.warn(at, message)
+  def warn(code: Code, at: SourcePos, message: String): Unit = run.warn(code, at, message)
 
   // Constant values of parameters, if known.
 
@@ -97,9 +97,10 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
     for step <- rule.steps do step.run(this)
     for note <- rule.note if targetName == rule.to && rule.differs(run.ends) do
       val what = s"${declaration.category} \"$name\""
-      warn(declaration.at, s"$what is converted to \"$targetName\" in $target: $note")
+      val how = s"$what is converted to \"$targetName\" in $target: $note"
+      warn(Code.Inexpressible, declaration.at, how)
     for p <- open.values if !p.isDefault do
-      warn(p.at, s"unknown parameter `${p.name}` of \"$name\"; ignored")
+      warn(Code.UnknownParameter, p.at, s"unknown parameter `${p.name}` of \"$name\"; ignored")
     val (new_, old) = made.toVector.partition(_.at == declaration.at)
     val ordered = old.sortBy(p => (p.at.line, p.at.column)) ++ new_
     // v2 and v3 have no `Attribute`

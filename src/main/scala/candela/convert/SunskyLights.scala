@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.base.Problem
+import candela.base.{Code, Problem}
 import candela.color.Rgb
 import candela.image.ImageFiles
 import candela.lights.{EqualAreaMap, SkyModel, SunAndSky}
@@ -18,6 +18,7 @@ private[convert] object SunskyLights:
       else
         if !l.light.param("sunscale").exists(_.floats.contains(0f)) then
           problems += Problem.warning(
+            Code.Inexpressible,
             l.light.at,
             "the sun becomes an image, whose pixels blur its edge by 0.1 degrees"
           )

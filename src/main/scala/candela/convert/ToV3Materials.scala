@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.color.Rgb
 import candela.math.safeSqrt
 import candela.scenefile.{Param, ParamType}
@@ -10,7 +12,8 @@ object ToV3Materials:
 
   private val bump = Step("`displacement`, `normalmap`", "`bumpmap`; `normalmap` is dropped"): s =>
     for p <- s.take("displacement") do s.add("bumpmap", p)
-    for p <- s.take("normalmap") do s.warn(p.at, "v3 does not support normal maps; ignored")
+    for p <- s.take("normalmap") do
+      s.warn(Code.Inexpressible, p.at, "v3 does not support normal maps; ignored")
 
   private def reflectance(default: Float): Seq[Step] = Seq(
     rename("reflectance" -> "Kd"),
@@ -23,7 +26,11 @@ object ToV3Materials:
       if p.paramType == ParamType.Spectrum then
         val spectrum = s.run.values.spectrum(p, s.declaration)
         if spectrum.exists(_.values.distinct.length > 1) then
-          s.warn(p.at, "v3 does not support dispersion; using the index of refraction at 589 nm")
+          s.warn(
+            Code.Inexpressible,
+            p.at,
+            "v3 does not support dispersion; using the index of refraction at 589 nm"
+          )
         spectrum.map(_(589.3f))
       else s.numberOf(p)
     s.addFloat("eta", value.getOrElse(default))
@@ -54,7 +61,11 @@ object ToV3Materials:
               s.addRgb("eta", Rgb.White)(using p.at)
               s.addRgb("k", c.map(absorption))(using p.at)
             case None =>
-              s.warn(p.at, "metal can't have a `reflectance` texture in v3; using \"mirror\"")
+              s.warn(
+                Code.Inexpressible,
+                p.at,
+                "metal can't have a `reflectance` texture in v3; using \"mirror\""
+              )
               s.convertTo("mirror")
               s.add("Kr", p)
         case None =>
@@ -105,7 +116,7 @@ object ToV3Materials:
           case Some(p) if s.colorOf(p).isEmpty => s.add(to, p)
           case p => s.addRgb(to, p.flatMap(s.colorOf).getOrElse(Rgb.gray(0.25f)) * scale)
       if scale != 1f && s.hasMade(ParamType.Texture) then
-        s.warn(s.declaration.at, "`scale` does not apply to textures in v3")
+        s.warn(Code.Inexpressible, s.declaration.at, "`scale` does not apply to textures in v3")
       s.addRgb("Kd", Rgb.White)
       s.addRgb("Ks", Rgb.Black)
 
@@ -117,7 +128,8 @@ object ToV3Materials:
       for p <- s.take("amount") do
         s.numberOf(p) match
           case Some(a) => s.addRgb("amount", Rgb.gray(a))(using p.at)
-          case None => s.warn(p.at, "`amount` can't be a float texture in v3; using 0.5")
+          case None =>
+            s.warn(Code.Inexpressible, p.at, "`amount` can't be a float texture in v3; using 0.5")
 
   private val subsurface = Seq(
     keep("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),

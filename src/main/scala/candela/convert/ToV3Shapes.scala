@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.scenefile.*
 
 /** Shapes, from v4 to v3. */
@@ -14,10 +16,18 @@ object ToV3Shapes:
     for p <- s.take("alpha") do
       s.numberOf(p).filter(_ => p.paramType != ParamType.Texture) match
         case Some(x) if x > 0f && x < 1f =>
-          s.warn(p.at, "v3 treats only `alpha` 0 as transparent; the shape is opaque")
+          s.warn(
+            Code.Inexpressible,
+            p.at,
+            "v3 treats only `alpha` 0 as transparent; the shape is opaque"
+          )
         case Some(x) => s.addFloat("alpha", x)(using p.at)
         case None =>
-          s.warn(p.at, "v3 treats only `alpha` 0 as transparent; values above are opaque")
+          s.warn(
+            Code.Inexpressible,
+            p.at,
+            "v3 treats only `alpha` 0 as transparent; values above are opaque"
+          )
           s.add("alpha", p)
 
   val table: Table = Table("Shape")(
@@ -47,6 +57,7 @@ object ToV3Shapes:
       if s.shape.name != "bilinearmesh" then s
       else
         run.warn(
+          Code.Inexpressible,
           s.shape.at,
           "v3 has no \"bilinearmesh\"; using \"trianglemesh\", finely tessellated " +
             "where it is curved"
@@ -55,7 +66,11 @@ object ToV3Shapes:
     val turned =
       if meshed.reverseOrientation && Meshes.hasNormals(meshed.shape) then
         if meshed.shape.name == "plymesh" then
-          run.warn(s.shape.at, "v3 does not reverse the orientation of a PLY mesh with normals")
+          run.warn(
+            Code.Inexpressible,
+            s.shape.at,
+            "v3 does not reverse the orientation of a PLY mesh with normals"
+          )
           meshed
         else meshed.copy(shape = reversed(meshed.shape), reverseOrientation = false)
       else meshed

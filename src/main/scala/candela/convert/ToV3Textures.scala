@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.color.{Rgb, Srgb}
 import candela.math.pow
 import candela.scenefile.*
@@ -39,12 +41,20 @@ object ToV3Textures:
     val kind = p.flatMap(_.strings.headOption).getOrElse("bilinear").toLowerCase
     if kind != "ewa" then s.addBool("trilinear", true)
     for q <- p if kind == "point" do
-      s.warn(q.at, "v3 does not support \"point\" filtering; using \"trilinear\"")
+      s.warn(
+        Code.Inexpressible,
+        q.at,
+        "v3 does not support \"point\" filtering; using \"trilinear\""
+      )
 
   private val wrap: Step = Step("`wrap`", "`wrap`; \"octahedralsphere\" is dropped"): s =>
     for p <- s.take("wrap") do
       if p.strings.headOption.contains("octahedralsphere") then
-        s.warn(p.at, "v3 does not support wrap \"octahedralsphere\"; using \"repeat\"")
+        s.warn(
+          Code.Inexpressible,
+          p.at,
+          "v3 does not support wrap \"octahedralsphere\"; using \"repeat\""
+        )
       else s.add("wrap", p)
 
   private def common = Seq(

@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.math.square
 import candela.scenefile.Dialect
 
@@ -15,6 +17,7 @@ object ToV3View:
     val p = s.take("mapping")
     if !p.exists(_.strings.headOption.contains("equirectangular")) then
       s.warn(
+        Code.Inexpressible,
         p.fold(s.declaration.at)(_.at),
         "v3 does not support the equal-area mapping; using " +
           "\"equirectangular\""
@@ -38,7 +41,7 @@ object ToV3View:
 
   private val components = Step("`maxcomponentvalue`", "`maxsampleluminance`, with a warning"): s =>
     for p <- s.take("maxcomponentvalue"); x <- s.numberOf(p) do
-      s.warn(p.at, "v3 clamps a sample's luminance, v4 its largest component")
+      s.warn(Code.Inexpressible, p.at, "v3 clamps a sample's luminance, v4 its largest component")
       s.addFloat("maxsampleluminance", x)(using p.at)
 
   /** A window of pixels, in fractions of the image. */

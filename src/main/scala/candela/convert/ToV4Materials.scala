@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.color.Rgb
 import candela.math.sqrt
 import candela.scenefile.{GraphicsState, Param, ParamType, TextureDescription, Declaration}
@@ -22,7 +24,11 @@ object ToV4Materials:
       for p <- named.orElse(index) do
         val value = s.numberOf(p)
         if value.isEmpty then
-          s.warn(p.at, s"the index of refraction can't be a texture in v4; using $default")
+          s.warn(
+            Code.Inexpressible,
+            p.at,
+            s"the index of refraction can't be a texture in v4; using $default"
+          )
         s.addFloat("eta", value.getOrElse(default))(using p.at)
 
   /** The coating's index of refraction for which its normal reflectance equals `Ks`. */
@@ -31,8 +37,9 @@ object ToV4Materials:
       val p = s.take("Ks")
       val ks = p.flatMap(s.colorOf).getOrElse(Rgb.gray(defaultKs))
       if p.exists(s.colorOf(_).isEmpty) then
-        s.warn(p.get.at, "v4's coating can't be textured; using a constant")
-      else if !Values.isGray(ks) then s.warn(p.get.at, "v4's coating can't be coloured; using gray")
+        s.warn(Code.Inexpressible, p.get.at, "v4's coating can't be textured; using a constant")
+      else if !Values.isGray(ks) then
+        s.warn(Code.Inexpressible, p.get.at, "v4's coating can't be coloured; using gray")
       val root = sqrt(Math.min(Math.max(ks.luminance * fresnel, 1e-4f), 0.9f))
       s.addFloat("eta", (1f + root) / (1f - root))
 
@@ -72,9 +79,9 @@ object ToV4Materials:
       Seq("Kd", "Ks", "Kr", "Kt").foreach(s.take)
     for (name, why) <- Seq("Kr" -> "no second, specular lobe", "Kt" -> "no transmission") do
       for p <- s.take(name) if !isColor(0f)(p, s) do
-        s.warn(p.at, s"`$name` of \"uber\" is not supported in v4; $why")
+        s.warn(Code.Inexpressible, p.at, s"`$name` of \"uber\" is not supported in v4; $why")
     for p <- s.take("opacity") if !isColor(1f)(p, s) do
-      s.warn(p.at, "`opacity` of \"uber\" is not supported in v4; opaque")
+      s.warn(Code.Inexpressible, p.at, "`opacity` of \"uber\" is not supported in v4; opaque")
 
   /** v4 has two textures where v3 has one texture and two factors. */
   private val translucent: Step =
@@ -84,11 +91,15 @@ object ToV4Materials:
         val p = s.take(factor)
         val f = p.flatMap(s.colorOf).getOrElse(Rgb.gray(0.5f))
         if p.exists(s.colorOf(_).isEmpty) then
-          s.warn(p.get.at, s"`$factor` can't be a texture in v4; using 0.5")
+          s.warn(Code.Inexpressible, p.get.at, s"`$factor` can't be a texture in v4; using 0.5")
         kd.map(k => (k, s.colorOf(k))) match
           case Some((k, None)) =>
             if !Values.isGray(f) then
-              s.warn(k.at, s"`$factor` can't be coloured beside a texture in v4; using gray")
+              s.warn(
+                Code.Inexpressible,
+                k.at,
+                s"`$factor` can't be coloured beside a texture in v4; using gray"
+              )
             s.addTexture(name, product(s, k.strings.head, f.luminance))(using k.at)
           case colored => s.addRgb(name, colored.flatMap(_._2).getOrElse(Rgb.gray(0.25f)) * f)
 
@@ -114,7 +125,11 @@ object ToV4Materials:
         s.numberOf(p).orElse(s.colorOf(p).map(_.average)) match
           case Some(a) =>
             if s.colorOf(p).exists(!Values.isGray(_)) then
-              s.warn(p.at, "`amount` can't be coloured in v4; using its average")
+              s.warn(
+                Code.Inexpressible,
+                p.at,
+                "`amount` can't be coloured in v4; using its average"
+              )
             s.addFloat("amount", a)(using p.at)
           case None =>
             s.addTexture("amount", ToV4Textures.floatTwin(s, p))(using p.at)
@@ -165,7 +180,11 @@ object ToV4Materials:
       lose("Ks", "no glossy lobe")(black),
       otherwise("Ks", "warning: the glossy lobe is dropped")(s =>
         if !s.wasGiven("Ks") then
-          s.warn(s.declaration.at, "v4 has no glossy lobe for \"translucent\"; ignored")
+          s.warn(
+            Code.Inexpressible,
+            s.declaration.at,
+            "v4 has no glossy lobe for \"translucent\"; ignored"
+          )
       ),
       drop("roughness", "remaproughness"),
       bump

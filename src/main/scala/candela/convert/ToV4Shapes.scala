@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.scenefile.*
 
 /** Shapes, from v3 to v4. */
@@ -19,7 +21,11 @@ object ToV4Shapes:
         else
           s.add("alpha", p)
           if !isPlain then
-            s.warn(p.at, "v3 treats only `alpha` 0 as transparent, v4 all values below 1")
+            s.warn(
+              Code.Inexpressible,
+              p.at,
+              "v3 treats only `alpha` 0 as transparent, v4 all values below 1"
+            )
       else s.numberOf(p).foreach(x => s.addFloat("alpha", if x == 0f then 0f else 1f)(using p.at))
 
   private val Plain = Set("constant", "checkerboard", "dots")
@@ -73,7 +79,11 @@ object ToV4Shapes:
     Tessellation.of(s.shape) match
       case Some(mesh) =>
         val how = if s.shape.name == "heightfield" then "same triangles" else "finely tessellated"
-        run.warn(s.shape.at, s"v4 has no \"${s.shape.name}\"; using \"trianglemesh\", $how")
+        run.warn(
+          Code.Inexpressible,
+          s.shape.at,
+          s"v4 has no \"${s.shape.name}\"; using \"trianglemesh\", $how"
+        )
         Vector(s.copy(shape = mesh))
       case None if s.reverseOrientation && Meshes.hasNormals(s.shape) =>
         Vector(s.copy(reverseOrientation = false))

@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.color.{Rgb, Srgb}
 import candela.scenefile.*
 
@@ -82,7 +84,7 @@ object ToV4Textures:
               gray(by) match
                 case Some(g) => s.addFloat("scale", g)(using by.at)
                 case None =>
-                  s.warn(by.at, s"$NoProducts; using the luminance of one")
+                  s.warn(Code.Inexpressible, by.at, s"$NoProducts; using the luminance of one")
                   color(by) match
                     case Some(c) => s.addFloat("scale", c.luminance)(using by.at)
                     case None => s.addTexture("scale", floatTwin(s, by))(using by.at)
@@ -120,7 +122,11 @@ object ToV4Textures:
         t <- s.run.texture(name, "spectrum")
         d <- s.run.convert(grayed(s, t.texture), "float texture")
       yield s.run.define(t.copy(name = s"$name as number", valueType = "float", texture = d))
-    s.warn(p.at, s"v4 needs a float texture here; using the luminance of \"$name\"")
+    s.warn(
+      Code.Inexpressible,
+      p.at,
+      s"v4 needs a float texture here; using the luminance of \"$name\""
+    )
     twin.getOrElse(name)
 
   private def grayed(s: Statement, d: Declaration): Declaration =

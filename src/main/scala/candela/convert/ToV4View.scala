@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.base.Code
+
 import candela.math.sqrt
 import candela.scenefile.Dialect
 
@@ -41,6 +43,7 @@ object ToV4View:
         val p = s.take("simpleweighting")
         if !p.exists(_.bools == Vector(false)) then
           s.warn(
+            Code.Inexpressible,
             p.fold(s.declaration.at)(_.at),
             "v4 always weights by the film's exposure"
           )
@@ -74,7 +77,11 @@ object ToV4View:
       ),
       Step("`maxsampleluminance`", "`maxcomponentvalue`, with a warning")(s =>
         for p <- s.take("maxsampleluminance"); x <- s.numberOf(p) do
-          s.warn(p.at, "v4 clamps a sample's largest component, v3 its luminance")
+          s.warn(
+            Code.Inexpressible,
+            p.at,
+            "v4 clamps a sample's largest component, v3 its luminance"
+          )
           s.addFloat("maxcomponentvalue", x)(using p.at)
       ),
       pixelBounds,
@@ -135,6 +142,7 @@ object ToV4View:
     if smoothMaterials(s).isEmpty then s.addInteger("maxdepth", 1)
     else
       s.warn(
+        Code.Inexpressible,
         s.declaration.at,
         s"v4 has no \"${s.name}\"; using \"path\", which adds " +
           "indirect light from non-specular surfaces"

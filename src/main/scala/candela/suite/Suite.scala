@@ -1,6 +1,6 @@
 package candela.suite
 
-import candela.base.SceneError
+import candela.base.{Code, SceneError}
 
 import java.nio.file.Path
 
@@ -109,7 +109,7 @@ final case class Suite(
     def check(asked: Vector[String], known: Vector[String], what: String): Unit =
       for name <- asked if !known.contains(name) do
         val message = s"unknown $what `$name`; known: ${known.mkString(", ")}"
-        throw SceneError(candela.base.Problem.general(message))
+        throw SceneError(candela.base.Problem.general(Code.SuiteFile, message))
     check(programNames, programs.map(_.name), "program")
     check(sceneNames, scenes.map(_.name), "scene")
     copy(

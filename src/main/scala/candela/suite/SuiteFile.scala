@@ -1,6 +1,6 @@
 package candela.suite
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Code, Problem, SceneError}
 import candela.job.SceneFormat
 
 import com.typesafe.config.{Config, ConfigException, ConfigFactory, ConfigParseOptions}
@@ -122,7 +122,8 @@ object SuiteFile:
     if value < 1 then throw wrong(s"`$key` must be at least 1, found `$value`")
     value
 
-  private def wrong(message: String): SceneError = SceneError(Problem.general(message))
+  private def wrong(message: String): SceneError =
+    SceneError(Problem.general(Code.SuiteFile, message))
 
 /** A folder as a suite: all scenes of the known formats, such as `NAME.pbrt`, each with a reference
   * `NAME.exr` if there is one.
@@ -135,7 +136,7 @@ object SuiteFolder:
       files.iterator.asScala.toVector.filter(SceneFormat.named(_).isDefined).sorted
     if scenes.isEmpty then
       val help = s"scenes are of ${SceneFormat.inWords}"
-      throw SceneError(Problem.general(s"no scene in $folder", Some(help)))
+      throw SceneError(Problem.general(Code.SuiteFile, s"no scene in $folder", Some(help)))
     val files = scenes.groupBy(SceneFormat.stem)
     Suite(
       folder.toAbsolutePath.getFileName.toString,

@@ -1,5 +1,7 @@
 package candela.suite
 
+import candela.base.Code
+
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.measure.{Measurement, SeedNoise}
 
@@ -247,7 +249,7 @@ final class SuiteRunner(
     program.layer.fold(image.toRgb): layer =>
       val channels = Image.RgbNames.map(c => s"$layer.$c")
       image.indicesOf(channels).map(image.selected(_).toRgb).getOrElse:
-        throw ImageError(s"the image has no layer `$layer`")
+        throw ImageError(Code.ImageContents, s"the image has no layer `$layer`")
 
   private def keep(job: Job, image: Image): Unit =
     val isBetter = pictures.get(job.entry).forall: (kept, _) =>

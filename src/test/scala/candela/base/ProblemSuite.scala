@@ -8,19 +8,26 @@ class ProblemSuite extends AnyFunSuite:
   test("a message is one line, whatever names the file has"):
     val name = "a\nb\tc\u001bd"
     for p <- Seq(
-        Problem.error(at, s"`$name` is odd", Some(s"not $name")),
-        Problem.warning(at, s"`$name` is odd", Some(s"not $name")),
-        Problem.missing(at, s"`$name` is odd", "nothing", keepGoing = false, Some(s"not $name"))
+        Problem.error(Code.Undefined, at, s"`$name` is odd", Some(s"not $name")),
+        Problem.warning(Code.Undefined, at, s"`$name` is odd", Some(s"not $name")),
+        Problem.missing(
+          Code.Undefined,
+          at,
+          s"`$name` is odd",
+          "nothing",
+          keepGoing = false,
+          Some(s"not $name")
+        )
       )
     do
       assert(p.message == "`a␊b\tc␛d` is odd")
       assert(p.help.contains("not a␊b\tc␛d"))
 
   test("a message of a thousand characters keeps its beginning and its end"):
-    val p = Problem.error(at, "first" + "x" * 1000 + "last")
+    val p = Problem.error(Code.Undefined, at, "first" + "x" * 1000 + "last")
     assert(p.message.length <= 500)
     assert(p.message.startsWith("first") && p.message.endsWith("last"))
 
   test("a message of ordinary length is as it was written"):
     val text = "`roughnes` is not a parameter of \"plastic\"; it is ignored — " + "y" * 300
-    assert(Problem.error(at, text).message == text)
+    assert(Problem.error(Code.Undefined, at, text).message == text)

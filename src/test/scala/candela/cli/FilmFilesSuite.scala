@@ -74,7 +74,7 @@ class FilmFilesSuite extends AnyFunSuite:
       f.render("--spp", "4", "--shard", "7/2147483647", "--outfile", f("7.film"))
       val why = f.fail(Vector("merge", "--outfile", f("x.exr"), f("7.film"))).linesIterator.next
       assert(why == "error: shards 0/2147483647 to 6/2147483647, " +
-        "8/2147483647 to 2147483646/2147483647 are missing")
+        "8/2147483647 to 2147483646/2147483647 are missing [E1005]")
       f.run(Vector("merge", "--partial", "--outfile", f("x.exr"), f("7.film")))
 
   test("layers are merged, too"):
@@ -116,7 +116,7 @@ class FilmFilesSuite extends AnyFunSuite:
       for i <- 0 until 4 do f.render("--shard", s"$i/4", "--outfile", f(s"$i.film"))
       def merge(words: String*) =
         f.fail(Vector("merge", "--outfile", f("x.exr")) ++ words).linesIterator.next
-      assert(merge(f("0.film"), f("2.film")) == "error: shards 1/4, 3/4 are missing")
+      assert(merge(f("0.film"), f("2.film")) == "error: shards 1/4, 3/4 are missing [E1005]")
       val twice = merge((0 to 3).map(i => f(s"$i.film")) :+ f("1.film")*)
       assert(twice == s"error: shard 1/4 is there twice: `${f("1.film")}`, `${f("1.film")}`")
       f.render("--shard", "3/4", "--seed", "5", "--outfile", f("seed.film"))

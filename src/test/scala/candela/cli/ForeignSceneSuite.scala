@@ -26,7 +26,7 @@ class ForeignSceneSuite extends AnyFunSuite:
         ImageFiles.write(Path.of(file), image)
         for command <- commands do
           assert(refusal(command, file) == Vector(
-            s"error: `$file` is $what, not a scene",
+            s"error: `$file` is $what, not a scene [E0102]",
             s" `candela view $file` shows it"
           ))
 
@@ -36,10 +36,12 @@ class ForeignSceneSuite extends AnyFunSuite:
       for (name, bytes) <- Vector("a.ply" -> ply, "a.ply.gz" -> Gzip.of(ply), "b.pbrt" -> ply)
       do
         val file = Files.write(folder.resolve(name), bytes)
-        assert(refusal("check", s"$file").head == s"error: `$file` is a PLY mesh, not a scene")
+        val what = s"`$file` is a PLY mesh, not a scene"
+        assert(refusal("check", s"$file").head == s"error: $what [E0102]")
       val model = Files.writeString(folder.resolve("a.gltf"), "{\"asset\": {}}")
       val lines = refusal(s"$model")
-      assert(lines(0).endsWith("is a glTF model, not a scene") && lines(1).contains("export it"))
+      assert(lines(0).endsWith("is a glTF model, not a scene [E0102]"))
+      assert(lines(1).contains("export it"))
       val mitsuba = Files.writeString(folder.resolve("m.pbrt"), "<scene version=\"3.0.0\"></scene>")
       assert(refusal(s"$mitsuba")(1) == " its name must end with .xml")
 
@@ -48,7 +50,7 @@ class ForeignSceneSuite extends AnyFunSuite:
       val model = Files.writeString(folder.resolve("model.obj"), "v 0 0 0\nv 1 0 0\nf 1 2 1\n")
       for command <- commands do
         val lines = refusal(command, s"$model")
-        assert(lines(0) == s"error: `$model` is an OBJ mesh, not a scene")
+        assert(lines(0) == s"error: `$model` is an OBJ mesh, not a scene [E0102]")
         assert(lines(1).contains("a scene of pbrt (.pbrt) or Mitsuba (.xml)"), lines(1))
 
   test("a text by another name is a scene if it begins as one"):
@@ -56,7 +58,7 @@ class ForeignSceneSuite extends AnyFunSuite:
       val notes = Files.writeString(folder.resolve("notes.txt"), "# mine\nto do: lights\n")
       for command <- commands do
         assert(refusal(command, s"$notes") == Vector(
-          s"error: `$notes` is no scene: it begins with no directive of pbrt",
+          s"error: `$notes` is no scene: it begins with no directive of pbrt [E0102]",
           " scenes are of pbrt (.pbrt) or Mitsuba (.xml)"
         ))
       val scene = "# mine\nCamera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
@@ -83,7 +85,7 @@ class ForeignSceneSuite extends AnyFunSuite:
       assert(Captured.run(s"$scene", "-o", film, "--seed", "7", "--quiet")._1 == 0)
       for command <- commands do
         val lines = refusal(command, film)
-        assert(lines(0) == s"error: `$film` is a saved rendering, not a scene")
+        assert(lines(0) == s"error: `$film` is a saved rendering, not a scene [E0102]")
         assert(lines(1).contains(s"`candela resume $film`") && lines(1).contains("candela info"))
       val (code, captured) = Captured.run("info", film)
       assert(code == 0, captured.err)
@@ -97,7 +99,7 @@ class ForeignSceneSuite extends AnyFunSuite:
       val scene = Files.writeString(folder.resolve("a.pbrt"), "WorldBegin\nInclude \"a.exr\"\n")
       val lines = refusal("check", s"$scene")
       assert(lines.head ==
-        s"$scene:2:9: error: can't include `a.exr`: it is an OpenEXR image, not a scene")
+        s"$scene:2:9: error: can't include `a.exr`: it is an OpenEXR image, not a scene [E0102]")
 
   test("a scene in place of an image is named"):
     TempFolder.use: folder =>

@@ -166,7 +166,7 @@ class LostDataSuite extends AnyFunSuite:
       )
       for words <- commands do
         val (code, err) = onFull("No space left on device")(words*)
-        val message = "error: can't write to standard output: No space left on device\n"
+        val message = "error: can't write to standard output: No space left on device [E0105]\n"
         assert(code == 1 && err.endsWith(message), s"$words $err")
       assert(onFull("Broken pipe")("describe") == (1, ""))
 

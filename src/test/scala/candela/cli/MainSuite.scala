@@ -22,7 +22,7 @@ class MainSuite extends AnyFunSuite:
   test("bad usage prints to standard error and exits with 2"):
     val (code, captured) = run("--spq", "4", "a.pbrt")
     assert(code == 2)
-    val message = "error: `candela render` has no option `--spq`; did you mean `--spp`?\n"
+    val message = "error: `candela render` has no option `--spq`; did you mean `--spp`? [E0002]\n"
     assert(captured.err.startsWith(message))
     assert(captured.out.isEmpty)
 
@@ -30,7 +30,8 @@ class MainSuite extends AnyFunSuite:
     for n <- Vector("4097", "2147483647") do
       val (code, captured) = run("-j", n, "a.pbrt")
       assert(code == 2)
-      assert(captured.err.startsWith(s"error: --nthreads must be at most 4096, found `$n`\n"))
+      val message = s"error: --nthreads must be at most 4096, found `$n` [E0003]\n"
+      assert(captured.err.startsWith(message))
 
   test("a missing scene exits with 1 and offers the nearest one"):
     TempFolder.use: folder =>
@@ -39,7 +40,7 @@ class MainSuite extends AnyFunSuite:
         val (code, captured) = run(command, s"$folder/buny.pbrt")
         assert(code == 1)
         assert(captured.err.linesIterator.toVector == Vector(
-          s"error: no such scene file: `$folder/buny.pbrt`",
+          s"error: no such scene file: `$folder/buny.pbrt` [E0101]",
           s" did you mean `$folder/bunny.pbrt`?"
         ))
 
@@ -49,8 +50,10 @@ class MainSuite extends AnyFunSuite:
         val _ = Files.createFile(folder.resolve(name))
       val (code, captured) = run(folder.toString)
       assert(code == 1)
-      assert(captured.err.linesIterator.toVector ==
-        Vector(s"error: `$folder` is a folder", " name a scene file in it: a.pbrt, b.pbrt"))
+      assert(captured.err.linesIterator.toVector == Vector(
+        s"error: `$folder` is a folder [E0101]",
+        " name a scene file in it: a.pbrt, b.pbrt"
+      ))
 
   test("a mistake in a scene exits with 1 and is shown in its place"):
     TempFolder.use: folder =>

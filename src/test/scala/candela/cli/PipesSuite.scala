@@ -39,7 +39,7 @@ class PipesSuite extends AnyFunSuite:
         val why = refused(f)(words*)
         assert(why.contains(s"nor its previous copy: $Irregular"), why)
       val why = refused(f)("merge", f("pipe"), "--outfile", f("b.exr"))
-      assert(why == s"error: can't read `${f("pipe")}`: $Irregular\n")
+      assert(why == s"error: can't read `${f("pipe")}`: $Irregular [E1001]\n")
 
   test("the scene of a film is a regular file"):
     withScene: f =>
@@ -109,4 +109,4 @@ class PipesSuite extends AnyFunSuite:
     withScene: f =>
       val words = Vector(f.scene, "--outfile", f("a.exr"), "--report", f("r.csv"))
       val why = refused(f)(words ++ Vector("--reference", f("pipe"))*)
-      assert(why == s"error: can't read the reference `${f("pipe")}`: $Irregular\n")
+      assert(why == s"error: can't read the reference `${f("pipe")}`: $Irregular [E0103]\n")

@@ -1,5 +1,6 @@
 package candela.image
 
+import candela.base.Code
 import candela.color.{ColorSpace, Rgb}
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
@@ -157,7 +158,8 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       Vector("half-piz", "half-rle", "half-b44a", "float-pxr24", "tiled", "multipart", "many")
     val outcomes = names.flatMap: name =>
       Samples.damaged(resource(name), 60, seed = name.hashCode).map: file =>
-        Samples.attempt(if file.length < 8 then throw ImageError("short") else Exr.read(file))
+        Samples.attempt(if file.length < 8 then throw ImageError(Code.DamagedImage, "short")
+        else Exr.read(file))
     assert(outcomes.exists(_.isLeft))
     assert(outcomes.exists(_.isRight))
 

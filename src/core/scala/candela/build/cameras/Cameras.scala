@@ -1,5 +1,7 @@
 package candela.build.cameras
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.cameras.{Camera, FilmFrame, PerspectiveCamera, ProjectiveSetup, Shutter}
 import candela.math.Transform
@@ -31,9 +33,15 @@ abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect
   protected def shutter()(using site: Site): Shutter =
     val (from, to) = (open(), close())
     if site.dialect == Dialect.V4 && !(to > from) then
-      site.error(s"`shutterclose` must be above `shutteropen` in v4, found $to and $from")
+      site.error(
+        Code.CorrectedValue,
+        s"`shutterclose` must be above `shutteropen` in v4, found $to and $from"
+      )
     if to < from then
-      site.warn(s"`shutterclose` $to is before `shutteropen` $from; swapping them")
+      site.warn(
+        Code.CorrectedValue,
+        s"`shutterclose` $to is before `shutteropen` $from; swapping them"
+      )
       Shutter(to, from)
     else Shutter(from, to)
 

@@ -1,5 +1,7 @@
 package candela.build.cameras
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.cameras.{
   Camera, ClippedCamera, FilmFrame, OrthographicCamera, PerspectiveCamera, ProjectiveSetup
@@ -41,7 +43,10 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
     else
       val (first, last) = (near(), far())
       if !(first > 0f && first < last) then
-        site.error(s"clipping distances must be above 0 and rise, found $first and $last")
+        site.error(
+          Code.ParameterValue,
+          s"clipping distances must be above 0 and rise, found $first and $last"
+        )
       ClippedCamera(camera, toWorld, first, last)
 
   protected def setup(toWorld: Transform, frame: FilmFrame)(using site: Site): ProjectiveSetup =
@@ -53,6 +58,7 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
         val found = other.length
         if found > 0 then
           site.warn(
+            Code.CorrectedValue,
             s"`screenwindow` must be left right bottom top, found $found numbers; it is ignored, " +
               "as pbrt does"
           )
@@ -70,9 +76,12 @@ object PerspectiveRecipe extends ProjectiveRecipe("perspective", "perspective pr
     val turned = Math.abs(angle) % 360f
     val isAngle = angle > 0f && angle < 180f
     if !java.lang.Float.isFinite(angle) then
-      site.error(s"`fov` must be between 0 and 180 degrees, found $angle")
+      site.error(Code.ParameterValue, s"`fov` must be between 0 and 180 degrees, found $angle")
     else if !isAngle then
-      site.warn(s"`fov` should be between 0 and 180 degrees, found $angle; rendered as in pbrt")
+      site.warn(
+        Code.CorrectedValue,
+        s"`fov` should be between 0 and 180 degrees, found $angle; rendered as in pbrt"
+      )
     CameraPlan(
       (toWorld, frame) =>
         val fits =

@@ -2,7 +2,7 @@ package candela.build.cameras
 
 import java.io.IOException
 
-import candela.base.{InputFile, IoReason}
+import candela.base.{Code, InputFile, IoReason}
 import candela.build.recipe.*
 import candela.cameras.*
 import candela.image.Image
@@ -35,7 +35,11 @@ object RealisticRecipe
   protected def make()(using site: Site): CameraPlan =
     val lenses = file.given_() match
       case None =>
-        site.missing("camera \"realistic\" needs `lensfile`", StandInCamera.words)
+        site.missing(
+          Code.MissingParameter,
+          "camera \"realistic\" needs `lensfile`",
+          StandInCamera.words
+        )
         None
       case Some(_) =>
         val p = site.declaration.param("lensfile").get
@@ -49,7 +53,7 @@ object RealisticRecipe
     val at = site.declaration.param("lensfile").get.valuesAt
     def refuse(why: String) =
       val message = s"can't read the lens file `${file.path.getFileName}`: $why"
-      site.problems.missing(at, message, StandInCamera.words)
+      site.problems.missing(Code.MeasuredFile, at, message, StandInCamera.words)
       None
     LensFile.read(file) match
       case Left(why) => refuse(why)
@@ -57,7 +61,10 @@ object RealisticRecipe
         val widest = surfaces.find(_.radius == 0.0).map(s => (s.aperture * 2000).toFloat)
         for most <- widest if diameter() > most do
           val least = DefaultText.number(most)
-          site.warn(s"`aperturediameter` must be at most $least mm for this lens; using $least mm")
+          site.warn(
+            Code.CorrectedValue,
+            s"`aperturediameter` must be at most $least mm for this lens; using $least mm"
+          )
         val stopped = surfaces.map: s =>
           if s.radius == 0.0 then s.copy(aperture = Math.min(s.aperture, diameter() / 2000.0))
           else s
@@ -68,11 +75,12 @@ object RealisticRecipe
   ): Camera =
     LensFocus.focused(lens, distance(), frame.diagonal) match
       case Left(why) =>
-        site.error(why)
+        site.error(Code.ParameterValue, why)
         StandInCamera.make(toWorld, frame)
       case Right(focused) =>
         val pupil = ExitPupil.of(focused, frame.diagonal)
-        if pupil.isDark(0) then site.warn("no light reaches the film; the image will be black")
+        if pupil.isDark(0) then
+          site.warn(Code.DarkScene, "no light reaches the film; the image will be black")
         val gain =
           if site.dialect == Dialect.V4 then RealisticCamera.exposureGain(focused, 1.0)
           else if simple() then RealisticCamera.relativeGain(pupil)
@@ -97,7 +105,7 @@ object RealisticRecipe
               val channels = single.orElse(image.indicesOf(Image.RgbNames))
               if channels.isEmpty then
                 val message = "the image of an aperture must have one channel, or R, G and B"
-                site.problems.missing(p.valuesAt, message, Round)
+                site.problems.missing(Code.MeasuredFile, p.valuesAt, message, Round)
               channels.map(ofImage(image, _))
 
   private val Round = "using a round aperture"

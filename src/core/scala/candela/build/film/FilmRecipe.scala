@@ -1,5 +1,7 @@
 package candela.build.film
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.color.CameraSensor
 import candela.film.{Development, SampleLimit}
@@ -72,16 +74,17 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
   ): FilmSettings =
     val (w, h) = (x(), y())
     if w < 1 || h < 1 || w.toLong * h > Int.MaxValue then
-      site.error(s"can't render an image of $w×$h pixels")
+      site.error(Code.TooLarge, s"can't render an image of $w×$h pixels")
     // v4 prefers the fractional window if both are given
     val inPixels = crop().isEmpty && pixels().length == 4
     val asked = if inPixels then pixels().map(_.toFloat) else crop()
     val isWindow = asked.length == 4
     if asked.nonEmpty && !isWindow then
       val message = s"`cropwindow` must be x0 x1 y0 y1, found ${asked.length} numbers"
-      site.warn(s"$message; it is ignored, as pbrt does")
+      site.warn(Code.CorrectedValue, s"$message; it is ignored, as pbrt does")
     val window = if isWindow then asked else Array.emptyFloatArray
-    if !(diagonal() > 0f) then site.error(s"`diagonal` must be above 0 mm, found ${diagonal()}")
+    if !(diagonal() > 0f) then
+      site.error(Code.ParameterValue, s"`diagonal` must be above 0 mm, found ${diagonal()}")
     FilmSettings(
       Math.max(w, 1),
       Math.max(h, 1),

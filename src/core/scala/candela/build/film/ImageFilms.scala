@@ -1,6 +1,6 @@
 package candela.build.film
 
-import candela.base.Suggest
+import candela.base.{Code, Suggest}
 import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
 import candela.film.{Development, SampleLimit, SpectralBands}
@@ -47,12 +47,17 @@ object SpectralFilmRecipe
 
   override protected def make()(using site: Site): FilmSettings =
     val (from, to) = (shortest(), longest())
-    if buckets() < 1 then site.error(s"`nbuckets` must be at least 1, found ${buckets()}")
+    if buckets() < 1 then
+      site.error(Code.ParameterValue, s"`nbuckets` must be at least 1, found ${buckets()}")
     if !(from >= 360f && from < to && to <= 830f) then
-      site.error(s"`lambdamin` and `lambdamax` must be between 360 and 830 nm, found $from and $to")
+      site.error(
+        Code.ParameterValue,
+        s"`lambdamin` and `lambdamax` must be between 360 and 830 nm, found $from and $to"
+      )
     site.resources.counting.foreach(_.addBands(Math.max(buckets(), 1)))
     if !site.resources.mayBeSpectral then
       site.warn(
+        Code.Unsupported,
         "rendering is RGB, not spectral; bands sample a smooth spectrum fitted to each pixel's " +
           "colour"
       )
@@ -80,7 +85,8 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
   private val half = bool("savefp16", "write 16-bit instead of 32-bit values")(true)
 
   protected def make()(using site: Site): FilmSettings =
-    if white() < 0f then site.error(s"`whitebalance` must not be below 0 K, found ${white()}")
+    if white() < 0f then
+      site.error(Code.ParameterValue, s"`whitebalance` must not be below 0 K, found ${white()}")
     val development =
       Development(iso() / 100f, clipsNegative = false, isHalf = half(), space = site.colorSpace)
     val kelvin = Math.max(white(), 0f)
@@ -114,11 +120,13 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
       site.resources.counting.foreach(_.addDetector(s"the sensor \"$name\" responds to spectra"))
       if !site.resources.mayBeSpectral then
         site.warn(
+          Code.Unsupported,
           s"rendering is RGB, not spectral; sensor \"$name\" responds to a smooth spectrum " +
             "fitted to each pixel's colour"
         )
     else if name != "cie1931" then
       site.missing(
+        Code.UnknownType,
         s"unknown sensor \"$name\"",
         "using \"cie1931\"",
         Suggest.help(name, "cie1931" +: CameraSensor.names)

@@ -1,5 +1,7 @@
 package candela.build.integrators
 
+import candela.base.Code
+
 import candela.bsdf.Material
 import candela.build.recipe.*
 import candela.film.PixelBounds
@@ -127,7 +129,10 @@ trait Windowed extends Recipe[IntegratorPlan]:
     else if asked.length == 4 then
       plan.copy(window = Some(PixelBounds(asked(0), asked(2), asked(1), asked(3))))
     else
-      site.error(s"`pixelbounds` must be x0 x1 y0 y1, found ${asked.length} numbers")
+      site.error(
+        Code.ParameterValue,
+        s"`pixelbounds` must be x0 x1 y0 y1, found ${asked.length} numbers"
+      )
       plan
 
 /** Integrators that sample one light per vertex, by a selectable strategy. */

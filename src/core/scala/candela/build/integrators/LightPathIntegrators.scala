@@ -1,5 +1,7 @@
 package candela.build.integrators
 
+import candela.base.Code
+
 import candela.bidirectional.*
 import candela.build.recipe.*
 import candela.film.{Splats, View}
@@ -142,7 +144,10 @@ private[build] object BidirectionalPlans:
           case Some(what) => inVolpath(name, what, scene, media, most, regularizes)
       ,
       throughVolumes = Some: (scene, _, march) =>
-        site.warn(s"\"$name\" does not support volumes yet; using \"path\", which $Lack")
+        site.warn(
+          Code.IntegratorLacks,
+          s"\"$name\" does not support volumes yet; using \"path\", which $Lack"
+        )
         RenderMethod.tiles(scene)(PathTracer(_, PathLimits(most), volumes = march()))
     )
 
@@ -163,7 +168,10 @@ private[build] object BidirectionalPlans:
       depth: Int,
       regularizes: Boolean
   )(using site: Site): RenderMethod =
-    site.warn(s"\"$name\" does not support $what yet; using \"volpath\", which $Lack")
+    site.warn(
+      Code.IntegratorLacks,
+      s"\"$name\" does not support $what yet; using \"volpath\", which $Lack"
+    )
     val limits = PathLimits(depth, seesThrough = site.dialect == Dialect.V3)
     val options = WalkOptions(regularizes, subsurface = scene.hasSubsurface)
     RenderMethod.tiles(scene)(VolumePathTracer(_, media, limits, options))
@@ -207,9 +215,12 @@ private[build] object BidirectionalPlans:
         settings.chains -> "chains"
       )
       if count < 1
-    do site.error(s"`$parameter` must be at least 1, found $count")
+    do site.error(Code.ParameterValue, s"`$parameter` must be at least 1, found $count")
     if !(settings.largeStep >= 0f && settings.largeStep <= 1f) then
-      site.error(s"`largestepprobability` must be in [0, 1], found ${settings.largeStep}")
+      site.error(
+        Code.ParameterValue,
+        s"`largestepprobability` must be in [0, 1], found ${settings.largeStep}"
+      )
     val most = Math.max(0, depth)
     val seeded = settings.copy(seed = site.resources.seed)
     def chains(scene: Scene, media: SceneMedia | Null) =
@@ -243,7 +254,7 @@ private[build] object PhotonPlans:
     val most = Math.max(0, depth)
     if !(settings.radius > 0f) then
       val parameter = if site.dialect == Dialect.V2 then "maxdist" else "radius"
-      site.error(s"`$parameter` must be above 0, found ${settings.radius}")
+      site.error(Code.ParameterValue, s"`$parameter` must be above 0, found ${settings.radius}")
     val seeded = settings.copy(seed = settings.seed ^ site.resources.seed)
     val interfaces =
       if site.dialect == Dialect.V4 then Interfaces.Weighed else IntegratorPlan.interfaces

@@ -1,5 +1,7 @@
 package candela.build.integrators
 
+import candela.base.Code
+
 import candela.bidirectional.MetropolisSettings
 import candela.build.recipe.*
 
@@ -139,5 +141,5 @@ final class VolumeIntegratorRecipe(name: String, meaning: String, scatters: Bool
     val size = stepSize()
     if size > 0f then VolumeMethod(size, scatters)
     else
-      site.error(s"`stepsize` must be above 0, found $size")
+      site.error(Code.ParameterValue, s"`stepsize` must be above 0, found $size")
       VolumeMethod(1f, scatters)

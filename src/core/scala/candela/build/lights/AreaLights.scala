@@ -1,5 +1,7 @@
 package candela.build.lights
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.build.shapes.EmitterHoles
 import candela.color.{ColorBasis, Rgb}
@@ -128,7 +130,10 @@ final class DiffuseLightRecipe(
   protected def make()(using site: Site): Option[AreaLightPlan] =
     val isPicture = site.dialect == Dialect.V4 && filename().nonEmpty
     if isPicture && radiance.given_().isDefined then
-      site.error("`L` and `filename` of a diffuse area light are mutually exclusive")
+      site.error(
+        Code.ExclusiveParameters,
+        "`L` and `filename` of a diffuse area light are mutually exclusive"
+      )
     val image = if isPicture then LightImages.read("filename") else None
     val picture = image.map(Picture(_, lookup, LightImages.conversion))
     val unit = if isPicture then Spectra.white else radiance()
@@ -139,7 +144,7 @@ final class DiffuseLightRecipe(
     val shines = site.resources.basis.isSpectral || (emitted.isFinite && emitted.max > 0f)
     if isPicture && picture.isEmpty then None
     else if !(shines && perUnit > 0f) then
-      site.warn("this area light emits nothing; it is ignored")
+      site.warn(Code.DarkLight, "this area light emits nothing; it is ignored")
       None
     else
       val mapping = AffineUvMapping.of(places())
@@ -174,7 +179,10 @@ private[build] object MeshLights:
       val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
       val flat = samplers.count(s => !(s.area > 0f))
       if flat > 0 then
-        site.warn(s"$flat of $count triangles of this area light have no area; they emit nothing")
+        site.warn(
+          Code.DarkLight,
+          s"$flat of $count triangles of this area light have no area; they emit nothing"
+        )
       samplers
     MeshLights(find, (plan, s) => holes.light(plan.ofTriangle(s), s))
 

@@ -1,5 +1,7 @@
 package candela.build.lights
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.image.Image
@@ -49,7 +51,8 @@ object GoniometricLightRecipe
 
   private def pictured()(using site: Site): LightPlan =
     if site.dialect == Dialect.V4 then
-      if filename().isEmpty then site.error("a goniometric light needs `filename`")
+      if filename().isEmpty then
+        site.error(Code.MissingParameter, "a goniometric light needs `filename`")
       LightImages.read("filename").filter(LightImages.isSquare) match
         case None => LightPlan.nothing
         case Some(image) =>
@@ -95,7 +98,8 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
   protected def make()(using site: Site): LightPlan =
     val isV4 = site.dialect == Dialect.V4
     val (name, given_) = if isV4 then ("filename", filename()) else ("mapname", mapname())
-    if isV4 && given_.isEmpty then site.error("a projection light needs `filename`")
+    if isV4 && given_.isEmpty then
+      site.error(Code.MissingParameter, "a projection light needs `filename`")
     val image = if given_.isEmpty then None else LightImages.read(name)
     val isLost = image.isEmpty && (isV4 || given_.nonEmpty) // already reported
     val lookup = if isV4 then PictureLookup.Nearest else PictureLookup.SmoothRepeating

@@ -1,5 +1,7 @@
 package candela.build.lights
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.geometry.Frame
@@ -38,7 +40,10 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     val (named, given_) =
       if octahedral then ("filename", filename()) else ("mapname", mapname())
     if octahedral && given_.nonEmpty && radiance.given_().isDefined then
-      site.error("`L` and `filename` of an infinite light are mutually exclusive")
+      site.error(
+        Code.ExclusiveParameters,
+        "`L` and `filename` of an infinite light are mutually exclusive"
+      )
     if given_.nonEmpty then
       LightImages.read(named).filter(i => !octahedral || LightImages.isSquare(i)) match
         case None => LightPlan.nothing
@@ -115,7 +120,10 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
         val (t, s) = (up.normalized, across.normalized)
         Option.when(closes && Math.abs(s dot t) <= 1e-3f)(Frame(s, t, s cross t))
     if frame.isEmpty then
-      site.error("`portal` must be the four corners of a rectangle, in order along its edge")
+      site.error(
+        Code.ParameterValue,
+        "`portal` must be the four corners of a rectangle, in order along its edge"
+      )
     frame
 
   /** Illuminance by `image` on the plane below its pole, as computed by pbrt-v4: half of the true

@@ -1,5 +1,7 @@
 package candela.build.lights
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.color.{ColorBasis, Rgb}
 import candela.image.{Image, ImageError}
@@ -35,11 +37,11 @@ private[build] object LightImages:
         image <-
           try
             val lamp = IesFile.read(file)
-            lamp.notes.foreach(site.problems.warn(p.valuesAt, _))
+            lamp.notes.foreach(site.problems.warn(Code.ImageContents, p.valuesAt, _))
             Some(lamp.photometry.image)
           catch
             case e: IesError =>
-              site.problems.missing(p.valuesAt, e.getMessage, StandIns.LeftOut)
+              site.problems.missing(Code.MeasuredFile, p.valuesAt, e.getMessage, StandIns.LeftOut)
               None
       yield image
 
@@ -47,7 +49,7 @@ private[build] object LightImages:
     for
       p <- site.declaration.param(name)
       stored = site.resources.image(p, site.declaration, site.problems).getOrElse(StandIns.picture)
-      image <- usable(stored.toImage, m => site.problems.error(p.valuesAt, m))
+      image <- usable(stored.toImage, m => site.problems.error(Code.ImageContents, p.valuesAt, m))
     yield
       val isFromBelow = site.dialect == Dialect.V2 && isTga(p.strings.headOption.getOrElse(""))
       site.resources.counting.foreach:
@@ -87,6 +89,7 @@ private[build] object LightImages:
     val isSquare = image.width == image.height
     if !isSquare then
       site.error(
+        Code.ImageContents,
         s"an equal-area map must be square, found ${image.width}×${image.height} pixels",
         Some("`candela image IN OUT --environment equalarea` converts an equirectangular image")
       )

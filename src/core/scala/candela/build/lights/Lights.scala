@@ -1,5 +1,7 @@
 package candela.build.lights
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.lights.Light
@@ -32,7 +34,7 @@ final case class LightPlan(make: (Transform, Boolean) => Option[Light], samples:
 object LightPlan:
   /** Plan of a light without effect, with a warning. */
   def leftOut(why: String)(using site: Site): LightPlan =
-    site.warn(s"$why; the light is ignored")
+    site.warn(Code.DarkLight, s"$why; the light is ignored")
     nothing
 
   /** Plan of a light with a reported error. */

@@ -1,5 +1,7 @@
 package candela.build.lights
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.lights.{LightFrame, SkyModel, SunAndSky}
@@ -36,7 +38,7 @@ object SunskyLightRecipe
         "`sunscale` and `skyscale` must not be negative"
       )
     ).flatten
-    wrong.foreach(site.error(_))
+    wrong.foreach(site.error(Code.ParameterValue, _))
     if wrong.nonEmpty then LightPlan.nothing
     else if !(s.z >= 0f) then LightPlan.leftOut("the sun is below the horizon")
     else if sunScale() == 0f && skyScale() == 0f then LightPlan.leftOut(LightPlan.Black)

@@ -1,5 +1,7 @@
 package candela.build.materials
 
+import candela.base.Code
+
 import candela.bsdf.{Fresnel, Material}
 import candela.bsdf.layered.{
   CoatedConductorMaterial, CoatedDiffuseMaterial, LayerMedium, Varnish,
@@ -64,7 +66,10 @@ object RoughPlasticRecipe
   protected def make()(using site: Site): Material =
     val rough = roughness()
     if !rough.isConstant && interreflection() then
-      site.warn("light below the coat of \"roughplastic\" is that of its roughness at (0, 0)")
+      site.warn(
+        Code.Unsupported,
+        "light below the coat of \"roughplastic\" is that of its roughness at (0, 0)"
+      )
     val under =
       if !interreflection() then Varnish.Once
       else if nonlinear() then Varnish.Colored

@@ -1,5 +1,7 @@
 package candela.build.materials
 
+import candela.base.Code
+
 import candela.bsdf.Material
 import candela.bsdf.microfacet.{
   DielectricMaterial, DispersiveMaterial, Roughness, RoughnessModel, ThinDielectricMaterial
@@ -92,6 +94,7 @@ private[build] object Indices:
     if varies(v) && !site.resources.mayBeSpectral then
       val name = site.declaration.name
       site.warn(
+        Code.Unsupported,
         s"dispersion of \"$name\" needs spectral colour; using the index of refraction at 589 nm",
         Some("render with `--color spectral`")
       )

@@ -1,5 +1,7 @@
 package candela.build.materials
 
+import candela.base.Code
+
 import candela.bsdf.Material
 import candela.bsdf.composite.{HairMaterial, Pigment}
 import candela.build.recipe.*
@@ -43,7 +45,10 @@ object HairRecipe
     val hasMelanin = Seq("eumelanin", "pheomelanin").exists(site.declaration.param(_).nonEmpty)
     val kinds = Seq(sigmaA.given_().nonEmpty, byColor.nonEmpty, hasMelanin).count(identity)
     if kinds > 1 then
-      site.warn("`sigma_a`, a colour and pigments are alternatives; using the first of these")
+      site.warn(
+        Code.ExclusiveParameters,
+        "`sigma_a`, a colour and pigments are alternatives; using the first of these"
+      )
     (sigmaA.given_(), byColor) match
       case (Some(s), _) => Pigment.Absorption(s)
       case (_, Some(c)) => Pigment.Color(c)

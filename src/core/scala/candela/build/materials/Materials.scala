@@ -1,5 +1,7 @@
 package candela.build.materials
 
+import candela.base.Code
+
 import candela.bsdf.{
   BumpMaterial, DiffuseMaterial, Material, NormalMapMaterial, SlopeBumpMaterial,
   SoftTerminatorMaterial
@@ -144,6 +146,7 @@ abstract class MaterialRecipe(
         stored.encoding != Encoding.Linear && !name.toLowerCase.endsWith(".png")
       if isDecoded then
         site.problems.warn(
+          Code.AsInPbrt,
           p.at,
           "pbrt-v4 decodes this normal map as sRGB; it reads PNG and EXR as they are"
         )

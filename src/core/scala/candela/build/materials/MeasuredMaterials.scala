@@ -1,6 +1,6 @@
 package candela.build.materials
 
-import candela.base.InputFile
+import candela.base.{Code, InputFile}
 import candela.bsdf.{Bsdf, ConstantMaterial, Material}
 import candela.bsdf.measured.FourierBsdf
 import candela.build.recipe.*
@@ -33,7 +33,7 @@ abstract class MeasuredRecipe(
   protected def make()(using site: Site): Material =
     site.declaration.param(parameter).filter(_ => file().nonEmpty) match
       case None =>
-        site.error(s"\"$name\" needs a `$parameter`")
+        site.error(Code.MissingParameter, s"\"$name\" needs a `$parameter`")
         Materials.default
       case Some(p) =>
         val basis = site.resources.basis
@@ -50,6 +50,7 @@ abstract class MeasuredRecipe(
               case Right(MeasuredBsdf.OfColors(b)) =>
                 if basis.isSpectral then
                   site.problems.warn(
+                    Code.Unsupported,
                     p.valuesAt,
                     s"`${file()}` gives red, green and blue only; they are taken as values at " +
                       "the wavelengths of a path, which pales its colours",
@@ -58,7 +59,12 @@ abstract class MeasuredRecipe(
                 Some(b)
               case Left(why) =>
                 val message = s"can't read `${file()}`: $why"
-                site.problems.missing(p.valuesAt, message, StandIns.MagentaSurface)
+                site.problems.missing(
+                  Code.MeasuredFile,
+                  p.valuesAt,
+                  message,
+                  StandIns.MagentaSurface
+                )
                 None
           yield ConstantMaterial(bsdf, isAnisotropic = !isIsotropic)
         made.getOrElse(StandIns.material(basis))

@@ -1,5 +1,7 @@
 package candela.build.materials
 
+import candela.base.Code
+
 import candela.bsdf.{Fresnel, Material, TabulatedReflectance}
 import candela.bsdf.microfacet.{
   ConductorMaterial, IndexedMetal, MetalTexture, MirrorMaterial, ShinyMetalMaterial, TintedMetal,
@@ -52,7 +54,10 @@ private[build] trait MetalFields extends SpectrumFields:
     val tint = index.reflectance.flatMap(_.given_())
     if tint.isDefined && (index.eta.given_().isDefined || index.k.given_().isDefined) then
       val names = s"`${index.eta.name}` and `${index.k.name}`"
-      site.error(s"`reflectance` and $names of \"${site.declaration.name}\" are mutually exclusive")
+      site.error(
+        Code.ExclusiveParameters,
+        s"`reflectance` and $names of \"${site.declaration.name}\" are mutually exclusive"
+      )
     if site.rules.plainMetals && !site.resources.basis.isSpectral && tint.isEmpty then
       // Mitsuba multiplies three numbers here, too
       def plain(source: SpectrumSource) = SpectrumSource.textured(source):

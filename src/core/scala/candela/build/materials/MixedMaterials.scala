@@ -1,5 +1,7 @@
 package candela.build.materials
 
+import candela.base.Code
+
 import candela.bsdf.{FramedMaterial, InterfaceMaterial, Material, TwoSidedMaterial}
 import candela.bsdf.composite.MixedMaterial
 import candela.build.recipe.*
@@ -25,7 +27,10 @@ object MixRecipe
           val (one, other) = pair(b, "materials", a, "materials")
           mixed(one, other, GrayTexture(partOfSecond()))
         case names =>
-          site.error(s"`materials` of \"mix\" must be two material names, found ${names.length}")
+          site.error(
+            Code.ParameterCount,
+            s"`materials` of \"mix\" must be two material names, found ${names.length}"
+          )
           Materials.default
     else
       val (one, other) = pair(first(), "namedmaterial1", second(), "namedmaterial2")
@@ -34,6 +39,7 @@ object MixRecipe
   private def mixed(a: Material, b: Material, amount: RgbTexture)(using site: Site): Material =
     if a.isSubsurface || b.isSubsurface then
       site.warn(
+        Code.Unsupported,
         "\"mix\" does not support subsurface scattering; light passes through the inside " +
           "unscattered"
       )
@@ -53,7 +59,10 @@ object TwoSidedRecipe
       val (one, other) = pair(front, "materials", back, "materials")
       TwoSidedMaterial(one, other)
     case names =>
-      site.error(s"`materials` of \"twosided\" must be two material names, found ${names.length}")
+      site.error(
+        Code.ParameterCount,
+        s"`materials` of \"twosided\" must be two material names, found ${names.length}"
+      )
       Materials.default
 
 /** Two named materials, which are one object if they have one name. */
@@ -68,7 +77,11 @@ private def named(name: String, parameter: String)(using site: Site): Material =
   val found = site.resources.materials(name, at, site.resources, site.problems)
   if site.dialect == Dialect.V4 && found.isInterface then
     val whole = site.declaration.name
-    site.problems.error(at, s"`$parameter` of \"$whole\" must not name an interface, found `$name`")
+    site.problems.error(
+      Code.ParameterValue,
+      at,
+      s"`$parameter` of \"$whole\" must not name an interface, found `$name`"
+    )
   FramedMaterial.of(found)
 
 object NestedRecipe

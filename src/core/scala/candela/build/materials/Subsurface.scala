@@ -1,6 +1,6 @@
 package candela.build.materials
 
-import candela.base.Suggest
+import candela.base.{Code, Suggest}
 import candela.bsdf.Material
 import candela.bsdf.microfacet.{
   DielectricMaterial, ReflectingInterfaceMaterial, Roughness, RoughnessModel
@@ -112,12 +112,13 @@ object SubsurfaceRecipe
       val message = s"unknown measured material \"$name\""
       val help = Suggest.help(name, MeasuredMedia.names(site.dialect))
       if site.dialect == Dialect.V4 then
-        site.problems.missing(at, message, "using \"Wholemilk\"", help)
-      else site.problems.warn(at, s"$message; using \"Wholemilk\", as in pbrt", help)
+        site.problems.missing(Code.UnknownType, at, message, "using \"Wholemilk\"", help)
+      else
+        site.problems.warn(Code.UnknownType, at, s"$message; using \"Wholemilk\", as in pbrt", help)
     found
 
   private def measuredInterior(found: Option[MediumCoefficients])(using site: Site): Interior =
-    if g() != 0f then site.warn("`g` is ignored because `name` is given")
+    if g() != 0f then site.warn(Code.IdleParameter, "`g` is ignored because `name` is given")
     val medium = found.getOrElse(Milk)
     coefficients(color(medium.absorption), color(medium.scattering), 0f)
 
@@ -125,7 +126,10 @@ object SubsurfaceRecipe
     val (a, s, r) = (sigmaA.given_(), sigmaS.given_(), reflectance.given_())
     for (one, other, name) <- Seq((a, s, "sigma_s"), (s, a, "sigma_a")) do
       if one.isDefined && other.isEmpty then
-        site.error(s"`sigma_a` and `sigma_s` must be given together; `$name` is missing")
+        site.error(
+          Code.ExclusiveParameters,
+          s"`sigma_a` and `sigma_s` must be given together; `$name` is missing"
+        )
     r.filter(_ => a.isEmpty && s.isEmpty) match
       case Some(tint) =>
         ReflectanceInterior(table(g()), tint, meanFreePath(), scale(), eta())

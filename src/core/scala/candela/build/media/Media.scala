@@ -1,6 +1,6 @@
 package candela.build.media
 
-import candela.base.Suggest
+import candela.base.{Code, Suggest}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.math.*
@@ -49,21 +49,26 @@ trait Scatters extends Fields:
     if kinds().isEmpty then plain()
     else
       val summed = PhaseFunction.of(kinds(), weights().toVector, values().toVector)
-      if summed.isEmpty then site.error("`phases`, `phaseweights` and `phasevalues` don't match")
+      if summed.isEmpty then
+        site.error(Code.ParameterCount, "`phases`, `phaseweights` and `phasevalues` don't match")
       summed.getOrElse(HenyeyGreenstein(0f))
 
   private def plain()(using site: Site): PhaseFunction =
     // pbrt-v4's bound; nearer to 1 the phase function exceeds Float precision
     val most = if site.dialect == Dialect.V4 then 0.99f else 0.999f
     val g = asymmetry()
-    if !(Math.abs(g) <= most) then site.warn(s"`g` must be within ±$most, found $g; clamping it")
+    if !(Math.abs(g) <= most) then
+      site.warn(Code.CorrectedValue, s"`g` must be within ±$most, found $g; clamping it")
     HenyeyGreenstein(if g.isNaN then 0f else clamp(g, -most, most))
 
   /** Coefficients can't be negative. */
   protected def held(c: Rgb, name: String)(using site: Site): Rgb =
     if c.isFinite && c.r >= 0f && c.g >= 0f && c.b >= 0f then c
     else
-      site.warn(s"`$name` must not be negative, NaN or infinite; using 0 for such components")
+      site.warn(
+        Code.CorrectedValue,
+        s"`$name` must not be negative, NaN or infinite; using 0 for such components"
+      )
       c.map(v => if v > 0f && java.lang.Float.isFinite(v) then v else 0f)
 
 /** Base of v3's and v4's media. */
@@ -112,6 +117,7 @@ trait HasPreset extends HasCoefficients:
     val found = MeasuredMedia.find(name, site.dialect)
     if name.nonEmpty && found.isEmpty then
       site.missing(
+        Code.UnknownType,
         s"unknown measured medium \"$name\"",
         StandIns.Default,
         Suggest.help(name, MeasuredMedia.names(site.dialect))

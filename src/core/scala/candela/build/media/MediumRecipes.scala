@@ -1,5 +1,7 @@
 package candela.build.media
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
@@ -35,6 +37,7 @@ object HeterogeneousRecipe
     val t = absorption + scattering
     if t.r != t.g || t.g != t.b then
       site.warn(
+        Code.AsInPbrt,
         s"extinction differs between colours ($t); using it per colour, whereas pbrt-v3 uses red " +
           "for all"
       )
@@ -75,7 +78,10 @@ object UniformGridRecipe
       if factors.isEmpty then Some(SampledGrid.One)
       else scales()
     if temperatures.nonEmpty && emitted.given_().isDefined then
-      site.error("`Le` and `temperature` of a medium are mutually exclusive")
+      site.error(
+        Code.ExclusiveParameters,
+        "`Le` and `temperature` of a medium are mutually exclusive"
+      )
       None
     else if temperatures.nonEmpty then
       for
@@ -107,10 +113,13 @@ object RgbGridRecipe
       colors(emitted(), SpectrumRole.Emission)
     )
     if a.isEmpty && s.isEmpty then
-      site.error("an \"rgbgrid\" needs `sigma_a`, `sigma_s` or both")
+      site.error(Code.MissingParameter, "an \"rgbgrid\" needs `sigma_a`, `sigma_s` or both")
       None
     else if a.isEmpty && le.nonEmpty then
-      site.error("an emissive medium must absorb; an \"rgbgrid\" with `Le` needs `sigma_a`")
+      site.error(
+        Code.MissingParameter,
+        "an emissive medium must absorb; an \"rgbgrid\" with `Le` needs `sigma_a`"
+      )
       None
     else
       // Following pbrt-v4, this emission is not normalised to the luminance of the colours

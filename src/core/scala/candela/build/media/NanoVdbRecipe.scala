@@ -1,6 +1,6 @@
 package candela.build.media
 
-import candela.base.{InputFile, Suggest}
+import candela.base.{Code, InputFile, Suggest}
 import candela.build.recipe.*
 import candela.geometry.Bounds3
 import candela.math.*
@@ -22,7 +22,7 @@ object NanoVdbRecipe
   protected def make()(using site: Site): Option[Medium] =
     site.declaration.param("filename").filter(_ => filename().nonEmpty) match
       case None =>
-        site.error("a \"nanovdb\" medium needs `filename`")
+        site.error(Code.MissingParameter, "a \"nanovdb\" medium needs `filename`")
         None
       case Some(p) =>
         val voxels = stored:
@@ -33,7 +33,7 @@ object NanoVdbRecipe
     val (absorption, scattering) = coefficients()
     val toWorld = site.toWorld * voxels.fromUnit
     if toWorld.isFlat then
-      site.warn("this medium has no volume; it is ignored")
+      site.warn(Code.NoVolume, "this medium has no volume; it is ignored")
       None
     else
       val light =
@@ -55,7 +55,13 @@ object NanoVdbRecipe
 
   private def read(file: InputFile, p: Param)(using site: Site): Option[Voxels] =
     def refuse(why: String, help: Option[String] = None) =
-      site.problems.missing(p.valuesAt, s"can't read `${filename()}`: $why", Ignored, help)
+      site.problems.missing(
+        Code.DamagedVolume,
+        p.valuesAt,
+        s"can't read `${filename()}`: $why",
+        Ignored,
+        help
+      )
       None
     try
       NanoVdbFile.read(file, gridName()) match
@@ -66,7 +72,10 @@ object NanoVdbRecipe
         case Right(grid) =>
           val temperature = NanoVdbFile.read(file, temperatureName()).toOption
           if temperature.isEmpty && temperatureName.given_().isDefined then
-            site.warn(s"`${filename()}` has no grid `${temperatureName()}`; it does not emit")
+            site.warn(
+              Code.DamagedVolume,
+              s"`${filename()}` has no grid `${temperatureName()}`; it does not emit"
+            )
           voxels(grid, temperature).orElse(refuse("its voxels have no volume"))
     catch case e: NanoVdbError => refuse(e.getMessage)
 

@@ -1,5 +1,7 @@
 package candela.build.media
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.geometry.Bounds3
@@ -29,7 +31,7 @@ abstract class VolumeRecipe(name: String, meaning: String)
     val size = high - low
     val hasVolume = size.isFinite && size.x > 0f && size.y > 0f && size.z > 0f
     if !hasVolume || site.toWorld.isFlat then
-      site.warn("this volume is empty; it is ignored")
+      site.warn(Code.NoVolume, "this volume is empty; it is ignored")
       None
     else
       val (least, most) = (corner(low), corner(high))
@@ -54,7 +56,7 @@ object ExponentialVolumeRecipe
   protected def make()(using site: Site): Option[Region] =
     val direction = up()
     if direction.isZero then
-      site.error("`updir` must not be zero")
+      site.error(Code.ParameterValue, "`updir` must not be zero")
       None
     else
       for (toWorld, b) <- box()

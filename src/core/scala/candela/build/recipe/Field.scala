@@ -1,5 +1,7 @@
 package candela.build.recipe
 
+import candela.base.Code
+
 import candela.color.Rgb
 import candela.math.Vec3
 import candela.scenefile.{Dialect, Param}
@@ -40,6 +42,7 @@ class Field[T](
       ValueTypes.accepts(typeName, name, p, site.dialect)
     if !fits && !p.isDefault then
       site.unread(
+        Code.ParameterType,
         p,
         s"`$name` of \"${site.declaration.name}\" must be of type $typeName, found " +
           p.paramType.spelling,

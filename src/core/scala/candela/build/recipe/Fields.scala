@@ -1,6 +1,6 @@
 package candela.build.recipe
 
-import candela.base.Suggest
+import candela.base.{Code, Suggest}
 import candela.color.Rgb
 import candela.math.Vec3
 import candela.scenefile.{Dialect, Param, ParamType}
@@ -78,10 +78,15 @@ trait Fields:
           val message = s"`$name` must be one of ${values.mkString(", ")}, found \"$found\""
           val help = Suggest.nearest(found, values).map(v => s"did you mean `$v`?")
           if site.dialect == Dialect.V4 && !forgiven then
-            site.problems.error(p.valuesAt, message, help)
+            site.problems.error(Code.ParameterValue, p.valuesAt, message, help)
           else
             val used = if instead.isEmpty then "the default" else s"\"$instead\""
-            site.problems.warn(p.valuesAt, s"$message; using $used, as pbrt does", help)
+            site.problems.warn(
+              Code.ParameterValue,
+              p.valuesAt,
+              s"$message; using $used, as pbrt does",
+              help
+            )
           Option.when(instead.nonEmpty)(instead)
         }
 
@@ -188,6 +193,7 @@ trait Fields:
   private def firstFloat(p: Param, site: Site): Option[Float] =
     if p.floats.length > 1 && site.dialect != Dialect.V4 then
       site.problems.warn(
+        Code.ParameterCount,
         p.valuesAt,
         s"`${p.name}` must be one number; the first is used, as in pbrt"
       )
@@ -207,6 +213,7 @@ trait Fields:
     val count = Seq(p.floats.length, p.ints.length, p.bools.size, p.strings.size).max
     val plain = typeName.takeWhile(_ != '[')
     site.unread(
+      Code.ParameterCount,
       p,
       s"`${p.name}` of \"${site.declaration.name}\" must be $expected, found " +
         s"$count of type ${p.paramType.spelling}",

@@ -1,5 +1,7 @@
 package candela.build.recipe
 
+import candela.base.Code
+
 import candela.geometry.Bounds3
 import candela.math.*
 import candela.scenefile.Dialect
@@ -19,7 +21,7 @@ trait HasCells extends Fields:
     val wanted = sizes.map(_().toLong).product * channels
     if Seq(nx, ny, nz).exists(_ < 1) || wanted != values.length then
       val shape = (Seq(nx, ny, nz) ++ Option.when(channels > 1)(channels)).mkString("·")
-      site.error(s"`$name` must have $shape numbers, found ${values.length}")
+      site.error(Code.ParameterCount, s"`$name` must have $shape numbers, found ${values.length}")
       None
     else Some((nx, ny, nz))
 
@@ -63,5 +65,5 @@ trait HasBox extends Fields:
       else
         scale.map: s =>
           (site.toWorld * corner(a).fromOrigin * s).inverse
-    if map.isEmpty then site.warn("its box has no volume; it is ignored")
+    if map.isEmpty then site.warn(Code.NoVolume, "its box has no volume; it is ignored")
     map

@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import scala.collection.mutable
 
-import candela.base.Suggest
+import candela.base.{Code, Suggest}
 import candela.scenefile.Dialect
 
 /** Builds a runtime object from a declaration of one type: the parameters, declared once, and
@@ -85,6 +85,7 @@ abstract class Recipe[A](
         case None if named.nonEmpty =>
           val owners = Dialects.list(named.flatMap(_.dialects).toSet)
           site.problems.warn(
+            Code.UnknownParameter,
             p.at,
             s"`${p.name}` is a parameter of \"$name\" in $owners only, not in " +
               s"${Dialects.name(site.rules.dialect)}; it is ignored"
@@ -92,6 +93,7 @@ abstract class Recipe[A](
         case None if p.isDefault => () // `Attribute` sets defaults for many types
         case None =>
           site.problems.warn(
+            Code.UnknownParameter,
             p.at,
             s"`${p.name}` is not a parameter of \"$name\"; it is ignored",
             Suggest.help(p.name, declared.filter(f => site.speaks(f.dialects)).map(_.name))
@@ -105,7 +107,11 @@ abstract class Recipe[A](
       val _ = field.given_()(using site)
       support(field) match
         case Support.Unsupported(instead) =>
-          site.problems.warn(at, s"`${field.name}` of \"$name\" is not supported; $instead")
+          site.problems.warn(
+            Code.Unsupported,
+            at,
+            s"`${field.name}` of \"$name\" is not supported; $instead"
+          )
         case _ => ()
 
 /** Something that a statement needs in every colour basis, made when it is first asked for. */
@@ -141,15 +147,16 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     find(name, (r: Recipe[A]) => site.speaks(r.dialects)) match
       case Some(recipe) =>
         for instead <- recipe.substitute do
-          site.warn(s"$category \"$name\" is substituted: $instead")
+          site.warn(Code.OtherDialect, s"$category \"$name\" is substituted: $instead")
         Some(recipe.build(inDialectOf(recipe, site)))
       case None =>
         val message = s"unknown $category \"$name\""
         val help = OtherNames.ofMitsubas(name).filter(_ => byName.contains(name))
           .orElse(suggested(name, site))
         StandIns.ofPbrt(category, site.dialect) match
-          case Some(standIn) => site.warn(s"$message; $standIn, as pbrt does", help)
-          case None => site.missing(message, StandIns.ofCategory(category), help)
+          case Some(standIn) =>
+            site.warn(Code.UnknownType, s"$message; $standIn, as pbrt does", help)
+          case None => site.missing(Code.UnknownType, message, StandIns.ofCategory(category), help)
         None
 
   /** The nearest name of the site's dialect or, if one of another dialect is as near as a slip of
@@ -172,6 +179,7 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     else
       val nearest = Dialects.nearest(site.dialect, recipe.dialects)
       site.warn(
+        Code.OtherDialect,
         s"$category \"${recipe.name}\" exists only in ${Dialects.list(recipe.dialects)}; " +
           s"using ${Dialects.name(nearest)}'s",
         OtherNames.hint(category, recipe.name, site.dialect)

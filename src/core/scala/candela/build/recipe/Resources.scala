@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import scala.collection.mutable
 
-import candela.base.{Allowance, Limit, Parallel, SourcePos, Suggest}
+import candela.base.{Allowance, Code, Limit, Parallel, SourcePos, Suggest}
 import candela.bsdf.Material
 import candela.bsdf.composite.{ChosenMaterial, MixedMaterial}
 import candela.color.ColorBasis
@@ -64,7 +64,7 @@ final class Resources private (
   ): A = made match
     case Right(texture) => texture
     case Left(why) =>
-      problems.error(at, s"texture `$name` is composed of $why")
+      problems.error(Code.Circle, at, s"texture `$name` is composed of $why")
       standIn
 
   /** Returns the texture that a parameter names, or a fallback after reporting a problem. */
@@ -94,7 +94,7 @@ final class Resources private (
         if isOther then s"`${p.name}` must be a $kind texture, but `$name` is a $otherKind texture"
         else s"$kind texture `$name` is not defined"
       def help = if isOther then None else Suggest.help(name, in.keys)
-      problems.unnamed(NameKind.Texture, p.valuesAt, message, standIn, help)
+      problems.unnamed(Code.Undefined, NameKind.Texture, p.valuesAt, message, standIn, help)
       None
     }
 
@@ -120,7 +120,7 @@ final class NamedMaterials(deepest: Int):
   def apply(name: String, at: SourcePos, resources: Resources, problems: Findings): Material =
     sizes.refer(Kind, name)
     if open(name) then
-      problems.error(at, s"material `$name` refers to itself")
+      problems.error(Code.Circle, at, s"material `$name` refers to itself")
       StandIns.material(resources.basis)
     else if recipes.contains(name) then
       if !made.contains(name) then build(name, resources, problems)
@@ -129,6 +129,7 @@ final class NamedMaterials(deepest: Int):
       made.getOrElseUpdate(
         name, {
           problems.unnamed(
+            Code.Undefined,
             NameKind.Material,
             at,
             s"material `$name` is not defined",
@@ -157,7 +158,7 @@ final class NamedMaterials(deepest: Int):
           made(last) = result match
             case Right(material) => material
             case Left(why) =>
-              problems.error(recipe.at, s"material `$last` is composed of $why")
+              problems.error(Code.Circle, recipe.at, s"material `$last` is composed of $why")
               StandIns.material(resources.basis)
           val _ = waiting.pop()
 

@@ -6,7 +6,7 @@ import java.util.concurrent.ConcurrentHashMap
 import scala.collection.mutable
 
 import candela.accel.tracing.WarmUps
-import candela.base.{Allowance, InputFile, Limit, SceneFolder, SourcePos}
+import candela.base.{Allowance, Code, InputFile, Limit, SceneFolder, SourcePos}
 import candela.color.ColorBasis
 import candela.bsdf.layered.Coats
 import candela.bsdf.subsurface.ProfileTables
@@ -64,10 +64,10 @@ final class SharedResources(
 
   // Each of a hundred colour bases asks again
   private val files = ConcurrentHashMap[(SceneFolder, String), InputFile]()
-  private val loaded = ConcurrentHashMap[Path, Either[String, StoredImage]]()
+  private val loaded = ConcurrentHashMap[Path, Either[ImageError, StoredImage]]()
   private val remarks = ConcurrentHashMap[Path, Option[String]]()
 
-  private val images = mutable.Map.empty[Path, Either[String, StoredImage]]
+  private val images = mutable.Map.empty[Path, Either[ImageError, StoredImage]]
   private val made = java.util.IdentityHashMap[Declaration, mutable.Map[Once[?], Any]]()
 
   /** As [[Once]]. */
@@ -91,17 +91,17 @@ final class SharedResources(
         case None =>
           val at = p.valuesAt
           val (message, help) = from.folder.absence(name, Some(at), s"no file `$name`")
-          problems.missing(at, message, standIn, help)
+          problems.missing(Code.NoSuchFile, at, message, standIn, help)
       found
 
-  private def load(file: InputFile, at: SourcePos): Either[String, StoredImage] = synchronized:
+  private def load(file: InputFile, at: SourcePos): Either[ImageError, StoredImage] = synchronized:
     def admit(width: Int, height: Int) =
       allowance.check(Limit.Pixels, width.toLong * height, Some(at)):
         s"`${file.path.getFileName}` has $width×$height pixels"
     images.getOrElseUpdate(
       file.path.toAbsolutePath.normalize,
       try Right(ImageFiles.colored(file.path, ImageFiles.load(file, admit)))
-      catch case e: ImageError => Left(e.getMessage)
+      catch case e: ImageError => Left(e)
     )
 
   /** Loads the image that a parameter names; images are cached. */
@@ -115,8 +115,8 @@ final class SharedResources(
       loaded.computeIfAbsent(file.path, _ => load(file, p.valuesAt)) match
         case Right(image) =>
           for remark <- remarks.computeIfAbsent(file.path, _ => ImageFiles.remark(file)) do
-            problems.warn(p.valuesAt, remark)
+            problems.warn(Code.CutImage, p.valuesAt, remark)
           Some(image)
-        case Left(message) =>
-          problems.missing(p.valuesAt, message, standIn)
+        case Left(e) =>
+          problems.missing(e.code, p.valuesAt, e.getMessage, standIn)
           None

@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import scala.collection.mutable
 
-import candela.base.{Allowance, Problem, SceneError, Severity, SourcePos}
+import candela.base.{Allowance, Code, Problem, SceneError, Severity, SourcePos}
 import candela.bsdf.{DiffuseMaterial, Material}
 import candela.color.{ColorBasis, ColorSpace, Rgb}
 import candela.image.{Image, StoredImage}
@@ -45,24 +45,29 @@ final class Site(
   def of(otherType: String): Site =
     Site(declaration.copy(name = otherType), dialect, resources, problems, toWorld)
 
-  def warn(message: String, help: => Option[String] = None): Unit =
-    problems.warn(declaration.at, message, help)
-  def error(message: String, help: => Option[String] = None): Unit =
-    problems.error(declaration.at, message, help)
+  def warn(code: Code, message: String, help: => Option[String] = None): Unit =
+    problems.warn(code, declaration.at, message, help)
+  def error(code: Code, message: String, help: => Option[String] = None): Unit =
+    problems.error(code, declaration.at, message, help)
 
   /** Reports a statement that pbrt-v4 refuses, and older ones skip after a message. */
-  def unusable(message: String, help: Option[String] = None): Unit =
-    if dialect == Dialect.V4 then error(message, help)
-    else warn(s"$message; ${StandIns.LeftOut}, as pbrt does", help)
+  def unusable(code: Code, message: String, help: Option[String] = None): Unit =
+    if dialect == Dialect.V4 then error(code, message, help)
+    else warn(code, s"$message; ${StandIns.LeftOut}, as pbrt does", help)
 
   /** Reports a value that pbrt-v4 refuses, and older ones do not find: they use the default. */
-  def unread(p: Param, message: String, help: Option[String]): Unit =
-    if dialect == Dialect.V4 then problems.error(p.at, message, help)
-    else problems.warn(p.at, s"$message; it is ignored, as pbrt does", help)
+  def unread(code: Code, p: Param, message: String, help: Option[String]): Unit =
+    if dialect == Dialect.V4 then problems.error(code, p.at, message, help)
+    else problems.warn(code, p.at, s"$message; it is ignored, as pbrt does", help)
 
   /** Reports that the statement refers to something missing. */
-  def missing(message: String, standIn: String, help: => Option[String] = None): Unit =
-    problems.missing(declaration.at, message, standIn, help)
+  def missing(
+      code: Code,
+      message: String,
+      standIn: String,
+      help: => Option[String] = None
+  ): Unit =
+    problems.missing(code, declaration.at, message, standIn, help)
 
 /** Collects the problems of a description, so that one run reports them all. Safe for threads.
   *
@@ -90,37 +95,45 @@ final class Findings(
         if isError || warnings <= Problems.MostWarnings then
           val isHelped = errors + warnings <= Problems.MostHelped
           all += (if isHelped then problem.withHelp(help) else problem): Unit
-        else all += Problem(Severity.Warning, None, "more warnings are omitted"): Unit
+        else
+          all += Problem(
+            Code.TooManyProblems,
+            Severity.Warning,
+            None,
+            "more warnings are omitted"
+          ): Unit
         if errors >= Problems.MostErrors then
           val stop = s"building stopped after $errors errors"
-          throw SceneError(Problem.byPlace(result) :+ Problem.general(stop))
+          throw SceneError(Problem.byPlace(result) :+ Problem.general(Code.TooManyProblems, stop))
 
-  def warn(at: SourcePos, message: String, help: => Option[String] = None): Unit =
-    add(Problem.warning(at, message), help)
+  def warn(code: Code, at: SourcePos, message: String, help: => Option[String] = None): Unit =
+    add(Problem.warning(code, at, message), help)
 
   /** Warns of a choice that no statement need have made, at the statement that has. */
-  def warn(at: Option[SourcePos], message: String): Unit =
-    add(Problem(Severity.Warning, at, message), None)
+  def warn(code: Code, at: Option[SourcePos], message: String): Unit =
+    add(Problem(code, Severity.Warning, at, message), None)
 
-  def error(at: SourcePos, message: String, help: => Option[String] = None): Unit =
-    add(Problem.error(at, message), help)
+  def error(code: Code, at: SourcePos, message: String, help: => Option[String] = None): Unit =
+    add(Problem.error(code, at, message), help)
 
   /** Reports a missing item: an error, or a warning that names its replacement. */
   def missing(
+      code: Code,
       at: SourcePos,
       message: String,
       standIn: String,
       help: => Option[String] = None
-  ): Unit = add(Problem.missing(at, message, standIn, keepGoing), help)
+  ): Unit = add(Problem.missing(code, at, message, standIn, keepGoing), help)
 
   /** Reports a reference to a name that no statement defines. */
   def unnamed(
+      code: Code,
       kind: NameKind,
       at: SourcePos,
       message: String,
       standIn: String,
       help: => Option[String] = None
-  ): Unit = if !lost(kind) then missing(at, message, standIn, help)
+  ): Unit = if !lost(kind) then missing(code, at, message, standIn, help)
 
   def result: Vector[Problem] = Excerpts.fill(all.toVector)
   def hasErrors: Boolean = errors > 0

@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import java.io.IOException
 
-import candela.base.{InputFile, IoReason, Suggest}
+import candela.base.{Code, InputFile, IoReason, Suggest}
 import candela.color.{ColorBasis, ColorSpace, Colorimetry, NamedSpectra, Rgb, Spectrum, Upsampling}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}
@@ -132,6 +132,7 @@ object Spectra:
       case other =>
         val count = Math.max(p.floats.length, p.strings.size)
         site.unread(
+          Code.ParameterType,
           p,
           s"`${p.name}` must be a colour or a spectrum, found $count of type ${other.spelling}",
           Some("write e.g. \"rgb " + p.name + "\" [ 0.5 0.5 0.5 ]")
@@ -142,7 +143,11 @@ object Spectra:
   private def blackbody(p: Param, site: Site): Option[(SpectralValue, Float)] =
     val scale = if p.floats.length >= 2 && site.dialect != Dialect.V4 then p.floats(1) else 1f
     if p.floats.length == 0 || !(p.floats(0) > 0f) then
-      site.problems.error(p.valuesAt, s"`${p.name}` must be a temperature above 0 K")
+      site.problems.error(
+        Code.ParameterValue,
+        p.valuesAt,
+        s"`${p.name}` must be a temperature above 0 K"
+      )
       None
     else
       // pbrt-v2 normalises the spectrum at 555 nm, v3 and v4 at its maximum
@@ -154,7 +159,11 @@ object Spectra:
   private def pairs(numbers: Array[Float], p: Param, site: Site): Option[Spectrum] =
     val sorted = numbers.grouped(2).map(a => (a(0), a(1))).toArray.sortBy(_._1)
     if sorted.map(_._1).distinct.length < sorted.length then
-      site.problems.error(p.valuesAt, s"`${p.name}` must not repeat a wavelength")
+      site.problems.error(
+        Code.ParameterValue,
+        p.valuesAt,
+        s"`${p.name}` must not repeat a wavelength"
+      )
       None
     else
       val outside =
@@ -171,13 +180,13 @@ object Spectra:
           val nothing = s"`$name` is neither a named spectrum nor a file"
           val (message, help) = folder.absence(name, Some(p.valuesAt), nothing)
           val known = near.orElse(help).orElse(Some(s"known: ${NamedSpectra.inWords}"))
-          site.problems.missing(p.valuesAt, message, standIn, known)
+          site.problems.missing(Code.SpectrumFile, p.valuesAt, message, standIn, known)
           None
         case Some(file) =>
           numbers(file, name) match
             case Right(found) => pairs(found, p, site)
             case Left(why) =>
-              site.problems.missing(p.valuesAt, why, standIn)
+              site.problems.missing(Code.SpectrumFile, p.valuesAt, why, standIn)
               None
     }
 

@@ -1,5 +1,7 @@
 package candela.build.sampling
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.scenefile.Dialect
 
@@ -68,6 +70,7 @@ object StratifiedRecipe
       if asked.x.toLong * asked.y <= Int.MaxValue then asked
       else
         site.error(
+          Code.ParameterValue,
           s"`xsamples` × `ysamples` must be at most ${Int.MaxValue} samples per pixel, found " +
             s"${asked.x} × ${asked.y}"
         )

@@ -1,5 +1,7 @@
 package candela.build.sampling
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.scenefile.Dialect
 
@@ -50,5 +52,5 @@ abstract class SamplerRecipe(
   private def count(request: SamplerRequest)(using site: Site): Int =
     request.spp.getOrElse:
       val n = samples()
-      if n < 1 then site.error(s"`pixelsamples` must be at least 1, found $n")
+      if n < 1 then site.error(Code.ParameterValue, s"`pixelsamples` must be at least 1, found $n")
       Math.max(1, n)

@@ -1,6 +1,6 @@
 package candela.build.settings
 
-import candela.base.{SceneFolder, SourcePos}
+import candela.base.{Code, SceneFolder, SourcePos}
 import candela.build.recipe.*
 import candela.color.ColorSpace
 
@@ -42,10 +42,11 @@ object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", 
   protected def make()(using site: Site): Switches =
     val _ = space() // `Motions` reads it from the description
     val scale = edgeScale.given_()
-    for s <- scale if !(s > 0f) do site.error(s"`displacementedgescale` must be above 0, found $s")
+    for s <- scale if !(s > 0f) do
+      site.error(Code.ParameterValue, s"`displacementedgescale` must be above 0, found $s")
     for (one, other) <- Seq(reference -> errors, errors -> reference) do
       if one().nonEmpty && other().isEmpty then
-        site.error(s"option `${one.name}` needs `${other.name}`, too")
+        site.error(Code.ExclusiveParameters, s"option `${one.name}` needs `${other.name}`, too")
     Switches(
       seed(),
       centers(),

@@ -1,6 +1,6 @@
 package candela.build.shapes
 
-import candela.base.Limit
+import candela.base.{Code, Limit}
 import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect
@@ -42,7 +42,7 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       else None
     wrong match
       case Some(message) =>
-        site.unusable(message)
+        site.unusable(Code.ParameterValue, message)
         None
       case None =>
         val chain = if isBezier then BezierCurve.ofBezier(p, d) else BezierCurve.ofBSpline(p, d)
@@ -54,13 +54,19 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
     val n = normals()
     if kind() != "ribbon" then
       if n.nonEmpty then
-        site.warn(s"`N` of a \"${kind()}\" curve is ignored; only ribbons have normals")
+        site.warn(
+          Code.IdleParameter,
+          s"`N` of a \"${kind()}\" curve is ignored; only ribbons have normals"
+        )
       None
     else if n.length == 3 * (curves + 1) then
       Some(Vector.tabulate(curves + 1)(i => Vec3(n(3 * i), n(3 * i + 1), n(3 * i + 2))))
     else
       val found = n.length / 3
-      site.unusable(s"`N` of $curves ribbon segments must have ${curves + 1} normals, found $found")
+      site.unusable(
+        Code.ParameterValue,
+        s"`N` of $curves ribbon segments must have ${curves + 1} normals, found $found"
+      )
       None
 
   private def curves(chain: Vector[Array[Double]], ends: Option[Vector[Vec3]])(using
@@ -70,10 +76,10 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
     def widthAt(i: Int) = lerp(i.toFloat / chain.size, w0, w1)
     val depth = splitdepth().toInt
     if !(w0 >= 0f && w1 >= 0f && w0 + w1 > 0f) then
-      site.warn(s"a curve of width $w0 to $w1 is invisible; it is ignored")
+      site.warn(Code.NoSurface, s"a curve of width $w0 to $w1 is invisible; it is ignored")
       None
     else if depth < 0 || depth > 16 then
-      site.error(s"`splitdepth` must be between 0 and 16, found $depth")
+      site.error(Code.ParameterValue, s"`splitdepth` must be between 0 and 16, found $depth")
       None
     else
       val count = chain.size.toLong << depth

@@ -1,5 +1,7 @@
 package candela.build.shapes
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.scenefile.ParamType
 import candela.shapes.{BilinearMesh, BilinearPatch}
@@ -31,6 +33,7 @@ private[build] object MeshArrays:
     if extra > 0 && indices.length > corners then
       val ignored = if extra == 1 then "the last is" else s"the last $extra are"
       site.warn(
+        Code.BrokenMesh,
         s"`indices` must have a multiple of $corners numbers, found ${indices.length}; $ignored " +
           "ignored, as pbrt does"
       )
@@ -96,7 +99,7 @@ private[build] object MeshArrays:
             if positions.exists(x => !java.lang.Float.isFinite(x)) then
               problem("`P` must not contain NaN or infinite numbers")
             else None
-    wrong.foreach(site.unusable(_))
+    wrong.foreach(site.unusable(Code.BrokenMesh, _))
     wrong.isEmpty
 
   /** Drops attributes that don't match the number of vertices, with a warning, as pbrt does. */
@@ -110,6 +113,7 @@ private[build] object MeshArrays:
       else "values"
       val needed = vertices * each
       site.warn(
+        Code.BrokenMesh,
         s"`$name` must have $needed $kind for $vertices vertices, found ${values.length}; " +
           "it is ignored"
       )

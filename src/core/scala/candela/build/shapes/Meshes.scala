@@ -1,6 +1,6 @@
 package candela.build.shapes
 
-import candela.base.{Limit, loop, SceneError}
+import candela.base.{Code, Limit, SceneError, loop}
 import candela.build.recipe.*
 import candela.geometry.ShadingPoint
 import candela.math.{Position, Transform}
@@ -37,10 +37,10 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
       case (Some(ps), Some(is)) => ps.isEmpty || is.isEmpty
       case _ => false
     if isEmpty then
-      site.warn("a mesh without triangles is ignored")
+      site.warn(Code.NoSurface, "a mesh without triangles is ignored")
       None
     else if p.isEmpty || index.isEmpty then
-      site.unusable("a \"trianglemesh\" needs `P` and `indices`")
+      site.unusable(Code.MissingParameter, "a \"trianglemesh\" needs `P` and `indices`")
       None
     else MeshArrays.checked(p, normals(), uvs, index)
 
@@ -66,10 +66,11 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
             if near.isEmpty then made else made.map(ShapeGeometry.Around(origin, _))
           catch
             case e: SceneError =>
-              for x <- e.problems do site.problems.missing(p.valuesAt, x.message, standIn, x.help)
+              for x <- e.problems do
+                site.problems.missing(x.code, p.valuesAt, x.message, standIn, x.help)
               None
       case _ =>
-        site.unusable("a \"plymesh\" needs `filename`")
+        site.unusable(Code.MissingParameter, "a \"plymesh\" needs `filename`")
         None
 
   /** As triangles. */
@@ -78,10 +79,10 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
   ): Option[ShapeGeometry] =
     val longest = edge() * site.resources.switches.edgeScale.getOrElse(1f)
     if mesh.uvs.isEmpty then
-      site.error("a displaced mesh needs texture coordinates, as in pbrt")
+      site.error(Code.MissingParameter, "a displaced mesh needs texture coordinates, as in pbrt")
       None
     else if !(longest > 0f) then
-      site.error(s"`edgelength` must be above 0, found $longest")
+      site.error(Code.ParameterValue, s"`edgelength` must be above 0, found $longest")
       None
     else
       val heights = displacement()
@@ -104,7 +105,7 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
         Some(ShapeGeometry.Triangles(made.positions, made.normals, made.uvs, made.indices))
       catch
         case e: MeshError =>
-          site.error(s"\"plymesh\": ${e.getMessage}")
+          site.error(Code.DamagedMesh, s"\"plymesh\": ${e.getMessage}")
           None
 
   /** Quads are bilinear patches in pbrt-v4, which are curved if the corners are not coplanar. */
@@ -141,7 +142,7 @@ object BilinearMeshRecipe
     val given_ = indices()
     val all = if given_.isEmpty && p.length == 12 then Array(0, 1, 2, 3) else given_
     if p.isEmpty || all.length < 4 then
-      site.error("a \"bilinearmesh\" needs `P` and `indices`")
+      site.error(Code.MissingParameter, "a \"bilinearmesh\" needs `P` and `indices`")
       None
     else
       val whole = MeshArrays.wholeFaces(all, 4)
@@ -160,10 +161,13 @@ object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surf
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val depth = levels.given_().orElse(nlevels.given_()).getOrElse(3)
     if points().isEmpty || indices().isEmpty then
-      site.unusable("a \"loopsubdiv\" needs `P` and `indices`")
+      site.unusable(Code.MissingParameter, "a \"loopsubdiv\" needs `P` and `indices`")
       None
     else if depth < 0 || depth > 10 then
-      site.error(s"`levels` of \"loopsubdiv\" must be between 0 and 10, found $depth")
+      site.error(
+        Code.ParameterValue,
+        s"`levels` of \"loopsubdiv\" must be between 0 and 10, found $depth"
+      )
       None
     else
       val faces = MeshArrays.wholeFaces(indices(), 3)
@@ -173,11 +177,12 @@ object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surf
           site.allowance.check(Limit.Triangles, count, Some(site.declaration.at)):
             s"\"loopsubdiv\" makes $count triangles"
           val fine = LoopSubdivision.subdivide(depth, faces, points())
-          for edge <- fine.crowded do site.warn(s"\"loopsubdiv\": $edge, as in pbrt")
+          for edge <- fine.crowded do
+            site.warn(Code.BrokenMesh, s"\"loopsubdiv\": $edge, as in pbrt")
           Some(ShapeGeometry.Triangles(fine.positions, fine.normals, Array.empty, fine.indices))
         catch
           case e: MeshError =>
-            site.error(s"\"loopsubdiv\": ${e.getMessage}")
+            site.error(Code.BrokenMesh, s"\"loopsubdiv\": ${e.getMessage}")
             None
 
 object HeightFieldRecipe
@@ -189,16 +194,20 @@ object HeightFieldRecipe
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val (columns, rows, z) = (nu(), nv(), heights())
     if z.isEmpty || nu.given_().isEmpty || nv.given_().isEmpty then
-      site.error("a \"heightfield\" needs `nu`, `nv` and `Pz`")
+      site.error(Code.MissingParameter, "a \"heightfield\" needs `nu`, `nv` and `Pz`")
       None
     else if columns < 2 || rows < 2 then
       site.warn(
+        Code.BrokenMesh,
         s"`nu` and `nv` of a \"heightfield\" must be at least 2, found $columns and $rows; " +
           "it is ignored"
       )
       None
     else if z.length != columns.toLong * rows then
-      site.error(s"`Pz` must have nu × nv = ${columns.toLong * rows} heights, found ${z.length}")
+      site.error(
+        Code.ParameterCount,
+        s"`Pz` must have nu × nv = ${columns.toLong * rows} heights, found ${z.length}"
+      )
       None
     else
       val uvs = new Array[Float](2 * z.length)

@@ -1,6 +1,6 @@
 package candela.build.shapes
 
-import candela.base.loop
+import candela.base.{Code, loop}
 import candela.build.recipe.*
 import candela.shapes.{KnotVector, Nurbs}
 
@@ -17,7 +17,10 @@ private[build] final class NurbsSide(
   def read()(using site: Site): Option[KnotVector] =
     val (n, k, all) = (count(), order(), knots())
     if all.isEmpty || count.given_().isEmpty || order.given_().isEmpty then
-      site.unusable(s"a \"nurbs\" needs `n$letter`, `${letter}order` and `${letter}knots`")
+      site.unusable(
+        Code.MissingParameter,
+        s"a \"nurbs\" needs `n$letter`, `${letter}order` and `${letter}knots`"
+      )
       None
     else checked(n, k, all)
 
@@ -32,7 +35,7 @@ private[build] final class NurbsSide(
         Some(s"`${letter}knots` must not decrease")
       else if !(all(k - 1) < all(n)) then Some(s"`${letter}knots` must span an interval")
       else None
-    wrong.foreach(why => site.warn(s"$why; the \"nurbs\" is ignored"))
+    wrong.foreach(why => site.warn(Code.BrokenMesh, s"$why; the \"nurbs\" is ignored"))
     Option.when(wrong.isEmpty)(KnotVector(n, k, all.map(_.toDouble)))
 
   /** Parameter values of evaluation. */
@@ -90,6 +93,7 @@ object NurbsRecipe
     else if p.isEmpty && pw.nonEmpty && pw.length == 4 * count then Some(pw.map(_.toDouble))
     else
       site.unusable(
+        Code.BrokenMesh,
         s"`P` or `Pw` of a \"nurbs\" must have ${3 * count} or ${4 * count} numbers for $nu × " +
           s"$nv control points, found ${p.length} and ${pw.length}"
       )

@@ -3,8 +3,8 @@ package candela.build.shapes
 import java.io.IOException
 
 import candela.base.{
-  FloatBuffer, InputFile, IntBuffer, IoReason, loop, Problem, RestBuffer, SceneError, Severity,
-  SourcePos
+  Code, FloatBuffer, InputFile, IntBuffer, IoReason, Problem, RestBuffer, SceneError, Severity,
+  SourcePos, loop
 }
 import candela.math.{Position, Transform}
 import candela.scenefile.Source
@@ -70,7 +70,7 @@ object PlyFile:
         finally source.close()
 
   private def problem(at: Option[SourcePos], message: String): SceneError =
-    SceneError(Problem(Severity.Error, at, message))
+    SceneError(Problem(Code.DamagedMesh, Severity.Error, at, message))
 
   private[build] def mesh(
       source: Source,

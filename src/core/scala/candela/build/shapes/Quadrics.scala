@@ -1,5 +1,7 @@
 package candela.build.shapes
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect
@@ -17,6 +19,7 @@ object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whol
     val r = Math.abs(radius())
     if radius() < 0f then
       site.warn(
+        Code.CorrectedValue,
         s"`radius` of this sphere is ${radius()}; its absolute value counts, but pbrt also turns " +
           "its normals",
         Some(s"write \"float radius\" $r")
@@ -24,10 +27,10 @@ object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whol
     val (z0, z1) = (clamp(zmin(), -r, r), clamp(zmax(), -r, r))
     val phi = radians(clamp(phimax(), 0f, 360f))
     if r == 0f then
-      site.warn("this sphere has no surface, because `radius` is 0; it is ignored")
+      site.warn(Code.NoSurface, "this sphere has no surface, because `radius` is 0; it is ignored")
       None
     else if z0 == z1 || phi == 0f then
-      site.warn("this sphere has no surface within its bounds; it is ignored")
+      site.warn(Code.NoSurface, "this sphere has no surface within its bounds; it is ignored")
       None
     else
       Some(
@@ -46,7 +49,7 @@ object DiskRecipe
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val (r, i) = (radius(), inner())
     def leftOut(why: String) =
-      site.warn(s"this disk has no surface, because $why; it is ignored")
+      site.warn(Code.NoSurface, s"this disk has no surface, because $why; it is ignored")
       None
     if r == 0f then leftOut("`radius` is 0")
     else if !(Math.abs(i) < Math.abs(r)) then
@@ -55,7 +58,10 @@ object DiskRecipe
       leftOut(s"`phimax` is ${phimax()}")
     else
       if r < 0f || i < 0f then
-        site.warn(s"radii of this disk are negative: $r and $i; as in pbrt, their squares count")
+        site.warn(
+          Code.CorrectedValue,
+          s"radii of this disk are negative: $r and $i; as in pbrt, their squares count"
+        )
       val (h, phi) = (height(), radians(clamp(phimax(), 0f, 360f)))
       def disk(toWorld: Transform, reversed: Boolean) =
         Disk(toWorld, h, r, i, phi, reversed, site.rules.diskU)
@@ -74,7 +80,7 @@ abstract class SweptRecipe(name: String, meaning: String, dialects: Set[Dialect]
 
   /** Ignores a shape without a surface, with a warning: pbrt renders such scenes. */
   protected final def leftOut(why: String)(using site: Site): Option[ShapeGeometry] =
-    site.warn(s"this $name has no surface, because $why; it is ignored")
+    site.warn(Code.NoSurface, s"this $name has no surface, because $why; it is ignored")
     None
 
 object CylinderRecipe extends SweptRecipe("cylinder", "open cylinder about the z-axis", every):
@@ -121,6 +127,7 @@ object HyperboloidRecipe
       case Some(profile) =>
         if profile.loose then
           site.warn(
+            Code.CorrectedValue,
             "the line from `p1` to `p2` is not closest to the z-axis at z = 0; the hyperboloid " +
               "is symmetric about z = 0 and passes through `p2` only, but has the normals of the " +
               "line's surface, as in pbrt; where the two face apart, rounding decides which " +

@@ -1,5 +1,7 @@
 package candela.build.textures
 
+import candela.base.Code
+
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
 import candela.image.{ByteImage, Image, StoredImage}
@@ -51,7 +53,7 @@ abstract class ImageMapRecipe[A](standIn: String)
   ): Option[ImageLookup] =
     site.declaration.param("filename").filter(_ => filename().nonEmpty) match
       case None =>
-        site.error("an \"imagemap\" needs `filename`")
+        site.error(Code.MissingParameter, "an \"imagemap\" needs `filename`")
         None
       case Some(p) =>
         for stored <- site.resources.image(p, site.declaration, site.problems, standIn) yield
@@ -103,7 +105,8 @@ abstract class ImageMapRecipe[A](standIn: String)
       case Dialect.V3 =>
         val eightBit = Seq(".png", ".tga").exists(filename().toLowerCase.endsWith)
         val isNumber = site.declaration.param("gamma").exists(_.paramType == ParamType.Float)
-        if isNumber then site.warn("`gamma` must be a bool in v3; the number is ignored")
+        if isNumber then
+          site.warn(Code.IdleParameter, "`gamma` must be a bool in v3; the number is ignored")
         val flag = if isNumber then None else gammaFlag.given_()
         if flag.getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
       case Dialect.V4 | Dialect.Mitsuba =>
@@ -122,7 +125,10 @@ abstract class ImageMapRecipe[A](standIn: String)
         x => pow(x, exponent)
       case _ =>
         val found = encoding()
-        site.error(s"`encoding` must be sRGB, linear, or gamma and a number, found \"$found\"")
+        site.error(
+          Code.ParameterValue,
+          s"`encoding` must be sRGB, linear, or gamma and a number, found \"$found\""
+        )
         identity
 
   private def wrap(using site: Site): String =

@@ -1,7 +1,7 @@
 package candela.render.storage
 
 import candela.base.{
-  CheckedFile, ForeignFile, ForeignKind, InputFile, IoReason, NextFile, Problem, SceneError,
+  CheckedFile, Code, ForeignFile, ForeignKind, InputFile, IoReason, NextFile, Problem, SceneError,
   WholeFile
 }
 import candela.render.RenderState
@@ -36,7 +36,10 @@ final class FilmFile private (
           require(state.hasReached(done), s"it has fewer than $done samples per pixel")
     catch
       case e: IOException =>
-        throw SceneError(Problem.general(s"can't read `$source`: ${FilmFile.reason(e)}"))
+        throw SceneError(Problem.general(
+          Code.DamagedFilm,
+          s"can't read `$source`: ${FilmFile.reason(e)}"
+        ))
 
 object FilmFile:
   private[storage] val Mark = "Candela film 1\n"

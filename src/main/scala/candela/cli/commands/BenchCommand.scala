@@ -8,7 +8,7 @@ import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
 import candela.base.{
-  FileName, ForeignFile, ForeignKind, Problem, SceneError, Scratch, Version, WholeFile
+  Code, FileName, ForeignFile, ForeignKind, Problem, SceneError, Scratch, Version, WholeFile
 }
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.Options
@@ -41,7 +41,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
         for path <- paths do terminal.out.println(s"wrote $path")
         terminal.out.flush()
       else if !cancellation.isRequested then
-        throw SceneError(Problem.general("no program could run any scene"))
+        throw SceneError(Problem.general(Code.NoProgram, "no program could run any scene"))
       if cancellation.isRequested then ExitCode.Interrupted else ExitCode.Done
 
   private def measured(suite: Suite, paths: Vector[Path], scratch: Path): SuiteReport =
@@ -67,9 +67,13 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     else if Files.isRegularFile(source) then
       for other <- notSuite(source) do
         val help = "a suite is a .conf file, or a folder of scenes with references"
-        throw SceneError(Problem.general(s"`$source` is $other, not a suite", Some(help)))
+        throw SceneError(Problem.general(
+          Code.SuiteFile,
+          s"`$source` is $other, not a suite",
+          Some(help)
+        ))
       SuiteFile.read(source)
-    else throw SceneError(Problem.general(s"no such suite: `$source`"))
+    else throw SceneError(Problem.general(Code.SuiteFile, s"no such suite: `$source`"))
 
   private def notSuite(file: Path): Option[String] =
     if SceneFormat.named(file).isDefined then Some("a scene")
@@ -92,7 +96,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     val known = Vector("html", "json", "csv", "svg")
     if !known.contains(FileName.suffix(path)) then
       val help = Some("results are written as .html, .json, .csv, or .svg (the main charts)")
-      throw SceneError(Problem.general(s"can't write `$path`", help))
+      throw SceneError(Problem.general(Code.UnknownFormat, s"can't write `$path`", help))
     for problem <- FileRegister.obstacle(path) do throw SceneError(problem)
 
   private def text(path: Path, results: SuiteReport): String = FileName.suffix(path) match

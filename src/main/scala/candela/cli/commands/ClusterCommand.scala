@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{Problem, SceneError, Scratch}
+import candela.base.{Code, Problem, SceneError, Scratch}
 import candela.cli.files.{FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.rendering.ImageWriter
@@ -61,7 +61,7 @@ private[cli] final class ClusterCommand(
         case e: ClusterFailure =>
           val lines = e.getMessage.split("\n", 2)
           val help = lines.lift(1).map(_.linesIterator.map(_.strip).mkString("; "))
-          throw SceneError(Problem.general(lines.head, help))
+          throw SceneError(Problem.general(Code.Cluster, lines.head, help))
 
   private def note(text: String): Unit = if !options.quiet then terminal.err.println(text)
 

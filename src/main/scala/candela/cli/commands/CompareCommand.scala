@@ -5,7 +5,7 @@ import java.nio.file.{Files, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-import candela.base.FileName
+import candela.base.{Code, FileName}
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.{Limit, Options}
 import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
@@ -72,7 +72,10 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     */
   private def compareSet(images: Path, references: Path): ExitCode =
     if asked.writesPictures then
-      throw ImageError("--difference and --heatmap need two images, not folders")
+      throw ImageError(
+        Code.DifferentImages,
+        "--difference and --heatmap need two images, not folders"
+      )
     val set = ReferenceSet.of(images, references)
     for file <- set.missing do terminal.err.println(s"$file: no reference in $references")
     val comparisons =
@@ -155,7 +158,8 @@ object ReferenceSet:
     */
   def of(images: Path, references: Path): ReferenceSet =
     val found = files(images)
-    if found.isEmpty then throw ImageError(s"$images: no images in this folder")
+    if found.isEmpty then
+      throw ImageError(Code.DifferentImages, s"$images: no images in this folder")
     if Files.isDirectory(references) then
       val known = files(references).groupBy(FileName.stem)
       val matched = found.map: image =>

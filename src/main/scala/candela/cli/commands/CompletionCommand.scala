@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{Problem, SceneError, Suggest}
+import candela.base.{Code, Problem, SceneError, Suggest}
 import candela.cli.options.{Completion, Options, Words}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 
@@ -13,7 +13,11 @@ final class CompletionCommand(options: Options, terminal: Terminal, report: Repo
       val known = s"${Words.shells.init.mkString(", ")} and ${Words.shells.last}"
       val near = Suggest.nearest(shell, Words.shells).map(n => s"did you mean `$n`?")
       throw SceneError(
-        Problem.general(s"there is no completion for `$shell`", near.orElse(Some(s"known: $known")))
+        Problem.general(
+          Code.UnknownEntry,
+          s"there is no completion for `$shell`",
+          near.orElse(Some(s"known: $known"))
+        )
       )
     lines.foreach(terminal.out.println(_))
     terminal.out.flush()

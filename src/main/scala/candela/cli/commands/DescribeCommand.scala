@@ -2,7 +2,7 @@ package candela.cli.commands
 
 import java.nio.charset.StandardCharsets.UTF_8
 
-import candela.base.{Problem, SceneError, Suggest, WholeFile}
+import candela.base.{Code, Problem, SceneError, Suggest, WholeFile}
 import candela.build.{Category, Language}
 import candela.build.recipe.{Dialects, Field, Recipe, Support}
 import candela.cli.files.{FileRegister, Output, OutputFiles}
@@ -25,6 +25,7 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
         case Some(Page.Reference) => ReferenceMarkdown(described).page
         case Some(Page.Commands) => CommandsPage.lines
         case Some(Page.Manual) => ManPage.lines
+        case Some(Page.Problems) => ProblemsPage.lines
         case None => answer(options.files)
     outputs match
       case Vector() =>
@@ -46,7 +47,10 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
       if categories.isEmpty then
         unknown("category", category, Language.categories.flatMap(c => c.name +: c.aliases))
       else of(categories, name, Vector.empty)
-    case _ => throw SceneError(Problem.general("describe expects a category, a type, or both"))
+    case _ => throw SceneError(Problem.general(
+        Code.UnknownEntry,
+        "describe expects a category, a type, or both"
+      ))
 
   /** The types called `name`. */
   private def of(in: Vector[Category], name: String, others: Vector[String]): Vector[String] =
@@ -71,6 +75,7 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
     val where = options.settings.reading.dialect.fold("")(d => s" in ${d.toString.toLowerCase}")
     throw SceneError(
       Problem.general(
+        Code.UnknownEntry,
         s"unknown ${kind.toLowerCase} `$word`$where",
         help.orElse(Some("`candela describe` lists all categories"))
       )

@@ -2,7 +2,7 @@ package candela.cli.commands
 
 import java.nio.file.Path
 
-import candela.base.{Problem, SceneError, Severity}
+import candela.base.{Code, Problem, SceneError, Severity}
 import candela.cli.files.OutputFiles
 import candela.cli.options.{MapShape, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
@@ -22,7 +22,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
     val made =
       try edited(whole)
       catch
-        case e: ImageError => throw ImageError(message(path, e))
+        case e: ImageError => throw ImageError(e.code, message(path, e))
     // As imgtool: a crop knows its place
     val isPlaced = asked.size.isEmpty && asked.environment.isEmpty && !asked.flips
     val window = asked.crop.filter(_ => isPlaced).map: c =>
@@ -60,13 +60,16 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
 
   private def environment(image: Image, shape: MapShape): Image =
     val source = image.toRgb
-    def fail(why: String) = throw SceneError(Problem.general(why))
+    def fail(why: String) = throw SceneError(Problem.general(Code.ImageEdit, why))
     shape match
       case MapShape.EqualArea =>
         if source.width != 2 * source.height then
           val message =
             s"${source.width}x${source.height} pixels: a latlong map is twice as wide as high"
-          report.warnings(Vector(Problem(Severity.Warning, None, message)), all = true)
+          report.warnings(
+            Vector(Problem(Code.ImageEdit, Severity.Warning, None, message)),
+            all = true
+          )
         val side = asked.size.fold(source.width)(_.of(1, 1)._1)
         SkyImages.resampled(source, LatLongMap, side, side, EqualAreaMap, smooth = true)
       case MapShape.LatLong =>

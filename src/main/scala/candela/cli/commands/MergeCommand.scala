@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{Problem, SceneError, Severity}
+import candela.base.{Code, Problem, SceneError, Severity}
 import candela.cli.files.{FileRegister, FilmInput, FilmKeeping, Output, OutputFiles}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
@@ -130,7 +130,10 @@ final class MergeCommand(
     val most = groups.maxByOption(_.size).getOrElse(Vector.empty)
     val problems =
       for first <- most.take(1); film <- films; why <- first.header.difference(film.header)
-      yield Problem.general(s"`${film.path}` is of another rendering than `${first.path}`: $why")
+      yield Problem.general(
+        Code.OtherRendering,
+        s"`${film.path}` is of another rendering than `${first.path}`: $why"
+      )
     (most, problems)
 
   /** One film for each shard: that with the most samples, or the first of equals. */
@@ -146,7 +149,10 @@ final class MergeCommand(
         case Some(shard) =>
           val both = s"`${owners(shard).path}`, `${film.path}`"
           problems +=
-            Problem.general(s"shard $shard/${film.header.count} is there twice: $both")
+            Problem.general(
+              Code.IncompleteShards,
+              s"shard $shard/${film.header.count} is there twice: $both"
+            )
           false
     (films.filter(kept.contains), problems.result())
 
@@ -157,7 +163,7 @@ final class MergeCommand(
     val isOne = gaps.size == 1 && gaps.forall((first, last) => first == last)
     val many = if isOne then s"shard $names is" else s"shards $names are"
     Option.when(gaps.nonEmpty):
-      Problem.general(s"$many missing", Some("--partial merges the others"))
+      Problem.general(Code.IncompleteShards, s"$many missing", Some("--partial merges the others"))
     .toVector
 
   private def unfinished(films: Vector[FilmFile]): Vector[Problem] =
@@ -169,6 +175,7 @@ final class MergeCommand(
         if isOne then s"`candela resume ${film.path}` completes it"
         else "`candela resume` completes the film of each shard, from which it was merged"
       Problem.general(
+        Code.IncompleteShards,
         s"$which unfinished, with ${header.done} of ${header.samples} samples " +
           s"per pixel: `${film.path}`",
         Some(s"$completed; --partial merges what there is")

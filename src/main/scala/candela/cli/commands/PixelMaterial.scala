@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Code, Problem, SceneError}
 import candela.cli.terminal.{ExitCode, Figures, Printer}
 import candela.geometry.Ray
 import candela.math.Vec3
@@ -11,9 +11,15 @@ private[cli] object PixelMaterial:
   def run(plan: RenderPlan, x: Int, y: Int, out: Printer): ExitCode =
     if x >= plan.width || y >= plan.height then
       val size = s"${plan.width}x${plan.height}"
-      throw SceneError(Problem.general(s"--pixelmaterial $x,$y is outside the image: $size"))
+      throw SceneError(Problem.general(
+        Code.OptionMisfit,
+        s"--pixelmaterial $x,$y is outside the image: $size"
+      ))
     val layers = plan.layers.getOrElse:
-      throw SceneError(Problem.general("--pixelmaterial needs an integrator with camera samples"))
+      throw SceneError(Problem.general(
+        Code.OptionMisfit,
+        "--pixelmaterial needs an integrator with camera samples"
+      ))
     val ray = Ray()
     ray.weight = 1f
     for shutter <- plan.shutter do ray.time = shutter.at(0.5f)

@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Code, Problem, SceneError}
 import candela.build.RenderRegion
 import candela.cli.files.{FileRegister, FilmKeeping, Frame, Sequence}
 import candela.cli.options.Options
@@ -156,7 +156,10 @@ private[cli] object PixelTrace:
     val crop = plan.crop
     if x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1 then
       val size = s"x in [${crop.x0}, ${crop.x1}), y in [${crop.y0}, ${crop.y1})"
-      throw SceneError(Problem.general(s"--pixel $x,$y is outside the image: $size"))
+      throw SceneError(Problem.general(
+        Code.OptionMisfit,
+        s"--pixel $x,$y is outside the image: $size"
+      ))
     out.println(s"pixel ($x, $y), sample ${options.sample}")
     prepared.trace(x, y, options.sample, PathReport(out.println)) match
       case Some(light) => out.println(s"contributes $light")

@@ -1,5 +1,7 @@
 package candela.cli.commands
 
+import candela.base.Code
+
 import candela.cli.files.{FilmInput, FilmKeeping, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal}
@@ -25,7 +27,10 @@ final class ResumeCommand(
   private def resume(film: FilmFile): ExitCode =
     val header = film.header
     if header.shards.size != 1 then
-      FilmKeeper.fail(s"`${film.path}` is a merger of shards; resume the shards, and merge them")
+      FilmKeeper.fail(
+        Code.NothingToAdd,
+        s"`${film.path}` is a merger of shards; resume the shards, and merge them"
+      )
     val saved = FilmInput.options(film, options).copy(
       outfiles = header.outfiles.map(FilmInput.at(film, _)),
       film = options.film.copy(shard = Shard(header.shards.head, header.count))

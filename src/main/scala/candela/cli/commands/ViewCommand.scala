@@ -2,7 +2,7 @@ package candela.cli.commands
 
 import java.nio.file.Path
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Code, Problem, SceneError}
 import candela.cli.files.OutputFiles
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal, Thumbnail, ThumbnailKind}
@@ -19,7 +19,10 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
     outputs.check(options.files, "picture")
     for path <- outputs.paths if !OutputFormat.of(path).exists(_.contents == Contents.Display) do
       val pictures = OutputFormat.listed(Contents.Display)
-      throw SceneError(Problem.general(s"`view` writes $pictures, found `$path`"))
+      throw SceneError(Problem.general(
+        Code.UnknownFormat,
+        s"`view` writes $pictures, found `$path`"
+      ))
     val images = options.files.map(OutputFiles.path).map: path =>
       path -> ImageFiles.colored(path, ImageFiles.read(path))
     images match

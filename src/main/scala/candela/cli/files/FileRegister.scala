@@ -1,6 +1,6 @@
 package candela.cli.files
 
-import candela.base.{Problem, SceneError, SourcePos, WholeFile}
+import candela.base.{Code, Problem, SceneError, SourcePos, WholeFile}
 import candela.render.storage.FilmFile
 
 import java.nio.file.attribute.BasicFileAttributes
@@ -51,7 +51,11 @@ private[cli] final class FileRegister:
   def check(output: Output): Unit =
     def isInput(file: Path) = Option.when(hasRead(file)):
       val help = s"choose another name with --${output.option} FILE"
-      Problem.general(s"`$file` is an input file; refusing to overwrite it", Some(help))
+      Problem.general(
+        Code.OutputConflict,
+        s"`$file` is an input file; refusing to overwrite it",
+        Some(help)
+      )
     def problem(file: Path) = outside(file, output).orElse(irregular(file, output))
       .orElse(obstacle(file)).orElse(isInput(file))
     val problems = output.files.flatMap(problem)
@@ -65,7 +69,11 @@ private[cli] final class FileRegister:
       message = s"expected a place for the ${output.kind} in the folder of the image, found `$file`"
     yield
       val help = Some("--sandbox lets files be written in that of --outfile or of the scene only")
-      output.at.fold(Problem.general(message, help))(Problem.error(_, message, help))
+      output.at.fold(Problem.general(
+        Code.Sandboxed,
+        message,
+        help
+      ))(Problem.error(Code.Sandboxed, _, message, help))
 
   /** A pipe would be written to for ever, if nobody reads it. */
   private def irregular(file: Path, output: Output): Option[Problem] =
@@ -73,7 +81,11 @@ private[cli] final class FileRegister:
       val message = s"expected a regular file for the ${output.kind}, found a pipe or a device: " +
         s"`$file`"
       val help = Some(s"--${output.option} FILE names another one")
-      output.at.fold(Problem.general(message, help))(Problem.error(_, message, help))
+      output.at.fold(Problem.general(
+        Code.Sandboxed,
+        message,
+        help
+      ))(Problem.error(Code.Sandboxed, _, message, help))
 
   /** Notes files that will be written.
     *
@@ -98,7 +110,7 @@ private[cli] final class FileRegister:
     val help =
       if other.of == output.of then s"choose another name with --${output.option} FILE"
       else "render them separately, with --outfile"
-    SceneError(Problem.general(message + file, Some(help)))
+    SceneError(Problem.general(Code.OutputConflict, message + file, Some(help)))
 
 private[cli] object Output:
   def film(file: Path, of: String, option: String = "outfile"): Output =
@@ -109,7 +121,7 @@ private[cli] object FileRegister:
   /** Why a file can't be written. */
   def obstacle(file: Path): Option[Problem] =
     WholeFile.obstacle(file).map: why =>
-      Problem.general(s"can't write `$file`: $why", Some("choose another file"))
+      Problem.general(Code.Unwritable, s"can't write `$file`: $why", Some("choose another file"))
 
   /** A path that all names of a file have, by links or in other cases, whether it exists or not.
     * None for pipes and devices.

@@ -1,6 +1,6 @@
 package candela.cli.files
 
-import candela.base.{InputFile, SceneFolder}
+import candela.base.{Code, InputFile, SceneFolder}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
 import candela.job.{FilmHeaders, FilmKeeper, SceneLoader}
@@ -30,7 +30,7 @@ private[cli] object FilmInput:
       val _ = SceneLoader.refusing(folder.scene(file))
     // The film names it, and its user may not know it
     for why <- InputFile.obstacle(file) do
-      FilmKeeper.fail(s"can't read `$scene`, the scene of `${film.path}`: $why")
+      FilmKeeper.fail(Code.Unreadable, s"can't read `$scene`, the scene of `${film.path}`: $why")
     Options(
       files = Vector(scene),
       settings = FilmHeaders.settings(film.header).copy(goal = now.settings.goal),

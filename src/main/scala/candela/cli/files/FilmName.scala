@@ -1,6 +1,6 @@
 package candela.cli.files
 
-import candela.base.{Problem, SourcePos}
+import candela.base.{Code, Problem, SourcePos}
 import candela.scenefile.{Excerpts, SceneDescription}
 
 import java.nio.file.Path
@@ -35,10 +35,10 @@ private[cli] object FilmName:
   private def told(scene: SceneDescription, at: SourcePos, name: String, kind: String): Problem =
     if scene.folder.isConfined then
       val message = s"expected an image in the scene's folder, found $kind: `$name`"
-      Problem.error(at, message, Some("--outfile FILE says where the image goes"))
+      Problem.error(Code.ImageName, at, message, Some("--outfile FILE says where the image goes"))
     else
       val here = Path.of("").toAbsolutePath
       val there = here.resolve(name).normalize
       val shown = Try(here.relativize(there)).getOrElse(there)
       val message = s"the scene names its image by $kind; from this folder, it goes to `$shown`"
-      Problem.warning(at, message, Some("--outfile FILE sends it elsewhere"))
+      Problem.warning(Code.ImageName, at, message, Some("--outfile FILE sends it elsewhere"))

@@ -1,6 +1,6 @@
 package candela.cli.files
 
-import candela.base.{FileName, Problem, SceneError, Severity}
+import candela.base.{Code, FileName, Problem, SceneError, Severity}
 import candela.build.film.FilmRecipe
 import candela.cli.options.FilmOptions
 import candela.image.{Contents, ImageError, OutputFormat}
@@ -40,7 +40,12 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
     val (lost, kept) = paths.drop(1).partition(path => isRead(path) || isPipe(path))
     val told = lost.map: path =>
       val why = if isRead(path) then "an input file" else "no regular file"
-      Problem(Severity.Warning, None, s"no preview is written: `$path` is $why")
+      Problem(
+        Code.OutputConflict,
+        Severity.Warning,
+        None,
+        s"no preview is written: `$path` is $why"
+      )
     OutputFiles(paths.take(1) ++ kept, warnings ++ told)
 
   /** @throws SceneError if no file can store alpha */
@@ -48,7 +53,7 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
     val fitting = OutputFormat.all.filter(f => f.keepsAlpha || f.contents == Contents.Channels)
     if !paths.flatMap(OutputFormat.of).exists(fitting.contains) then
       val message = s"alpha needs ${OutputFormat.inWords(fitting)} output, found `${paths.head}`"
-      throw SceneError(Problem.general(message))
+      throw SceneError(Problem.general(Code.UnknownFormat, message))
 
   /** @throws SceneError if no file can store AOVs */
   def checkLayers(): Unit =
@@ -56,7 +61,7 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
       val suffixes = OutputFormat.listed(Contents.Channels)
       val message = s"AOVs need $suffixes output, found `${paths.head}`"
       val help = s"--outfile FILE.${OutputFormat.default.suffix} stores them"
-      throw SceneError(Problem.general(message, Some(help)))
+      throw SceneError(Problem.general(Code.UnknownFormat, message, Some(help)))
 
 object OutputFiles:
 
@@ -66,7 +71,8 @@ object OutputFiles:
       try
         write(path)
         None
-      catch case e: (ImageError | IOException) => Some(Problem.general(e.getMessage))
+      catch
+        case e: (ImageError | IOException) => Some(Problem.general(Code.Unwritable, e.getMessage))
 
   /** Writes every file that can be written.
     *
@@ -104,7 +110,9 @@ object OutputFiles:
     else
       val files = ofName(scene, folder)
       val message = s"`$scene` names no image file; writing `${files.paths.head}`"
-      files.copy(warnings = files.warnings :+ Problem(Severity.Warning, None, message))
+      files.copy(warnings =
+        files.warnings :+ Problem(Code.ImageName, Severity.Warning, None, message)
+      )
 
   /** Of a scene that is not loaded yet. */
   def named(scene: String, image: ImageName): OutputFiles =
@@ -130,7 +138,10 @@ object OutputFiles:
         val written = FileName.withSuffix(named, OutputFormat.default.suffix)
         val message = s"`$filename` is not ${OutputFormat.listed()}; " +
           s"writing `$written`"
-        OutputFiles(withPreview(written), Vector(Problem(Severity.Warning, None, message)))
+        OutputFiles(
+          withPreview(written),
+          Vector(Problem(Code.ImageName, Severity.Warning, None, message))
+        )
 
   private def withPreview(path: Path): Vector[Path] =
     Vector(path, FileName.withSuffix(path, OutputFormat.preview.suffix))
@@ -140,10 +151,13 @@ object OutputFiles:
     try Path.of(name)
     catch
       case e: InvalidPathException =>
-        throw SceneError(Problem.general(s"`$name` is not a valid file name: ${e.getReason}"))
+        throw SceneError(Problem.general(
+          Code.Unwritable,
+          s"`$name` is not a valid file name: ${e.getReason}"
+        ))
 
   private def problem(path: Path): Option[Problem] =
     if OutputFormat.of(path).isEmpty then
       val help = s"supported formats: ${OutputFormat.listed()}"
-      Some(Problem.general(s"can't write `$path`", Some(help)))
+      Some(Problem.general(Code.UnknownFormat, s"can't write `$path`", Some(help)))
     else FileRegister.obstacle(path)

@@ -1,6 +1,6 @@
 package candela.cli.files
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Code, Problem, SceneError}
 import candela.cli.options.{FilmOptions, FrameNames, Options}
 import candela.cli.terminal.{ExitCode, Figures}
 import candela.image.{ImageFiles, OutputFormat}
@@ -76,10 +76,17 @@ private[cli] object Sequence:
       for name <- outfiles
       yield
         if FilmOptions.isFilm(name) then
-          throw SceneError(Problem.general(s"`$scene` has several worlds; a .film file holds one"))
+          throw SceneError(Problem.general(
+            Code.FrameNames,
+            s"`$scene` has several worlds; a .film file holds one"
+          ))
         else if !FrameNames.hasNumber(name) then
           val message = s"`$scene` has several worlds, each an image; `$name` names one"
-          throw SceneError(Problem.general(message, Some("write %d, or %04d, for the number")))
+          throw SceneError(Problem.general(
+            Code.FrameNames,
+            message,
+            Some("write %d, or %04d, for the number")
+          ))
         else FrameNames.numbered(name, n + 1)
 
   /** Whether all images are whole, and of the rendering with this digest. Those that can't hold it

@@ -2,7 +2,7 @@ package candela.cli.options
 
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
-import candela.base.{Problem, Suggest}
+import candela.base.{Code, Problem, Suggest}
 import candela.build.{RenderRegion, RenderSettings}
 import candela.build.sampling.PointChoice
 import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
@@ -30,7 +30,8 @@ object CommandLine:
       case Some(answer) => Left(answer)
       case None =>
         translated(args) match
-          case Left(instead) => Left(refusal(Vector(instead), Command.Render))
+          case Left(instead) =>
+            Left(refusal(Vector(UsageError(Code.UnknownOption, instead)), Command.Render))
           case Right(words, notes) => parseOurs(words).map: o =>
               progressive(o).copy(notes = notes ++ IdleOptions.of(o))
 
@@ -41,7 +42,7 @@ object CommandLine:
     val named = commandOf(first)
     def mistyped(word: String) =
       val near = Suggest.nearest(word, Command.values.map(_.word) ++ Vector("help", "version"))
-      near.map(n => usage(Vector(s"`$word` is no command; did you mean `$n`?"), "candela help"))
+      near.map(n => noCommand(s"`$word` is no command; did you mean `$n`?"))
     if args.exists(HelpWords) then Some(told(named))
     else if args.exists(VersionWords) || (first == "version" && args.size == 1) then
       Some(Answer(VersionText.lines()))
@@ -50,7 +51,7 @@ object CommandLine:
         case None => Some(told(None))
         case Some(word) =>
           commandOf(word).map(c => told(Some(c))).orElse(mistyped(word)).orElse:
-            Some(usage(Vector(s"`$word` is no command"), "candela help"))
+            Some(noCommand(s"`$word` is no command"))
     else if named.isEmpty && isWord(first) then mistyped(first)
     else None
 
@@ -64,11 +65,14 @@ object CommandLine:
   private val VersionWords = Set("--version", "-version", "-V")
 
   /** Errors, and where to read more. */
-  private def usage(errors: Vector[String], more: String): Answer =
-    val last = Problem.general(errors.last, Some(s"`$more` says more"))
-    Answer(Vector.empty, errors.init.map(Problem.general(_)) :+ last)
+  private def usage(errors: Vector[UsageError], more: String): Answer =
+    val problems = errors.map(e => Problem.general(e.code, e.message))
+    Answer(Vector.empty, problems.init :+ problems.last.withHelp(Some(s"`$more` says more")))
 
-  private def refusal(errors: Vector[String], command: Command): Answer =
+  private def noCommand(message: String): Answer =
+    usage(Vector(UsageError(Code.UnknownCommand, message)), "candela help")
+
+  private def refusal(errors: Vector[UsageError], command: Command): Answer =
     usage(errors, s"candela help ${command.word}")
 
   /** Where the number of samples is not known in advance, points must not depend on it. */
@@ -97,7 +101,8 @@ object CommandLine:
     val words = FilmOptions.withValues(joined(all))
     words.find(isTooLong) match
       case Some(word) =>
-        Left(refusal(Vector(s"no option begins with `${word.take(MostShort)}`"), command))
+        val message = s"no option begins with `${word.take(MostShort)}`"
+        Left(refusal(Vector(UsageError(Code.UnknownOption, message)), command))
       case None =>
         val (options, effects) = OParser.runParser(CommandTable.table, words, Options(), setup)
         val errors = effects.collect:
@@ -145,6 +150,7 @@ enum Command(val word: String):
   case Image extends Command("image")
   case Average extends Command("average")
   case Info extends Command("info")
+  case Explain extends Command("explain")
   case Completion extends Command("completion")
 
 /** Whole pages that `describe` prints, by the options that ask for them. */
@@ -153,6 +159,7 @@ enum Page(val option: String):
   case PbrtOptions extends Page("pbrt-options")
   case Commands extends Page("commands")
   case Manual extends Page("man")
+  case Problems extends Page("problems")
 
 /** A parsed command line; None if an option was not given.
   *

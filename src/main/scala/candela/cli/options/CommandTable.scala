@@ -1,5 +1,7 @@
 package candela.cli.options
 
+import candela.base.Code
+
 import scopt.{OParser, OptionDef}
 
 /** What a command is for, and its arguments.
@@ -138,6 +140,14 @@ private[cli] object CommandTable extends OptionRows:
       Vector(file("suite.conf", "the suite, or a folder of scenes with references")),
       Words.suites,
       "[Error against time](BENCH.md)."
+    ),
+    CommandRow(
+      Command.Explain,
+      "explain a problem: what it means, an example, the cure",
+      Vector(file("[E0123]...", "numbers of problems, as messages end with them (default: all)")
+        .optional().unbounded()),
+      Words.Of(Code.values.toVector.map(_.word)),
+      "[All problems](PROBLEMS.md)."
     ),
     CommandRow(
       Command.Completion,

@@ -1,6 +1,6 @@
 package candela.cli.options
 
-import candela.base.{Suggest, Version}
+import candela.base.{Code, Suggest, Version}
 import candela.cli.terminal.{ExitCode, TextTable}
 
 import scopt.OptionDef
@@ -75,6 +75,9 @@ private[cli] object HelpText:
     ExitCode.values.map(c => s"${c.number} ${c.word}").mkString("Exit codes: ", ", ", ".")
   )
 
+/** What is wrong with a command line. */
+private[cli] final case class UsageError(code: Code, message: String)
+
 /** Errors of command lines, in one form: what is wrong with which option or file, what was found,
   * and the nearest name.
   */
@@ -84,31 +87,36 @@ private[cli] object UsageErrors:
     *
     * @param errors as scopt words them
     */
-  def explained(errors: Vector[String], command: Command): Vector[String] =
+  def explained(errors: Vector[String], command: Command): Vector[UsageError] =
     val row = CommandTable.of(command)
     val own = errors.filterNot(_.startsWith("Missing argument"))
     // What follows a faulty option may be taken for its value
     (if own.isEmpty then errors else own).map(one(_, row)).distinct
 
-  private def one(error: String, row: CommandRow): String =
+  private def one(error: String, row: CommandRow): UsageError =
     val command = s"`candela ${row.command.word}`"
-    def must(name: String, what: String, found: String) =
+    def must(name: String, what: String, found: String) = UsageError(
+      Code.OptionValue,
       if found.isEmpty then s"--$name needs a value: ${valueOf(name, row)}"
       else s"--$name must be $what, found `$found`${near(what, found)}"
+    )
+    def missing(what: String) = UsageError(Code.MissingArgument, s"$command needs $what")
     error match
-      case s"Unknown option $option" => unknown(option, row)
+      case s"Unknown option $option" => UsageError(Code.UnknownOption, unknown(option, row))
       case s"Unknown argument '$file'" =>
-        s"$command takes ${row.files.mkString(" and ")}, found `$file`, too"
-      case s"Missing argument $file" => s"$command needs a file: $file"
-      case s"Missing option --$name" => s"$command needs --$name ${valueOf(name, row)}"
+        val all = row.files.mkString(" and ")
+        UsageError(Code.MoreArguments, s"$command takes $all, found `$file`, too")
+      case s"Missing argument $file" => missing(s"a file: $file")
+      case s"Missing option --$name" => missing(s"--$name ${valueOf(name, row)}")
       case s"Missing value after $option" =>
         val word = option.dropWhile(_ == '-')
         val name = row.options.find(_.shortOpt.contains(word)).fold(word)(_.name)
-        s"--$name needs a value: ${valueOf(name, row)}"
+        must(name, "", "")
       case s"Option --$name expects a number but was given '$found'" =>
         must(name, number(found), found)
       case s"Option --$name failed when given '$found'. expected $what" => must(name, what, found)
-      case other => other
+      case s"--$_ must be $_" => UsageError(Code.OptionValue, error)
+      case other => UsageError(Code.OptionConflict, other)
 
   private def number(found: String): String =
     val isWhole = scala.util.Try(BigInt(found)).isSuccess

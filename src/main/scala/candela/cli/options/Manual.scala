@@ -43,7 +43,9 @@ private[cli] object Manual:
     """Error messages give the location (file, line, column and include chain), the source line, the
       |expected and the actual input, and the nearest known name. One run reports all errors of a
       |scene, the first twenty in full. Warnings with the same text are printed once, with the
-      |number of places; `--verbose` prints all.
+      |number of places; `--verbose` prints all. Each message ends with its number, as `[E0201]`:
+      |`candela explain E0201` says what it means and how it is cured, and
+      |[PROBLEMS](PROBLEMS.md) has all.
       |
       |Missing files, types and objects are errors unless `--keep-going` is given, which replaces
       |them with placeholders. Unknown shapes, materials, area lights, volumes and accelerators of

@@ -256,6 +256,9 @@ private[cli] object OptionTable extends OptionRows:
     opt[Unit]("man")
       .text("print the manual page candela(1), for man")
       .action((_, o) => o.copy(pages = o.pages :+ Page.Manual)),
+    opt[Unit]("problems")
+      .text("print all problems that `explain` explains, as a Markdown page")
+      .action((_, o) => o.copy(pages = o.pages :+ Page.Problems)),
     dialect("only types and parameters of this pbrt version"),
     opt[Unit]("markdown")
       .text("print the whole reference as a Markdown page, docs/REFERENCE.md")
@@ -334,7 +337,7 @@ private[cli] object OptionTable extends OptionRows:
     case Command.Preview => previewOptions
     case Command.Image => imageOptions
     case Command.Average => averageOptions
-    case Command.Info | Command.Completion => Vector.empty
+    case Command.Info | Command.Explain | Command.Completion => Vector.empty
 
   /** Long option names of a command, without dashes. */
   def names(command: String): Vector[String] =

@@ -56,7 +56,7 @@ private[cli] final class ImageWriter(
     val order = wanted.sortBy(Sequence.keepsDigest)
     val attempts = order.map(path => path -> write(path)).sortBy((path, _) => wanted.indexOf(path))
     val failures = attempts.collect:
-      case (_, Failure(e: ImageError)) => Problem.general(e.getMessage)
+      case (_, Failure(e: ImageError)) => Problem.general(e.code, e.getMessage)
       case (_, Failure(e)) => throw e
     if failures.nonEmpty then
       val _ = report.errors(failures)

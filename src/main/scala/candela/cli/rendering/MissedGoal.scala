@@ -1,6 +1,7 @@
 package candela.cli.rendering
 
-import candela.cli.terminal.Figures
+import candela.base.Code
+import candela.cli.terminal.{Figures, ProblemText}
 import candela.job.Goal
 import candela.render.Rendering
 
@@ -18,5 +19,8 @@ private[cli] object MissedGoal:
         val known = found.fold("not known")(e => s"${Figures.percentage(e)}")
         s"the error is $known, not ${Figures.percentage(asked)}"
       val planned = Figures.count(rendering.samplesPerPixel, "sample")
-      s"warning: ${(error ++ time).mkString(", and ")}: all $planned " +
-        "per pixel are taken; a larger --spp, or none, allows more"
+      ProblemText.numbered(
+        s"warning: ${(error ++ time).mkString(", and ")}: all $planned " +
+          "per pixel are taken; a larger --spp, or none, allows more",
+        Code.MissedGoal
+      )

@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.{InputFile, Problem, SceneError}
+import candela.base.{Code, InputFile, Problem, SceneError}
 import candela.cli.files.OutputFiles
 import candela.cli.terminal.Figures
 import candela.film.Development
@@ -46,7 +46,7 @@ object RenderRecorder:
     val file = OutputFiles.path(name)
     // It may be read more than once, and a scene may have named it
     for why <- InputFile.obstacle(file) do
-      throw SceneError(Problem.general(s"can't read the reference `$name`: $why"))
+      throw SceneError(Problem.general(Code.Unreadable, s"can't read the reference `$name`: $why"))
     val image = ImageFiles.read(file).toRgb
     val crop = plan.crop
     def has(width: Int, height: Int) = image.width == width && image.height == height
@@ -56,4 +56,7 @@ object RenderRecorder:
     else
       val found = s"${image.width}×${image.height}"
       val wanted = s"${plan.width}×${plan.height}"
-      throw SceneError(Problem.general(s"reference `$name` must be $wanted pixels, found $found"))
+      throw SceneError(Problem.general(
+        Code.DifferentImages,
+        s"reference `$name` must be $wanted pixels, found $found"
+      ))

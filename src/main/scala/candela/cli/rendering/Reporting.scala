@@ -3,7 +3,7 @@ package candela.cli.rendering
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
 
-import candela.base.{FileName, Problem, SceneError, Version, WholeFile}
+import candela.base.{Code, FileName, Problem, SceneError, Version, WholeFile}
 import candela.build.RenderRegion
 import candela.cli.files.{Denoised, FileRegister, OutputFiles}
 import candela.cli.options.Options
@@ -113,7 +113,7 @@ object ReportFiles:
     val problems = paths.flatMap: path =>
       if !Suffixes.contains(FileName.suffix(path)) then
         val help = Some("reports are written as .html, .json or .csv")
-        Some(Problem.general(s"can't write the report `$path`", help))
+        Some(Problem.general(Code.UnknownFormat, s"can't write the report `$path`", help))
       else FileRegister.obstacle(path)
     if problems.nonEmpty then throw SceneError(problems)
     paths

@@ -1,7 +1,8 @@
 package candela.cli.rendering
 
+import candela.base.Code
 import candela.cli.options.Options
-import candela.cli.terminal.{Figures, Terminal}
+import candela.cli.terminal.{Figures, ProblemText, Terminal}
 import candela.job.Prepared
 import candela.render.{Refused, Rendering}
 import candela.render.storage.FilmFile
@@ -107,8 +108,9 @@ object Summary:
     val material = if r.material < 0 then "" else s", material ${r.material}"
     val options = s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
     val advice = if isTraceable then s"; trace it with candela render $options" else ""
-    s"warning: ${Figures.count(r.count, "sample")} discarded: NaN or infinite, " +
+    val message = s"warning: ${Figures.count(r.count, "sample")} discarded: NaN or infinite, " +
       s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material$advice"
+    ProblemText.numbered(message, Code.DiscardedSamples)
 
   private def rate(count: Long, r: Rendering): String =
     Figures.metric(count / Math.max(r.seconds, 1e-9))

@@ -4,9 +4,9 @@ import java.io.IOException
 import java.net.UnknownHostException
 import java.nio.file.Path
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Code, Problem, SceneError}
 import candela.cli.options.Options
-import candela.cli.terminal.Terminal
+import candela.cli.terminal.{ProblemText, Terminal}
 import candela.image.Image
 import candela.render.{Cancellation, Live, Rendering, RenderPlan}
 import candela.watch.{LiveView, Observer, TevDisplay, Viewers, WatchAddress}
@@ -60,12 +60,17 @@ final class Watching(
 
   private def cannotReach(host: String, port: Int, cause: IOException): Unit =
     if !options.quiet then
-      terminal.err.println(s"warning: no viewer at $host:$port yet: ${Watching.reason(cause)}")
+      val message = s"warning: no viewer at $host:$port yet: ${Watching.reason(cause)}"
+      terminal.err.println(ProblemText.numbered(message, Code.Viewer))
 
   private def cannotServe(address: WatchAddress, cause: String): SceneError =
     val place = (address.host ++ address.port.map(_.toString)).mkString(":")
     val help = "choose another with --watch PORT or --watch ADDRESS:PORT"
-    SceneError(Problem.general(s"can't serve the live page at $place: $cause", Some(help)))
+    SceneError(Problem.general(
+      Code.Viewer,
+      s"can't serve the live page at $place: $cause",
+      Some(help)
+    ))
 
   /** Shows the result; returns when the viewers need the page no longer. */
   def end(rendering: Rendering): Unit =

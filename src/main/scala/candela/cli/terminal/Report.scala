@@ -5,7 +5,9 @@ import java.io.{IOException, UncheckedIOException}
 import java.nio.channels.ClosedByInterruptException
 import java.nio.file.{FileSystemException, InvalidPathException}
 
-import candela.base.{Excerpt, IoReason, Problem, Refusal, SceneError, Severity, SourcePos, Visible}
+import candela.base.{
+  Code, Excerpt, IoReason, Problem, Refusal, SceneError, Severity, SourcePos, Visible
+}
 import candela.image.{ImageError, Natives}
 import candela.render.RenderFailure
 import candela.scenefile.Excerpts
@@ -36,20 +38,28 @@ final class Report(
     catch
       case e: SceneError => errors(e.problems)
       case r: Refusal => errors(Excerpts.fill(Vector(r.problem)))
-      case e: ImageError => errors(Vector(Problem.general(e.getMessage)))
-      case e: UncheckedIOException => errors(Vector(Problem.general(ioMessage(e.getCause))))
-      case e: IOException if !isInterrupt(e) => errors(Vector(Problem.general(ioMessage(e))))
+      case e: ImageError => errors(Vector(Problem.general(e.code, e.getMessage)))
+      case e: UncheckedIOException =>
+        errors(Vector(Problem.general(Code.Unreadable, ioMessage(e.getCause))))
+      case e: IOException if !isInterrupt(e) =>
+        errors(Vector(Problem.general(Code.Unreadable, ioMessage(e))))
       case e: InvalidPathException =>
-        errors(Vector(Problem.general(s"`${e.getInput}` is not a valid file name")))
+        errors(Vector(Problem.general(
+          Code.NoSuchFile,
+          s"`${e.getInput}` is not a valid file name"
+        )))
       case e: Throwable =>
         if causes(e).exists(_.isInstanceOf[OutOfMemoryError]) then outOfMemory()
         else if causes(e).exists(_.isInstanceOf[StackOverflowError]) then tooDeep()
         else if causes(e).exists(isOverflow) then tooMany()
         else if causes(e).exists(isInterrupt) then
-          errors(Vector(Problem.general("the thread of this command was interrupted")))
+          errors(Vector(Problem.general(
+            Code.Interrupted,
+            "the thread of this command was interrupted"
+          )))
         else
           causes(e).flatMap(Natives.missing).headOption.fold(bug(e)): (what, help) =>
-            errors(Vector(Problem.general(what, Some(help))))
+            errors(Vector(Problem.general(Code.MissingLibrary, what, Some(help))))
 
   /** Prints problems, at least one of them an error, in source order, and their count. */
   def errors(problems: Vector[Problem]): ExitCode =
@@ -109,16 +119,20 @@ final class Report(
 
   private def tooMany(): ExitCode =
     val message = "more values are needed at once than an array of Java can have, which are 2³¹"
-    errors(Vector(Problem.general(message, Some("fewer pixels, layers, photons or shapes may do"))))
+    errors(Vector(Problem.general(
+      Code.TooLarge,
+      message,
+      Some("fewer pixels, layers, photons or shapes may do")
+    )))
 
   private def tooDeep(): ExitCode =
     val message = "the scene is nested too deeply: Java's stack is full"
-    errors(Vector(Problem.general(message, Some(raised("-Xss64m")))))
+    errors(Vector(Problem.general(Code.TooDeep, message, Some(raised("-Xss64m")))))
 
   private def outOfMemory(): ExitCode =
     val limit = Figures.metric(Runtime.getRuntime.maxMemory.toDouble)
     val message = s"out of memory: Java's heap is limited to ${limit}B"
-    errors(Vector(Problem.general(message, Some(raised("-Xmx8g")))))
+    errors(Vector(Problem.general(Code.OutOfMemory, message, Some(raised("-Xmx8g")))))
 
   private def raised(limit: String): String =
     val variable = Report.heapVariable(sys.props.getOrElse("java.class.path", ""), sys.env)
@@ -128,7 +142,8 @@ final class Report(
     val (place, cause) = e match
       case f: RenderFailure => (s" at pixel (${f.x}, ${f.y}), sample ${f.sample}", f.getCause)
       case other => ("", other)
-    err.println(s"error: this is a bug in Candela: $cause$place")
+    val message = s"error: this is a bug in Candela: $cause$place"
+    err.println(ProblemText.numbered(message, Code.Internal))
     if isVerbose || !canTellMore then cause.printStackTrace(err)
     if !isVerbose then
       val more = if canTellMore then "; --verbose prints the stack trace" else ""
@@ -152,7 +167,7 @@ object Report:
 /** Formats a problem as text; no other class does:
   *
   * {{{
-  * scenes/camera.pbrt:14:15: error: LookAt expects 9 numbers; number 4 is `Camera`
+  * scenes/camera.pbrt:14:15: error: LookAt expects 9 numbers; number 4 is `Camera` [E0203]
   *  14 | LookAt 0 0 5  Camera
   *     |               ^
   *  usage: LookAt eye.x eye.y eye.z  look.x look.y look.z  up.x up.y up.z
@@ -166,7 +181,7 @@ object ProblemText:
 
   /** The problem as lines, without a final line end. */
   def format(p: Problem): String =
-    (s"${place(p)}${severity(p)}: ${p.message}" +: below(p)).mkString("\n")
+    (s"${place(p)}${severity(p)}: ${numbered(p)}" +: below(p)).mkString("\n")
 
   /** Prints the problem.
     *
@@ -174,9 +189,14 @@ object ProblemText:
     */
   def print(p: Problem, to: Printer, hasColor: Boolean): Unit =
     val color = if p.severity == Severity.Error then Red else Yellow
-    if hasColor then to.println(place(p), severity(p), color, s": ${p.message}")
-    else to.println(s"${place(p)}${severity(p)}: ${p.message}")
+    if hasColor then to.println(place(p), severity(p), color, s": ${numbered(p)}")
+    else to.println(s"${place(p)}${severity(p)}: ${numbered(p)}")
     below(p).foreach(to.println(_))
+
+  private def numbered(p: Problem): String = numbered(p.message, p.code)
+
+  /** A message with its number at the end, where it disturbs nobody. */
+  def numbered(message: String, code: Code): String = s"$message [${code.word}]"
 
   private def place(p: Problem): String = p.at.fold("")(at => s"$at: ")
 

@@ -1,6 +1,6 @@
 package candela.cli.terminal
 
-import candela.base.{Problem, SceneError, loop}
+import candela.base.{Code, Problem, SceneError, loop}
 import candela.color.Srgb
 import candela.image.{DisplayTransform, Image, ImageFiles, Resize}
 
@@ -48,7 +48,11 @@ private[cli] object Thumbnail:
       else None
     known.getOrElse:
       val help = "--thumbnail kitty, iterm, sixel or blocks selects a protocol"
-      throw SceneError(Problem.general("no terminal known to show images", Some(help)))
+      throw SceneError(Problem.general(
+        Code.Terminal,
+        "no terminal known to show images",
+        Some(help)
+      ))
 
   /** The image as text; SceneError as by [[kind]]. */
   def of(

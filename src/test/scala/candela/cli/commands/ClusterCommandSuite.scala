@@ -56,9 +56,9 @@ class ClusterCommandSuite extends AnyFunSuite:
   test("a cluster's failure is a message, not a bug"):
     withScene("lost.pbrt"): f =>
       val failed = f.fail(Vector(f.scene, "--spark", "fake", "--outfile", f("a.exr")))
-      assert(failed == "error: all machines are gone\n")
+      assert(failed == "error: all machines are gone [E1007]\n")
       val broken = f.fail(Vector(f.scene, "--spark", "broken", "--outfile", f("a.exr")))
-      assert(broken == "error: can't reach `broken`\n start it\n")
+      assert(broken == "error: can't reach `broken` [E1007]\n start it\n")
 
   test("without Spark, the message says how to get it"):
     for services <- Vector(Iterator.empty, Iterator.single(NoSpark)) do
@@ -78,9 +78,9 @@ class ClusterCommandSuite extends AnyFunSuite:
         val (code, captured) = f.captured(f.scene +: words)
         assert(code == 2, captured.err)
         captured.err.linesIterator.next
-      assert(usage("--shards", "3") == "error: --shards needs --spark MASTER")
+      assert(usage("--shards", "3") == "error: --shards needs --spark MASTER [E0005]")
       val local = Vector("--checkpoint", "--time 5s", "--error 0.1", "--watch", "--report a.html")
       for option <- local do
         val words = Vector("--spark", "fake") ++ option.split(' ')
         val name = option.split(' ').head
-        assert(usage(words*) == s"error: --spark can't be combined with $name")
+        assert(usage(words*) == s"error: --spark can't be combined with $name [E0005]")

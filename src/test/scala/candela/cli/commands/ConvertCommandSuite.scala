@@ -23,7 +23,7 @@ class ConvertCommandSuite extends AnyFunSuite:
       assert(code == 0)
       assert(captured.out.contains("Material \"diffuse\""))
       val lost = "`sigma` of \"matte\" is not supported in v4; Lambertian"
-      assert(captured.err.contains(s"$file:2:18: warning: $lost\n 2 | Material"))
+      assert(captured.err.contains(s"$file:2:18: warning: $lost [E0901]\n 2 | Material"))
       assert(TempFolder.names(folder) == Set("a.pbrt"))
 
   test("with --outfile it is written, and one line says so"):

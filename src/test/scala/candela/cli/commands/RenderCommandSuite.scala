@@ -1,12 +1,11 @@
 package candela.cli.commands
 
-import candela.base.{Problem, SceneError, SourcePos, Version}
+import candela.base.{Code, Problem, SceneError, SourcePos, Version}
 import candela.cli.{Captured, Main}
 import candela.cli.terminal.Interrupts
 import candela.color.Rgb
 import candela.image.ImageFiles
-import candela.job.Denoising
-import candela.job.{Preparation, Prepared, SceneLoader}
+import candela.job.{Denoising, Preparation, Prepared, SceneLoader}
 import candela.layers.Layer
 import candela.render.{Cancellation, RenderPlan, TinyPlan}
 import candela.scenefile.{Dialect, SceneDescription}
@@ -25,8 +24,9 @@ class RenderCommandSuite extends AnyFunSuite:
     var loaded = Vector.empty[String]
     def load(scene: String, how: Preparation): Prepared =
       loaded :+= scene
-      val plan = scenes.toMap.getOrElse(scene, throw SceneError(Problem.general(s"no $scene")))
-      val warning = Problem.warning(SourcePos(scene, 3, 1), "planted")
+      def unknown = SceneError(Problem.general(Code.NoSuchScene, s"no $scene"))
+      val plan = scenes.toMap.getOrElse(scene, throw unknown)
+      val warning = Problem.warning(Code.Undefined, SourcePos(scene, 3, 1), "planted")
       Prepared(SceneDescription(Dialect.V3), plan, Vector(warning, warning), 0.5, 0.25)
 
   private def plan(file: Path) = TinyPlan(filename = file.toString)((_, _) => gray)
@@ -46,7 +46,7 @@ class RenderCommandSuite extends AnyFunSuite:
       val start = s"wrote $folder/a.exr, $folder/a.png  40x27, 5 spp, "
       assert(captured.out.startsWith(start) && captured.out.endsWith(" rays/s\n"))
       assert(captured.out.linesIterator.size == 1)
-      assert(captured.err == "s.pbrt:3:1: warning: planted\n")
+      assert(captured.err == "s.pbrt:3:1: warning: planted [E0403]\n")
 
   test("with --outfile exactly those files are written"):
     TempFolder.use: folder =>
@@ -277,7 +277,7 @@ class RenderCommandSuite extends AnyFunSuite:
       val captured = Captured()
       val loader = Known("good.pbrt" -> plan(folder.resolve("a.exr")))
       assert(run(captured, loader, "bad.pbrt", "good.pbrt") == 1)
-      assert(captured.err.startsWith("error: no bad.pbrt\n"))
+      assert(captured.err.startsWith("error: no bad.pbrt [E0101]\n"))
       assert(TempFolder.names(folder) == Set("a.exr", "a.png"))
 
   test("two scenes do not overwrite each other's image"):

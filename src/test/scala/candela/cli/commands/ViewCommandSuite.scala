@@ -54,5 +54,5 @@ class ViewCommandSuite extends AnyFunSuite:
       val out = folder.resolve("b.exr")
       val pictures = ".png, .jpg, .qoi or .tga"
       val (code, captured) = run(a, "--outfile", out.toString)
-      assert(code == 1 && captured.err == s"error: `view` writes $pictures, found `$out`\n")
+      assert(code == 1 && captured.err == s"error: `view` writes $pictures, found `$out` [E0106]\n")
       assert(!Files.exists(out))

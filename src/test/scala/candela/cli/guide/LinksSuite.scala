@@ -48,3 +48,6 @@ class LinksSuite extends AnyFunSuite:
           else None
       yield s"$page: $target: $problem"
     assert(wrong.isEmpty, wrong.mkString("\n"))
+
+  test("the README has at most 1,500 words"):
+    assert(Files.readString(Path.of("README.md")).split("\\s+").length <= 1500)

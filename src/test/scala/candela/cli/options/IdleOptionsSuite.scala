@@ -86,7 +86,7 @@ class IdleOptionsSuite extends AnyFunSuite:
       val all = Vector(scene.toString, "-o", s"$folder/a.exr") ++ words
       assert(Main.run(all, captured.terminal) == 0, captured.err)
       captured.err.linesIterator.filter(_.contains("warning: ")).toVector
-        .map(_.split("warning: ", 2)(1))
+        .map(_.split("warning: ", 2)(1).replaceAll(" \\[E\\d{4}\\]$", ""))
 
   private val mlt = "\"mlt\" \"integer mutationsperpixel\" 1 \"integer bootstrapsamples\" 64"
 

@@ -4,7 +4,7 @@ import java.io.IOException
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Problem, SceneError, SourcePos}
+import candela.base.{Code, Problem, SceneError, SourcePos}
 import candela.cli.Captured
 import candela.image.ImageError
 import candela.render.RenderFailure
@@ -19,19 +19,19 @@ class ReportSuite extends AnyFunSuite:
   private def at(line: Int, column: Int = 1) = SourcePos("a.pbrt", line, column)
 
   test("problems come by place, each once, and are counted"):
-    val b = Problem.error(at(10), "b")
-    val a = Problem.error(at(2, 5), "a")
+    val b = Problem.error(Code.Undefined, at(10), "b")
+    val a = Problem.error(Code.Undefined, at(2, 5), "a")
     val text = report(): r =>
       assert(r.guarded(throw SceneError(Vector(b, a, b))) == ExitCode.BadInput)
     assert(text.linesIterator.toVector ==
-      Vector("a.pbrt:2:5: error: a", "a.pbrt:10:1: error: b", "2 errors"))
+      Vector("a.pbrt:2:5: error: a [E0403]", "a.pbrt:10:1: error: b [E0403]", "2 errors"))
 
   test("of many files within each other, the first and the last are named"):
     def nested(depth: Int): SourcePos =
       val outer = Option.when(depth > 0)(nested(depth - 1))
       SourcePos(s"$depth.pbrt", 1, 1, outer)
     def lines(depth: Int) =
-      report()(_.errors(Vector(Problem.error(nested(depth), "a")))).linesIterator
+      report()(_.errors(Vector(Problem.error(Code.Undefined, nested(depth), "a")))).linesIterator
     assert(lines(10).size == 11 && !lines(10).exists(_.contains("more")))
     val long = lines(200).toVector
     assert(long.size == 12 && long(6) == " … 190 more …")
@@ -56,9 +56,12 @@ class ReportSuite extends AnyFunSuite:
   test("colours mark errors and warnings where the terminal has them"):
     val captured = Captured()
     val report = Report(captured.terminal.err, false, false, hasColor = true)
-    val _ = report.errors(Vector(Problem.error(at(1), "a"), Problem.warning(at(2), "b")))
-    assert(captured.err == "a.pbrt:2:1: \u001b[1;33mwarning\u001b[0m: b\n" +
-      "a.pbrt:1:1: \u001b[1;31merror\u001b[0m: a\n")
+    val _ = report.errors(Vector(
+      Problem.error(Code.Undefined, at(1), "a"),
+      Problem.warning(Code.Undefined, at(2), "b")
+    ))
+    assert(captured.err == "a.pbrt:2:1: \u001b[1;33mwarning\u001b[0m: b [E0403]\n" +
+      "a.pbrt:1:1: \u001b[1;31merror\u001b[0m: a [E0403]\n")
 
   test("colours are for terminals, and not with NO_COLOR"):
     def terminal(isInteractive: Boolean, environment: (String, String)*) =
@@ -69,43 +72,44 @@ class ReportSuite extends AnyFunSuite:
     assert(!terminal(isInteractive = false).hasColor)
 
   test("one error is not counted"):
-    assert(report()(_.errors(Vector(Problem.general("a", Some("b"))))) == "error: a\n b\n")
+    val problem = Problem.general(Code.Undefined, "a", Some("b"))
+    assert(report()(_.errors(Vector(problem))) == "error: a [E0403]\n b\n")
 
   test("bad images and failing disks are bad input"):
     val _ = report(): r =>
-      assert(r.guarded(throw ImageError("a")) == ExitCode.BadInput)
+      assert(r.guarded(throw ImageError(Code.Undefined, "a")) == ExitCode.BadInput)
       assert(r.guarded(throw IOException("a")) == ExitCode.BadInput)
 
   private val warnings = Vector(
-    Problem.warning(at(9), "no `Kdd`"),
-    Problem.warning(at(3), "no `Kdd`"),
-    Problem.warning(at(5), "no `foo`"),
-    Problem.warning(at(3), "no `Kdd`")
+    Problem.warning(Code.Undefined, at(9), "no `Kdd`"),
+    Problem.warning(Code.Undefined, at(3), "no `Kdd`"),
+    Problem.warning(Code.Undefined, at(5), "no `foo`"),
+    Problem.warning(Code.Undefined, at(3), "no `Kdd`")
   )
 
   test("the same warning at many places is printed for the first of them"):
     assert(report()(_.warnings(warnings, all = false)).linesIterator.toVector == Vector(
-      "a.pbrt:3:1: warning: no `Kdd`",
+      "a.pbrt:3:1: warning: no `Kdd` [E0403]",
       " and at 1 more position; --verbose shows all",
-      "a.pbrt:5:1: warning: no `foo`"
+      "a.pbrt:5:1: warning: no `foo` [E0403]"
     ))
 
   test("all warnings are printed for who wants them"):
     assert(report()(_.warnings(warnings, all = true)).linesIterator.toVector == Vector(
-      "a.pbrt:3:1: warning: no `Kdd`",
-      "a.pbrt:5:1: warning: no `foo`",
-      "a.pbrt:9:1: warning: no `Kdd`"
+      "a.pbrt:3:1: warning: no `Kdd` [E0403]",
+      "a.pbrt:5:1: warning: no `foo` [E0403]",
+      "a.pbrt:9:1: warning: no `Kdd` [E0403]"
     ))
 
   test("quiet means no warnings, but errors"):
-    val problems = warnings :+ Problem.error(at(20), "bad")
+    val problems = warnings :+ Problem.error(Code.Undefined, at(20), "bad")
     assert(report(quiet = true)(_.warnings(warnings, all = true)) == "")
-    assert(report(quiet = true)(_.errors(problems)) == "a.pbrt:20:1: error: bad\n")
+    assert(report(quiet = true)(_.errors(problems)) == "a.pbrt:20:1: error: bad [E0403]\n")
 
   test("a failed sample is a bug, with its place; the stack trace only if asked for"):
     val failure = RenderFailure(3, 7, 5, ArithmeticException("/ by zero"))
     val first = "error: this is a bug in Candela: java.lang.ArithmeticException: / by zero" +
-      " at pixel (3, 7), sample 5"
+      " at pixel (3, 7), sample 5 [E0116]"
     val short = report()(r => assert(r.guarded(throw failure) == ExitCode.Bug))
     assert(short.linesIterator.next() == first)
     assert(!short.contains("\tat "))
@@ -126,11 +130,11 @@ class ProblemTextSuite extends AnyFunSuite:
   test("place, line, caret, help and includes each have their line"):
     val main = SourcePos("main.pbrt", 3, 1)
     val at = SourcePos("camera.pbrt", 14, 15, Some(SourcePos("part.pbrt", 2, 5, Some(main))))
-    val error = Problem.error(at, "wrong", Some("so"))
+    val error = Problem.error(Code.Undefined, at, "wrong", Some("so"))
     val problem = error.copy(excerpt = Some("LookAt 0 0 5  Camera"))
     assert(
       ProblemText.format(problem) ==
-        """camera.pbrt:14:15: error: wrong
+        """camera.pbrt:14:15: error: wrong [E0403]
           | 14 | LookAt 0 0 5  Camera
           |    |               ^
           | so
@@ -139,18 +143,21 @@ class ProblemTextSuite extends AnyFunSuite:
     )
 
   test("a problem without place has neither place nor line"):
-    assert(ProblemText.format(Problem.general("wrong", Some("so"))) == "error: wrong\n so")
+    val problem = Problem.general(Code.Undefined, "wrong", Some("so"))
+    assert(ProblemText.format(problem) == "error: wrong [E0403]\n so")
 
   test("warnings are called so"):
-    val warning = Problem.warning(SourcePos("a", 1, 2), "odd")
-    assert(ProblemText.format(warning) == "a:1:2: warning: odd")
+    val warning = Problem.warning(Code.Undefined, SourcePos("a", 1, 2), "odd")
+    assert(ProblemText.format(warning) == "a:1:2: warning: odd [E0403]")
 
   test("tabs before the caret stay tabs, and a wide character is one column"):
-    val problem = Problem.error(SourcePos("a", 1, 4), "wrong").copy(excerpt = Some("\t😀 x"))
+    val error = Problem.error(Code.Undefined, SourcePos("a", 1, 4), "wrong")
+    val problem = error.copy(excerpt = Some("\t😀 x"))
     assert(ProblemText.format(problem).linesIterator.toVector.last == "   | \t  ^")
 
   test("a caret behind the end of the line is shown there"):
-    val problem = Problem.error(SourcePos("a", 1, 4), "wrong").copy(excerpt = Some("x"))
+    val problem =
+      Problem.error(Code.Undefined, SourcePos("a", 1, 4), "wrong").copy(excerpt = Some("x"))
     assert(ProblemText.format(problem).linesIterator.toVector.last == "   |    ^")
 
   test("the hint on memory names the variable that no other one overrides"):
