@@ -264,7 +264,9 @@ def withArchive(folder: File, log: Logger): File = {
 /** What the packages of a release are made of. CANDELA_RUNTIME_JDK or JAVA_HOME makes the runtime. */
 def packages = Def.task {
   val base = (ThisBuild / baseDirectory).value
-  val files = (Universal / mappings).value.map { case (file, name) => name -> file.toPath } :+
+  val files = (Universal / mappings).value.map { case (file, name) =>
+    name.replace('\\', '/') -> file.toPath
+  } :+
     ("LICENSE" -> (base / "LICENSE").toPath)
   val program = files ++ shared(files.toMap.apply("lib/candela.jar"), target.value / "share")
   Distribution.Plan(

@@ -46,8 +46,8 @@ final case class Platform(system: String, processor: String, wheelTag: String) {
 
 object Platform {
   val all: Vector[Platform] = Vector(
-    Platform("linux", "x64", "manylinux_2_17_x86_64"),
-    Platform("linux", "arm64", "manylinux_2_17_aarch64"),
+    Platform("linux", "x64", "manylinux_2_28_x86_64"),
+    Platform("linux", "arm64", "manylinux_2_28_aarch64"),
     Platform("macos", "x64", "macosx_11_0_x86_64"),
     Platform("macos", "arm64", "macosx_11_0_arm64"),
     Platform("windows", "x64", "win_amd64"),

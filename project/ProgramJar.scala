@@ -88,6 +88,13 @@ object ProgramJar {
   }
 
   private final class PlainLambdas(to: ClassVisitor) extends ClassVisitor(Opcodes.ASM9, to) {
+
+    /** Leaves out the identity of the `.tasty` file, which the jar lacks: it depends on which other
+      * files were compiled at the same time.
+      */
+    override def visitAttribute(attribute: Attribute): Unit =
+      if (attribute.`type` != "TASTY") super.visitAttribute(attribute)
+
     override def visitMethod(
         access: Int,
         name: String,

@@ -110,7 +110,7 @@ class DistributionSuite extends AnyFunSuite:
       val platform = Platform.all.head
       val file = folder.resolve(facts.wheelFile(platform))
       assert(file.getFileName.toString ==
-        "candela_renderer-1.2.3.dev0-py3-none-manylinux_2_17_x86_64.whl")
+        "candela_renderer-1.2.3.dev0-py3-none-manylinux_2_28_x86_64.whl")
       val module = Vector(Entry.text("__init__.py", "\"\"\"Candela.\"\"\"\n"))
       Wheel.write(facts, platform, ProgramFiles.of(platform, program, Nil), module, file)
       val found = texts(file)
