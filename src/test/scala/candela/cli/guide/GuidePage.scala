@@ -89,7 +89,7 @@ final class GuideRoom(folder: Path, pages: Vector[GuidePage], small: Boolean):
 
 object GuideRoom:
   private val suffixes =
-    "pbrt xml exr png jpg pfm film html json csv svg conf ply".split(" ").toVector
+    "pbrt xml exr npz png jpg pfm film html json csv svg conf ply".split(" ").toVector
 
   private def isFile(word: String): Boolean =
     word.matches("[A-Za-z0-9][\\w.%-]*") && suffixes.exists(s => word.endsWith(s".$s"))
