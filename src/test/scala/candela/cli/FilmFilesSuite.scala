@@ -118,11 +118,14 @@ class FilmFilesSuite extends AnyFunSuite:
         f.fail(Vector("merge", "--outfile", f("x.exr")) ++ words).linesIterator.next
       assert(merge(f("0.film"), f("2.film")) == "error: shards 1/4, 3/4 are missing [E1005]")
       val twice = merge((0 to 3).map(i => f(s"$i.film")) :+ f("1.film")*)
-      assert(twice == s"error: shard 1/4 is there twice: `${f("1.film")}`, `${f("1.film")}`")
+      assert(twice == s"error: shard 1/4 is there twice: `${f("1.film")}`, " +
+        s"`${f("1.film")}` [E1005]")
       f.render("--shard", "3/4", "--seed", "5", "--outfile", f("seed.film"))
-      assert(merge(f("0.film"), f("seed.film")).endsWith("options `--seed 5` instead of ``"))
+      val seeded = merge(f("0.film"), f("seed.film"))
+      assert(seeded.endsWith("options `--seed 5` instead of `` [E1002]"))
       f.render("--shard", "3/5", "--outfile", f("five.film"))
-      assert(merge(f("0.film"), f("five.film")).endsWith("number of shards 5 instead of 4"))
+      val foreign = merge(f("0.film"), f("five.film"))
+      assert(foreign.endsWith("number of shards 5 instead of 4 [E1002]"))
       assert(!Files.exists(Path.of(f("x.exr"))))
       val out =
         f.run(Vector("merge", "--partial", f("0.film"), f("2.film"), "--outfile", f("x.exr")))
@@ -144,7 +147,7 @@ class FilmFilesSuite extends AnyFunSuite:
         f.render("--spp", s"$reached", "--outfile", f("b.exr"))
         assert(f.bytes("a.exr") == f.bytes("b.exr"))
         val less = f.fail(Vector("resume", f("a.film"), "--spp", "5"))
-        assert(less == s"error: `${f("a.film")}` has $reached samples per pixel already\n")
+        assert(less == s"error: `${f("a.film")}` has $reached samples per pixel already [E1004]\n")
 
   test("an error ends a rendering, and a lower one continues it"):
     withScene(): f =>

@@ -39,7 +39,7 @@ class FilmLockSuite extends AnyFunSuite:
         for command <- others do
           assert(
             f.fail(command) ==
-              s"error: `${f("one.film")}` is being written by another rendering\n" +
+              s"error: `${f("one.film")}` is being written by another rendering [E1003]\n" +
               " wait for it, or stop it\n",
             command
           )

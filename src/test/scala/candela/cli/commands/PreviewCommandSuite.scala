@@ -63,7 +63,7 @@ class PreviewCommandSuite extends AnyFunSuite:
       val captured = Captured()
       val words = Seq("preview", "s.pbrt", "--outfile", s"$folder/a.png")
       assert(Main.run(words, captured.terminal, Sick) == 0)
-      val where = "the first at pixel (3, 0), sample 2"
+      val where = "the first at pixel (3, 0), sample 2 [E1105]"
       assert(captured.err.endsWith(s"samples discarded: NaN or infinite, $where\n"), captured.err)
 
   test("a preview whose time is over before its first sample says so"):

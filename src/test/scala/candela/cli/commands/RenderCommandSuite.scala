@@ -93,7 +93,7 @@ class RenderCommandSuite extends AnyFunSuite:
       val names = ImageFiles.read(folder.resolve("a.exr")).channelNames
       assert(names == Vector("R", "G", "B", "Z", "samples"))
       val (refused, captured) = render("--film", "gbuffer", "--outfile", s"$folder/b.png")
-      assert(refused == 1 && captured.err.contains("AOVs need .exr output"))
+      assert(refused == 1 && captured.err.contains("AOVs need .exr or .npz output"))
 
   test("pictures that keep alpha have colours that are not multiplied by it, others refuse it"):
     TempFolder.use: folder =>
@@ -119,7 +119,7 @@ class RenderCommandSuite extends AnyFunSuite:
       val (short, _) = render("--film", "rgba", "--outfile", s"$folder/b.png")
       assert(short == 0 && ImageFiles.read(folder.resolve("b.png")).channelNames.contains("A"))
       val (refused, captured) = render("--aov", "alpha", "--outfile", s"$folder/b.jpg")
-      assert(refused == 1 && captured.err.contains("alpha needs .exr, .png or .tga output"))
+      assert(refused == 1 && captured.err.contains("alpha needs .exr, .png, .tga or .npz output"))
 
   test("layers have the precision asked for; identifiers have 32 bits, and a legend"):
     TempFolder.use: folder =>

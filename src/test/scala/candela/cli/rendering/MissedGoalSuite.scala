@@ -17,7 +17,8 @@ class MissedGoalSuite extends AnyFunSuite:
     def missed(options: RenderGoal) =
       val ended = Goal(options, 1000, ErrorRecorder(Development(), None))
       MissedGoal.warning(ended, Renderer.render(plan, 2, listener = ended))
-    val why = "all 1000 samples per pixel are taken; a larger --spp, or none, allows more"
+    val why =
+      raw"all 1000 samples per pixel are taken; a larger --spp, or none, allows more \[E1104\]"
     // The root of 0.0833 / 1000
     val noisy = missed(RenderGoal(error = Some(1e-4))).get
     assert(noisy.matches(raw"warning: the error is 0\.9\d* %, not 0\.01 %: " + why))
