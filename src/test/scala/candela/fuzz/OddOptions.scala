@@ -44,6 +44,8 @@ final class OddOptions(place: Place) extends Attempts:
     case "compare" => Vector(file("a.exr"), file("b.exr"))
     case "bench" => Vector(file("missing.conf"))
     case "describe" => one(Vector(Vector.empty, Vector("shape"), Vector("shape", "sphere")))
+    case "explain" => one(Vector(Vector.empty, Vector("E0201"), Vector("E9999", "201")))
+    case "completion" => Vector(one(Vector("bash", "zsh", "fish", "powershell", "sh")))
     case _ => Vector(file(one(Vector("a.exr", "a.png"))))
 
   private def output(command: String): Vector[String] =
