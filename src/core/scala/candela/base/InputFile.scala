@@ -26,7 +26,11 @@ final class InputFile private[base] (
 ):
   lazy val isShown: Boolean = shown
 
-  def isRegular: Boolean = Files.isRegularFile(place)
+  /** A file that has an end: what the kernel makes as it is read might have none. */
+  def isRegular: Boolean = Files.isRegularFile(place) && obstacle.isEmpty
+
+  /** Why it is not to be opened, unless its user named it as a stream. */
+  private[base] def obstacle: Option[String] = InputFile.obstacle(place)
   def isFolder: Boolean = Files.isDirectory(place)
 
   /** Whether it is a pipe that may be read, once. */
@@ -82,7 +86,7 @@ final class InputFile private[base] (
   /** Pipes and devices might never end. */
   private def readable: Path =
     if isFolder then throw IOException(InputFile.Folder)
-    else if !mayBePipe then for why <- InputFile.obstacle(place) do throw IOException(why)
+    else if !mayBePipe then for why <- obstacle do throw IOException(why)
     place
 
   private def attributes = Files.readAttributes(place, classOf[BasicFileAttributes])

@@ -64,8 +64,7 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
       folders: Seq[Path] = Vector(path)
   ): (String, Option[String]) =
     existing(folders, name, at) match
-      case Some(other) if other.isFolder => (s"`$name` is a folder", None)
-      case Some(_) => (s"`$name` is no regular file, but a pipe or a device", None)
+      case Some(other) => (other.obstacle.fold(nothing)(w => s"`$name`: $w"), None)
       case None => (nothing, suggestion(name))
 
   /** As `belonging`, to look at in passing. */

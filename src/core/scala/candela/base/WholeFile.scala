@@ -68,6 +68,12 @@ object WholeFile:
   def target(path: Path): Option[Path] = followed(path, MostLinks)
     .filterNot(file => Files.exists(file) && !Files.isRegularFile(file) && !Files.isDirectory(file))
 
+  /** Whether it is a pipe, where the system tells: writing waits for its reader. */
+  def isPipe(path: Path): Boolean =
+    Try(Files.getAttribute(path, "unix:mode")).toOption.exists:
+      case mode: Integer => (mode & 0xf000) == 0x1000
+      case _ => false
+
   @tailrec
   private def followed(path: Path, left: Int): Option[Path] =
     if !Files.isSymbolicLink(path) then Some(path)

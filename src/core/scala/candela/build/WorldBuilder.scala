@@ -89,7 +89,8 @@ private[build] final class WorldBuilder(
     val lights = areaLights(context) ++ shining.map(_._2)
     val placed = structure(lit.surfaces, litObjects.map(_.surfaces), uses.shared)
     val all = lights.map(_.light).toArray
-    val selection = LightSelection.of(all, integrator.lights, placed.accelerator.bounds)
+    val pool = context.resources.pool
+    val selection = LightSelection.of(all, integrator.lights, placed.accelerator.bounds, pool)
     val scene = Scene(
       placed.surfaces,
       placed.instanced,

@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Code, Problem, SceneError, Version}
+import candela.base.{Code, InputFile, Problem, SceneError, Version}
 import candela.build.{RenderGoal, RenderSettings}
 import candela.film.PixelBounds
 import candela.render.{RenderPlan, Shard}
@@ -80,6 +80,10 @@ object FilmHeaders:
     HexFormat.of.formatHex(MessageDigest.getInstance("SHA-256").digest(text.getBytes("UTF-8")))
 
   private def digest(file: Path): String =
+    for why <- InputFile.obstacle(file) do
+      val message = s"can't tell `$file` again, for a saved rendering or one that is done: $why"
+      val help = Some("write the scene to a file first")
+      throw SceneError(Problem.general(Code.Unreadable, message, help))
     val sum = MessageDigest.getInstance("SHA-256")
     Using.resource(Files.newInputStream(file)): in =>
       val buffer = new Array[Byte](1 << 16)

@@ -5,7 +5,7 @@ import candela.base.loop
 import java.util.Arrays
 
 /** The order of lights in a [[LightTree]], while it is built: numbers in flat arrays, as there may
-  * be millions.
+  * be millions. Ranges without a common place can be split at the same time.
   */
 private[lights] final class LightOrder(bounds: Array[LightBounds]):
   private val centers =
@@ -24,10 +24,10 @@ private[lights] final class LightOrder(bounds: Array[LightBounds]):
     val center = centers((0 until 3).maxBy(extent(_, from, until)))
     val count = until - from
     loop(count): i =>
-      keys(i) = (LightOrder.sortable(center(order(from + i))).toLong << 32) | i
-    Arrays.sort(keys, 0, count)
-    loop(count)(i => sorted(i) = order(from + keys(i).toInt))
-    System.arraycopy(sorted, 0, order, from, count)
+      keys(from + i) = (LightOrder.sortable(center(order(from + i))).toLong << 32) | i
+    Arrays.sort(keys, from, until)
+    loop(count)(i => sorted(from + i) = order(from + keys(from + i).toInt))
+    System.arraycopy(sorted, from, order, from, count)
     from + count / 2
 
   private def extent(axis: Int, from: Int, until: Int): Float =

@@ -1,8 +1,11 @@
 package candela.lights
 
+import candela.base.Parallel
 import candela.geometry.{Ball, Bounds3}
 import candela.math.*
 import candela.sampling.Discrete
+
+import scala.collection.mutable
 
 /** Light sampling distribution over the lights of a scene. Immutable.
   *
@@ -55,24 +58,32 @@ final class SingleLight extends LightSelection:
   *
   * Source: Conty Estevez and Kulla 2018, see [[LightBounds]].
   */
-final class LightTree(lights: Array[Light]) extends LightSelection:
+final class LightTree(lights: Array[Light], pool: Parallel = Parallel.Alone)
+    extends LightSelection:
+  private val known = lights.map(_.bounds)
   private val infinite: Array[Int] =
-    lights.indices.filter(i => lights(i).bounds.isEmpty && lights(i).isSampled).toArray
-  private val finite: Array[(Int, LightBounds)] =
-    for i <- lights.indices.toArray; b <- lights(i).bounds.toArray if b.power > 0f yield (i, b)
+    lights.indices.filter(i => known(i).isEmpty && lights(i).isSampled).toArray
+  private val finite: Array[Int] =
+    lights.indices.filter(i => known(i).exists(_.power > 0f)).toArray
+  private val own: Array[LightBounds] = finite.flatMap(known(_))
 
   /** Bounds by node; children(i) is the second child (the first is i + 1), or ~light for a leaf.
     */
   private val bounds = new Array[LightBounds](Math.max(1, 2 * finite.length))
   private val children = new Array[Int](bounds.length)
-  private var used = 0
 
   /** Path from the root to each light as bits, low bit first, 1 = second child; −1 if the light is
     * not in the tree.
     */
   private val trail = Array.fill(lights.length)(-1L)
 
-  if finite.nonEmpty then build(LightOrder(finite.map(_._2)), 0, finite.length, 0L, 0): Unit
+  if finite.nonEmpty then
+    // Of these sizes parts are built at the same time
+    val size = if pool.threads == 1 then finite.length else LightTree.partSize(finite.length, pool)
+    val parts = mutable.ArrayBuffer.empty[() => Unit]
+    divide(LightOrder(own), 0, finite.length, 0, 0L, 0, size, parts)
+    pool.each(parts.size)(i => parts(i)())
+    unite(0, finite.length, 0, size): Unit
 
   private val nodes = LightNodes(bounds)
 
@@ -81,27 +92,59 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
   private val infiniteShare: Float =
     1f / Math.max(1, infinite.length + (if finite.isEmpty then 0 else 1))
 
+  /** The second child of a node whose first has so many lights: a tree of n has 2n − 1 nodes. */
+  private def secondChild(node: Int, ofFirst: Int): Int = node + 2 * ofFirst
+
+  /** Splits nodes of more than `size` lights; the others are parts to build. */
+  private def divide(
+      order: LightOrder,
+      from: Int,
+      until: Int,
+      node: Int,
+      bits: Long,
+      depth: Int,
+      size: Int,
+      parts: mutable.ArrayBuffer[() => Unit]
+  ): Unit =
+    if until - from <= size then
+      parts += (() => build(order, from, until, node, bits, depth): Unit)
+    else
+      val middle = order.split(from, until)
+      val second = secondChild(node, middle - from)
+      children(node) = second
+      divide(order, from, middle, node + 1, bits, depth + 1, size, parts)
+      divide(order, middle, until, second, bits | (1L << depth), depth + 1, size, parts)
+
+  /** The bounds of the nodes that were divided. */
+  private def unite(from: Int, until: Int, node: Int, size: Int): LightBounds =
+    if until - from > size then
+      val middle = from + (until - from) / 2
+      val first = unite(from, middle, node + 1, size)
+      bounds(node) =
+        first.union(unite(middle, until, secondChild(node, middle - from), size))
+    bounds(node)
+
   /** Median splits: the depth stays at log2 of the count. */
   private def build(
       order: LightOrder,
       from: Int,
       until: Int,
+      node: Int,
       bits: Long,
       depth: Int
   ): LightBounds =
-    val node = used
-    used += 1
     val all =
       if until - from == 1 then
-        val (light, own) = finite(order(from))
+        val light = finite(order(from))
         children(node) = ~light
         trail(light) = bits
-        own
+        own(order(from))
       else
         val middle = order.split(from, until)
-        val a = build(order, from, middle, bits, depth + 1)
-        children(node) = used
-        a.union(build(order, middle, until, bits | (1L << depth), depth + 1))
+        val second = secondChild(node, middle - from)
+        children(node) = second
+        val a = build(order, from, middle, node + 1, bits, depth + 1)
+        a.union(build(order, middle, until, second, bits | (1L << depth), depth + 1))
     bounds(node) = all
     all
 
@@ -164,17 +207,31 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
         bits >>>= 1
       probability
 
+private object LightTree:
+  /** Some for each thread, as they take different times; of thousands of lights. */
+  private def partSize(lights: Int, pool: Parallel): Int =
+    Math.max(4096, lights / (8 * pool.threads))
+
 object LightSelection:
   /** The simplest exact specialisation for these lights. */
-  def of(lights: Array[Light]): LightSelection =
+  def of(lights: Array[Light]): LightSelection = byImportance(lights, Parallel.Alone)
+
+  private def byImportance(lights: Array[Light], pool: Parallel): LightSelection =
     if lights.length == 1 then SingleLight()
     else if FewLights.suits(lights) then FewLights(lights)
-    else LightTree(lights)
+    else LightTree(lights, pool)
 
-  /** @param scene bounds of all surfaces */
-  def of(lights: Array[Light], strategy: LightStrategy, scene: Bounds3): LightSelection =
+  /** @param scene bounds of all surfaces
+    * @param pool  builds it
+    */
+  def of(
+      lights: Array[Light],
+      strategy: LightStrategy,
+      scene: Bounds3,
+      pool: Parallel = Parallel.Alone
+  ): LightSelection =
     strategy match
-      case LightStrategy.Importance => of(lights)
+      case LightStrategy.Importance => byImportance(lights, pool)
       case _ if lights.length == 1 => of(lights)
       case LightStrategy.Power => FixedSelection.byPower(lights, Ball.around(scene))
       case LightStrategy.Uniform => FixedSelection.uniform(lights)

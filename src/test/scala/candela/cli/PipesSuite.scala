@@ -37,7 +37,22 @@ class PipesSuite extends AnyFunSuite:
         )
       do
         val why = refused(f)(words*)
-        assert(why.contains(s"nor its previous copy: $Irregular"), why)
+        val ofReader = s"nor its previous copy: $Irregular"
+        val ofWriter = s"found a pipe or a device: `${f("a.film.previous")}`"
+        assert(why.contains(if words.head == "merge" then ofReader else ofWriter), why)
+      val _ = f.render("--spp", "1", "--outfile", f("c.film"))
+      assert(Pipes.make(Path.of(f("new.film"))))
+      for
+        words <- Vector(
+          Vector(f.scene, "--outfile", f("new.exr"), "--checkpoint"),
+          Vector(f.scene, "--outfile", f("new.exr"), "--checkpoint", f("new.film")),
+          Vector(f.scene, "--outfile", f("new.film")),
+          Vector("merge", f("c.film"), "--outfile", f("new.film")),
+          Vector("resume", f("new.film"))
+        )
+      do
+        val why = refused(f)(words*)
+        assert(why.contains("expected a regular file for the film, found a pipe"), why)
       val why = refused(f)("merge", f("pipe"), "--outfile", f("b.exr"))
       assert(why == s"error: can't read `${f("pipe")}`: $Irregular [E1001]\n")
 
@@ -110,3 +125,21 @@ class PipesSuite extends AnyFunSuite:
       val words = Vector(f.scene, "--outfile", f("a.exr"), "--report", f("r.csv"))
       val why = refused(f)(words ++ Vector("--reference", f("pipe"))*)
       assert(why == s"error: can't read the reference `${f("pipe")}`: $Irregular [E0103]\n")
+
+  test("a scene that comes through a pipe is rendered, but not saved: it can be read once"):
+    withScene: f =>
+      val text = Files.readString(Path.of(sceneOf(f, "")))
+      val v3 = text.replace("independent", "random").replace("rgb", "image") + "\nWorldEnd\n"
+      val worlds = v3 + v3.substring(v3.indexOf("WorldBegin"))
+      def rendered(text: String, words: String*) =
+        val writer = Thread(() => Files.writeString(Path.of(f("pipe")), text): Unit)
+        writer.setDaemon(true)
+        writer.start()
+        Pipes.unblocked(f.captured(f("pipe") +: words))
+      assert(rendered(text, "--outfile", f("a.exr"))._1 == 0)
+      for words <- Vector(Vector("--checkpoint"), Vector("--skip-done")) do
+        val (code, captured) = rendered(text, Vector("--outfile", f("b.exr")) ++ words*)
+        assert(code == 1 && captured.err.contains("write the scene to a file first"), captured.err)
+      val (code, captured) = rendered(worlds, "--outfile", f("w%d.exr"))
+      assert(code == 1 && captured.err.contains(s"can't read world 2 of `${f("pipe")}`"))
+      assert(f.image("w1.exr").width == 4)

@@ -5,6 +5,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import candela.color.Rgb
 import candela.geometry.Bounds3
 import candela.math.*
+import candela.render.ThreadPool
 import candela.shapes.Disk
 import candela.testing.Draws
 
@@ -141,3 +142,18 @@ final class LightSelectionSuite extends AnyFunSuite:
 
   test("no lights: none is chosen"):
     assert(LightSelection.of(Array.empty[Light]).choose(Vec3.Zero, Vec3.Z, 0.5f) == -1)
+
+  test("a tree that several threads build is that of one"):
+    val draws = Draws(7)
+    // In a grid, too, where many are equal
+    val places = Vector.fill(9000)(draws.vec(-1, 1)) ++
+      Vector.tabulate(9000)(i => Vec3((i % 20).toFloat, (i / 20 % 20).toFloat, 0f))
+    val lights = places.map(p => PointLight(p, Rgb.White)).toArray[Light]
+    val pool = ThreadPool(3)
+    val (alone, together) = (LightTree(lights), LightTree(lights, pool))
+    pool.close()
+    for _ <- 1 to 500 do
+      val (p, n, u) = (draws.vec(-2, 2), draws.direction(), draws.unit())
+      assert(alone.choose(p, n, u) == together.choose(p, n, u))
+      val light = (u * lights.length).toInt
+      assert(alone.probability(p, n, light) == together.probability(p, n, light))

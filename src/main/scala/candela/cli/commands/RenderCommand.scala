@@ -1,8 +1,8 @@
 package candela.cli.commands
 
-import candela.base.{Code, Problem, SceneError}
+import candela.base.{Code, InputFile, Problem, SceneError}
 import candela.build.RenderRegion
-import candela.cli.files.{FileRegister, FilmKeeping, Frame, Sequence}
+import candela.cli.files.{FileRegister, FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.rendering.{ImageWriter, RenderOutputs, SceneRun, Summary}
 import candela.cli.terminal.{ExitCode, Printer, Report, Terminal, Thumbnail}
@@ -66,6 +66,11 @@ final class RenderCommand(
     sequence.code
 
   private[cli] def load(scene: String, outfiles: Vector[String], world: Int = 0): Prepared =
+    if world > 0 then
+      for why <- InputFile.obstacle(OutputFiles.path(scene)) do
+        val message = s"can't read world ${world + 1} of `$scene`: $why"
+        val help = Some("write the scene to a file first")
+        throw SceneError(Problem.general(Code.Unreadable, message, help))
     // Warns before parsing, which may take long.
     files.check(scene, outfiles)
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit

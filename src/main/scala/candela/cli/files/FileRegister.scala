@@ -16,6 +16,7 @@ import scala.util.Try
   * @param beside what is written with them, such as previous copies
   * @param at     the parameter that names them, if a scene does
   * @param isAsked whether the user has named them: pipes and devices, too
+  * @param isRewritten whether they are written more than once, so that they are no pipes
   */
 private[cli] final case class Output(
     files: Vector[Path],
@@ -24,7 +25,8 @@ private[cli] final case class Output(
     option: String = "outfile",
     beside: Vector[Path] = Vector.empty,
     at: Option[SourcePos] = None,
-    isAsked: Boolean = true
+    isAsked: Boolean = true,
+    isRewritten: Boolean = false
 )
 
 /** What a run reads and writes. The one place where outputs are checked, before the work begins:
@@ -77,15 +79,16 @@ private[cli] final class FileRegister:
 
   /** A pipe would be written to for ever, if nobody reads it. */
   private def irregular(file: Path, output: Output): Option[Problem] =
-    Option.when(!output.isAsked && Files.exists(file) && place(file).isEmpty):
+    val isOther = !output.isAsked && Files.exists(file) && place(file).isEmpty
+    Option.when(isOther || (output.isRewritten && WholeFile.isPipe(file))):
       val message = s"expected a regular file for the ${output.kind}, found a pipe or a device: " +
         s"`$file`"
-      val help = Some(s"--${output.option} FILE names another one")
-      output.at.fold(Problem.general(
-        Code.Sandboxed,
-        message,
-        help
-      ))(Problem.error(Code.Sandboxed, _, message, help))
+      val help = Some(
+        if output.isAsked then "choose another file" else s"--${output.option} FILE names another"
+      )
+      output.at match
+        case Some(at) => Problem.error(Code.Unwritable, at, message, help)
+        case None => Problem.general(Code.Unwritable, message, help)
 
   /** Notes files that will be written.
     *
@@ -114,7 +117,8 @@ private[cli] final class FileRegister:
 
 private[cli] object Output:
   def film(file: Path, of: String, option: String = "outfile"): Output =
-    Output(Vector(file), "film", of, option, beside = Vector(FilmFile.previous(file)))
+    val previous = Vector(FilmFile.previous(file))
+    Output(Vector(file), "film", of, option, beside = previous, isRewritten = true)
 
 private[cli] object FileRegister:
 
