@@ -27,7 +27,7 @@ object Candela:
 
   /** Reads a scene in another way than the usual one. */
   def read(file: Path, how: ReadSettings): Scene =
-    Scene.read(file.toString, how):
+    Scenes.read(file.toString, how):
       SceneLoader.refusing(SceneLoader.readable(SceneLoader.existing(file.toString), how.of))
 
   /** Reads a scene of pbrt's format from a text; file names in it are relative to the current
@@ -42,7 +42,7 @@ object Candela:
     *             folder
     */
   def parse(text: String, name: Path, how: ReadSettings): Scene =
-    Scene.read(name.toString, how):
+    Scenes.read(name.toString, how):
       val folder = how.of.limits.folder(name)
       val read = SceneLoader.refusing(SceneFormat.of(name).readText(name, text, folder, how.of))
       read.copy(unfiled = Vector(s"$name, a text" -> candela.job.FilmHeaders.digest(text)))

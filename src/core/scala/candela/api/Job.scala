@@ -53,7 +53,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
 
   /** @param progressed called about ten times a second */
   def render(threads: Int, progressed: Consumer[Progress]): RenderResult =
-    render(threads, RenderListener.onProgress(progressed))
+    render(threads, RenderListeners.onProgress(progressed))
 
   /** Renders, and returns when the image is complete, a goal is reached, or the rendering is
     * cancelled. The image does not depend on the threads.
@@ -120,10 +120,10 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     )
 
   private def image(rendering: Rendering, image: Image, denoiser: Option[String]): RenderedImage =
-    RenderedImage.of(image, display, files, rendering, denoiser)
+    RenderedImages.of(image, display, files, rendering, denoiser)
 
   private def errors(squares: Array[Float], like: Image): RenderedImage =
     val data = squares.map(s => Math.sqrt(s.toDouble).toFloat)
-    RenderedImage.plain(
+    RenderedImages.plain(
       Image(like.width, like.height, Image.RgbNames, data, colorSpace = like.colorSpace)
     )

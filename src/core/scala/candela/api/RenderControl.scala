@@ -50,7 +50,7 @@ object RenderControl:
   /** By all processors, unobserved. */
   def apply(): RenderControl =
     val processors = Runtime.getRuntime.availableProcessors
-    new RenderControl(processors, RenderListener.Silent, Cancellation(), false, None, None)
+    new RenderControl(processors, RenderListeners.Silent, Cancellation(), false, None, None)
 
   /** By all processors, unobserved, for Java and Kotlin. */
   def create(): RenderControl = apply()

@@ -29,7 +29,7 @@ trait RenderListener:
     */
   def passed(pass: Pass): Unit = ()
 
-private[api] object RenderListener:
+private[api] object RenderListeners:
   object Silent extends RenderListener
 
   def onProgress(act: Consumer[Progress]): RenderListener = new RenderListener:

@@ -82,7 +82,7 @@ final class RenderedImage private[api] (
   /** The bytes of a PNG file. */
   def png: Array[Byte] = Problems.thrown(ImageFiles.png(Denoising.shown(image), display))
 
-private[api] object RenderedImage:
+private[api] object RenderedImages:
   /** The image of a rendering, whose files tell of it. */
   def of(
       image: Image,

@@ -71,7 +71,7 @@ final class Scene private[api] (
     val to = how.of.copy(settings = all, threads = threads, isRendered = isRendered)
     SceneLoader.refusing(SceneLoader.built(known, to))
 
-private[api] object Scene:
+private[api] object Scenes:
 
   /** What `body` reads. */
   def read(name: String, how: ReadSettings)(body: => SceneDescription): Scene =

@@ -230,7 +230,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   def scene(): Scene =
     val made = runner.result
     val whole = made.copy(folder = folder, unfiled = made.unfiled :+ ("statements" -> sum.digest))
-    Scene.of(shownName, whole, base.fold(ReadSettings())(_.how))
+    Scenes.of(shownName, whole, base.fold(ReadSettings())(_.how))
 
   private def run(statement: GivenStatement): SceneBuilder =
     sum.add(statement)
@@ -266,14 +266,14 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
     runner.change(at)(f(runner.checked(params)))
     this
 
-  private def place: SourcePos = SceneBuilder.caller
+  private def place: SourcePos = CallPlace.here
 
-private object SceneBuilder:
+private object CallPlace:
   private val walker = StackWalker.getInstance()
-  private val own = Set("candela.api.SceneBuilder", "candela.api.SceneBuilder$")
+  private val own = Set("candela.api.SceneBuilder", "candela.api.CallPlace$")
 
   /** The line that calls the builder. */
-  private def caller: SourcePos =
+  def here: SourcePos =
     val frame = walker.walk(_.dropWhile(f => own(f.getClassName)).findFirst())
     frame.map(f => SourcePos(String.valueOf(f.getFileName), Math.max(1, f.getLineNumber), 1))
       .orElse(SourcePos("code", 1, 1))

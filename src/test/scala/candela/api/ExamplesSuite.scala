@@ -76,3 +76,12 @@ class ExamplesSuite extends AnyFunSuite:
         val inScala = results("ScalaExample")
         assert(inScala == results("JavaExample") && inScala(0) == inScala(1))
         assert(inScala(0).toString.matches(raw"mean 0\.4\d+, error \d\.\d\d %"), inScala(0))
+
+  test("no promised class has a private companion: MiMa would overlook both"):
+    val sources = Using.resource(Files.list(Path.of("src/core/scala/candela/api"))): files =>
+      files.iterator.asScala.toVector.map(Files.readString).mkString("\n")
+    def names(pattern: String) =
+      pattern.r.findAllMatchIn(sources).map(_.group(1)).toSet
+    val hidden = names(raw"(?m)^private(?:\[api\])? object (\w+)")
+    val promised = names(raw"(?m)^(?:final class|trait|class|enum) (\w+)")
+    assert(hidden.nonEmpty && promised.size > 10 && hidden.intersect(promised).isEmpty)
