@@ -123,6 +123,29 @@ class Scenes(unittest.TestCase):
             candela.render(scene, spp=10_000_000)
         self.assertLess(time.monotonic() - started, 30)
 
+    @unittest.skipIf(os.name == "nt", "signals")
+    def test_a_killed_process_takes_the_program_with_it(self):
+        scene = self.scene(SCENE.replace("24", "480").replace("16", "320"))
+        image = Path(scene).with_name("killed.exr")
+        render = f"candela.run({str(scene)!r}, '--spp', '10000000', '--outfile', {str(image)!r})"
+        parent = subprocess.Popen([sys.executable, "-c", f"import candela; {render}"])
+
+        def alive():
+            listed = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True).stdout
+            # The program, not the parent
+            return any(str(image) in line and "-cp" in line for line in listed.splitlines())
+
+        self.addCleanup(parent.kill)
+        deadline = time.monotonic() + 60
+        while not alive() and time.monotonic() < deadline:
+            time.sleep(0.2)
+        self.assertTrue(alive())
+        parent.kill()
+        parent.wait()
+        while alive() and time.monotonic() < deadline:
+            time.sleep(0.2)
+        self.assertFalse(alive())
+
     def test_the_command_is_the_program(self):
         command = [sys.executable, "-m", "candela", "--version"]
         out = subprocess.run(command, capture_output=True, text=True, check=True).stdout

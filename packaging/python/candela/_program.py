@@ -53,7 +53,8 @@ def execute(
     arguments: Sequence[str], progress: Optional[Listener] = None
 ) -> Tuple[str, List[str]]:
     """What the program prints to standard output, and its messages as lines."""
-    environment: Dict[str, str] = dict(os.environ)
+    # The program ends when the pipe to it does, even if this process is killed
+    environment: Dict[str, str] = dict(os.environ, CANDELA_PARENT="stdin")
     if progress is not None:
         environment["CANDELA_PROGRESS"] = "lines"
     # In a group of its own: Ctrl-C reaches it once, from here, in notebooks, too
@@ -64,7 +65,7 @@ def execute(
     )
     child = subprocess.Popen(
         [str(program()), *arguments],
-        stdin=subprocess.DEVNULL,
+        stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         encoding="utf-8",
@@ -72,6 +73,7 @@ def execute(
         env=environment,
         **new_group,  # type: ignore[arg-type]
     )
+    assert child.stdin is not None
     assert child.stdout is not None and child.stderr is not None
     printed: List[str] = []
     reader = threading.Thread(target=lambda: printed.append(child.stdout.read()), daemon=True)
@@ -91,6 +93,7 @@ def execute(
         raise
     finally:
         reader.join(timeout=10)
+        child.stdin.close()
         child.stdout.close()
         child.stderr.close()
     if code != 0:

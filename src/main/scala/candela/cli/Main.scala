@@ -27,7 +27,10 @@ object Main:
     if sys.props.get(Headless).isEmpty then
       val _ = System.setProperty(Headless, "true")
     val code =
-      try run(args.toVector, Terminal.ofProcess)
+      try
+        val terminal = Terminal.ofProcess
+        if terminal.belongsToProgram then Interrupts.quitAfter(System.in, terminal.interrupts)
+        run(args.toVector, terminal)
       catch
         case _: OutOfMemoryError =>
           // So early that nothing else can tell it

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.image.ImageFiles
+import candela.testing.Eventually.eventually
 import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -22,7 +23,11 @@ class EarlyInterruptSuite extends AnyFunSuite:
 
   private final case class Ended(code: Int, err: String, seconds: Double)
 
-  private final class Running(folder: Path, words: Seq[String]):
+  private final class Running(
+      folder: Path,
+      words: Seq[String],
+      settings: Map[String, String] = Map.empty
+  ):
     private val java = ProcessHandle.current.info.command.orElse("java")
     private val classes = System.getProperty("java.class.path")
     private val errors = folder.resolve("errors")
@@ -30,8 +35,12 @@ class EarlyInterruptSuite extends AnyFunSuite:
       val command =
         obeying ++ Vector(java, "-XX:TieredStopAtLevel=1", "-cp", classes, "candela.cli.Main") ++
           words
-      ProcessBuilder(command.asJava).directory(folder.toFile)
-        .redirectError(errors.toFile).redirectOutput(folder.resolve("output").toFile).start()
+      val builder = ProcessBuilder(command.asJava).directory(folder.toFile)
+        .redirectError(errors.toFile).redirectOutput(folder.resolve("output").toFile)
+      settings.foreach(builder.environment.put(_, _): Unit)
+      builder.start()
+
+    def endInput(): Unit = process.getOutputStream.close()
 
     def isAlive: Boolean = process.isAlive
     def err: String = Files.readString(errors)
@@ -67,6 +76,21 @@ class EarlyInterruptSuite extends AnyFunSuite:
     file
 
   private val endless = Seq("s.pbrt", "--spp", "1000000000", "--outfile", "a.exr")
+
+  test("a program that belongs to another one ends when that one is gone, and only then"):
+    inFolder: folder =>
+      for setting <- Vector("stdin", "none") do
+        val running = Running(folder, endless :+ "--checkpoint", Map("CANDELA_PARENT" -> setting))
+        eventually("film"):
+          Option.when(Files.exists(folder.resolve(".a.film.lock")) || !running.isAlive)(())
+        assert(running.isAlive, running.err)
+        running.endInput()
+        if setting == "none" then
+          Thread.sleep(500)
+          assert(running.isAlive, running.err)
+          running.interrupt()
+        assert(running.ended().code == 130)
+        Files.deleteIfExists(folder.resolve("a.film")): Unit
 
   test("an interrupt at any early moment ends the program, at once and silently"):
     inFolder: folder =>

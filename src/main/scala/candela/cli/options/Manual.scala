@@ -90,6 +90,11 @@ private[cli] object Manual:
           "`CANDELA_PROGRESS`",
           "`lines`: messages have the progress four times a second, for programs that show it"
         ),
+        Vector(
+          "`CANDELA_PARENT`",
+          "`stdin`: the program quits when standard input ends, as it does when the program that " +
+            "started it is killed"
+        ),
         Vector("`SPARK_HOME`", "[Apache Spark](CLUSTERS.md) for `--spark`"),
         Vector("`NO_COLOR`", "if it is not empty, messages and thumbnails have no colours"),
         Vector("`COLUMNS`", "width of the help and of tables, instead of the terminal's"),

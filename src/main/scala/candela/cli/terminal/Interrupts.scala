@@ -3,7 +3,7 @@ package candela.cli.terminal
 import candela.base.NextFile
 import candela.render.Cancellation
 
-import java.io.PrintStream
+import java.io.{InputStream, PrintStream}
 import java.util.concurrent.CountDownLatch
 
 import scala.util.Try
@@ -30,6 +30,17 @@ object Interrupts:
   /** For embedding: the host program handles Ctrl-C. */
   object Ignored extends Interrupts:
     def during[A](cancellation: Cancellation)(body: => A): A = body
+
+  /** Quits when `input` ends: its other end is held by the program that started this one, which
+    * may be killed and tell nobody.
+    */
+  def quitAfter(input: InputStream, interrupts: Interrupts): Unit =
+    val watch = Thread: () =>
+      val _ = Try(while input.read() >= 0 do ())
+      interrupts.quit(ExitCode.Interrupted)
+    watch.setDaemon(true)
+    watch.setName("parent")
+    watch.start()
 
   /** @param isInteractive whether the terminal echoes `^C` on the line
     * @param signal        of Ctrl-C

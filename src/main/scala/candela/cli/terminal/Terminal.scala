@@ -50,6 +50,9 @@ final class Terminal(
   /** Whether a program reads `err`, for its own display of the progress. */
   def isReadByProgram: Boolean = environment.get("CANDELA_PROGRESS").contains("lines")
 
+  /** Is nobody left who wants the result when standard input ends? */
+  def belongsToProgram: Boolean = environment.get("CANDELA_PARENT").contains("stdin")
+
 object Terminal:
 
   def ofProcess: Terminal =
