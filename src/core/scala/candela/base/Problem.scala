@@ -30,7 +30,6 @@ enum Severity:
 /** A problem with the user's input.
   *
   * @param code what it is: its number, which [[ProblemGuide]] explains
-  * @param code what it is: its number, which [[ProblemGuide]] explains
   * @param message expected and found, on one line
   * @param help the cure, e.g. what to write instead
   * @param excerpt text of the line at `at`, without its line end

@@ -53,9 +53,9 @@ object Natives:
     val file = System.mapLibraryName(s"lwjgl$suffix")
     val part = if module.isEmpty then "" else s"$module/"
     val folder = s"${platform.replace('-', '/')}/org/lwjgl/$part"
-    def onPath = sys.props.get("java.library.path").toVector
+    // LWJGL itself sets the place once it has unpacked a library
+    def onPath = Vector(Place, "java.library.path").flatMap(sys.props.get(_))
       .flatMap(_.split(java.io.File.pathSeparator)).filter(_.nonEmpty)
-    sys.props.contains(Place) ||
     classOf[org.lwjgl.PointerBuffer].getClassLoader.getResource(folder + file) != null ||
     onPath.exists(p => Try(Files.isRegularFile(Path.of(p, file))).getOrElse(false))
 
