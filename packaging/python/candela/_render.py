@@ -16,7 +16,9 @@ PathLike = Union[str, "os.PathLike[str]"]
 Value = Union[str, int, float, bool, None, Iterable[Union[str, int, float]]]
 
 # What names no option of a rendering that returns one image
-_OTHERS = {"checkpoint", "shard", "watch_after", "debug", "skip_done", "frames"}
+_OTHERS = {
+    "checkpoint", "shard", "watch_after", "debug", "skip_done", "frames", "help", "pixelmaterial"
+}
 
 
 def render(
@@ -88,9 +90,9 @@ def _words(options: "dict[str, Value]") -> List[str]:
         elif value is None or value is False:
             continue
         elif isinstance(value, (str, int, float)):
-            words += [option, str(value)]
+            words.append(f"{option}={value}")
         else:
-            words += [option, ",".join(str(v) for v in value)]
+            words.append(f"{option}={','.join(str(v) for v in value)}")
     return words
 
 

@@ -22,6 +22,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   private val plan = prepared.plan
   private val display = settings.of.output.display
   private val files = ImageFile(prepared.settings, scene.name, prepared)
+  @volatile private var isClosed = false
 
   /** Columns of the image, which may be a part of a larger one. */
   def width: Int = plan.crop.width
@@ -61,8 +62,10 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     * @throws SceneException if the film file is of another rendering, or can't be read
     * @throws RenderException if a sample fails
     * @throws java.util.concurrent.CancellationException if the calling thread is interrupted
+    * @throws IllegalStateException if the job was closed before
     */
   def render(control: RenderControl): RenderResult =
+    if isClosed then throw IllegalStateException("the job was closed")
     val problems = ArrayBuffer.empty[candela.base.Problem]
     Problems.thrown:
       control.film match
@@ -72,7 +75,10 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
           try rendered(control, Some(keeper), problems)
           finally keeper.close()
 
-  def close(): Unit = prepared.close()
+  /** Ends its threads. */
+  def close(): Unit =
+    isClosed = true
+    prepared.close()
 
   private def keeping(
       file: Path,

@@ -101,6 +101,7 @@ class LibrarySuite extends AnyFunSuite:
     val job = LibraryScenes.built().scene().prepare(RenderSettings(), 4)
     assert(!job.render(4).image.values.forall(_ == 0f))
     job.close()
+    intercept[IllegalStateException](job.render(1))
     // Suites that run at the same time have threads of their own
     val own = ours -- before
     Eventually.eventually("end of all threads")(Option.when(!own.exists(_.isAlive))(()))
