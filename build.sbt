@@ -114,8 +114,11 @@ lazy val root: Project = (project in file("."))
   .enablePlugins(UniversalPlugin)
   .settings(
     name := "candela",
-    aggregate := false, // `run`, `stage`, … are the program's; but all tests and sources count
+    aggregate := false, // `run`, `stage`, … are the program's; but what follows is of all modules
     test / aggregate := true,
+    publish / aggregate := true,
+    publishLocal / aggregate := true,
+    publishM2 / aggregate := true,
     scalafmtAll / aggregate := true,
     scalafmtCheckAll / aggregate := true,
     description := "A physically based renderer for pbrt and Mitsuba scenes: the program",

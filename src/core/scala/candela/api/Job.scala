@@ -62,7 +62,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     * @throws SceneException if the film file is of another rendering, or can't be read
     * @throws RenderException if a sample fails
     * @throws java.util.concurrent.CancellationException if the calling thread is interrupted
-    * @throws IllegalStateException if the job was closed before
+    * @throws java.lang.IllegalStateException if the job was closed before
     */
   def render(control: RenderControl): RenderResult =
     if isClosed then throw IllegalStateException("the job was closed")
