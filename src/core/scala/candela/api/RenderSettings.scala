@@ -45,9 +45,8 @@ final class RenderSettings private (private[api] val of: CoreSettings):
         val help = Suggest.help(name, Layer.values.map(_.word).toVector)
         Problems.fail(Code.UnknownEntry, s"unknown layer `$name`", help)
     change: s =>
-      val precisions = added.collect { case (layer, Some(isHalf)) => layer -> isHalf }
-      val output = s.output.copy(precisions = s.output.precisions ++ precisions)
-      s.copy(layers = (s.layers ++ added.map(_._1)).distinct, output = output)
+      val all = s.adding(added)
+      all.copy(layers = all.layers.distinct)
 
   /** Adds the light of each group of lights as layers: `statement` makes a group of each statement,
     * `type` of each type of light, `key=point_12+spot_14,sky=infinite` names its own.
@@ -58,9 +57,7 @@ final class RenderSettings private (private[api] val of: CoreSettings):
   /** Adds denoised colours, as the layer `Denoised`, by Intel's Open Image Denoise, which must be
     * installed.
     */
-  def withDenoising: RenderSettings = change: s =>
-    val layers = (s.layers ++ Layer.denoising).distinct
-    s.copy(layers = layers, output = s.output.copy(denoise = true))
+  def withDenoising: RenderSettings = change(_.denoised)
 
   /** An option of the program's command line by its name, without `--`: `withOption("fireflies",
     * "reweight")`. Those that shape the image and its files are known: `candela render --help`.
@@ -79,10 +76,9 @@ final class RenderSettings private (private[api] val of: CoreSettings):
       val wanted = if known.takesValue then "a value" else "no value"
       Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $found")
     val text = value.getOrElse("")
-    known.put(
-      of,
-      text
-    ).fold(Problems.fail(Code.OptionValue, s"wrong value of `$name`: `$text`"))(RenderSettings(_))
+    known.put(of, text) match
+      case Some(settings) => RenderSettings(settings)
+      case None => Problems.fail(Code.OptionValue, s"wrong value of `$name`: `$text`")
 
   private def positive(what: String, value: Double): Double =
     if value > 0 && !value.isInfinite then value

@@ -16,8 +16,7 @@ final class Refusal(val problem: Problem) extends ControlThrowable:
 
 object Refusal:
   def apply(code: Code, at: Option[SourcePos], message: String, help: String): Refusal =
-    val problem = at.fold(Problem.general(code, message))(Problem.error(code, _, message))
-    new Refusal(problem.copy(help = Some(help)))
+    new Refusal(Problem.error(code, at, message, Some(help)))
 
   /** Runs `body`; a refusal in it that has no place is here. */
   def placed[A](at: => SourcePos)(body: => A): A =

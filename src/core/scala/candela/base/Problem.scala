@@ -58,6 +58,10 @@ object Problem:
   def error(code: Code, at: SourcePos, message: String, help: Option[String] = None): Problem =
     Problem(code, Severity.Error, at.known, line(message), help.map(line))
 
+  /** An error at a place, if it has one. */
+  def error(code: Code, at: Option[SourcePos], message: String, help: Option[String]): Problem =
+    at.fold(general(code, message, help))(error(code, _, message, help))
+
   def warning(code: Code, at: SourcePos, message: String, help: Option[String] = None): Problem =
     Problem(code, Severity.Warning, at.known, line(message), help.map(line))
 

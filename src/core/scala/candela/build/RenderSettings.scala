@@ -54,6 +54,16 @@ final case class RenderSettings(
     reading: ReadSettings = ReadSettings(),
     output: OutputSettings = OutputSettings()
 ):
+  /** With these layers, too; whether each is stored in 16 bits, where that is said. */
+  def adding(more: Seq[(Layer, Option[Boolean])]): RenderSettings =
+    val asked = more.collect { case (layer, Some(isHalf)) => layer -> isHalf }
+    val precise = output.copy(precisions = output.precisions ++ asked)
+    copy(layers = layers ++ more.map(_._1), output = precise)
+
+  /** With the denoised image, and the layers that guide the denoiser. */
+  def denoised: RenderSettings =
+    copy(output = output.copy(denoise = true), layers = (layers ++ Layer.denoising).distinct)
+
   /** Whether only a goal ends the rendering. */
   def isEndless: Boolean = goal.isGiven && samples.isEmpty
 

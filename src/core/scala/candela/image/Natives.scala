@@ -3,6 +3,7 @@ package candela.image
 import java.io.{OutputStream, PrintStream}
 import java.nio.file.{Files, Path}
 import java.util.Locale
+import java.util.concurrent.ConcurrentHashMap
 import java.util.function.Supplier
 
 import scala.util.Try
@@ -46,7 +47,12 @@ object Natives:
     * @throws MissingNatives if a library is not there
     */
   private[image] def need(module: String): Unit =
-    for m <- Vector("", module).distinct if !isThere(m) do throw MissingNatives(m, platform)
+    for m <- Vector("", module).distinct if !seen.contains(m) do
+      if !isThere(m) then throw MissingNatives(m, platform)
+      seen.add(m): Unit
+
+  /** Modules whose libraries were found, lest each image looks for them. */
+  private val seen = ConcurrentHashMap.newKeySet[String]()
 
   private def isThere(module: String): Boolean =
     val suffix = if module.isEmpty then "" else s"_$module"

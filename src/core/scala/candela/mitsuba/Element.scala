@@ -53,10 +53,7 @@ object XmlFile:
         throw SceneError(Problem.error(Code.MalformedXml, at, s"malformed XML: ${message(e)}"))
       case e: IOException =>
         val why = s"can't read `$name`: ${IoReason(e)}"
-        throw SceneError(includedFrom.fold(Problem.general(
-          Code.Unreadable,
-          why
-        ))(Problem.error(Code.MalformedXml, _, why)))
+        throw SceneError(Problem.error(Code.Unreadable, includedFrom, why, None))
 
   /** Decoded here, as the JDK's parser prints what it can't decode. The encoding is that of the
     * byte order mark or of the declaration, else UTF-8.

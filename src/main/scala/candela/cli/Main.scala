@@ -3,10 +3,8 @@ package candela.cli
 import candela.base.{Code, Problem, Severity}
 import candela.cli.commands.{
   AverageCommand, BenchCommand, CheckCommand, ClusterCommand, CompareCommand, CompletionCommand,
-  ConvertCommand,
-  DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand, PreviewCommand,
-  RenderCommand,
-  ResumeCommand, ViewCommand
+  ConvertCommand, DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand,
+  PreviewCommand, RenderCommand, ResumeCommand, ViewCommand
 }
 import candela.cli.options.{Command, CommandLine, OptionTable, Options}
 import candela.cli.terminal.{ExitCode, Interrupts, ProblemText, Report, Terminal}

@@ -71,11 +71,7 @@ private[cli] final class FileRegister:
       message = s"expected a place for the ${output.kind} in the folder of the image, found `$file`"
     yield
       val help = Some("--sandbox lets files be written in that of --outfile or of the scene only")
-      output.at.fold(Problem.general(
-        Code.Sandboxed,
-        message,
-        help
-      ))(Problem.error(Code.Sandboxed, _, message, help))
+      Problem.error(Code.Sandboxed, output.at, message, help)
 
   /** A pipe would be written to for ever, if nobody reads it. */
   private def irregular(file: Path, output: Output): Option[Problem] =
@@ -86,9 +82,7 @@ private[cli] final class FileRegister:
       val help = Some(
         if output.isAsked then "choose another file" else s"--${output.option} FILE names another"
       )
-      output.at match
-        case Some(at) => Problem.error(Code.Unwritable, at, message, help)
-        case None => Problem.general(Code.Unwritable, message, help)
+      Problem.error(Code.Unwritable, output.at, message, help)
 
   /** Notes files that will be written.
     *

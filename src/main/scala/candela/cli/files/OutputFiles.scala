@@ -65,21 +65,24 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
 
 object OutputFiles:
 
-  /** Writes every file that can be written; what is wrong with the others. */
-  def failures(paths: Vector[Path])(write: Path => Unit): Vector[Problem] =
+  /** Writes every file that can be written; the others, and what is wrong with each. */
+  def failures(paths: Vector[Path])(write: Path => Unit): Vector[(Path, Problem)] =
+    def failed(path: Path, code: Code, e: Exception) =
+      Some(path -> Problem.general(code, e.getMessage))
     paths.flatMap: path =>
       try
         write(path)
         None
       catch
-        case e: (ImageError | IOException) => Some(Problem.general(Code.Unwritable, e.getMessage))
+        case e: ImageError => failed(path, e.code, e)
+        case e: IOException => failed(path, Code.Unwritable, e)
 
   /** Writes every file that can be written.
     *
     * @throws SceneError if some can't be
     */
   def writeAll(paths: Vector[Path])(write: Path => Unit): Unit =
-    val problems = failures(paths)(write)
+    val problems = failures(paths)(write).map(_._2)
     if problems.nonEmpty then throw SceneError(problems)
 
   /** Whether a file must store layers; alpha, which scenes ask for, and those that only guide the

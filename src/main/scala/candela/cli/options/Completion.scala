@@ -54,6 +54,9 @@ private[cli] object Completion:
   val others: Vector[(String, String)] =
     Vector("help" -> "list the commands, or the options of one", "version" -> "print the version")
 
+  /** All that may stand at the first place and is no file. */
+  def firsts: Vector[String] = commandWords ++ others.map(_._1)
+
   /** What stands behind a word at the first place, and is neither option nor value. */
   def arguments: Vector[(String, Words)] =
     commands.map(r => r.command.word -> r.takes.named) :+ ("help" -> Words.Of(commandWords))
@@ -87,8 +90,6 @@ private object BashCompletion:
     case Words.Listed(all) => s"_candela_listed '${all.mkString(" ")}'"
     case _ => ":"
 
-  private def firsts: String = (commandWords ++ others.map(_._1)).mkString("|")
-
   private val Head =
     s"""# Completion of candela for bash; made by: candela completion bash
        |_candela_words() { COMPREPLY=($$(compgen -W "$$1" -- "$$cur")); }
@@ -120,7 +121,7 @@ private object BashCompletion:
        |  if [ "$$cur" = = ]; then cur=
        |  elif [ "$$prev" = = ]; then prev=$${COMP_WORDS[COMP_CWORD-2]}; fi
        |  if [ "$$COMP_CWORD" -gt 1 ]; then
-       |    case $${COMP_WORDS[1]} in $firsts) command=$${COMP_WORDS[1]} ;; esac
+       |    case $${COMP_WORDS[1]} in ${firsts.mkString("|")}) command=$${COMP_WORDS[1]} ;; esac
        |  fi
        |  case "$$command $$prev" in""".stripMargin
 
@@ -137,7 +138,7 @@ private object BashCompletion:
   private val End =
     s"""    esac
        |    if [ "$$COMP_CWORD" = 1 ]; then
-       |      COMPREPLY+=($$(compgen -W '${firsts.replace('|', ' ')}' -- "$$cur"))
+       |      COMPREPLY+=($$(compgen -W '${firsts.mkString(" ")}' -- "$$cur"))
        |    fi
        |  fi
        |}
@@ -253,9 +254,7 @@ private object FishCompletion:
        |function __candela_is -a command
        |  set -l words (commandline -opc)
        |  set -l found render
-       |  if set -q words[2]; and contains -- $$words[2] ${(commandWords ++ others.map(
-        _._1
-      )).mkString(" ")}
+       |  if set -q words[2]; and contains -- $$words[2] ${firsts.mkString(" ")}
        |    set found $$words[2]
        |  end
        |  test $$found = $$command

@@ -92,20 +92,8 @@ private[cli] object OptionTable extends OptionRows:
 
   private def layers: String = Layer.values.map(_.word).mkString(", ")
 
-  private def withLayers(
-      all: Seq[(Layer, Option[Boolean])],
-      s: RenderSettings
-  ): RenderSettings =
-    val asked = all.collect { case (layer, Some(isHalf)) => layer -> isHalf }
-    val output = s.output.copy(precisions = s.output.precisions ++ asked)
-    s.copy(layers = s.layers ++ all.map(_._1), output = output)
-
   private def grouped(groups: LightGrouping, s: RenderSettings): RenderSettings =
     s.copy(lightGroups = Some(groups), layers = (s.layers :+ Layer.Lights).distinct)
-
-  private def denoised(s: RenderSettings): RenderSettings =
-    val layers = (s.layers ++ Layer.denoising).distinct
-    s.copy(output = s.output.copy(denoise = true), layers = layers)
 
   private def sampler: Row =
     val words = PointChoice.all.map(_.word).mkString("|")
@@ -161,7 +149,7 @@ private[cli] object OptionTable extends OptionRows:
           "LAYER:half and LAYER:float select its precision",
         "[All layers](LAYERS.md)."
       ))
-      .action(set(withLayers)),
+      .action(set((all, s) => s.adding(all))),
     opt[LightGrouping]("light-groups").valueName("statement|type|NAME=LIGHT[+LIGHT],…")
       .text(OptionText(
         "groups of the layer lights, which is added: each light statement (default), each type, " +
@@ -175,7 +163,7 @@ private[cli] object OptionTable extends OptionRows:
           s"(layers ${Layer.denoising.map(_.word).mkString(" and ")} are added, too)",
         "[How to install Open Image Denoise](DENOISING.md)."
       ))
-      .action(set((_, s) => denoised(s))),
+      .action(set((_, s) => s.denoised)),
     opt[String]("film").valueName("gbuffer|rgba")
       .text(OptionText(
         "add all AOVs of pbrt-v4's gbuffer film, or alpha",

@@ -1,16 +1,13 @@
 package candela.cli.rendering
 
-import candela.base.Problem
-import candela.cli.files.Sequence
+import candela.cli.files.{OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
-import candela.image.{Image, ImageError}
+import candela.image.Image
 import candela.job.{Denoising, FilmHeaders, ImageFile, Prepared}
 import candela.render.Rendering
 
 import java.nio.file.{Files, Path}
-
-import scala.util.{Failure, Success, Try}
 
 /** Writes the images of a rendering, in all formats that were asked for.
   *
@@ -50,14 +47,9 @@ private[cli] final class ImageWriter(
   /** Writes every file that can be written; returns those written. Viewers may ask for it, too. */
   def write(wanted: Vector[Path], rendering: Rendering, image: Image): Vector[Path] = synchronized:
     val about = digest.filter(_ => rendering.isComplete).map(Sequence.Digest -> _).toVector
-    def write(path: Path) =
-      Try(files.write(path, image, rendering, about, denoising.map(_.describe)))
     // Those that can't hold the digest first: what is done is told by the others
-    val order = wanted.sortBy(Sequence.keepsDigest)
-    val attempts = order.map(path => path -> write(path)).sortBy((path, _) => wanted.indexOf(path))
-    val failures = attempts.collect:
-      case (_, Failure(e: ImageError)) => Problem.general(e.code, e.getMessage)
-      case (_, Failure(e)) => throw e
-    if failures.nonEmpty then
-      val _ = report.errors(failures)
-    attempts.collect { case (path, Success(_)) => path }
+    val lost = OutputFiles.failures(wanted.sortBy(Sequence.keepsDigest)): path =>
+      files.write(path, image, rendering, about, denoising.map(_.describe))
+    if lost.nonEmpty then
+      val _ = report.errors(lost.sortBy((path, _) => wanted.indexOf(path)).map(_._2))
+    wanted.diff(lost.map(_._1))

@@ -23,6 +23,7 @@ private[cli] final class ErrorLog(development: Development, reference: Image, fi
     val mse = Errors.quickly(reference)(development(film)).mse
     lines ++= s"${pass.samples}, ${Figures.general(mse)}\n"
     lost = OutputFiles.failures(Vector(file))(WholeFile.write(_, lines.toString.getBytes(UTF_8)))
+      .map(_._2)
 
   /** Why the last lines could not be written. */
   def failure: Vector[Problem] = lost

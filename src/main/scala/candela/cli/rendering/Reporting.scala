@@ -123,12 +123,10 @@ object ReportFiles:
     * @return those written, and what is wrong with the others
     */
   def write(paths: Vector[Path], report: RenderReport): (Vector[Path], Vector[Problem]) =
-    val written = Vector.newBuilder[Path]
-    val failures = OutputFiles.failures(paths): path =>
+    val lost = OutputFiles.failures(paths): path =>
       val text = FileName.suffix(path) match
         case "html" => RenderPage.html(report)
         case "json" => RenderData.json(report)
         case _ => RenderData.csv(report)
       WholeFile.write(path, text.getBytes(UTF_8))
-      written += path
-    (written.result(), failures)
+    (paths.diff(lost.map(_._1)), lost.map(_._2))
