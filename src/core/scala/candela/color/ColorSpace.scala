@@ -124,6 +124,10 @@ final class ColorSpace private (
       val share = 5 * illuminant(nm) / all
       Array(nm.toDouble) ++ Colorimetry.observers.map(_(nm) * share)
 
+  /** Red, green and blue of each wavelength under the illuminant, one after another. */
+  private[color] lazy val responses: Array[Double] =
+    seen.flatMap(row => rgbOfXyz * Vector(row(1), row(2), row(3)))
+
   override def toString: String = name
 
 object ColorSpace:

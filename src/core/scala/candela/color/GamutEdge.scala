@@ -20,11 +20,13 @@ private[color] object GamutEdge:
     val white = Array.tabulate(3)(k => space.seen.map(_(k + 1)).sum)
     val xyz = space.xyzOfRgb * target.toVector
     val wanted = Array.tabulate(3)(k => lightness(xyz(k) / white(k)))
+    val seen = new Array[Double](3)
+    val columns = Array.fill(3)(new Array[Double](3))
     var left = Iterations
     while left > 0 do
       left -= 1
       // CIELAB is linear in the three lightnesses: the step is the same
-      val (seen, columns) = slopes(c, space)
+      slopes(c, space.seen, seen, columns)
       val off = Array.tabulate(3): k =>
         val share = seen(k) / white(k)
         (lightness(share) - wanted(k)) * white(k) / lightnessSlope(share)
@@ -43,11 +45,14 @@ private[color] object GamutEdge:
   /** X, Y and Z of the spectrum, and their derivatives by each coefficient. */
   private def slopes(
       c: Array[Double],
-      space: ColorSpace
-  ): (Array[Double], Array[Array[Double]]) =
-    val seen = new Array[Double](3)
-    val columns = Array.fill(3)(new Array[Double](3))
-    for row <- space.seen do
+      rows: Array[Array[Double]],
+      seen: Array[Double],
+      columns: Array[Array[Double]]
+  ): Unit =
+    java.util.Arrays.fill(seen, 0.0)
+    loop(3)(i => java.util.Arrays.fill(columns(i), 0.0))
+    loop(rows.length): i =>
+      val row = rows(i)
       val x = Upsampling.position(row(0).toFloat)
       val t = (c(0) * x + c(1)) * x + c(2)
       val root = 1 / Math.sqrt(1 + t * t)
@@ -58,7 +63,6 @@ private[color] object GamutEdge:
         columns(0)(k) += d * x * x
         columns(1)(k) += d * x
         columns(2)(k) += d
-    (seen, columns)
 
   /** CIE 15:2018, §8.2.1: the function of X, Y and Z over white's. */
   private def lightness(t: Double): Double =

@@ -22,15 +22,17 @@ object SmoothSpectra:
   private[color] inline val Least = 1e-4f
   private[color] inline val Most = 0.9999f
 
-  /** Steps from grey to a colour. */
+  /** Steps from grey to a colour, where the table is too coarse to start from. */
   private val Steps = 6
 
   /** The spectrum of one colour with components in [0, 1], fitted exactly. */
   def spectrum(color: Rgb): Float => Float =
     val fit = SpectrumFit()
     val target = Array(color.r, color.g, color.b).map(c => clamp(c, Least, Most).toDouble)
-    for step <- 1 to Steps do
-      fit.to(target.map(c => 0.5 + (c - 0.5) * step / Steps))
+    if !(FitStarts.place(ColorSpace.Srgb, target, fit.c) && fit.reach(target)) then
+      fit.restart()
+      for step <- 1 to Steps do
+        fit.to(target.map(c => 0.5 + (c - 0.5) * step / Steps))
     val (c0, c1, c2) = (fit.c(0).toFloat, fit.c(1).toFloat, fit.c(2).toFloat)
     nm => logistic(c0, c1, c2, nm)
 
@@ -126,77 +128,3 @@ object SpectrumTable:
     go(Size / 2 until Size)
     go(Size / 2 - 1 to 0 by -1)
     column
-
-/** Newton's method for the three coefficients of a smooth spectrum, from one colour to the next.
-  * Mutable.
-  */
-private[color] final class SpectrumFit:
-  import SpectrumFit.*
-
-  /** The coefficients. */
-  val c: Array[Double] = Array(0.0, 0.0, 0.0)
-  private val off = Array(0.0, 0.0, 0.0)
-  private val jacobian = new Array[Double](9)
-
-  def restart(): Unit = java.util.Arrays.fill(c, 0.0)
-
-  /** Moves to a colour in linear sRGB, as close as a bounded spectrum comes. */
-  def to(target: Array[Double]): Unit =
-    var left = Iterations
-    while left > 0 do
-      left -= 1
-      evaluate(target)
-      if Math.abs(off(0)) + Math.abs(off(1)) + Math.abs(off(2)) < 1e-5 then left = 0
-      else step()
-
-  private def evaluate(target: Array[Double]): Unit =
-    for i <- 0 until 3 do off(i) = -target(i)
-    java.util.Arrays.fill(jacobian, 0.0)
-    var w = 0
-    while w < Count do
-      val x = w.toDouble / (Count - 1)
-      val t = (c(0) * x + c(1)) * x + c(2)
-      val root = 1 / Math.sqrt(1 + t * t)
-      val s = 0.5 + 0.5 * t * root
-      val slope = 0.5 * root * root * root
-      var i = 0
-      while i < 3 do
-        val response = shares(3 * w + i)
-        off(i) += response * s
-        val d = response * slope
-        jacobian(3 * i) += d * x * x
-        jacobian(3 * i + 1) += d * x
-        jacobian(3 * i + 2) += d
-        i += 1
-      w += 1
-
-  /** A damped step: the system is nearly singular for the deepest colours. */
-  private def step(): Unit =
-    val m = jacobian
-    val a = m(4) * m(8) - m(5) * m(7)
-    val b = m(5) * m(6) - m(3) * m(8)
-    val d = m(3) * m(7) - m(4) * m(6)
-    val det = m(0) * a + m(1) * b + m(2) * d
-    if Math.abs(det) > 1e-30 then
-      val s0 =
-        (off(0) * a + off(1) * (m(2) * m(7) - m(1) * m(8)) +
-          off(2) * (m(1) * m(5) - m(2) * m(4))) / det
-      val s1 =
-        (off(0) * b + off(1) * (m(0) * m(8) - m(2) * m(6)) +
-          off(2) * (m(2) * m(3) - m(0) * m(5))) / det
-      val s2 =
-        (off(0) * d + off(1) * (m(1) * m(6) - m(0) * m(7)) +
-          off(2) * (m(0) * m(4) - m(1) * m(3))) / det
-      val largest = Math.max(Math.abs(s0), Math.max(Math.abs(s1), Math.abs(s2)))
-      val scale = if largest > Longest then Longest / largest else 1.0
-      c(0) = clamp(c(0) - scale * s0)
-      c(1) = clamp(c(1) - scale * s1)
-      c(2) = clamp(c(2) - scale * s2)
-
-  private def clamp(x: Double): Double = Math.max(-500.0, Math.min(500.0, x))
-
-private[color] object SpectrumFit:
-  private val Iterations = 8
-  private val Longest = 20.0
-  private val shares = Colorimetry.shares
-  private val Count = Colorimetry.wavelengths.length

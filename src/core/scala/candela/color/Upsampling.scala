@@ -2,7 +2,6 @@ package candela.color
 
 import java.util.concurrent.ConcurrentHashMap
 
-import candela.base.loop
 import candela.math.clamp
 
 /** Spectral upsampling: a smooth spectrum between 0 and 1 with the colour of a given reflectance
@@ -10,7 +9,8 @@ import candela.math.clamp
   * pbrt-v4 assigns to every RGB colour.
   *
   * Source: Jakob and Hanika, "A Low-Dimensional Function Space for Efficient Spectral Upsampling",
-  * Eurographics 2019. Fitted here by Newton's method, stepping from grey to the colour.
+  * Eurographics 2019. Fitted here by Newton's method, from a table of near colours ([[FitStarts]])
+  * or, where none is near enough, stepping from grey to the colour.
   */
 object Upsampling:
 
@@ -32,26 +32,43 @@ object Upsampling:
 
   private def inRange(c: Float): Float = clamp(c, 1e-3f, 0.999f)
 
-  private final class Fit(val coefficients: Array[Double], val isExact: Boolean)
+  /** Bounds of the components of a reflectance that is fitted. */
+  private[color] val Least = 1e-3
+  private[color] val Most = 0.999
 
-  /** Fits so far: a scene names a colour for each of many materials, and a fit takes a millisecond.
-    */
+  private[color] final class Fit(val coefficients: Array[Double], val isExact: Boolean)
+
+  /** Fits so far: a scene names a colour for each of many materials. */
   private val fits = ConcurrentHashMap[(Rgb, ColorSpace), Fit]()
 
   private def fit(color: Rgb, space: ColorSpace): Fit =
     if fits.size > MostFits then fits.clear()
     fits.computeIfAbsent(
       (color.map(clamp(_, 0f, 1f)), space),
-      (c, _) =>
-        def doubles(c: Rgb) = Array(c.r.toDouble, c.g.toDouble, c.b.toDouble)
-        val walk = Walk(space)
-        val target = doubles(c.map(inRange))
-        walk.go(target)
-        val settled = walk.coefficients
-        if !space.isSrgb then GamutEdge.settle(settled, doubles(c), space)
-        val isExact = walk.isAt(target) && settled.max < GamutEdge.Largest - 1e-6
-        Fit(if isExact || space.isSrgb then walk.coefficients else settled, isExact)
+      (c, _) => near(c, space).getOrElse(far(c, space))
     )
+
+  private def doubles(c: Rgb) = Array(c.r.toDouble, c.g.toDouble, c.b.toDouble)
+
+  /** From the table, where that leads to the colour, and no bound of another space's fit. */
+  private[color] def near(c: Rgb, space: ColorSpace): Option[Fit] =
+    val fit = SpectrumFit(space.responses)
+    val target = doubles(c.map(inRange))
+    val isThere =
+      (space.isSrgb || c == c.map(inRange)) && FitStarts.place(space, target, fit.c) &&
+        fit.reach(target)
+    Option.when(isThere && (space.isSrgb || fit.c.max < GamutEdge.Largest - 1e-6)):
+      Fit(fit.c, isExact = true)
+
+  /** From grey. */
+  private[color] def far(c: Rgb, space: ColorSpace): Fit =
+    val walk = Walk(space)
+    val target = doubles(c.map(inRange))
+    walk.go(target)
+    val settled = walk.coefficients
+    if !space.isSrgb then GamutEdge.settle(settled, doubles(c), space)
+    val isExact = walk.isAt(target) && settled.max < GamutEdge.Largest - 1e-6
+    Fit(if isExact || space.isSrgb then walk.coefficients else settled, isExact)
 
   /** Spectrum of an unbounded quantity (such as an index of refraction): scaled down to fit, then
     * up again.
@@ -67,7 +84,8 @@ object Upsampling:
     * Mutable.
     */
   private[color] final class Walk(space: ColorSpace = ColorSpace.Srgb):
-    private val c = Array(0.0, 0.0, 0.0)
+    private val fit = SpectrumFit(space.responses)
+    private val c = fit.c
     def coefficients: Array[Double] = c.clone()
     private var here = Array(0.5, 0.5, 0.5)
 
@@ -97,13 +115,7 @@ object Upsampling:
     /** Newton's method, which converges for nearby colours; if not, nothing changes. */
     private def near(aim: Array[Double]): Boolean =
       val before = c.clone()
-      var left = Iterations
-      var isThere = false
-      while left >= 0 && !isThere do
-        val off = color(c, space).lazyZip(aim).map(_ - _)
-        isThere = off.forall(e => Math.abs(e) < 2e-6)
-        if !isThere && left > 0 then newton(c, off, space)
-        left -= 1
+      val isThere = fit.reach(aim)
       if !isThere then System.arraycopy(before, 0, c, 0, 3)
       isThere
 
@@ -115,38 +127,12 @@ object Upsampling:
     val t = (c(0) * x + c(1)) * x + c(2)
     (0.5 + t / (2 * Math.sqrt(1 + t * t))).toFloat
 
-  private def color(c: Array[Double], space: ColorSpace): Array[Double] =
-    var x, y, z = 0.0
-    val rows = space.seen
-    loop(rows.length): i =>
-      val row = rows(i)
-      val s = logistic(c, row(0).toFloat)
-      x += s * row(1)
-      y += s * row(2)
-      z += s * row(3)
-    (space.rgbOfXyz * Vector(x, y, z)).toArray
-
   /** Number of steps from grey to black or white. */
   private val Steps = 20
-  private val Iterations = 12
   private val MostFits = 10000
 
   /** Halvings of the last step of a walk. */
   private val Halvings = 6
-
-  /** One step, of at most 50 units, beyond which the linearisation is useless. */
-  private def newton(c: Array[Double], off: Array[Double], space: ColorSpace): Unit =
-    val h = 1e-3
-    val columns = Array.tabulate(3): k =>
-      val up = c.clone()
-      val down = c.clone()
-      up(k) += h
-      down(k) -= h
-      color(up, space).zip(color(down, space)).map((a, b) => (a - b) / (2 * h))
-    for step <- solve(columns, off) do
-      val largest = step.map(Math.abs).max
-      val scale = if largest > 50 then 50 / largest else 1.0
-      for k <- 0 until 3 do c(k) = Math.max(-500, Math.min(500, c(k) - step(k) * scale))
 
   /** The three factors of the columns whose sum is `off`, if there are such. */
   private[color] def solve(

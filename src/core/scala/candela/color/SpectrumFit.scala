@@ -1,0 +1,104 @@
+package candela.color
+
+/** Newton's method for the three coefficients of a smooth spectrum, from one colour to the next.
+  * Mutable.
+  *
+  * @param responses red, green and blue of each of [[Colorimetry.wavelengths]]; a spectrum's colour
+  *                  is their sum, weighted by it
+  */
+private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.shares):
+  import SpectrumFit.*
+
+  /** The coefficients. */
+  val c: Array[Double] = Array(0.0, 0.0, 0.0)
+  private val off = Array(0.0, 0.0, 0.0)
+  private val jacobian = new Array[Double](9)
+  private val count = responses.length / 3
+
+  def restart(): Unit = java.util.Arrays.fill(c, 0.0)
+
+  /** Moves to a colour in the space of the responses, as close as a bounded spectrum comes in a few
+    * steps.
+    */
+  def to(target: Array[Double]): Unit =
+    var left = Iterations
+    while left > 0 do
+      left -= 1
+      evaluate(target)
+      if distance < 1e-5 then left = 0
+      else step(Longest)
+
+  /** Moves to a colour from that of a near one, until the coefficients have no error but rounding:
+    * they then depend on the colour alone, not on the start. False, and anywhere, if it can't.
+    */
+  def reach(target: Array[Double]): Boolean = reach(target, Rounding)
+
+  /** As above, with an error of at most `tolerance` in all channels together. */
+  def reach(target: Array[Double], tolerance: Double): Boolean =
+    var left = MostSteps
+    evaluate(target)
+    while left > 0 && !(distance < tolerance) do
+      left -= 1
+      step(LongestReach)
+      evaluate(target)
+    distance < tolerance
+
+  private def distance: Double = Math.abs(off(0)) + Math.abs(off(1)) + Math.abs(off(2))
+
+  private def evaluate(target: Array[Double]): Unit =
+    for i <- 0 until 3 do off(i) = -target(i)
+    java.util.Arrays.fill(jacobian, 0.0)
+    var w = 0
+    while w < count do
+      val x = w.toDouble / (count - 1)
+      val t = (c(0) * x + c(1)) * x + c(2)
+      val root = 1 / Math.sqrt(1 + t * t)
+      val s = 0.5 + 0.5 * t * root
+      val slope = 0.5 * root * root * root
+      var i = 0
+      while i < 3 do
+        val response = responses(3 * w + i)
+        off(i) += response * s
+        val d = response * slope
+        jacobian(3 * i) += d * x * x
+        jacobian(3 * i + 1) += d * x
+        jacobian(3 * i + 2) += d
+        i += 1
+      w += 1
+
+  /** A damped step: the system is nearly singular for the deepest colours. */
+  private def step(longest: Double): Unit =
+    val m = jacobian
+    val a = m(4) * m(8) - m(5) * m(7)
+    val b = m(5) * m(6) - m(3) * m(8)
+    val d = m(3) * m(7) - m(4) * m(6)
+    val det = m(0) * a + m(1) * b + m(2) * d
+    if Math.abs(det) > 1e-30 then
+      val s0 =
+        (off(0) * a + off(1) * (m(2) * m(7) - m(1) * m(8)) +
+          off(2) * (m(1) * m(5) - m(2) * m(4))) / det
+      val s1 =
+        (off(0) * b + off(1) * (m(0) * m(8) - m(2) * m(6)) +
+          off(2) * (m(2) * m(3) - m(0) * m(5))) / det
+      val s2 =
+        (off(0) * d + off(1) * (m(1) * m(6) - m(0) * m(7)) +
+          off(2) * (m(0) * m(4) - m(1) * m(3))) / det
+      val largest = Math.max(Math.abs(s0), Math.max(Math.abs(s1), Math.abs(s2)))
+      val scale = if largest > longest then longest / largest else 1.0
+      c(0) = clamp(c(0) - scale * s0)
+      c(1) = clamp(c(1) - scale * s1)
+      c(2) = clamp(c(2) - scale * s2)
+
+  private def clamp(x: Double): Double = Math.max(-Most, Math.min(Most, x))
+
+private[color] object SpectrumFit:
+  private inline val Iterations = 8
+  private inline val Longest = 20.0
+  private inline val MostSteps = 12
+  private inline val LongestReach = 50.0
+
+  /** Of sums of a hundred products, where Newton's method ends. */
+  private inline val Rounding = 1e-10
+
+  /** Bound of all coefficients. */
+  inline val Most = 500.0

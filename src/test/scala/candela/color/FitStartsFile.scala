@@ -1,0 +1,11 @@
+package candela.color
+
+import java.nio.file.Path
+
+import candela.base.WholeFile
+
+/** Makes the resource of [[FitStarts]] anew: `./sbt "Test/runMain candela.color.FitStartsFile"`. */
+object FitStartsFile:
+  def main(args: Array[String]): Unit =
+    val file = Path.of("src/core/resources" + FitStarts.Resource)
+    WholeFile.write(file, FitStarts.made)
