@@ -28,9 +28,18 @@ private[build] final class BuildContext(
   def isV4: Boolean = dialect == Dialect.V4
   def defaults: Defaults = Defaults(dialect)
 
-  /** The same scene in another colour basis. */
-  def in(basis: ColorBasis): BuildContext =
-    new BuildContext(description, origin, resources.in(basis), problems)
+  /** The same scene in another colour basis; textures are defined once one is asked for.
+    *
+    * @param textures defines them
+    */
+  def in(basis: ColorBasis)(textures: BuildContext => Unit): BuildContext =
+    val other = in(resources.in(basis))
+    other.resources.defineLater(() => textures(other))
+    other
+
+  /** The same scene with other resources. */
+  def in(resources: Resources): BuildContext =
+    new BuildContext(description, origin, resources, problems)
 
   private val emissions = IdentityHashMap[Declaration, Option[AreaLightPlan]]()
 

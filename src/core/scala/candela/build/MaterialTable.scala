@@ -6,6 +6,7 @@ import candela.bsdf.{DiffuseEquivalent, Material}
 import candela.build.integrators.IntegratorPlan
 import candela.build.materials.{Materials, ShapeMaterials}
 import candela.media.MediumBorder
+import candela.scene.SceneMaterials
 import candela.scenefile.{Declaration, MaterialRef, ShapeDescription}
 
 /** A shape and the index of its material.
@@ -28,13 +29,28 @@ private[build] final class MaterialTable private (
     val materials: Array[Material],
     val borders: Array[MediumBorder],
     val touchesMedia: Boolean,
-    val names: Vector[String],
-    make: (BuildContext, IntegratorPlan) => Array[Material],
+    named: => Vector[String],
+    maker: (BuildContext, IntegratorPlan) => Int => Material,
     dressed: ShapeDescription => DressedShape
 ):
-  /** The materials in another colour basis, in the same order. */
-  def in(context: BuildContext, integrator: IntegratorPlan): Array[Material] =
-    make(context, integrator)
+  lazy val ofScene: SceneMaterials = SceneMaterials(materials)
+
+  def names: Vector[String] = named
+
+  /** The materials in another colour basis, in the same order, of one of so many.
+    *
+    * @param context made anew with each set of materials
+    */
+  def in(bases: Int, isDispersive: Boolean, integrator: IntegratorPlan)(
+      context: () => BuildContext
+  ): SceneMaterials =
+    ofScene.in(isDispersive, Math.max(MaterialTable.MostKept / bases, 1)): () =>
+      maker(context(), integrator)
+
+  /** Whether any material disperses light in this colour basis of a scene that may. */
+  def disperses(context: BuildContext, integrator: IntegratorPlan): Boolean =
+    context.resources.census.isDispersive &&
+      materials.indices.map(maker(context, integrator)).exists(_.isDispersive)
 
   def dress(shape: ShapeDescription): DressedShape = dressed(shape)
 
@@ -50,6 +66,8 @@ private[build] final class MaterialTable private (
     else s"ignored for $count materials: this integrator does not support it, as in pbrt"
 
 private[build] object MaterialTable:
+  /** Materials kept in all colour bases together, of half a kilobyte each. */
+  private val MostKept = 1 << 19
 
   /** @param shapes all shapes to render */
   def of(
@@ -67,24 +85,29 @@ private[build] object MaterialTable:
       (Finish(split(s)._2, s.oneSided), media.seen(b))
     val worn = shapes.zip(borders).map(wear).distinct
     val number = worn.zipWithIndex.toMap
-    def make(context: BuildContext, integrator: IntegratorPlan): Array[Material] =
-      for (name, d) <- named do
-        context.resources.materials.define(
-          name,
-          d.at,
-          Materials.parts(d),
-          () => Materials.build(context.site(d))
-        )
+    for (name, d) <- named do
+      context.resources.materials.define(
+        name,
+        d.at,
+        Materials.parts(d),
+        other => Materials.build(context.in(other).site(d))
+      )
+    // Indices of a material, one for each pair of media and side
+    val refs = worn.map(_._1.ref)
+    val sharing = refs.groupBy(identity).filter(_._2.size > 1).keySet
+    def maker(context: BuildContext, integrator: IntegratorPlan): Int => Material =
       val made = mutable.HashMap.empty[MaterialRef, Material]
-      worn.map: (finish, _) =>
-        finish.of(made.getOrElseUpdate(finish.ref, finished(context, integrator, finish.ref)))
-      .toArray
+      index =>
+        val finish = worn(index)._1
+        def make = finished(context, integrator, finish.ref)
+        finish.of(if sharing.isEmpty || !sharing(finish.ref) then make
+        else made.getOrElseUpdate(finish.ref, make))
     new MaterialTable(
-      make(context, integrator),
+      worn.indices.map(maker(context, integrator)).toArray,
       worn.map(_._2).toArray,
       borders.exists(b => b.inside >= 0 || b.outside >= 0),
       worn.map((finish, _) => name(finish.ref)),
-      make,
+      maker,
       s =>
         DressedShape(s, split(s)._1, number(wear(s, media.border(s))))
     )

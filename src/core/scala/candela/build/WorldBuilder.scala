@@ -95,7 +95,7 @@ private[build] final class WorldBuilder(
       placed.surfaces,
       placed.instanced,
       placed.accelerator,
-      materials.materials,
+      materials.ofScene,
       all,
       selection,
       sidesByGeometry = !context.isV4,
@@ -112,17 +112,20 @@ private[build] final class WorldBuilder(
       media.surroundings(scene, shining.map(_._1), materials, reach)
     val (surroundings, inMedia) = around(media, scene)
     val plain = integrator.methodIn(surroundings, scene, samples)
+    val found = ColorPlan.of(context, mode, sensor)
+    val color = if context.resources.switches.oneColorSet then found.ofOneSet else found
+    if color.isSpectral then context.resources.census.sayOfSpectral()
+    def inBasis(basis: ColorBasis) = context.in(basis)(defineTextures)
+    val disperses = color.bases.headOption.map(inBasis).exists: first =>
+      materials.disperses(first, integratorIn(first))
     def recolored(basis: ColorBasis): RenderMethod =
-      val other = context.in(basis)
-      defineTextures(other)
+      val other = inBasis(basis)
       val otherLights = areaLights(other) ++
         shining.flatMap((l, _) => light(l, lightPlan(l, other)))
       val plan = integratorIn(other)
-      val otherScene =
-        scene.recolored(materials.in(other, plan), otherLights.map(_.light).toArray)
+      val otherMaterials = materials.in(color.bases.size, disperses, plan)(() => inBasis(basis))
+      val otherScene = scene.recolored(otherMaterials, otherLights.map(_.light).toArray)
       plan.methodIn(around(MediaBuilder(other, plan), otherScene)._1, otherScene, samples)
-    val found = ColorPlan.of(context, mode, sensor)
-    val color = if context.resources.switches.oneColorSet then found.ofOneSet else found
     val method =
       if !color.isSpectral then plain
       else RenderMethod.spectral(color.bases.zip(ofEach(color.bases)(recolored)))
@@ -147,8 +150,8 @@ private[build] final class WorldBuilder(
       () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id)
     )
 
-  /** The first one finds all problems, in the order of the statements; the others are made in
-    * parallel.
+  /** The first one finds all problems of lights and media, in the order of the statements; the
+    * others are made in parallel.
     */
   private def ofEach(bases: Vector[ColorBasis])(make: ColorBasis => RenderMethod) =
     val made = new Array[RenderMethod](bases.size)

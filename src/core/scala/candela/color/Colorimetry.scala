@@ -47,12 +47,20 @@ object Colorimetry:
   /** Colour of a smooth reflectance (or index of refraction, …) that depends on wavelength. */
   def rgb(spectrum: Float => Float, white: White): Rgb = rgb(spectrum, white, observer)
 
+  /** D65 at the observer's wavelengths. */
+  private lazy val daylight: Array[Float] = observer.map(row => D65(row(0)))
+  private lazy val daylightByNm: Array[Float] = observerByNm.map(row => D65(row(0)))
+
   private def rgb(spectrum: Float => Float, white: White, observer: Array[Array[Float]]): Rgb =
+    val lights =
+      if white != White.D65 then null
+      else if observer eq this.observer then daylight
+      else daylightByNm
     var x, y, z, sum = 0.0
     var i = 0
     while i < observer.length do
       val row = observer(i)
-      val light = if white == White.D65 then D65(row(0)) else 1f
+      val light = if lights != null then lights(i) else 1f
       val s = spectrum(row(0)) * light
       x += s * row(1)
       y += s * row(2)
@@ -60,6 +68,15 @@ object Colorimetry:
       sum += light * row(2)
       i += 1
     fromXyz(x / sum, y / sum, z / sum)
+
+  /** The spectrum, evaluated once at each wavelength of smooth colours: for those that many are
+    * made of.
+    */
+  def kept(spectrum: Float => Float): Float => Float =
+    lazy val values = wavelengths.map(spectrum)
+    nm =>
+      val i = ((nm - wavelengths(0)) * 0.2f).toInt
+      if i >= 0 && i < wavelengths.length && wavelengths(i) == nm then values(i) else spectrum(nm)
 
   /** Wavelengths in nm, 5 apart, and the contribution of each to white under D65. */
   lazy val responses: Array[(Float, Rgb)] =

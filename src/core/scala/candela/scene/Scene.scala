@@ -1,7 +1,7 @@
 package candela.scene
 
 import candela.accel.Accelerator
-import candela.bsdf.{Bsdf, Bssrdf, Material}
+import candela.bsdf.{Bsdf, Bssrdf}
 import candela.color.Rgb
 import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, Light, LightGroups, LightSelection, SurfaceLight}
@@ -36,7 +36,7 @@ final class Scene(
     surfaces: Surfaces,
     instanced: Instanced,
     accelerator: Accelerator,
-    materials: Array[Material],
+    materials: SceneMaterials,
     val lights: Array[Light],
     val selection: LightSelection,
     val sidesByGeometry: Boolean,
@@ -112,9 +112,8 @@ final class Scene(
     else surfaces.parts + hit.primitive - firstInstance
 
   /** Whether light passes this surface unscattered. */
-  def isInterface(at: ShadingPoint): Boolean = interfaces(at.material)
+  def isInterface(at: ShadingPoint): Boolean = materials.isInterface(at.material)
 
-  private val interfaces = materials.map(_.isInterface)
   private val hasVeils = !surfaces.veils.isEmpty || instanced.hasVeils
 
   /** Whether paths pass the surface that `ray` just hit, at `at`, unscattered. */
@@ -128,13 +127,12 @@ final class Scene(
     else instanced.isOpen(primitive - firstInstance, ray, hit, at)
 
   /** Whether any surface is an interface; shadow rays must then examine their hits. */
-  val hasInterfaces: Boolean = interfaces.contains(true)
+  val hasInterfaces: Boolean = materials.hasInterfaces
 
   /** Whether light that passes this surface keeps its direction, though some may be reflected. */
-  def isPane(at: ShadingPoint): Boolean = panes(at.material)
+  def isPane(at: ShadingPoint): Boolean = materials.isPane(at.material)
 
-  private val panes = materials.map(_.isPane)
-  val hasPanes: Boolean = panes.contains(true)
+  val hasPanes: Boolean = materials.hasPanes
 
   /** The part of light on its way in direction `w` that keeps it at the pane `at`. */
   def straight(at: ShadingPoint, w: Vec3): Rgb =
@@ -164,7 +162,7 @@ final class Scene(
   /** The same geometry with other materials and lights, in the same order; light sampling keeps its
     * probabilities.
     */
-  def recolored(materials: Array[Material], lights: Array[Light]): Scene =
+  def recolored(materials: SceneMaterials, lights: Array[Light]): Scene =
     Scene(
       surfaces,
       instanced,
@@ -195,19 +193,19 @@ final class Scene(
     )
 
   /** Whether any surface is dispersive. */
-  val isDispersive: Boolean = materials.exists(_.isDispersive)
+  val isDispersive: Boolean = materials.isDispersive
 
   /** Whether any surface has subsurface scattering. */
-  val hasSubsurface: Boolean = materials.exists(_.isSubsurface)
+  val hasSubsurface: Boolean = materials.hasSubsurface
 
   /** Whether this material has subsurface scattering. */
-  def isSubsurface(material: Int): Boolean = materials(material).isSubsurface
+  def isSubsurface(material: Int): Boolean = materials.isSubsurface(material)
 
   /** The BSSRDF at `at`; null if the material has none. */
   def bssrdf(at: ShadingPoint): Bssrdf | Null = materials(at.material).bssrdf(at)
 
   /** One material may have several indices. */
-  def isSameMaterial(a: Int, b: Int): Boolean = materials(a) eq materials(b)
+  def isSameMaterial(a: Int, b: Int): Boolean = materials.isSame(a, b)
 
   /** The light whose surface `at` is on; requires `at.areaLight` ≥ 0. */
   def surfaceLight(at: ShadingPoint): SurfaceLight = surfaceLights(at.areaLight)

@@ -9,7 +9,7 @@ import candela.bsdf.{ConstantMaterial, Lambert}
 import candela.color.Rgb
 import candela.lights.{LightSelection, PointLight}
 import candela.math.*
-import candela.scene.{Instanced, Scene, Surfaces}
+import candela.scene.{Instanced, Scene, SceneMaterials, Surfaces}
 import candela.testing.{Draws, Soups}
 
 final class PhotonMapSuite extends AnyFunSuite:
@@ -22,7 +22,7 @@ final class PhotonMapSuite extends AnyFunSuite:
       surfaces,
       Instanced(Array.empty, Instances.Empty),
       Bvh(surfaces.primitives(Instances.Empty)),
-      Array(ConstantMaterial(Lambert(Rgb.gray(albedo)))),
+      SceneMaterials(Array(ConstantMaterial(Lambert(Rgb.gray(albedo))))),
       Array(light),
       LightSelection.of(Array(light)),
       sidesByGeometry = false

@@ -8,7 +8,7 @@ import candela.geometry.Ray
 import candela.lights.{LightSelection, PointLight}
 import candela.math.Vec3
 import candela.sampling.{HenyeyGreenstein, IndependentSampler}
-import candela.scene.{Instanced, Scene, Surfaces}
+import candela.scene.{Instanced, Scene, SceneMaterials, Surfaces}
 import candela.testing.Soups
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -21,7 +21,7 @@ final class SurfaceVertexSuite extends AnyFunSuite:
       surfaces,
       Instanced(Array.empty, Instances.Empty),
       Bvh(surfaces.primitives(Instances.Empty)),
-      Array(ConstantMaterial(Lambert(Rgb.White))),
+      SceneMaterials(Array(ConstantMaterial(Lambert(Rgb.White)))),
       Array(light),
       LightSelection.of(Array(light)),
       sidesByGeometry = false

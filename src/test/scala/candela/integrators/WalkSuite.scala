@@ -10,7 +10,7 @@ import candela.lights.{LightSelection, PointLight}
 import candela.math.Vec3
 import candela.media.{MediumBorder, SceneMedia}
 import candela.sampling.IndependentSampler
-import candela.scene.{Instanced, Scene, Surfaces}
+import candela.scene.{Instanced, Scene, SceneMaterials, Surfaces}
 import candela.testing.Soups
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -27,7 +27,7 @@ final class WalkSuite extends AnyFunSuite:
       surfaces,
       Instanced(Array.empty, Instances.Empty),
       Bvh(surfaces.primitives(Instances.Empty)),
-      Array(ConstantMaterial(Lambert(Rgb.White))),
+      SceneMaterials(Array(ConstantMaterial(Lambert(Rgb.White)))),
       Array(light),
       LightSelection.of(Array(light)),
       sidesByGeometry = false

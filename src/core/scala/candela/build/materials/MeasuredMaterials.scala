@@ -48,14 +48,16 @@ abstract class MeasuredRecipe(
                     Spectra.inBasis(SpectralValue.Wavelengths(s), SpectrumRole.Reflectance, site)
                 )
               case Right(MeasuredBsdf.OfColors(b)) =>
-                if basis.isSpectral then
-                  site.problems.warn(
-                    Code.Unsupported,
-                    p.valuesAt,
-                    s"`${file()}` gives red, green and blue only; they are taken as values at " +
-                      "the wavelengths of a path, which pales its colours",
-                    Some("render with --color rgb")
-                  )
+                val name = file()
+                for census <- site.resources.counting do
+                  census.ifSpectral: () =>
+                    site.problems.warn(
+                      Code.Unsupported,
+                      p.valuesAt,
+                      s"`$name` gives red, green and blue only; they are taken as values at " +
+                        "the wavelengths of a path, which pales its colours",
+                      Some("render with --color rgb")
+                    )
                 Some(b)
               case Left(why) =>
                 val message = s"can't read `${file()}`: $why"

@@ -8,7 +8,7 @@ import candela.bsdf.microfacet.{
   UniformMetal
 }
 import candela.build.recipe.*
-import candela.color.{NamedSpectra, Rgb}
+import candela.color.{Colorimetry, NamedSpectra, Rgb}
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.textures.RgbTexture
@@ -89,17 +89,22 @@ private[build] trait MetalFields extends SpectrumFields:
           val basis = site.resources.basis
           val reflectance =
             if basis.isSpectral then basis.reflectance(c) else Indices.reflectance(basis.toSrgb(c))
+          val absorption = kept: nm =>
+            val r = clamp(reflectance(nm), 0f, 0.9999f)
+            2f * sqrt(r) / sqrt(1f - r)
           cosTheta =>
             nm =>
-              val r = clamp(reflectance(nm), 0f, 0.9999f)
-              val k = 2f * sqrt(r) / sqrt(1f - r)
-              Fresnel.conductor(cosTheta, 1f / outside, k / outside)
+              Fresnel.conductor(cosTheta, 1f / outside, absorption(nm) / outside)
       case None =>
         (index.eta(), index.k()) match
           case (SpectrumSource.Uniform(eta), SpectrumSource.Uniform(k)) =>
-            val (n, a) = (Indices.spectrum(eta), Indices.spectrum(k))
+            val (n, a) = (kept(Indices.spectrum(eta)), kept(Indices.spectrum(k)))
             Some(c => nm => Fresnel.conductor(c, n(nm) / outside, a(nm) / outside))
           case _ => None
+
+  /** Evaluated once by wavelength where the reflectance has a colour at each of many cosines. */
+  private def kept(s: Float => Float)(using site: Site): Float => Float =
+    if site.resources.basis.isSpectral then s else Colorimetry.kept(s)
 
 object MirrorRecipe extends MaterialRecipe("mirror", "perfect specular mirror", untilV3):
   private val kr = rgbTexture("Kr", "reflectance")(Rgb.gray(0.9f))

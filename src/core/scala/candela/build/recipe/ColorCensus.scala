@@ -14,12 +14,15 @@ final class ColorCensus(basis: ColorBasis):
   import ColorCensus.*
 
   private val emitted, reflected = mutable.LinkedHashMap.empty[Any, ColoredSpectrum]
+  private val cells = mutable.HashSet.empty[(Boolean, Rgb)]
+  private val remarks = mutable.ArrayBuffer.empty[() => Unit]
   private var disperses = false
   private var detector: Option[String] = None
   private var bandCount: Option[Int] = None
 
-  def lights: Vector[ColoredSpectrum] = farApart(emitted.values.toVector)
-  def surfaces: Vector[ColoredSpectrum] = farApart(reflected.values.toVector)
+  /** Some that are far apart, of all that were noted: to be asked for after that. */
+  lazy val lights: Vector[ColoredSpectrum] = farApart(emitted.values.toVector)
+  lazy val surfaces: Vector[ColoredSpectrum] = farApart(reflected.values.toVector)
 
   /** Spectrum of the scene's light: of all lamps alike, since what each lights is not known, and of
     * some daylight, for what surfaces make of it.
@@ -30,6 +33,13 @@ final class ColorCensus(basis: ColorBasis):
     val mean = ColorError.wavelengths.indices.map: w =>
       if all.isEmpty then 1.0 else Daylight + (1 - Daylight) * all.map(_(w)).sum / all.size
     ColorError.light(mean.toArray)
+
+  /** What is to be said of a material if the scene is rendered in wavelengths: those of their sets
+    * are made while rendering.
+    */
+  def ifSpectral(say: () => Unit): Unit = remarks += say
+
+  def sayOfSpectral(): Unit = remarks.foreach(_())
 
   /** A material disperses light. */
   def addDispersion(): Unit = disperses = true
@@ -74,17 +84,24 @@ final class ColorCensus(basis: ColorBasis):
       val smooth = (nm: Float) => if isGrey then c.g else half(nm) * 2f * c.max
       role match
         case SpectrumRole.Emission =>
-          val _ = emitted.getOrElseUpdate(
-            c * (1f / c.max),
-            ColoredSpectrum(ColorError.wavelengths.map(smooth(_).toDouble), components)
-          )
+          val full = c * (1f / c.max)
+          note(emitted, full, full)(smooth, components)
         case SpectrumRole.Unbounded => addCoefficient(c, smooth, components)
         case SpectrumRole.Reflectance =>
-          val bounded = if !isGrey && c.max <= 1f then SmoothSpectra.spectrum(c) else smooth
-          val _ = reflected.getOrElseUpdate(
-            c,
-            ColoredSpectrum(ColorError.wavelengths.map(bounded(_).toDouble), components)
-          )
+          def bounded = if !isGrey && c.max <= 1f then SmoothSpectra.spectrum(c) else smooth
+          note(reflected, c, c)(bounded, components)
+
+  /** Of very many spectra, no two whose colours are in the same cell of a grid are noted: they
+    * would not be far apart.
+    */
+  private def note(noted: mutable.Map[Any, ColoredSpectrum], key: Any, c: Rgb)(
+      s: => Float => Float,
+      components: => Rgb
+  ): Unit =
+    def cell = c.map(x => Math.floor(x * Cells).toFloat)
+    if !noted.contains(key) && (noted.size < Many || cells.add((noted eq emitted, cell))) then
+      val smooth = s
+      noted(key) = ColoredSpectrum(ColorError.wavelengths.map(smooth(_).toDouble), components)
 
   private def add(key: Any, role: SpectrumRole, s: Float => Float, components: Rgb): Unit =
     role match
@@ -100,8 +117,7 @@ final class ColorCensus(basis: ColorBasis):
         )
       case SpectrumRole.Unbounded => addCoefficient(key, s, components)
       case SpectrumRole.Reflectance =>
-        val values = ColorError.wavelengths.map(s(_).toDouble)
-        val _ = reflected.getOrElseUpdate(key, ColoredSpectrum(values, components))
+        note(reflected, key, components)(s, components)
 
   /** Transmittance where the mean coefficient leaves 1/e. */
   private def addCoefficient(key: Any, s: Float => Float, components: Rgb): Unit =
@@ -117,6 +133,10 @@ final class ColorCensus(basis: ColorBasis):
 private object ColorCensus:
   /** Share of daylight in [[ColorCensus.light]]. */
   private val Daylight = 0.2
+
+  /** Colours of which all are noted, and cells of the other along an edge of the grid. */
+  private val Many = 4096
+  private val Cells = 16
 
   /** Spectra compared, at most: those of pairs are. */
   private val Most = 24

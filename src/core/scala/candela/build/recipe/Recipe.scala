@@ -142,7 +142,8 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     * warning where this dialect's pbrt only warns. Both suggest the nearest known name.
     */
   def build(site: Site): Option[A] =
-    site.allowance.checkTime(Some(site.declaration.at))
+    // Sets of wavelengths have materials made while they are rendered, which ends in its own way
+    if site.resources.isPlain then site.allowance.checkTime(Some(site.declaration.at))
     val name = site.declaration.name
     find(name, (r: Recipe[A]) => site.speaks(r.dialects)) match
       case Some(recipe) =>

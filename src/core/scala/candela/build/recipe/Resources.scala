@@ -21,7 +21,8 @@ final class Resources private (
     val pool: Parallel,
     val seed: Int,
     shared: SharedResources,
-    val plainBasis: ColorBasis
+    val plainBasis: ColorBasis,
+    named: NamedMaterials.Statements
 ):
   def this(
       basis: ColorBasis,
@@ -30,17 +31,29 @@ final class Resources private (
       mayBeSpectral: Boolean = false,
       switches: Switches = Switches(),
       allowance: Allowance = Allowance()
-  ) = this(basis, pool, seed, SharedResources(basis, mayBeSpectral, switches, allowance), basis)
+  ) = this(
+    basis,
+    pool,
+    seed,
+    SharedResources(basis, mayBeSpectral, switches, allowance),
+    basis,
+    NamedMaterials.Statements()
+  )
 
-  /** The same files and tables, for another basis; names are yet to be defined. */
-  def in(other: ColorBasis): Resources = new Resources(other, pool, seed, shared, plainBasis)
+  /** The same files, tables and named materials, for another basis; textures are yet to be defined.
+    */
+  def in(other: ColorBasis): Resources =
+    new Resources(other, pool, seed, shared, plainBasis, named)
 
   export shared.*
+
+  /** Whether this is the basis that is built first. */
+  def isPlain: Boolean = basis eq plainBasis
 
   /** Where spectra are noted, if they decide how the scene is rendered. */
   def counting: Option[ColorCensus] = Option.when(mayBeSpectral && !basis.isSpectral)(census)
 
-  val materials = NamedMaterials(shared.allowance.most(Limit.Depth, 1024))
+  val materials = NamedMaterials(named, shared.allowance.most(Limit.Depth, 1024))
 
   private val floats = mutable.Map.empty[String, FloatTexture]
   private val colors = mutable.Map.empty[String, RgbTexture]
@@ -48,6 +61,17 @@ final class Resources private (
   // How many textures each evaluates, which would take a millisecond if there were more; all may be
   // within each other: evaluation goes as deep into the stack, for which threads have room
   private val sizes = Compositions(16384, deepest = shared.allowance.most(Limit.Depth, 16384))
+
+  private var define: (() => Unit) | Null = null
+
+  /** Defines the textures once one is asked for: few of many colour bases see any. */
+  def defineLater(textures: () => Unit): Unit = define = textures
+
+  private def defineNow(): Unit =
+    val waiting = define
+    if waiting != null then
+      define = null
+      waiting()
 
   /** Builds a texture and gives it a name. A texture of too many others is an error. */
   def defineFloat(name: String, at: SourcePos, problems: Findings)(make: => FloatTexture): Unit =
@@ -86,6 +110,7 @@ final class Resources private (
       standIn: String,
       problems: Findings
   ): Option[T] =
+    defineNow()
     val name = p.strings.headOption.getOrElse("")
     sizes.refer(kind, name)
     in.get(name).orElse {
@@ -100,18 +125,24 @@ final class Resources private (
 
 /** Materials by the names that `MakeNamedMaterial` gave them, each built on first use.
   *
-  * @param deepest number of materials within each other
+  * @param statements shared by all colour bases
+  * @param deepest    number of materials within each other
   */
-final class NamedMaterials(deepest: Int):
+final class NamedMaterials(statements: NamedMaterials.Statements, deepest: Int):
   import NamedMaterials.*
-  private val recipes = mutable.LinkedHashMap.empty[String, Named]
+  private def recipes = statements.recipes
   private val made = mutable.HashMap.empty[String, Material]
   private val open = mutable.HashSet.empty[String]
   // More lobes would take a millisecond each time; evaluation goes as deep into the stack
   private val sizes = Compositions(most = 1024, deepest)
 
   /** @param parts names of the materials that it refers to */
-  def define(name: String, at: SourcePos, parts: Vector[String], make: () => Material): Unit =
+  def define(
+      name: String,
+      at: SourcePos,
+      parts: Vector[String],
+      make: Resources => Material
+  ): Unit =
     recipes(name) = Named(at, parts, make)
 
   /** Returns the named material. An undefined one is reported as missing; one that refers to itself
@@ -153,7 +184,7 @@ final class NamedMaterials(deepest: Int):
           val _ = waiting.push(part)
         case None =>
           val result =
-            try sizes.composed(Kind, last)(recipe.make())(_ => false, chosen)
+            try sizes.composed(Kind, last)(recipe.make(resources))(_ => false, chosen)
             finally open -= last
           made(last) = result match
             case Right(material) => material
@@ -169,4 +200,12 @@ object NamedMaterials:
     case _ => Left(why)
 
   private val Kind = "material"
-  private final case class Named(at: SourcePos, parts: Vector[String], make: () => Material)
+  private final case class Named(
+      at: SourcePos,
+      parts: Vector[String],
+      make: Resources => Material
+  )
+
+  /** What is written of named materials. */
+  final class Statements:
+    private[NamedMaterials] val recipes = mutable.LinkedHashMap.empty[String, Named]

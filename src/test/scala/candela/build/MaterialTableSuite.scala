@@ -1,0 +1,45 @@
+package candela.build
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.render.Renderer
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+final class MaterialTableSuite extends AnyFunSuite:
+  private val names = Vector("diffuse", "coateddiffuse", "conductor", "coatedconductor")
+
+  /** Spheres whose materials are written in place, named, mixed, and textured. */
+  private val text =
+    def color(i: Int) = s"[${0.1 + 0.08 * (i % 10)} ${0.9 - 0.1 * (i % 7)} ${0.2 + 0.1 * (i % 5)}]"
+    val spheres = (0 until 24).map: i =>
+      val kind = names(i % 4)
+      val own = s"\"$kind\" \"rgb reflectance\" ${color(i)}"
+      val worn = i % 3 match
+        case 0 => s"Material $own"
+        case 1 => s"MakeNamedMaterial \"m$i\" \"string type\" $own\nNamedMaterial \"m$i\""
+        case _ =>
+          val colors = s"\"rgb tex1\" ${color(i)} \"rgb tex2\" ${color(i + 3)}"
+          s"""Texture "t$i" "spectrum" "checkerboard" $colors
+             |Material "diffuse" "texture reflectance" "t$i"""".stripMargin
+      s"AttributeBegin\n$worn\nTranslate ${i % 6 - 2.5} ${i / 6 - 1.5} 0\n" +
+        "Shape \"sphere\" \"float radius\" .4\nAttributeEnd"
+    s"""Film "rgb" "integer xresolution" 24 "integer yresolution" 16
+       |Sampler "independent" "integer pixelsamples" 4
+       |Integrator "path" "integer maxdepth" 3
+       |LookAt 0 0 -6  0 0 0  0 1 0
+       |Camera "perspective" "float fov" 50
+       |WorldBegin
+       |LightSource "infinite" "rgb L" [.9 .7 .3]
+       |${spheres.mkString("\n")}
+       |""".stripMargin
+
+  private def image(mode: ColorMode, threads: Int): Vector[Float] =
+    val plan = SceneTexts.plan(text, Dialect.V4, RenderSettings(color = mode))
+    Renderer.render(plan, threads).image(plan.development).data.toVector
+
+  for mode <- Vector(ColorMode.Rgb, ColorMode.Spectral) do
+    test(s"materials that rays meet in any order make the same image, $mode"):
+      val alone = image(mode, 1)
+      assert(alone.exists(_ > 0f))
+      for threads <- Vector(2, 5) do assert(image(mode, threads) == alone)
