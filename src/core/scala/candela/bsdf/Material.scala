@@ -21,11 +21,12 @@ abstract class Material extends Varying:
   final def isSubsurface: Boolean = flags.has(MaterialFlags.Subsurface)
   final def isInterface: Boolean = flags.has(MaterialFlags.Interface)
 
-  /** This material with its BSDF precomputed if it is constant. */
+  /** This material with its BSDF made once if it is constant, when it is first asked for. */
   def folded: Material =
-    if isConstant && !isSubsurface && !isInterface then
-      ConstantMaterial(bsdf(ShadingPoint()), isAnisotropic, isDirected)
-    else this
+    if isConstant && !isSubsurface && !isInterface then FoldedMaterial(this) else this
+
+  /** This material where rays meet it: what [[folded]] leaves to be made is made. */
+  def met: Material = this
 
   /** This material where it is seen from above, black from behind. */
   def oneSided: Material = if isInterface then this else OneSidedMaterial(this).folded
@@ -51,6 +52,18 @@ final class ConstantMaterial(
   override def isConstant: Boolean = true
   override def folded: Material = this
   override def flags: MaterialFlags = MaterialFlags.of(value)
+
+/** A constant material whose BSDF is made when it is first asked for. */
+private final class FoldedMaterial(inner: Material) extends Material:
+  private lazy val made = ConstantMaterial(inner.bsdf(ShadingPoint()), isAnisotropic, isDirected)
+  def bsdf(at: ShadingPoint): Bsdf = made.bsdf(at)
+  override def isConstant: Boolean = true
+  override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isDirected: Boolean = inner.isDirected
+  override def folded: Material = this
+  override def met: Material = made
+  override def flags: MaterialFlags =
+    inner.flags.only(MaterialFlags.Dispersive | MaterialFlags.Pane)
 
 /** A material made of another one, of which all holds but for what a subclass changes. */
 abstract class WrappedMaterial(inner: Material) extends Material, Textured(inner):

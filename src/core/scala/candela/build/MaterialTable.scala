@@ -1,5 +1,7 @@
 package candela.build
 
+import java.util.IdentityHashMap
+
 import scala.collection.mutable
 
 import candela.bsdf.{DiffuseEquivalent, Material}
@@ -80,11 +82,22 @@ private[build] object MaterialTable:
     val shapeMaterials = ShapeMaterials(context.dialect, named.toMap)
     def split(s: ShapeDescription) = shapeMaterials.split(s.shape, s.material)
 
-    val borders = shapes.map(media.border)
-    def wear(s: ShapeDescription, b: MediumBorder) =
-      (Finish(split(s)._2, s.oneSided), media.seen(b))
-    val worn = shapes.zip(borders).map(wear).distinct
-    val number = worn.zipWithIndex.toMap
+    // Each has its material looked up once: there may be millions
+    val worn = mutable.ArrayBuffer.empty[(Finish, MediumBorder)]
+    val numbers = mutable.HashMap.empty[(Finish, MediumBorder), Int]
+    val ofShape = IdentityHashMap[ShapeDescription, Int](shapes.size)
+    var touchesMedia = false
+    for s <- shapes do
+      val border = media.border(s)
+      touchesMedia |= border.inside >= 0 || border.outside >= 0
+      val wear = (Finish(split(s)._2, s.oneSided), media.seen(border))
+      val number = numbers.getOrElseUpdate(
+        wear, {
+          worn += wear
+          worn.size - 1
+        }
+      )
+      ofShape.put(s, number): Unit
     for (name, d) <- named do
       context.resources.materials.define(
         name,
@@ -93,8 +106,8 @@ private[build] object MaterialTable:
         other => Materials.build(context.in(other).site(d))
       )
     // Indices of a material, one for each pair of media and side
-    val refs = worn.map(_._1.ref)
-    val sharing = refs.groupBy(identity).filter(_._2.size > 1).keySet
+    val refs, sharing = mutable.HashSet.empty[MaterialRef]
+    for (finish, _) <- worn if !refs.add(finish.ref) do sharing += finish.ref
     def maker(context: BuildContext, integrator: IntegratorPlan): Int => Material =
       val made = mutable.HashMap.empty[MaterialRef, Material]
       index =>
@@ -105,11 +118,10 @@ private[build] object MaterialTable:
     new MaterialTable(
       worn.indices.map(maker(context, integrator)).toArray,
       worn.map(_._2).toArray,
-      borders.exists(b => b.inside >= 0 || b.outside >= 0),
-      worn.map((finish, _) => name(finish.ref)),
+      touchesMedia,
+      worn.map((finish, _) => name(finish.ref)).toVector,
       maker,
-      s =>
-        DressedShape(s, split(s)._1, number(wear(s, media.border(s))))
+      s => DressedShape(s, split(s)._1, ofShape.get(s))
     )
 
   /** A material and whether it is black from behind. */

@@ -60,13 +60,12 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
 
   /** Scale factor, if the linear part is a uniform scale and a rotation. */
   def uniformScale: Option[Double] =
-    val columns = (0 until 3).map(c => (0 until 3).map(r => m(4 * r + c)))
-    def dot(a: Seq[Double], b: Seq[Double]) = a.lazyZip(b).map(_ * _).sum
-    val s2 = dot(columns(0), columns(0))
+    inline def dot(a: Int, b: Int) = m(a) * m(b) + m(4 + a) * m(4 + b) + m(8 + a) * m(8 + b)
+    val s2 = dot(0, 0)
     // Tolerance for rotations given in Float
-    val alike = columns.forall(c => Math.abs(dot(c, c) - s2) <= 1e-5 * s2)
-    val square = Seq((0, 1), (0, 2), (1, 2)).forall: (i, j) =>
-      Math.abs(dot(columns(i), columns(j))) <= 1e-5 * s2
+    inline def isNear(x: Double) = Math.abs(x) <= 1e-5 * s2
+    val alike = isNear(dot(0, 0) - s2) && isNear(dot(1, 1) - s2) && isNear(dot(2, 2) - s2)
+    val square = isNear(dot(0, 1)) && isNear(dot(0, 2)) && isNear(dot(1, 2))
     Option.when(alike && square)(Math.sqrt(s2))
 
   /** Determinant of the linear part: the scale of volumes, negative if the map swaps handedness.

@@ -40,7 +40,7 @@ final class SceneMaterials private (
     else
       if kept == most then forget()
       kept += 1
-      val material = theMaker()(index)
+      val material = theMaker()(index).met
       if pages(index / Page) == null then pages(index / Page) = AtomicReferenceArray(Page)
       pages(index / Page).setRelease(index % Page, material)
       material

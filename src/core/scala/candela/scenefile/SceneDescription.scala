@@ -7,7 +7,7 @@ import java.nio.file.Path
 
 /** Object-to-world transform at shutter open and close; usually the same object twice. */
 final case class AnimatedTransform(start: Transform, end: Transform):
-  def isAnimated: Boolean = start != end
+  def isAnimated: Boolean = (start ne end) && start != end
 
 /** The material of a shape. */
 enum MaterialRef:

@@ -131,7 +131,8 @@ final class CoatedDiffuseMaterial(
     bySpectrum: Option[(Float => Float) => Rgb] = None
 ) extends Material,
       Textured(reflectance, roughness):
-  private val coatAt: TrowbridgeReitz => Coat =
+  // Made when a ray needs it: a rough coat takes a hundred thousand samples
+  private lazy val coatAt: TrowbridgeReitz => Coat =
     if roughness.isConstant then
       val coat = coats.of(roughness.trowbridgeReitz(ShadingPoint()), eta, thickness)
       _ => coat

@@ -46,7 +46,7 @@ object CoatedDiffuseRecipe
     val basis = site.resources.basis
     // The spectral reflectance of a constant colour is precomputed
     val bySpectrum = reflectance().constant.map: color =>
-      val base = basis.reflectance(color)
+      lazy val base = basis.reflectance(color)
       (f: Float => Float) => basis.ofReflectance(nm => f(base(nm)))
     val index = Indices.one(eta())
     val medium = layers.medium

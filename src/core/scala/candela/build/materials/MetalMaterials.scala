@@ -87,7 +87,7 @@ private[build] trait MetalFields extends SpectrumFields:
       case Some(texture) =>
         for c <- texture.constant yield
           val basis = site.resources.basis
-          val reflectance =
+          lazy val reflectance =
             if basis.isSpectral then basis.reflectance(c) else Indices.reflectance(basis.toSrgb(c))
           val absorption = kept: nm =>
             val r = clamp(reflectance(nm), 0f, 0.9999f)

@@ -8,8 +8,9 @@ import candela.bsdf.{
 }
 import candela.bsdf.layered.{CoatedDiffuseMaterial, Coats, LayerMedium, LayeredMaterial}
 import candela.bsdf.microfacet.{
-  ConductorMaterial, DielectricMaterial, IndexedMetal, MirrorMaterial, Roughness, RoughnessModel,
-  SubstrateMaterial, TintedMetal, UniformMetal
+  ConductorMaterial, DielectricMaterial, DispersiveMaterial, IndexedMetal, MirrorMaterial,
+  Roughness,
+  RoughnessModel, SubstrateMaterial, ThinDielectricMaterial, TintedMetal, UniformMetal
 }
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
@@ -64,10 +65,15 @@ class MaterialSuite extends AnyFunSuite:
       ConductorMaterial(TintedMetal(gray(0.9f)), rough(0.1f)),
       DielectricMaterial(1.5f, rough(0f)),
       DielectricMaterial.old(gray(1f), gray(1f), number(1.5f)),
+      ThinDielectricMaterial(1.5f, gray(1f), gray(1f)),
+      DispersiveMaterial(ThinDielectricMaterial(1.5f, gray(1f), gray(1f))),
       PlasticMaterial(gray(0.5f), gray(0.2f), rough(0.1f), Edition.Third),
       uber(gray(1f), Edition.Third)
     )
-    for material <- fixed do assert(material.folded.isInstanceOf[ConstantMaterial])
+    for material <- fixed do
+      val folded = material.folded
+      assert(folded.met.isInstanceOf[ConstantMaterial] && (folded.met eq folded.met))
+      assert(folded.flags == folded.met.flags)
     val roughness = Roughness(FromU, number(0.1f), RoughnessModel.PlainAlpha)
     val varying = Seq(
       MatteMaterial(GrayFromV, number(0f)),
