@@ -113,7 +113,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
         case _: InterruptedException =>
           Thread.currentThread.interrupt()
           throw CancellationException("the rendering thread was interrupted")
-    val noisy = rendering.image(plan.development)
+    val noisy = rendering.image(plan.development, prepared.pool)
     val denoising =
       Option.when(settings.of.output.denoise)(Denoising(Oidn.load(), control.threads))
     val done = denoising.fold(noisy)(_(noisy))

@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.base.{GivenUp, loop}
+import candela.base.{GivenUp, Parallel, loop}
 import candela.color.{ColorResponse, ColorSpace}
 import candela.image.Image
 
@@ -30,12 +30,17 @@ final case class Development(
   def apply(
       film: Film,
       weights: Option[Array[Float]] = None,
-      isStopped: () => Boolean = GivenUp.Never
+      isStopped: () => Boolean = GivenUp.Never,
+      pool: Parallel = Parallel.Alone
   ): Image =
-    val image = film.toImage(scale, weights, isStopped = isStopped)
+    val image = film.toImage(scale, weights, isStopped = isStopped, pool = pool)
+    val data = image.data
     if sensor.isDefined || balance.isDefined then
-      loop(image.width * image.height)(pixel => color(image.data, 3 * pixel))
-    if clipsNegative then loop(image.data.length)(i => image.data(i) = Math.max(0f, image.data(i)))
+      pool.ranges(image.width * image.height): (from, until) =>
+        loop(until - from)(pixel => color(data, 3 * (from + pixel)))
+    if clipsNegative then
+      pool.ranges(data.length): (from, until) =>
+        loop(until - from)(i => data(from + i) = Math.max(0f, data(from + i)))
     if space.isSrgb then image
     else Image(image.width, image.height, image.channelNames, image.data, colorSpace = space)
 

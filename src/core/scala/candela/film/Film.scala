@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.base.{CheckedInput, CheckedOutput, GivenUp, loop}
+import candela.base.{CheckedInput, CheckedOutput, GivenUp, Parallel, loop}
 import candela.image.Image
 
 import java.util.Arrays
@@ -87,25 +87,34 @@ final class Film(
     *                moment; without camera samples to the number of light paths, in all pixels
     * @param isWhole whether fireflies remain, too
     * @param isStopped whether to give up
+    * @param pool      divides the rows
     */
   def toImage(
       scale: Float,
       weights: Option[Array[Float]] = None,
       isWhole: Boolean = false,
-      isStopped: () => Boolean = GivenUp.Never
+      isStopped: () => Boolean = GivenUp.Never,
+      pool: Parallel = Parallel.Alone
   ): Image =
     val image = Image.rgb(width, height)
-    val row = new Array[Double](4 * width)
     val cleaned = if isWhole then None else levels.map(withoutFireflies)
-    loop(height): y =>
-      GivenUp.check(isStopped)
-      cleaned.fold(read(y, row))(System.arraycopy(_, 4 * width * y, row, 0, 4 * width))
-      loop(width): x =>
-        val pixel = y * width + x
-        val weight = row(4 * x + 3)
-        for w <- weights do w(pixel) = weight.toFloat
-        if weight != 0 then
-          loop(3)(c => image.data(3 * pixel + c) = (row(4 * x + c) / weight * scale).toFloat)
+    val data = image.data
+    val weightOf = weights.orNull
+    pool.each((height + Film.Rows - 1) / Film.Rows): part =>
+      val row = new Array[Double](4 * width)
+      for y <- part * Film.Rows until Math.min(height, (part + 1) * Film.Rows) do
+        GivenUp.check(isStopped)
+        cleaned.fold(read(y, row))(System.arraycopy(_, 4 * width * y, row, 0, 4 * width))
+        var x = 0
+        while x < width do
+          val pixel = y * width + x
+          val weight = row(4 * x + 3)
+          if weightOf != null then weightOf(pixel) = weight.toFloat
+          if weight != 0 then
+            data(3 * pixel) = (row(4 * x) / weight * scale).toFloat
+            data(3 * pixel + 1) = (row(4 * x + 1) / weight * scale).toFloat
+            data(3 * pixel + 2) = (row(4 * x + 2) / weight * scale).toFloat
+          x += 1
     for s <- splats do
       s.addTo(image.data, scale)
       for w <- weights if w.forall(_ == 0) do Arrays.fill(w, s.pathCount.toFloat)
@@ -132,3 +141,7 @@ final class Film(
       case None =>
         Arrays.fill(row, 0.0)
         sums.addTo(row, 0, 4 * y * width, 4 * width)
+
+object Film:
+  /** Rows that a thread develops at a time. */
+  private val Rows = 16

@@ -39,7 +39,21 @@ final class SampleShares private (
     */
   def read(y: Int, row: Array[Double]): Unit =
     Arrays.fill(row, 0.0)
-    blocks.foreach(b => if y >= b.y0 && y < b.y1 then b.addTo(row, y, x0))
+    val found = Arrays.binarySearch(cuts, y)
+    val strip = if found >= 0 then found else -found - 2
+    if strip >= 0 && strip < strips.length then strips(strip).foreach(_.addTo(row, y, x0))
+
+  /** Rows at which blocks begin or end. Between two of them are the rows of a strip. */
+  private lazy val cuts: Array[Int] =
+    blocks.flatMap(b => Vector(b.y0, b.y1)).distinct.sorted.toArray
+
+  /** The blocks of each strip, in order: a film has a hundred thousand, a row a few hundred. */
+  private lazy val strips: Array[Array[SharedBlock]] =
+    val inStrip = Array.fill(cuts.length - 1)(Array.newBuilder[SharedBlock])
+    for b <- blocks do
+      for s <- Arrays.binarySearch(cuts, b.y0) until Arrays.binarySearch(cuts, b.y1) do
+        inStrip(s) += b
+    inStrip.map(_.result())
 
   def copy(): SampleShares = new SampleShares(x0, y0, x1, y1, blocks.map(_.copy()))
 

@@ -64,6 +64,11 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
         s"metadata `$name`: the name must have 1 to 255 bytes"
       )
     val file =
-      ExrEncoder.encode(image.linear, metadata, options.others.getOrElse(_, options.isHalf))
+      ExrEncoder.encode(
+        image.linear,
+        metadata,
+        options.others.getOrElse(_, options.isHalf),
+        options.pool
+      )
     for window <- options.window do ExrWindow.place(file, window, image.height, ExrEncoder.Rows)
     file

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.{Code, loop}
+import candela.base.{Code, Parallel, loop}
 import candela.color.ColorSpace
 
 import org.lwjgl.PointerBuffer
@@ -19,21 +19,42 @@ private[image] object ExrEncoder:
   /** Scanlines per chunk, with ZIP. */
   val Rows = 16
 
+  /** Of which native memory has a copy at a time, for each thread. */
+  private val PixelsOfStrip = 1 << 20
+
   /** Largest finite half. */
   private val LargestHalf = 65504f
 
-  /** @param isHalf whether to store 16 bits per value of a channel; the encoder rounds */
+  /** @param isHalf whether to store 16 bits per value of a channel; the encoder rounds
+    * @param pool   encodes strips of chunks
+    */
   def encode(
       image: Image,
       metadata: Vector[(String, String)],
-      isHalf: String => Boolean
+      isHalf: String => Boolean,
+      pool: Parallel = Parallel.Alone,
+      pixelsOfStrip: Int = PixelsOfStrip
   ): Array[Byte] =
     Natives.need("tinyexr")
+    val rows = Math.max(1, pixelsOfStrip / image.width / Rows) * Rows
+    val strips = new Array[Array[Byte]]((image.height + rows - 1) / rows)
+    pool.each(strips.length): i =>
+      strips(i) = encode(image, i * rows, Math.min(rows, image.height - i * rows), metadata, isHalf)
+    if strips.length == 1 then strips(0) else ExrWindow.joined(strips, rows, image.height, Rows)
+
+  /** A file of some rows of the image. */
+  private def encode(
+      image: Image,
+      first: Int,
+      height: Int,
+      metadata: Vector[(String, String)],
+      isHalf: String => Boolean
+  ): Array[Byte] =
     // Readers look channels up by binary search: the file must have them sorted by name.
     val order = image.channelNames.indices.sortBy(image.channelNames)
     val halves = order.map(i => isHalf(image.channelNames(i)))
     val planes = order.zip(halves).map: (channel, half) =>
-      plane(image, channel, if half then LargestHalf else Float.MaxValue)
+      plane(image, first, height, channel, if half then LargestHalf else Float.MaxValue)
     // Allocated individually: MemoryStack is too small for many channels.
     val channels = EXRChannelInfo.calloc(order.size)
     val types = MemoryUtil.memCallocInt(order.size)
@@ -65,7 +86,7 @@ private[image] object ExrEncoder:
         .compression_type(TINYEXR_COMPRESSIONTYPE_ZIP)
       if stated.nonEmpty then
         val _ = header.num_custom_attributes(stated.size).custom_attributes(attributes)
-      save(image, header, planes, stack)
+      save(image.width, height, header, planes, stack)
     finally
       planes.foreach(MemoryUtil.memFree(_))
       stated.foreach(a => MemoryUtil.memFree(a(2)))
@@ -83,7 +104,8 @@ private[image] object ExrEncoder:
       ("chromaticities", "chromaticities", value)
 
   private def save(
-      image: Image,
+      width: Int,
+      height: Int,
       header: EXRHeader,
       planes: Seq[FloatBuffer],
       stack: MemoryStack
@@ -93,7 +115,7 @@ private[image] object ExrEncoder:
       planes.zipWithIndex.foreach((p, i) => pointers.put(i, MemoryUtil.memAddress(p)))
       val native = EXRImage.calloc(stack)
       InitEXRImage(native)
-      native.images(pointers).width(image.width).height(image.height).num_channels(planes.size)
+      native.images(pointers).width(width).height(height).num_channels(planes.size)
       val error = stack.callocPointer(1)
       val memory: PointerBuffer = stack.callocPointer(1)
       val size = SaveEXRImageToMemory(native, header, memory, error)
@@ -112,10 +134,16 @@ private[image] object ExrEncoder:
     finally MemoryUtil.memFree(pointers)
 
   /** @param most limit to which larger finite values are clamped */
-  private def plane(image: Image, channel: Int, most: Float): FloatBuffer =
-    val values = MemoryUtil.memAllocFloat(image.width * image.height)
+  private def plane(
+      image: Image,
+      first: Int,
+      height: Int,
+      channel: Int,
+      most: Float
+  ): FloatBuffer =
+    val values = MemoryUtil.memAllocFloat(image.width * height)
     loop(values.capacity): i =>
-      val value = image.data(i * image.channels + channel)
+      val value = image.data((image.width * first + i) * image.channels + channel)
       val isBeyond = java.lang.Float.isFinite(value) && Math.abs(value) > most
       val _ = values.put(i, if isBeyond then Math.copySign(most, value) else value)
     values

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Code, loop}
 
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.{ByteBuffer, ByteOrder}
@@ -32,6 +32,36 @@ private[image] object ExrWindow:
         val _ = bytes.putInt(at + 8, window.width - 1).putInt(at + 12, window.height - 1)
     // Each chunk begins with the row of its first scanline.
     loop((height + rows - 1) / rows)(i => move(bytes.getLong(table + 8 * i).toInt, window.y))
+
+  /** One file of those of its strips, which have `each` scanlines; all are alike but for these.
+    *
+    * @param rows scanlines per chunk
+    */
+  def joined(strips: Array[Array[Byte]], each: Int, height: Int, rows: Int): Array[Byte] =
+    val sources = strips.map(ByteBuffer.wrap(_).order(ByteOrder.LITTLE_ENDIAN))
+    val header = attributes(sources(0))((_, _) => ())
+    val chunks = (height + rows - 1) / rows
+    def table(strip: Int) = 8L * ((Math.min(each, height - strip * each) + rows - 1) / rows)
+    val size = header + 8L * chunks +
+      strips.indices.map(i => strips(i).length - header - table(i)).sum
+    if size > Int.MaxValue - 8 then
+      throw ImageError(Code.TooLarge, "an EXR file of more than 2 GB")
+    val bytes = ByteBuffer.allocate(size.toInt).order(ByteOrder.LITTLE_ENDIAN)
+    bytes.put(strips(0), 0, header)
+    val _ = attributes(bytes): (name, at) =>
+      if name == "dataWindow" || name == "displayWindow" then
+        val _ = bytes.putInt(at + 12, height - 1)
+    var at = header + 8 * chunks
+    loop(chunks): i =>
+      val (strip, inStrip) = (i * rows / each, i * rows % each / rows)
+      val source = sources(strip)
+      val from = source.getLong(header + 8 * inStrip).toInt
+      val length = 8 + source.getInt(from + 4)
+      bytes.putLong(header + 8 * i, at)
+      bytes.put(at, strips(strip), from, length)
+      bytes.putInt(at, source.getInt(from) + strip * each)
+      at += length
+    bytes.array
 
   /** Where the last of the chunks of scanlines ends. */
   def end(file: Array[Byte], chunks: Int): Long =

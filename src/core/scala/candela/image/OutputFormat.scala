@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.FileName
+import candela.base.{FileName, Parallel}
 
 import java.nio.file.Path
 
@@ -23,13 +23,15 @@ enum Contents:
   * @param window  where the image lies in a larger one, of which it is a crop
   * @param alpha   opacity of each pixel, for display formats that keep it; the colours must have
   *                been divided by it
+  * @param pool    encodes parts of the image, if the format has such
   */
 final case class WriteOptions(
     isHalf: Boolean = false,
     others: Map[String, Boolean] = Map.empty,
     display: DisplayTransform = DisplayTransform.Plain,
     window: Option[ImageWindow] = None,
-    alpha: Option[Array[Float]] = None
+    alpha: Option[Array[Float]] = None,
+    pool: Parallel = Parallel.Alone
 )
 
 /** An output file format; all are listed in [[OutputFormat.all]].

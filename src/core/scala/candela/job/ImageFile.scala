@@ -39,7 +39,8 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
       precisions,
       output.display,
       window,
-      alpha
+      alpha,
+      prepared.pool
     )
     val (written, last) = ImageFile.picture(path, image, alpha) match
       case Some(picture) => (picture, output.display.describe(picture))

@@ -1,5 +1,6 @@
 package candela.render
 
+import candela.base.Parallel
 import candela.film.{Development, Film}
 import candela.guiding.GuideOutcome
 import candela.image.Image
@@ -77,8 +78,12 @@ final case class Rendering(
     learned: Option[GuideOutcome] = None,
     earlier: Int = 0
 ):
-  /** Colour channels, then AOVs, then wavelength bands. */
-  def image(development: Development): Image = image(development, development(film))
+  /** Colour channels, then AOVs, then wavelength bands.
+    *
+    * @param pool develops the colours
+    */
+  def image(development: Development, pool: Parallel = Parallel.Alone): Image =
+    image(development, development(film, pool = pool))
 
   /** Likewise, if the colours are developed. */
   def image(development: Development, colors: Image): Image =

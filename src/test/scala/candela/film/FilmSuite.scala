@@ -1,5 +1,7 @@
 package candela.film
 
+import candela.render.ThreadPool
+
 import org.scalatest.funsuite.AnyFunSuite
 
 class FilmSuite extends AnyFunSuite:
@@ -32,6 +34,36 @@ class FilmSuite extends AnyFunSuite:
     film.add(0, 0, 1f, 1f, 1f, 1.5f)
     film.add(0, 0, 2f, 0f, 1f, -0.5f)
     assert(film.toImage(1f).data.toVector == Vector(0.5f, 1.5f, 1f))
+
+  test("threads that share the rows develop the image that one does"):
+    val random = java.util.Random(1)
+    val bounds = PixelBounds(3, 5, 40, 76)
+    val tiles =
+      for y <- 0 until 80 by 16; x <- 0 until 48 by 16 yield PixelBounds(x, y, x + 16, y + 16)
+    val shares =
+      SampleShares(3, 5, 40, 76, FilterReach(TriangleFilter(1.5f, 1.5f)), tiles.toVector)
+    val pass = shares.pass()
+    for (tile, i) <- tiles.zipWithIndex do
+      pass.begin(i)
+      for _ <- 1 to 100 do
+        val (x, y) = (tile.x0 + 16 * random.nextFloat, tile.y0 + 16 * random.nextFloat)
+        if pass.reaches(x, y) then pass.add(x, y, random.nextFloat, -random.nextFloat, 0.3f)
+      pass.end()
+    val shared = Film(bounds.x0, bounds.y0, bounds.x1, bounds.y1, shares = Some(shares))
+    val own = Film(bounds.x0, bounds.y0, bounds.x1, bounds.y1)
+    for _ <- 1 to 5000 do
+      val (x, y) = (3 + random.nextInt(37), 5 + random.nextInt(71))
+      own.add(x, y, random.nextFloat, -random.nextFloat, 0.3f, random.nextFloat)
+    val how =
+      Development(2f, balance = Some(Array(1, 2, 0, 0, 1, 3, 0, 1, 1)), clipsNegative = true)
+    val pool = ThreadPool(3)
+    try
+      for film <- Vector(shared, own) do
+        val (one, three) = (new Array[Float](37 * 71), new Array[Float](37 * 71))
+        val alone = how(film, Some(one)).data
+        val together = how(film, Some(three), pool = pool).data
+        assert(alone.exists(_ > 0f) && together.sameElements(alone) && three.sameElements(one))
+    finally pool.close()
 
   test("a million equal samples keep their value"):
     val film = Film(0, 0, 1, 1)

@@ -2,6 +2,7 @@ package candela.image
 
 import candela.base.Code
 import candela.color.{ColorSpace, Rgb}
+import candela.render.ThreadPool
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatestplus.scalacheck.ScalaCheckPropertyChecks
@@ -31,6 +32,21 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
   do
     test(s"$name.exr, written by another library, is read exactly"):
       assertHolds(Exr.read(resource(name)), rgb)
+
+  test("threads that encode strips write the file of the whole image"):
+    val random = java.util.Random(2)
+    val names = Image.RgbNames :+ "depth"
+    val data = Array.fill(37 * 75 * 4)(if random.nextInt(3) == 0 then 1f else random.nextFloat)
+    val image = Image(37, 75, names, data, colorSpace = ColorSpace.named("rec2020").get)
+    val texts = Vector("scene" -> "a.pbrt")
+    val pool = ThreadPool(3)
+    def file(rows: Int) = ExrEncoder.encode(image, texts, _ != "depth", pool, 37 * rows)
+    try
+      val whole = file(80)
+      for rows <- Vector(1, 16, 33, 48, 64) do
+        assert(java.util.Arrays.equals(file(rows), whole), s"$rows rows")
+      assert(Exr.read(whole)(36, 74, 3) == data.last)
+    finally pool.close()
 
   test("of several parts the one with colour is read"):
     assertHolds(Exr.read(resource("multipart")), rgb)

@@ -36,7 +36,7 @@ private[cli] final class ImageWriter(
 
   /** The image, denoised too if asked. */
   def image(rendering: Rendering): Image =
-    val noisy = rendering.image(plan.development)
+    val noisy = rendering.image(plan.development, prepared.pool)
     denoising.fold(noisy)(_(noisy))
 
   /** An image without samples must not replace another one. */

@@ -88,6 +88,7 @@ private[cli] final class SceneRun(
       wanted: Vector[Path],
       written: Vector[Path],
       denoised: Option[Denoised],
+      developSeconds: Double,
       writeSeconds: Double
   ):
     def isComplete: Boolean = written.size == wanted.size
@@ -96,11 +97,12 @@ private[cli] final class SceneRun(
     val started = System.nanoTime
     val image = writer.image(rendering)
     val finished = System.nanoTime
-    val denoised =
-      Option.when(denoises)(Denoised(image, rendering.seconds, (finished - started) * 1e-9))
+    val developSeconds = (finished - started) * 1e-9
+    val denoised = Option.when(denoises)(Denoised(image, rendering.seconds, developSeconds))
     val wanted = writer.writable(rendering)
     val written = writer.write(wanted, rendering, image)
-    Result(rendering, image, wanted, written, denoised, (System.nanoTime - finished) * 1e-9)
+    val writeSeconds = (System.nanoTime - finished) * 1e-9
+    Result(rendering, image, wanted, written, denoised, developSeconds, writeSeconds)
 
   /** Tells of the result, and writes the reports.
     *
@@ -112,7 +114,9 @@ private[cli] final class SceneRun(
     if wanted.size < writer.paths.size && told then
       terminal.err.println(Summary.kept(writer.paths.diff(wanted), rendering, isLate))
     val files = written ++ films
-    Summary.print(options, terminal, files, prepared, rendering, writeSeconds, isLate)
+    val develops = if denoised.isEmpty then "develop" else "develop and denoise"
+    val after = Vector(develops -> developSeconds, "write" -> writeSeconds)
+    Summary.print(options, terminal, files, prepared, rendering, after, isLate)
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
     val threads = options.threadCount

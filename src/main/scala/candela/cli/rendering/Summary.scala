@@ -75,6 +75,7 @@ object Summary:
   /** The last lines of a rendering.
     *
     * @param written its files
+    * @param after   the phases after rendering, with their seconds
     * @param isLate  whether its time was over
     */
   def print(
@@ -83,25 +84,29 @@ object Summary:
       written: Vector[Path],
       prepared: Prepared,
       rendering: Rendering,
-      writeSeconds: Double = 0,
+      after: Vector[(String, Double)] = Vector.empty,
       isLate: Boolean = false
   ): Unit =
     for r <- rendering.refused do
       terminal.err.println(refused(r, isTraceable = !options.settings.preview))
     if !options.quiet && written.nonEmpty then
       if options.verbose then
-        terminal.err.println(phases(prepared, rendering, writeSeconds))
+        terminal.err.println(phases(prepared, rendering, after))
         rendering.learned.foreach(o => terminal.err.println(Learning.summary(o)))
       terminal.out.println(result(written, rendering, prepared.standIns, isLate))
       terminal.out.flush()
 
-  private def phases(prepared: Prepared, rendering: Rendering, writeSeconds: Double): String =
-    Vector(
+  private def phases(
+      prepared: Prepared,
+      rendering: Rendering,
+      after: Vector[(String, Double)]
+  ): String =
+    val all = Vector(
       "parse" -> prepared.readSeconds,
       "build" -> prepared.buildSeconds,
-      "render" -> rendering.seconds,
-      "write" -> writeSeconds
-    ).map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
+      "render" -> rendering.seconds
+    ) ++ after
+    all.map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
 
   /** @param isTraceable whether `render` can trace the same sample: not of a smaller image */
   def refused(r: Refused, isTraceable: Boolean): String =
