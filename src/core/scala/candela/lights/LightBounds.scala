@@ -1,5 +1,6 @@
 package candela.lights
 
+import candela.base.{Parallel, loop}
 import candela.geometry.Bounds3
 import candela.math.*
 
@@ -59,29 +60,31 @@ object LightBounds:
         (turned.normalized, Math.cos(half).toFloat)
 
 /** [[LightBounds]] in a flat array, for light sampling. Immutable. */
-final class LightNodes(bounds: Array[LightBounds | Null]):
+final class LightNodes(bounds: Array[LightBounds | Null], pool: Parallel = Parallel.Alone):
   import LightNodes.*
 
   private val data = new Array[Float](Stride * bounds.length)
-  for (b, i) <- bounds.zipWithIndex if b != null do
+  pool.ranges(bounds.length): (from, until) =>
+    loop(until - from): i =>
+      val b = bounds(from + i)
+      if b != null then put(Stride * (from + i), b)
+
+  private def put(at: Int, b: LightBounds): Unit =
     val center = b.box.center
     val radius2 = square(b.box.radius)
-    val row = Array(
-      center.x,
-      center.y,
-      center.z,
-      b.axis.x,
-      b.axis.y,
-      b.axis.z,
-      safeSqrt(1f - square(b.cosNormals)),
-      b.cosNormals,
-      radius2,
-      Math.max(radius2, square(b.box.extent.length * 0.5f)),
-      b.power,
-      b.cosEmission,
-      if b.twoSided then 1f else 0f
-    )
-    System.arraycopy(row, 0, data, Stride * i, row.length)
+    data(at) = center.x
+    data(at + 1) = center.y
+    data(at + 2) = center.z
+    data(at + 3) = b.axis.x
+    data(at + 4) = b.axis.y
+    data(at + 5) = b.axis.z
+    data(at + 6) = safeSqrt(1f - square(b.cosNormals))
+    data(at + 7) = b.cosNormals
+    data(at + 8) = radius2
+    data(at + 9) = Math.max(radius2, square(b.box.extent.length * 0.5f))
+    data(at + 10) = b.power
+    data(at + 11) = b.cosEmission
+    data(at + 12) = if b.twoSided then 1f else 0f
 
   /** Estimate of the contribution of the lights with this index to `p` with normal `n` (zero
     * vector: a point that receives light from all directions). Zero only if they can't contribute.

@@ -5,8 +5,6 @@ import candela.geometry.{Ball, Bounds3}
 import candela.math.*
 import candela.sampling.Discrete
 
-import scala.collection.mutable
-
 /** Light sampling distribution over the lights of a scene. Immutable.
   *
   * Normals are those of the side on which light is received, which lights behind the surface are
@@ -60,93 +58,20 @@ final class SingleLight extends LightSelection:
   */
 final class LightTree(lights: Array[Light], pool: Parallel = Parallel.Alone)
     extends LightSelection:
-  private val known = lights.map(_.bounds)
   private val infinite: Array[Int] =
-    lights.indices.filter(i => known(i).isEmpty && lights(i).isSampled).toArray
-  private val finite: Array[Int] =
-    lights.indices.filter(i => known(i).exists(_.power > 0f)).toArray
-  private val own: Array[LightBounds] = finite.flatMap(known(_))
+    lights.indices.filter(i => lights(i).bounds.isEmpty && lights(i).isSampled).toArray
 
-  /** Bounds by node; children(i) is the second child (the first is i + 1), or ~light for a leaf.
-    */
-  private val bounds = new Array[LightBounds](Math.max(1, 2 * finite.length))
-  private val children = new Array[Int](bounds.length)
+  // What is needed for building alone takes more memory than the tree
+  private val (nodes, children, trail) =
+    val made = LightTreeBuilder(lights, pool)
+    (LightNodes(made.bounds, pool), made.children, made.trail)
 
-  /** Path from the root to each light as bits, low bit first, 1 = second child; −1 if the light is
-    * not in the tree.
-    */
-  private val trail = Array.fill(lights.length)(-1L)
-
-  if finite.nonEmpty then
-    // Of these sizes parts are built at the same time
-    val size = if pool.threads == 1 then finite.length else LightTree.partSize(finite.length, pool)
-    val parts = mutable.ArrayBuffer.empty[() => Unit]
-    divide(LightOrder(own), 0, finite.length, 0, 0L, 0, size, parts)
-    pool.each(parts.size)(i => parts(i)())
-    unite(0, finite.length, 0, size): Unit
-
-  private val nodes = LightNodes(bounds)
+  private val hasFinite = children.nonEmpty
 
   def describe: String = s"${lights.length} lights, sampled by importance (light BVH)"
 
   private val infiniteShare: Float =
-    1f / Math.max(1, infinite.length + (if finite.isEmpty then 0 else 1))
-
-  /** The second child of a node whose first has so many lights: a tree of n has 2n − 1 nodes. */
-  private def secondChild(node: Int, ofFirst: Int): Int = node + 2 * ofFirst
-
-  /** Splits nodes of more than `size` lights; the others are parts to build. */
-  private def divide(
-      order: LightOrder,
-      from: Int,
-      until: Int,
-      node: Int,
-      bits: Long,
-      depth: Int,
-      size: Int,
-      parts: mutable.ArrayBuffer[() => Unit]
-  ): Unit =
-    if until - from <= size then
-      parts += (() => build(order, from, until, node, bits, depth): Unit)
-    else
-      val middle = order.split(from, until)
-      val second = secondChild(node, middle - from)
-      children(node) = second
-      divide(order, from, middle, node + 1, bits, depth + 1, size, parts)
-      divide(order, middle, until, second, bits | (1L << depth), depth + 1, size, parts)
-
-  /** The bounds of the nodes that were divided. */
-  private def unite(from: Int, until: Int, node: Int, size: Int): LightBounds =
-    if until - from > size then
-      val middle = from + (until - from) / 2
-      val first = unite(from, middle, node + 1, size)
-      bounds(node) =
-        first.union(unite(middle, until, secondChild(node, middle - from), size))
-    bounds(node)
-
-  /** Median splits: the depth stays at log2 of the count. */
-  private def build(
-      order: LightOrder,
-      from: Int,
-      until: Int,
-      node: Int,
-      bits: Long,
-      depth: Int
-  ): LightBounds =
-    val all =
-      if until - from == 1 then
-        val light = finite(order(from))
-        children(node) = ~light
-        trail(light) = bits
-        own(order(from))
-      else
-        val middle = order.split(from, until)
-        val second = secondChild(node, middle - from)
-        children(node) = second
-        val a = build(order, from, middle, node + 1, bits, depth + 1)
-        a.union(build(order, middle, until, second, bits | (1L << depth), depth + 1))
-    bounds(node) = all
-    all
+    1f / Math.max(1, infinite.length + (if hasFinite then 1 else 0))
 
   def choose(p: Vec3, n: Vec3, u: Float): Int =
     val out = LightChoice()
@@ -156,9 +81,9 @@ final class LightTree(lights: Array[Light], pool: Parallel = Parallel.Alone)
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
     out.probability = infiniteShare
     val inInfinite = infinite.length * infiniteShare
-    if infinite.length > 0 && (u < inInfinite || finite.isEmpty) then
+    if infinite.length > 0 && (u < inInfinite || !hasFinite) then
       out.light = infinite(Math.min((u / infiniteShare).toInt, infinite.length - 1))
-    else if finite.isEmpty then out.light = -1
+    else if !hasFinite then out.light = -1
     else descend(p, n, belowOne((u - inInfinite) / (1f - inInfinite)), out)
 
   private def descend(p: Vec3, n: Vec3, u0: Float, out: LightChoice): Unit =
@@ -206,11 +131,6 @@ final class LightTree(lights: Array[Light], pool: Parallel = Parallel.Alone)
           node = second
         bits >>>= 1
       probability
-
-private object LightTree:
-  /** Some for each thread, as they take different times; of thousands of lights. */
-  private def partSize(lights: Int, pool: Parallel): Int =
-    Math.max(4096, lights / (8 * pool.threads))
 
 object LightSelection:
   /** The simplest exact specialisation for these lights. */

@@ -1,5 +1,6 @@
 package candela.shapes
 
+import candela.base.loop
 import candela.geometry.{Bounds3, Ray, ShadingPoint}
 import candela.math.*
 
@@ -76,7 +77,8 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, rea
   /** World bounds of the cylinder |x|, |y| ≤ radius, zMin ≤ z ≤ zMax. */
   protected final def worldBounds(radius: Float, zMin: Float, zMax: Float): Bounds3 =
     val box = Bounds3(Vec3(-radius, -radius, zMin), Vec3(radius, radius, zMax))
-    val world = Bounds3.of((0 until 8).map(i => objectToWorld.point(box.corner(i))))
+    var world = Bounds3.Empty
+    loop(8)(i => world = world.union(objectToWorld.point(box.corner(i))))
     def reach(axis: Int) = Math.max(Math.abs(world.min(axis)), Math.abs(world.max(axis)))
     val pad = TriangleSoup.roundingError(Vec3(reach(0), reach(1), reach(2)))
     Bounds3(world.min - pad, world.max + pad)
