@@ -112,7 +112,9 @@ final class Scene(
     else surfaces.parts + hit.primitive - firstInstance
 
   /** Whether light passes this surface unscattered. */
-  def isInterface(at: ShadingPoint): Boolean = materials.isInterface(at.material)
+  def isInterface(at: ShadingPoint): Boolean = interfaces(at.material)
+
+  private val interfaces = materials.interfaces
 
   private val hasVeils = !surfaces.veils.isEmpty || instanced.hasVeils
 
@@ -130,8 +132,9 @@ final class Scene(
   val hasInterfaces: Boolean = materials.hasInterfaces
 
   /** Whether light that passes this surface keeps its direction, though some may be reflected. */
-  def isPane(at: ShadingPoint): Boolean = materials.isPane(at.material)
+  def isPane(at: ShadingPoint): Boolean = panes(at.material)
 
+  private val panes = materials.panes
   val hasPanes: Boolean = materials.hasPanes
 
   /** The part of light on its way in direction `w` that keeps it at the pane `at`. */

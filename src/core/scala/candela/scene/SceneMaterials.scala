@@ -1,7 +1,8 @@
 package candela.scene
 
-import java.util.concurrent.atomic.AtomicReferenceArray
+import java.lang.invoke.VarHandle
 
+import candela.base.loop
 import candela.bsdf.Material
 
 /** The materials of a scene, by index. Safe for threads.
@@ -23,27 +24,40 @@ final class SceneMaterials private (
 ):
   import SceneMaterials.*
 
-  // Pages are made when a material of theirs is
-  private val pages = new Array[AtomicReferenceArray[Material]]((kinds.count + Page - 1) / Page)
+  // Pages are made when a material of theirs is. What is there is read without a lock: it is
+  // stored behind a fence, and loads that depend on one another keep their order
+  private val pages = new Array[Array[Material | Null] | Null](kinds.count / Page + 1)
   private var make: (Int => Material) | Null = null
   private var kept = 0
 
   def apply(index: Int): Material =
-    val page = pages(index / Page)
-    val made = if page == null then null else page.getAcquire(index % Page)
+    val made = there(index)
     if made != null then made else fresh(index)
 
+  private def there(index: Int): Material | Null =
+    val page = pages(index >>> PageBits)
+    if page == null then null else page(index & (Page - 1))
+
   private def fresh(index: Int): Material = synchronized:
-    val page = pages(index / Page)
-    val made = if page == null then null else page.get(index % Page)
+    val made = there(index)
     if made != null then made
     else
       if kept == most then forget()
       kept += 1
       val material = theMaker()(index).met
-      if pages(index / Page) == null then pages(index / Page) = AtomicReferenceArray(Page)
-      pages(index / Page).setRelease(index % Page, material)
+      val page = pageOf(index)
+      VarHandle.releaseFence()
+      page(index & (Page - 1)) = material
       material
+
+  private def pageOf(index: Int): Array[Material | Null] =
+    val old = pages(index >>> PageBits)
+    if old != null then old
+    else
+      val page = new Array[Material | Null](Page)
+      VarHandle.releaseFence()
+      pages(index >>> PageBits) = page
+      page
 
   private def theMaker(): Int => Material =
     val now = make
@@ -54,13 +68,14 @@ final class SceneMaterials private (
       other
 
   private def forget(): Unit =
-    java.util.Arrays.fill(pages.asInstanceOf[Array[AnyRef | Null]], null)
+    loop(pages.length)(i => pages(i) = null)
     make = null
     kept = 0
 
-  def isInterface(index: Int): Boolean = kinds.interfaces(index)
+  /** Which are interfaces, and which are panes. */
+  private[scene] def interfaces: Array[Boolean] = kinds.interfaces
+  private[scene] def panes: Array[Boolean] = kinds.panes
   def hasInterfaces: Boolean = kinds.hasInterfaces
-  def isPane(index: Int): Boolean = kinds.panes(index)
   def hasPanes: Boolean = kinds.hasPanes
   def isSubsurface(index: Int): Boolean = kinds.all(index).isSubsurface
   def hasSubsurface: Boolean = kinds.hasSubsurface
@@ -73,6 +88,7 @@ final class SceneMaterials private (
     new SceneMaterials(kinds, isDispersive, most, maker)
 
 object SceneMaterials:
+  private inline val PageBits = 6
   private inline val Page = 64
 
   def apply(all: Array[Material]): SceneMaterials =
@@ -82,7 +98,7 @@ object SceneMaterials:
   private final class Kinds(val all: Array[Material]):
     def count: Int = all.length
     val interfaces: Array[Boolean] = all.map(_.isInterface)
-    val hasInterfaces: Boolean = interfaces.contains(true)
     val panes: Array[Boolean] = all.map(_.isPane)
+    val hasInterfaces: Boolean = interfaces.contains(true)
     val hasPanes: Boolean = panes.contains(true)
     val hasSubsurface: Boolean = all.exists(_.isSubsurface)

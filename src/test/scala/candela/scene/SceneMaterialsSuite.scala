@@ -19,8 +19,8 @@ final class SceneMaterialsSuite extends AnyFunSuite:
       i =>
         made.incrementAndGet()
         grey(i)
-    assert(makers.get == 0 && materials.isInterface(7) && !materials.isInterface(8))
-    assert(materials.hasInterfaces && !materials.hasPanes && made.get == 0)
+    assert(materials.interfaces.indices.filter(materials.interfaces(_)) == Vector(7))
+    assert(!materials.panes.contains(true) && makers.get == 0 && made.get == 0)
     val first = materials(3)
     for _ <- 1 to 3 do assert(materials(3) eq first)
     assert(materials(199) ne first)
