@@ -17,6 +17,7 @@ import candela.scene.Scene
   * alike.
   */
 private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
+  import PathMedia.Unknown
   private val work = MediumWork()
   private val weights = work.weights
   private val visibility = MediumVisibility(scene, media, work)
@@ -48,19 +49,39 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
     medium = start
 
   /** Index of the medium at the origin of a light's ray: as declared around a light without a
-    * surface, as in pbrt; otherwise as the borders tell.
+    * surface, as in pbrt; otherwise as the borders tell, first of all the light's own surface.
     */
   def around(light: Int, ray: Ray): Int =
     val declared = media.lights(light)
-    if declared >= 0 then declared else around(ray)
+    if declared >= 0 then declared
+    else
+      val before = if scene.lights(light).asSurface == null then Unknown else beyondOwn(ray)
+      if before == Unknown then around(ray) else before
+
+  /** What the surface that the ray has left says of the medium before it. */
+  private def beyondOwn(ray: Ray): Int =
+    ahead.time = ray.time
+    ahead.set(ray.origin, -ray.direction, Float.PositiveInfinity)
+    rays += 1
+    if !scene.closest(ahead, hit) then Unknown
+    else
+      scene.surface(ahead, hit, border)
+      media.beyond(border, ray.direction, Unknown)
 
   /** Index of the medium at the ray's origin: that on the near side of the first border of media in
     * its direction, or else that beyond all borders.
     */
-  private def around(ray: Ray): Int =
+  private def around(ray: Ray): Int = firstBorder(ray, beyondAll)
+
+  /** Is the camera in another medium than the first border says that its ray meets? Then light
+    * paths, which come through borders, find another image than those that begin in the camera.
+    */
+  def contradicts(ray: Ray): Boolean = firstBorder(ray, media.camera) != media.camera
+
+  private def firstBorder(ray: Ray, otherwise: Int): Int =
     ahead.time = ray.time
     ahead.set(ray.origin, ray.direction, Float.PositiveInfinity)
-    var found = beyondAll
+    var found = otherwise
     var goesOn = true
     while goesOn do
       rays += 1
@@ -69,7 +90,7 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
         scene.surface(ahead, hit, border)
         val direction = ahead.direction
         // Only a border tells its sides apart
-        if media.beyond(border, direction, -2) != -2 then
+        if media.beyond(border, direction, Unknown) != Unknown then
           found = media.beyond(border, -direction, -1)
           goesOn = false
         else ahead.set(border.offsetOrigin(direction), direction, Float.PositiveInfinity)
@@ -131,6 +152,9 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
     if density > 0f then s.throughput * (1f / density) else Rgb.Black
 
 private[candela] object PathMedia:
+  /** No index of a medium. */
+  private inline val Unknown = -2
+
   /** Index of the medium beyond all borders, found from the camera; −1: none. */
   def beyondAll(scene: Scene, media: SceneMedia): Int =
     val (ahead, hit, border) = (Ray(), Hit(), ShadingPoint())
