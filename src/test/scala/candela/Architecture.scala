@@ -51,8 +51,8 @@ object Architecture:
   val runtime: Vector[String] = floors(
     "base math color geometry sampling image textures shapes bsdf bsdf.microfacet bsdf.layered " +
       "bsdf.measured bsdf.subsurface bsdf.composite lights media cameras film accel " +
-      "accel.building accel.tracing scene layers guiding integrators bidirectional render " +
-      "render.storage"
+      "accel.building accel.tracing scene layers guiding manifold integrators bidirectional " +
+      "render render.storage"
   )
   val file: Vector[String] = floors("base math scenefile")
 

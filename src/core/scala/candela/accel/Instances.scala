@@ -70,6 +70,37 @@ final class Instances private (
     if i < still then Placement.locate(matrices, i * Motion.Doubles, at)
     else Placement.locate(ray.nested.space, 0, at)
 
+  /** The object's point `p`, in world space at the ray's time. */
+  def place(i: Int, ray: Ray, p: Vec3): Vec3 = Placement.place(rows(i, ray), start(i), p)
+
+  /** The point `p` of world space, in the object's at the ray's time. */
+  def toObject(i: Int, ray: Ray, p: Vec3): Vec3 =
+    Placement.place(rows(i, ray), start(i) + Placement.Inverse, p)
+
+  /** Area in the object's space per area in world space, at the ray's time, of a surface that has
+    * the unit normal `n` in world space.
+    */
+  def shrinkage(i: Int, ray: Ray, n: Vec3): Float = Placement.shrinkage(rows(i, ray), start(i), n)
+
+  /** Mean scale of lengths, of the moving ones when the shutter opens. */
+  def stretch(i: Int): Double =
+    val m =
+      if i < still then matrices.slice(start(i), start(i) + Motion.Doubles)
+      else
+        val work = new Array[Double](Motion.Work)
+        motions(i - still).write(open, work, 0)
+        work
+    Math.cbrt(Math.abs(Placement.determinant(m, 0)))
+
+  private def start(i: Int): Int = if i < still then i * Motion.Doubles else 0
+
+  private def rows(i: Int, ray: Ray): Array[Double] =
+    if i < still then matrices
+    else
+      val space = ray.nested.space
+      motions(i - still).write(ray.time, space, 0)
+      space
+
 object Instances:
   val Empty: Instances = of(Array.empty, Vector.empty)
 

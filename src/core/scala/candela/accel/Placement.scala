@@ -7,7 +7,24 @@ import candela.math.*
   * object to world, three of its inverse. Affine maps only.
   */
 object Placement:
-  private inline val Inverse = 12
+  private[accel] inline val Inverse = 12
+
+  /** A point by the map at `at`. */
+  private[accel] def place(m: Array[Double], at: Int, p: Vec3): Vec3 = point(m, at, p)
+
+  /** Area before the map per area after it, of a surface that has the unit normal `n` after it:
+    * |Mᵀ n| / |det M|.
+    */
+  private[accel] def shrinkage(m: Array[Double], at: Int, n: Vec3): Float =
+    def along(column: Int): Double =
+      m(at + column) * n.x + m(at + 4 + column) * n.y + m(at + 8 + column) * n.z
+    val (x, y, z) = (along(0), along(1), along(2))
+    (Math.sqrt(x * x + y * y + z * z) / Math.abs(determinant(m, at))).toFloat
+
+  private[accel] def determinant(m: Array[Double], at: Int): Double =
+    m(at) * (m(at + 5) * m(at + 10) - m(at + 6) * m(at + 9)) -
+      m(at + 1) * (m(at + 4) * m(at + 10) - m(at + 6) * m(at + 8)) +
+      m(at + 2) * (m(at + 4) * m(at + 9) - m(at + 5) * m(at + 8))
 
   /** Transforms the ray to object space; the result is `ray.nested`, with the same distances. */
   def enter(m: Array[Double], at: Int, ray: Ray): Ray =

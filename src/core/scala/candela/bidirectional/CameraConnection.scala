@@ -14,12 +14,16 @@ import candela.scene.Scene
   * @param imageCamera if it can't project points to the film, nothing is connected
   * @param splats receives what arrives
   * @param media  through which light goes to the camera, if any
+  * @param perSample light paths per camera sample
+  * @param observer  told of all that arrives, if anybody
   */
 private[bidirectional] final class CameraConnection(
     scene: Scene,
     imageCamera: Camera,
     splats: Splats,
-    media: PathMedia | Null = null
+    media: PathMedia | Null = null,
+    perSample: Float = 1f,
+    observer: SplatObserver | Null = null
 ):
   private val camera: Camera | Null = if imageCamera.isTraceable then imageCamera else null
   private val place = FilmPlace()
@@ -41,7 +45,7 @@ private[bidirectional] final class CameraConnection(
     * @param isWeighted against the other strategies of [[BidirectionalPathTracer]]; else light
     *                   tracing is the only one
     */
-  def connect(paths: LightPaths, isWeighted: Boolean, sampler: Sampler): Unit =
+  def connect(paths: LightVertices, isWeighted: Boolean, sampler: Sampler): Unit =
     splats.begin()
     val sensor = camera
     if sensor != null && paths.count > 0 then
@@ -55,7 +59,7 @@ private[bidirectional] final class CameraConnection(
           val toCamera = place.direction
           val f = if lit.isReachable(toCamera) then lit.sent(toCamera) else Rgb.Black
           if !f.isBlack then
-            val arriving = place.density * lit.cosine(toCamera)
+            val arriving = place.density * lit.cosine(toCamera) / perSample
             val others =
               if !isWeighted then 0.0
               else lit.weights.sum(arriving.toDouble, lit.reversePdf(toCamera).toDouble)
@@ -63,10 +67,14 @@ private[bidirectional] final class CameraConnection(
             val found = lit.throughput * f * weight
             val within = media
             if !found.isBlack then
-              if within != null then
-                splats.add(place.x, place.y, found * within.toCamera(lit, toCamera, place.eye))
-              else if isClear(lit.at, toCamera, place.eye) then
-                splats.add(place.x, place.y, found)
+              val light =
+                if within != null then found * within.toCamera(lit, toCamera, place.eye)
+                else if isClear(lit.at, toCamera, place.eye) then found
+                else Rgb.Black
+              if !light.isBlack then
+                splats.add(place.x, place.y, light)
+                val told = observer
+                if told != null then told.see(place.x, place.y, light, others)
         i += 1
 
   private def isClear(from: ShadingPoint, towards: Vec3, end: Vec3): Boolean =
@@ -74,3 +82,10 @@ private[bidirectional] final class CameraConnection(
     shadowRay.set(origin, end - origin, LightConnection.ShadowEnd)
     raysTraced += 1
     !scene.isOccluded(shadowRay, shadowHit)
+
+/** Is told of light that light paths bring to the camera. */
+private[bidirectional] trait SplatObserver:
+  /** @param light  weighted
+    * @param others as in the weight 1 / (1 + others)
+    */
+  def see(x: Float, y: Float, light: Rgb, others: Double): Unit

@@ -28,7 +28,7 @@ private[bidirectional] final class LightPaths(
     startsAlone: Boolean = false,
     media: PathMedia | Null = null,
     countsPassed: Boolean = false
-):
+) extends LightVertices(scene):
   private val powers = scene.lights.map: light =>
     if weighsAll && light.isContrary then 0f else Discrete.weight(light.power(scene.ball))
   private val choice: Discrete | Null = if powers.exists(_ > 0f) then Discrete(powers) else null
@@ -37,16 +37,8 @@ private[bidirectional] final class LightPaths(
   private val hit = Hit()
   private val path = Subpath(carriesLight = true, compresses, rouletteAfter)
   private val lastP = MutableVec3()
-  private var kept = Array.fill(LightPaths.InitialSize)(PathVertex(scene))
-  private var used = 0
 
   var raysTraced: Long = 0L
-
-  /** Number of recorded vertices. */
-  def count: Int = used
-
-  /** Vertex `i`. Its throughput is power, not yet divided by solid angle. */
-  def apply(i: Int): PathVertex = kept(i)
 
   /** Probability of starting a path at the light. */
   def chance(light: Int): Float =
@@ -58,7 +50,7 @@ private[bidirectional] final class LightPaths(
     * @param hero colour that drives sampling in media
     */
   def trace(time: Float, sampler: Sampler, hero: Int = 0): Unit =
-    used = 0
+    clear()
     val picks = choice
     if picks != null && maxEdges > 0 then
       val light = picks.sample(sampler.next1D())
@@ -118,7 +110,7 @@ private[bidirectional] final class LightPaths(
               vertex.isSpecularSoFar = path.isSpecularSoFar
               vertex.isAlone = path.isAlone
               vertex.weights.set(path.weights)
-              used += 1
+              keep()
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
             lastP.set(vertex.at.p)
             if within != null then within.medium = within.towards(vertex, ray.direction)
@@ -137,10 +129,26 @@ private[bidirectional] final class LightPaths(
       if source.isDelta then 0.0
       else PartialWeights.mis((if start.isInfinite then 1f else start.cosine) / emitted)
 
-  private def next(): PathVertex =
+/** The vertices of a light path that can be connected to a camera subpath. */
+private[bidirectional] abstract class LightVertices(scene: Scene):
+  private var kept = Array.fill(LightVertices.InitialSize)(PathVertex(scene))
+  private var used = 0
+
+  /** Number of recorded vertices. */
+  final def count: Int = used
+
+  /** Vertex `i`. Its throughput is power, not yet divided by solid angle. */
+  final def apply(i: Int): PathVertex = kept(i)
+
+  protected final def clear(): Unit = used = 0
+
+  /** The vertex to be recorded next, by [[keep]]. */
+  protected final def next(): PathVertex =
     if used == kept.length then kept = kept ++ Array.fill(kept.length)(PathVertex(scene))
     kept(used)
 
-private object LightPaths:
+  protected final def keep(): Unit = used += 1
+
+private object LightVertices:
   /** Initial vertex capacity; grows on demand. */
   private val InitialSize = 8

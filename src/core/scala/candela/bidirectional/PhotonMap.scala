@@ -7,14 +7,14 @@ import candela.math.*
 import candela.sampling.SampleHash
 
 /** Photons in order of storage: position, incident direction (a unit vector away from the surface),
-  * and power.
+  * power, and the number of edges of its path; below 0: it carries its hero wavelength only.
   */
 private[bidirectional] final class Photons:
   import PhotonMap.Numbers
   var data: Array[Float] = new Array[Float](64 * Numbers)
   var count: Int = 0
 
-  def add(p: Vec3, from: Vec3, light: Rgb): Unit =
+  def add(p: Vec3, from: Vec3, light: Rgb, edges: Int = 1): Unit =
     val at = count * Numbers
     if at == data.length then data = java.util.Arrays.copyOf(data, 2 * data.length)
     data(at) = p.x
@@ -26,6 +26,7 @@ private[bidirectional] final class Photons:
     data(at + 6) = light.r
     data(at + 7) = light.g
     data(at + 8) = light.b
+    data(at + 9) = edges.toFloat
     count += 1
 
 /** The photon map of one pass. Immutable.
@@ -75,9 +76,18 @@ private[bidirectional] final class PhotonMap(
     SampleHash.mix64(x * 0x9e3779b97f4a7c15L + y * 0xc2b2ae3d27d4eb4fL + z).toInt & mask
 
   /** Density estimation: reflected radiance of the photons around `vertex`, towards the camera
-    * subpath. Skips photons from directions whose BSDF pdf exceeds `limit`.
+    * subpath.
+    *
+    * @param limit   skips photons from directions whose BSDF pdf exceeds it
+    * @param most    skips photons whose paths have more edges
+    * @param isAlone does the path that gathers carry its hero wavelength only?
     */
-  def gather(vertex: SurfaceVertex, limit: Float): Rgb =
+  def gather(
+      vertex: SurfaceVertex,
+      limit: Float,
+      most: Int = Int.MaxValue,
+      isAlone: Boolean = false
+  ): Rgb =
     val p = vertex.at.p
     // Lowest of the eight cells: the one below the nearest cell boundary along each axis
     val x0 = cell(p.x - radius)
@@ -86,11 +96,21 @@ private[bidirectional] final class PhotonMap(
     var sum = Rgb.Black
     var k = 0
     while k < 8 do
-      sum += gather(vertex, limit, x0 + (k & 1), y0 + (k >> 1 & 1), z0 + (k >> 2))
+      val (x, y, z) = (x0 + (k & 1), y0 + (k >> 1 & 1), z0 + (k >> 2))
+      sum += gatherCell(vertex, limit, most.toFloat, isAlone, x, y, z)
       k += 1
     sum * (1f / (Pi * radius2 * paths))
 
-  private def gather(vertex: SurfaceVertex, limit: Float, x: Int, y: Int, z: Int): Rgb =
+  private def gatherCell(
+      vertex: SurfaceVertex,
+      limit: Float,
+      most: Float,
+      isAlone: Boolean,
+      x: Int,
+      y: Int,
+      z: Int
+  ): Rgb =
+    val takesAll = limit == Float.PositiveInfinity
     val b = bucket(x, y, z)
     val p = vertex.at.p
     var r, g, blue = 0f
@@ -102,16 +122,20 @@ private[bidirectional] final class PhotonMap(
       val pz = data(at + 2)
       val distance2 = square(px - p.x) + square(py - p.y) + square(pz - p.z)
       // Other cells may have the same hash; they are visited separately
-      if distance2 < radius2 && cell(px) == x && cell(py) == y && cell(pz) == z then
+      if distance2 < radius2 && cell(px) == x && cell(py) == y && cell(pz) == z &&
+        Math.abs(data(at + 9)) <= most
+      then
         val wi = Vec3(data(at + 3), data(at + 4), data(at + 5))
         val f = vertex.received(wi)
-        if !f.isBlack && vertex.pdf(wi) <= limit then
-          r += f.r * data(at + 6)
-          g += f.g * data(at + 7)
-          blue += f.b * data(at + 8)
+        if !f.isBlack && (takesAll || vertex.pdf(wi) <= limit) then
+          // If both paths carry their hero alone, each stands for all three wavelengths
+          val share = if isAlone && data(at + 9) < 0f then 1f / 3f else 1f
+          r += f.r * data(at + 6) * share
+          g += f.g * data(at + 7) * share
+          blue += f.b * data(at + 8) * share
       at += Numbers
     Rgb(r, g, blue)
 
 private[bidirectional] object PhotonMap:
   /** Floats per photon. */
-  inline val Numbers = 9
+  inline val Numbers = 10

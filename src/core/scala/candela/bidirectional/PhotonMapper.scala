@@ -21,7 +21,7 @@ import candela.scene.Scene
   *                   where they gather
   *
   * Sources: Hachisuka and Jensen, "Stochastic Progressive Photon Mapping", SIGGRAPH Asia 2009;
-  * [[PhotonPasses]] for the radius; PBRT 3rd ed., §16.2.
+  * [[PhotonMaps]] for the radius; PBRT 3rd ed., §16.2.
   */
 private[bidirectional] final class PhotonMapper(
     scene: Scene,
@@ -32,7 +32,7 @@ private[bidirectional] final class PhotonMapper(
 ) extends PassIntegrator:
   import PhotonMapper.Sharp
 
-  private val tracer = PhotonTracer(scene, settings)
+  private val tracer = WholePhotons(scene, settings)
   private val walk = SurfaceWalk(scene, options = WalkOptions(interfaces = interfaces))
   private val looksBeyond = scene.hasInterfaces && interfaces == Interfaces.Weighed
   private var photons = PhotonMap(Array.empty, paths = 1, radius = 1f) // none yet

@@ -4,7 +4,7 @@ import candela.base.GivenUp
 import candela.cameras.Shutter
 import candela.film.View
 import candela.integrators.{Interfaces, PassIntegrator, SharedPasses}
-import candela.sampling.IndependentSampler
+import candela.sampling.{IndependentSampler, Sampler}
 import candela.scene.{PathReport, Scene}
 
 import java.util.concurrent.atomic.AtomicInteger
@@ -32,24 +32,16 @@ final case class PhotonSettings(
 )
 
 /** Traces the photons of a pass. Mutable, one per worker. */
-private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSettings):
-  private val paths =
-    LightPaths(
-      scene,
-      settings.maxEdges,
-      rouletteAfter = 1,
-      settings.compresses,
-      weighsAll = false,
-      startsAlone = scene.isDispersive
-    )
-  private val sampler = IndependentSampler(1, settings.seed)
+private[bidirectional] abstract class PhotonTracer(seed: Int):
+  private val sampler = IndependentSampler(1, seed)
 
-  def raysTraced: Long = paths.raysTraced
+  def raysTraced: Long
 
-  /** Traces one part of a pass, deterministic for any worker, unless it is stopped on the way.
-    * Direct light is left out.
-    */
-  def trace(
+  /** Traces a light path, and stores its photons. */
+  protected def trace(time: Float, sampler: Sampler, photons: Photons): Unit
+
+  /** Traces one part of a pass, deterministic for any worker, unless it is stopped on the way. */
+  final def trace(
       pass: Int,
       part: Int,
       count: Int,
@@ -59,16 +51,34 @@ private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSe
     val photons = Photons()
     var i = 0
     while i < count && !isStopped() do
-      sampler.start(part * PhotonPasses.PartSize + i, -1, pass)
-      paths.trace(shutter.at(sampler.next1D()), sampler)
-      var k = 0
-      while k < paths.count do
-        val vertex = paths(k)
-        val isKept = if vertex.isSpecularSoFar then settings.caustics else settings.indirect
-        if vertex.edges > 1 && isKept then photons.add(vertex.at.p, vertex.wo, vertex.throughput)
-        k += 1
+      sampler.start(part * PhotonMaps.PartSize + i, -1, pass)
+      trace(shutter.at(sampler.next1D()), sampler, photons)
       i += 1
     photons
+
+/** Traces all photons but those of direct light. */
+private[bidirectional] final class WholePhotons(scene: Scene, settings: PhotonSettings)
+    extends PhotonTracer(settings.seed):
+  private val paths =
+    LightPaths(
+      scene,
+      settings.maxEdges,
+      rouletteAfter = 1,
+      settings.compresses,
+      weighsAll = false,
+      startsAlone = scene.isDispersive
+    )
+
+  def raysTraced: Long = paths.raysTraced
+
+  protected def trace(time: Float, sampler: Sampler, photons: Photons): Unit =
+    paths.trace(time, sampler)
+    var k = 0
+    while k < paths.count do
+      val vertex = paths(k)
+      val isKept = if vertex.isSpecularSoFar then settings.caustics else settings.indirect
+      if vertex.edges > 1 && isKept then photons.add(vertex.at.p, vertex.wo, vertex.throughput)
+      k += 1
 
 /** The photon maps of all passes, shared by all workers. A worker that needs a map helps to build
   * it; the map is bit-identical for any thread count.
@@ -79,25 +89,15 @@ private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSe
   * Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", TOG 30(3),
   * 2011.
   *
-  * @param maxDepth   maximum number of scattering events of a camera subpath
-  * @param interfaces what they are to light sampling
+  * @param first radius of the first pass, in scene units
+  * @param asked light paths per pass; at most 0: one per pixel
   */
-final class PhotonPasses(
-    scene: Scene,
-    maxDepth: Int,
-    settings: PhotonSettings,
-    view: View,
-    interfaces: Interfaces = Interfaces.Open
-) extends SharedPasses:
-  import PhotonPasses.*
+abstract class PhotonMaps(first: Float, asked: Int, view: View) extends SharedPasses:
+  import PhotonMaps.*
 
-  private val paths =
-    if settings.paths > 0 then settings.paths else Math.min(view.crop.pixels, MostPaths).toInt
+  private val paths = if asked > 0 then asked else Math.min(view.crop.pixels, MostPaths).toInt
   private val shutter = view.shutter.getOrElse(Shutter(0f, 0f))
   private val recent = new Array[Pass | Null](SharedPasses.Open)
-
-  def integrator(report: Option[PathReport]): PassIntegrator =
-    PhotonMapper(report.fold(scene)(scene.reported), maxDepth, settings, this, interfaces)
 
   /** The photon map of a pass; up to [[SharedPasses.Open]] passes may be in progress. None if
     * stopped before it was complete.
@@ -122,13 +122,13 @@ final class PhotonPasses(
     recent(at)
 
   private def radius(pass: Int): Float =
-    var r2 = settings.radius.toDouble * settings.radius
+    var r2 = first.toDouble * first
     for k <- 1 to pass do r2 *= (k + Alpha) / (k + 1)
     Math.sqrt(r2).toFloat
 
-object PhotonPasses:
+private[bidirectional] object PhotonMaps:
   private val Alpha: Double = 2.0 / 3.0
-  private[bidirectional] val PartSize = 1024
+  val PartSize = 1024
   private val MostPaths = 100_000_000L
 
   /** In nanoseconds; short beside a pass. */
@@ -161,3 +161,19 @@ object PhotonPasses:
           try map = Some(PhotonMap(parts, paths, radius, isStopped))
           catch case _: GivenUp => () // as the parts of the others
         part = next.getAndIncrement()
+
+/** The passes of [[PhotonMapper]].
+  *
+  * @param maxDepth   maximum number of scattering events of a camera subpath
+  * @param interfaces what they are to light sampling
+  */
+final class PhotonPasses(
+    scene: Scene,
+    maxDepth: Int,
+    settings: PhotonSettings,
+    view: View,
+    interfaces: Interfaces = Interfaces.Open
+) extends PhotonMaps(settings.radius, settings.paths, view):
+
+  def integrator(report: Option[PathReport]): PassIntegrator =
+    PhotonMapper(report.fold(scene)(scene.reported), maxDepth, settings, this, interfaces)

@@ -13,11 +13,14 @@ import candela.scene.Scene
   * @param compresses    whether refraction scales radiance by the square of the index; not in
   *                      pbrt-v2
   * @param rouletteAfter minimum number of edges before Russian roulette
+  * @param evaluates     whether weights take the density of a direction from the BSDF, as others
+  *                      do who don't sample it: that of a random walk's may be another
   */
 private[bidirectional] final class Subpath(
     carriesLight: Boolean,
     compresses: Boolean,
-    rouletteAfter: Int
+    rouletteAfter: Int,
+    evaluates: Boolean = false
 ):
   var throughput: Rgb = Rgb.White
   var isSpecularSoFar: Boolean = true
@@ -51,7 +54,9 @@ private[bidirectional] final class Subpath(
       if !bounce.isSpecular then isSpecularSoFar = false
       val cosine = vertex.cosine(wi)
       if bounce.isSpecular then weights.scatterSpecular(cosine)
-      else weights.scatter(cosine, bounce.pdf, vertex.bsdf.pdf(bounce.wi, vertex.localWo))
+      else
+        val pdf = if evaluates then vertex.localPdf(bounce.wi) else bounce.pdf
+        weights.scatter(cosine, pdf, vertex.bsdf.pdf(bounce.wi, vertex.localWo))
       vertex.leave(ray): Unit
       cosine > 0f && !throughput.isBlack && survives(vertex.edges, kept.largest, sampler)
 

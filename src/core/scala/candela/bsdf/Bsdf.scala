@@ -43,6 +43,7 @@ abstract class Bsdf:
   final def isDispersive: Boolean = flags.has(BsdfFlags.Dispersive)
   final def choosesLobes: Boolean = flags.has(BsdfFlags.Choosing)
   final def isPane: Boolean = flags.has(BsdfFlags.Pane)
+  final def isNarrow: Boolean = flags.has(BsdfFlags.Narrow)
 
   /** The part of the light that keeps its direction on its way through a pane. */
   def straight(@unused wo: Vec3): Rgb = Rgb.Black

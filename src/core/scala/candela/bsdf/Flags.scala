@@ -43,7 +43,12 @@ object BsdfFlags:
   /** Directions depend on the `choice` of [[Bsdf.sample]]. */
   def Choosing: BsdfFlags = new BsdfFlags(128)
 
-  def All: BsdfFlags = new BsdfFlags(255)
+  /** A part of it is scattered to single directions, or to a narrow range about them: curved
+    * surfaces concentrate it to caustics.
+    */
+  def Narrow: BsdfFlags = new BsdfFlags(256)
+
+  def All: BsdfFlags = new BsdfFlags(511)
 
 /** What must be known of a [[Material]] beforehand: what some of its BSDFs are, and more. */
 final class MaterialFlags private (private val bits: Int) extends AnyVal:
@@ -72,9 +77,14 @@ object MaterialFlags:
     */
   def OwnFrame: MaterialFlags = new MaterialFlags(16)
 
-  def All: MaterialFlags = new MaterialFlags(31)
+  /** Casts caustics: some of its BSDFs are narrow, and have no diffuse part. */
+  def Caster: MaterialFlags = new MaterialFlags(32)
+
+  def All: MaterialFlags = new MaterialFlags(63)
 
   /** Of a material with this BSDF everywhere. */
   def of(bsdf: Bsdf): MaterialFlags =
     val dispersive = if bsdf.isDispersive then Dispersive else Plain
-    if bsdf.isPane then dispersive | Pane else dispersive
+    val pane = if bsdf.isPane then Pane else Plain
+    val caster = if bsdf.isNarrow && !bsdf.isDiffuse then Caster else Plain
+    dispersive | pane | caster

@@ -20,6 +20,7 @@ abstract class Material extends Varying:
   final def isPane: Boolean = flags.has(MaterialFlags.Pane)
   final def isSubsurface: Boolean = flags.has(MaterialFlags.Subsurface)
   final def isInterface: Boolean = flags.has(MaterialFlags.Interface)
+  final def isCaster: Boolean = flags.has(MaterialFlags.Caster)
 
   /** This material with its BSDF made once if it is constant, when it is first asked for. */
   def folded: Material =
@@ -63,7 +64,7 @@ private final class FoldedMaterial(inner: Material) extends Material:
   override def folded: Material = this
   override def met: Material = made
   override def flags: MaterialFlags =
-    inner.flags.only(MaterialFlags.Dispersive | MaterialFlags.Pane)
+    inner.flags.only(MaterialFlags.Dispersive | MaterialFlags.Pane | MaterialFlags.Caster)
 
 /** A material made of another one, of which all holds but for what a subclass changes. */
 abstract class WrappedMaterial(inner: Material) extends Material, Textured(inner):

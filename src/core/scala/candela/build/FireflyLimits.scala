@@ -12,9 +12,9 @@ private[build] final class FireflyLimits(context: BuildContext, fireflies: Firef
     case (Fireflies.Kept, _) => ()
     case (_, RenderMethod.Chains(_, _, _)) =>
       refuse("Markov chains visit light by its brightness: no sample is too bright")
-    case (Fireflies.Reweighted, RenderMethod.Passes(_)) =>
+    case (Fireflies.Reweighted, RenderMethod.Passes(_, _)) =>
       refuse("a photon brightens many samples alike, none of which is an outlier")
-    case (Fireflies.Reweighted, RenderMethod.SplattedTiles(_)) =>
+    case (Fireflies.Reweighted, RenderMethod.SplattedTiles(_, _, _, _)) =>
       context.problems.warn(
         Code.OptionMisfit,
         place,

@@ -12,10 +12,15 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
     val method = world.method
     val isGuided = method match
       case RenderMethod.Guided(_, _, _) => true
+      case RenderMethod.SplattedTiles(_, _, guided, _) => guided.isDefined
+      case _ => false
+    val isBiased = method match
+      case RenderMethod.Passes(_, bias) => bias.isDefined
       case _ => false
     idle("guiding", settings.guiding != GuidingMode.Off && !isGuided):
       if context.isV2 && context.description.volumes.nonEmpty then
         "paths among pbrt-v2's volumes are not guided"
+      else if isBiased then "paths that take caustics from photons are not guided"
       else s"$integrator is not guided; \"path\" and \"volpath\" are"
     val takesNone = !method.takesCameraSamples
     val chains = s"the Markov chains of $integrator take no points of a sampler"

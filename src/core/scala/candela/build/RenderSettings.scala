@@ -5,6 +5,7 @@ import candela.build.sampling.PointChoice
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.image.DisplayTransform
+import candela.integrators.CausticsMode
 import candela.layers.Layer
 import candela.scenefile.Dialect
 
@@ -23,6 +24,7 @@ import candela.scenefile.Dialect
   * @param points      which sample points to take
   * @param fireflies   what is done about them
   * @param guiding     whether paths learn where light comes from
+  * @param caustics    whether light paths look for caustics
   * @param centers     take all samples at the pixel centre, the middle of lens and shutter
   * @param unfiltered  point-sample textures
   * @param meanImages  replace image textures by their mean
@@ -45,6 +47,7 @@ final case class RenderSettings(
     points: PointChoice = PointChoice.Best,
     fireflies: Fireflies = Fireflies.Kept,
     guiding: GuidingMode = GuidingMode.Off,
+    caustics: CausticsMode = CausticsMode.Off,
     centers: Boolean = false,
     unfiltered: Boolean = false,
     meanImages: Boolean = false,
@@ -81,7 +84,8 @@ final case class RenderSettings(
       edgeScale = edgeScale.orElse(scene.edgeScale),
       reference = output.reference.orElse(scene.reference),
       errors = output.errors.orElse(scene.errors),
-      guiding = guiding
+      guiding = guiding,
+      caustics = caustics
     )
 
 /** What ends a rendering before its samples do.

@@ -4,8 +4,9 @@ import candela.accel.tracing.Hierarchies
 import candela.base.{Code, Limit, Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
-import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands}
+import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands, Splats, View}
 import candela.guiding.{Guide, GuidingMode}
+import candela.integrators.CausticsMode
 import candela.layers.{Layer, LayerFilm, ScreenMotion, VisibleSurface}
 import candela.math.{Motion, Still}
 import candela.render.{ErrorFile, LayerPlan, RenderMethod, RenderPlan}
@@ -66,7 +67,7 @@ object SceneBuilder:
     checkLimits(context, image, crop, sampling)
     val samples = crop.pixels * taken.getOrElse(sampling.sampler.samplesPerPixel)
     Hierarchies.expect(samples, control.pool, context.resources.warmUps)
-    val world =
+    val built =
       WorldBuilder(
         context,
         integrator,
@@ -78,6 +79,8 @@ object SceneBuilder:
         Option.when(image.layers.exists(_.isLight) || dimsLight(settings)):
           settings.lightGroups.getOrElse(LightGrouping.Statements)
       ).build(footprints)
+    context.problems.stopAtErrors()
+    val world = piloted(context, built, image, sampling, camera)
     warnOfLimits(context, image, camera, world.method)
     if !settings.preview then
       FireflyLimits(context, settings.fireflies).check(world.method)
@@ -86,6 +89,44 @@ object SceneBuilder:
     val made = plan(context, settings, taken, image, crop, integrator, sampling, camera, world)
     checkSize(context, made)
     (made, context.problems.result)
+
+  /** The world, with its method chosen. */
+  private def piloted(
+      context: BuildContext,
+      world: World,
+      image: ImageSetup,
+      sampling: SamplingSetup,
+      camera: CameraSetup
+  ): World =
+    val asked = context.resources.switches.caustics
+    val (method, why) = world.method match
+      case RenderMethod.Piloted(alone, pilot, chosen, connects) =>
+        val view = View(
+          camera.camera,
+          Splats.Discarded,
+          image.width,
+          image.height,
+          PixelBounds(0, 0, image.width, image.height),
+          image.filter,
+          sampling.sampler.samplesPerPixel,
+          Option.when(camera.motion.isDefined || world.moves)(camera.shutter),
+          footprint(context, sampling)
+        )
+        if connects && !camera.camera.isTraceable then
+          (alone, "none: light paths can't reach this camera")
+        else if connects && image.film.development.bands.isDefined && world.color.isSpectral then
+          (alone, "none: light paths fill no bands of wavelengths")
+        else
+          val (choice, told) = pilot(view)
+          (choice.fold(alone)(chosen), told)
+      case other =>
+        (other, "none: only \"path\" and \"volpath\" look for them, off smooth surfaces")
+    world.rendered(method, Option.when(asked != CausticsMode.Off)("caustics" -> why))
+
+  private def footprint(context: BuildContext, sampling: SamplingSetup): Float =
+    val switches = context.resources.switches
+    if context.resources.footprintUses.isEmpty || switches.unfiltered then 0f
+    else sampling.footprint
 
   /** Whether arrays can have all values of the pixels, their layers and bands. */
   private def checkSize(context: BuildContext, plan: RenderPlan): Unit =
@@ -228,9 +269,7 @@ object SceneBuilder:
         "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
         "samples" -> (if shares then "splatted under the filter" else "one pixel each")
       ) ++ FireflyLimits.feature(settings) ++ guiding(context, method, samples, crop.pixels),
-      differentialScale =
-        if context.resources.footprintUses.isEmpty || switches.unfiltered then 0f
-        else sampling.footprint,
+      differentialScale = footprint(context, sampling),
       shutter = Option.when(moves)(camera.shutter),
       weighsFirst = context.isV4,
       layers = Option.when(image.layers.nonEmpty && usesSampler):
@@ -259,6 +298,8 @@ object SceneBuilder:
       "guiding" -> (method match
         case RenderMethod.Guided(_, settings, _) =>
           Guide(settings, samples, pixels).describe
+        case RenderMethod.SplattedTiles(_, _, Some(guided), _) =>
+          Guide(guided.settings, samples, pixels).describe
         case _ => "none: only path tracing without pbrt-v2's volumes is guided")
 
   private def layerPlan(

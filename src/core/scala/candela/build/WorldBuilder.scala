@@ -27,6 +27,10 @@ private[build] final class World(
   /** For image layers. */
   def surfaceNames: SurfaceNames = names()
 
+  /** The same, rendered otherwise. */
+  def rendered(method: RenderMethod, feature: Option[(String, String)]): World =
+    World(scene, method, color, features ++ feature, moves, names)
+
 /** All surfaces of the world and its objects, with their acceleration structures. */
 private[build] final class Structure(
     val surfaces: Surfaces,

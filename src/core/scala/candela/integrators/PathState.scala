@@ -44,6 +44,22 @@ abstract class PathState:
     */
   final var isSpread: Boolean = false
 
+  /** As long as a light path may have made the path: the ratio of the density with which it would
+    * have come to the vertex to the path's own, and the same for a lamp that its ray meets; else 0.
+    * See [[CausticWeights]].
+    */
+  final var rival, rivalAtLight: Double = 0.0
+
+  /** The BSDF's solid-angle density of the current direction where [[rivalAtLight]] is above 0; 0:
+    * it is specular.
+    */
+  final var ownPdf: Float = 0f
+
+  /** What the path may find that manifold walks or photons find, too: a number of [[Manifolds]] or
+    * of [[PhotonLight]].
+    */
+  final var chain: Int = 0
+
   /** Where the current direction was sampled, and the normal with which light sampling chose a
     * light there; zero where light may come from all sides.
     */
@@ -108,6 +124,9 @@ abstract class PathState:
     passed = 0
     etaScale = 1f
     isSpread = false
+    rival = 0.0
+    rivalAtLight = 0.0
+    chain = Manifolds.Seen
 
   /** A new one of the same kind. */
   def another(): PathState
@@ -118,5 +137,9 @@ abstract class PathState:
     passed = from.passed
     etaScale = from.etaScale
     isSpread = from.isSpread
+    rival = from.rival
+    rivalAtLight = from.rivalAtLight
+    ownPdf = from.ownPdf
+    chain = from.chain
     lastP.set(from.lastP)
     lastN.set(from.lastN)

@@ -48,6 +48,7 @@ final class PathTracer private[integrators] (
   private def scatter(sampler: Sampler): Unit =
     walk.evaluate()
     addDirect(limits.seesThrough && scene.isSubsurface(walk.vertex.at.material), sampler)
+    walk.addCaustics(sampler)
     walk.scatter(sampler)
     val inside = walk.beneath
     if inside != null && walk.emerge(inside, sampler) then

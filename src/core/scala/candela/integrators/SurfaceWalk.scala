@@ -82,7 +82,16 @@ final class SurfaceWalk private (
     */
   inline def connectBy(inline weight: Vec3 => Float): Unit =
     order.step(to = Stage.Evaluated, Stage.Sampled)
-    if connection.scatters(vertex, weight) then addArrived()
+    if caustics == null || path.rival == 0.0 || depth == 1 then
+      if connection.scatters(vertex, weight) then addArrived()
+    else connectBeside(caustics.nn, weight)
+
+  /** Likewise, where light paths compete. */
+  private inline def connectBeside(rivals: CausticWeights, inline weight: Vec3 => Float): Unit =
+    if connection.scatters(vertex, weight) then
+      connection.arrived
+        .scale(rivals.ofSample(connection, vertex, connection.localWi, ray, hit, path))
+      addArrived()
 
   private def addArrived(): Unit =
     surfacePath.addTo(found, connection.arrived)

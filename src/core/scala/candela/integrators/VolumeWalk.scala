@@ -84,7 +84,9 @@ final class VolumeWalk private (
       order.step(to = Stage.Departed, Stage.Evaluated)
       sampler.next2D()
       val wi = phase.sample(wo, sampler.x, sampler.y)
-      leaveMedium(p, wi, phase.value(wo, wi))
+      val pdf = phase.value(wo, wi)
+      if caustics != null then caustics.scatterInMedium(eye, p, pdf, path)
+      leaveMedium(p, wi, pdf)
 
   /** Adds light of one light that the medium scatters at `p`. */
   private def addDirect(p: Vec3, wo: Vec3, phase: PhaseFunction, sampler: Sampler): Unit =
@@ -102,7 +104,10 @@ final class VolumeWalk private (
     else
       order.step(to = Stage.Departed, Stage.Scattered)
       val bounce = vertex.bounce
-      leaveMedium(vertex.at.p, vertex.at.frame.toWorld(bounce.wi), bounce.pdf)
+      val p = vertex.at.p
+      if caustics != null then
+        caustics.scatterInMedium(eye, p, vertex.localPdf(bounce.wi), path)
+      leaveMedium(p, vertex.at.frame.toWorld(bounce.wi), bounce.pdf)
 
   /** Leaves a place in the medium, or ends.
     *
@@ -136,7 +141,11 @@ final class VolumeWalk private (
       val beyond = media.beyond(vertex.at, wi, volumePath.medium)
       if visibility.reaches(vertex.at.offsetOrigin(wi), connection.sample, beyond) then
         val arrived = arriving(competingPdf(localWi, isBoundary))
-        addSample(arrived * f * Math.abs(localWi.z))
+        val rivals = caustics
+        val rest =
+          if rivals == null || path.rival == 0.0 || depth == 1 then 1f
+          else rivals.ofSample(connection, vertex, localWi, ray, hit, path)
+        addSample(arrived * f * (Math.abs(localWi.z) * rest))
 
   /** Adds what the path carries of the light sample. */
   private def addSample(carried: Rgb): Unit =

@@ -53,6 +53,14 @@ abstract class Walk(
   protected final val regularizes: Boolean = options.regularizes
   private val hidesLamps = options.hidesLamps
   private val countsPassed = options.countsPassed
+  protected final val caustics: CausticWeights | Null = options.caustics.orNull
+
+  /** Where the camera ray began; known if caustics are. */
+  protected final val eye = MutableVec3()
+  private val manifolds: Manifolds | Null = options.manifolds.orNull
+  private val chains: ManifoldLighting | Null =
+    if manifolds == null then null else ManifoldLighting(scene, manifolds)
+  private val photons: PhotonLight | Null = options.photons.orNull
   private val disperses = scene.isDispersive
   private val hasLights = scene.lights.length > 0
   private val probe: SubsurfaceProbe | Null =
@@ -71,7 +79,8 @@ abstract class Walk(
 
   final def raysTraced: Long =
     val beneath = probe
-    rays + otherRays + (if beneath == null then 0L else beneath.raysTraced)
+    rays + otherRays + (if beneath == null then 0L else beneath.raysTraced) +
+      (if chains == null then 0L else chains.raysTraced)
 
   /** Rays of light samples, and of what is between surfaces. */
   protected def otherRays: Long
@@ -83,6 +92,7 @@ abstract class Walk(
     found.set(Rgb.Black)
     if parts != null then parts.clear()
     path.start()
+    if caustics != null then eye.set(ray.origin)
     start(sampler)
     if guiding != null then guiding.begin(ray)
     isFollowed = true
@@ -123,7 +133,8 @@ abstract class Walk(
       val weighted = LightTransport.environment(
         scene,
         ray,
-        weight = (i, source) => emissionWeight(i, source.pdf(path.lastP, ray.direction)),
+        weight = (i, source) =>
+          if isLeft(i) then 0f else emissionWeight(i, source.pdf(path.lastP, ray.direction)),
         found = (i, arriving) =>
           if parts != null then parts.addEnvironment(i, depth, path.carried(arriving, 1f))
       )
@@ -137,7 +148,7 @@ abstract class Walk(
     if at.areaLight >= 0 && !isHidden then
       val source = scene.surfaceLight(at)
       val emitted = source.radiance(at, vertex.wo)
-      if !emitted.isBlack then
+      if !emitted.isBlack && !isLeft(at.areaLight) then
         val weight =
           // Only the camera and specular scattering see it
           if source.isShownOnly then (if path.competes then 0f else 1f)
@@ -145,15 +156,24 @@ abstract class Walk(
         path.addTo(found, emitted, weight)
         if parts != null then parts.addLight(at.areaLight, depth, path.carried(emitted, weight))
 
+  /** Is what the path meets of the lamp left to manifold walks or photons? */
+  private def isLeft(light: Int): Boolean =
+    (manifolds != null && manifolds.finds(light, path)) ||
+      (photons != null && photons.brings(light, path))
+
   /** Weight of light that the path meets against light sampling.
     *
     * @param pointPdf solid-angle density with which light sampling finds the point of the light
     */
   private inline def emissionWeight(lightIndex: Int, inline pointPdf: Float): Float =
-    if path.competes then
-      val choice = scene.selection.probability(path.lastP, path.lastN, lightIndex)
-      path.emissionWeight(choice, pointPdf)
-    else 1f
+    val weight =
+      if path.competes then
+        val choice = scene.selection.probability(path.lastP, path.lastN, lightIndex)
+        path.emissionWeight(choice, pointPdf)
+      else 1f
+    val rivals = caustics
+    if rivals == null || path.rivalAtLight == 0.0 then weight
+    else weight * rivals.ofEmission(lightIndex, pointPdf, path)
 
   /** Does the path go on behind the surface as if it weren't there? */
   final def isPassed: Boolean = isAtInterface || isHidden
@@ -204,6 +224,8 @@ abstract class Walk(
     path.depth += 1
     vertex.evaluate(path.isSpread)
     if disperses && !path.isAlone && vertex.bsdf.isDispersive then path.keepHero()
+    val rivals = caustics
+    if rivals != null then rivals.arrive(eye, vertex, path)
     if guiding != null then if isGuided then guiding.arrive() else guiding.leaveAlone()
 
   /** Chooses one light and samples a point on it; false if it contributes nothing. */
@@ -216,9 +238,22 @@ abstract class Walk(
       sampler.next2D()
       val p = vertex.at.p
       val isLit = finds && connection.choose(p, vertex.lightNormal, choice) &&
-        connection.samplePoint(p, sampler.x, sampler.y)
+        connection.samplePoint(p, sampler.x, sampler.y) &&
+        (photons == null || !photons.brings(connection.index, vertex, ray, hit, path))
       if isLit then order.step(to = Stage.Sampled, Stage.Evaluated)
       isLit
+
+  /** Adds light that manifold walks find, or photons bring. */
+  final def addCaustics(sampler: Sampler): Unit =
+    val map = photons
+    if map != null then path.addTo(found, map.reflected(vertex, path), 1f)
+    val finder = chains
+    if finder != null && manifolds != null && manifolds.suits(vertex, path) &&
+      finder.finds(vertex, path, ray.time, sampler)
+    then
+      val arrived = finder.arrived.toRgb
+      path.addTo(found, arrived, 1f)
+      if parts != null then parts.addLight(finder.index, depth, path.carried(arrived, 1f))
 
   /** Are the random numbers of light sampling drawn at surfaces where it finds nothing, too? Then
     * later ones have the same dimension whatever the path has met.
@@ -271,6 +306,8 @@ abstract class Walk(
         order.step(to = Stage.Evaluated, Stage.Scattered)
         vertex.scatterBy(inside.entry, vertex.at.frame.n)
         path.isSpread = regularizes
+        path.rival = 0.0
+        path.chain = Manifolds.Other
       emerges
 
   /** Leaves in the sampled direction, or ends. */
@@ -281,6 +318,13 @@ abstract class Walk(
     path.isSpread ||= regularizes && !bounce.isSpecular
     path.turn(vertex.at.p, vertex.lightNormal, pdf = if isUnsampled then 0f else bounce.pdf)
     path.etaScale *= square(bounce.eta)
+    val rivals = caustics
+    if rivals != null then
+      rivals.leave(vertex, ray, hit, vertex.at.frame.toWorld(bounce.wi.toVec3), path)
+    val finder = chains
+    if finder != null then finder.leave(vertex, hit, path)
+    val map = photons
+    if map != null then map.leave(vertex, ray, hit, path)
     val isOpen = vertex.leave(ray)
     afterLeaving()
     if isOpen then goOn() else end()

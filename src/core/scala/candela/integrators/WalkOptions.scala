@@ -10,6 +10,9 @@ package candela.integrators
   * @param hidesLamps    does the camera see through lamps, and no sky?
   * @param interfaces    what interfaces are to light sampling; in media they are open
   * @param countsPassed  is passing an interface one of the events that a path may have?
+  * @param caustics      weights against light paths, if there are any
+  * @param manifolds     what manifold walks find in place of paths, if anything
+  * @param photons       what photons bring in place of paths, if anything; not with manifold walks
   */
 final case class WalkOptions(
     regularizes: Boolean = false,
@@ -18,7 +21,10 @@ final case class WalkOptions(
     crossesPanes: Boolean = false,
     hidesLamps: Boolean = false,
     interfaces: Interfaces = Interfaces.Open,
-    countsPassed: Boolean = false
+    countsPassed: Boolean = false,
+    caustics: Option[CausticWeights] = None,
+    manifolds: Option[Manifolds] = None,
+    photons: Option[PhotonLight] = None
 )
 
 /** Limits of a path tracer's paths.

@@ -7,7 +7,7 @@ import candela.image.{
   Contents, Image, ImageEdits, ImageFiles, ImageWindow, OutputFormat, WriteOptions
 }
 import candela.layers.Layer
-import candela.render.{Rendering, RenderPlan}
+import candela.render.{RenderMethod, Rendering, RenderPlan}
 
 import java.nio.file.Path
 import java.util.Locale
@@ -106,10 +106,17 @@ object ImageFile:
       denoiser: Option[String]
   ): Vector[(String, String)] =
     val changed = fireflies(plan, rendering)
+    val caustics = plan.method match
+      case RenderMethod.Passes(_, why) => why
+      case _ => None
+    val added = plan.method match
+      case RenderMethod.SplattedTiles(_, _, _, adds) => adds
+      case _ => None
     val channels =
-      changed.toVector.flatMap(_ => Image.RgbNames) ++
+      changed.orElse(caustics).toVector.flatMap(_ => Image.RgbNames) ++
         denoiser.toVector.flatMap(_ => Denoising.Channels)
     changed.map("fireflies" -> _).toVector ++
+      caustics.orElse(added).map("caustics" -> _) ++
       denoiser.map("denoiser" -> _) ++
       Option.when(channels.nonEmpty)("biased" -> channels.mkString(", "))
 

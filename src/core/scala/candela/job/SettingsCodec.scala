@@ -119,6 +119,7 @@ object SettingsCodec:
     flag("disable-wavelength-jitter", _.oneColorSet)(_.copy(oneColorSet = true)),
     flag("force-diffuse", _.diffuse)(_.copy(diffuse = true)),
     value("guiding", _.guiding)((s, g) => s.copy(guiding = g)),
+    value("caustics", _.caustics)((s, c) => s.copy(caustics = c)),
     option("displacement-edge-scale", _.edgeScale)((s, x) => s.copy(edgeScale = Some(x)))(using
       TextForm.float.filter("a number above 0")(_ > 0)
     ),

@@ -5,6 +5,7 @@ import candela.build.sampling.PointChoice
 import candela.color.ToneCurve
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
+import candela.integrators.CausticsMode
 import candela.image.Exposure
 import candela.layers.Layer
 import candela.scenefile.Dialect
@@ -67,6 +68,8 @@ object TextForm:
 
   given TextForm[GuidingMode] =
     named(GuidingMode.values.toSeq, lower, "auto, on, off, directions or splitting")
+
+  given TextForm[CausticsMode] = named(CausticsMode.values.toSeq, lower, "auto, on, off or photons")
 
   given TextForm[PointChoice] = oneOf(PointChoice.all, _.word)
 

@@ -3,6 +3,7 @@ package candela.lights
 import candela.color.{MutableRgb, Rgb}
 import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
 import candela.math.*
+import candela.shapes.SurfaceSample
 
 /** A light source. Immutable. */
 abstract class Light:
@@ -22,6 +23,11 @@ abstract class Light:
 
   /** Whether only the camera sees the light, directly or by specular scattering. */
   def isShownOnly: Boolean = false
+
+  /** May light paths start here that compete with the camera's and with light samples? Not where
+    * either finds what the other doesn't.
+    */
+  final def isCausticSource: Boolean = isSampled && !isContrary && !isShownOnly
 
   /** Whether the light comes from infinity, through the border of the scene. */
   def isInfinite: Boolean = false
@@ -136,6 +142,9 @@ abstract class SurfaceLight extends Light:
 
   /** Pdf with which `sample` at `from` samples the point `at`, per solid angle. */
   def pdf(from: Vec3, at: ShadingPoint): Float
+
+  /** Samples a point of the whole surface, visible or not; `out.pdf` is per area, 0 for none. */
+  def samplePlace(u1: Float, u2: Float, out: SurfaceSample): Unit
 
 /** An infinite light: the radiance of rays that escape the scene. */
 abstract class EnvironmentLight extends Light:

@@ -1,7 +1,7 @@
 package candela.render
 
 import candela.film.*
-import candela.guiding.Guide
+import candela.guiding.{Guide, GuideSettings}
 import candela.integrators.{
   Integrator, PassIntegrator, SharedChains, SharedPasses, WorkerIntegrators
 }
@@ -41,22 +41,21 @@ private[render] object Job:
       case RenderMethod.Tiles(integrators) =>
         val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes)
         tiles.job(tiles.worker(integrators.make(None), _))
-      case RenderMethod.Guided(_, asked, guided) =>
-        val schedule = TileSchedule(plan.sampled, samples, openWaves = 1)
-        // Fireflies are told from other samples by how many there are of each brightness
-        val settings = asked.copy(weighs = plan.fireflies != Fireflies.Reweighted)
-        val guide = Guide(settings, samples, plan.sampled.pixels)
-        val tiles = TileJobs(plan, schedule, plan.crop, shard.takes, guide = Some(guide))
-        val integrators = guided(guide)
-        tiles.job: queue =>
-          tiles.worker(integrators.make(None), queue, begin(guide, queue))
-      case RenderMethod.SplattedTiles(make) =>
+      case RenderMethod.Guided(_, settings, guided) =>
+        guidedJob(plan, shard, settings, guided, None)
+      case RenderMethod.SplattedTiles(_, _, Some(guided), _) =>
+        val splats = splatFilm(plan)
+        val view = plan.view(splats)
+        guidedJob(plan, shard, guided.settings, guided.integrators(view, _), Some(splats))
+      case RenderMethod.SplattedTiles(make, _, None, _) =>
         val splats = splatFilm(plan)
         val integrators = make(plan.view(splats))
         val tiles =
           TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes, Some(splats))
         tiles.job(tiles.worker(integrators.make(None), _))
-      case RenderMethod.Passes(make) =>
+      case RenderMethod.Piloted(_, _, _, _) =>
+        throw IllegalArgumentException("the method has not been chosen")
+      case RenderMethod.Passes(make, _) =>
         val passes = make(plan.view(Splats.Discarded))
         val schedule = TileSchedule(
           plan.sampled,
@@ -79,6 +78,23 @@ private[render] object Job:
           ChainWorker(chains.walker(), schedule, queue)
         new Job(schedule, film, layers = None, Some(chains), guide = None, worker)
 
+  private def guidedJob(
+      plan: RenderPlan,
+      shard: Shard,
+      asked: GuideSettings,
+      guided: Guide => WorkerIntegrators,
+      splats: Option[SplatFilm]
+  ): Job =
+    val samples = plan.samplesPerPixel
+    val schedule = TileSchedule(plan.sampled, samples, openWaves = 1)
+    // Fireflies are told from other samples by how many there are of each brightness
+    val settings = asked.copy(weighs = plan.fireflies != Fireflies.Reweighted)
+    val guide = Guide(settings, samples, plan.sampled.pixels)
+    val tiles = TileJobs(plan, schedule, plan.crop, shard.takes, splats, guide = Some(guide))
+    val integrators = guided(guide)
+    tiles.job: queue =>
+      tiles.worker(integrators.make(None), queue, begin(guide, queue))
+
   /** Traces a single sample of one pixel; `report` receives its path. */
   def single(plan: RenderPlan, x: Int, y: Int, report: PathReport): (Film, TileWorker) =
     val pixel = PixelBounds(x, y, x + 1, y + 1)
@@ -90,9 +106,11 @@ private[render] object Job:
     val only = plan.method match
       case RenderMethod.Tiles(integrators) => worker(integrators)
       case RenderMethod.Guided(unguided, _, _) => worker(unguided)
-      case RenderMethod.SplattedTiles(make) => worker(make(view))
+      case RenderMethod.SplattedTiles(make, _, _, _) => worker(make(view))
+      case RenderMethod.Piloted(_, _, _, _) =>
+        throw IllegalArgumentException("the method has not been chosen")
       case RenderMethod.Chains(_, _, make) => worker(make(view))
-      case RenderMethod.Passes(make) =>
+      case RenderMethod.Passes(make, _) =>
         val integrator = make(view).integrator(Some(report))
         tiles.worker(integrator, queue, begin(integrator, queue))
     (tiles.film, only)

@@ -1,6 +1,6 @@
 package candela.render
 
-import candela.bidirectional.{ChainPaths, SpectralChainPaths}
+import candela.bidirectional.{CausticChoice, ChainPaths, SpectralChainPaths}
 import candela.color.Wavelengths
 import candela.film.{Splats, View}
 import candela.guiding.{Guide, GuideSettings}
@@ -66,20 +66,33 @@ enum RenderMethod(
         seesLightPaths = false
       )
 
-  /** Camera samples, tile by tile; their light paths splat to the whole film. */
-  case SplattedTiles(integrators: View => WorkerIntegrators)
-      extends RenderMethod(
+  /** Camera samples, tile by tile; their light paths splat to the whole film.
+    *
+    * @param beside do light paths find light beside the camera's paths, and weigh it against these?
+    *   Else they find a part of it alone
+    * @param guided how the camera's paths learn, if they do
+    * @param adds   what light they find that the integrator by its definition doesn't, if any
+    */
+  case SplattedTiles(
+      integrators: View => WorkerIntegrators,
+      beside: Boolean = false,
+      guided: Option[GuidedSplats] = None,
+      adds: Option[String] = None
+  ) extends RenderMethod(
         takesCameraSamples = true,
-        canShareSamples = false,
-        learns = false,
-        canKeepOn = true,
+        canShareSamples = beside,
+        learns = guided.isDefined,
+        canKeepOn = guided.isEmpty,
         hasWavelengths = false,
         dividesLight = false,
         seesLightPaths = true
       )
 
-  /** Camera samples, tile by tile; samples of equal number share their pass's precomputation. */
-  case Passes(passes: View => SharedPasses)
+  /** Camera samples, tile by tile; samples of equal number share their pass's precomputation.
+    *
+    * @param bias of a method that would have none without passes: what makes the image biased
+    */
+  case Passes(passes: View => SharedPasses, bias: Option[String] = None)
       extends RenderMethod(
         takesCameraSamples = true,
         canShareSamples = false,
@@ -110,6 +123,38 @@ enum RenderMethod(
         seesLightPaths = true
       )
 
+  /** A method to be chosen once the camera is known ([[piloted]]).
+    *
+    * @param alone    without light paths
+    * @param pilot    decides on them, and says why
+    * @param chosen   with light paths
+    * @param connects are they connected to the camera?
+    */
+  case Piloted(
+      alone: RenderMethod,
+      pilot: View => (Option[CausticChoice], String),
+      chosen: CausticChoice => RenderMethod,
+      connects: Boolean = true
+  ) extends RenderMethod(
+        alone.takesCameraSamples,
+        alone.canShareSamples,
+        alone.learns,
+        alone.canKeepOn,
+        alone.hasWavelengths,
+        alone.dividesLight,
+        alone.seesLightPaths
+      )
+
+/** How paths beside light paths learn.
+  *
+  * @param settings    of what is learnt
+  * @param integrators learn, and are guided
+  */
+final case class GuidedSplats(
+    settings: GuideSettings,
+    integrators: (View, Guide) => WorkerIntegrators
+)
+
 object RenderMethod:
   /** Independent camera samples, whose integrators are made from the scene alone. */
   def tiles(scene: Scene)(integrator: Scene => Integrator): RenderMethod =
@@ -137,13 +182,31 @@ object RenderMethod:
           settings,
           shared => SpectralIntegrators(made.map(_.guided(shared)), bases)
         )
-      case SplattedTiles(_) =>
-        SplattedTiles(ofView(methods.collect {
-          case SplattedTiles(make) => make
-        }))
-      case Passes(_) =>
-        val made = methods.collect { case Passes(make) => make }
-        Passes(view => SpectralPasses(made.map(_(view)), bases))
+      case SplattedTiles(_, beside, learning, adds) =>
+        val made = methods.collect { case s: SplattedTiles => s }
+        def guided(view: View, guide: Guide) =
+          val each = made.zip(bases).map: (of, basis) =>
+            of.guided.get.integrators(converted(view, basis), guide)
+          SpectralIntegrators(each, bases)
+        SplattedTiles(
+          ofView(made.map(_.integrators)),
+          beside,
+          learning.map(s => GuidedSplats(s.settings, guided)),
+          adds
+        )
+      case Piloted(_, _, _, connects) =>
+        val made = methods.collect { case p: Piloted => p }
+        // One decides for all: bases differ in colours only
+        val decider = made(made.size / 2)
+        Piloted(
+          spectral(parts.map(_._1).zip(made.map(_.alone))),
+          decider.pilot,
+          choice => spectral(parts.map(_._1).zip(made.map(_.chosen(choice)))),
+          connects
+        )
+      case Passes(_, bias) =>
+        val made = methods.collect { case Passes(make, _) => make }
+        Passes(view => SpectralPasses(made.map(_(view)), bases), bias)
       case Chains(_, chains, _) =>
         val made = methods.collect { case Chains(paths, _, single) => (paths, single) }
         def paths(view: View, splats: Splats) =

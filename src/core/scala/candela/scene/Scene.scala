@@ -99,6 +99,25 @@ final class Scene(
     else instanced.fill(primitive - firstInstance, ray, hit, at)
     if rule != null && at.hasPartials then rule.find(ray, at)
 
+  /** Computes the geometry of the hit with the partial derivatives of point and normal, those of
+    * the unit normal that rays see, by any two parameters: on triangles by `hit.u` and `hit.v`. The
+    * point must want partials, always.
+    */
+  def bend(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    val primitive = hit.primitive
+    at.begin(followed = true)
+    if primitive < firstInstance then surfaces.fillBent(primitive, ray, hit, at)
+    else instanced.fillBent(primitive - firstInstance, ray, hit, at)
+
+  /** Does [[bend]] know the derivatives there? */
+  def isBent(hit: Hit): Boolean =
+    if hit.primitive < firstInstance then surfaces.isBent(hit.primitive)
+    else instanced.isBent(hit.primitive - firstInstance, hit)
+
+  def isTriangle(hit: Hit): Boolean =
+    if hit.primitive < firstInstance then hit.primitive < surfaces.soup.count
+    else instanced.isTriangle(hit.primitive - firstInstance, hit)
+
   /** Computes the place of a hit at the ray's time, as it is at `time`. */
   def surfaceAt(ray: Ray, hit: Hit, time: Float, at: ShadingPoint): Unit =
     val primitive = hit.primitive
@@ -194,6 +213,17 @@ final class Scene(
       Some(report),
       lightGroups
     )
+
+  private val casterMaterials = materials.casters
+
+  /** Whether any surface may cast caustics. */
+  def mayHaveCasters: Boolean = casterMaterials.contains(true)
+
+  /** Whether this surface casts caustics. */
+  def isCaster(at: ShadingPoint): Boolean = casterMaterials(at.material)
+
+  /** The surfaces that cast caustics. */
+  def casters: Casters = materials.castersAmong(surfaces, instanced)
 
   /** Whether any surface is dispersive. */
   val isDispersive: Boolean = materials.isDispersive

@@ -75,6 +75,13 @@ final class SceneMaterials private (
   /** Which are interfaces, and which are panes. */
   private[scene] def interfaces: Array[Boolean] = kinds.interfaces
   private[scene] def panes: Array[Boolean] = kinds.panes
+
+  /** Which cast caustics. */
+  private[scene] def casters: Array[Boolean] = kinds.casters
+
+  /** The surfaces that do; made once for all colour bases of a scene. */
+  private[scene] def castersAmong(surfaces: Surfaces, instanced: Instanced): Casters =
+    kinds.castersAmong(surfaces, instanced)
   def hasInterfaces: Boolean = kinds.hasInterfaces
   def hasPanes: Boolean = kinds.hasPanes
   def isSubsurface(index: Int): Boolean = kinds.all(index).isSubsurface
@@ -99,6 +106,18 @@ object SceneMaterials:
     def count: Int = all.length
     val interfaces: Array[Boolean] = all.map(_.isInterface)
     val panes: Array[Boolean] = all.map(_.isPane)
+
+    // Paths leave a surface that light travels beneath elsewhere
+    val casters: Array[Boolean] = all.map(m => m.isCaster && !m.isSubsurface)
+    private var castersMade: Casters | Null = null
+
+    def castersAmong(surfaces: Surfaces, instanced: Instanced): Casters = synchronized:
+      val made = castersMade
+      if made != null then made
+      else
+        val fresh = Casters(surfaces, instanced, casters)
+        castersMade = fresh
+        fresh
     val hasInterfaces: Boolean = interfaces.contains(true)
     val hasPanes: Boolean = panes.contains(true)
     val hasSubsurface: Boolean = all.exists(_.isSubsurface)

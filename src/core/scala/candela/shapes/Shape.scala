@@ -23,6 +23,9 @@ abstract class Shape extends SurfaceSampler:
   /** Computes the geometry of the hit that `intersect` found. */
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit
 
+  /** Are the normal's partial derivatives those of the unit normal that rays see? */
+  def bendsAsSeen: Boolean = false
+
   final def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
     val isMet = intersect(ray, hit)
     if isMet then surface(ray, hit, at)

@@ -13,6 +13,8 @@ import candela.math.*
 abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, reach: Double)
     extends Shape:
   private val toWorld = objectToWorld.m
+
+  override def bendsAsSeen: Boolean = true
   private val toObject = objectToWorld.inverseM
 
   /** Largest error, per component, of a point in a box of this half extent around the origin of

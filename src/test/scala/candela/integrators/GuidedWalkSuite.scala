@@ -9,7 +9,7 @@ import candela.render.{
   Cancellation, Checkpointer, Renderer, RenderListener, RenderPlan, RenderState
 }
 import candela.scenefile.Dialect
-import candela.testing.SceneTexts
+import candela.testing.{Blocks, SceneTexts}
 
 import java.nio.file.{Files, Path}
 
@@ -41,10 +41,10 @@ final class GuidedWalkSuite extends AnyFunSuite:
     test(s"guided images have the mean of unguided ones in every 8 × 8 block, $where"):
       def blocks(mode: GuidingMode): Vector[Vector[Double]] =
         Vector.tabulate(Seeds)(seed =>
-          blockMeans(image(plan(rooms(dialect, fog), dialect, mode, 16, seed)))
+          Blocks.ofEight(image(plan(rooms(dialect, fog), dialect, mode, 16, seed)))
         )
       val (guided, unguided) = (blocks(GuidingMode.On), blocks(GuidingMode.Off))
-      val scores = guided.transpose.zip(unguided.transpose).map(score)
+      val scores = guided.transpose.zip(unguided.transpose).map(Blocks.score)
       // Of 48 normal numbers one is beyond 4.5 in 3000 runs; the root of their mean square has a
       // deviation of 0.1
       assert(scores.forall(_.abs < 4.5), scores)
@@ -160,23 +160,6 @@ private object GuidedWalkSuite:
     def save(state: RenderState): Unit = CheckedFile.write(to, "state")(state.save)
     def lose(): Unit = ()
     def finish(): Unit = ()
-
-  /** Of each block of 8 × 8 pixels, in each channel. */
-  def blockMeans(image: Image): Vector[Double] =
-    for
-      y <- Vector.range(0, image.height, 8)
-      x <- Vector.range(0, image.width, 8)
-      c <- Vector(0, 1, 2)
-    yield
-      val all = for j <- y until y + 8; i <- x until x + 8 yield image(i, j, c).toDouble
-      all.sum / all.size
-
-  /** The difference of two means, in deviations. */
-  def score(a: Vector[Double], b: Vector[Double]): Double =
-    def mean(v: Vector[Double]) = v.sum / v.size
-    def variance(v: Vector[Double]) =
-      v.map(x => (x - mean(v)) * (x - mean(v))).sum / (v.size - 1) / v.size
-    (mean(a) - mean(b)) / Math.sqrt(variance(a) + variance(b))
 
   /** A box divided by a wall with a gap; the lamp is behind it. Spheres are matte,
     * rough metal, coated and of glass.

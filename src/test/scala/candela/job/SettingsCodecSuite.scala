@@ -5,6 +5,7 @@ import candela.build.sampling.PointChoice
 import candela.color.ToneCurve
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
+import candela.integrators.CausticsMode
 import candela.image.{DisplayTransform, Exposure}
 import candela.layers.Layer
 import candela.scenefile.Dialect
@@ -88,6 +89,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       points <- Gen.oneOf(PointChoice.all)
       fireflies <- firefliesGen
       guiding <- Gen.oneOf(GuidingMode.values.toSeq)
+      caustics <- Gen.oneOf(CausticsMode.values.toSeq)
       flags <- Gen.listOfN(5, flag)
       edgeScale <- Gen.option(positive)
       reading <- readings
@@ -107,6 +109,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
         points,
         fireflies,
         guiding,
+        caustics,
         centers,
         unfiltered,
         meanImages,
@@ -119,7 +122,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   test("settings are read from words as they were written, all of them"):
     val fields = Vector(RenderSettings(), RenderGoal(), ReadSettings(), OutputSettings())
-    assert(fields.map(_.productArity) == Vector(20, 2, 3, 6), "`settings` must make the new field")
+    assert(fields.map(_.productArity) == Vector(21, 2, 3, 6), "`settings` must make the new field")
     forAll(settings, minSuccessful(500)): s =>
       assert(SettingsCodec.settings(SettingsCodec.words(s)) == Right(s))
 

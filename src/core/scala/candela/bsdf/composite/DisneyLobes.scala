@@ -88,6 +88,7 @@ final class ClearcoatDistribution(alpha: Float, isBare: Boolean = false)
 
   def isSmooth: Boolean = false
   def isIsotropic: Boolean = true
+  def isNarrow: Boolean = false // Most of its light is in the tails
 
   def d(m: Vec3): Float =
     // 1 − (1 − α²) cos²θ, without cancellation near the normal

@@ -1,7 +1,8 @@
 package candela.bsdf.microfacet
 
 import candela.bsdf.{
-  Bsdf, ConductorReflectance, Lobes, Material, ReflectanceCurve, StrongConductorReflectance
+  Bsdf, ConductorReflectance, Lobes, Material, MaterialFlags, ReflectanceCurve,
+  StrongConductorReflectance
 }
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
@@ -26,6 +27,7 @@ final class ConductorMaterial(
 ) extends Material,
       Textured(metal, roughness, scale):
   def bsdf(at: ShadingPoint): Bsdf = Conductor(roughness(at), metal(at), scale(at))
+  override def flags: MaterialFlags = roughness.flags
 
 /** Reflectance curve of a metal at each surface point. */
 abstract class MetalTexture extends Varying:
@@ -76,6 +78,8 @@ final class ShinyMetalMaterial(ks: RgbTexture, kr: RgbTexture, roughness: Roughn
       .add(MicrofacetReflection(roughness(at), ShinyMetalMaterial.curve(gloss)), gloss.max)
       .add(Mirror(Rgb.White, ShinyMetalMaterial.curve(mirror)), mirror.max)
       .result
+
+  override def flags: MaterialFlags = MaterialFlags.Caster
 
 object ShinyMetalMaterial:
   private[bsdf] def curve(reflectance: Rgb): ReflectanceCurve =

@@ -110,7 +110,7 @@ final class RoughDielectric(
     else out.absorb()
 
   val flags: BsdfFlags =
-    val own = BsdfFlags.Glossy | BsdfFlags.Choosing
+    val own = distribution.flags | BsdfFlags.Choosing
     if transmittance.isBlack then own else own | BsdfFlags.Transmissive
 
   override def regularized: Bsdf =
@@ -176,6 +176,8 @@ final class DielectricMaterial(
     val transmittance = kt.positive(at)
     if compresses then Dielectric(distribution, index, reflectance, transmittance)
     else SmoothDielectric(index, reflectance, transmittance, compresses = false)
+
+  override def flags: MaterialFlags = roughness.flags
 
 object DielectricMaterial:
 

@@ -1,5 +1,6 @@
 package candela.bsdf.microfacet
 
+import candela.bsdf.BsdfFlags
 import candela.math.*
 import candela.sampling.Warp
 
@@ -37,6 +38,13 @@ abstract class MicrofacetDistribution:
   /** Whether to treat the surface as perfectly specular. */
   def isSmooth: Boolean
 
+  /** Is light scattered to so narrow a range of directions that curved surfaces focus it? */
+  def isNarrow: Boolean
+
+  /** Flags of a BSDF of such microfacets. */
+  final def flags: BsdfFlags =
+    if isNarrow then BsdfFlags.Glossy | BsdfFlags.Narrow else BsdfFlags.Glossy
+
   /** Whether the roughness is the same along x and y. */
   def isIsotropic: Boolean
 
@@ -62,6 +70,7 @@ final class TrowbridgeReitz(val alphaX: Float, val alphaY: Float) extends Microf
   def isIsotropic: Boolean = alphaX == alphaY
 
   val isSmooth: Boolean = Math.max(alphaX, alphaY) < TrowbridgeReitz.SmoothBelow
+  def isNarrow: Boolean = Math.min(alphaX, alphaY) < TrowbridgeReitz.Wide
 
   /** Doubles the roughness, clamped to [0.1, 0.3]; unchanged from 0.3 on (PBRT 4th ed., §13.4.1).
     */
@@ -118,6 +127,11 @@ object TrowbridgeReitz:
   /** Roughness below which PBRT 4 treats a surface as perfectly smooth. */
   inline val SmoothBelow = 1e-3f
 
+  /** Roughness from which on surfaces blur what they focus: half of the light leaves in a cone of
+    * 50° or more.
+    */
+  private[microfacet] inline val Wide = 0.25f
+
   /** Minimum roughness along one axis of a surface that is rough along the other. */
   inline val LeastAlpha = 1e-4f
 
@@ -144,6 +158,9 @@ final class CosinePower(exponentX: Float, exponentY: Float) extends MicrofacetDi
 
   def isSmooth: Boolean = false
   def isIsotropic: Boolean = ex == ey
+
+  /** By the roughness of equal core width, √(2/(e + 2)). */
+  def isNarrow: Boolean = Math.max(ex, ey) > 2.0 / square(TrowbridgeReitz.Wide) - 2.0
 
   def d(m: Vec3): Float = (area * power(m)).toFloat
 

@@ -52,7 +52,7 @@ final class MicrofacetReflection(
 
   private def oriented(cosM: Float, wo: Vec3): Float = if wo.z < 0f then -cosM else cosM
 
-  def flags: BsdfFlags = BsdfFlags.Glossy
+  def flags: BsdfFlags = distribution.flags
   override def regularized: Bsdf = MicrofacetReflection(distribution.regularized, curve, scale)
 
 object MicrofacetReflection:

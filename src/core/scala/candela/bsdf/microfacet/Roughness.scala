@@ -1,5 +1,6 @@
 package candela.bsdf.microfacet
 
+import candela.bsdf.MaterialFlags
 import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{ConstantFloat, FloatTexture, Textured}
@@ -87,6 +88,10 @@ final class Roughness(
   /** The Trowbridge–Reitz distribution, for surfaces that support no other. */
   def trowbridgeReitz(at: ShadingPoint): TrowbridgeReitz =
     if isConstant then fixedTrowbridgeReitz else model.trowbridgeReitz(u(at), v(at))
+
+  /** Flags of a material that scatters light by such microfacets alone. */
+  def flags: MaterialFlags =
+    if isConstant && !fixed.isNarrow then MaterialFlags.Plain else MaterialFlags.Caster
 
   /** Whether the surface is smooth everywhere. */
   def isSmooth: Boolean = isConstant && fixedTrowbridgeReitz.isSmooth

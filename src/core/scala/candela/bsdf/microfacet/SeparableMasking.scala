@@ -9,6 +9,7 @@ final class SeparableTrowbridgeReitz(alphaX: Float, alphaY: Float) extends Micro
   private val inner = TrowbridgeReitz(alphaX, alphaY)
 
   def isSmooth: Boolean = false
+  def isNarrow: Boolean = inner.isNarrow
   def isIsotropic: Boolean = alphaX == alphaY
   def d(m: Vec3): Float = inner.d(m)
   def pdf(wo: Vec3, m: Vec3): Float = inner.pdf(wo, m)
@@ -39,6 +40,7 @@ final class Beckmann(alphaX: Float, alphaY: Float) extends MicrofacetDistributio
   private val ay = Math.max(alphaY, TrowbridgeReitz.LeastAlpha)
 
   def isSmooth: Boolean = false
+  def isNarrow: Boolean = visible.isNarrow
   def isIsotropic: Boolean = alphaX == alphaY
 
   def d(m: Vec3): Float =

@@ -24,7 +24,7 @@ final class Mirror(scale: Rgb, curve: ReflectanceCurve = FullReflectance) extend
     if weight.isBlack then out.absorb()
     else out.set(Hemisphere.mirrored(wo), weight, 1f, isSpecular = true)
 
-  def flags: BsdfFlags = BsdfFlags.Specular
+  def flags: BsdfFlags = BsdfFlags.Specular | BsdfFlags.Narrow
   override def regularized: Bsdf =
     MicrofacetReflection(TrowbridgeReitz.RegularizedMirror, curve, scale)
 
@@ -71,7 +71,7 @@ final class SmoothDielectric(
       out.set(wi, transmittance * scale, probability, isSpecular = true, eta = relative)
 
   val flags: BsdfFlags =
-    val own = BsdfFlags.Specular | BsdfFlags.Choosing
+    val own = BsdfFlags.Specular | BsdfFlags.Narrow | BsdfFlags.Choosing
     if transmittance.isBlack then own else own | BsdfFlags.Transmissive
 
   /** Unchanged unless `compresses`: [[RoughDielectric]] always scales radiance. */
@@ -102,7 +102,8 @@ final class ThinDielectric(
     else out.set(-wo, transmittance, 1f - back, isSpecular = true)
 
   def flags: BsdfFlags =
-    BsdfFlags.Specular | BsdfFlags.Transmissive | BsdfFlags.Pane | BsdfFlags.Choosing
+    BsdfFlags.Specular | BsdfFlags.Narrow | BsdfFlags.Transmissive | BsdfFlags.Pane |
+      BsdfFlags.Choosing
 
   override def straight(wo: Vec3): Rgb = transmittance * (1f - reflected(wo))
 
@@ -116,7 +117,7 @@ final class ThinDielectricMaterial(eta: Float, kr: RgbTexture, kt: RgbTexture)
     extends Material,
       Textured(kr, kt):
   def bsdf(at: ShadingPoint): Bsdf = ThinDielectric(eta, kr.positive(at), kt.positive(at))
-  override def flags: MaterialFlags = MaterialFlags.Pane
+  override def flags: MaterialFlags = MaterialFlags.Pane | MaterialFlags.Caster
 
 /** Transmits a fraction of the light unscattered. */
 final class Passthrough(transmittance: Rgb) extends Specular:
@@ -129,6 +130,7 @@ final class Passthrough(transmittance: Rgb) extends Specular:
 /** A perfect mirror of constant reflectance. */
 final class MirrorMaterial(kr: RgbTexture) extends Material, Textured(kr):
   def bsdf(at: ShadingPoint): Bsdf = Mirror(kr.positive(at))
+  override def flags: MaterialFlags = MaterialFlags.Caster
 
 /** Specular reflection with the Fresnel term of an interface of index `eta`, times `kr`, without
   * transmission: the surface of PBRT 2's subsurface materials.

@@ -39,8 +39,8 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           interfaces = interfaces,
           countsPassed = countsPassed
         )
-        GuidedMethod(scene): (over, guide, parts) =>
-          PathTracer(over, limits, options, guide = guide, parts = parts)
+        CausticMethod(scene, limits, options, media = None): (over, own, guide, parts) =>
+          PathTracer(over, limits, own, guide = guide, parts = parts)
       ,
       samplesBsdf = true,
       s"$name, up to $depth scattering events" + (if regularizes then ", regularised" else ""),
@@ -57,8 +57,8 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           crossesPanes = crossesPanes,
           hidesLamps = hides()
         )
-        GuidedMethod(scene): (over, guide, parts) =>
-          VolumePathTracer(over, media, limits, options, guide, parts)
+        CausticMethod(scene, limits, options, Some(media)): (over, own, guide, parts) =>
+          VolumePathTracer(over, media, limits, own, guide, parts)
       ,
       throughVolumes = Some((scene, _, march) =>
         RenderMethod.tiles(scene)(PathTracer(_, limits, volumes = march()))

@@ -1,6 +1,7 @@
 package candela.build.recipe
 
 import candela.guiding.GuidingMode
+import candela.integrators.CausticsMode
 import candela.math.Position
 
 /** What holds for a whole scene: as its `Option` statements, the user's settings and its program's
@@ -18,6 +19,7 @@ import candela.math.Position
   * @param rules       for all statements; else those of each statement's dialect
   * @param origin      where the origin of what is built lies in the scene's world
   * @param guiding     whether paths learn where light comes from
+  * @param caustics    whether light paths look for caustics
   */
 final case class Switches(
     seed: Int = 0,
@@ -31,5 +33,6 @@ final case class Switches(
     errors: Option[String] = None,
     rules: Option[Rules] = None,
     guiding: GuidingMode = GuidingMode.Off,
+    caustics: CausticsMode = CausticsMode.Off,
     origin: Position = Position.Origin
 )

@@ -2,6 +2,7 @@ package candela.cli.options
 
 import candela.build.{RenderRegion, RenderSettings}
 import candela.guiding.GuidingMode
+import candela.integrators.CausticsMode
 
 import scopt.OParser
 
@@ -46,6 +47,13 @@ private[cli] object SwitchTable extends OptionRows:
           "compare by `--time` or `--error`: [what it brings](decisions/0020-path-guiding.md)."
       ))
       .action(set((mode, s) => s.copy(guiding = mode))),
+    opt[CausticsMode]("caustics").valueName("auto|on|off|photons")
+      .text(
+        "let light paths look for caustics, too: of the light that the camera's paths find with " +
+          "more noise, of all light, or not (default); or take all of them from photon maps, " +
+          "which blur them a little, and find those seen through glass and water"
+      )
+      .action(set((mode, s) => s.copy(caustics = mode))),
     flag("force-diffuse", "make all materials diffuse")(_.copy(diffuse = true)),
     opt[Double]("displacement-edge-scale").valueName("X")
       .text("scale of the edge length of displaced meshes (default 1)")

@@ -1,0 +1,247 @@
+package candela.bidirectional
+
+import candela.base.loop
+import candela.cameras.CameraRays
+import candela.color.Rgb
+import candela.film.{Splats, View}
+import candela.integrators.{CausticWeights, Integrator}
+import candela.sampling.{IndependentSampler, Sampler}
+import candela.scene.{CasterAim, Casters, Scene}
+
+/** How light paths look for caustics.
+  *
+  * @param casters   where they begin, more often where caustics come from
+  * @param perSample light paths per camera sample, on average
+  * @param radius    within which photons are gathered at first, if paths leave them caustics
+  */
+final case class CausticChoice(casters: Casters, perSample: Float, radius: Float = 0f)
+
+/** Finds out by few paths whether light paths pay: whether they reduce the variance of the image by
+  * more than they cost. Depends on the scene and its camera alone, not on the samples to be taken,
+  * nor on threads: all parts of a rendering decide alike.
+  *
+  * Light that the camera's paths find once in a million samples is not seen by some thousand of
+  * them. But a light path that finds it knows the densities of both, and so the second moment that
+  * it has in either: with f the light of a path, p its density for the camera and q that for light
+  * paths, the integral of f²/p is the mean of (f/q)² · q/p over light paths.
+  *
+  * @param tracer paths from the camera, weighted against light paths
+  */
+private[candela] final class CausticPilot(
+    scene: Scene,
+    view: View,
+    light: CausticLight,
+    tracer: CausticWeights => Integrator
+):
+  import CausticPilot.*
+  private val blocks = PilotBlocks(view)
+  private val weights = new Array[Double](Cells)
+  private var isLearning = true
+  private var splats = 0L
+  private var cameraRays = 0.0
+
+  /** @return the choice, if light paths pay; and why, or why not */
+  def run(): (Option[CausticChoice], String) =
+    if !isCameraWhereItSays then
+      (None, "none: the camera is not in the medium that the first border of media before it says")
+    else look()
+
+  private def look(): (Option[CausticChoice], String) =
+    trace(light, LearningPaths, Seed): Unit
+    if splats == 0 then (None, "none: the camera sees no light of light paths over casters")
+    else
+      isLearning = false
+      val aimed = light.casters.aimed(CasterAim(weights.map(Math.sqrt), Evenly))
+      val rays = trace(light.copy(casters = aimed), LookingPaths, Seed + 1)
+      follow(tracer(CausticWeights(scene, aimed, view.camera, 1f)))
+      decide(aimed, rays)
+
+  private def decide(aimed: Casters, rays: Double): (Option[CausticChoice], String) =
+    val cost = rays / cameraRays
+    val (byPaths, more, byLight) = blocks.variances()
+    val best = Math.sqrt(byLight / (byPaths * cost))
+    val perSample = Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
+    val gain = (byPaths + more) / ((byPaths + byLight / perSample) * (1 + perSample * cost))
+    val times = if gain > 10.0 then "more than 10" else f"$gain%.2f"
+    val figures = f"the pilot expects $times times the efficiency, with $perSample%.3g light " +
+      "paths per camera sample"
+    if light.findsAll then (Some(CausticChoice(aimed, perSample.toFloat)), figures)
+    else if gain > LeastGain then (Some(CausticChoice(aimed, perSample.toFloat)), figures)
+    else (None, s"none: $figures")
+
+  private def isCameraWhereItSays: Boolean =
+    val within = light.within(scene)
+    within == null || {
+      val rays = CameraRays(view.camera, view.shutter, 0f)
+      val sampler = IndependentSampler(1, Seed)
+      (0 until CameraRaysLooked).forall: k =>
+        start(sampler, k)
+        val weight = rays.next(pixelX(k) + 0.5f, pixelY(k) + 0.5f, sampler)
+        weight == 0f || !within.contradicts(rays.ray)
+    }
+
+  /** Traces light paths; returns the rays of each, on average. */
+  private def trace(by: CausticLight, count: Int, seed: Int): Double =
+    val within = by.within(scene)
+    val paths = by.paths(scene, within)
+    val observer = Observer(paths, count)
+    val camera = CameraConnection(scene, view.camera, Splats.Discarded, within, 1f, observer)
+    val sampler = IndependentSampler(1, seed)
+    loop(count): k =>
+      start(sampler, k)
+      val time = view.shutter.fold(0f)(_.at(sampler.next1D()))
+      camera.begin(time)
+      paths.trace(time, sampler)
+      camera.connect(paths, isWeighted = true, sampler)
+    val inMedia = if within == null then 0L else within.raysTraced
+    (paths.raysTraced + camera.raysTraced + inMedia).toDouble / count
+
+  private def start(sampler: Sampler, k: Int): Unit =
+    sampler.start(k % view.width, k / view.width, 0)
+
+  /** Follows paths from the camera, two for each of some pixels. */
+  private def follow(integrator: Integrator): Unit =
+    val rays = CameraRays(view.camera, view.shutter, view.differentialScale)
+    val sampler = IndependentSampler(1, Seed + 2)
+    loop(CameraPairs): k =>
+      val first = radiance(rays, integrator, sampler, 2 * k, k)
+      val second = radiance(rays, integrator, sampler, 2 * k + 1, k)
+      blocks.addPair(pixelX(k), pixelY(k), first, second)
+    cameraRays = integrator.raysTraced.toDouble / (2 * CameraPairs)
+
+  private def radiance(
+      rays: CameraRays,
+      integrator: Integrator,
+      sampler: Sampler,
+      k: Int,
+      pixel: Int
+  ): Float =
+    start(sampler, k)
+    sampler.next2D()
+    val weight = rays.next(pixelX(pixel) + sampler.x, pixelY(pixel) + sampler.y, sampler)
+    val found = if weight == 0f then 0f else integrator.radiance(rays.ray, sampler).average * weight
+    if found.isFinite then found else 0f
+
+  // Points of the additive recurrence of the plastic number, evenly spread for any count
+  private def pixelX(k: Int): Int = at(k, 0.7548776662466927, view.width)
+  private def pixelY(k: Int): Int = at(k, 0.5698402909980532, view.height)
+  private def at(k: Int, step: Double, size: Int): Int =
+    Math.min((((k + 1) * step) % 1.0 * size).toInt, size - 1)
+
+  /** Adds what light paths find. */
+  private final class Observer(paths: CausticPaths, count: Int) extends SplatObserver:
+    private val scale = view.pixels / count
+
+    def see(x: Float, y: Float, light: Rgb, others: Double): Unit =
+      val weighted = light.average.toDouble
+      if weighted > 0.0 && weighted < Float.PositiveInfinity && blocks.contains(x, y) then
+        splats += 1
+        if isLearning then
+          val cell = Math.min((paths.place * Cells).toInt, Cells - 1)
+          weights(cell) += weighted * weighted
+        else
+          // The weight is 1 / (1 + others); q/p of the light path
+          val ratio = if others > 0.0 then 1.0 / Math.sqrt(others) else MostRatio
+          val whole = weighted * (1.0 + others)
+          val rest = whole - weighted
+          blocks.addSplat(
+            x,
+            y,
+            weighted * scale,
+            whole * whole * Math.min(ratio, MostRatio) * scale,
+            rest * rest * Math.min(ratio, MostRatio) * scale,
+            weighted * weighted * scale
+          )
+
+private[candela] object CausticPilot:
+  /** Cells of the casters' areas that are learnt. */
+  inline val Cells = 512
+  inline val LearningPaths = 16384
+  inline val LookingPaths = 16384
+  inline val CameraPairs = 2048
+  inline val CameraRaysLooked = 64
+  inline val Seed = 0x5eed
+
+  /** Part of the light paths that begin anywhere. */
+  inline val Evenly = 0.2
+
+  /** Light paths per camera sample. */
+  inline val Least = 0.125
+  inline val Most = 2.0
+
+  /** What one light path finds must not decide alone. */
+  inline val MostRatio = 1e6
+
+  /** Expected efficiency from which on light paths are taken: the pilot is not exact. */
+  inline val LeastGain = 1.25
+
+/** Blocks of the image, and the moments of what was found there. Mutable. */
+private final class PilotBlocks(view: View):
+  import PilotBlocks.*
+  private val size = Math.max(1.0, Math.max(view.width, view.height) / Across)
+  private val columns = Math.ceil(view.width / size).toInt
+  private val rows = Math.ceil(view.height / size).toInt
+  private val count = columns * rows
+  private val pairs = new Array[Int](count)
+  private val sum, spread, splat, alone, rest, own = new Array[Double](count)
+
+  def contains(x: Float, y: Float): Boolean =
+    x >= 0f && y >= 0f && x < view.width && y < view.height
+
+  private def block(x: Float, y: Float): Int =
+    Math.min((y / size).toInt, rows - 1) * columns + Math.min((x / size).toInt, columns - 1)
+
+  /** Adds two samples of a pixel. */
+  def addPair(x: Int, y: Int, first: Float, second: Float): Unit =
+    val i = block(x + 0.5f, y + 0.5f)
+    pairs(i) += 1
+    sum(i) += (first + second) * 0.5
+    spread(i) += square((first - second).toDouble) * 0.5
+
+  /** Adds light of a light path.
+    *
+    * @param light   of the whole block
+    * @param byPaths second moment that paths from the camera would have alone
+    * @param beside  that they have beside light paths
+    * @param byLight that the light path has
+    */
+  def addSplat(
+      x: Float,
+      y: Float,
+      light: Double,
+      byPaths: Double,
+      beside: Double,
+      byLight: Double
+  ): Unit =
+    val i = block(x, y)
+    splat(i) += light
+    alone(i) += byPaths
+    rest(i) += beside
+    own(i) += byLight
+
+  /** Relative variances of a sample, summed over blocks: of paths from the camera beside light
+    * paths, what they have more without them, and that of light paths.
+    */
+  def variances(): (Double, Double, Double) =
+    val pixels = Array.tabulate(count): i =>
+      val (w, h) = (view.width - (i % columns) * size, view.height - (i / columns) * size)
+      Math.min(w, size) * Math.min(h, size)
+    val means = Array.tabulate(count): i =>
+      (if pairs(i) == 0 then 0.0 else sum(i) / pairs(i)) + splat(i) / pixels(i)
+    val mean = means.sum / count
+    var byPaths, more, byLight = 0.0
+    loop(count): i =>
+      val unit = 1.0 / (square(means(i)) + square(Floor * mean))
+      if pairs(i) > 0 then byPaths += unit * pixels(i) * spread(i) / pairs(i)
+      more += unit * (alone(i) - rest(i))
+      byLight += unit * own(i)
+    (byPaths, more, byLight)
+
+  private def square(x: Double): Double = x * x
+
+private object PilotBlocks:
+  /** Along the longer side. */
+  inline val Across = 12.0
+
+  /** Part of the mean brightness below which blocks count no more. */
+  inline val Floor = 0.1

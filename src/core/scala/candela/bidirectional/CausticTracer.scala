@@ -1,0 +1,74 @@
+package candela.bidirectional
+
+import candela.color.Rgb
+import candela.film.View
+import candela.geometry.Ray
+import candela.integrators.Integrator
+import candela.layers.LightParts
+import candela.media.SceneMedia
+import candela.sampling.Sampler
+import candela.scene.{Casters, Scene}
+
+/** Light paths that look for caustics, and their way to the camera: all that is said of them.
+  *
+  * @param casters    where they begin
+  * @param maxDepth   scattering events of a path, at most
+  * @param compresses as in [[Subpath]]
+  * @param findsAll   also trace light that paths from the camera cannot find
+  * @param beneath    as in [[CausticPaths]]
+  * @param media      what they go through, if anything
+  */
+final case class CausticLight(
+    casters: Casters,
+    maxDepth: Int,
+    compresses: Boolean,
+    findsAll: Boolean,
+    beneath: Boolean,
+    media: Option[SceneMedia]
+):
+  private[bidirectional] def within(scene: Scene): PathMedia | Null =
+    media.map(PathMedia(scene, _)).orNull
+
+  private[bidirectional] def photonPaths(scene: Scene): CausticPaths =
+    CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, onlyToFirst = true)
+
+  private[bidirectional] def paths(scene: Scene, within: PathMedia | Null): CausticPaths =
+    CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, within)
+
+/** Path tracing, with light paths for caustics, and for what these light: light that casters
+  * scatter, and that a surface or a medium before the camera sends on. Where both find the same
+  * light, both are weighted by multiple importance sampling.
+  *
+  * @param tracer    weighs what it finds by [[candela.integrators.CausticWeights]]
+  * @param perSample light paths per camera sample, on average
+  *
+  * Source: Veach 1997, §10: light tracing is his strategy t = 1, of which only caustics are taken.
+  */
+final class CausticTracer(
+    scene: Scene,
+    tracer: Integrator,
+    view: View,
+    light: CausticLight,
+    perSample: Float
+) extends Integrator:
+  private val within = light.within(scene)
+  private val paths = light.paths(scene, within)
+  private val camera = CameraConnection(scene, view.camera, view.splats, within, perSample)
+
+  def raysTraced: Long = tracer.raysTraced + paths.raysTraced + camera.raysTraced +
+    (if within == null then 0L else within.raysTraced)
+
+  override def lastMaterial: Int = tracer.lastMaterial
+  override def lightParts: LightParts | Null = tracer.lightParts
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    val time = ray.time
+    val found = tracer.radiance(ray, sampler)
+    camera.begin(time)
+    sampler.skipTo(BidirectionalPaths.LightRequests)
+    var left = perSample
+    while left > 0f && (left >= 1f || sampler.next1D() < left) do
+      paths.trace(time, sampler)
+      camera.connect(paths, isWeighted = true, sampler)
+      left -= 1f
+    found

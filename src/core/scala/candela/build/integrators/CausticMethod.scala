@@ -1,0 +1,130 @@
+package candela.build.integrators
+
+import candela.base.Code
+import candela.bidirectional.{
+  CausticChoice, CausticLight, CausticPasses, CausticPilot, CausticTracer, PhotonPilot
+}
+import candela.build.recipe.*
+import candela.film.View
+import candela.guiding.{Guide, GuideSettings}
+import candela.integrators.*
+import candela.layers.LightParts
+import candela.media.SceneMedia
+import candela.render.{GuidedSplats, RenderMethod}
+import candela.scene.Scene
+import candela.scenefile.Dialect
+
+/** Methods of path tracers, which can be guided, and beside which light paths can look for caustics
+  * where a pilot finds that it pays.
+  */
+private object CausticMethod:
+  /** Makes the integrator of a worker: with these options, guided or not, and dividing light in a
+    * given place or its own.
+    */
+  type Tracer = (Scene, WalkOptions, Guide | Null, LightParts | Null) => Integrator
+
+  def apply(scene: Scene, limits: PathLimits, options: WalkOptions, media: Option[SceneMedia])(
+      tracer: Tracer
+  )(using site: Site): RenderMethod =
+    val mode = site.resources.switches.caustics
+    val alone = GuidedMethod(scene)((over, guide, parts) => tracer(over, options, guide, parts))
+    if mode == CausticsMode.Off || !scene.mayHaveCasters then alone
+    else
+      isOut(scene, options) match
+        case Some(why) if mode == CausticsMode.Photons => refuse(why, "write --caustics off", alone)
+        case None if mode == CausticsMode.Photons && media.isDefined =>
+          refuse("photons do not light media", "write --caustics on: light paths do", alone)
+        case Some(why) => RenderMethod.Piloted(alone, _ => (None, s"none: $why"), _ => alone)
+        case None =>
+          val light = CausticLight(
+            scene.casters,
+            limits.maxDepth,
+            compresses = site.dialect != Dialect.V2,
+            findsAll = mode != CausticsMode.Auto,
+            beneath = options.subsurface,
+            media
+          )
+          val beside = Beside(scene, options, light, tracer)
+          if mode == CausticsMode.Photons then
+            RenderMethod
+              .Piloted(alone, PhotonPilot(scene, _, light).run(), beside.photons, connects = false)
+          else RenderMethod.Piloted(alone, beside.pilot, beside.method)
+
+  private def refuse(why: String, instead: String, alone: RenderMethod)(using
+      site: Site
+  ): RenderMethod =
+    site.error(Code.OptionMisfit, s"--caustics photons: $why", Some(instead))
+    alone
+
+  /** Why light paths would find other light than the camera's, if they would. */
+  private def isOut(scene: Scene, options: WalkOptions): Option[String] =
+    if options.regularizes then Some("regularised paths are no caustics")
+    else if scene.hasInterfaces && options.interfaces.stopsLight then
+      Some("\"path\" stops light at interfaces of media; \"volpath\" does not")
+    else if options.countsPassed && scene.hasInterfaces then
+      Some("interfaces count as scattering events")
+    else if options.crossesPanes && scene.hasPanes then
+      Some("light samples cross thin glass here")
+    else if scene.lightGroups.isDefined then
+      Some("it does not divide light, as --fireflies clamp and AOVs of light need")
+    else None
+
+  /** Do manifold walks look for the light of surfaces? Where waves are many, they cost more than
+    * they bring.
+    */
+  private inline val WalksToSurfaces = false
+
+  private final class Beside(
+      scene: Scene,
+      options: WalkOptions,
+      light: CausticLight,
+      tracer: Tracer
+  )(using site: Site):
+    def pilot(view: View): (Option[CausticChoice], String) =
+      CausticPilot(scene, view, light, weights => tracer(scene, weighed(weights), null, null)).run()
+
+    def method(choice: CausticChoice): RenderMethod =
+      def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): over =>
+        val chosen = light.copy(casters = choice.casters)
+        val weights = CausticWeights(over, choice.casters, view.camera, choice.perSample)
+        val own = weighed(weights).copy(manifolds = walked(over))
+        val paths = guide match
+          case None => tracer(over, own, null, null)
+          case Some(by) =>
+            PartlyGuided(over, by, tracer(over, own, by, _), tracer(over, own, null, _))
+        CausticTracer(over, paths, view, chosen, choice.perSample)
+      RenderMethod.SplattedTiles(
+        makers(_, None),
+        beside = true,
+        GuideSettings
+          .of(site.resources.switches.guiding)
+          .map(GuidedSplats(_, (view, guide) => makers(view, Some(guide)))),
+        Option.when(light.findsAll && scene.lights.exists(_.isDelta)):
+          "also light of lamps without extent, through and off smooth surfaces"
+      )
+
+    /** Paths of the camera that take caustics from photons. */
+    def photons(choice: CausticChoice): RenderMethod =
+      val chosen = light.copy(casters = choice.casters)
+      RenderMethod.Passes(
+        CausticPasses(
+          scene,
+          chosen,
+          choice.radius,
+          site.resources.seed,
+          _,
+          (over, map) => tracer(over, options.copy(photons = Some(map)), null, null)
+        ),
+        bias = Some("photon maps of shrinking radius (Knaus, Zwicker 2011)")
+      )
+
+    /** Manifold walks between surfaces; media would attenuate the chains. */
+    private def walked(over: Scene): Option[Manifolds] =
+      if light.media.isDefined then None
+      else
+        val walks =
+          Manifolds(over, light.maxDepth, ofSurfaces = WalksToSurfaces, ofPoints = light.findsAll)
+        Option.unless(walks.isEmpty)(walks)
+
+    private def weighed(weights: CausticWeights): WalkOptions =
+      options.copy(caustics = Some(weights))

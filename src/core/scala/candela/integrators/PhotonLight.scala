@@ -1,0 +1,82 @@
+package candela.integrators
+
+import candela.color.Rgb
+import candela.geometry.{Hit, Ray}
+import candela.scene.{Casters, Scene}
+
+/** Light that photons bring in place of a path: what lamps send, by casters alone, to a surface
+  * that receives it. Of each worker, as the photons are those of a pass.
+  *
+  * It is gathered at every vertex that is no caster, and at one that is (a rough one) if none has
+  * gathered since the last of these. So a light's way to the camera is cut at one place: the path
+  * leaves out what it meets behind casters only, and what light sampling finds there.
+  *
+  * @param casters  where photons begin
+  * @param maxDepth scattering events of a path, at most
+  */
+abstract class PhotonLight(scene: Scene, casters: Casters, maxDepth: Int):
+  import PhotonLight.*
+  private val isBrought: Array[Boolean] = scene.lights.map(_.isCausticSource).toArray
+
+  /** Radiance that the vertex reflects of the photons around it, which have met at most `most`
+    * casters.
+    *
+    * @param isAlone does the path carry its hero wavelength only?
+    */
+  protected def around(vertex: SurfaceVertex, most: Int, isAlone: Boolean): Rgb
+
+  /** What the vertex reflects towards the path. */
+  private[integrators] final def reflected(vertex: SurfaceVertex, path: PathState): Rgb =
+    val most = maxDepth - path.depth
+    if most > 0 && gathers(vertex, path) then around(vertex, most, path.isAlone) else Rgb.Black
+
+  private def gathers(vertex: SurfaceVertex, path: PathState): Boolean =
+    receives(scene, vertex) && (path.chain < Started || !scene.isCaster(vertex.at))
+
+  /** Do they bring what the path meets at the lamp? */
+  private[integrators] final def brings(light: Int, path: PathState): Boolean =
+    path.chain == Behind && isBrought(light)
+
+  /** Do they bring what a light sample finds at the vertex, which the ray has met? */
+  private[integrators] final def brings(
+      light: Int,
+      vertex: SurfaceVertex,
+      ray: Ray,
+      hit: Hit,
+      path: PathState
+  ): Boolean =
+    path.chain >= Started && isBrought(light) && canBegin(vertex, ray, hit)
+
+  private def canBegin(vertex: SurfaceVertex, ray: Ray, hit: Hit): Boolean =
+    scene.isCaster(vertex.at) && casters.density(ray, hit, vertex.at) > 0f
+
+  /** The path leaves the vertex, which `ray` has met, by `vertex.bounce`. */
+  private[integrators] final def leave(
+      vertex: SurfaceVertex,
+      ray: Ray,
+      hit: Hit,
+      path: PathState
+  ): Unit =
+    val before = path.chain
+    path.chain =
+      if gathers(vertex, path) then if vertex.bounce.isSpecular then Other else Started
+      else if before < Started then before
+      else if canBegin(vertex, ray, hit) then Behind
+      else if scene.isCaster(vertex.at) then Started
+      else Other
+
+private[candela] object PhotonLight:
+  /** Since a vertex that has gathered, the path has met casters only; the next number: the last of
+    * them may be the first of a photon. Below: there is no such vertex.
+    */
+  inline val Started = 1
+  inline val Behind = 2
+  inline val Other = Manifolds.Other
+
+  /** Are photons stored at such a vertex? Not where they would be found in a narrow lobe, or would
+    * go on beneath the surface.
+    */
+  def receives(scene: Scene, vertex: SurfaceVertex): Boolean =
+    val bsdf = vertex.bsdf
+    !bsdf.isSpecular && (bsdf.isDiffuse || !bsdf.isNarrow) &&
+    !scene.isSubsurface(vertex.at.material)

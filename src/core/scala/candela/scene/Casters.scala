@@ -1,0 +1,264 @@
+package candela.scene
+
+import candela.accel.Instances
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.math.*
+import candela.sampling.Warp
+import candela.shapes.SurfaceSample
+
+/** A point sampled on a caster; mutable, one per worker. */
+final class CasterPoint:
+  private[scene] val surface = SurfaceSample()
+
+  /** As [[candela.geometry.Hit.primitive]] and `inner` of a ray that meets the point. */
+  private[scene] var primitive, inner: Int = -1
+
+  /** Distance within which a ray that meets the primitive has met the point. */
+  private[scene] var reach: Float = 0f
+
+  /** Where its primitive lies in the sum of all areas, from 0 to 1. */
+  var place: Double = 0.0
+
+  /** In world space. */
+  def p: MutableVec3 = surface.p
+
+/** The surfaces that cast caustics, whose points are sampled by area, or more often where an aim
+  * says so. Immutable.
+  *
+  * Within an instance points are sampled by area in the object's space, as all instances of it
+  * share a table.
+  */
+final class Casters private (
+    world: CasterTable,
+    objects: Array[CasterTable],
+    placed: Placed,
+    aim: CasterAim
+):
+  private val total = world.area + placed.area
+
+  /** The same, with another aim. */
+  def aimed(aim: CasterAim): Casters = new Casters(world, objects, placed, aim)
+
+  /** No surface casts caustics. */
+  def isEmpty: Boolean = total == 0.0
+
+  /** How many primitives, and how many instances with such. */
+  def describe: String =
+    val alone = world.count match
+      case 0 => None
+      case 1 => Some("one primitive")
+      case n => Some(s"$n primitives")
+    val within = placed.count match
+      case 0 => None
+      case 1 => Some("one instance")
+      case n => Some(s"$n instances")
+    (alone ++ within).mkString(" and ")
+
+  /** Samples a point.
+    *
+    * @param choice of the primitive, in [0, 1)
+    * @param ray    says at which time
+    * @return false: no point was sampled
+    */
+  def sample(choice: Double, u1: Float, u2: Float, ray: Ray, out: CasterPoint): Boolean =
+    out.place = aim.place(choice)
+    val place = out.place * total
+    if place < world.area then
+      out.primitive = world.sample(place, u1, u2, out)
+      out.inner = -1
+    else
+      val i = placed.find(place - world.area)
+      val instance = placed.instances(i)
+      val rest = (place - world.area - placed.start(i)) / placed.areaOf(i)
+      val of = objects(placed.all.objectOf(instance))
+      out.primitive = placed.first + instance
+      out.inner = of.sample(Math.min(rest, Casters.BelowOne) * of.area, u1, u2, out)
+      out.surface.p = placed.all.place(instance, ray, out.p)
+      out.reach *= placed.stretch(i)
+    out.surface.pdf > 0f
+
+  /** Has the ray met the sampled point, if it met a surface at `at`? */
+  def isMet(point: CasterPoint, hit: Hit, at: ShadingPoint): Boolean =
+    hit.primitive == point.primitive && (point.inner < 0 || hit.inner == point.inner) &&
+      (at.p - point.p).lengthSquared <= square(point.reach)
+
+  /** Density with which [[sample]] returns the point where a ray has met a caster, per area. */
+  def density(ray: Ray, hit: Hit, at: ShadingPoint): Float =
+    if hit.primitive < placed.first then
+      val k = world.indexOf(hit.primitive)
+      if k < 0 then 0f
+      else
+        val often = aim.density(world.start(k) / total, world.end(k) / total)
+        (often * world.chance(hit.primitive, at.p) / total).toFloat
+    else
+      val instance = hit.primitive - placed.first
+      val i = placed.indexOf(instance)
+      if i < 0 then 0f
+      else
+        val of = objects(placed.all.objectOf(instance))
+        val k = of.indexOf(hit.inner)
+        val scale = if k < 0 then 0.0 else placed.areaOf(i) / of.area
+        val begin = world.area + placed.start(i)
+        val often =
+          if k < 0 then 0.0
+          else
+            aim.density(
+              (begin + of.start(k) * scale) / total,
+              (begin + of.end(k) * scale) / total
+            )
+        val chance =
+          if of.isEven(hit.inner) then 1.0
+          else of.chance(hit.inner, placed.all.toObject(instance, ray, at.p))
+        val inObject = often * scale / total * chance
+        (inObject * placed.all.shrinkage(instance, ray, at.geometricNormal)).toFloat
+
+object Casters:
+  private inline val BelowOne = 1.0 - 1e-16
+
+  /** @param casts whether a material casts caustics */
+  def apply(surfaces: Surfaces, instanced: Instanced, casts: Array[Boolean]): Casters =
+    val objects = instanced.objects.map(CasterTable(_, casts))
+    new Casters(
+      CasterTable(surfaces, casts),
+      objects,
+      Placed(instanced.instances, surfaces.count, objects),
+      CasterAim.Even
+    )
+
+/** How often places in the sum of the casters' areas, from 0 to 1, are sampled. Immutable.
+  *
+  * @param ends probabilities of all cells up to each, of which there are as many as numbers; all
+  *             cells are of equal size. Empty: places are sampled evenly
+  */
+final class CasterAim private (ends: Array[Double]):
+  /** @param u uniform in [0, 1) */
+  def place(u: Double): Double =
+    if ends.length == 0 then u
+    else
+      val cell = CasterTable.find(ends, u)
+      val begin = if cell == 0 then 0.0 else ends(cell - 1)
+      val within = Math.max(0.0, Math.min((u - begin) / (ends(cell) - begin), CasterAim.BelowOne))
+      (cell + within) / ends.length
+
+  /** Average density from one place to another. */
+  def density(from: Double, to: Double): Double =
+    if ends.length == 0 || to <= from then 1.0 else (upTo(to) - upTo(from)) / (to - from)
+
+  private def upTo(place: Double): Double =
+    val at = place * ends.length
+    val cell = Math.min(at.toInt, ends.length - 1)
+    val begin = if cell == 0 then 0.0 else ends(cell - 1)
+    begin + (ends(cell) - begin) * (at - cell)
+
+object CasterAim:
+  private inline val BelowOne = 1.0 - 1e-12
+
+  /** By area. */
+  val Even: CasterAim = new CasterAim(Array.emptyDoubleArray)
+
+  /** In proportion to these weights, and to some part evenly: no place is left out.
+    *
+    * @param weights of cells of equal size, at least one
+    * @param even    that part, above 0
+    */
+  def apply(weights: Array[Double], even: Double): CasterAim =
+    val sum = weights.sum
+    if !(sum > 0.0) then Even
+    else
+      val chances = weights.map(w => (1.0 - even) * w / sum + even / weights.length)
+      val ends = chances.scanLeft(0.0)(_ + _).tail
+      new CasterAim(ends.map(_ / ends.last))
+
+/** The instances with casters.
+  *
+  * @param first number of the first instance among the primitives
+  */
+private final class Placed(val all: Instances, val first: Int, objects: Array[CasterTable]):
+  val instances: Array[Int] =
+    (0 until all.count).filter(i => objects(all.objectOf(i)).area > 0.0).toArray
+  private val stretches: Array[Double] = instances.map(all.stretch)
+  private val ends: Array[Double] = instances.indices
+    .map(i => objects(all.objectOf(instances(i))).area * stretches(i) * stretches(i))
+    .scanLeft(0.0)(_ + _).tail.toArray
+
+  def count: Int = instances.length
+  def area: Double = if ends.isEmpty then 0.0 else ends.last
+  def start(i: Int): Double = if i == 0 then 0.0 else ends(i - 1)
+  def areaOf(i: Int): Double = ends(i) - start(i)
+  def stretch(i: Int): Float = stretches(i).toFloat
+  def find(place: Double): Int = CasterTable.find(ends, place)
+
+  /** Among these, −1: it has no casters. */
+  def indexOf(instance: Int): Int =
+    Math.max(-1, java.util.Arrays.binarySearch(instances, instance))
+
+/** The casters among some surfaces, in their space. */
+private final class CasterTable(surfaces: Surfaces, casts: Array[Boolean]):
+  private val soup = surfaces.soup
+  private val primitives: Array[Int] =
+    (0 until surfaces.count).filter(i => casts(materialOf(i)) && areaOf(i) > 0.0).toArray
+  private val ends: Array[Double] = primitives.map(areaOf).scanLeft(0.0)(_ + _).tail
+
+  def count: Int = primitives.length
+
+  def area: Double = if ends.isEmpty then 0.0 else ends.last
+
+  /** Among these, below 0: it is none of them. */
+  def indexOf(primitive: Int): Int = java.util.Arrays.binarySearch(primitives, primitive)
+
+  /** Where it lies in the sum of all areas. */
+  def start(index: Int): Double = if index == 0 then 0.0 else ends(index - 1)
+  def end(index: Int): Double = ends(index)
+
+  /** Samples a point of the primitive at this place in the sum of all areas; returns its number. */
+  def sample(place: Double, u1: Float, u2: Float, out: CasterPoint): Int =
+    val primitive = primitives(CasterTable.find(ends, place))
+    val to = out.surface
+    if primitive < soup.count then
+      val b = Warp.uniformTriangle(u1, u2)
+      val p = soup.vertex(primitive, 0)
+      to.p = p + (soup.vertex(primitive, 1) - p) * b.x + (soup.vertex(primitive, 2) - p) * b.y
+      to.pdf = 1f
+      out.reach = Float.PositiveInfinity
+    else
+      val shape = surfaces.solids(primitive - soup.count).shape
+      shape.sampleArea(u1, u2, to)
+      // A ray meets closed shapes twice, and other parts of them are farther away than this
+      out.reach = CasterTable.Near * sqrt(shape.area)
+    primitive
+
+  /** Is [[chance]] 1 everywhere on the primitive? */
+  def isEven(primitive: Int): Boolean = primitive < soup.count
+
+  /** Density of the point `p`, times the whole area. */
+  def chance(primitive: Int, p: Vec3): Double =
+    if isEven(primitive) then 1.0
+    else
+      val shape = surfaces.solids(primitive - soup.count).shape
+      shape.area.toDouble * shape.areaPdf(p)
+
+  private def materialOf(primitive: Int): Int =
+    if primitive < soup.count then soup.meshes(soup.meshOf(primitive)).material
+    else surfaces.solids(primitive - soup.count).material
+
+  private def areaOf(primitive: Int): Double =
+    if primitive < soup.count then
+      val p = soup.vertex(primitive, 0)
+      val across = (soup.vertex(primitive, 1) - p) cross (soup.vertex(primitive, 2) - p)
+      across.length * 0.5
+    else
+      val shape = surfaces.solids(primitive - soup.count).shape
+      val area = shape.area
+      if area < Float.PositiveInfinity then area.toDouble else 0.0
+
+private object CasterTable:
+  private inline val Near = 1e-3f
+
+  /** The first interval whose end is beyond `place`. */
+  def find(ends: Array[Double], place: Double): Int =
+    var low = 0
+    var high = ends.length - 1
+    while low < high do
+      val middle = (low + high) >>> 1
+      if place < ends(middle) then high = middle else low = middle + 1
+    low

@@ -1,0 +1,205 @@
+package candela.bidirectional
+
+import candela.base.CheckedFile
+import candela.build.{ColorMode, RenderSettings}
+import candela.film.Fireflies
+import candela.guiding.GuidingMode
+import candela.integrators.CausticsMode
+import candela.render.{Cancellation, Checkpointer, Renderer, RenderMethod, RenderPlan, RenderState}
+import candela.sampling.Sampler
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+final class CausticPhotonsSuite extends AnyFunSuite:
+
+  /** A ball over a floor, and another of brushed metal, beneath a large lamp. */
+  private def room(ball: String, depth: Int = 8, size: Int = 20, lamp: String = large): String =
+    s"""LookAt 0 -5 3  0 0 .3  0 0 1
+       |Camera "perspective" "float fov" 40
+       |Film "rgb" "integer xresolution" $size "integer yresolution" $size
+       |Sampler "independent" "integer pixelsamples" 64
+       |PixelFilter "box"
+       |Integrator "path" "integer maxdepth" $depth
+       |WorldBegin
+       |LightSource "infinite" "rgb L" [.1 .1 .15]
+       |$lamp
+       |Material "diffuse" "rgb reflectance" [.6 .5 .4]
+       |Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
+       |  "point3 P" [-3 -3 0  3 -3 0  3 3 0  -3 3 0]
+       |AttributeBegin
+       |Material "conductor" "float roughness" .02
+       |Translate -1.1 .3 .4
+       |Shape "sphere" "float radius" .4
+       |AttributeEnd
+       |$ball
+       |Translate .4 0 .7
+       |Shape "sphere" "float radius" .6
+       |""".stripMargin
+
+  private lazy val large = """AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [8 6 4]
+    Translate -1 1 3.5
+    Shape "sphere" "float radius" .6
+    AttributeEnd"""
+  private val glass = """Material "dielectric" "float eta" 1.5"""
+
+  private def plan(text: String, mode: CausticsMode, spp: Int): RenderPlan =
+    val settings = RenderSettings(Some(spp), color = ColorMode.Rgb, caustics = mode)
+    SceneTexts.plan(text, Dialect.V4, settings)
+
+  private def pixels(plan: RenderPlan, threads: Int = 1): Array[Float] =
+    Renderer.render(plan, threads).image(plan.development).data
+
+  private def mean(plan: RenderPlan): Double =
+    val all = pixels(plan)
+    all.map(_.toDouble).sum / all.length
+
+  for
+    (what, ball, depth) <- Seq(
+      ("glass", glass, 8),
+      // Light that glass sends needs two events within it
+      ("glass, short paths", glass, 4),
+      ("a mirror", """Material "conductor" "float roughness" 0""", 8),
+      ("rough glass", """Material "dielectric" "float roughness" .01""", 8),
+      ("coated wood", """Material "coateddiffuse" "float roughness" 0""", 8),
+      ("thin glass", """Material "thindielectric"""", 8)
+    )
+  do
+    test(s"photons bring what paths leave out, once: $what"):
+      val text = room(ball, depth)
+      val expected = mean(plan(text, CausticsMode.Off, 200))
+      val found = mean(plan(text, CausticsMode.Photons, 40))
+      // Noise of some 0.5 % in either; a little light is lost beyond edges within the radius
+      assert(Math.abs(found / expected - 1) < 0.02, s"$found, expected $expected")
+
+  test("light of a point within glass is seen in a mirror"):
+    def text(ball: String) =
+      s"""LookAt -3 0 1  0 0 8  0 1 0
+         |Camera "orthographic" "float screenwindow" [-.25 .25 -.25 .25]
+         |Film "rgb" "integer xresolution" 32 "integer yresolution" 32
+         |Sampler "independent"
+         |Integrator "path" "integer maxdepth" 8
+         |WorldBegin
+         |LightSource "point" "point3 from" [0 0 1] "rgb I" [4 4 4]
+         |AttributeBegin
+         |Material "conductor" "rgb reflectance" [1 1 1] "float roughness" 0
+         |Translate -1.71 0 4
+         |Shape "disk" "float radius" .8
+         |AttributeEnd
+         |Material "diffuse" "rgb reflectance" [.5 .5 .5]
+         |Shape "disk" "float radius" 1
+         |Translate 0 0 1
+         |$ball
+         |""".stripMargin
+    val inside = text(s"$glass Shape \"sphere\" \"float radius\" .08")
+    // Rays through the centre go straight on, and what is reflected gets out in the end
+    val expected = mean(plan(text(""), CausticsMode.Off, 16))
+    val found = mean(plan(inside, CausticsMode.Photons, 60))
+    assert(expected > 0.1 && mean(plan(inside, CausticsMode.Off, 16)) == 0.0)
+    // Some thousand photons arrive there
+    assert(Math.abs(found / expected - 1) < 0.1, s"$found, expected $expected")
+
+  test("the image is the same bit for bit by one thread and by three, and if it is resumed"):
+    val made = plan(room(glass, lamp = s"$large\n$point"), CausticsMode.Photons, 5)
+    val alone = pixels(made).toVector
+    assert(pixels(made, threads = 3).toVector == alone)
+    val folder = Files.createTempDirectory("candela-photons")
+    try
+      val file = folder.resolve("state")
+      val stop = Cancellation()
+      val stopped = Renderer.render(
+        stopping(made, stop),
+        threads = 2,
+        stop,
+        checkpointer = Some(Saved(None, file))
+      )
+      assert(stopped.samplesDone < 5)
+      val resumed =
+        Renderer.render(made, threads = 2, checkpointer = Some(Saved(Some(file), file)))
+      assert(resumed.samplesDone == 5)
+      assert(resumed.image(made.development).data.toVector == alone)
+    finally
+      Files.list(folder).forEach(Files.delete(_))
+      Files.delete(folder)
+
+  private lazy val point = """LightSource "point" "point3 from" [1 -1 3] "rgb I" [3 3 3]"""
+
+  private final class Saved(from: Option[Path], to: Path) extends Checkpointer:
+    def restore(state: RenderState): Unit = from.foreach(CheckedFile.read(_, "state")(state.load))
+    def isDue: Boolean = false
+    def save(state: RenderState): Unit = CheckedFile.write(to, "state")(state.save)
+    def lose(): Unit = ()
+    def finish(): Unit = ()
+
+  /** Stops the rendering at its third sample. */
+  private final class Stopping(inner: Sampler, stop: Cancellation) extends Sampler:
+    def samplesPerPixel: Int = inner.samplesPerPixel
+    def copy(): Sampler = Stopping(inner.copy(), stop)
+    def start(px: Int, py: Int, sample: Int): Unit =
+      if sample == 2 then stop.request()
+      inner.start(px, py, sample)
+    def next1D(): Float = inner.next1D()
+    def next2D(): Unit =
+      inner.next2D()
+      x = inner.x
+      y = inner.y
+
+  private def stopping(plan: RenderPlan, stop: Cancellation): RenderPlan =
+    RenderPlan(
+      plan.width,
+      plan.height,
+      plan.crop,
+      plan.camera,
+      plan.filter,
+      Stopping(plan.sampler, stop),
+      plan.method,
+      plan.basis,
+      plan.limit,
+      plan.development,
+      plan.filename,
+      plan.features
+    )
+
+  test("the image is said to be biased, and one without casters has no photons"):
+    def feature(plan: RenderPlan) = plan.features.collectFirst { case ("caustics", told) => told }
+    val made = plan(room(glass), CausticsMode.Photons, 1)
+    assert(feature(made).exists(_.contains("biased")))
+    assert(made.method match
+      case RenderMethod.Passes(_, bias) => bias.isDefined
+      case _ => false)
+    val matte = room("").replace("\"conductor\" \"float roughness\" .02", "\"diffuse\"")
+    val plain = plan(matte, CausticsMode.Photons, 2)
+    assert(feature(plain).exists(_.startsWith("none")))
+    assert(pixels(plain).toVector == pixels(plan(matte, CausticsMode.Off, 2)).toVector)
+
+  test("what photons can't be combined with is refused by name"):
+    def told(text: String, change: RenderSettings => RenderSettings = identity) =
+      SceneTexts
+        .problems(
+          text,
+          Dialect.V4,
+          options = change(RenderSettings(caustics = CausticsMode.Photons))
+        )
+        .map(_.message)
+        .mkString("\n")
+    val fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n" +
+      "MediumInterface \"\" \"fog\"\n" + glass
+    assert(
+      told(room(fog).replace("\"path\"", "\"volpath\""))
+        .contains("--caustics photons: photons do not light media")
+    )
+    val regularized = room(glass).replace("\"path\"", "\"path\" \"bool regularize\" true")
+    assert(told(regularized).contains("--caustics photons: regularised paths are no caustics"))
+    assert(told(
+      room(glass),
+      _.copy(fireflies = Fireflies.Clamped(2f))
+    ).contains("--caustics photons: it does not divide light, as --fireflies clamp"))
+    assert(
+      told(room(glass), _.copy(guiding = GuidingMode.On))
+        .contains("paths that take caustics from photons are not guided")
+    )
+    assert(told(room(glass)).isEmpty)

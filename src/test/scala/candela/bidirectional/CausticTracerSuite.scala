@@ -1,0 +1,202 @@
+package candela.bidirectional
+
+import candela.build.{ColorMode, RenderSettings}
+import candela.guiding.GuidingMode
+import candela.image.Image
+import candela.integrators.CausticsMode
+import candela.render.{Renderer, RenderMethod, RenderPlan}
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+import org.scalatest.Assertion
+import org.scalatest.funsuite.AnyFunSuite
+
+/** Lamps are wide, so that paths from the camera find all caustics, too. */
+final class CausticTracerSuite extends AnyFunSuite:
+  import CausticTracerSuite.*
+
+  private def plan(
+      text: String,
+      mode: CausticsMode,
+      seed: Int = 0,
+      spp: Int = 64,
+      guiding: GuidingMode = GuidingMode.Off
+  ): RenderPlan =
+    val settings = RenderSettings(
+      Some(spp),
+      seed,
+      color = ColorMode.Rgb,
+      caustics = mode,
+      guiding = guiding
+    )
+    SceneTexts.plan(text, Dialect.V4, settings)
+
+  private def image(plan: RenderPlan, threads: Int = 2): Image =
+    Renderer.render(plan, threads).image(plan.development)
+
+  /** Pixels have noise of their own, so in each block their differences tell what the error of
+    * their mean is. Normal numbers are beyond 5 once in two million times, but these have tails.
+    */
+  private def assertEqual(a: Image, b: Image): Assertion =
+    val scores =
+      for
+        y <- Vector.range(0, a.height, Side)
+        x <- Vector.range(0, a.width, Side)
+      yield
+        val all =
+          for j <- Vector.range(y, y + Side); i <- x until x + Side; c <- 0 to 2
+          yield a(i, j, c).toDouble - b(i, j, c)
+        all.sum / all.size / Math.sqrt(variance(all) / (all.size / 3))
+    assert(scores.forall(z => z.isNaN || z.abs < 5.0), scores)
+
+  for (what, text) <- Scenes do
+    test(s"with light paths the mean of each block is that of paths alone: $what"):
+      assert(plan(text, CausticsMode.On).method match
+        case RenderMethod.SplattedTiles(_, true, _, _) => true
+        case _ => false)
+      assertEqual(image(plan(text, CausticsMode.On)), image(plan(text, CausticsMode.Off, seed = 1)))
+
+  test("light paths beside guided paths find the same light"):
+    val text = Scenes.head._2
+    assertEqual(
+      image(plan(text, CausticsMode.On, guiding = GuidingMode.On)),
+      image(plan(text, CausticsMode.Off, seed = 1))
+    )
+
+  test("light paths reduce the noise of a caustic"):
+    def noise(mode: CausticsMode): Double =
+      val Vector(a, b) =
+        Vector(0, 1).map(seed => image(plan(Small, mode, seed)).data.map(_.toDouble)): @unchecked
+      a.indices.map(i => square(a(i) - b(i))).sum
+    val ratio = noise(CausticsMode.Auto) / noise(CausticsMode.Off)
+    assert(ratio < 0.2, ratio)
+
+  test("an image with caustics has the same bits for any number of threads"):
+    val one = image(plan(Small, CausticsMode.Auto), threads = 1)
+    assert(image(plan(Small, CausticsMode.Auto), threads = 3).data.sameElements(one.data))
+
+  test("lamps without extent shine through glass where caustics are on, and only there"):
+    val text = scene(GlassBall, """LightSource "point" "rgb I" [9 9 9] "point3 from" [1 3 0]""")
+    // Only what the ball mirrors is above zero with paths alone: the ground has its shadow
+    val Vector(off, auto, on) = Vector(CausticsMode.Off, CausticsMode.Auto, CausticsMode.On)
+      .map(mode => average(image(plan(text, mode, spp = 64)))): @unchecked
+    val both = text.replace("\"path\"", "\"bdpt\"")
+    val bdpt = average(image(plan(both, CausticsMode.Off, spp = 64)))
+    assert(auto == off)
+    def added(mode: CausticsMode) = plan(text, mode).method match
+      case RenderMethod.SplattedTiles(_, _, _, adds) => adds
+      case _ => None
+    assert(added(CausticsMode.On).isDefined && added(CausticsMode.Auto).isEmpty)
+    assert(on > 1.05 * off)
+    // Two estimates with errors of half a percent each, of which bdpt lacks what glass shows of it
+    assert(Math.abs(on / bdpt - 1.0) < 0.04, (on, bdpt))
+
+  test("a scene without glass or metal is rendered as ever, and the plan says why"):
+    val text = scene("""Material "diffuse" Shape "sphere" "float radius" .5""")
+    val made = plan(text, CausticsMode.Auto)
+    assert(image(made).data.sameElements(image(plan(text, CausticsMode.Off)).data))
+    assert(made.features.toMap.apply("caustics").startsWith("none"))
+
+  test("where the camera sees no caustic, light paths end with the pilot"):
+    // The ball is behind the camera, and its light falls there
+    val text = scene("""Translate 0 0 -30 Material "dielectric" Shape "sphere" "float radius" .5""")
+    val made = plan(text, CausticsMode.Auto)
+    assert(made.features.toMap.apply("caustics").startsWith("none"))
+    assert(image(made).data.sameElements(image(plan(text, CausticsMode.Off)).data))
+
+private object CausticTracerSuite:
+  val Side = 16
+
+  val GlassBall = """Material "dielectric" Shape "sphere" "float radius" .5"""
+
+  def square(x: Double): Double = x * x
+
+  def variance(of: Vector[Double]): Double =
+    val mean = of.sum / of.size
+    of.map(x => square(x - mean)).sum / (of.size - 1)
+
+  def average(image: Image): Double = image.data.map(_.toDouble).sum / image.data.length
+
+  /** A thing above a ground, under a lamp. */
+  def scene(thing: String, lamp: String = lamp(0.8f)): String =
+    s"""
+      LookAt 0 2 -4  0 .4 0  0 1 0
+      Camera "perspective" "float fov" 40
+      Film "rgb" "integer xresolution" 48 "integer yresolution" 32
+      PixelFilter "box" "float xradius" .5 "float yradius" .5
+      Sampler "independent"
+      Integrator "path" "integer maxdepth" 8
+      WorldBegin
+      $lamp
+      Material "diffuse" "rgb reflectance" [.6 .6 .5]
+      Shape "trianglemesh" "point3 P" [-5 0 -5  -5 0 5  5 0 5  5 0 -5]
+        "integer indices" [0 1 2 0 2 3]
+      AttributeBegin
+      Translate 0 .7 0
+      $thing
+      AttributeEnd
+    """
+
+  def lamp(radius: Float): String =
+    val radiance = 3f / (radius * radius)
+    s"""AttributeBegin
+        AreaLightSource "diffuse" "rgb L" [$radiance $radiance $radiance]
+        Translate 1 2.6 .5
+        Shape "sphere" "float radius" $radius
+        AttributeEnd"""
+
+  /** The caustic of a small lamp. */
+  val Small: String = scene(GlassBall, lamp(0.15f))
+
+  private def triangles(count: Int, normal: (Double, Double) => (Double, Double, Double)): String =
+    val n = count
+    val points = for j <- 0 to n; i <- 0 to n yield (2.0 * i / n - 1, 2.0 * j / n - 1)
+    val p = points.map((x, z) => s"$x ${0.1 * Math.sin(4 * x)} $z").mkString(" ")
+    val ns = points.map((x, z) => normal(x, z)).map((a, b, c) => s"$a $b $c").mkString(" ")
+    val faces =
+      for j <- 0 until n; i <- 0 until n; a = j * (n + 1) + i
+      yield s"$a ${a + 1} ${a + n + 1} ${a + 1} ${a + n + 2} ${a + n + 1}"
+    s"""Material "dielectric" Shape "trianglemesh" "point3 P" [$p] "normal N" [$ns]
+        "integer indices" [${faces.mkString(" ")}]"""
+
+  val Scenes: Vector[(String, String)] = Vector(
+    "a ball of glass, which focuses" -> scene(GlassBall),
+    "a ring of brushed metal" -> scene(
+      """Material "conductor" "float uroughness" .02 "float vroughness" .08
+         "bool remaproughness" false
+         Rotate -90 1 0 0 Shape "cylinder" "float radius" .6 "float zmin" -.6 "float zmax" 0"""
+    ),
+    "an index of one, which bends nothing" ->
+      scene("""Material "dielectric" "float eta" 1 Shape "sphere" "float radius" .5"""),
+    "a lamp within the glass" -> scene(
+      """AttributeBegin AreaLightSource "diffuse" "rgb L" [5 5 5]
+         Shape "sphere" "float radius" .2 AttributeEnd """ + GlassBall
+    ),
+    "thousands of small triangles" -> scene(
+      triangles(40, (x, _) => (-0.4 * Math.cos(4 * x), 1, 0))
+    ),
+    "normals that point away" -> scene(triangles(6, (x, _) => (0.3 * x, -1, 0.2))),
+    "a mirrored and stretched instance" -> scene(
+      s"""ObjectBegin "ball" $GlassBall ObjectEnd
+          Scale -1 .6 1.3 ObjectInstance "ball""""
+    ),
+    "a pane before the lamp" -> scene(
+      """Material "thindielectric" Translate .4 .9 .2
+         Shape "disk" "float radius" .8 Rotate 90 1 0 0 Shape "disk" "float radius" .8"""
+    ),
+    "a sky seen through glass" -> scene(
+      GlassBall,
+      """LightSource "infinite" "rgb L" [.5 .6 .8]
+         LightSource "distant" "rgb L" [0 0 0] """ + lamp(0.8f)
+    ),
+    "fog, and a ball in it" -> scene(GlassBall)
+      .replace("LookAt", Fog + "LookAt")
+      .replace("WorldBegin", "WorldBegin MediumInterface \"\" \"fog\"")
+      .replace("\"path\"", "\"volpath\"")
+  )
+
+  private def Fog = """
+    MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [.15 .1 .05]
+    "rgb sigma_a" [.02 .02 .02] "float g" .4
+    MediumInterface "" "fog"
+    """
