@@ -82,4 +82,5 @@ abstract class JoinedMaterial(first: Material, second: Material, by: Varying*)
   override def flags: MaterialFlags = joined
 
 private object JoinedMaterial:
-  def Shared: MaterialFlags = MaterialFlags.Dispersive | MaterialFlags.Pane
+  def Shared: MaterialFlags =
+    MaterialFlags.Dispersive | MaterialFlags.Pane | MaterialFlags.Caster

@@ -3,10 +3,19 @@ package candela.build
 import candela.base.{Code, SourcePos}
 import candela.build.sampling.PointChoice
 import candela.guiding.GuidingMode
+import candela.integrators.CausticsMode
 import candela.render.RenderMethod
 
 /** Warns of options of the command line that the scene's integrator does not heed. */
 private[build] final class IdleSettings(context: BuildContext, settings: RenderSettings):
+
+  /** @param method before it is chosen where that is left to a pilot */
+  def checkCaustics(method: RenderMethod): Unit =
+    val isAsked = settings.caustics != CausticsMode.Off
+    val looks = method match
+      case RenderMethod.Piloted(_, _, _, _) => true
+      case _ => false
+    idle("caustics", isAsked && !looks)(IdleSettings.NoCaustics)
 
   def check(world: World): Unit =
     val method = world.method
@@ -46,3 +55,7 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
 
   private def place: Option[SourcePos] =
     context.description.renderer.orElse(context.description.integrator).map(_.at)
+
+private[build] object IdleSettings:
+  /** Why light paths don't look for caustics. */
+  val NoCaustics: String = "only \"path\" and \"volpath\" look for caustics"

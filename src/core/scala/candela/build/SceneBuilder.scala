@@ -80,6 +80,7 @@ object SceneBuilder:
           settings.lightGroups.getOrElse(LightGrouping.Statements)
       ).build(footprints)
     context.problems.stopAtErrors()
+    if !settings.preview then IdleSettings(context, settings).checkCaustics(built.method)
     val world = piloted(context, built, image, sampling, camera)
     warnOfLimits(context, image, camera, world.method)
     if !settings.preview then
@@ -119,8 +120,7 @@ object SceneBuilder:
         else
           val (choice, told) = pilot(view)
           (choice.fold(alone)(chosen), told)
-      case other =>
-        (other, "none: only \"path\" and \"volpath\" look for them, off smooth surfaces")
+      case other => (other, s"none: ${IdleSettings.NoCaustics}")
     world.rendered(method, Option.when(asked != CausticsMode.Off)("caustics" -> why))
 
   private def footprint(context: BuildContext, sampling: SamplingSetup): Float =

@@ -97,6 +97,14 @@ final class CausticTracerSuite extends AnyFunSuite:
     assert(image(made).data.sameElements(image(plan(text, CausticsMode.Off)).data))
     assert(made.features.toMap.apply("caustics").startsWith("none"))
 
+  test("an integrator that does not look for caustics is named in a warning"):
+    val text = Small.replace("\"path\"", "\"bdpt\"")
+    val settings = RenderSettings(caustics = CausticsMode.Auto)
+    val problems = SceneTexts.problems(text, Dialect.V4, options = settings)
+    assert(problems.map(_.message) == Vector(
+      "--caustics has no effect: only \"path\" and \"volpath\" look for caustics"
+    ))
+
   test("where the camera sees no caustic, light paths end with the pilot"):
     // The ball is behind the camera, and its light falls there
     val text = scene("""Translate 0 0 -30 Material "dielectric" Shape "sphere" "float radius" .5""")

@@ -59,7 +59,7 @@ class WrappersSuite extends AnyFunSuite:
       mixed -> joined,
       ChosenMaterial(mixed) -> joined,
       TwoSidedMaterial(any, black) -> (joined | Pane),
-      DiffuseEquivalent(any, transmits = true) -> (joined | Pane)
+      DiffuseEquivalent(any, transmits = true) -> (joined | Pane | Caster)
     )
     for (wrapper, taken) <- wrappers do
       assert(All.without(wrapper.flags) == taken, wrapper.getClass)

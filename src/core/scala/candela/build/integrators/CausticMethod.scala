@@ -28,13 +28,14 @@ private object CausticMethod:
   )(using site: Site): RenderMethod =
     val mode = site.resources.switches.caustics
     val alone = GuidedMethod(scene)((over, guide, parts) => tracer(over, options, guide, parts))
-    if mode == CausticsMode.Off || !scene.mayHaveCasters then alone
+    if mode == CausticsMode.Off then alone
+    else if !scene.mayHaveCasters then without("no surface casts caustics", alone)
     else
       isOut(scene, options) match
         case Some(why) if mode == CausticsMode.Photons => refuse(why, "write --caustics off", alone)
         case None if mode == CausticsMode.Photons && media.isDefined =>
           refuse("photons do not light media", "write --caustics on: light paths do", alone)
-        case Some(why) => RenderMethod.Piloted(alone, _ => (None, s"none: $why"), _ => alone)
+        case Some(why) => without(why, alone)
         case None =>
           val light = CausticLight(
             scene.casters,
@@ -49,6 +50,9 @@ private object CausticMethod:
             RenderMethod
               .Piloted(alone, PhotonPilot(scene, _, light).run(), beside.photons, connects = false)
           else RenderMethod.Piloted(alone, beside.pilot, beside.method)
+
+  private def without(why: String, alone: RenderMethod): RenderMethod =
+    RenderMethod.Piloted(alone, _ => (None, s"none: $why"), _ => alone, connects = false)
 
   private def refuse(why: String, instead: String, alone: RenderMethod)(using
       site: Site

@@ -2,6 +2,7 @@ package candela.cli.options
 
 import candela.build.RenderSettings
 import candela.guiding.GuidingMode
+import candela.integrators.CausticsMode
 import candela.job.SettingsCodec
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -36,6 +37,8 @@ class FilmHeadersSuite extends AnyFunSuite:
     "disable-image-textures" -> Vector(""),
     "disable-wavelength-jitter" -> Vector(""),
     "force-diffuse" -> Vector(""),
+    "caustics" -> CausticsMode.values.toVector.filter(_ != CausticsMode.Off)
+      .map(_.toString.toLowerCase),
     "guiding" -> GuidingMode.values.toVector.filter(_ != GuidingMode.Off)
       .map(_.toString.toLowerCase),
     "displacement-edge-scale" -> Vector("2.5")
