@@ -194,7 +194,9 @@ class LimitsSuite extends AnyFunSuite:
 
   test("time: reading and building end, too"):
     TempFolder.use: folder =>
-      val file = Files.writeString(folder.resolve("s.pbrt"), scene("Shape \"sphere\"\n".repeat(9)))
+      // No machine reads a megabyte within a thousandth of a second
+      val spheres = "Shape \"sphere\"\n".repeat(70_000)
+      val file = Files.writeString(folder.resolve("s.pbrt"), scene(spheres))
       val (code, captured) = Captured.run("check", "--limit", "time=0.001s", file.toString)
       assert(code == 1 && captured.err.contains("the time of 0.001 s is over"), captured.err)
 
