@@ -52,7 +52,7 @@ private[bidirectional] final class CausticPaths(
     ray.time = time
     path.throughput = Rgb.White
     sampler.next2D()
-    val choice = sampler.x + sampler.y * CausticPaths.Finer
+    val choice = Casters.choice(sampler.x, sampler.y)
     sampler.next2D()
     val isSampled = casters.sample(choice, sampler.x, sampler.y, ray, point)
     val lamp = sampler.next1D(matters = connection.isRandom)
@@ -134,7 +134,7 @@ private[bidirectional] final class CausticPaths(
         alive = slant > 0f
         if alive then
           if within != null then within.mark(vertex)
-          if isRecorded(vertex) then record(vertex)
+          if isRecorded(vertex) then keep(vertex, path, within)
           alive = edges < maxEdges && goesOn(vertex) && scatter(vertex, sampler)
           last = vertex
 
@@ -160,18 +160,5 @@ private[bidirectional] final class CausticPaths(
     !vertex.isInMedium && scene.isSubsurface(vertex.at.material) &&
       vertex.crosses(vertex.bounce.wi)
 
-  private def record(vertex: PathVertex): Unit =
-    val within = media
-    vertex.throughput =
-      if within == null then path.throughput else path.throughput * within.throughput
-    vertex.isSpecularSoFar = path.isSpecularSoFar
-    vertex.isAlone = path.isAlone
-    vertex.weights.set(path.weights)
-    keep()
-
   /** Where rays from infinite lamps start, in radii of the scene. */
   private inline val Beyond = 2.1f
-
-private object CausticPaths:
-  /** Weight of the second number that chooses a primitive: one has too few digits for millions. */
-  private inline val Finer = 1.0 / (1 << 24)

@@ -8,18 +8,16 @@ import candela.sampling.Sampler
 import candela.scene.{Casters, PathReport, Scene}
 
 /** Traces photons that casters alone have scattered. */
-private final class CausticPhotons(paths: CausticPaths, seed: Int) extends PhotonTracer(seed):
+private final class CausticPhotons(protected val paths: CausticPaths, seed: Int)
+    extends PhotonTracer(seed):
 
   def raysTraced: Long = paths.raysTraced
 
-  protected def trace(time: Float, sampler: Sampler, photons: Photons): Unit =
-    paths.trace(time, sampler)
-    var k = 0
-    while k < paths.count do
-      val vertex = paths(k)
-      val edges = if vertex.isAlone then -vertex.edges else vertex.edges
-      photons.add(vertex.at.p, vertex.wo, vertex.throughput, edges)
-      k += 1
+  protected def trace(time: Float, sampler: Sampler): Unit = paths.trace(time, sampler)
+
+  protected def store(vertex: PathVertex, photons: Photons): Unit =
+    val edges = if vertex.isAlone then -vertex.edges else vertex.edges
+    photons.add(vertex.at.p, vertex.wo, vertex.throughput, edges)
 
 /** The photons of the current pass. Mutable, one per worker. */
 private final class MappedPhotons(scene: Scene, casters: Casters, maxDepth: Int)

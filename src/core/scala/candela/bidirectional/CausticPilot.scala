@@ -6,7 +6,7 @@ import candela.color.Rgb
 import candela.film.{Splats, View}
 import candela.integrators.{CausticWeights, Integrator}
 import candela.sampling.{IndependentSampler, Sampler}
-import candela.scene.{CasterAim, Casters, Scene}
+import candela.scene.{CasterLearning, Casters, Scene}
 
 /** How light paths look for caustics.
   *
@@ -35,7 +35,8 @@ private[candela] final class CausticPilot(
 ):
   import CausticPilot.*
   private val blocks = PilotBlocks(view)
-  private val weights = new Array[Double](Cells)
+  private val spread = SpreadPlaces(view)
+  private val learning = CasterLearning()
   private var isLearning = true
   private var splats = 0L
   private var cameraRays = 0.0
@@ -51,7 +52,7 @@ private[candela] final class CausticPilot(
     if splats == 0 then (None, "none: the camera sees no light of light paths over casters")
     else
       isLearning = false
-      val aimed = light.casters.aimed(CasterAim(weights.map(Math.sqrt), Evenly))
+      val aimed = light.casters.aimed(learning.aim)
       val rays = trace(light.copy(casters = aimed), LookingPaths, Seed + 1)
       follow(tracer(CausticWeights(scene, aimed, view.camera, 1f)))
       decide(aimed, rays)
@@ -122,11 +123,8 @@ private[candela] final class CausticPilot(
     val found = if weight == 0f then 0f else integrator.radiance(rays.ray, sampler).average * weight
     if found.isFinite then found else 0f
 
-  // Points of the additive recurrence of the plastic number, evenly spread for any count
-  private def pixelX(k: Int): Int = at(k, 0.7548776662466927, view.width)
-  private def pixelY(k: Int): Int = at(k, 0.5698402909980532, view.height)
-  private def at(k: Int, step: Double, size: Int): Int =
-    Math.min((((k + 1) * step) % 1.0 * size).toInt, size - 1)
+  private def pixelX(k: Int): Int = Math.min(spread.x(k).toInt, view.width - 1)
+  private def pixelY(k: Int): Int = Math.min(spread.y(k).toInt, view.height - 1)
 
   /** Adds what light paths find. */
   private final class Observer(paths: CausticPaths, count: Int) extends SplatObserver:
@@ -136,9 +134,7 @@ private[candela] final class CausticPilot(
       val weighted = light.average.toDouble
       if weighted > 0.0 && weighted < Float.PositiveInfinity && blocks.contains(x, y) then
         splats += 1
-        if isLearning then
-          val cell = Math.min((paths.place * Cells).toInt, Cells - 1)
-          weights(cell) += weighted * weighted
+        if isLearning then learning.add(paths.place, weighted)
         else
           // The weight is 1 / (1 + others); q/p of the light path
           val ratio = if others > 0.0 then 1.0 / Math.sqrt(others) else MostRatio
@@ -154,16 +150,11 @@ private[candela] final class CausticPilot(
           )
 
 private[candela] object CausticPilot:
-  /** Cells of the casters' areas that are learnt. */
-  inline val Cells = 512
   inline val LearningPaths = 16384
   inline val LookingPaths = 16384
   inline val CameraPairs = 2048
   inline val CameraRaysLooked = 64
   inline val Seed = 0x5eed
-
-  /** Part of the light paths that begin anywhere. */
-  inline val Evenly = 0.2
 
   /** Light paths per camera sample. */
   inline val Least = 0.125
@@ -174,6 +165,16 @@ private[candela] object CausticPilot:
 
   /** Expected efficiency from which on light paths are taken: the pilot is not exact. */
   inline val LeastGain = 1.25
+
+/** Places on the film, in pixels, evenly spread for any number of them: the additive recurrence of
+  * the plastic number.
+  *
+  * Source: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: his R₂.
+  */
+private[bidirectional] final class SpreadPlaces(view: View):
+  def x(k: Int): Double = at(k, 0.7548776662466927, view.width)
+  def y(k: Int): Double = at(k, 0.5698402909980532, view.height)
+  private def at(k: Int, step: Double, size: Int): Double = ((k + 1) * step) % 1.0 * size
 
 /** Blocks of the image, and the moments of what was found there. Mutable. */
 private final class PilotBlocks(view: View):

@@ -104,13 +104,7 @@ private[bidirectional] final class LightPaths(
           alive = cosine > 0f
           if within != null then within.mark(vertex)
           if alive then
-            if !vertex.bsdf.isSpecular then
-              vertex.throughput =
-                if within == null then path.throughput else path.throughput * within.throughput
-              vertex.isSpecularSoFar = path.isSpecularSoFar
-              vertex.isAlone = path.isAlone
-              vertex.weights.set(path.weights)
-              keep()
+            if !vertex.bsdf.isSpecular then keep(vertex, path, within)
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
             lastP.set(vertex.at.p)
             if within != null then within.medium = within.towards(vertex, ray.direction)
@@ -147,7 +141,14 @@ private[bidirectional] abstract class LightVertices(scene: Scene):
     if used == kept.length then kept = kept ++ Array.fill(kept.length)(PathVertex(scene))
     kept(used)
 
-  protected final def keep(): Unit = used += 1
+  /** Records it, at the end of the path so far. */
+  protected final def keep(vertex: PathVertex, path: Subpath, within: PathMedia | Null): Unit =
+    vertex.throughput =
+      if within == null then path.throughput else path.throughput * within.throughput
+    vertex.isSpecularSoFar = path.isSpecularSoFar
+    vertex.isAlone = path.isAlone
+    vertex.weights.set(path.weights)
+    used += 1
 
 private object LightVertices:
   /** Initial vertex capacity; grows on demand. */

@@ -1,6 +1,6 @@
 package candela.bidirectional
 
-import candela.base.GivenUp
+import candela.base.{GivenUp, loop}
 import candela.cameras.Shutter
 import candela.film.View
 import candela.integrators.{Interfaces, PassIntegrator, SharedPasses}
@@ -37,8 +37,14 @@ private[bidirectional] abstract class PhotonTracer(seed: Int):
 
   def raysTraced: Long
 
-  /** Traces a light path, and stores its photons. */
-  protected def trace(time: Float, sampler: Sampler, photons: Photons): Unit
+  /** The vertices of the last path. */
+  protected def paths: LightVertices
+
+  /** Traces a light path. */
+  protected def trace(time: Float, sampler: Sampler): Unit
+
+  /** Stores the photon that has arrived at a vertex of it, if it is of the kind. */
+  protected def store(vertex: PathVertex, photons: Photons): Unit
 
   /** Traces one part of a pass, deterministic for any worker, unless it is stopped on the way. */
   final def trace(
@@ -52,14 +58,15 @@ private[bidirectional] abstract class PhotonTracer(seed: Int):
     var i = 0
     while i < count && !isStopped() do
       sampler.start(part * PhotonMaps.PartSize + i, -1, pass)
-      trace(shutter.at(sampler.next1D()), sampler, photons)
+      trace(shutter.at(sampler.next1D()), sampler)
+      loop(paths.count)(k => store(paths(k), photons))
       i += 1
     photons
 
 /** Traces all photons but those of direct light. */
 private[bidirectional] final class WholePhotons(scene: Scene, settings: PhotonSettings)
     extends PhotonTracer(settings.seed):
-  private val paths =
+  protected val paths: LightPaths =
     LightPaths(
       scene,
       settings.maxEdges,
@@ -71,14 +78,11 @@ private[bidirectional] final class WholePhotons(scene: Scene, settings: PhotonSe
 
   def raysTraced: Long = paths.raysTraced
 
-  protected def trace(time: Float, sampler: Sampler, photons: Photons): Unit =
-    paths.trace(time, sampler)
-    var k = 0
-    while k < paths.count do
-      val vertex = paths(k)
-      val isKept = if vertex.isSpecularSoFar then settings.caustics else settings.indirect
-      if vertex.edges > 1 && isKept then photons.add(vertex.at.p, vertex.wo, vertex.throughput)
-      k += 1
+  protected def trace(time: Float, sampler: Sampler): Unit = paths.trace(time, sampler)
+
+  protected def store(vertex: PathVertex, photons: Photons): Unit =
+    val isKept = if vertex.isSpecularSoFar then settings.caustics else settings.indirect
+    if vertex.edges > 1 && isKept then photons.add(vertex.at.p, vertex.wo, vertex.throughput)
 
 /** The photon maps of all passes, shared by all workers. A worker that needs a map helps to build
   * it; the map is bit-identical for any thread count.

@@ -6,7 +6,7 @@ import candela.geometry.Ray
 import candela.integrators.{PhotonLight, SurfaceWalk}
 import candela.math.*
 import candela.sampling.{IndependentSampler, Sampler}
-import candela.scene.{CasterAim, Scene}
+import candela.scene.{CasterLearning, Scene}
 
 /** Finds out which photons arrive where the camera sees them, and how large a pixel is there.
   * Depends on the scene and its camera alone, as [[CausticPilot]].
@@ -25,11 +25,11 @@ private[candela] final class PhotonPilot(scene: Scene, view: View, light: Causti
       // As far apart as the places are, on average
       cell = (2.0 * footprint * Math.sqrt(view.pixels / Looks)).toFloat
       for p <- places do seen.add(key(p)): Unit
-      val weights = learn()
-      if weights.forall(_ == 0.0) then (None, "none: no photons arrive where the camera sees them")
+      val learning = learn()
+      if learning.isEmpty then (None, "none: no photons arrive where the camera sees them")
       else
         val radius = Pixels * footprint
-        val aimed = light.casters.aimed(CasterAim(weights.map(Math.sqrt), CausticPilot.Evenly))
+        val aimed = light.casters.aimed(learning.aim)
         val told =
           f"photons of light that casters scatter, gathered within a radius of $radius%.3g " +
             "in the first pass, and less in each that follows; the image is biased"
@@ -40,12 +40,13 @@ private[candela] final class PhotonPilot(scene: Scene, view: View, light: Causti
     val rays = CameraRays(view.camera, view.shutter, 0f)
     val beside = CameraRays(view.camera, view.shutter, 0f)
     val walk = SurfaceWalk(scene)
+    val spread = SpreadPlaces(view)
     val sampler = IndependentSampler(1, CausticPilot.Seed)
     val places = Vector.newBuilder[Vec3]
     val sizes = Array.newBuilder[Float]
     for k <- 0 until Looks do
-      val x = at(k, 0.7548776662466927, view.width)
-      val y = at(k, 0.5698402909980532, view.height)
+      val x = spread.x(k).toFloat
+      val y = spread.y(k).toFloat
       sampler.start(k, 0, 0)
       val weight = rays.next(x, y, sampler)
       sampler.start(k, 0, 0)
@@ -77,9 +78,9 @@ private[candela] final class PhotonPilot(scene: Scene, view: View, light: Causti
           walk.leave()
     isThere
 
-  /** Squared light that arrives at these places, by cells of the casters' areas. */
-  private def learn(): Array[Double] =
-    val weights = new Array[Double](CausticPilot.Cells)
+  /** Learns from light that arrives at these places. */
+  private def learn(): CasterLearning =
+    val learning = CasterLearning()
     val paths = light.photonPaths(scene)
     val sampler = IndependentSampler(1, CausticPilot.Seed + 1)
     for k <- 0 until CausticPilot.LearningPaths do
@@ -88,13 +89,8 @@ private[candela] final class PhotonPilot(scene: Scene, view: View, light: Causti
       for i <- 0 until paths.count do
         val power = paths(i).throughput.average.toDouble
         if power < Float.PositiveInfinity && seen.contains(key(paths(i).at.p)) then
-          weights(Math.min((paths.place * weights.length).toInt, weights.length - 1)) +=
-            power * power
-    weights
-
-  // Points of the additive recurrence of the plastic number, evenly spread for any count
-  private def at(k: Int, step: Double, size: Int): Float =
-    (((k + 1) * step) % 1.0 * size).toFloat
+          learning.add(paths.place, power)
+    learning
 
   private def key(p: Vec3): Long =
     def of(x: Float) = Math.floor(x.toDouble / cell).toLong & 0x1fffff

@@ -1,12 +1,10 @@
 package candela.integrators
 
 import candela.color.{MutableRgb, Rgb}
-import candela.geometry.Hit
 import candela.lights.LightSample
-import candela.manifold.{Coverage, SpecularChain}
+import candela.manifold.SpecularChain
 import candela.sampling.{Discrete, RandomStream, Sampler}
 import candela.scene.Scene
-import candela.shapes.SurfaceSample
 
 /** Light that comes to a surface by chains of specular surfaces: a manifold walk finds one chain,
   * and how often others find the same one estimates its probability. Mutable, one per worker.
@@ -15,19 +13,14 @@ import candela.shapes.SurfaceSample
   */
 private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manifolds):
   private val chain = SpecularChain(scene)
-  private val coverage = Coverage(scene)
   private val random = RandomStream()
-  private val place = SurfaceSample()
   private val sample = LightSample()
   private val met = scene.newPoint()
   private val passed = MutableRgb()
   private var light = -1
 
-  /** Per area at the lamp, or 1 for those without extent, times the probability of the lamp. */
-  private var density = 0f
-
-  /** Walks whose probability was cut short: their light is a little too dark. */
-  private var cut = 0L
+  /** Probability of the lamp. */
+  private var chance = 0f
 
   /** What [[finds]] has found, not yet weighted with the path's throughput. */
   val arrived: MutableRgb = MutableRgb()
@@ -36,7 +29,6 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
   def index: Int = light
 
   def raysTraced: Long = chain.raysTraced
-  def cutShort: Long = cut
 
   /** Looks for light that `vertex` scatters to its `wo`. The sampler stays where it is. */
   def finds(vertex: SurfaceVertex, path: PathState, time: Float, sampler: Sampler): Boolean =
@@ -55,20 +47,12 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
 
   private def chooseLamp(lamps: Discrete, vertex: SurfaceVertex): Boolean =
     light = lamps.sample(random.next())
-    val lamp = scene.lights(light)
-    val surface = lamp.asSurface
     val (u1, u2) = (random.next(), random.next())
-    if surface != null then
-      surface.samplePlace(u1, u2, place)
-      density = place.pdf * lamps.probability(light)
-      chain.aim(place.p, isDirection = false)
-      density > 0f
-    else
-      lamp.sample(vertex.at.p, u1, u2, sample)
-      density = lamps.probability(light)
-      chain.aim(if sample.isInfinite then sample.wi else sample.target.p, sample.isInfinite)
-      // Others are surfaces that rays do not meet
-      sample.pdf == 1f && (sample.isInfinite || sample.target.n.isZero)
+    scene.lights(light).sample(vertex.at.p, u1, u2, sample)
+    chance = lamps.probability(light)
+    chain.aim(if sample.isInfinite then sample.wi else sample.target.p, sample.isInfinite)
+    // Others are surfaces that rays do not meet
+    sample.pdf == 1f && (sample.isInfinite || sample.target.n.isZero)
 
   /** Computes what the chain brings: false if nothing. */
   private def lights(vertex: SurfaceVertex, path: PathState): Boolean =
@@ -78,7 +62,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     !f.isBlack && {
       chain.throughput(passed)
       val sent = if passed.isBlack then Rgb.Black else emitted
-      val factor = (chain.spread * Math.abs(localWi.z) / density).toFloat
+      val factor = (chain.spread * Math.abs(localWi.z) / chance).toFloat
       if scene.isDispersive && !path.isAlone && chain.isDispersive then
         passed.scale(LightTransport.Hero)
       passed.scale(f * sent)
@@ -87,19 +71,11 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
       !arrived.isBlack && factor < Float.PositiveInfinity
     }
 
-  /** Radiance of the lamp towards the chain, times the cosine there; of others, their intensity or
-    * irradiance.
-    */
+  /** Intensity of the lamp towards the chain, or irradiance. */
   private def emitted: Rgb =
-    val lamp = scene.lights(light)
-    val surface = lamp.asSurface
-    val to = chain.toLamp
-    if surface != null then
-      if !chain.reaches(light, met) then Rgb.Black
-      else surface.radiance(met, -to) * (met.geometricNormal absDot to)
-    else if !chain.escapes(met) then Rgb.Black
+    if !chain.escapes(met) then Rgb.Black
     else
-      lamp.sample(chain.end, 0f, 0f, sample)
+      scene.lights(light).sample(chain.end, 0f, 0f, sample)
       if sample.pdf != 1f then Rgb.Black
       else if sample.isInfinite then sample.radiance.toRgb
       else sample.radiance.toRgb * (sample.target.p - chain.end).lengthSquared
@@ -109,12 +85,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
   private def trials(): Float =
     var count = 1
     while count < ManifoldLighting.Most && !(chain.find(random) && chain.isSame) do count += 1
-    if count == ManifoldLighting.Most then cut += 1
     count.toFloat
-
-  /** The path leaves the vertex by `vertex.bounce`. */
-  def leave(vertex: SurfaceVertex, hit: Hit, path: PathState): Unit =
-    manifolds.leave(vertex, hit, path, coverage)
 
 private object ManifoldLighting:
   /** Chains that fewer than one walk in as many finds are too dark. */

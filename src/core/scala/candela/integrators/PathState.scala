@@ -55,8 +55,8 @@ abstract class PathState:
     */
   final var ownPdf: Float = 0f
 
-  /** What the path may find that manifold walks or photons find, too: a number of [[Manifolds]] or
-    * of [[PhotonLight]].
+  /** What manifold walks may look for from here, or what is left to photons: a number of
+    * [[Manifolds]] or of [[PhotonLight]].
     */
   final var chain: Int = 0
 

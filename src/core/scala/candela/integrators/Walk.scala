@@ -156,10 +156,8 @@ abstract class Walk(
         path.addTo(found, emitted, weight)
         if parts != null then parts.addLight(at.areaLight, depth, path.carried(emitted, weight))
 
-  /** Is what the path meets of the lamp left to manifold walks or photons? */
-  private def isLeft(light: Int): Boolean =
-    (manifolds != null && manifolds.finds(light, path)) ||
-      (photons != null && photons.brings(light, path))
+  /** Is what the path meets of the lamp left to photons? */
+  private def isLeft(light: Int): Boolean = photons != null && photons.brings(light, path)
 
   /** Weight of light that the path meets against light sampling.
     *
@@ -321,8 +319,7 @@ abstract class Walk(
     val rivals = caustics
     if rivals != null then
       rivals.leave(vertex, ray, hit, vertex.at.frame.toWorld(bounce.wi.toVec3), path)
-    val finder = chains
-    if finder != null then finder.leave(vertex, hit, path)
+    if manifolds != null then manifolds.leave(vertex, path)
     val map = photons
     if map != null then map.leave(vertex, ray, hit, path)
     val isOpen = vertex.leave(ray)

@@ -4,7 +4,7 @@ import candela.color.{MutableRgb, Rgb}
 import candela.geometry.{Frame, Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.sampling.{RandomStream, Warp}
-import candela.scene.{CasterPoint, Scene}
+import candela.scene.{CasterPoint, Casters, Scene}
 
 /** A chain of one or two surfaces that reflect or refract light on its way from a lamp to a point
   * `x`, found by a manifold walk. Mutable, one per worker.
@@ -84,7 +84,7 @@ final class SpecularChain(scene: Scene):
         towardsLamp(random)
         true
       else
-        val choice = random.next() + random.next() * SpecularChain.Finer
+        val choice = Casters.choice(random.next(), random.next())
         val isSampled = scene.casters.sample(choice, random.next(), random.next(), ray, seed)
         start.set(seed.p)
         isSampled
@@ -247,18 +247,11 @@ final class SpecularChain(scene: Scene):
   /** Direction from the chain to the lamp. */
   def toLamp: MutableVec3 = towards
 
-  /** Traces the ray from the chain to the lamp: does it reach a surface lamp there?
+  /** Traces the ray from the chain to the lamp, which is none of the scene's surfaces: does it get
+    * there?
     *
-    * @param light index of the lamp
-    * @param at    where it is met
+    * @param at the surface that it has met
     */
-  def reaches(light: Int, at: ShadingPoint): Boolean =
-    val last = vertices(length - 1)
-    val distance = (lamp - last.p).length
-    leave(at) && at.areaLight == light &&
-    (at.p - lamp).length < SpecularChain.Near * distance
-
-  /** Likewise of a lamp that is none of the scene's surfaces. */
   def escapes(at: ShadingPoint): Boolean =
     val last = vertices(length - 1)
     val distance = if isFar then Float.PositiveInfinity else (lamp - last.p).length
@@ -286,9 +279,6 @@ final class SpecularChain(scene: Scene):
 private[candela] object SpecularChain:
   private inline val Longest = 2
 
-  /** Weight of the second number that chooses a primitive. */
-  private inline val Finer = 1.0 / (1 << 24)
-
   /** Probability of a walk from the straight way to the lamp. */
   private inline val Straight = 0.5f
 
@@ -312,6 +302,3 @@ private[candela] object SpecularChain:
 
   /** Squared distance of the directions in which the same chain is found again. */
   private inline val Same = 1e-6f
-
-  /** Distance from the place of the lamp where it may be met, relative to that from the chain. */
-  private inline val Near = 1e-3f

@@ -53,8 +53,7 @@ private[render] object Job:
         val tiles =
           TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes, Some(splats))
         tiles.job(tiles.worker(integrators.make(None), _))
-      case RenderMethod.Piloted(_, _, _, _) =>
-        throw IllegalArgumentException("the method has not been chosen")
+      case _: RenderMethod.Piloted => unchosen()
       case RenderMethod.Passes(make, _) =>
         val passes = make(plan.view(Splats.Discarded))
         val schedule = TileSchedule(
@@ -107,13 +106,15 @@ private[render] object Job:
       case RenderMethod.Tiles(integrators) => worker(integrators)
       case RenderMethod.Guided(unguided, _, _) => worker(unguided)
       case RenderMethod.SplattedTiles(make, _, _, _) => worker(make(view))
-      case RenderMethod.Piloted(_, _, _, _) =>
-        throw IllegalArgumentException("the method has not been chosen")
+      case _: RenderMethod.Piloted => unchosen()
       case RenderMethod.Chains(_, _, make) => worker(make(view))
       case RenderMethod.Passes(make, _) =>
         val integrator = make(view).integrator(Some(report))
         tiles.worker(integrator, queue, begin(integrator, queue))
     (tiles.film, only)
+
+  private def unchosen(): Nothing =
+    throw IllegalArgumentException("the method has not been chosen")
 
   /** Begins waves of samples, with their weights. */
   private def begin(guide: Guide, queue: TaskQueue): TileWorker.BeginWave = (sample, moves) =>

@@ -123,7 +123,7 @@ enum RenderMethod(
         seesLightPaths = true
       )
 
-  /** A method to be chosen once the camera is known ([[piloted]]).
+  /** A method to be chosen once the camera is known, before the plan is made.
     *
     * @param alone    without light paths
     * @param pilot    decides on them, and says why

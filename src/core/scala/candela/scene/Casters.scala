@@ -42,18 +42,6 @@ final class Casters private (
   /** No surface casts caustics. */
   def isEmpty: Boolean = total == 0.0
 
-  /** How many primitives, and how many instances with such. */
-  def describe: String =
-    val alone = world.count match
-      case 0 => None
-      case 1 => Some("one primitive")
-      case n => Some(s"$n primitives")
-    val within = placed.count match
-      case 0 => None
-      case 1 => Some("one instance")
-      case n => Some(s"$n instances")
-    (alone ++ within).mkString(" and ")
-
   /** Samples a point.
     *
     * @param choice of the primitive, in [0, 1)
@@ -115,6 +103,12 @@ final class Casters private (
 object Casters:
   private inline val BelowOne = 1.0 - 1e-16
 
+  /** Weight of the second number of a choice. */
+  private inline val Finer = 1.0 / (1 << 24)
+
+  /** Choice of a primitive, by two numbers in [0, 1): one has too few digits for millions. */
+  def choice(u: Float, finer: Float): Double = u + finer * Finer
+
   /** @param casts whether a material casts caustics */
   def apply(surfaces: Surfaces, instanced: Instanced, casts: Array[Boolean]): Casters =
     val objects = instanced.objects.map(CasterTable(_, casts))
@@ -169,6 +163,27 @@ object CasterAim:
       val ends = chances.scanLeft(0.0)(_ + _).tail
       new CasterAim(ends.map(_ / ends.last))
 
+/** Learns where paths begin that bring light, in equal cells of the casters' areas. Mutable. */
+final class CasterLearning:
+  import CasterLearning.*
+  private val moments = new Array[Double](Cells)
+
+  /** A path that began at `place` brings so much light. */
+  def add(place: Double, light: Double): Unit =
+    moments(Math.min((place * Cells).toInt, Cells - 1)) += light * light
+
+  /** No path has brought light. */
+  def isEmpty: Boolean = moments.forall(_ == 0.0)
+
+  /** Densities in proportion to the root of second moments have the least variance. */
+  def aim: CasterAim = CasterAim(moments.map(Math.sqrt), Evenly)
+
+private[candela] object CasterLearning:
+  private inline val Cells = 512
+
+  /** Part of the paths that begin anywhere. */
+  private inline val Evenly = 0.2
+
 /** The instances with casters.
   *
   * @param first number of the first instance among the primitives
@@ -181,7 +196,6 @@ private final class Placed(val all: Instances, val first: Int, objects: Array[Ca
     .map(i => objects(all.objectOf(instances(i))).area * stretches(i) * stretches(i))
     .scanLeft(0.0)(_ + _).tail.toArray
 
-  def count: Int = instances.length
   def area: Double = if ends.isEmpty then 0.0 else ends.last
   def start(i: Int): Double = if i == 0 then 0.0 else ends(i - 1)
   def areaOf(i: Int): Double = ends(i) - start(i)
@@ -198,8 +212,6 @@ private final class CasterTable(surfaces: Surfaces, casts: Array[Boolean]):
   private val primitives: Array[Int] =
     (0 until surfaces.count).filter(i => casts(materialOf(i)) && areaOf(i) > 0.0).toArray
   private val ends: Array[Double] = primitives.map(areaOf).scanLeft(0.0)(_ + _).tail
-
-  def count: Int = primitives.length
 
   def area: Double = if ends.isEmpty then 0.0 else ends.last
 

@@ -1,16 +1,12 @@
 package candela.bidirectional
 
-import candela.base.CheckedFile
 import candela.build.{ColorMode, RenderSettings}
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
-import candela.render.{Cancellation, Checkpointer, Renderer, RenderMethod, RenderPlan, RenderState}
-import candela.sampling.Sampler
+import candela.render.{Cancellation, Renderer, RenderMethod, RenderPlan}
 import candela.scenefile.Dialect
-import candela.testing.SceneTexts
-
-import java.nio.file.{Files, Path}
+import candela.testing.{FileKeeper, SceneTexts, TempFolder, WatchedSampler}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -107,62 +103,22 @@ final class CausticPhotonsSuite extends AnyFunSuite:
     val made = plan(room(glass, lamp = s"$large\n$point"), CausticsMode.Photons, 5)
     val alone = pixels(made).toVector
     assert(pixels(made, threads = 3).toVector == alone)
-    val folder = Files.createTempDirectory("candela-photons")
-    try
+    TempFolder.use: folder =>
       val file = folder.resolve("state")
       val stop = Cancellation()
       val stopped = Renderer.render(
-        stopping(made, stop),
+        WatchedSampler.watched(made)((_, _, sample) => if sample == 2 then stop.request()),
         threads = 2,
         stop,
-        checkpointer = Some(Saved(None, file))
+        checkpointer = Some(FileKeeper(None, file))
       )
       assert(stopped.samplesDone < 5)
       val resumed =
-        Renderer.render(made, threads = 2, checkpointer = Some(Saved(Some(file), file)))
+        Renderer.render(made, threads = 2, checkpointer = Some(FileKeeper(Some(file), file)))
       assert(resumed.samplesDone == 5)
       assert(resumed.image(made.development).data.toVector == alone)
-    finally
-      Files.list(folder).forEach(Files.delete(_))
-      Files.delete(folder)
 
   private lazy val point = """LightSource "point" "point3 from" [1 -1 3] "rgb I" [3 3 3]"""
-
-  private final class Saved(from: Option[Path], to: Path) extends Checkpointer:
-    def restore(state: RenderState): Unit = from.foreach(CheckedFile.read(_, "state")(state.load))
-    def isDue: Boolean = false
-    def save(state: RenderState): Unit = CheckedFile.write(to, "state")(state.save)
-    def lose(): Unit = ()
-    def finish(): Unit = ()
-
-  /** Stops the rendering at its third sample. */
-  private final class Stopping(inner: Sampler, stop: Cancellation) extends Sampler:
-    def samplesPerPixel: Int = inner.samplesPerPixel
-    def copy(): Sampler = Stopping(inner.copy(), stop)
-    def start(px: Int, py: Int, sample: Int): Unit =
-      if sample == 2 then stop.request()
-      inner.start(px, py, sample)
-    def next1D(): Float = inner.next1D()
-    def next2D(): Unit =
-      inner.next2D()
-      x = inner.x
-      y = inner.y
-
-  private def stopping(plan: RenderPlan, stop: Cancellation): RenderPlan =
-    RenderPlan(
-      plan.width,
-      plan.height,
-      plan.crop,
-      plan.camera,
-      plan.filter,
-      Stopping(plan.sampler, stop),
-      plan.method,
-      plan.basis,
-      plan.limit,
-      plan.development,
-      plan.filename,
-      plan.features
-    )
 
   test("the image is said to be biased, and one without casters has no photons"):
     def feature(plan: RenderPlan) = plan.features.collectFirst { case ("caustics", told) => told }

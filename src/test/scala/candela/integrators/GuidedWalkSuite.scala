@@ -1,15 +1,12 @@
 package candela.integrators
 
-import candela.base.CheckedFile
 import candela.build.RenderSettings
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
-import candela.render.{
-  Cancellation, Checkpointer, Renderer, RenderListener, RenderPlan, RenderState
-}
+import candela.render.{Cancellation, Renderer, RenderListener, RenderPlan}
 import candela.scenefile.Dialect
-import candela.testing.{Blocks, SceneTexts}
+import candela.testing.{Blocks, FileKeeper, SceneTexts}
 
 import java.nio.file.{Files, Path}
 
@@ -153,13 +150,6 @@ final class GuidedWalkSuite extends AnyFunSuite:
 
 private object GuidedWalkSuite:
   val Seeds = 64
-
-  final class FileKeeper(from: Option[Path], to: Path) extends Checkpointer:
-    def restore(state: RenderState): Unit = from.foreach(CheckedFile.read(_, "state")(state.load))
-    def isDue: Boolean = false
-    def save(state: RenderState): Unit = CheckedFile.write(to, "state")(state.save)
-    def lose(): Unit = ()
-    def finish(): Unit = ()
 
   /** A box divided by a wall with a gap; the lamp is behind it. Spheres are matte,
     * rough metal, coated and of glass.

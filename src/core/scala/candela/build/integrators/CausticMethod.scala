@@ -73,11 +73,6 @@ private object CausticMethod:
       Some("it does not divide light, as --fireflies clamp and AOVs of light need")
     else None
 
-  /** Do manifold walks look for the light of surfaces? Where waves are many, they cost more than
-    * they bring.
-    */
-  private inline val WalksToSurfaces = false
-
   private final class Beside(
       scene: Scene,
       options: WalkOptions,
@@ -124,10 +119,9 @@ private object CausticMethod:
 
     /** Manifold walks between surfaces; media would attenuate the chains. */
     private def walked(over: Scene): Option[Manifolds] =
-      if light.media.isDefined then None
+      if light.media.isDefined || !light.findsAll then None
       else
-        val walks =
-          Manifolds(over, light.maxDepth, ofSurfaces = WalksToSurfaces, ofPoints = light.findsAll)
+        val walks = Manifolds(over, light.maxDepth)
         Option.unless(walks.isEmpty)(walks)
 
     private def weighed(weights: CausticWeights): WalkOptions =

@@ -1,0 +1,14 @@
+package candela.testing
+
+import candela.base.CheckedFile
+import candela.render.{Checkpointer, RenderState}
+
+import java.nio.file.Path
+
+/** Keeps the state of a rendering that is stopped in a file, and continues that of another. */
+final class FileKeeper(from: Option[Path], to: Path) extends Checkpointer:
+  def restore(state: RenderState): Unit = from.foreach(CheckedFile.read(_, "state")(state.load))
+  def isDue: Boolean = false
+  def save(state: RenderState): Unit = CheckedFile.write(to, "state")(state.save)
+  def lose(): Unit = ()
+  def finish(): Unit = ()
