@@ -71,11 +71,11 @@ final class Instances private (
     else Placement.locate(ray.nested.space, 0, at)
 
   /** The object's point `p`, in world space at the ray's time. */
-  def place(i: Int, ray: Ray, p: Vec3): Vec3 = Placement.place(rows(i, ray), start(i), p)
+  def place(i: Int, ray: Ray, p: Vec3): Vec3 = Placement.point(rows(i, ray), start(i), p)
 
   /** The point `p` of world space, in the object's at the ray's time. */
   def toObject(i: Int, ray: Ray, p: Vec3): Vec3 =
-    Placement.place(rows(i, ray), start(i) + Placement.Inverse, p)
+    Placement.point(rows(i, ray), start(i) + Placement.Inverse, p)
 
   /** Area in the object's space per area in world space, at the ray's time, of a surface that has
     * the unit normal `n` in world space.

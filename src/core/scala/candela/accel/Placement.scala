@@ -9,9 +9,6 @@ import candela.math.*
 object Placement:
   private[accel] inline val Inverse = 12
 
-  /** A point by the map at `at`. */
-  private[accel] def place(m: Array[Double], at: Int, p: Vec3): Vec3 = point(m, at, p)
-
   /** Area before the map per area after it, of a surface that has the unit normal `n` after it:
     * |Mᵀ n| / |det M|.
     */
@@ -139,7 +136,8 @@ object Placement:
 
   private def absolute(v: Vec3): Vec3 = Vec3(Math.abs(v.x), Math.abs(v.y), Math.abs(v.z))
 
-  private def point(m: Array[Double], at: Int, p: Vec3): Vec3 = Vec3(
+  /** A point by the map at `at`. */
+  private[accel] def point(m: Array[Double], at: Int, p: Vec3): Vec3 = Vec3(
     (m(at) * p.x + m(at + 1) * p.y + m(at + 2) * p.z + m(at + 3)).toFloat,
     (m(at + 4) * p.x + m(at + 5) * p.y + m(at + 6) * p.z + m(at + 7)).toFloat,
     (m(at + 8) * p.x + m(at + 9) * p.y + m(at + 10) * p.z + m(at + 11)).toFloat

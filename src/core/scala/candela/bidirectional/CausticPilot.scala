@@ -44,12 +44,12 @@ private[candela] final class CausticPilot(
   /** @return the choice, if light paths pay; and why, or why not */
   def run(): (Option[CausticChoice], String) =
     if !isCameraWhereItSays then
-      (None, "none: the camera is not in the medium that the first border of media before it says")
+      (None, "none: the first border of media before the camera says that it is in another medium")
     else look()
 
   private def look(): (Option[CausticChoice], String) =
     trace(light, LearningPaths, Seed): Unit
-    if splats == 0 then (None, "none: the camera sees no light of light paths over casters")
+    if splats == 0 then (None, "none: no light path reaches the camera")
     else
       isLearning = false
       val aimed = light.casters.aimed(learning.aim)

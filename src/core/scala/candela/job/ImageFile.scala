@@ -106,12 +106,10 @@ object ImageFile:
       denoiser: Option[String]
   ): Vector[(String, String)] =
     val changed = fireflies(plan, rendering)
-    val caustics = plan.method match
-      case RenderMethod.Passes(_, why) => why
-      case _ => None
-    val added = plan.method match
-      case RenderMethod.SplattedTiles(_, _, _, adds) => adds
-      case _ => None
+    val (caustics, added) = plan.method match
+      case RenderMethod.Passes(_, bias) => (bias, None)
+      case RenderMethod.SplattedTiles(_, _, _, adds) => (None, adds)
+      case _ => (None, None)
     val channels =
       changed.orElse(caustics).toVector.flatMap(_ => Image.RgbNames) ++
         denoiser.toVector.flatMap(_ => Denoising.Channels)

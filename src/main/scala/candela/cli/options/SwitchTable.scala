@@ -48,11 +48,12 @@ private[cli] object SwitchTable extends OptionRows:
       ))
       .action(set((mode, s) => s.copy(guiding = mode))),
     opt[CausticsMode]("caustics").valueName("auto|on|off|photons")
-      .text(
-        "let light paths look for caustics, too: of the light that the camera's paths find with " +
-          "more noise, of all light, or not (default); or take all of them from photon maps, " +
-          "which blur them a little, and find those seen through glass and water"
-      )
+      .text(OptionText(
+        "look for caustics, too: by light paths where these reduce the noise (auto); by light " +
+          "paths, also of lamps without extent (on); by photon maps, which blur caustics a " +
+          "little and find those seen through glass and water (photons); or not (off, default)",
+        "[What it brings](CAUSTICS.md)."
+      ))
       .action(set((mode, s) => s.copy(caustics = mode))),
     flag("force-diffuse", "make all materials diffuse")(_.copy(diffuse = true)),
     opt[Double]("displacement-edge-scale").valueName("X")
