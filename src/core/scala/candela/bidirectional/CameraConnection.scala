@@ -38,7 +38,9 @@ private[bidirectional] final class CameraConnection(
     if sensor == null then 0f else sensor.density(eye, p)
 
   /** Starts a new sample. */
-  def begin(time: Float): Unit = shadowRay.time = time
+  def begin(time: Float): Unit =
+    shadowRay.time = time
+    splats.begin()
 
   /** Connects all vertices.
     *
@@ -46,7 +48,6 @@ private[bidirectional] final class CameraConnection(
     *                   tracing is the only one
     */
   def connect(paths: LightVertices, isWeighted: Boolean, sampler: Sampler): Unit =
-    splats.begin()
     val sensor = camera
     if sensor != null && paths.count > 0 then
       sampler.next2D()
@@ -59,11 +60,12 @@ private[bidirectional] final class CameraConnection(
           val toCamera = place.direction
           val f = if lit.isReachable(toCamera) then lit.sent(toCamera) else Rgb.Black
           if !f.isBlack then
-            val arriving = place.density * lit.cosine(toCamera) / perSample
+            val density = place.density / perSample
+            val arriving = density * lit.cosine(toCamera)
             val others =
               if !isWeighted then 0.0
               else lit.weights.sum(arriving.toDouble, lit.reversePdf(toCamera).toDouble)
-            val weight = (place.density * lit.sentCosine(toCamera) / (1 + others)).toFloat
+            val weight = (density * lit.sentCosine(toCamera) / (1 + others)).toFloat
             val found = lit.throughput * f * weight
             val within = media
             if !found.isBlack then
@@ -72,7 +74,7 @@ private[bidirectional] final class CameraConnection(
                 else if isClear(lit.at, toCamera, place.eye) then found
                 else Rgb.Black
               if !light.isBlack then
-                splats.add(place.x, place.y, light)
+                splats.add(place.x, place.y, light, paths.group)
                 val told = observer
                 if told != null then told.see(place.x, place.y, light, others)
         i += 1

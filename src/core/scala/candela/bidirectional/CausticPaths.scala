@@ -3,6 +3,7 @@ package candela.bidirectional
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray}
 import candela.integrators.{LightConnection, LightTransport, PhotonLight}
+import candela.lights.LightGroups
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.{CasterPoint, Casters, Scene}
@@ -37,11 +38,16 @@ private[bidirectional] final class CausticPaths(
   private val path =
     Subpath(carriesLight = true, compresses, LightTransport.RouletteAfter, evaluates = true)
   private val point = CasterPoint()
+  private val groups: LightGroups | Null = scene.lightGroups.orNull
   private val ray = Ray()
   private val hit = Hit()
   private var rays = 0L
 
   def raysTraced: Long = rays
+
+  override def group: Int =
+    val all = groups
+    if all == null then 0 else all(connection.index)
 
   /** Where the path begins, among all places of casters, from 0 to 1. */
   def place: Double = point.place

@@ -131,6 +131,9 @@ private[bidirectional] abstract class LightVertices(scene: Scene):
   /** Number of recorded vertices. */
   final def count: Int = used
 
+  /** The group of its light; 0: it is not told. */
+  def group: Int = 0
+
   /** Vertex `i`. Its throughput is power, not yet divided by solid angle. */
   final def apply(i: Int): PathVertex = kept(i)
 

@@ -2,7 +2,7 @@ package candela.bidirectional
 
 import candela.base.{CheckedInput, CheckedOutput}
 import candela.cameras.CameraRays
-import candela.color.Rgb
+import candela.color.{Rgb, Wavelengths}
 import candela.film.{Splats, View}
 import candela.integrators.ChainWalker
 
@@ -91,7 +91,7 @@ private[bidirectional] final class MarkovWalker(
     val weight = rays.next(filmX, filmY, s)
     if weight > 0f then
       val light = paths.radiance(rays.ray, samples.light, samples.joins, s)
-      if light.isFinite then proposed.add(filmX, filmY, light * (weight * share))
+      if light.isFinite then proposed.add(filmX, filmY, light * (weight * share), 0)
       else refused += 1
 
 /** The splats of one point of [[PrimarySamples]]. Mutable. */
@@ -110,7 +110,8 @@ private[bidirectional] final class Contribution(view: View) extends Splats:
   /** Paths are counted by the chains. */
   def begin(): Unit = ()
 
-  def add(x: Float, y: Float, light: Rgb): Unit =
+  /** The image has no groups of lights, … */
+  def add(x: Float, y: Float, light: Rgb, group: Int): Unit =
     if x >= view.x0 && x < view.x1 && y >= view.y0 && y < view.y1 then
       val weight = Math.abs(light.luminance)
       if weight > 0f && weight < Float.PositiveInfinity then
@@ -124,6 +125,9 @@ private[bidirectional] final class Contribution(view: View) extends Splats:
         data(at + 4) = light.b
         count += 1
         strength += weight
+
+  /** … and no bands. */
+  def addToBands(x: Float, y: Float, basis: Wavelengths, light: Rgb): Unit = ()
 
   def save(to: CheckedOutput): Unit =
     to.float(strength)
@@ -151,7 +155,8 @@ private[bidirectional] final class Contribution(view: View) extends Splats:
   def addTo(splats: Splats, weight: Float): Unit =
     var at = 0
     while at < count * Numbers do
-      splats.add(data(at), data(at + 1), Rgb(data(at + 2), data(at + 3), data(at + 4)) * weight)
+      val light = Rgb(data(at + 2), data(at + 3), data(at + 4))
+      splats.add(data(at), data(at + 1), light * weight, group = 0)
       at += Numbers
 
 private object Contribution:

@@ -115,13 +115,17 @@ object SceneBuilder:
         )
         if connects && !camera.camera.isTraceable then
           (alone, "none: light paths can't reach this camera")
-        else if connects && image.film.development.bands.isDefined && world.color.isSpectral then
-          (alone, "none: light paths fill no bands of wavelengths")
         else
           val (choice, told) = pilot(view)
           (choice.fold(alone)(chosen), told)
       case other => (other, s"none: ${IdleSettings.NoCaustics}")
-    world.rendered(method, Option.when(asked != CausticsMode.Off)("caustics" -> why))
+    val survey = world.method match
+      case RenderMethod.Piloted(_, _, _, _) => world.caustics.features
+      case _ => Vector.empty
+    world.rendered(
+      method,
+      if asked == CausticsMode.Off then Vector.empty else ("caustics" -> why) +: survey
+    )
 
   private def footprint(context: BuildContext, sampling: SamplingSetup): Float =
     val switches = context.resources.switches
@@ -231,7 +235,9 @@ object SceneBuilder:
     // pbrt-v4 scales images by the shutter time
     val exposure = if context.isV4 then camera.shutter.duration else 1f
     val film = if world.color.isSpectral then image.film.spectral(exposure) else image.film
-    val bands = film.development.bands.filter(_ => world.color.isSpectral && method.hasWavelengths)
+    val bands = film.development.bands
+      .filter(_ => world.color.isSpectral && method.hasWavelengths)
+      .map(_.over(world.color.bases))
     // AOVs belong to the pixel of the camera sample
     val shares =
       image.layers.isEmpty && bands.isEmpty && method.canShareSamples && !switches.centers &&

@@ -22,14 +22,18 @@ private[build] final class World(
     val color: ColorPlan,
     val features: Vector[(String, String)],
     val moves: Boolean,
-    names: () => SurfaceNames
+    names: () => SurfaceNames,
+    survey: () => CausticSurvey
 ):
   /** For image layers. */
   def surfaceNames: SurfaceNames = names()
 
+  /** What there is of caustics. */
+  def caustics: CausticSurvey = survey()
+
   /** The same, rendered otherwise. */
-  def rendered(method: RenderMethod, feature: Option[(String, String)]): World =
-    World(scene, method, color, features ++ feature, moves, names)
+  def rendered(method: RenderMethod, told: Vector[(String, String)]): World =
+    World(scene, method, color, features ++ told, moves, names, survey)
 
 /** All surfaces of the world and its objects, with their acceleration structures. */
 private[build] final class Structure(
@@ -151,7 +155,10 @@ private[build] final class WorldBuilder(
         "lights" -> (if all.isEmpty then "none" else selection.describe)
       ) ++ scene.lightGroups.map(g => "light groups" -> g.names.mkString(", ")),
       placed.instanced.instances.moving > 0,
-      () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id)
+      () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id),
+      () =>
+        val worn = shapes.iterator.map(materials.dress(_).material)
+        CausticSurvey(context, materials, worn, lights)
     )
 
   /** The first one finds all problems of lights and media, in the order of the statements; the

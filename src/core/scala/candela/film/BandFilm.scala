@@ -35,8 +35,11 @@ final class BandFilm(bands: SpectralBands, x0: Int, y0: Int, x1: Int, y1: Int):
       sums.add(first + 2 * band, share * light)
       sums.add(first + 2 * band + 1, share)
 
-  /** Appends the bands to the image's channels. */
-  def behind(image: Image): Image =
+  /** Appends the bands to the image's channels.
+    *
+    * @param splats of light paths, if any
+    */
+  def behind(image: Image, splats: Option[SplatFilm]): Image =
     require(image.width == width && image.height == height)
     val channels = image.channels + count
     val data = new Array[Float](channels * width * height)
@@ -48,6 +51,7 @@ final class BandFilm(bands: SpectralBands, x0: Int, y0: Int, x1: Int, y1: Int):
         if weight != 0 then
           val mean = sums(at) / weight
           data(channels * pixel + image.channels + band) = (mean * Wavelengths.Radiance).toFloat
+    splats.foreach(_.addBandsTo(data, channels, Wavelengths.Radiance))
     Image(width, height, image.channelNames ++ bands.channels, data)
 
   def save(to: CheckedOutput): Unit = sums.save(to)

@@ -117,7 +117,7 @@ final class Film(
           x += 1
     for s <- splats do
       s.addTo(image.data, scale)
-      for w <- weights if w.forall(_ == 0) do Arrays.fill(w, s.pathCount.toFloat)
+      for w <- weights if w.forall(_ == 0) do Arrays.fill(w, s.sampleCount.toFloat)
     image
 
   /** The share of the light that [[toImage]] leaves out with fireflies. */

@@ -3,7 +3,7 @@ package candela.film
 import java.util.Locale
 
 import candela.base.loop
-import candela.color.{ColorResponse, Colorimetry, Detector}
+import candela.color.{ColorResponse, Colorimetry, Detector, Wavelengths}
 import candela.image.Image
 import candela.math.lerp
 
@@ -15,8 +15,14 @@ import candela.math.lerp
   * 10(3), 2021.
   *
   * @param from, to wavelengths in nm
+  * @param bases    of which each path has one, if rendering is spectral
   */
-final class SpectralBands(count: Int, from: Float, to: Float):
+final class SpectralBands(
+    count: Int,
+    from: Float,
+    to: Float,
+    bases: Vector[Wavelengths] = Vector.empty
+):
   import SpectralBands.*
 
   /** Named by the centre wavelength, with a decimal comma: a dot would start a layer name. */
@@ -28,6 +34,19 @@ final class SpectralBands(count: Int, from: Float, to: Float):
   def at(nm: Float): Int =
     if nm < from || nm >= to then -1
     else Math.min(((nm - from) / (to - from) * count).toInt, count - 1)
+
+  /** The same, in a rendering whose paths have these wavelengths. */
+  def over(bases: Vector[Wavelengths]): SpectralBands = SpectralBands(count, from, to, bases)
+
+  private lazy val widths =
+    val sums = new Array[Double](count)
+    for basis <- bases; i <- 0 to 2; band = at(basis.nm(i)) if band >= 0 do
+      sums(band) += basis.weight(i)
+    sums.map(_ / bases.size)
+
+  /** Width of the spectrum that a path's wavelengths within the band stand for, on average, in nm.
+    */
+  def width(band: Int): Double = widths(band)
 
   def describe: String = s"$count from $from to $to nm"
 

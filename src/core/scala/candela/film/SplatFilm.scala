@@ -1,7 +1,7 @@
 package candela.film
 
 import candela.base.{CheckedInput, CheckedOutput, loop}
-import candela.color.{ColorBasis, Rgb}
+import candela.color.{ColorBasis, Rgb, Wavelengths}
 
 import java.util.concurrent.atomic.LongAdder
 
@@ -11,12 +11,14 @@ import java.util.concurrent.atomic.LongAdder
   * bit-identical in any order: multiples of 2⁻⁵⁴, of which whole multiples of 2⁻¹⁶ are moved to a
   * second part when they become large, up to 10¹⁴.
   *
-  * Bands of rows have a lock each. A splat takes one or two of them: an atomic addition for each
+  * Strips of rows have a lock each. A splat takes one or two of them: an atomic addition for each
   * number took four times as long, as a splat under a wide filter adds some fifty.
   *
   * @param filter distributes a splat over pixels
   * @param pixels of the full image
-  * @param limit  of a splat, as of a sample
+  * @param limits of a splat, as of a sample's indirect light and of a sample
+  * @param groups of lights that are told apart
+  * @param bands  of wavelengths to accumulate, too
   */
 final class SplatFilm(
     x0: Int,
@@ -26,54 +28,88 @@ final class SplatFilm(
     filter: Filter,
     pixels: Double,
     basis: ColorBasis,
-    limit: Option[SampleLimit]
+    limits: Vector[SampleLimit],
+    groups: Int = 1,
+    bands: Option[SpectralBands] = None
 ) extends Splats:
   import SplatFilm.*
   private val width = x1 - x0
   private val height = y1 - y0
-  private val most: SampleLimit | Null = limit.orNull
+  private val most = limits.toArray
+  private val spectrum: SpectralBands | Null = bands.orNull
   private val volume = filter.integral
 
+  // Colours of each group of lights, then bands
+  private val channels = 3 * groups + bands.fold(0)(_.channels.size)
+
   // For each pixel, row by row, and each channel
-  private val fine = new Array[Long](Math.multiplyExact(3, Math.multiplyExact(width, height)))
+  private val fine =
+    new Array[Long](Math.multiplyExact(channels, Math.multiplyExact(width, height)))
   private val coarse = new Array[Long](fine.length)
 
-  /** Rows of a band: a splat reaches two at most. */
+  /** Rows of a strip: a splat reaches two at most. */
   private val rows = Math.max(LeastRows, Math.ceil(2.0 * filter.radiusY).toInt + 1)
-  private val bands = Array.fill((height + rows - 1) / rows)(Band(columns))
+  private val strips = Array.fill((height + rows - 1) / rows)(Strip(columns))
   private def columns = Math.ceil(2.0 * filter.radiusX).toInt + 1
-  private val paths = LongAdder()
+  private val samples = LongAdder()
 
-  def begin(): Unit = paths.increment()
+  def begin(): Unit = samples.increment()
 
-  /** Number of light paths. */
-  def pathCount: Long = paths.sum
+  /** Number of samples. */
+  def sampleCount: Long = samples.sum
 
-  def add(x: Float, y: Float, light: Rgb): Unit =
+  def add(x: Float, y: Float, light: Rgb, group: Int): Unit =
     val seen = basis.toSrgb(light)
     if seen.isFinite && !seen.isBlack then
-      val limited = if most == null then seen else seen * most.scale(seen)
-      val left = Math.max(x0, Math.ceil(x - 0.5 - filter.radiusX).toInt)
-      val right = Math.min(x1 - 1, Math.floor(x - 0.5 + filter.radiusX).toInt)
-      val top = Math.max(y0, Math.ceil(y - 0.5 - filter.radiusY).toInt)
-      val bottom = Math.min(y1 - 1, Math.floor(y - 0.5 + filter.radiusY).toInt)
-      if left <= right && top <= bottom then
-        val upper = bands((top - y0) / rows)
-        val lower = bands((bottom - y0) / rows)
-        // Always in this order, so that no two threads wait for each other
-        upper.synchronized:
-          lower.synchronized:
-            loop(right - left + 1)(i => upper.across(i) = filter.x(x - 0.5f - (left + i)))
-            var py = top
-            while py <= bottom do
-              val at = 3 * ((py - y0) * width + left - x0)
-              addRow(at, limited, filter.y(y - 0.5f - py), upper.across, right - left + 1)
-              py += 1
+      val limited = within(seen)
+      val channel = if groups == 1 then 0 else 3 * group
+      spread(x, y)((pixel, weight) => addTo(channels * pixel + channel, limited * weight))
 
-  private def addRow(at: Int, light: Rgb, share: Float, across: Array[Float], count: Int): Unit =
-    loop(count): i =>
-      val weight = share * across(i)
-      if weight != 0f then addTo(at + 3 * i, light * weight)
+  private def within(light: Rgb): Rgb =
+    var limited = light
+    loop(most.length)(i => limited = limited * most(i).scale(limited))
+    limited
+
+  def addToBands(x: Float, y: Float, basis: Wavelengths, light: Rgb): Unit =
+    val among = spectrum
+    if among != null && light.isFinite && !light.isBlack then
+      val shares = Rgb(
+        light.r * basis.weight(0),
+        light.g * basis.weight(1),
+        light.b * basis.weight(2)
+      )
+      val first = 3 * groups
+      val (r, g, b) = (among.at(basis.nm(0)), among.at(basis.nm(1)), among.at(basis.nm(2)))
+      spread(x, y): (pixel, weight) =>
+        val at = channels * pixel + first
+        val shared = shares * weight
+        if shared.max < Largest then
+          if r >= 0 then addTo(at + r, shared.r)
+          if g >= 0 then addTo(at + g, shared.g)
+          if b >= 0 then addTo(at + b, shared.b)
+
+  /** Calls `to` with each pixel that the filter reaches from a place, and its weight. */
+  private inline def spread(x: Float, y: Float)(inline to: (Int, Float) => Unit): Unit =
+    val left = Math.max(x0, Math.ceil(x - 0.5 - filter.radiusX).toInt)
+    val right = Math.min(x1 - 1, Math.floor(x - 0.5 + filter.radiusX).toInt)
+    val top = Math.max(y0, Math.ceil(y - 0.5 - filter.radiusY).toInt)
+    val bottom = Math.min(y1 - 1, Math.floor(y - 0.5 + filter.radiusY).toInt)
+    if left <= right && top <= bottom then
+      val upper = strips((top - y0) / rows)
+      val lower = strips((bottom - y0) / rows)
+      // Always in this order, so that no two threads wait for each other
+      upper.synchronized:
+        lower.synchronized:
+          val across = upper.across
+          loop(right - left + 1)(i => across(i) = filter.x(x - 0.5f - (left + i)))
+          var py = top
+          while py <= bottom do
+            val first = (py - y0) * width + left - x0
+            val share = filter.y(y - 0.5f - py)
+            loop(right - left + 1): i =>
+              val weight = share * across(i)
+              if weight != 0f then to(first + i, weight)
+            py += 1
 
   private def addTo(at: Int, light: Rgb): Unit =
     if light.max < Largest then
@@ -101,23 +137,27 @@ final class SplatFilm(
   private def coarseOf(i: Int): Long = coarse(i) + (fine(i) >> FineBits)
   private def fineOf(i: Int): Long = fine(i) & FineMask
 
-  /** Calls `f` for each number, while no splat is added to it. */
+  /** Calls `f` for each pixel, while no splat is added to it. */
+  private inline def eachPixel(inline f: Int => Unit): Unit =
+    val perStrip = rows * width
+    loop(strips.length): s =>
+      strips(s).synchronized:
+        val end = Math.min((s + 1) * perStrip, width * height)
+        var pixel = s * perStrip
+        while pixel < end do
+          f(pixel)
+          pixel += 1
+
+  /** Likewise, for each number. */
   private inline def each(inline f: Int => Unit): Unit =
-    val perBand = 3 * rows * width
-    loop(bands.length): b =>
-      bands(b).synchronized:
-        val end = Math.min((b + 1) * perBand, fine.length)
-        var i = b * perBand
-        while i < end do
-          f(i)
-          i += 1
+    eachPixel(pixel => loop(channels)(channel => f(channels * pixel + channel)))
 
   def copy(): SplatFilm =
-    val film = SplatFilm(x0, y0, x1, y1, filter, pixels, basis, limit)
+    val film = SplatFilm(x0, y0, x1, y1, filter, pixels, basis, limits, groups, bands)
     each: i =>
       film.coarse(i) = coarseOf(i)
       film.fine(i) = fineOf(i)
-    film.paths.add(paths.sum)
+    film.samples.add(samples.sum)
     film
 
   /** The delta since `earlier` was copied. */
@@ -126,36 +166,69 @@ final class SplatFilm(
     film.each: i =>
       film.coarse(i) -= earlier.coarse(i)
       film.fine(i) -= earlier.fine(i)
-    film.paths.add(-earlier.paths.sum)
+    film.samples.add(-earlier.samples.sum)
     film
 
   def save(to: CheckedOutput): Unit =
-    to.long(paths.sum)
+    to.long(samples.sum)
     each: i =>
       to.long(coarseOf(i))
       to.long(fineOf(i))
 
   /** Adds what was saved. */
   def load(from: CheckedInput): Unit =
-    paths.add(from.long())
+    samples.add(from.long())
     each: i =>
       coarse(i) += from.long()
       fine(i) += from.long()
 
   /** Adds the normalised splats, times `scale`, to pixel values, row by row. */
-  def addTo(data: Array[Float], scale: Float): Unit =
-    val count = paths.sum
-    if count > 0 then
-      val factor = scale * pixels / (count * volume)
-      each: i =>
-        data(i) += ((coarseOf(i) / Coarse + fineOf(i) / Fine) * factor).toFloat
+  def addTo(data: Array[Float], scale: Float): Unit = addTo(data, scale, 0, groups)
+
+  /** Likewise, those of one group of lights. */
+  def addTo(data: Array[Float], scale: Float, group: Int): Unit =
+    addTo(data, scale, group, group + 1)
+
+  private def addTo(data: Array[Float], scale: Float, from: Int, until: Int): Unit =
+    for factor <- perSample do
+      val scaled = scale * factor
+      eachPixel: pixel =>
+        loop(3): c =>
+          var sum = 0.0
+          var group = from
+          while group < until do
+            sum += value(channels * pixel + 3 * group + c)
+            group += 1
+          data(3 * pixel + c) += (sum * scaled).toFloat
+
+  /** Adds the mean in each band of wavelengths, times `scale`, to an image's channels.
+    *
+    * @param stride channels of the image, the last of which are the bands
+    */
+  def addBandsTo(data: Array[Float], stride: Int, scale: Double): Unit =
+    for
+      among <- bands
+      factor <- perSample
+    do
+      val count = among.channels.size
+      eachPixel: pixel =>
+        loop(count): band =>
+          if among.width(band) > 0 then
+            val mean = value(channels * pixel + 3 * groups + band) * factor / among.width(band)
+            data(stride * (pixel + 1) - count + band) += (mean * scale).toFloat
+
+  private def value(i: Int): Double = coarseOf(i) / Coarse + fineOf(i) / Fine
+
+  private def perSample: Option[Double] =
+    val count = samples.sum
+    Option.when(count > 0)(pixels / (count * volume))
 
 object SplatFilm:
   /** So that few splats take two locks, and threads seldom meet. */
   private val LeastRows = 8
 
   /** The lock of some rows, and memory for the weights of a splat whose first row is among them. */
-  private final class Band(columns: Int):
+  private final class Strip(columns: Int):
     val across = new Array[Float](columns)
 
   // Steps per unit

@@ -1,22 +1,31 @@
 package candela.film
 
 import candela.cameras.{Camera, Shutter}
-import candela.color.Rgb
+import candela.color.{Rgb, Wavelengths}
 
 /** Receives splats from light subpaths, anywhere on the film. Thread-safe. */
 abstract class Splats:
 
-  /** Counts a light path: splats are averaged over the number of paths. */
+  /** Counts a sample: splats are averaged over the number of samples. */
   def begin(): Unit
 
-  /** @param x in pixels from the left edge of the full image, `y` from its top; may be outside */
-  def add(x: Float, y: Float, light: Rgb): Unit
+  /** @param x     in pixels from the left edge of the full image, `y` from its top; may be outside
+    * @param group of the light, if its groups are told apart
+    */
+  def add(x: Float, y: Float, light: Rgb, group: Int): Unit
+
+  /** Adds the same splat to bands of wavelengths, if there are any.
+    *
+    * @param light at the wavelengths of `basis`
+    */
+  def addToBands(x: Float, y: Float, basis: Wavelengths, light: Rgb): Unit
 
 object Splats:
   /** Discards splats: for tracing a single sample, whose splats would land in other pixels. */
   object Discarded extends Splats:
     def begin(): Unit = ()
-    def add(x: Float, y: Float, light: Rgb): Unit = ()
+    def add(x: Float, y: Float, light: Rgb, group: Int): Unit = ()
+    def addToBands(x: Float, y: Float, basis: Wavelengths, light: Rgb): Unit = ()
 
 /** Camera and film, for rendering methods that choose film positions.
   *

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.color.{ColorBasis, Rgb, Wavelengths}
+import candela.color.{Rgb, Wavelengths}
 import candela.film.Splats
 import candela.geometry.Ray
 import candela.layers.LightParts
@@ -100,6 +100,12 @@ object SpectralPasses:
     override def lastMaterial: Int = integrators(current).lastMaterial
 
 /** Splats of one basis. */
-final class ConvertedSplats(splats: Splats, basis: ColorBasis) extends Splats:
+final class ConvertedSplats(splats: Splats, basis: Wavelengths) extends Splats:
   def begin(): Unit = splats.begin()
-  def add(x: Float, y: Float, light: Rgb): Unit = splats.add(x, y, basis.toSrgb(light))
+
+  def add(x: Float, y: Float, light: Rgb, group: Int): Unit =
+    splats.add(x, y, basis.toSrgb(light), group)
+    splats.addToBands(x, y, basis, light)
+
+  /** None of these splats has another basis. */
+  def addToBands(x: Float, y: Float, basis: Wavelengths, light: Rgb): Unit = ()

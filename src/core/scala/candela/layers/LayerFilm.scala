@@ -2,7 +2,7 @@ package candela.layers
 
 import candela.base.{CheckedInput, CheckedOutput, loop}
 import candela.color.Rgb
-import candela.film.{Development, ExactSums}
+import candela.film.{Development, ExactSums, SplatFilm}
 import candela.image.Image
 
 /** Accumulators of the requested AOVs, in addition to [[candela.film.Film]]. Not synchronised
@@ -66,8 +66,9 @@ final class LayerFilm(
   /** Appends the AOV channels to the image.
     *
     * @param development how the image was made
+    * @param splats      of light paths, if any: light scattered more than once
     */
-  def behind(image: Image, development: Development): Image =
+  def behind(image: Image, development: Development, splats: Option[SplatFilm] = None): Image =
     require(image.width == width && image.height == height)
     val names =
       image.channelNames ++ layers.flatMap(_.channelsOf(groups.getOrElse(Vector.empty)))
@@ -84,17 +85,38 @@ final class LayerFilm(
         layer.to(space) match
           case Some(matrix) => own => (matrix * own.toVector).toArray.map(_.toFloat)
           case None => _.map(_.toFloat)
-    val all = statistics.zip(layers.map(convert))
+    val all = layers.indices.map: i =>
+      (statistics(i), splatted(layers(i), splats, development.scale), convert(layers(i)))
     loop(width * height): pixel =>
       val from = image.channels * pixel
       var to = names.size * pixel
       System.arraycopy(image.data, from, data, to, image.channels)
       to += image.channels
-      for (statistic, converted) <- all do
-        val values = converted(statistic(tallyOf(statistic, stride * pixel, development.scale)))
+      for (statistic, brought, converted) <- all do
+        val own = statistic(tallyOf(statistic, stride * pixel, development.scale))
+        loop(brought.length): k =>
+          loop(3)(c => own(3 * k + c) += brought(k)(3 * pixel + c))
+        val values = converted(own)
         System.arraycopy(values, 0, data, to, values.length)
         to += values.length
     Image(width, height, names, data, colorSpace = space)
+
+  /** What light paths bring to the layer's channels, three by three, if light is divided. */
+  private def splatted(
+      layer: Layer,
+      splats: Option[SplatFilm],
+      scale: Float
+  ): Array[Array[Float]] =
+    def part(add: (SplatFilm, Array[Float]) => Unit): Array[Float] =
+      val data = new Array[Float](3 * width * height)
+      splats.foreach(add(_, data))
+      data
+    (layer, groups) match
+      case (Layer.Indirect, Some(_)) if splats.isDefined =>
+        Array(part((film, data) => film.addTo(data, scale)))
+      case (Layer.Lights, Some(names)) if splats.isDefined =>
+        Array.tabulate(names.size)(group => part((film, data) => film.addTo(data, scale, group)))
+      case _ => Array.empty
 
   private def tallyOf(statistic: Statistic, pixel: Int, scale: Float): PixelTally =
     val tally = statistic.tally

@@ -138,7 +138,19 @@ private[render] object Job:
   private def splatFilm(plan: RenderPlan): SplatFilm =
     val PixelBounds(x0, y0, x1, y1) = plan.crop
     val pixels = plan.width.toDouble * plan.height
-    SplatFilm(x0, y0, x1, y1, plan.filter, pixels, plan.basis, plan.limit)
+    val groups = plan.layers.filter(_.layers.contains(Layer.Lights)).flatMap(_.groups)
+    SplatFilm(
+      x0,
+      y0,
+      x1,
+      y1,
+      plan.filter,
+      pixels,
+      plan.basis,
+      plan.indirectLimit.toVector ++ plan.limit,
+      groups.fold(1)(_.size),
+      plan.bands
+    )
 
   /** Common base of the tiled methods. */
   private final class TileJobs(

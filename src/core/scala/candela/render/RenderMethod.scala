@@ -19,8 +19,7 @@ import candela.scene.Scene
   *                           started for
   * @param learns             whether samples depend on those before
   * @param canKeepOn          whether samples can be added beyond the planned number
-  * @param hasWavelengths     whether all light comes with the wavelengths of its camera sample, not
-  *                           by splats
+  * @param hasWavelengths     whether all light comes with its wavelengths
   * @param dividesLight       whether its light is divided by way and source, as the scene asks
   * @param seesLightPaths     whether light paths connect to the camera
   */
@@ -83,8 +82,8 @@ enum RenderMethod(
         canShareSamples = beside,
         learns = guided.isDefined,
         canKeepOn = guided.isEmpty,
-        hasWavelengths = false,
-        dividesLight = false,
+        hasWavelengths = true,
+        dividesLight = beside,
         seesLightPaths = true
       )
 

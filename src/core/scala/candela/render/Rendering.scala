@@ -87,9 +87,9 @@ final case class Rendering(
 
   /** Likewise, if the colours are developed. */
   def image(development: Development, colors: Image): Image =
-    val layered = layers.fold(colors)(_.behind(colors, development))
+    val layered = layers.fold(colors)(_.behind(colors, development, film.splats))
     development.bands.fold(layered): bands =>
-      film.bands.fold(bands.behind(layered, film.toImage(1f)))(_.behind(layered))
+      film.bands.fold(bands.behind(layered, film.toImage(1f)))(_.behind(layered, film.splats))
 
   def isComplete: Boolean = samplesDone >= samplesPerPixel
 

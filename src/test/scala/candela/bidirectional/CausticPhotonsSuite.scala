@@ -149,11 +149,12 @@ final class CausticPhotonsSuite extends AnyFunSuite:
         .contains("--caustics photons: photons do not light media")
     )
     val regularized = room(glass).replace("\"path\"", "\"path\" \"bool regularize\" true")
-    assert(told(regularized).contains("--caustics photons: regularised paths are no caustics"))
+    val why = "\"regularize\" roughens the surfaces that cast caustics"
+    assert(told(regularized).contains(s"--caustics photons: $why"))
     assert(told(
       room(glass),
       _.copy(fireflies = Fireflies.Clamped(2f))
-    ).contains("--caustics photons: it does not divide light, as --fireflies clamp"))
+    ).contains("--caustics photons: photons do not divide light, as --fireflies clamp"))
     assert(
       told(room(glass), _.copy(guiding = GuidingMode.On))
         .contains("paths that take caustics from photons are not guided")

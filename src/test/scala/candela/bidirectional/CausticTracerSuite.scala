@@ -8,7 +8,6 @@ import candela.render.{Renderer, RenderMethod, RenderPlan}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
-import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
 /** Lamps are wide, so that paths from the camera find all caustics, too. */
@@ -34,31 +33,17 @@ final class CausticTracerSuite extends AnyFunSuite:
   private def image(plan: RenderPlan, threads: Int = 2): Image =
     Renderer.render(plan, threads).image(plan.development)
 
-  /** Pixels have noise of their own, so in each block their differences tell what the error of
-    * their mean is. Normal numbers are beyond 5 once in two million times, but these have tails.
-    */
-  private def assertEqual(a: Image, b: Image): Assertion =
-    val scores =
-      for
-        y <- Vector.range(0, a.height, Side)
-        x <- Vector.range(0, a.width, Side)
-      yield
-        val all =
-          for j <- Vector.range(y, y + Side); i <- x until x + Side; c <- 0 to 2
-          yield a(i, j, c).toDouble - b(i, j, c)
-        all.sum / all.size / Math.sqrt(variance(all) / (all.size / 3))
-    assert(scores.forall(z => z.isNaN || z.abs < 5.0), scores)
-
   for (what, text) <- Scenes do
     test(s"with light paths the mean of each block is that of paths alone: $what"):
       assert(plan(text, CausticsMode.On).method match
         case RenderMethod.SplattedTiles(_, true, _, _) => true
         case _ => false)
-      assertEqual(image(plan(text, CausticsMode.On)), image(plan(text, CausticsMode.Off, seed = 1)))
+      val expected = image(plan(text, CausticsMode.Off, seed = 1))
+      BlockMeans.assertEqual(image(plan(text, CausticsMode.On)), expected)
 
   test("light paths beside guided paths find the same light"):
     val text = Scenes.head._2
-    assertEqual(
+    BlockMeans.assertEqual(
       image(plan(text, CausticsMode.On, guiding = GuidingMode.On)),
       image(plan(text, CausticsMode.Off, seed = 1))
     )
@@ -97,6 +82,28 @@ final class CausticTracerSuite extends AnyFunSuite:
     assert(image(made).data.sameElements(image(plan(text, CausticsMode.Off)).data))
     assert(made.features.toMap.apply("caustics").startsWith("none"))
 
+  test("the plan names what casts caustics and which lamps send the light, a few of each"):
+    def told(text: String) =
+      val features = plan(text, CausticsMode.Auto, spp = 1).features.toMap
+      (features.get("casters"), features.get("their lamps"))
+    val line = Small.linesIterator.indexWhere(_.contains("dielectric")) + 1
+    assert(told(Small) == (
+      Some(s"dielectric test.pbrt:$line:16 on 1 shape"),
+      Some("diffuse test.pbrt:10:25")
+    ))
+    val made = "MakeNamedMaterial \"water\" \"string type\" \"dielectric\"\n"
+    val ball = "Shape \"sphere\" \"float radius\" .1\n"
+    def metal(k: Int) = s"Material \"conductor\" \"float roughness\" .0$k\n$ball"
+    val many = s"$made${(1 to 4).map(metal).mkString} NamedMaterial \"water\" $ball $ball"
+    val lights = (1 to 5).map(k => s"LightSource \"point\" \"rgb I\" [$k 1 1]").mkString("\n")
+    val (casters, lamps) = told(scene(many, lights)): @unchecked
+    assert(casters.exists(_.startsWith("\"water\" (dielectric test.pbrt:")))
+    assert(casters.exists(_.contains(") on 2 shapes, conductor test.pbrt:")))
+    assert(casters.exists(_.endsWith(" on 1 shape and 2 more materials")))
+    assert(lamps.exists(_.endsWith(" without extent and 2 more lamps")))
+    val matte = scene("Material \"diffuse\" Shape \"sphere\"")
+    assert(told(matte) == (None, None))
+
   test("an integrator that does not look for caustics is named in a warning"):
     val text = Small.replace("\"path\"", "\"bdpt\"")
     val settings = RenderSettings(caustics = CausticsMode.Auto)
@@ -113,15 +120,9 @@ final class CausticTracerSuite extends AnyFunSuite:
     assert(image(made).data.sameElements(image(plan(text, CausticsMode.Off)).data))
 
 private object CausticTracerSuite:
-  val Side = 16
-
   val GlassBall = """Material "dielectric" Shape "sphere" "float radius" .5"""
 
   def square(x: Double): Double = x * x
-
-  def variance(of: Vector[Double]): Double =
-    val mean = of.sum / of.size
-    of.map(x => square(x - mean)).sum / (of.size - 1)
 
   def average(image: Image): Double = image.data.map(_.toDouble).sum / image.data.length
 
@@ -197,11 +198,13 @@ private object CausticTracerSuite:
       """LightSource "infinite" "rgb L" [.5 .6 .8]
          LightSource "distant" "rgb L" [0 0 0] """ + lamp(0.8f)
     ),
-    "fog, and a ball in it" -> scene(GlassBall)
-      .replace("LookAt", Fog + "LookAt")
-      .replace("WorldBegin", "WorldBegin MediumInterface \"\" \"fog\"")
-      .replace("\"path\"", "\"volpath\"")
+    "fog, and a ball in it" -> inFog(scene(GlassBall))
   )
+
+  def inFog(text: String): String = text
+    .replace("LookAt", Fog + "LookAt")
+    .replace("WorldBegin", "WorldBegin MediumInterface \"\" \"fog\"")
+    .replace("\"path\"", "\"volpath\"")
 
   private def Fog = """
     MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [.15 .1 .05]

@@ -11,8 +11,8 @@ import java.nio.file.{Files, Path}
 final class SplatFilmSuite extends AnyFunSuite:
   private val box = BoxFilter(0.5f, 0.5f)
 
-  private def film(filter: Filter = box, limit: Option[SampleLimit] = None): SplatFilm =
-    SplatFilm(0, 0, 4, 3, filter, 12.0, ColorBasis.Srgb, limit)
+  private def film(filter: Filter = box, limits: Vector[SampleLimit] = Vector.empty): SplatFilm =
+    SplatFilm(0, 0, 4, 3, filter, 12.0, ColorBasis.Srgb, limits)
 
   private def values(film: SplatFilm): Vector[Float] =
     val data = new Array[Float](36)
@@ -35,11 +35,11 @@ final class SplatFilmSuite extends AnyFunSuite:
       val light = draws.magnitude(1e-12, 1e6)
       (draws.between(-1, 5), draws.between(-1, 4), Rgb(light, light * 0.3f, 0f))
 
-  test("a splat lands in its pixel, over the number of paths and times that of pixels"):
+  test("a splat lands in its pixel, over the number of samples and times that of pixels"):
     val f = film()
     f.begin()
     f.begin()
-    f.add(2.25f, 1.75f, Rgb(1, 2, 3))
+    f.add(2.25f, 1.75f, Rgb(1, 2, 3), 0)
     val found = values(f)
     assert(found.slice(18, 21) == Vector(6f, 12f, 18f))
     assert(found.count(_ != 0f) == 3)
@@ -50,15 +50,15 @@ final class SplatFilmSuite extends AnyFunSuite:
     val (a, b) = (film(filter), film(filter))
     a.begin()
     b.begin()
-    all.foreach((x, y, c) => a.add(x, y, c))
-    all.reverse.foreach((x, y, c) => b.add(x, y, c))
+    all.foreach((x, y, c) => a.add(x, y, c, 0))
+    all.reverse.foreach((x, y, c) => b.add(x, y, c, 0))
     assert(values(a) == values(b))
     assert(bytes(a) == bytes(b))
 
   test("many bright splats are added without any rounding"):
     val f = film()
     f.begin()
-    for _ <- 1 to 5000 do f.add(0.5f, 0.5f, Rgb(100.25f, 127.5f, 129f))
+    for _ <- 1 to 5000 do f.add(0.5f, 0.5f, Rgb(100.25f, 127.5f, 129f), 0)
     val read = film()
     saved(f)(CheckedFile.read(_, "splats")(read.load))
     for sums <- Seq(f, read, f.copy(), f.since(film())) do
@@ -66,26 +66,26 @@ final class SplatFilmSuite extends AnyFunSuite:
 
   test("splats of several threads at once, across bands of rows, are those of one"):
     val filter = GaussianFilter.ofSigma(2.5f, 2.5f, 0.8f)
-    def high = SplatFilm(0, 0, 8, 40, filter, 320.0, ColorBasis.Srgb, None)
+    def high = SplatFilm(0, 0, 8, 40, filter, 320.0, ColorBasis.Srgb, Vector.empty)
     val draws = Draws(9)
     val all = Vector.fill(20000)((draws.between(-1, 9), draws.between(-2, 42)))
     def add(film: SplatFilm, from: Int) =
       for i <- from until all.size by 4 do
         film.begin()
-        film.add(all(i)._1, all(i)._2, Rgb(0.1f * (i % 7), 300f, 1e-8f * i))
+        film.add(all(i)._1, all(i)._2, Rgb(0.1f * (i % 7), 300f, 1e-8f * i), 0)
     val (together, alone) = (high, high)
     val threads = (0 until 4).map(k => Thread(() => add(together, k)))
     threads.foreach(_.start())
     threads.foreach(_.join())
     (0 until 4).foreach(add(alone, _))
-    assert(together.pathCount == 20000)
+    assert(together.sampleCount == 20000)
     assert(bytes(together) == bytes(alone))
 
   test("small and large splats keep their digits"):
     val f = film()
     f.begin()
-    f.add(0.5f, 0.5f, Rgb(1e-9f, 1e7f, 3e-14f))
-    for _ <- 1 to 1000 do f.add(0.5f, 0.5f, Rgb(1e-9f, 1e-3f, 3e-14f))
+    f.add(0.5f, 0.5f, Rgb(1e-9f, 1e7f, 3e-14f), 0)
+    for _ <- 1 to 1000 do f.add(0.5f, 0.5f, Rgb(1e-9f, 1e-3f, 3e-14f), 0)
     val found = values(f)
     assert(Math.abs(found(0) / (12 * 1.001e-6) - 1) < 1e-5)
     assert(found(1) == 12 * 1.0000001e7f)
@@ -100,31 +100,48 @@ final class SplatFilmSuite extends AnyFunSuite:
         MitchellFilter(2f, 2f, 1f / 3, 1f / 3)
       )
     do
-      val f = SplatFilm(0, 0, 16, 16, filter, 1.0, ColorBasis.Srgb, None)
+      val f = SplatFilm(0, 0, 16, 16, filter, 1.0, ColorBasis.Srgb, Vector.empty)
       val draws = Draws(6)
       for _ <- 1 to 4000 do
         f.begin()
-        f.add(draws.between(5, 10), draws.between(5, 10), Rgb.White)
+        f.add(draws.between(5, 10), draws.between(5, 10), Rgb.White, 0)
       val data = new Array[Float](3 * 256)
       f.addTo(data, 1f)
       // Of filters that sum to 1 only on average over where the splats lie
       assert(Math.abs(data.map(_.toDouble).sum / 3 - 1) < 2e-3)
 
   test("splats that are no light are left out, bright ones scaled to the limit"):
-    val f = film(limit = SampleLimit.luminance(1f))
+    val f = film(limits = SampleLimit.luminance(1f).toVector)
     f.begin()
-    f.add(0.5f, 0.5f, Rgb(Float.NaN, 0f, 0f))
-    f.add(0.5f, 0.5f, Rgb(Float.PositiveInfinity, 0f, 0f))
+    f.add(0.5f, 0.5f, Rgb(Float.NaN, 0f, 0f), 0)
+    f.add(0.5f, 0.5f, Rgb(Float.PositiveInfinity, 0f, 0f), 0)
     assert(values(f).forall(_ == 0f))
-    f.add(0.5f, 0.5f, Rgb(100f, 100f, 100f))
+    f.add(0.5f, 0.5f, Rgb(100f, 100f, 100f), 0)
     assert(Math.abs(values(f)(0) / 12f - 1f) < 1e-5f)
 
   test("what was added since a copy can be told"):
     val f = film()
     f.begin()
-    f.add(1.5f, 0.5f, Rgb(1, 2, 3))
+    f.add(1.5f, 0.5f, Rgb(1, 2, 3), 0)
     val before = f.copy()
     f.begin()
-    f.add(1.5f, 0.5f, Rgb(5, 5, 5))
+    f.add(1.5f, 0.5f, Rgb(5, 5, 5), 0)
     assert(values(f.since(before)).slice(3, 6) == Vector(60f, 60f, 60f))
     assert(values(before).slice(3, 6) == Vector(12f, 24f, 36f))
+
+  test("groups of lights add up to all splats, and each has its own"):
+    def filled(groups: Int) =
+      val f = SplatFilm(0, 0, 4, 3, box, 12.0, ColorBasis.Srgb, Vector.empty, groups)
+      f.begin()
+      for k <- 0 to 2 do f.add(k + 0.5f, 0.5f, Rgb(1, 2, 3) * (k + 1f), group = k)
+      f
+    val (one, three) = (filled(1), filled(3))
+    assert(values(three) == values(one))
+    for k <- 0 to 2 do
+      val data = new Array[Float](36)
+      three.addTo(data, 1f, k)
+      assert(data.indices.filter(data(_) != 0f) == (3 * k until 3 * k + 3))
+      assert(data.sum == 12 * 6 * (k + 1f))
+    val read = SplatFilm(0, 0, 4, 3, box, 12.0, ColorBasis.Srgb, Vector.empty, 3)
+    saved(three)(CheckedFile.read(_, "splats")(read.load))
+    assert(bytes(read) == bytes(three))

@@ -33,6 +33,9 @@ private object CausticMethod:
     else
       isOut(scene, options) match
         case Some(why) if mode == CausticsMode.Photons => refuse(why, "write --caustics off", alone)
+        case None if mode == CausticsMode.Photons && scene.lightGroups.isDefined =>
+          val why = "photons do not divide light, as --fireflies clamp and AOVs of light need"
+          refuse(why, "write --caustics on: light paths do", alone)
         case None if mode == CausticsMode.Photons && media.isDefined =>
           refuse("photons do not light media", "write --caustics on: light paths do", alone)
         case Some(why) => without(why, alone)
@@ -62,15 +65,13 @@ private object CausticMethod:
 
   /** Why light paths would find other light than the camera's, if they would. */
   private def isOut(scene: Scene, options: WalkOptions): Option[String] =
-    if options.regularizes then Some("regularised paths are no caustics")
+    if options.regularizes then Some("\"regularize\" roughens the surfaces that cast caustics")
     else if scene.hasInterfaces && options.interfaces.stopsLight then
       Some("\"path\" stops light at interfaces of media; \"volpath\" does not")
     else if options.countsPassed && scene.hasInterfaces then
       Some("interfaces count as scattering events")
     else if options.crossesPanes && scene.hasPanes then
       Some("light samples cross thin glass here")
-    else if scene.lightGroups.isDefined then
-      Some("it does not divide light, as --fireflies clamp and AOVs of light need")
     else None
 
   private final class Beside(
