@@ -11,7 +11,7 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
 
   /** @param method before it is chosen where that is left to a pilot */
   def checkCaustics(method: RenderMethod): Unit =
-    val isAsked = settings.caustics != CausticsMode.Off
+    val isAsked = settings.caustics.exists(_ != CausticsMode.Off)
     val looks = method match
       case RenderMethod.Piloted(_, _, _, _) => true
       case _ => false
@@ -26,7 +26,7 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
     val isBiased = method match
       case RenderMethod.Passes(_, bias) => bias.isDefined
       case _ => false
-    idle("guiding", settings.guiding != GuidingMode.Off && !isGuided):
+    idle("guiding", settings.guiding.exists(_ != GuidingMode.Off) && !isGuided):
       if context.isV2 && context.description.volumes.nonEmpty then
         "paths among pbrt-v2's volumes are not guided"
       else if isBiased then "paths that take caustics from photons are not guided"
@@ -34,7 +34,7 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
     val takesNone = !method.takesCameraSamples
     val chains = s"the Markov chains of $integrator take no points of a sampler"
     val isNamed = settings.points match
-      case PointChoice.Named(_) => true
+      case Some(PointChoice.Named(_)) => true
       case _ => false
     idle("sampler", takesNone && isNamed)(chains)
     idle("disable-pixel-jitter", takesNone && settings.centers)(chains)

@@ -21,10 +21,10 @@ import candela.scenefile.Dialect
   * @param layers      AOVs, in addition to the scene's
   * @param lightGroups how to group lights for their layer
   * @param color       whether rendering is spectral
-  * @param points      which sample points to take
+  * @param points      which sample points to take, if asked for: else [[Choices]]
   * @param fireflies   what is done about them
-  * @param guiding     whether paths learn where light comes from
-  * @param caustics    whether light paths look for caustics
+  * @param guiding     whether paths learn where light comes from, likewise
+  * @param caustics    whether light paths look for caustics, likewise
   * @param centers     take all samples at the pixel centre, the middle of lens and shutter
   * @param unfiltered  point-sample textures
   * @param meanImages  replace image textures by their mean
@@ -44,10 +44,10 @@ final case class RenderSettings(
     layers: Vector[Layer] = Vector.empty,
     lightGroups: Option[LightGrouping] = None,
     color: ColorMode = ColorMode.Auto,
-    points: PointChoice = PointChoice.Best,
+    points: Option[PointChoice] = None,
     fireflies: Fireflies = Fireflies.Kept,
-    guiding: GuidingMode = GuidingMode.Off,
-    caustics: CausticsMode = CausticsMode.Off,
+    guiding: Option[GuidingMode] = None,
+    caustics: Option[CausticsMode] = None,
     centers: Boolean = false,
     unfiltered: Boolean = false,
     meanImages: Boolean = false,
@@ -70,6 +70,12 @@ final case class RenderSettings(
   /** Whether only a goal ends the rendering. */
   def isEndless: Boolean = goal.isGiven && samples.isEmpty
 
+  /** These, and what is chosen where nothing was asked for. */
+  def choices: Choices = Choices.of(this)
+
+  /** The same rendering, whatever goal is set later. */
+  def chosen: RenderSettings = choices.in(this)
+
   /** A preview shows albedos, for which three numbers do. */
   private[build] def colorMode: ColorMode = if preview then ColorMode.Rgb else color
 
@@ -84,8 +90,8 @@ final case class RenderSettings(
       edgeScale = edgeScale.orElse(scene.edgeScale),
       reference = output.reference.orElse(scene.reference),
       errors = output.errors.orElse(scene.errors),
-      guiding = guiding,
-      caustics = caustics
+      guiding = choices.guiding,
+      caustics = choices.caustics
     )
 
 /** What ends a rendering before its samples do.

@@ -81,7 +81,8 @@ object SceneBuilder:
       ).build(footprints)
     context.problems.stopAtErrors()
     if !settings.preview then IdleSettings(context, settings).checkCaustics(built.method)
-    val world = piloted(context, built, image, sampling, camera)
+    val world =
+      piloted(context, built, image, sampling, camera, settings.choices.byGoal)
     warnOfLimits(context, image, camera, world.method)
     if !settings.preview then
       FireflyLimits(context, settings.fireflies).check(world.method)
@@ -97,7 +98,8 @@ object SceneBuilder:
       world: World,
       image: ImageSetup,
       sampling: SamplingSetup,
-      camera: CameraSetup
+      camera: CameraSetup,
+      byGoal: Boolean
   ): World =
     val asked = context.resources.switches.caustics
     val (method, why) = world.method match
@@ -122,10 +124,11 @@ object SceneBuilder:
     val survey = world.method match
       case RenderMethod.Piloted(_, _, _, _) => world.caustics.features
       case _ => Vector.empty
-    world.rendered(
-      method,
-      if asked == CausticsMode.Off then Vector.empty else ("caustics" -> why) +: survey
-    )
+    val told =
+      if asked != CausticsMode.Off then ("caustics" -> why) +: survey
+      else if byGoal && method.learns then Vector("caustics" -> Choices.NoCaustics)
+      else Vector.empty
+    world.rendered(method, told)
 
   private def footprint(context: BuildContext, sampling: SamplingSetup): Float =
     val switches = context.resources.switches
@@ -274,7 +277,8 @@ object SceneBuilder:
         "layers" -> described(image.layers, film.development.bands),
         "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
         "samples" -> (if shares then "splatted under the filter" else "one pixel each")
-      ) ++ FireflyLimits.feature(settings) ++ guiding(context, method, samples, crop.pixels),
+      ) ++ FireflyLimits.feature(settings) ++
+        guiding(context, settings, method, samples, crop.pixels),
       differentialScale = footprint(context, sampling),
       shutter = Option.when(moves)(camera.shutter),
       weighsFirst = context.isV4,
@@ -292,20 +296,22 @@ object SceneBuilder:
       samples = taken
     )
 
-  /** What is said of guiding, if it was asked for. */
+  /** What is said of guiding, if it was asked for or chosen. */
   private def guiding(
       context: BuildContext,
+      settings: RenderSettings,
       method: RenderMethod,
       samples: Int,
       pixels: Long
   ): Option[(String, String)] =
     val mode = context.resources.switches.guiding
+    val why = if settings.choices.byGoal then s"; ${Choices.Why}" else ""
     Option.when(mode != GuidingMode.Off):
       "guiding" -> (method match
-        case RenderMethod.Guided(_, settings, _) =>
-          Guide(settings, samples, pixels).describe
+        case RenderMethod.Guided(_, learning, _) =>
+          Guide(learning, samples, pixels).describe + why
         case RenderMethod.SplattedTiles(_, _, Some(guided), _) =>
-          Guide(guided.settings, samples, pixels).describe
+          Guide(guided.settings, samples, pixels).describe + why
         case _ => "none: only path tracing without pbrt-v2's volumes is guided")
 
   private def layerPlan(

@@ -126,7 +126,7 @@ private[build] object SamplingSetup:
     val request = SamplerRequest(samples, settings.seed ^ switches.seed)
     val default = context.defaults.sampler
     val asked = context.made(context.description.sampler, Samplers.all, default)(request)
-    val chosen = asked.points(settings.points)
+    val chosen = asked.points(settings.choices.points)
     val points = if asked.count <= chosen.most then chosen else SamplerPlan.Best
     val sampler = points.sampler(asked.count, asked.seed, image.width, image.height)
     val replaced = Option.when(points != chosen):
@@ -139,7 +139,7 @@ private[build] object SamplingSetup:
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     SamplingSetup(
       sampler,
-      if points == chosen then asked.describe(settings.points) else points.meaning,
+      if points == chosen then asked.describe(settings.choices.points) else points.meaning,
       samples,
       if switches.centers then 1f
       else if footprint.isDefined then footprint.get

@@ -7,13 +7,14 @@ import candela.sampling.SampleHash
 /** What the paths of one rendering learn, shared by all workers. Passes end after 1, 2, 4, 8, …
   * samples per pixel: the paths of a pass use the field of those before, and record for the next.
   * No path uses what it recorded itself, so every sample is unbiased. After a quarter of the
-  * samples nothing more is learnt.
+  * samples nothing more is learnt, unless the settings say so.
   *
-  * @param samples planned per pixel
+  * @param planned samples per pixel
   * @param pixels  of the image
   */
-final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
+final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
   import Guide.*
+  private val samples = if settings.learnsOn then Int.MaxValue else planned
 
   private val isLongEnough =
     !settings.adapts || samples >= FewestSamples && pixels * samples >= FewestPaths

@@ -1,16 +1,17 @@
 package candela.guiding
 
-/** Whether paths learn where light comes from: where that was measured to pay, wherever light was
-  * found, or not at all. Two more modes use one technique alone of what was learnt, to compare
-  * them: directions, or roulette and splitting.
+/** Whether paths learn where light comes from: where that was measured to pay, likewise and for a
+  * rendering of any length, wherever light was found, or not at all. Two more modes use one
+  * technique alone of what was learnt, to compare them: directions, or roulette and splitting.
   */
 enum GuidingMode:
-  case Auto, On, Off, Directions, Splitting
+  case Auto, Progressive, On, Off, Directions, Splitting
 
 /** How much is learnt, and what for.
   *
   * @param adapts    is a region guided only where that was measured to pay? Else as soon as light
   *                  was found there
+  * @param learnsOn  does learning not depend on the number of samples?
   * @param directs   are directions taken from what was learnt?
   * @param divides   does it decide in how many branches paths go on, if in any?
   * @param weighs    do samples of later passes count more if they vary less? Else all count alike
@@ -19,6 +20,7 @@ enum GuidingMode:
   */
 final case class GuideSettings(
     adapts: Boolean,
+    learnsOn: Boolean = false,
     directs: Boolean = true,
     divides: Boolean = true,
     weighs: Boolean = true,
@@ -31,6 +33,7 @@ object GuideSettings:
   def of(mode: GuidingMode): Option[GuideSettings] = mode match
     case GuidingMode.Off => None
     case GuidingMode.Auto => Some(GuideSettings(adapts = true))
+    case GuidingMode.Progressive => Some(GuideSettings(adapts = true, learnsOn = true))
     case GuidingMode.On => Some(GuideSettings(adapts = false))
     case GuidingMode.Directions => Some(GuideSettings(adapts = false, divides = false))
     case GuidingMode.Splitting => Some(GuideSettings(adapts = false, directs = false))

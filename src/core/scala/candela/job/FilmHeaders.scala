@@ -44,13 +44,13 @@ object FilmHeaders:
       shard.count
     )
 
-  /** The settings of a saved rendering.
+  /** The settings of a saved rendering, which keeps its choices with any goal.
     *
     * @throws SceneError if the film is forged
     */
   def settings(header: FilmHeader): RenderSettings =
     SettingsCodec.settings(header.words) match
-      case Right(saved) => saved.copy(samples = Some(header.samples))
+      case Right(saved) => saved.chosen.copy(samples = Some(header.samples))
       case Left(why) =>
         val message = s"the film of `${header.scene}` has invalid settings: $why"
         throw SceneError(Problem.general(Code.OtherRendering, message))

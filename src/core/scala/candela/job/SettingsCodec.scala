@@ -1,6 +1,8 @@
 package candela.job
 
-import candela.build.{OutputSettings, ReadSettings, RenderGoal, RenderRegion, RenderSettings}
+import candela.build.{
+  Choices, OutputSettings, ReadSettings, RenderGoal, RenderRegion, RenderSettings
+}
 import candela.image.DisplayTransform
 import candela.layers.Layer
 
@@ -99,7 +101,7 @@ object SettingsCodec:
     )(using TextForm.definition),
     flag("keep-going", _.reading.keepGoing)(read(_)(_.copy(keepGoing = true))),
     value("color", _.color)((s, c) => s.copy(color = c)),
-    value("sampler", _.points)((s, p) => s.copy(points = p)),
+    option("sampler", _.points)((s, p) => s.copy(points = Some(p))),
     value("fireflies", _.fireflies)((s, f) => s.copy(fireflies = f)),
     flag("store-time", _.output.storeTime)(change(_)(_.copy(storeTime = true))),
     // Written whenever anything about pictures differs
@@ -118,8 +120,8 @@ object SettingsCodec:
     flag("disable-image-textures", _.meanImages)(_.copy(meanImages = true)),
     flag("disable-wavelength-jitter", _.oneColorSet)(_.copy(oneColorSet = true)),
     flag("force-diffuse", _.diffuse)(_.copy(diffuse = true)),
-    value("guiding", _.guiding)((s, g) => s.copy(guiding = g)),
-    value("caustics", _.caustics)((s, c) => s.copy(caustics = c)),
+    option("guiding", _.guiding)((s, g) => s.copy(guiding = Some(g))),
+    option("caustics", _.caustics)((s, c) => s.copy(caustics = Some(c))),
     option("displacement-edge-scale", _.edgeScale)((s, x) => s.copy(edgeScale = Some(x)))(using
       TextForm.float.filter("a number above 0")(_ > 0)
     ),
@@ -148,8 +150,22 @@ object SettingsCodec:
   /** All settings. */
   def words(s: RenderSettings): Vector[String] = all.flatMap(_.words(s))
 
-  /** Those that tell one image from another, but for its number of samples. */
-  def identity(s: RenderSettings): Vector[String] = all.filter(_.isIdentity).flatMap(_.words(s))
+  /** Those that tell one image from another, but for its number of samples: what was chosen for a
+    * goal, too.
+    */
+  def identity(s: RenderSettings): Vector[String] =
+    val chosen = unusual(s)
+    all.filter(_.isIdentity).flatMap(_.words(chosen))
+
+  /** Without the choices that scenes make: films lack them. */
+  private def unusual(s: S): S =
+    val choices = s.choices
+    def unless[A](usual: A)(mine: A) = Option.when(mine != usual)(mine)
+    s.copy(
+      points = unless(Choices.OfScene.points)(choices.points),
+      guiding = unless(Choices.OfScene.guiding)(choices.guiding),
+      caustics = unless(Choices.OfScene.caustics)(choices.caustics)
+    )
 
   /** The settings of these words; or what is wrong with them, as of a forged file. */
   def settings(words: Vector[String]): Either[String, RenderSettings] =

@@ -59,7 +59,7 @@ enum RenderMethod(
         takesCameraSamples = true,
         canShareSamples = true,
         learns = true,
-        canKeepOn = false,
+        canKeepOn = settings.learnsOn,
         hasWavelengths = true,
         dividesLight = unguided.divideLight,
         seesLightPaths = false
@@ -81,7 +81,7 @@ enum RenderMethod(
         takesCameraSamples = true,
         canShareSamples = beside,
         learns = guided.isDefined,
-        canKeepOn = guided.isEmpty,
+        canKeepOn = guided.forall(_.settings.learnsOn),
         hasWavelengths = true,
         dividesLight = beside,
         seesLightPaths = true

@@ -44,7 +44,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
   private val glass = """Material "dielectric" "float eta" 1.5"""
 
   private def plan(text: String, mode: CausticsMode, spp: Int): RenderPlan =
-    val settings = RenderSettings(Some(spp), color = ColorMode.Rgb, caustics = mode)
+    val settings = RenderSettings(Some(spp), color = ColorMode.Rgb, caustics = Some(mode))
     SceneTexts.plan(text, Dialect.V4, settings)
 
   private def pixels(plan: RenderPlan, threads: Int = 1): Array[Float] =
@@ -138,7 +138,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
         .problems(
           text,
           Dialect.V4,
-          options = change(RenderSettings(caustics = CausticsMode.Photons))
+          options = change(RenderSettings(caustics = Some(CausticsMode.Photons)))
         )
         .map(_.message)
         .mkString("\n")
@@ -156,7 +156,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
       _.copy(fireflies = Fireflies.Clamped(2f))
     ).contains("--caustics photons: photons do not divide light, as --fireflies clamp"))
     assert(
-      told(room(glass), _.copy(guiding = GuidingMode.On))
+      told(room(glass), _.copy(guiding = Some(GuidingMode.On)))
         .contains("paths that take caustics from photons are not guided")
     )
     assert(told(room(glass)).isEmpty)

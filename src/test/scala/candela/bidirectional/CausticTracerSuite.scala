@@ -25,8 +25,8 @@ final class CausticTracerSuite extends AnyFunSuite:
       Some(spp),
       seed,
       color = ColorMode.Rgb,
-      caustics = mode,
-      guiding = guiding
+      caustics = Some(mode),
+      guiding = Some(guiding)
     )
     SceneTexts.plan(text, Dialect.V4, settings)
 
@@ -106,7 +106,7 @@ final class CausticTracerSuite extends AnyFunSuite:
 
   test("an integrator that does not look for caustics is named in a warning"):
     val text = Small.replace("\"path\"", "\"bdpt\"")
-    val settings = RenderSettings(caustics = CausticsMode.Auto)
+    val settings = RenderSettings(caustics = Some(CausticsMode.Auto))
     val problems = SceneTexts.problems(text, Dialect.V4, options = settings)
     assert(problems.map(_.message) == Vector(
       "--caustics has no effect: only \"path\" and \"volpath\" look for caustics"

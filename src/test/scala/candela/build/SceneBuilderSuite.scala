@@ -75,7 +75,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
       val plan = SceneTexts.plan(
         s"Sampler $statement\n$nothing",
         Dialect.V3,
-        RenderSettings(points = choice)
+        RenderSettings(points = Some(choice))
       )
       (plan.sampler.getClass, plan.sampler.samplesPerPixel, feature(plan, "sampler"))
     val halton = "\"halton\" \"integer pixelsamples\" 9"
@@ -102,7 +102,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     def sampler(isMitsubas: Boolean, choice: PointChoice) =
       val dialect = if isMitsubas then Dialect.Mitsuba else Dialect.V4
       val scene = SceneTexts.parse(text, Dialect.V4).copy(dialect = dialect)
-      val plan = SceneBuilder.build(scene, RenderSettings(points = choice))._1
+      val plan = SceneBuilder.build(scene, RenderSettings(points = Some(choice)))._1
       (plan.sampler.getClass, plan.sampler.samplesPerPixel, feature(plan, "sampler"))
     val own = (classOf[IndependentSampler], 9, "independent random numbers, for \"independent\"")
     assert(sampler(isMitsubas = false, PointChoice.Best) == own)
@@ -116,14 +116,14 @@ final class SceneBuilderSuite extends AnyFunSuite:
 
   test("points whose number is fixed are replaced where any number must be evenly spread"):
     def sampler(choice: PointChoice) =
-      SceneTexts.plan(nothing, Dialect.V4, RenderSettings(points = choice)).sampler
+      SceneTexts.plan(nothing, Dialect.V4, RenderSettings(points = Some(choice))).sampler
     assert(sampler(PointChoice.Best).isInstanceOf[ZSobolSampler])
     assert(sampler(PointChoice.Progressive).isInstanceOf[OwenSobolSampler])
 
   test("a number of samples that the points can't have is said, as is what is rendered"):
     def of(spp: Int, sampler: String = "\"zsobol\"") =
       val text = s"Sampler $sampler\n$nothing"
-      val options = RenderSettings(samples = Some(spp), points = PointChoice.Scene)
+      val options = RenderSettings(samples = Some(spp), points = Some(PointChoice.Scene))
       val found = SceneTexts.problems(text, Dialect.V4, options = options)
       (SceneTexts.plan(text, Dialect.V4, options).sampler.samplesPerPixel, found.map(_.message))
     val none = of(256)
@@ -175,7 +175,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     for method <- methods; sampler <- if method.contains("path") then samplers else Seq("halton") do
       val text = s"${film(window)}Sampler \"$sampler\" \"integer pixelsamples\" 1\n$method\n" +
         s"Camera \"perspective\"\nWorldBegin\n$lit"
-      val scenes = RenderSettings(points = PointChoice.Scene)
+      val scenes = RenderSettings(points = Some(PointChoice.Scene))
       val plan = SceneTexts.plan(text, options = scenes)
       assert(plan.crop == PixelBounds(22500, 23000, 22505, 23005), method)
       val image = Renderer.render(plan, threads = 1).image(plan.development)

@@ -52,8 +52,12 @@ class GoalFilmsSuite extends AnyFunSuite:
         f.render("--error", "0.05", "--outfile", f("a.exr"))
         val reached = samples(f, "a.exr")
         assert(reached > 4)
-        f.render("--sampler", "progressive", "--spp", s"$reached", "--outfile", f("b.exr"))
+        val chosen = Vector("--sampler", "progressive", "--guiding", "progressive")
+        f.render(chosen ++ Vector("--spp", s"$reached", "--outfile", f("b.exr"))*)
         assert(f.bytes("a.exr") == f.bytes("b.exr"))
+        f.render("--guiding", "off", "--error", "0.05", "--outfile", f("c.exr"))
+        f.render("--sampler", "progressive", "--spp", s"${samples(f, "c.exr")}", "-o", f("d.exr"))
+        assert(f.bytes("c.exr") == f.bytes("d.exr") && f.bytes("c.exr") != f.bytes("a.exr"))
 
   test("points of a fixed number are taken set by set, the same for any number of threads"):
     for points <- Vector("zsobol", "stratified", "halton") do
@@ -99,7 +103,7 @@ class GoalFilmsSuite extends AnyFunSuite:
       val many = samples(f, "a.exr")
       assert(many > 4)
       f.run(Vector("resume", f("a.film"), "--spp", s"${2 * many}"))
-      f.render("--spp", s"${2 * many}", "--outfile", f("b.exr"))
+      f.render("--guiding", "progressive", "--spp", s"${2 * many}", "--outfile", f("b.exr"))
       assert(f.bytes("a.exr") == f.bytes("b.exr"))
       f.run(Vector("merge", f("a.film"), "--outfile", f("c.exr")))
       assert(samples(f, "c.exr") == 2 * many)

@@ -24,7 +24,7 @@ final class GuidedWalkSuite extends AnyFunSuite:
       fireflies: Fireflies = Fireflies.Kept
   ): RenderPlan =
     val options =
-      RenderSettings(Some(spp), seed, guiding = mode, fireflies = fireflies)
+      RenderSettings(Some(spp), seed, guiding = Some(mode), fireflies = fireflies)
     SceneTexts.plan(text, dialect, options)
 
   private def image(plan: RenderPlan, threads: Int = 1): Image =

@@ -86,10 +86,10 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       layers <- Gen.someOf(Layer.values.toSeq).map(_.toVector)
       groups <- Gen.option(groupings)
       color <- Gen.oneOf(ColorMode.values.toSeq)
-      points <- Gen.oneOf(PointChoice.all)
+      points <- Gen.option(Gen.oneOf(PointChoice.all))
       fireflies <- firefliesGen
-      guiding <- Gen.oneOf(GuidingMode.values.toSeq)
-      caustics <- Gen.oneOf(CausticsMode.values.toSeq)
+      guiding <- Gen.option(Gen.oneOf(GuidingMode.values.toSeq))
+      caustics <- Gen.option(Gen.oneOf(CausticsMode.values.toSeq))
       flags <- Gen.listOfN(5, flag)
       edgeScale <- Gen.option(positive)
       reading <- readings
@@ -129,8 +129,23 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
   test("the words that identify an image lack its samples, goals and errors, and nothing else"):
     forAll(settings): s =>
       val output = s.output.copy(reference = None, errors = None)
-      val shaping = s.copy(samples = None, goal = RenderGoal(), output = output)
-      assert(SettingsCodec.settings(SettingsCodec.identity(s)) == Right(shaping))
+      val shaping = s.chosen.copy(samples = None, goal = RenderGoal(), output = output)
+      val read = SettingsCodec.settings(SettingsCodec.identity(s)).map(_.chosen)
+      assert(read == Right(shaping))
+
+  test("a film's settings keep what was chosen for a goal, or by the scene, with any goal"):
+    val goal = RenderGoal(time = Some(10))
+    val timed = SettingsCodec.identity(RenderSettings(goal = goal))
+    assert(timed == Vector("--sampler", "progressive", "--guiding", "progressive"))
+    val asked = RenderSettings(
+      goal = goal,
+      points = Some(PointChoice.Best),
+      guiding = Some(GuidingMode.Off)
+    )
+    assert(SettingsCodec.identity(asked).isEmpty)
+    for s <- Vector(RenderSettings(), asked) do
+      val film = SettingsCodec.settings(SettingsCodec.identity(s)).map(_.chosen).toOption.get
+      assert(SettingsCodec.identity(film.copy(goal = goal)).isEmpty)
 
   test("what films of earlier versions have is read, and written alike"):
     val first =

@@ -30,7 +30,7 @@ object ErrorHonesty:
         scene.plan(RenderSettings(
           samples = Some(spp),
           seed = seed,
-          points = PointChoice.Progressive
+          points = Some(PointChoice.Progressive)
         ))
       val most = plan(number("truth", 4096), 12345)
       val truth = Renderer.render(most, 2).image(most.development)

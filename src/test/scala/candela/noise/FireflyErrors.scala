@@ -30,7 +30,7 @@ object FireflyErrors:
         RenderSettings(
           samples = Some(spp),
           seed = seed,
-          points = PointChoice.Progressive,
+          points = Some(PointChoice.Progressive),
           fireflies = fireflies
         )
       )

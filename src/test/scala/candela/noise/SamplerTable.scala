@@ -49,7 +49,8 @@ private object NoiseOf:
   def apply(scene: SmallScene, choice: PointChoice, samples: Int, seeds: Int): NoiseOf =
     var taken, seconds = 0.0
     val images = (1 to seeds).toVector.map: seed =>
-      val plan = scene.plan(RenderSettings(samples = Some(samples), seed = seed, points = choice))
+      val settings = RenderSettings(Some(samples), seed, points = Some(choice))
+      val plan = scene.plan(settings)
       val start = cpu()
       val rendering = Renderer.render(plan, threads = 1)
       seconds += cpu() - start

@@ -135,7 +135,7 @@ object RenderSuite:
       if scene.isMitsubas then
         Parser.whole(MitsubaScene.readable(scene.file, Map.empty, keepGoing = false))
       else Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
-    SceneBuilder.build(description, RenderSettings(Some(spp), seed, guiding = guiding))._1
+    SceneBuilder.build(description, RenderSettings(Some(spp), seed, guiding = Some(guiding)))._1
 
   /** Leaves images to look at; their paths. */
   private def keep(scene: ReferenceScene, agreement: Agreement): Vector[Path] =

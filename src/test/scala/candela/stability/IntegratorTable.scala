@@ -63,7 +63,7 @@ final case class Way(
   def means(ball: ExtremeBall, effort: Double): Means =
     val text = scene(ball, effort)
     val found = Vector.tabulate(Way.Seeds): seed =>
-      val options = RenderSettings(seed = seed, color = color, guiding = mode)
+      val options = RenderSettings(seed = seed, color = color, guiding = Some(mode))
       val plan = SceneTexts.plan(text, ball.dialect, options)
       val rendering = Renderer.render(plan, threads = 1)
       val data = rendering.image(plan.development).data

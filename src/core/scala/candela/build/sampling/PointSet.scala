@@ -89,7 +89,7 @@ final case class SamplerPlan(
     val taken = points(choice)
     choice match
       case PointChoice.Named(_) => s"${taken.meaning}, by --sampler"
-      case PointChoice.Best if taken != own =>
+      case PointChoice.Best | PointChoice.Progressive if isEven && taken != own =>
         s"${taken.meaning}, which have less noise than \"$name\" (--sampler scene takes " +
           s"${own.meaning})"
       case PointChoice.Progressive if taken != own =>

@@ -4,7 +4,6 @@ import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.base.{Code, Problem, Suggest}
 import candela.build.{RenderRegion, RenderSettings}
-import candela.build.sampling.PointChoice
 import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
 import candela.convert.Baking
 import candela.image.DisplayTransform
@@ -33,7 +32,7 @@ object CommandLine:
           case Left(instead) =>
             Left(refusal(Vector(UsageError(Code.UnknownOption, instead)), Command.Render))
           case Right(words, notes) => parseOurs(words).map: o =>
-              progressive(o).copy(notes = notes ++ IdleOptions.of(o))
+              o.copy(notes = notes ++ IdleOptions.of(o))
 
   /** What needs no options: help, the version, and a word that is nearly a command. */
   private def asked(args: Seq[String], help: HelpText): Option[Answer] =
@@ -74,13 +73,6 @@ object CommandLine:
 
   private def refusal(errors: Vector[UsageError], command: Command): Answer =
     usage(errors, s"candela help ${command.word}")
-
-  /** Where the number of samples is not known in advance, points must not depend on it. */
-  private def progressive(o: Options): Options =
-    val s = o.settings
-    if s.goal.isGiven && s.points == PointChoice.Best && o.command == Command.Render then
-      o.setting(_.copy(points = PointChoice.Progressive))
-    else o
 
   /** Translates pbrt's words for rendering; other commands have options of their own. */
   private def translated(args: Seq[String]): Either[String, (Seq[String], Vector[String])] =

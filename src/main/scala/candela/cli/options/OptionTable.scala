@@ -104,7 +104,7 @@ private[cli] object OptionTable extends OptionRows:
         "`progressive` is the default with `--time` and `--error`; " +
           "[which points have the least noise](SAMPLERS.md)."
       ))
-      .action(set((p, s) => s.copy(points = p)))
+      .action(set((p, s) => s.copy(points = Some(p))))
 
   private def fireflies: Row =
     opt[Fireflies]("fireflies").valueName("keep|reweight|clamp:X")

@@ -37,16 +37,18 @@ private[cli] object SwitchTable extends OptionRows:
       "disable-wavelength-jitter",
       "take the same wavelengths for all samples, if rendering is spectral; colours are off"
     )(_.copy(oneColorSet = true)),
-    opt[GuidingMode]("guiding").valueName("auto|on|off|directions|splitting")
+    opt[GuidingMode]("guiding").valueName("auto|progressive|on|off|directions|splitting")
       .text(OptionText(
         "let paths learn where light comes from: where it pays, everywhere, or not at all " +
-          "(default); or everywhere by one technique alone",
+          "(default without --time and --error); or everywhere by one technique alone",
         "Paths of `path` and `volpath` learn on surfaces and in media; `auto` guides where it " +
-          "was measured to pay. `directions` and `splitting` use one technique alone, to " +
-          "compare them. A sample takes 1.2 to 16 times as long, with far less noise, so " +
-          "compare by `--time` or `--error`: [what it brings](decisions/0020-path-guiding.md)."
+          "was measured to pay. It learns for a quarter of the samples; `progressive` does not " +
+          "depend on their number, and is the default with `--time` and `--error`. `directions` " +
+          "and `splitting` use one technique alone, to compare them. A sample takes 1.2 to 16 " +
+          "times as long, with far less noise, so compare by time or error: " +
+          "[what it brings](decisions/0020-path-guiding.md)."
       ))
-      .action(set((mode, s) => s.copy(guiding = mode))),
+      .action(set((mode, s) => s.copy(guiding = Some(mode)))),
     opt[CausticsMode]("caustics").valueName("auto|on|off|photons")
       .text(OptionText(
         "look for caustics, too: by light paths where these reduce the noise (auto); by light " +
@@ -54,7 +56,7 @@ private[cli] object SwitchTable extends OptionRows:
           "little and find those seen through glass and water (photons); or not (off, default)",
         "[What it brings](CAUSTICS.md)."
       ))
-      .action(set((mode, s) => s.copy(caustics = mode))),
+      .action(set((mode, s) => s.copy(caustics = Some(mode)))),
     flag("force-diffuse", "make all materials diffuse")(_.copy(diffuse = true)),
     opt[Double]("displacement-edge-scale").valueName("X")
       .text("scale of the edge length of displaced meshes (default 1)")
@@ -71,6 +73,8 @@ private[cli] object SwitchTable extends OptionRows:
       .action((_, o) => o.copy(partialImages = true))
   )
 
+  private def guides(s: RenderSettings): Boolean = s.choices.guiding != GuidingMode.Off
+
   /** What is wrong with the options of `render`, if anything. */
   def problem(o: Options): Option[String] =
     val s = o.settings
@@ -81,9 +85,9 @@ private[cli] object SwitchTable extends OptionRows:
       Some("--mse-reference-image and --mse-reference-out must be given together")
     else if s.output.errors.isDefined && o.files.size > 1 then
       Some("--mse-reference-out needs a single scene, found several")
-    else if s.guiding != GuidingMode.Off && !o.film.shard.isWhole then
+    else if guides(s) && !o.film.shard.isWhole then
       Some("--guiding can't be divided by --shard: paths learn from those of all samples")
-    else if s.guiding != GuidingMode.Off && o.cluster.master.isDefined then
+    else if guides(s) && o.cluster.master.isDefined then
       Some("--guiding can't be divided by --spark: paths learn from those of all samples")
     else if o.debug && !isPixel then Some("--debug needs --pixel x,y")
     else if o.regions.size > 1 then

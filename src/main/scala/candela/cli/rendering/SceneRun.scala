@@ -5,7 +5,9 @@ import candela.cli.files.Denoised
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
-import candela.job.{Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, RenderControl}
+import candela.job.{
+  Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, ReachedError, RenderControl
+}
 import candela.render.{Cancellation, Rendering, RenderListener}
 import candela.render.storage.Checkpoints
 
@@ -34,6 +36,9 @@ private[cli] final class SceneRun(
   private val goal = Option.when(settings.goal.isGiven):
     def recorder = ErrorRecorder(plan.development, None)
     Goal(settings.goal, plan.samplesPerPixel, reporting.fold(recorder)(_.recorder))
+  private val reached = Option.when(
+    goal.isEmpty && reporting.isEmpty && !options.quiet && !isPreview && options.film.shard.isWhole
+  )(ReachedError(plan.development, plan.samplesPerPixel))
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
 
@@ -66,7 +71,7 @@ private[cli] final class SceneRun(
     val followed = watching.map(w => RenderListener.onStart(w.start))
     val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
     val listeners =
-      shown ++ goal.orElse(reporting.map(_.recorder)) ++ errorLog ++ images ++ followed
+      shown ++ goal.orElse(reporting.map(_.recorder)).orElse(reached) ++ errorLog ++ images ++ followed
     val control = RenderControl(
       options.threadCount,
       cancellation,
@@ -116,7 +121,9 @@ private[cli] final class SceneRun(
     val files = written ++ films
     val develops = if denoised.isEmpty then "develop" else "develop and denoise"
     val after = Vector(develops -> developSeconds, "write" -> writeSeconds)
-    Summary.print(options, terminal, files, prepared, rendering, after, isLate)
+    val error = Option.when(!isPreview && reporting.isEmpty)(goal.orElse(reached)).flatten
+      .flatMap(_.errorAt(rendering.samplesDone))
+    Summary.print(options, terminal, files, prepared, rendering, after, isLate, error)
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
     val threads = options.threadCount

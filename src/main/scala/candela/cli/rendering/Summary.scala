@@ -12,19 +12,22 @@ import java.nio.file.Path
 /** The final lines of a rendering. */
 object Summary:
 
-  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; of a
-    * rendering that ended before its first sample or was interrupted, the samples done.
+  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s, error 2.1 %`;
+    * of a rendering that ended before its first sample or was interrupted, the samples done.
     *
     * @param standIns number of missing items replaced by placeholders
     * @param isLate   whether its time was over
+    * @param error    relative error, if it was estimated
     */
   def result(
       written: Vector[Path],
       r: Rendering,
       standIns: Int = 0,
-      isLate: Boolean = false
+      isLate: Boolean = false,
+      error: Option[Double] = None
   ): String =
-    val missing = placeholders(standIns) + darkness(r)
+    val noise = error.fold("")(e => s", error ${Figures.percentage(e)}")
+    val missing = noise + placeholders(standIns) + darkness(r)
     val names = written.mkString(", ")
     if r.isComplete && r.seconds == 0 then
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
@@ -77,6 +80,7 @@ object Summary:
     * @param written its files
     * @param after   the phases after rendering, with their seconds
     * @param isLate  whether its time was over
+    * @param error   relative error, if it was estimated
     */
   def print(
       options: Options,
@@ -85,7 +89,8 @@ object Summary:
       prepared: Prepared,
       rendering: Rendering,
       after: Vector[(String, Double)] = Vector.empty,
-      isLate: Boolean = false
+      isLate: Boolean = false,
+      error: Option[Double] = None
   ): Unit =
     for r <- rendering.refused do
       terminal.err.println(refused(r, isTraceable = !options.settings.preview))
@@ -93,7 +98,7 @@ object Summary:
       if options.verbose then
         terminal.err.println(phases(prepared, rendering, after))
         rendering.learned.foreach(o => terminal.err.println(Learning.summary(o)))
-      terminal.out.println(result(written, rendering, prepared.standIns, isLate))
+      terminal.out.println(result(written, rendering, prepared.standIns, isLate, error))
       terminal.out.flush()
 
   private def phases(

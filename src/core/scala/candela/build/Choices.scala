@@ -1,0 +1,46 @@
+package candela.build
+
+import candela.build.sampling.PointChoice
+import candela.guiding.GuidingMode
+import candela.integrators.CausticsMode
+
+/** What trades noise for time. What the user asks for counts; else, with a goal, what was measured
+  * to reach it best, and with a number of samples what the scene says.
+  *
+  * @param byGoal whether paths are guided because of the goal
+  */
+final case class Choices(
+    points: PointChoice,
+    guiding: GuidingMode,
+    caustics: CausticsMode,
+    byGoal: Boolean = false
+):
+  private[build] def in(s: RenderSettings): RenderSettings =
+    s.copy(points = Some(points), guiding = Some(guiding), caustics = Some(caustics))
+
+object Choices:
+  /** What the scene says. */
+  val OfScene: Choices = Choices(PointChoice.Best, GuidingMode.Off, CausticsMode.Off)
+
+  /** The best for a goal: docs/SAMPLERS.md, docs/decisions/0020-path-guiding.md. */
+  private val ForGoal =
+    Choices(PointChoice.Progressive, GuidingMode.Progressive, CausticsMode.Off)
+
+  private[build] val Why =
+    "chosen as a time or an error ends the rendering (--guiding off takes none)"
+
+  private[build] val NoCaustics =
+    "found by the camera's paths alone (--caustics auto looks for them)"
+
+  private[build] def of(s: RenderSettings): Choices =
+    val isByGoal = s.goal.isGiven && !s.preview
+    val usual = if isByGoal then ForGoal else OfScene
+    val guiding = s.guiding match
+      case Some(GuidingMode.Auto) if s.isEndless => GuidingMode.Progressive
+      case asked => asked.getOrElse(usual.guiding)
+    Choices(
+      s.points.getOrElse(usual.points),
+      guiding,
+      s.caustics.getOrElse(usual.caustics),
+      isByGoal && s.guiding.isEmpty
+    )

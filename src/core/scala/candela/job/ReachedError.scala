@@ -1,0 +1,38 @@
+package candela.job
+
+import candela.film.{Development, Film}
+import candela.render.{Looks, Pass}
+
+/** Estimates the error that a rendering of a known number of samples has reached, from the last
+  * four doublings only. Where a look at a large image takes long, there is no estimate.
+  *
+  * @param planned samples per pixel
+  */
+final class ReachedError(development: Development, planned: Int)
+    extends ErrorRecorder(development, None):
+  import ReachedError.*
+  private val first = Integer.highestOneBit(planned) / LastDoublings
+  private var isGivenUp = false
+
+  override def looks: Looks = Looks.Doublings
+
+  override def begins(samples: Int, film: Film): Unit =
+    isGivenUp = samples > 0
+    super.begins(samples, film)
+
+  override def passed(pass: Pass, film: Film): Unit =
+    val isWanted = pass.samples >= first && Integer.bitCount(pass.samples) == 1
+    isGivenUp ||= seconds > Unnoticed && seconds > MostPart * pass.clock
+    if isWanted && !isGivenUp then super.passed(pass, film)
+
+  /** None if too little is known. */
+  override def errorAt(samples: Double): Option[Double] =
+    super.errorAt(samples).filter(e => !isGivenUp && samples >= Goal.Fewest && !e.isNaN)
+
+object ReachedError:
+  /** Its trend is told by three estimates, of twice as many samples each. */
+  private val LastDoublings = 8
+
+  /** What it may take of a rendering, and in seconds of a short one. */
+  private val MostPart = 0.01
+  private val Unnoticed = 0.05

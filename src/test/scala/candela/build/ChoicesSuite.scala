@@ -1,0 +1,70 @@
+package candela.build
+
+import candela.build.sampling.PointChoice
+import candela.guiding.GuidingMode
+import candela.integrators.CausticsMode
+import candela.render.RenderMethod
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class ChoicesSuite extends AnyFunSuite:
+  private val timed = RenderSettings(goal = RenderGoal(time = Some(10)))
+  private val exact = RenderSettings(goal = RenderGoal(error = Some(0.01)))
+  private val asked = RenderSettings(
+    points = Some(PointChoice.Best),
+    guiding = Some(GuidingMode.Off),
+    caustics = Some(CausticsMode.Auto)
+  )
+
+  private def plan(settings: RenderSettings, integrator: String = "path") =
+    SceneTexts.plan(
+      s"""Integrator "$integrator" Sampler "zsobol" "integer pixelsamples" 4
+         |Camera "perspective" WorldBegin
+         |LightSource "infinite" Shape "sphere"""".stripMargin,
+      Dialect.V4,
+      settings
+    )
+
+  private def isGuided(settings: RenderSettings) = plan(settings).method match
+    case RenderMethod.Guided(_, learning, _) => learning.learnsOn
+    case _ => false
+
+  test("a goal guides paths and takes points of any number; a number of samples does neither"):
+    for settings <- Vector(timed, exact, timed.copy(samples = Some(64))) do
+      assert(isGuided(settings) && plan(settings).sampler.isProgressive)
+    val samples = RenderSettings(samples = Some(64))
+    assert(!isGuided(samples) && !plan(samples).sampler.isProgressive)
+    assert(samples.choices == Choices.OfScene)
+
+  test("what is asked for is done, whatever ends the rendering"):
+    for goal <- Vector(RenderGoal(), timed.goal) do
+      assert(asked.copy(goal = goal).choices == Choices(
+        PointChoice.Best, GuidingMode.Off, CausticsMode.Auto
+      ))
+    val on = timed.copy(guiding = Some(GuidingMode.On))
+    assert(on.choices.guiding == GuidingMode.On && !isGuided(on))
+
+  test("paths guided where it pays learn until the end if nobody knows how many samples there are"):
+    val auto = timed.copy(guiding = Some(GuidingMode.Auto))
+    assert(auto.choices.guiding == GuidingMode.Progressive)
+    assert(auto.copy(samples = Some(64)).choices.guiding == GuidingMode.Auto)
+
+  test("what a goal chose is told with its reason, and what was asked for without"):
+    def told(s: RenderSettings, what: String, integrator: String = "path") =
+      plan(s, integrator).features.toMap.get(what)
+    assert(told(timed, "guiding").get ==
+      "where it pays, learnt until the end; ends sooner if it does not; " +
+      "chosen as a time or an error ends the rendering (--guiding off takes none)")
+    assert(told(timed, "sampler").get.contains("any number of which are evenly spread"))
+    assert(told(timed, "caustics").get.contains("--caustics auto looks for them"))
+    val auto = timed.copy(guiding = Some(GuidingMode.Auto))
+    assert(told(auto, "guiding").get.endsWith("ends sooner if it does not"))
+    assert(told(RenderSettings(), "guiding").isEmpty && told(RenderSettings(), "caustics").isEmpty)
+    // Nobody asked for it, so that it is not possible is no matter of warnings
+    val (other, warnings) = SceneBuilder.build(
+      SceneTexts.parse("Integrator \"bdpt\"\nWorldBegin\n", Dialect.V4),
+      timed
+    )
+    assert(warnings.isEmpty && other.method.takesCameraSamples)
