@@ -35,4 +35,4 @@ object ReachedError:
 
   /** What it may take of a rendering, and in seconds of a short one. */
   private val MostPart = 0.01
-  private val Unnoticed = 0.05
+  private val Unnoticed = 0.2

@@ -41,7 +41,9 @@ class ChoicesSuite extends AnyFunSuite:
   test("what is asked for is done, whatever ends the rendering"):
     for goal <- Vector(RenderGoal(), timed.goal) do
       assert(asked.copy(goal = goal).choices == Choices(
-        PointChoice.Best, GuidingMode.Off, CausticsMode.Auto
+        PointChoice.Best,
+        GuidingMode.Off,
+        CausticsMode.Auto
       ))
     val on = timed.copy(guiding = Some(GuidingMode.On))
     assert(on.choices.guiding == GuidingMode.On && !isGuided(on))

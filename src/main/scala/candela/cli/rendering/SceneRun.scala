@@ -71,7 +71,9 @@ private[cli] final class SceneRun(
     val followed = watching.map(w => RenderListener.onStart(w.start))
     val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
     val listeners =
-      shown ++ goal.orElse(reporting.map(_.recorder)).orElse(reached) ++ errorLog ++ images ++ followed
+      shown ++ goal.orElse(
+        reporting.map(_.recorder)
+      ).orElse(reached) ++ errorLog ++ images ++ followed
     val control = RenderControl(
       options.threadCount,
       cancellation,
