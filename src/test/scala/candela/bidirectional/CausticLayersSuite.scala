@@ -37,7 +37,7 @@ final class CausticLayersSuite extends AnyFunSuite:
   )
 
   private def plan(text: String, settings: RenderSettings, mode: CausticsMode): RenderPlan =
-    val made = SceneTexts.plan(text, Dialect.V4, settings.copy(caustics = mode))
+    val made = SceneTexts.plan(text, Dialect.V4, settings.copy(caustics = Some(mode)))
     val isBeside = made.method match
       case RenderMethod.SplattedTiles(_, beside, _, _) => beside
       case _ => false
@@ -73,7 +73,7 @@ final class CausticLayersSuite extends AnyFunSuite:
   for (what, scene) <- text do
     test(s"light paths are divided as the camera's paths are: $what"):
       val guiding = if what == "guided" then GuidingMode.On else GuidingMode.Off
-      val found = image(scene, divided.copy(guiding = guiding), CausticsMode.On)
+      val found = image(scene, divided.copy(guiding = Some(guiding)), CausticsMode.On)
       assert(groups(found).size == 3)
       assertSums(found, groups(found))
       assertSums(found, ways.map(_.channels.head.stripSuffix("R")))
