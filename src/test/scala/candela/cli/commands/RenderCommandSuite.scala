@@ -44,9 +44,7 @@ class RenderCommandSuite extends AnyFunSuite:
       assert((exr.width, exr.height) == (40, 27))
       assert((exr(39, 26, 0), exr(39, 26, 1), exr(39, 26, 2)) == (0.5f, 0.25f, 2f))
       val start = s"wrote $folder/a.exr, $folder/a.png  40x27, 5 spp, "
-      // A slow machine does not estimate the error
-      val told = captured.out.stripSuffix(", error 0 %\n").stripSuffix("\n")
-      assert(told.startsWith(start) && told.endsWith(" rays/s"))
+      assert(captured.out.startsWith(start) && captured.out.contains(" rays/s"))
       assert(captured.out.linesIterator.size == 1)
       assert(captured.err == "s.pbrt:3:1: warning: planted [E0403]\n")
 
