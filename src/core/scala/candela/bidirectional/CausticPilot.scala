@@ -4,8 +4,9 @@ import candela.base.loop
 import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.{Splats, View}
+import candela.guiding.PhotonField
 import candela.integrators.{CausticWeights, Integrator}
-import candela.sampling.{IndependentSampler, Sampler}
+import candela.sampling.IndependentSampler
 import candela.scene.{CasterLearning, Casters, Scene}
 
 /** How light paths look for caustics.
@@ -13,8 +14,14 @@ import candela.scene.{CasterLearning, Casters, Scene}
   * @param casters   where they begin, more often where caustics come from
   * @param perSample light paths per camera sample, on average
   * @param radius    within which photons are gathered at first, if paths leave them caustics
+  * @param aim       photons that guide the camera's paths, if they do
   */
-final case class CausticChoice(casters: Casters, perSample: Float, radius: Float = 0f)
+final case class CausticChoice(
+    casters: Casters,
+    perSample: Float,
+    radius: Float = 0f,
+    aim: Option[PhotonField] = None
+)
 
 /** Finds out by few paths whether light paths pay: whether they reduce the variance of the image by
   * more than they cost. Depends on the scene and its camera alone, not on the samples to be taken,
@@ -35,7 +42,7 @@ private[candela] final class CausticPilot(
 ):
   import CausticPilot.*
   private val blocks = PilotBlocks(view)
-  private val spread = SpreadPlaces(view)
+  private val pairs = candela.bidirectional.CameraPairs(view, Seed + 2)
   private val learning = CasterLearning()
   private var isLearning = true
   private var splats = 0L
@@ -54,7 +61,8 @@ private[candela] final class CausticPilot(
       isLearning = false
       val aimed = light.casters.aimed(learning.aim)
       val rays = trace(light.copy(casters = aimed), LookingPaths, Seed + 1)
-      follow(tracer(CausticWeights(scene, aimed, view.camera, 1f)))
+      val integrator = tracer(CausticWeights(scene, aimed, view.camera, 1f))
+      cameraRays = pairs.follow(CameraPairs, integrator, blocks)((_, _) => ())
       decide(aimed, rays)
 
   private def decide(aimed: Casters, rays: Double): (Option[CausticChoice], String) =
@@ -63,9 +71,9 @@ private[candela] final class CausticPilot(
     val best = Math.sqrt(byLight / (byPaths * cost))
     val perSample = Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
     val gain = (byPaths + more) / ((byPaths + byLight / perSample) * (1 + perSample * cost))
-    val times = if gain > 10.0 then "more than 10" else f"$gain%.2f"
-    val figures = f"the pilot expects $times times the efficiency, with $perSample%.3g light " +
-      "paths per camera sample"
+    val figures =
+      f"the pilot expects ${times(gain)} times the efficiency, with $perSample%.3g light " +
+        "paths per camera sample"
     if light.findsAll then (Some(CausticChoice(aimed, perSample.toFloat)), figures)
     else if gain > LeastGain then (Some(CausticChoice(aimed, perSample.toFloat)), figures)
     else (None, s"none: $figures")
@@ -76,8 +84,8 @@ private[candela] final class CausticPilot(
       val rays = CameraRays(view.camera, view.shutter, 0f)
       val sampler = IndependentSampler(1, Seed)
       (0 until CameraRaysLooked).forall: k =>
-        start(sampler, k)
-        val weight = rays.next(pixelX(k) + 0.5f, pixelY(k) + 0.5f, sampler)
+        pairs.start(sampler, k)
+        val weight = rays.next(pairs.pixelX(k) + 0.5f, pairs.pixelY(k) + 0.5f, sampler)
         weight == 0f || !within.contradicts(rays.ray)
     }
 
@@ -89,42 +97,13 @@ private[candela] final class CausticPilot(
     val camera = CameraConnection(scene, view.camera, Splats.Discarded, within, 1f, observer)
     val sampler = IndependentSampler(1, seed)
     loop(count): k =>
-      start(sampler, k)
+      pairs.start(sampler, k)
       val time = view.shutter.fold(0f)(_.at(sampler.next1D()))
       camera.begin(time)
       paths.trace(time, sampler)
       camera.connect(paths, isWeighted = true, sampler)
     val inMedia = if within == null then 0L else within.raysTraced
     (paths.raysTraced + camera.raysTraced + inMedia).toDouble / count
-
-  private def start(sampler: Sampler, k: Int): Unit =
-    sampler.start(k % view.width, k / view.width, 0)
-
-  /** Follows paths from the camera, two for each of some pixels. */
-  private def follow(integrator: Integrator): Unit =
-    val rays = CameraRays(view.camera, view.shutter, view.differentialScale)
-    val sampler = IndependentSampler(1, Seed + 2)
-    loop(CameraPairs): k =>
-      val first = radiance(rays, integrator, sampler, 2 * k, k)
-      val second = radiance(rays, integrator, sampler, 2 * k + 1, k)
-      blocks.addPair(pixelX(k), pixelY(k), first, second)
-    cameraRays = integrator.raysTraced.toDouble / (2 * CameraPairs)
-
-  private def radiance(
-      rays: CameraRays,
-      integrator: Integrator,
-      sampler: Sampler,
-      k: Int,
-      pixel: Int
-  ): Float =
-    start(sampler, k)
-    sampler.next2D()
-    val weight = rays.next(pixelX(pixel) + sampler.x, pixelY(pixel) + sampler.y, sampler)
-    val found = if weight == 0f then 0f else integrator.radiance(rays.ray, sampler).average * weight
-    if found.isFinite then found else 0f
-
-  private def pixelX(k: Int): Int = Math.min(spread.x(k).toInt, view.width - 1)
-  private def pixelY(k: Int): Int = Math.min(spread.y(k).toInt, view.height - 1)
 
   /** Adds what light paths find. */
   private final class Observer(paths: CausticPaths, count: Int) extends SplatObserver:
@@ -166,6 +145,8 @@ private[candela] object CausticPilot:
   /** Expected efficiency from which on light paths are taken: the pilot is not exact. */
   inline val LeastGain = 1.25
 
+  def times(gain: Double): String = if gain > 10.0 then "more than 10" else f"$gain%.2f"
+
 /** Places on the film, in pixels, evenly spread for any number of them: the additive recurrence of
   * the plastic number.
   *
@@ -184,10 +165,13 @@ private final class PilotBlocks(view: View):
   private val rows = Math.ceil(view.height / size).toInt
   private val count = columns * rows
   private val pairs = new Array[Int](count)
-  private val sum, spread, splat, alone, rest, own = new Array[Double](count)
+  private val sum, spread, splat, alone, rest, own, saved = new Array[Double](count)
 
   def contains(x: Float, y: Float): Boolean =
     x >= 0f && y >= 0f && x < view.width && y < view.height
+
+  /** Adds what a pair of guided samples has less of second moments than unguided ones. */
+  def addSaving(x: Int, y: Int, moment: Double): Unit = saved(block(x + 0.5f, y + 0.5f)) += moment
 
   private def block(x: Float, y: Float): Int =
     Math.min((y / size).toInt, rows - 1) * columns + Math.min((x / size).toInt, columns - 1)
@@ -224,19 +208,31 @@ private final class PilotBlocks(view: View):
     * paths, what they have more without them, and that of light paths.
     */
   def variances(): (Double, Double, Double) =
+    var byPaths, more, byLight = 0.0
+    each: (i, unit, pixels) =>
+      if pairs(i) > 0 then byPaths += unit * pixels * spread(i) / pairs(i)
+      more += unit * (alone(i) - rest(i))
+      byLight += unit * own(i)
+    (byPaths, more, byLight)
+
+  /** Likewise of guided paths, and what unguided ones have more. */
+  def savings(): (Double, Double) =
+    var guided, more = 0.0
+    each: (i, unit, pixels) =>
+      if pairs(i) > 0 then
+        guided += unit * pixels * spread(i) / pairs(i)
+        more += unit * pixels * saved(i) / (2 * pairs(i))
+    (guided, more)
+
+  /** Calls `use` with each block, the weight of its variance, and its size in pixels. */
+  private def each(use: (Int, Double, Double) => Unit): Unit =
     val pixels = Array.tabulate(count): i =>
       val (w, h) = (view.width - (i % columns) * size, view.height - (i / columns) * size)
       Math.min(w, size) * Math.min(h, size)
     val means = Array.tabulate(count): i =>
       (if pairs(i) == 0 then 0.0 else sum(i) / pairs(i)) + splat(i) / pixels(i)
     val mean = means.sum / count
-    var byPaths, more, byLight = 0.0
-    loop(count): i =>
-      val unit = 1.0 / (square(means(i)) + square(Floor * mean))
-      if pairs(i) > 0 then byPaths += unit * pixels(i) * spread(i) / pairs(i)
-      more += unit * (alone(i) - rest(i))
-      byLight += unit * own(i)
-    (byPaths, more, byLight)
+    loop(count)(i => use(i, 1.0 / (square(means(i)) + square(Floor * mean)), pixels(i)))
 
   private def square(x: Double): Double = x * x
 

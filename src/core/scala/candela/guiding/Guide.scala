@@ -11,8 +11,14 @@ import candela.sampling.SampleHash
   *
   * @param planned samples per pixel
   * @param pixels  of the image
+  * @param learns  else nothing is learnt, and photons alone guide paths
   */
-final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
+final class Guide(
+    val settings: GuideSettings,
+    planned: Int,
+    pixels: Long,
+    learns: Boolean = true
+):
   import Guide.*
   private val samples = if settings.learnsOn then Int.MaxValue else planned
 
@@ -22,7 +28,9 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
   private var learning: GuideLearning | Null = null
   private var progress = GuideProgress()
   private val memory = GuideMemory()
-  @volatile private var current = newPass(GuideField.Start, 0, UsualEvents, lit = 1.0)
+  @volatile private var current =
+    if learns then newPass(GuideField.Start, 0, UsualEvents, lit = 1.0)
+    else Pass(GuideField.Start, 0, part = 1f, null)
   private var tallies = Vector.empty[GuideTally]
 
   /** The field to use, and where to record, until the pass ends. */
@@ -40,6 +48,12 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
     val tally = GuideTally()
     tallies :+= tally
     tally
+
+  /** What the paths since the last call have saved of second moments. */
+  def takeSaving(): Double = synchronized:
+    val saving = tallies.map(_.saving).sum
+    tallies.foreach(_.saving = 0.0)
+    saving
 
   /** What will be learnt. */
   def describe: String =
@@ -172,6 +186,10 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
     current = Pass(field, begun, part, records)
 
 object Guide:
+  /** One that learns nothing: photons alone guide paths. */
+  def unlearning: Guide =
+    Guide(GuideSettings(adapts = false, divides = false, weighs = false), 1, 1, learns = false)
+
   /** A pass of training.
     *
     * @param begun   its first sample

@@ -39,6 +39,8 @@ final class GuideField private[guiding] (
 ):
   import GuideField.*
 
+  private val tree = RegionTree(axis, split, below)
+
   def regions: Int = shares.length
 
   /** Of each region, the lobes that are not too light to be used; none without light. */
@@ -52,14 +54,7 @@ final class GuideField private[guiding] (
   /** The region of the point whose coordinates begin at `p(at)`, on a surface that faces this side;
     * points outside belong to the nearest.
     */
-  private[guiding] def region(side: Int, p: Array[Float], at: Int): Int =
-    var node = side
-    var next = below(node)
-    while next >= 0 do
-      // Without branches, which would be predicted wrongly
-      node = next + (if p(at + axis(node)) < split(node) then 0 else 1)
-      next = below(node)
-    -1 - next
+  private[guiding] def region(side: Int, p: Array[Float], at: Int): Int = tree.region(side, p, at)
 
   /** Was light found there? */
   def isFitted(region: Int): Boolean = used(region) > 0

@@ -14,9 +14,14 @@ import candela.sampling.Sampler
   *
   * Throughputs and light are averages of the colours.
   *
-  * @param vertex where the path is
+  * @param vertex  where the path is
+  * @param photons where light for caustics comes from, if it is known
   */
-private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
+private[integrators] final class Guidance(
+    guide: Guide,
+    vertex: SurfaceVertex,
+    photons: PhotonField | Null
+):
   import Guidance.*
   private val path = GuidePath()
   private var pass = guide.pass
@@ -24,7 +29,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
 
   /** Where the path records; null: nowhere. */
   private var part = ownPart
-  private val mixture = GuideMixture()
+  private val mixture, aim = GuideMixture()
   private val tally = guide.newTally()
 
   /** Density of the path over that of BSDF sampling: its throughput times this is the one that BSDF
@@ -41,6 +46,9 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   private var isKept = false
   private var isFitted = false
   private var share = 1f
+
+  /** Of the directions that the BSDF doesn't sample, the part that photons give. */
+  private var aimed = 0f
   private val wi, localWi = MutableVec3()
   private var side, region = -1
 
@@ -88,12 +96,15 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     splits = 1f
     measurement = 0f
 
-  /** The vertex has its BSDF. */
-  def arrive(): Unit =
+  /** The vertex has its BSDF.
+    *
+    * @param isAimed may photons guide the path? Not where light paths find their light
+    */
+  def arrive(isAimed: Boolean): Unit =
     val field = pass.field
     leaveAlone()
     path.step()
-    isKept = (part != null || field.guides) && !vertex.bsdf.isSpecular
+    isKept = (part != null || field.guides || isAimed) && !vertex.bsdf.isSpecular
     if isKept then
       side =
         if vertex.isInMedium then GuideField.Medium
@@ -102,8 +113,17 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       region = mixture.region(field, vertex.at.p, side)
       share = if !guide.settings.directs || ratio < LeastRatio then 1f else field.shares(region)
       isFitted = guide.settings.directs && field.isFitted(region)
+      if isAimed && photons != null && ratio >= LeastRatio then aimAt(photons)
       isKept = part != null || share < 1f
       if isKept && isFitted then mixture.locate(field, region, vertex.at.p)
+
+  /** Photons give a part of the directions, if there are any here. */
+  private def aimAt(field: PhotonField): Unit =
+    if aim.locate(field, vertex.at.p, side) then
+      val least = 1f - PhotonField.Share
+      val learnt = least * (1f - share)
+      share *= least
+      aimed = PhotonField.Share / (PhotonField.Share + learnt)
 
   /** The vertex is neither guided nor recorded. */
   def leaveAlone(): Unit =
@@ -111,17 +131,27 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     isFitted = false
     region = -1
     share = 1f
+    aimed = 0f
 
   /** Density of the directions that are taken. */
   def pdf(local: Vec3, world: Vec3, byBsdf: Float): Float =
     if share == 1f || byBsdf == 0f then byBsdf
     else share * byBsdf + (1f - share) * fieldPdf(local, world)
 
-  /** Density of the field's directions. */
+  /** Density of the directions that the BSDF doesn't sample. */
   private def fieldPdf(local: Vec3, world: Vec3): Float =
+    val learnt = if aimed == 1f then 0f else learntPdf(local, world)
+    if aimed == 0f then learnt else (1f - aimed) * learnt + aimed * aim.pdf(world)
+
+  /** Density of the field's directions. */
+  private def learntPdf(local: Vec3, world: Vec3): Float =
     if crosses(local) then 0f else mixture.pdf(world)
 
   private def crosses(local: Vec3) = !vertex.isInMedium && vertex.crosses(local)
+
+  /** The path has met a lamp, or the sky, by a specular way: light that nothing else finds. */
+  def meet(light: Float): Unit =
+    tally.saving += light.toDouble * light * (Math.min(ratio, MostRatio) - 1.0)
 
   /** The path is over, and found `light` in all. */
   def finish(light: Float): Unit =
@@ -167,9 +197,10 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
 
   /** Likewise. */
   private def drawField(x: Float, y: Float): Float =
-    mixture.sample(x, y, wi)
+    if x < aimed then aim.sample(belowOne(x / aimed), y, wi)
+    else mixture.sample(belowOne((x - aimed) / (1f - aimed)), y, wi)
     vertex.at.frame.toLocal(wi, localWi)
-    val byBsdf = if crosses(localWi) then 0f else vertex.localPdf(localWi)
+    val byBsdf = if aimed == 0f && crosses(localWi) then 0f else vertex.localPdf(localWi)
     if byBsdf == 0f then vertex.bounce.absorb()
     else
       val cosine = if vertex.isInMedium then 1f else Math.abs(localWi.z)
@@ -182,7 +213,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     */
   private def turn(byBsdf: Float, throughput: Float, found: Float): Unit =
     val bounce = vertex.bounce
-    val byField = if isFitted then fieldPdf(bounce.wi, wi) else 0f
+    val byField = if isFitted || aimed > 0f then fieldPdf(bounce.wi, wi) else 0f
     val pdf = share * byBsdf + (1f - share) * byField
     bounce.set(bounce.wi, bounce.weight * (1f / pdf), pdf, isSpecular = false, bounce.eta)
     ratio *= pdf / byBsdf
@@ -267,3 +298,6 @@ private object Guidance:
     * their light counts.
     */
   inline val LeastRatio = 0.1f
+
+  /** What one path finds must not decide alone. */
+  inline val MostRatio = 1e6f

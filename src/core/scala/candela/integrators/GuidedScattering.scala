@@ -1,18 +1,25 @@
 package candela.integrators
 
 import candela.base.loop
-import candela.guiding.Guide
+import candela.guiding.{Guide, PhotonField}
 import candela.sampling.Sampler
 
 /** How guided walks scatter, on surfaces and in media: [[Guidance]] samples the directions, and
   * says in how many branches the path leaves a vertex. Branches are followed one after the other.
   * Mutable, one per walk.
   */
-private[integrators] final class GuidedScattering(guide: Guide, walk: Walk):
-  private val guidance = Guidance(guide, walk.vertex)
+private[integrators] final class GuidedScattering(
+    guide: Guide,
+    walk: Walk,
+    photons: PhotonField | Null
+):
+  private val guidance = Guidance(guide, walk.vertex, photons)
   private val branches = Branches(() => walk.path.another())
 
-  export guidance.{arrive, begin, leaveAlone, pdf, roulette}
+  export guidance.{begin, leaveAlone, meet, pdf, roulette}
+
+  /** The vertex has its BSDF. Photons aim at light that light paths don't find. */
+  def arrive(): Unit = guidance.arrive(isAimed = photons != null && walk.path.rival == 0.0)
 
   /** Samples the next direction, and leaves in all branches but one, unless there is one only. */
   def scatter(sampler: Sampler): Unit =

@@ -48,7 +48,7 @@ abstract class Walk(
   protected final val hit: Hit = Hit()
 
   protected final val guiding: GuidedScattering | Null =
-    if guide == null then null else GuidedScattering(guide, this)
+    if guide == null then null else GuidedScattering(guide, this, options.aim.orNull)
   protected final val samplesLights: Boolean = options.samplesLights
   protected final val regularizes: Boolean = options.regularizes
   private val hidesLamps = options.hidesLamps
@@ -139,6 +139,7 @@ abstract class Walk(
           if parts != null then parts.addEnvironment(i, depth, path.carried(arriving, 1f))
       )
       path.addTo(found, weighted, 1f)
+      if guiding != null && !path.competes then guiding.meet(path.carried(weighted, 1f).average)
     end()
 
   /** Adds what the surface emits. */
@@ -154,6 +155,8 @@ abstract class Walk(
           if source.isShownOnly then (if path.competes then 0f else 1f)
           else emissionWeight(at.areaLight, source.pdf(path.lastP, at))
         path.addTo(found, emitted, weight)
+        if guiding != null && !path.competes then
+          guiding.meet(path.carried(emitted, weight).average)
         if parts != null then parts.addLight(at.areaLight, depth, path.carried(emitted, weight))
 
   /** Is what the path meets of the lamp left to photons? */

@@ -1,5 +1,7 @@
 package candela.integrators
 
+import candela.guiding.PhotonField
+
 /** Which optional steps a path takes.
   *
   * @param regularizes   roughen BSDFs after the first non-specular bounce
@@ -13,6 +15,7 @@ package candela.integrators
   * @param caustics      weights against light paths, if there are any
   * @param manifolds     what manifold walks find beside paths, if anything
   * @param photons       what photons bring in place of paths, if anything; not with manifold walks
+  * @param aim           photons that guide paths, if there are any: those of a guide
   */
 final case class WalkOptions(
     regularizes: Boolean = false,
@@ -24,7 +27,8 @@ final case class WalkOptions(
     countsPassed: Boolean = false,
     caustics: Option[CausticWeights] = None,
     manifolds: Option[Manifolds] = None,
-    photons: Option[PhotonLight] = None
+    photons: Option[PhotonLight] = None,
+    aim: Option[PhotonField] = None
 )
 
 /** Limits of a path tracer's paths.

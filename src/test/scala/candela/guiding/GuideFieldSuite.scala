@@ -1,6 +1,5 @@
 package candela.guiding
 
-import candela.lights.EqualAreaMap
 import candela.math.*
 import candela.sampling.{IndependentSampler, SampleHash}
 
@@ -20,24 +19,7 @@ class GuideFieldSuite extends AnyFunSuite:
     val mixture = GuideMixture()
     val p = place(0)
     mixture.locate(learnt, region(p, Up), p)
-    val sampler = IndependentSampler(Samples, 1)
-    val wi = MutableVec3()
-    // Of a grid of 8 × 8 cells on the square: the integral of the density, and the samples' share
-    val expected, found = new Array[Double](64)
-    for i <- 0 until Samples do
-      // The middles of 256 × 256 cells
-      val (x, y) = ((i % 256 + 0.5f) / 256f, (i / 256 + 0.5f) / 256f)
-      val at = EqualAreaMap.toDirection(x, y)
-      expected((x * 8).toInt + 8 * (y * 8).toInt) += mixture.pdf(at) * 4.0 * Math.PI / Samples
-      sampler.start(0, 0, i)
-      sampler.next2D()
-      mixture.sample(sampler.x, sampler.y, wi)
-      assert(Math.abs(wi.length - 1f) < 1e-4f)
-      val to = EqualAreaMap.toImage(wi)
-      found((to.x * 8).toInt + 8 * (to.y * 8).toInt) += 1.0 / Samples
-    assert(Math.abs(expected.sum - 1.0) < 0.01)
-    // 65536 samples: deviations are below 0.002
-    for (e, f) <- expected.zip(found) do assert(Math.abs(e - f) < 0.01, s"$e $f")
+    MixtureDensity.check(mixture)
 
   test("from all places of a region, a near light is seen where it is"):
     val mixture = GuideMixture()
@@ -150,7 +132,6 @@ class GuideFieldSuite extends AnyFunSuite:
     assert(Math.abs(field.splittingFactors(region) / factor - 1) < 0.005)
 
 private object GuideFieldSuite:
-  val Samples: Int = 1 << 16
   val EventCost = 3f
   val PathCost = 7.0
   val Up: Vec3 = Vec3(0f, 0f, 1f)

@@ -2,7 +2,7 @@ package candela.build.integrators
 
 import candela.base.Code
 import candela.bidirectional.{
-  CausticChoice, CausticLight, CausticPasses, CausticPilot, CausticTracer, PhotonPilot
+  AimPilot, CausticChoice, CausticLight, CausticPasses, CausticPilot, CausticTracer, PhotonPilot
 }
 import candela.build.recipe.*
 import candela.film.View
@@ -80,28 +80,54 @@ private object CausticMethod:
       light: CausticLight,
       tracer: Tracer
   )(using site: Site):
+    /** Light paths, and photons that guide the camera's, where they pay. */
     def pilot(view: View): (Option[CausticChoice], String) =
-      CausticPilot(scene, view, light, weights => tracer(scene, weighed(weights), null, null)).run()
+      def besideLight(choice: Option[CausticChoice], over: Scene) = choice.fold(options): c =>
+        weighed(CausticWeights(over, c.casters, view.camera, c.perSample))
+      val (found, told) = CausticPilot(
+        scene,
+        view,
+        light,
+        weights => tracer(scene, weighed(weights), null, null)
+      ).run()
+      val beside = besideLight(found, scene)
+      val (aim, expected) = AimPilot(
+        scene,
+        view,
+        light,
+        site.resources.pool,
+        (field, guide) => tracer(scene, beside.copy(aim = field), guide, null)
+      ).run()
+      val guiding = s"photons guide paths to light seen by specular ways: $expected"
+      aim match
+        case None => (found, s"$told; $expected")
+        case _ if found.isEmpty =>
+          (Some(CausticChoice(light.casters, 0f, aim = aim)), s"$guiding; light paths: $told")
+        case _ => (found.map(_.copy(aim = aim)), s"light paths: $told; $guiding")
 
     def method(choice: CausticChoice): RenderMethod =
-      def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): over =>
-        val chosen = light.copy(casters = choice.casters)
-        val weights = CausticWeights(over, choice.casters, view.camera, choice.perSample)
-        val own = weighed(weights).copy(manifolds = walked(over))
-        val paths = guide match
-          case None => tracer(over, own, null, null)
-          case Some(by) =>
-            PartlyGuided(over, by, tracer(over, own, by, _), tracer(over, own, null, _))
-        CausticTracer(over, paths, view, chosen, choice.perSample)
-      RenderMethod.SplattedTiles(
-        makers(_, None),
-        beside = true,
-        GuideSettings
-          .of(site.resources.switches.guiding)
-          .map(GuidedSplats(_, (view, guide) => makers(view, Some(guide)))),
-        Option.when(light.findsAll && scene.lights.exists(_.isDelta)):
-          "also light of lamps without extent, through and off smooth surfaces"
-      )
+      def aimed(own: WalkOptions)(over: Scene, guide: Guide | Null, parts: LightParts | Null) =
+        val learns = if guide == null && choice.aim.isDefined then Guide.unlearning else guide
+        tracer(over, own.copy(manifolds = walked(over), aim = choice.aim), learns, parts)
+      if choice.perSample == 0f then GuidedMethod(scene)(aimed(options))
+      else
+        def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): over =>
+          val chosen = light.copy(casters = choice.casters)
+          val weights = CausticWeights(over, choice.casters, view.camera, choice.perSample)
+          val own = aimed(weighed(weights))
+          val paths = guide match
+            case None => own(over, null, null)
+            case Some(by) => PartlyGuided(over, by, own(over, by, _), own(over, null, _))
+          CausticTracer(over, paths, view, chosen, choice.perSample)
+        RenderMethod.SplattedTiles(
+          makers(_, None),
+          beside = true,
+          GuideSettings
+            .of(site.resources.switches.guiding)
+            .map(GuidedSplats(_, (view, guide) => makers(view, Some(guide)))),
+          Option.when(light.findsAll && scene.lights.exists(_.isDelta)):
+            "also light of lamps without extent, through and off smooth surfaces"
+        )
 
     /** Paths of the camera that take caustics from photons. */
     def photons(choice: CausticChoice): RenderMethod =

@@ -51,9 +51,9 @@ private[cli] object SwitchTable extends OptionRows:
       .action(set((mode, s) => s.copy(guiding = Some(mode)))),
     opt[CausticsMode]("caustics").valueName("auto|on|off|photons")
       .text(OptionText(
-        "look for caustics, too: by light paths where these reduce the noise (auto); by light " +
-          "paths, also of lamps without extent (on); by photon maps, which blur caustics a " +
-          "little and find those seen through glass and water (photons); or not (off, default)",
+        "look for caustics, too: by light paths, and by paths that photons guide, where these " +
+          "reduce the noise (auto); also for those of lamps without extent (on); by photon maps, " +
+          "which blur caustics a little (photons); or not (off, default)",
         "[What it brings](CAUSTICS.md)."
       ))
       .action(set((mode, s) => s.copy(caustics = Some(mode)))),

@@ -1,0 +1,109 @@
+package candela.bidirectional
+
+import candela.cameras.CameraRays
+import candela.film.View
+import candela.geometry.Ray
+import candela.integrators.{PhotonLight, SurfaceWalk}
+import candela.math.*
+import candela.sampling.IndependentSampler
+import candela.scene.{CasterLearning, Scene}
+
+/** Where paths from the camera come to surfaces that receive photons. Mutable.
+  *
+  * @param looks    paths from the camera
+  * @param onlyBehind only places that the camera sees by way of specular surfaces, and what paths
+  *                   meet from there on; else the first such surface of each path
+  */
+private[bidirectional] final class SeenPlaces(
+    scene: Scene,
+    view: View,
+    light: CausticLight,
+    looks: Int,
+    onlyBehind: Boolean
+):
+  private val found = Vector.newBuilder[Vec3]
+  private val sizes = Array.newBuilder[Float]
+  private val sampler = IndependentSampler(1, CausticPilot.Seed)
+  private val walk = SurfaceWalk(scene)
+  look()
+  private val places = found.result()
+
+  /** The median size of pixels there; 0: there is none. */
+  val footprint: Float =
+    val sorted = sizes.result().sorted
+    if sorted.isEmpty then 0f else sorted(sorted.length / 2)
+
+  // As far apart as the places are, on average
+  private val cell = (2.0 * footprint * Math.sqrt(view.pixels / looks)).toFloat
+  private val seen = java.util.HashSet[Long]()
+  if !isEmpty then
+    for p <- places; k <- 0 until 8 do
+      def near(x: Float, bit: Int) = x + (if (k >> bit & 1) == 0 then -0.5f else 0.5f) * cell
+      seen.add(key(Vec3(near(p.x, 0), near(p.y, 1), near(p.z, 2)))): Unit
+
+  def isEmpty: Boolean = !(footprint > 0f)
+
+  /** Is the place near one of these? */
+  def contains(p: Vec3): Boolean = seen.contains(key(p))
+
+  /** Learns where light begins its way that arrives there. */
+  def learn(): CasterLearning =
+    val learning = CasterLearning()
+    val paths = light.photonPaths(scene)
+    val sampler = IndependentSampler(1, CausticPilot.Seed + 1)
+    for k <- 0 until CausticPilot.LearningPaths do
+      sampler.start(k, 0, 0)
+      paths.trace(view.shutter.fold(0f)(_.at(sampler.next1D())), sampler)
+      for i <- 0 until paths.count do
+        val power = paths(i).throughput.average.toDouble
+        if power < Float.PositiveInfinity && contains(paths(i).at.p) then
+          learning.add(paths.place, power)
+    learning
+
+  private def look(): Unit =
+    val rays = CameraRays(view.camera, view.shutter, 0f)
+    val beside = CameraRays(view.camera, view.shutter, 0f)
+    val spread = SpreadPlaces(view)
+    for k <- 0 until looks do
+      val x = spread.x(k).toFloat
+      val y = spread.y(k).toFloat
+      sampler.start(k, 0, 0)
+      val weight = rays.next(x, y, sampler)
+      sampler.start(k, 0, 0)
+      if weight > 0f && beside.next(x + 1f, y, sampler) > 0f then
+        val (eye, direction) = (rays.ray.origin, rays.ray.direction.normalized)
+        follow(rays.ray): p =>
+          val distance = (p - eye).length
+          val other = beside.ray.origin + beside.ray.direction.normalized * distance
+          sizes += (eye + direction * distance - other).length
+
+  /** Follows a path.
+    *
+    * @param first is called for its first place
+    */
+  private def follow(ray: Ray)(first: Vec3 => Unit): Unit =
+    var count = 0
+    var isWanted = !onlyBehind
+    walk.begin(ray, sampler)
+    while walk.goesOn do
+      if !walk.intersect() then walk.addEnvironment()
+      else if walk.isAtInterface then walk.passThrough()
+      else if walk.hasHad(light.maxDepth) then walk.end()
+      else
+        walk.evaluate()
+        val receives = PhotonLight.receives(scene, walk.vertex)
+        if receives && isWanted then
+          val p = walk.vertex.at.p.toVec3
+          if count == 0 then first(p)
+          found += p
+          count += 1
+        if receives && !onlyBehind then walk.end()
+        else
+          walk.scatter(sampler)
+          if onlyBehind && walk.depth == 1 then isWanted = walk.vertex.bounce.isSpecular
+          walk.leave()
+          if onlyBehind && !isWanted then walk.end()
+
+  private def key(p: Vec3): Long =
+    def of(x: Float) = Math.floor(x.toDouble / cell).toLong & 0x1fffff
+    of(p.x) << 42 | of(p.y) << 21 | of(p.z)
