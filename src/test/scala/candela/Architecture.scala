@@ -86,9 +86,10 @@ object Architecture:
       "api" -> (job + "job"),
       "report" -> report,
       "suite" -> (report ++ Set("report", "job")),
+      "robustness" -> (job ++ Set("job", "convert", "report", "suite")),
       "watch" -> (report ++ Set("film", "layers", "render", "report"))
     ) ++ below(program).map: (room, lower) =>
-      room -> (job ++ lower ++ Set("job", "convert", "report", "suite", "watch"))
+      room -> (job ++ lower ++ Set("job", "convert", "report", "suite", "watch", "robustness"))
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */
   private val libraries = Map(

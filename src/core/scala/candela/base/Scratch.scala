@@ -23,12 +23,17 @@ object Scratch:
   private val Prefix = "candela-scratch-"
   private val LockName = "lock"
 
+  /** Of this process's folders. Their locks must not be opened again: a process that closes a file
+    * loses all of its locks on it.
+    */
+  private val OwnPrefix = s"$Prefix${ProcessHandle.current.pid}-"
+
   /** A folder that has no lock yet may be about to get one, for milliseconds. */
   private val Doubt = 3_600_000L
 
   /** @throws java.io.IOException if no folder can be made */
   def make(): Scratch =
-    val folder = Files.createTempDirectory(Prefix)
+    val folder = Files.createTempDirectory(OwnPrefix)
     val lock = FileChannel.open(folder.resolve(LockName), CREATE_NEW, WRITE)
     val _ = Try(lock.tryLock())
     for in <- Option(folder.getParent) do
@@ -39,9 +44,10 @@ object Scratch:
     Using.resource(Files.newDirectoryStream(in, s"$Prefix*")): folders =>
       for folder <- folders.asScala do
         val _ = Try:
-          val isOurs = Files.isDirectory(folder, NOFOLLOW_LINKS) &&
+          val isUsers = Files.isDirectory(folder, NOFOLLOW_LINKS) &&
             Files.getOwner(folder, NOFOLLOW_LINKS) == owner
-          if isOurs then removeUnlocked(folder)
+          val isOwn = folder.getFileName.toString.startsWith(OwnPrefix)
+          if isUsers && !isOwn then removeUnlocked(folder)
 
   private def removeUnlocked(folder: Path): Unit =
     val lock = folder.resolve(LockName)

@@ -4,7 +4,7 @@ import candela.base.{Code, Problem, Severity}
 import candela.cli.commands.{
   AverageCommand, BenchCommand, CheckCommand, ClusterCommand, CompareCommand, CompletionCommand,
   ConvertCommand, DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand,
-  PreviewCommand, RenderCommand, ResumeCommand, ViewCommand
+  PreviewCommand, RenderCommand, ResumeCommand, RobustnessCommand, ViewCommand
 }
 import candela.cli.options.{Command, CommandLine, OptionTable, Options}
 import candela.cli.terminal.{ExitCode, Interrupts, ProblemText, Report, Terminal}
@@ -74,7 +74,8 @@ object Main:
         val warning = Problem(Code.IdleOption, Severity.Warning, None, note)
         ProblemText.print(warning, terminal.err, terminal.hasColor)
     // Those have children, or shards, to end
-    val isAlone = options.command != Command.Bench && options.cluster.master.isEmpty
+    val hasChildren = Set(Command.Bench, Command.Robustness)(options.command)
+    val isAlone = !hasChildren && options.cluster.master.isEmpty
     if isAlone then terminal.interrupts.quitting()
     options.command match
       case Command.Render if options.cluster.master.isDefined =>
@@ -85,6 +86,7 @@ object Main:
       case Command.Check => CheckCommand(options, terminal, report, loader).run()
       case Command.Compare => CompareCommand(options, terminal, report).run()
       case Command.Bench => BenchCommand(options, terminal, report).run()
+      case Command.Robustness => RobustnessCommand(options, terminal, report).run()
       case Command.Describe => DescribeCommand(options, terminal, report).run()
       case Command.Preview => PreviewCommand(options, terminal, report, loader).run()
       case Command.View => ViewCommand(options, terminal, report).run()

@@ -42,6 +42,15 @@ private[report] object Numbers:
       val digits = fixed(value / Math.pow(10, exponent), 1).stripSuffix(".0")
       if digits == "1" then s"10${raised(exponent)}" else s"${digits}·10${raised(exponent)}"
 
+  /** A number of trials: all digits if it has few, else a power of ten: `1000`, `2.5·10⁷`. */
+  def count(n: Long): String =
+    if n < 10000 then n.toString
+    else
+      val exponent = Math.floor(Math.log10(n.toDouble)).toInt
+      val digits = fixed(n / Math.pow(10, exponent), 2).stripSuffix("0").stripSuffix("0")
+      if digits == "1." then s"10${raised(exponent)}"
+      else s"${digits.stripSuffix(".")}·10${raised(exponent)}"
+
   private def raised(n: Int): String = n.toString.map:
     case '-' => '⁻'
     case digit => "⁰¹²³⁴⁵⁶⁷⁸⁹" (digit - '0')

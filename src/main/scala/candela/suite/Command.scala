@@ -31,7 +31,7 @@ open class Commands(self: Vector[String], scratch: Path, isCancelled: () => Bool
       case _ if unset.nonEmpty => Some(Commands.notSet(unset))
       case None => Some("no command")
       case Some("{candela}") => None
-      case Some(word) => Option.when(executable(word).isEmpty)(s"`$word` is not installed")
+      case Some(word) => Option.unless(Commands.isExecutable(word))(s"`$word` is not installed")
 
   /** A command's words with its placeholders substituted. */
   def words(program: Program, values: Map[String, String]): Vector[String] =
@@ -77,13 +77,6 @@ open class Commands(self: Vector[String], scratch: Path, isCancelled: () => Bool
     val lines = String(Files.readAllBytes(log), "UTF-8").linesIterator.filter(_.trim.nonEmpty)
     lines.toVector.lastOption.fold("no output")(_.trim.take(200))
 
-  private def executable(word: String): Option[Path] =
-    if word.contains('/') then Option(Path.of(word)).filter(Files.isExecutable(_))
-    else
-      sys.env.getOrElse("PATH", "").split(File.pathSeparatorChar).toVector
-        .map(folder => Path.of(folder).resolve(word))
-        .find(Files.isExecutable(_))
-
 object Commands:
   /** Polling interval for cancellation and memory, in milliseconds. */
   private val Patience = 20L
@@ -92,6 +85,13 @@ object Commands:
   private val Afterthought = 100L
 
   private val NullDevice = if File.separatorChar == '\\' then "NUL" else "/dev/null"
+
+  /** Whether a command can be started: a file, or a name on the path. */
+  def isExecutable(word: String): Boolean =
+    if word.contains('/') then Files.isExecutable(Path.of(word))
+    else
+      sys.env.getOrElse("PATH", "").split(File.pathSeparatorChar)
+        .exists(folder => Files.isExecutable(Path.of(folder).resolve(word)))
 
   def notSet(variables: Vector[String]): String =
     s"environment variable ${variables.mkString(", ")} is not set"

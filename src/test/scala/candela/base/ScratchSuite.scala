@@ -23,6 +23,18 @@ class ScratchSuite extends AnyFunSuite:
     scratch.close()
     assert(!Files.exists(scratch.folder))
 
+  test("a folder keeps its lock when the same process makes another one"):
+    val locks = Path.of("/proc/locks")
+    assume(Files.isReadable(locks), "the system lists no locks")
+    val mine = Scratch.make()
+    try
+      Scratch.make().close()
+      val number = Files.getAttribute(mine.folder.resolve("lock"), "unix:ino")
+      val own = s" ${ProcessHandle.current.pid} "
+      val held = Files.readString(locks).linesIterator.filter(_.contains(own))
+      assert(held.exists(_.contains(s":$number ")))
+    finally mine.close()
+
   test("what killed processes have left is removed, and nothing else"):
     val killed = left("candela-scratch-", hasLock = true)
     val young = left("candela-scratch-", hasLock = false)

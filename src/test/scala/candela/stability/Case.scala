@@ -1,22 +1,7 @@
 package candela.stability
 
-import candela.testing.Draws
+import candela.robustness.Trials
 import org.scalatest.funsuite.AnyFunSuite
-
-/** What a case is asked for.
-  *
-  * @param slice which part of its random numbers: each has others, 0 those of every test run
-  */
-final case class Trials(count: Long, slice: Int):
-  /** The seed of this slice's random numbers. */
-  def seed(first: Long): Long = first + slice * Trials.Apart
-  def draws(first: Long): Draws = Draws(seed(first))
-
-object Trials:
-  /** Any odd number but the one that SplittableRandom adds in each step: with that, slices would
-    * have the same numbers, one later each.
-    */
-  private val Apart = 0xd1b54a32d192ed03L
 
 /** A hard case of arithmetic, checked with as many random trials as are asked for.
   *

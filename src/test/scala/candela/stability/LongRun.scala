@@ -3,6 +3,8 @@ package candela.stability
 import java.lang.management.ManagementFactory
 import java.nio.file.Path
 
+import candela.robustness.Trials
+
 /** The cases of the stability suites with their long counts, which take minutes to hours:
   * {{{
   * ./sbt "Test/runMain candela.stability.LongRun --case words of its name --count 1000000"

@@ -60,6 +60,9 @@ object Hierarchies:
 
   private inline val MaxLeaf = 4
 
+  /** Lanes of the SIMD kernel's vectors; requires [[hasVectors]]. */
+  def lanes: Int = VectorKernel.lanes
+
   /** Primitive count below which a tree has too few nodes for SIMD. */
   private inline val Few = 16
 

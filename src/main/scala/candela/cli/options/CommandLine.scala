@@ -135,6 +135,7 @@ enum Command(val word: String):
   case Check extends Command("check")
   case Compare extends Command("compare")
   case Bench extends Command("bench")
+  case Robustness extends Command("robustness")
   case Describe extends Command("describe")
   case Convert extends Command("convert")
   case View extends Command("view")
@@ -180,6 +181,7 @@ enum Page(val option: String):
   * @param displayServer host and port of an image viewer
   * @param watchAfter whether the page stays when rendering has ended
   * @param bench options of `bench`
+  * @param robustness options of `robustness`
   * @param compare options of `compare`
   * @param image options of `image` and `average`
   * @param limits what scenes may do
@@ -212,6 +214,7 @@ final case class Options(
     displayServer: Option[(String, Int)] = None,
     compare: CompareOptions = CompareOptions(),
     bench: BenchOptions = BenchOptions(),
+    robustness: RobustnessOptions = RobustnessOptions(),
     image: ImageOptions = ImageOptions(),
     pages: Vector[Page] = Vector.empty,
     to: Option[Dialect] = None,

@@ -142,6 +142,14 @@ private[cli] object CommandTable extends OptionRows:
       "[Error against time](BENCH.md)."
     ),
     CommandRow(
+      Command.Robustness,
+      "count numerical faults, of Candela and of other renderers",
+      Vector.empty,
+      Words.Anything,
+      "It exits with 1 if Candela has a fault that the table does not explain. [What is counted, " +
+        "and the results](STABILITY.md#measure-it-yourself)."
+    ),
+    CommandRow(
       Command.Explain,
       "explain a problem: what it means, an example, the cure",
       Vector(file("[E0123]...", "numbers of problems, as messages end with them (default: all)")

@@ -22,7 +22,8 @@ private[cli] object IdleOptions:
     case Command.Compare => compared(o.compare)
     case Command.Describe => described(o)
     case Command.Bench => measured(o)
-    case Command.Merge | Command.Info | Command.Explain | Command.Completion => Vector.empty
+    case Command.Robustness | Command.Merge | Command.Info | Command.Explain |
+        Command.Completion => Vector.empty
 
   private def idle(option: String, why: String)(isSo: Boolean): Vector[String] =
     Option.when(isSo)(s"--$option has no effect$why").toVector

@@ -87,6 +87,10 @@ private[cli] object Manual:
         ),
         Vector("`CANDELA_OPENEXR`", "OpenEXR's library, which reads rare kinds of EXR files"),
         Vector(
+          "`PBRT_V3`, `PBRT_V4`, `MITSUBA`",
+          "commands of other renderers, for `robustness` and the suites of `bench`"
+        ),
+        Vector(
           "`CANDELA_PROGRESS`",
           "`lines`: messages have the progress four times a second, for programs that show it"
         ),

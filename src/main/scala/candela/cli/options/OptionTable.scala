@@ -234,6 +234,8 @@ private[cli] object OptionTable extends OptionRows:
 
   private val benchOptions: Vector[Row] = BenchTable.options :+ quiet
 
+  private val robustnessOptions: Vector[Row] = RobustnessTable.options :+ quiet
+
   private val describeOptions: Vector[Row] = Vector(
     opt[Unit]("pbrt-options")
       .text("print the options of pbrt's command lines, and what they are here, as Markdown")
@@ -319,6 +321,7 @@ private[cli] object OptionTable extends OptionRows:
     case Command.Check => checkOptions
     case Command.Compare => CompareTable.options
     case Command.Bench => benchOptions
+    case Command.Robustness => robustnessOptions
     case Command.Describe => describeOptions
     case Command.Convert => convertOptions
     case Command.View => viewOptions

@@ -1,4 +1,4 @@
-package candela.stability
+package candela.robustness
 
 import candela.bsdf.{
   Bsdf, ConductorReflectance, DielectricReflectance, DiffuseTransmission, FullReflectance, Lambert,
@@ -6,7 +6,7 @@ import candela.bsdf.{
 }
 import candela.bsdf.composite.{DisneyMaterial, DisneyParameters, Hair, HairShape}
 import candela.bsdf.layered.{CoatedDiffuse, Coats, Layered, Layers}
-import candela.bsdf.measured.{FourierBsdf, FourierTables, HalfAngleReflection}
+import candela.bsdf.measured.HalfAngleReflection
 import candela.bsdf.microfacet.{
   Conductor, CosinePower, Dielectric, FresnelBlend, MicrofacetReflection, Passthrough,
   ThinDielectric, TrowbridgeReitz
@@ -19,6 +19,7 @@ import candela.textures.{ConstantFloat, ConstantRgb}
 /** A class of BSDFs, at the ends of its parameters.
   *
   * @param quick trials of each of them in every run of the tests
+  * @param variants names and BSDFs
   */
 final case class BsdfKind(name: String, quick: Int, variants: Seq[(String, Bsdf)])
 
@@ -108,14 +109,8 @@ object ExtremeBsdfs:
       s"disney $ends" -> DisneyMaterial(p).bsdf(ShadingPoint())
 
   private def tables =
-    val cosines = FourierTables.cosines(16)
-    val color = Rgb(1f, 0.5f, 0f)
     Seq[(String, Bsdf)](
       "a table of a tenth" -> HalfAngleReflection(Array.fill(3 * 90 * 90 * 180)(0.1f)),
-      "series in colours" ->
-        FourierBsdf(FourierTables(cosines, 2, 3, 1f)(FourierTables.cushion(color)).table),
-      "series of an index" ->
-        FourierBsdf(FourierTables(cosines, 2, 1, 1.5f)(FourierTables.cushion(Rgb.White)).table),
       "what light gets in through" -> NormalizedFresnel(1.33f),
       "a boundary of index 1 + 1e-7" -> NormalizedFresnel(Math.nextUp(1f))
     )

@@ -1,11 +1,10 @@
-package candela.stability
+package candela.robustness
 
 import candela.accel.{Accelerator, BruteForce, Instances, Primitives}
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.scene.{Instanced, ShapeInstance, Surfaces}
 import candela.shapes.*
-import candela.testing.{Draws, Soups}
 
 /** Something that rays land on and leave: a surface alone in the world. */
 final class Target(surfaces: Surfaces, motion: Motion):
@@ -17,7 +16,7 @@ final class Target(surfaces: Surfaces, motion: Motion):
   private val instanced = Instanced(Array(surfaces), instances)
   private val accelerator: Accelerator =
     if isPlain then BruteForce(primitives)
-    else BruteForce(Primitives(Soups.Empty, Array.empty, instances))
+    else BruteForce(Primitives(Solids.Empty, Array.empty, instances))
 
   def bounds: Bounds3 = accelerator.bounds
   def isHit(ray: Ray, hit: Hit): Boolean = accelerator.isOccluded(ray, hit)
@@ -32,7 +31,7 @@ object Target:
 
   def apply(shapes: Seq[Shape], motion: Motion = AtRest): Target =
     val solids = shapes.map(s => ShapeInstance(s, material = 0, light = -1))
-    new Target(Surfaces(Soups.Empty, solids.toArray), motion)
+    new Target(Surfaces(Solids.Empty, solids.toArray), motion)
 
   def mesh(soup: TriangleSoup, motion: Motion = AtRest): Target =
     new Target(Surfaces(soup, Array.empty), motion)
@@ -61,9 +60,24 @@ object Kind:
   )
 
   private def quadric(name: String, kind: Int, leaving: Leaving) =
-    of(name, leaving)((draws, toWorld, size) =>
-      Seq(Quadrics.random(draws, kind, size).placed(toWorld))
-    )
+    of(name, leaving)((draws, toWorld, size) => Seq(swept(draws, kind, size, toWorld)))
+
+  /** A quadric of about `size`, whole or in part. */
+  private def swept(draws: Draws, kind: Int, size: Float, toWorld: Transform): Quadric =
+    def part() = size * draws.between(0.2f, 1)
+    val phi = if draws.coin() then TwoPi else draws.between(0.5f, 6)
+    val profile = kind match
+      case 0 => Profile.cylinder(part(), -part(), part())
+      case 1 => Profile.cone(part(), part())
+      case 2 =>
+        val top = part()
+        val bottom = if draws.coin() then 0f else top * draws.between(0, 0.8f)
+        Profile.paraboloid(part(), bottom, top)
+      case _ =>
+        val (waist, tilt) = (part(), draws.between(-1.5f, 1.5f))
+        def at(z: Float) = Vec3(waist, tilt * z, z)
+        Profile.hyperboloid(at(-part()), at(part())).get
+    Quadric(toWorld, profile, phi, false)
 
   private def curves(name: String, kind: CurveKind) =
     of(name, Leaving.Steeply, quick = 300): (draws, toWorld, size) =>
@@ -76,7 +90,7 @@ object Kind:
       Seq.tabulate(segments.count)(CurveSegment(segments, _))
 
   private def triangles(draws: Draws, toWorld: Transform, size: Float) =
-    Soups.of(Soups.around(draws, 1, size)(Vec3.Zero).map: (a, b, c) =>
+    Solids.of(Solids.around(draws, 1, size)(Vec3.Zero).map: (a, b, c) =>
       (toWorld.point(a), toWorld.point(b), toWorld.point(c)))
 
   val all: Seq[Kind] = Seq(
@@ -86,7 +100,7 @@ object Kind:
     of("disk", Leaving.Anywhere)((draws, toWorld, size) =>
       Seq(Disk(toWorld, size * draws.between(-1, 1), size, 0f, TwoPi, draws.coin()))
     ),
-    of("sphere", Leaving.Outwards)((_, toWorld, size) => Seq(Soups.sphere(toWorld, size))),
+    of("sphere", Leaving.Outwards)((_, toWorld, size) => Seq(Solids.sphere(toWorld, size))),
     of("part of a sphere", Leaving.Outwards)((draws, toWorld, size) =>
       Seq(Sphere(toWorld, size, -0.5f * size, 0.7f * size, draws.between(1, 6), false))
     ),
@@ -95,8 +109,12 @@ object Kind:
     quadric("paraboloid", 2, Leaving.Outwards),
     quadric("hyperboloid", 3, Leaving.Steeply),
     of("bilinear patch", Leaving.Steeply): (draws, toWorld, size) =>
-      val corners = BilinearPatches.corners(draws).map(p => toWorld.point((p - Half) * size))
-      Seq(BilinearPatches.of(corners))
+      val corners =
+        for v <- Seq(0f, 1f); u <- Seq(0f, 1f)
+        yield toWorld.point((Vec3(u, v, 0f) + draws.vec(-0.33f, 0.33f) - Half) * size)
+      val order = Array(0, 1, 2, 3)
+      val mesh = BilinearMesh(Solids.flat(corners), order, Array.empty, Array.empty, false)
+      Seq(BilinearPatch(mesh, 0))
     ,
     curves("flat curve", CurveKind.Flat),
     curves("round curve", CurveKind.Cylinder),
