@@ -44,36 +44,6 @@ final class GuideMixture:
       at += Size
       k += 1
 
-  /** Takes the lobes of the photons around a point of this side; false if there are none. */
-  def locate(field: PhotonField, p: Vec3, side: Int): Boolean =
-    import PhotonField.{Change, Direction, Size}
-    place(0) = p.x
-    place(1) = p.y
-    place(2) = p.z
-    val region = field.region(side, place)
-    val from = field.data
-    var at = field.begin(region) * Size
-    count = Math.min(field.end(region) - field.begin(region), Lobes)
-    var k = 0
-    while k < count do
-      val dx = p.x - from(at)
-      val dy = p.y - from(at + 1)
-      val dz = p.z - from(at + 2)
-      val c = at + Change
-      val x = from(at + Direction) + from(c) * dx + from(c + 1) * dy + from(c + 2) * dz
-      val y = from(at + Direction + 1) + from(c + 3) * dx + from(c + 4) * dy + from(c + 5) * dz
-      val z = from(at + Direction + 2) + from(c + 6) * dx + from(c + 7) * dy + from(c + 8) * dz
-      val s = 1f / Math.max(sqrt(x * x + y * y + z * z), 1e-12f)
-      xs(k) = x * s
-      ys(k) = y * s
-      zs(k) = z * s
-      kappas(k) = from(at + PhotonField.Kappa)
-      factors(k) = from(at + PhotonField.Factor)
-      ends(k) = from(at + PhotonField.End)
-      at += Size
-      k += 1
-    count > 0
-
   /** Solid-angle density. */
   def pdf(w: Vec3): Float =
     val x = w.x

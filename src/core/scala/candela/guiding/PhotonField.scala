@@ -13,7 +13,7 @@ package candela.guiding
   * @param starts of each region, its first photon; one more is the end of the last
   * @param data   [[PhotonField.Size]] numbers of each photon: position, direction (a unit vector
   *               away from the surface), the nine numbers of the derivative of the direction by
-  *               position, row by row; the concentration, the weight times the factor that
+  *               position, row by row; the sharpness, the weight times the factor that
   *               normalises the lobe, and the sum of weights of the region up to this one, which
   *               ends with one
   */
@@ -40,7 +40,7 @@ object PhotonField:
   private[guiding] inline val Size = 18
   private[guiding] inline val Direction = 3
   private[guiding] inline val Change = 6
-  private[guiding] inline val Kappa = 15
+  private[guiding] inline val Sharpness = 15
   private[guiding] inline val Factor = 16
   private[guiding] inline val End = 17
 

@@ -19,7 +19,7 @@ private[guiding] final class PhotonLobes(
     to: Array[Float]
 ):
   import FieldPhotons.{Direction, Distance, Known, Power}
-  import PhotonField.{Change, End, Factor, Kappa, Size}
+  import PhotonField.{Change, End, Factor, Sharpness, Size}
   import PhotonLobes.*
   private val from = photons.data
   private val errors = new Array[Float](PhotonFieldBuilder.Most)
@@ -41,11 +41,11 @@ private[guiding] final class PhotonLobes(
       System.arraycopy(from, at, to, own, Change)
       val width = fit(at, begin, last)
       System.arraycopy(best, 0, to, own + Change, 9)
-      val kappa = 1f / square(width)
+      val sharpness = 1f / square(width)
       val weight = from(at + Power) / total
       sum += weight
-      to(own + Kappa) = kappa
-      to(own + Factor) = (weight * Lobe.factor(kappa)).toFloat
+      to(own + Sharpness) = sharpness
+      to(own + Factor) = (weight * (1.0 + 2.0 * sharpness) / (4.0 * Math.PI)).toFloat
       to(own + End) = if i == last - 1 then 1f else sum.toFloat
       i += 1
 

@@ -29,7 +29,8 @@ private[integrators] final class Guidance(
 
   /** Where the path records; null: nowhere. */
   private var part = ownPart
-  private val mixture, aim = GuideMixture()
+  private val mixture = GuideMixture()
+  private val aim = PhotonMixture()
   private val tally = guide.newTally()
 
   /** Density of the path over that of BSDF sampling: its throughput times this is the one that BSDF

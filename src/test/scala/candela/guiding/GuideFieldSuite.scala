@@ -19,7 +19,7 @@ class GuideFieldSuite extends AnyFunSuite:
     val mixture = GuideMixture()
     val p = place(0)
     mixture.locate(learnt, region(p, Up), p)
-    MixtureDensity.check(mixture)
+    MixtureDensity.check(mixture.pdf, mixture.sample)
 
   test("from all places of a region, a near light is seen where it is"):
     val mixture = GuideMixture()

@@ -11,7 +11,7 @@ private object MixtureDensity:
   private val Samples = 1 << 16
 
   /** Its lobes must be wide enough for a grid of 256 × 256 cells. */
-  def check(mixture: GuideMixture): Unit =
+  def check(pdf: Vec3 => Float, sample: (Float, Float, MutableVec3) => Unit): Unit =
     val sampler = IndependentSampler(Samples, 1)
     val wi = MutableVec3()
     // Of a grid of 8 × 8 cells on the square: the integral of the density, and the samples' share
@@ -20,10 +20,10 @@ private object MixtureDensity:
       // The middles of 256 × 256 cells
       val (x, y) = ((i % 256 + 0.5f) / 256f, (i / 256 + 0.5f) / 256f)
       val at = EqualAreaMap.toDirection(x, y)
-      expected((x * 8).toInt + 8 * (y * 8).toInt) += mixture.pdf(at) * 4.0 * Math.PI / Samples
+      expected((x * 8).toInt + 8 * (y * 8).toInt) += pdf(at) * 4.0 * Math.PI / Samples
       sampler.start(0, 0, i)
       sampler.next2D()
-      mixture.sample(sampler.x, sampler.y, wi)
+      sample(sampler.x, sampler.y, wi)
       assert(Math.abs(wi.length - 1f) < 1e-4f)
       val to = EqualAreaMap.toImage(wi)
       found((to.x * 8).toInt + 8 * (to.y * 8).toInt) += 1.0 / Samples
