@@ -41,6 +41,9 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
       if reference.isEmpty then estimate.at(samples) else points.lastOption.map(_.errors)
     errors.map(e => Math.sqrt(e.relativeMse))
 
+  /** Whether few pixels have nearly all of the estimated error. */
+  def isOfFew: Boolean = reference.isEmpty && estimate.isOfFew
+
   /** Samples per pixel at which the relative error falls to this, by its trend. */
   def samplesUntil(error: Double): Option[Double] =
     val relativeMse = error * error

@@ -3,8 +3,9 @@ package candela.measure
 import candela.base.{GivenUp, loop}
 import candela.image.Image
 
-/** Pixel means for relative errors. A pixel whose noise is as large as itself takes the mean of
-  * those neighbours that differ from it by noise: a firefly must not hide its own error.
+/** Pixel means for relative errors. The noisier a pixel is, the more it takes the mean of those
+  * around that differ from it by noise, and of itself: a firefly must not hide its own error, nor
+  * its neighbours, which lack it, make that seem larger than it is.
   *
   * @param variance of each value
   * @param isStopped whether to give up
@@ -24,15 +25,15 @@ final class QuietMeans(
       loop(channels): c =>
         val at = (y * image.width + x) * channels + c
         val own = Math.max(image.data(at), 0f).toDouble
-        val noise = 2 * variance(at) / square(own + Metrics.RelativeEpsilon)
-        val share = Math.min(1, noise * noise)
-        val mean = if share < 0.01 then own else own + (around(x, y, c) - own) * share
+        val noise = variance(at) / square(own + Metrics.RelativeEpsilon)
+        val share = Math.min(1, QuietMeans.Doubt * noise)
+        val mean = if share < 0.05 then own else own + (around(x, y, c) - own) * share
         weights(at) = (1 / square(mean + Metrics.RelativeEpsilon)).toFloat
 
   /** The weight of a squared error, by which it is relative. */
   def weight(i: Int): Float = weights(i)
 
-  /** Mean of the neighbours that differ by noise. */
+  /** Mean of the pixels around that differ by noise, and of itself. */
   private def around(x: Int, y: Int, c: Int): Double =
     val at = (y * image.width + x) * channels + c
     val (own, noise) = (image.data(at).toDouble, variance(at).toDouble)
@@ -49,12 +50,21 @@ final class QuietMeans(
           all += 1
         nx += 1
       ny += 1
-    if all > 0 then sum / all else Math.max(own, 0)
+    if all == 0 then Math.max(own, 0)
+    else (sum + Math.max(0, Math.min(own, QuietMeans.Brightest * sum / all))) / (all + 1)
 
   private def square(a: Double): Double = a * a
 
 private object QuietMeans:
   val Radius = 2
+
+  /** From a relative variance of one over this on, a pixel's mean says no more than each of the
+    * others.
+    */
+  val Doubt = 2.0
+
+  /** A pixel counts no more than this many times the mean of the others. */
+  val Brightest = 4.0
 
   /** Squared difference over variance: three standard deviations. */
   val Spread = 9

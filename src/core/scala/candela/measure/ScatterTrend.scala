@@ -27,16 +27,30 @@ final class ScatterTrend private (gap: Double, shrinkage: Double):
   /** V(2N) / V(N). */
   def ratio: Double =
     val next = 0.5 - gap * shrinkage
-    next * ScatterTrend(gap * shrinkage, shrinkage).factor / factor
+    next * doubled.factor / factor
+
+  private def doubled = ScatterTrend(gap * shrinkage, shrinkage)
+
+  /** How many times N samples have V(N) times `part`. */
+  def times(part: Double): Double =
+    var (trend, left, doublings) = (this, part, 0)
+    while left < trend.ratio && doublings < ScatterTrend.MostDoublings do
+      left /= trend.ratio
+      trend = trend.doubled
+      doublings += 1
+    Math.scalb(Math.pow(left, Math.log(2) / Math.log(trend.ratio)), doublings)
 
 object ScatterTrend:
   private val Terms = 24
+  private val MostDoublings = 60
 
   /** Of independent samples. */
-  val Independent: ScatterTrend = new ScatterTrend(0, UsualShrinkage.mean)
+  val Independent: ScatterTrend = new ScatterTrend(0, 1)
 
-  // Means and variances about as in the scenes of docs/NOISE.md
-  private def UsualShrinkage = Known(0.9, 0.005)
+  // Means and variances about as in the scenes of docs/NOISE.md. The large gap of smooth direct
+  // light stays longer than one that is soon lost in independent noise
+  private def usualShrinkage(gap: Double) =
+    Known(Math.max(0.8, Math.min(0.9, 0.55 + 2 * gap)), 0.003)
   private def UsualGap = Known(0.08, 0.01)
 
   private def apply(gap: Double, shrinkage: Double) = new ScatterTrend(gap, shrinkage)
@@ -47,7 +61,7 @@ object ScatterTrend:
     (gapOf(now, half), gapOf(half, quarter)) match
       case (Some(last), Some(before)) =>
         val old = before.and(UsualGap).atLeast(1e-3)
-        val usual = UsualShrinkage
+        val usual = usualShrinkage(old.mean)
         val measured = (last.variance + usual.mean * usual.mean * old.variance) / old.square
         val found = Known(last.mean / old.mean, measured).and(usual)
         val shrinkage = Math.max(0.4, Math.min(1, found.mean))

@@ -65,6 +65,28 @@ class ErrorEstimateSuite extends AnyFunSuite:
     assert(Math.abs(estimate.at(64).get.relativeMse / known - 0.5) < 0.04)
     assert(Math.abs(estimate.samplesUntil(known / 4).get - 128) < 12)
 
+  test("an error that few pixels have is known to be uncertain"):
+    def isOfFew(noisy: Int) =
+      val estimate = ErrorEstimate()
+      val random = scala.util.Random(5)
+      for n <- Vector(1, 2) do
+        val image = Image.rgb(side, side)
+        for i <- image.data.indices do
+          image.data(i) = if i / 3 < noisy then random.nextFloat() else 0.5f
+        val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), isLast = false)
+      estimate.isOfFew
+    // Of 2304 pixels a third or less counts, as few halves differ much
+    assert(!isOfFew(side * side) && isOfFew(9))
+
+  test("the gap between scatters closes, and an error takes as many samples as that says"):
+    val parts = Vector(0.4, 1.0, 2.86).map(d => Array.fill(20)(d))
+    val trend = ScatterTrend.of(parts)
+    assert(trend.ratio < 0.48)
+    assert(Math.abs(trend.times(trend.ratio) - 2) < 1e-9)
+    // Later doublings bring less
+    assert(trend.times(trend.ratio * trend.ratio * trend.ratio) > 8.2)
+    assert(Math.abs(ScatterTrend.Independent.times(0.25) - 4) < 1e-9)
+
   test("an estimate that is given up changes nothing"):
     val random = scala.util.Random(4)
     val images = Vector.fill(3)(Image.rgb(side, side))

@@ -33,12 +33,13 @@ private[cli] final class SceneRun(
   private val reporting =
     Option.when(options.reports.nonEmpty)(Reporting(options, writer.name, prepared))
   private val errorLog = ErrorLog.of(plan)
-  private val goal = Option.when(settings.goal.isGiven):
-    def recorder = ErrorRecorder(plan.development, None)
-    Goal(settings.goal, plan.samplesPerPixel, reporting.fold(recorder)(_.recorder))
-  private val reached = Option.when(
-    goal.isEmpty && reporting.isEmpty && !options.quiet && !isPreview && options.film.shard.isWhole
-  )(ReachedError(plan.development, plan.samplesPerPixel))
+  private val recorder: Option[ErrorRecorder] = reporting.map(_.recorder).orElse:
+    val tells = !options.quiet && !isPreview && options.film.shard.isWhole
+    if settings.goal.isGiven then Some(ErrorRecorder(plan.development, None))
+    else Option.when(tells)(ReachedError(plan.development, plan.samplesPerPixel))
+  private val goal =
+    for r <- recorder if settings.goal.isGiven
+    yield Goal(settings.goal, plan.samplesPerPixel, r)
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
 
@@ -70,10 +71,7 @@ private[cli] final class SceneRun(
     val shown = Option.when(!options.quiet)(RenderListener.onProgress(progress.update))
     val followed = watching.map(w => RenderListener.onStart(w.start))
     val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
-    val listeners =
-      shown ++ goal.orElse(
-        reporting.map(_.recorder)
-      ).orElse(reached) ++ errorLog ++ images ++ followed
+    val listeners = shown ++ goal.orElse(recorder) ++ errorLog ++ images ++ followed
     val control = RenderControl(
       options.threadCount,
       cancellation,
@@ -123,9 +121,10 @@ private[cli] final class SceneRun(
     val files = written ++ films
     val develops = if denoised.isEmpty then "develop" else "develop and denoise"
     val after = Vector(develops -> developSeconds, "write" -> writeSeconds)
-    val error = Option.when(!isPreview && reporting.isEmpty)(goal.orElse(reached)).flatten
-      .flatMap(_.errorAt(rendering.samplesDone))
-    Summary.print(options, terminal, files, prepared, rendering, after, isLate, error)
+    val noise =
+      for r <- recorder if !isPreview; error <- r.errorAt(rendering.samplesDone)
+      yield Summary.noise(error, r.isOfFew)
+    Summary.print(options, terminal, files, prepared, rendering, after, isLate, noise.getOrElse(""))
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
     val threads = options.threadCount

@@ -17,17 +17,17 @@ object Summary:
     *
     * @param standIns number of missing items replaced by placeholders
     * @param isLate   whether its time was over
-    * @param error    relative error, if it was estimated
+    * @param noise    what is said of the error, if it was estimated
     */
   def result(
       written: Vector[Path],
       r: Rendering,
       standIns: Int = 0,
       isLate: Boolean = false,
-      error: Option[Double] = None
+      noise: String = ""
   ): String =
-    val noise = error.fold("")(e => s", error ${Figures.percentage(e)}")
-    val missing = noise + placeholders(standIns) + darkness(r)
+    val told = if noise.isEmpty then "" else s", $noise"
+    val missing = told + placeholders(standIns) + darkness(r)
     val names = written.mkString(", ")
     if r.isComplete && r.seconds == 0 then
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
@@ -44,6 +44,13 @@ object Summary:
         else if r.samplesDone > 1 then s"$done samples"
         else s"$done sample"
       s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r)}$missing"
+
+  /** @param error   relative error
+    * @param isOfFew whether few pixels have nearly all of it
+    */
+  def noise(error: Double, isOfFew: Boolean): String =
+    val doubt = if isOfFew then " or more, as few pixels have nearly all of it" else ""
+    s"error ${Figures.percentage(error)}$doubt"
 
   private def ended(isLate: Boolean) = if isLate then "out of time" else "interrupted"
 
@@ -80,7 +87,7 @@ object Summary:
     * @param written its files
     * @param after   the phases after rendering, with their seconds
     * @param isLate  whether its time was over
-    * @param error   relative error, if it was estimated
+    * @param noise   what is said of the error, if it was estimated
     */
   def print(
       options: Options,
@@ -90,7 +97,7 @@ object Summary:
       rendering: Rendering,
       after: Vector[(String, Double)] = Vector.empty,
       isLate: Boolean = false,
-      error: Option[Double] = None
+      noise: String = ""
   ): Unit =
     for r <- rendering.refused do
       terminal.err.println(refused(r, isTraceable = !options.settings.preview))
@@ -98,7 +105,7 @@ object Summary:
       if options.verbose then
         terminal.err.println(phases(prepared, rendering, after))
         rendering.learned.foreach(o => terminal.err.println(Learning.summary(o)))
-      terminal.out.println(result(written, rendering, prepared.standIns, isLate, error))
+      terminal.out.println(result(written, rendering, prepared.standIns, isLate, noise))
       terminal.out.flush()
 
   private def phases(
