@@ -46,8 +46,12 @@ private[report] object Numbers:
   def count(n: Long): String =
     if n < 10000 then n.toString
     else
-      val exponent = Math.floor(Math.log10(n.toDouble)).toInt
-      val digits = fixed(n / Math.pow(10, exponent), 2).stripSuffix("0").stripSuffix("0")
+      // Three digits, before the power is known: 99,999 is 10⁵
+      val step = Math.pow(10, Math.floor(Math.log10(n.toDouble)) - 2)
+      val rounded = Math.round(n / step) * step
+      val exponent = Math.floor(Math.log10(rounded) + 1e-9).toInt
+      val digits =
+        fixed(rounded / Math.pow(10, exponent), 2).stripSuffix("0").stripSuffix("0")
       if digits == "1." then s"10${raised(exponent)}"
       else s"${digits.stripSuffix(".")}·10${raised(exponent)}"
 

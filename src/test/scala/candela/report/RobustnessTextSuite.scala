@@ -33,6 +33,10 @@ class RobustnessTextSuite extends AnyFunSuite:
     for (seen, most) <- Vector(0L -> 2.9957, 1L -> 4.7439, 10L -> 16.962, 100L -> 118.08) do
       assert(Math.abs(Robust.most(seen) / most - 1) < 0.01, seen)
 
+  test("counts have three digits, and powers of ten none"):
+    val texts = Vector(9999L, 99_999L, 100_000L, 25_000_000L, 99_856L, 2_083L).map(Numbers.count)
+    assert(texts == Vector("9999", "10⁵", "10⁵", "2.5·10⁷", "9.99·10⁴", "2083"))
+
   test("a mean is faulty if it is off by more than is allowed and more than its noise"):
     assert(!Robust.Mean(0.504, 0, 0.5, 0.01).isFaulty)
     assert(Robust.Mean(0.506, 0, 0.5, 0.01).isFaulty)

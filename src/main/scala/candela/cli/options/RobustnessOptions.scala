@@ -18,7 +18,7 @@ final case class RobustnessOptions(
 )
 
 object RobustnessOptions:
-  /** A minute on two cores. */
+  /** Enough to see what is wrong in one of 10,000 trials. */
   final val UsualRays = 200_000L
 
   /** A day or more. */
