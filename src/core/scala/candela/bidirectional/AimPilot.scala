@@ -52,7 +52,7 @@ private[candela] object AimPilot:
   inline val FewPaths = 1 << 15
 
   /** Light paths for a pixel, and at most, where it finds them useful. */
-  inline val PerPixel = 4
+  inline val PerPixel = 16
   inline val MostPaths = 1 << 18
 
   /** Pairs of paths that tell how many rays an unguided path has. */

@@ -1,8 +1,8 @@
 package candela.guiding
 
 /** Where photons came from that casters of caustics have scattered: directions that bring light
-  * which paths would find by chance alone. Space is divided into regions of some photons each; each
-  * photon is a lobe around the direction that it came from. Its direction changes from place to
+  * which paths would find by chance alone. Space is divided into regions of some photons each, for
+  * which lobes stand around the directions that they came from. Its direction changes from place to
   * place as that of its light path did, if the path was started a little aside. Immutable; shared
   * by all workers.
   *
@@ -10,10 +10,10 @@ package candela.guiding
   * change of directions Schjøth, Frisvad, Erleben, Sporring, "Photon Differentials", GRAPHITE 2007.
   *
   * @param tree   of regions
-  * @param starts of each region, its first photon; one more is the end of the last
-  * @param data   [[PhotonField.Size]] numbers of each photon: position, direction (a unit vector
-  *               away from the surface), the nine numbers of the derivative of the direction by
-  *               position, row by row; the sharpness, the weight times the factor that
+  * @param starts of each region, its first lobe; one more is the end of the last
+  * @param data   [[PhotonField.Size]] numbers of each lobe: position of its photon, direction (a
+  *               unit vector away from the surface), the nine numbers of the derivative of the
+  *               direction by position, row by row; the sharpness, the weight times the factor that
   *               normalises the lobe, and the sum of weights of the region up to this one, which
   *               ends with one
   */
@@ -24,7 +24,7 @@ final class PhotonField private[guiding] (
 ):
   import PhotonField.*
 
-  /** Photons in all. */
+  /** Lobes in all. */
   def count: Int = data.length / Size
 
   /** Regions that have photons. */
@@ -36,7 +36,7 @@ final class PhotonField private[guiding] (
   private[guiding] def end(region: Int): Int = starts(region + 1)
 
 object PhotonField:
-  /** Numbers of a photon, and the places of some. */
+  /** Numbers of a lobe, and the places of some. */
   private[guiding] inline val Size = 18
   private[guiding] inline val Direction = 3
   private[guiding] inline val Change = 6

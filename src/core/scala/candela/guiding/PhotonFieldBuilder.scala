@@ -29,14 +29,26 @@ final class PhotonFieldBuilder(photons: FieldPhotons, pool: Parallel):
       divide(side, begin, end, all)
       begin = end
     val starts = 0 +: ends.take()
-    val lobes = new Array[Float](photons.count * PhotonField.Size)
-    pool.ranges(starts.length - 1): (from, until) =>
-      val fit = PhotonLobes(photons, order, lobes)
+    val regions = starts.length - 1
+    val fitted = new Array[Float](photons.count * PhotonField.Size)
+    val counts = new Array[Int](regions)
+    pool.ranges(regions): (from, until) =>
+      val fit = PhotonLobes(photons, order, fitted)
       var region = from
       while region < until do
-        fit(starts(region), starts(region + 1))
+        counts(region) = fit(starts(region), starts(region + 1))
         region += 1
-    new PhotonField(RegionTree(axis.take(), split.take(), below.take()), starts, lobes)
+    val firsts = counts.scanLeft(0)(_ + _)
+    val lobes = new Array[Float](firsts.last * PhotonField.Size)
+    loop(regions): region =>
+      System.arraycopy(
+        fitted,
+        starts(region) * PhotonField.Size,
+        lobes,
+        firsts(region) * PhotonField.Size,
+        counts(region) * PhotonField.Size
+      )
+    new PhotonField(RegionTree(axis.take(), split.take(), below.take()), firsts, lobes)
 
   private def addNode(): Unit =
     axis += 0
@@ -117,7 +129,7 @@ final class PhotonFieldBuilder(photons: FieldPhotons, pool: Parallel):
 
 object PhotonFieldBuilder:
   /** Photons of a region. */
-  private[guiding] inline val Most = 16
+  private[guiding] inline val Most = 64
 
   /** Distance to photons within which a place belongs to them, in widths of all of them. */
   private[guiding] inline val Margin = 0.1f

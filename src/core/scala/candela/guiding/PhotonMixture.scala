@@ -12,7 +12,8 @@ import candela.sampling.Warp
   */
 final class PhotonMixture:
   import PhotonField.*
-  private val xs, ys, zs, sharpness, factors, ends = new Array[Float](PhotonFieldBuilder.Most)
+  import PhotonMixture.Most
+  private val xs, ys, zs, sharpness, factors, ends = new Array[Float](Most)
   private val place = new Array[Float](3)
   private var count = 0
 
@@ -26,7 +27,7 @@ final class PhotonMixture:
     val region = field.region(side, place)
     val from = field.data
     var at = field.begin(region) * Size
-    count = Math.min(field.end(region) - field.begin(region), PhotonFieldBuilder.Most)
+    count = field.end(region) - field.begin(region)
     var k = 0
     while k < count do
       val dx = p.x - from(at)
@@ -71,3 +72,7 @@ final class PhotonMixture:
     val sin = sqrt(Math.max(0f, down * (2f - down)))
     val frame = Frame.around(Vec3(xs(k), ys(k), zs(k)))
     to.set(frame.toWorld(Warp.around(1f - down, sin, v)))
+
+object PhotonMixture:
+  /** Lobes of a region. */
+  private[guiding] inline val Most = 16
