@@ -8,8 +8,8 @@ import candela.math.*
   * A photon tells where light comes from at its own place. How that changes is known in three ways:
   * the direction stays, as that of the sun; or it is that to the last point where the light was
   * scattered; or it changes as the light path did when it was started aside. Each photon takes what
-  * foretells best the directions of photons near it, and its lobe is as wide as that is wrong. Photons
-  * that a lobe foretells add to its weight.
+  * foretells best the directions of photons near it, and its lobe is as wide as that is wrong.
+  * Photons that a lobe foretells add to its weight.
   *
   * @param order of photons, region by region
   * @param to    numbers of all lobes, in this order
