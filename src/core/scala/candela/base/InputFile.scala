@@ -62,6 +62,10 @@ final class InputFile private[base] (
 
   def stream(): InputStream = BufferedInputStream(Gated(Files.newInputStream(readable), gate))
 
+  /** Its first bytes, to look at in passing: they are not counted, since they are read again. */
+  def beginning(most: Int): Array[Byte] =
+    Using.resource(Files.newInputStream(readable))(_.readNBytes(most))
+
   /** In memory as the system sees fit. Its whole size is counted. */
   def map(): ByteBuffer = Using.resource(channel()): channel =>
     if channel.size > Int.MaxValue then throw IOException("larger than 2 GB")

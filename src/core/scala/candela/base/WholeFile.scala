@@ -31,13 +31,15 @@ object WholeFile:
 
   /** Lets `body` write the file.
     *
+    * @param isForced whether the device has it when this ends; else it may be damaged if the
+    *   machine fails, which its reader must find
     * @throws WriteError if that fails with an IOException
     */
-  def write(path: Path)(body: FileChannel => Unit): Unit =
+  def write(path: Path, isForced: Boolean = true)(body: FileChannel => Unit): Unit =
     val next = NextFile.of(path)
     try
       next.write(body)
-      next.commit()
+      if isForced then next.commit() else next.place()
     finally next.close()
 
   /** Why the file can't be written, as far as it can be told without writing. */
@@ -116,14 +118,18 @@ final class NextFile private (
   def commit(before: => Unit = ()): Unit = named:
     if target.nonEmpty then channel.force(true)
     before
+    place()
     for file <- target do
-      // Still locked: no other run takes it for a left one
-      NextFile.move(temporary, file)
       // The folder's entry, where the system can force it to the device
       val _ = Try:
         val folder = FileChannel.open(file.toAbsolutePath.getParent, StandardOpenOption.READ)
         try folder.force(true)
         finally folder.close()
+
+  /** Replaces the file. */
+  private[base] def place(): Unit = named:
+    // Still locked: no other run takes it for a left one
+    for file <- target do NextFile.move(temporary, file)
 
   /** Gives up what has not been committed. */
   def close(): Unit =

@@ -78,7 +78,8 @@ private[build] object BuildContext:
   def apply(
       whole: SceneDescription,
       settings: RenderSettings,
-      pool: Parallel = Parallel.Alone
+      pool: Parallel = Parallel.Alone,
+      textures: TextureControl = TextureControl()
   ): BuildContext =
     val isBlind = whole.dialect.base == Dialect.V4 && whole.worldToCamera.start.isFlat
     val description = if isBlind then background(whole) else whole
@@ -95,7 +96,7 @@ private[build] object BuildContext:
     val origin = RenderOrigin.of(description)
     val there = origin.around(description)
     val mode = ColorPlan.mode(settings.colorMode, description)
-    def context(asked: Switches) =
+    def context(asked: Switches, store: TextureStore) =
       val mayBeSpectral = mode != ColorMode.Rgb
       val switches =
         asked.copy(
@@ -105,12 +106,13 @@ private[build] object BuildContext:
         )
       val allowance = description.folder.allowance
       val resources =
-        new Resources(basis, pool, settings.seed, mayBeSpectral, switches, allowance)
+        new Resources(basis, pool, settings.seed, mayBeSpectral, switches, allowance, store)
       new BuildContext(there, origin, resources, problems)
-    val plain = context(Switches())
+    val plain = context(Switches(), TextureStore.InMemory)
     val statement = plain.unwritten("Option", "")
       .copy(params = description.options, folder = description.folder)
-    context(settings.over(OptionRecipe.build(plain.site(statement))))
+    val asked = settings.over(OptionRecipe.build(plain.site(statement)))
+    context(asked, TextureStore.of(description, textures, pool))
 
   /** The start of the scene's file, if it has one. */
   private def start(scene: SceneDescription): SourcePos =

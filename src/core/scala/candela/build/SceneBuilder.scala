@@ -2,6 +2,7 @@ package candela.build
 
 import candela.accel.tracing.Hierarchies
 import candela.base.{Code, Limit, Parallel, Problem}
+import candela.build.recipe.TextureControl
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
 import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands, Splats, View}
@@ -19,11 +20,13 @@ import candela.scenefile.SceneDescription
   * @param pool      executes divisible work
   * @param taken     samples per pixel to take, if not as many as the points are made for
   * @param footprint size of a sample's footprint, in pixels, if not that of their number
+  * @param textures  how image textures are kept
   */
 final case class BuildControl(
     pool: Parallel = Parallel.Alone,
     taken: Option[Int] = None,
-    footprint: Option[Float] = None
+    footprint: Option[Float] = None,
+    textures: TextureControl = TextureControl()
 )
 
 /** Builds a render plan from a description. Connects scene files to rendering.
@@ -42,7 +45,7 @@ object SceneBuilder:
       settings: RenderSettings = RenderSettings(),
       control: BuildControl = BuildControl()
   ): (RenderPlan, Vector[Problem]) =
-    val context = BuildContext(description, settings, control.pool)
+    val context = BuildContext(description, settings, control.pool, control.textures)
     val image = ImageSetup.of(context, settings)
     val taken = control.taken.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
     def integratorIn(context: BuildContext) =
@@ -272,12 +275,13 @@ object SceneBuilder:
       features = Vector(
         "dialect" -> dialect(context.description),
         "integrator" -> integrator.describe
-      ) ++ context.origin.describe.map("origin" -> _) ++ world.features ++ Vector(
-        "motion" -> moving(camera, world),
-        "layers" -> described(image.layers, film.development.bands),
-        "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
-        "samples" -> (if shares then "splatted under the filter" else "one pixel each")
-      ) ++ FireflyLimits.feature(settings) ++
+      ) ++ context.origin.describe.map("origin" -> _) ++ world.features ++
+        context.resources.textures.describe.map("images" -> _) ++ Vector(
+          "motion" -> moving(camera, world),
+          "layers" -> described(image.layers, film.development.bands),
+          "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
+          "samples" -> (if shares then "splatted under the filter" else "one pixel each")
+        ) ++ FireflyLimits.feature(settings) ++
         guiding(context, settings, method, samples, crop.pixels),
       differentialScale = footprint(context, sampling),
       shutter = Option.when(moves)(camera.shutter),

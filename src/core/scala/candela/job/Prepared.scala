@@ -2,6 +2,7 @@ package candela.job
 
 import candela.base.Problem
 import candela.build.RenderSettings
+import candela.build.recipe.TextureControl
 import candela.color.Rgb
 import candela.render.{
   Cancellation, Checkpointer, Renderer, Rendering, RenderListener, RenderPlan, RenderState, Shard,
@@ -22,6 +23,7 @@ import java.nio.file.Path
   * @param footprint  size of a sample's footprint, in pixels, if not that of their number
   * @param world      which of the file's worlds, from 0
   * @param isFirst    whether the others are not looked at, which is then told
+  * @param textures   how image textures are kept
   */
 final case class Preparation(
     settings: RenderSettings = RenderSettings(),
@@ -31,7 +33,8 @@ final case class Preparation(
     taken: Option[Int] = None,
     footprint: Option[Float] = None,
     world: Int = 0,
-    isFirst: Boolean = false
+    isFirst: Boolean = false,
+    textures: TextureControl = TextureControl()
 )
 
 /** How a prepared scene is rendered; the image is the same.

@@ -53,7 +53,9 @@ object SceneLoader:
     val started = System.nanoTime
     val pool = ThreadPool(how.threads, worksAside = how.isRendered)
     try
-      val control = BuildControl(pool, how.taken, how.footprint)
+      // Scenes of strangers write nothing that their user did not ask for
+      val textures = how.textures.copy(isShared = !how.limits.sandbox)
+      val control = BuildControl(pool, how.taken, how.footprint, textures)
       val (plan, warnings) = SceneBuilder.build(description, how.settings, control)
       val seconds = (System.nanoTime - started) * 1e-9
       val all = description.warnings ++ warnings

@@ -54,6 +54,29 @@ object TextForm:
     s => s"${s}s"
   )
 
+  private val Count = """(\d+(?:\.\d+)?)(?i:([kmgt])(i?))?""".r
+
+  /** A number of things, with a unit: 20M, 1.5G, 512Mi. */
+  val count: TextForm[Long] = TextForm(
+    "a number, e.g. 1000 or 20M",
+    {
+      case Count(digits, unit, binary) =>
+        val power = Option(unit).fold(0)(u => "kmgt".indexOf(u.toLowerCase) + 1)
+        val base = if Option(binary).exists(_.nonEmpty) then 1024 else 1000
+        val all = BigDecimal(digits) * BigDecimal(base).pow(power)
+        Option.when(all.isValidLong || all < Long.MaxValue)(all.toLong)
+      case _ => None
+    },
+    _.toString
+  )
+
+  /** Bytes. */
+  val size: TextForm[Long] = TextForm(
+    "a size, e.g. 500MB, 2G or 1Gi",
+    text => count.read(text.replaceFirst("(?i)(?<=[0-9kmgti])b$", "")),
+    _.toString
+  )
+
   val definition: TextForm[(String, String)] = TextForm(
     "NAME=VALUE",
     text =>

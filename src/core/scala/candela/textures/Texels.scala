@@ -14,9 +14,21 @@ abstract class Texels(val width: Int, val height: Int, val channels: Int):
   /** Writes the row `y`, channels interleaved. */
   def row(y: Int, out: Array[Float]): Unit
 
+  /** The values of 256 codes, if the texels are bytes; else empty. */
+  def meaning: Array[Float] = Array.emptyFloatArray
+
+  /** The `i`th number as it is kept: a byte, or the bits of a Float. */
+  private[textures] def code(i: Int): Int
+
 /** Bytes, decoded by a table of 256 values. */
-final class ByteTexels(w: Int, h: Int, channels: Int, bytes: Array[Byte], meaning: Array[Float])
-    extends Texels(w, h, channels):
+final class ByteTexels(
+    w: Int,
+    h: Int,
+    channels: Int,
+    bytes: Array[Byte],
+    override val meaning: Array[Float]
+) extends Texels(w, h, channels):
+  private[textures] def code(i: Int): Int = bytes(i) & 0xff
   def apply(texel: Int, channel: Int): Float = meaning(bytes(texel * channels + channel) & 0xff)
   def row(y: Int, out: Array[Float]): Unit =
     val start = y * w * channels
@@ -24,6 +36,7 @@ final class ByteTexels(w: Int, h: Int, channels: Int, bytes: Array[Byte], meanin
 
 final class FloatTexels(w: Int, h: Int, channels: Int, values: Array[Float])
     extends Texels(w, h, channels):
+  private[textures] def code(i: Int): Int = java.lang.Float.floatToRawIntBits(values(i))
   def apply(texel: Int, channel: Int): Float = values(texel * channels + channel)
   def row(y: Int, out: Array[Float]): Unit =
     System.arraycopy(values, y * w * channels, out, 0, w * channels)

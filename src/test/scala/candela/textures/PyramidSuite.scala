@@ -53,10 +53,10 @@ class PyramidSuite extends AnyFunSuite:
     for wrap <- Wrap.values; channels <- Seq(1, 3) do
       val size = 150
       val from = FloatTexels(size, size, channels, Array.fill(channels * size * size)(draws.unit()))
-      def all(parallel: Parallel) = Pyramid.of(from, wrap, 1f, parallel)
+      def all(parallel: Parallel) = Pyramid.levels(from, wrap, 1f, parallel)
       val alone = all(Parallel.Alone)
       val together = all(ThreadPool(3))
       assert(alone.length == together.length)
       loop(alone.length): k =>
-        val same = numbers(alone(k).texels) == numbers(together(k).texels)
+        val same = numbers(alone(k)) == numbers(together(k))
         if !same then fail(s"level $k, $wrap")

@@ -10,7 +10,8 @@ import candela.bsdf.composite.Edition
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
-import candela.scenefile.{Declaration, Dialect}
+import candela.image.StoredImage
+import candela.scenefile.{Declaration, Dialect, Param}
 import candela.textures.{AffineUvMapping, FloatTexture, Mapping2D, MipLevel, Texels, Wrap}
 
 /** Recipes of materials. */
@@ -139,20 +140,36 @@ abstract class MaterialRecipe(
       field <- normals
       name <- field.given_() if name.nonEmpty
       p <- site.declaration.param("normalmap")
-      stored <- site.resources.image(p, site.declaration, site.problems)
-    yield
-      // pbrt-v4 decodes 8-bit files, except for PNG
-      val isDecoded = site.rules.decodesNormals &&
-        stored.encoding != Encoding.Linear && !name.toLowerCase.endsWith(".png")
+      map <- normalMap(name, p)
+    yield map
+
+  private def normalMap(name: String, p: Param)(using site: Site): Option[MipLevel] =
+    // pbrt-v4 decodes 8-bit files, except for PNG
+    val isPng = name.toLowerCase.endsWith(".png")
+    def decodes(found: Encoding) =
+      val isDecoded = site.rules.decodesNormals && found != Encoding.Linear && !isPng
       if isDecoded then
         site.problems.warn(
           Code.AsInPbrt,
           p.at,
           "pbrt-v4 decodes this normal map as sRGB; it reads PNG and EXR as they are"
         )
-      val decode: Float => Float = if isDecoded then Encoding.Srgb.decode(_) else identity
-      pyramid:
-        MipLevel(Texels.color(stored, decode), Wrap.Repeat)
+      isDecoded
+    def texels(stored: StoredImage) =
+      Texels.color(stored, if decodes(stored.encoding) then Encoding.Srgb.decode(_) else identity)
+    site.resources.textures.tiles match
+      case Some(tiles) =>
+        val ways = s"normals ${site.rules.decodesNormals && !isPng}"
+        for
+          image <- site.resources.tiled(tiles, p, site, StandIns.Magentas, ways, Wrap.Repeat):
+            stored => (Array(texels(stored)), Vector.empty)
+        yield
+          val _ = decodes(image.encoding)
+          pyramid(image.levels(0))
+      case None =>
+        for stored <- site.resources.image(p, site.declaration, site.problems) yield
+          val _ = decodes(stored.encoding)
+          pyramid(MipLevel(texels(stored), Wrap.Repeat))
 
 /** Base of materials with the common roughness parameters.
   *

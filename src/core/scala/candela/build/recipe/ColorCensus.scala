@@ -69,8 +69,11 @@ final class ColorCensus(basis: ColorBasis):
 
   /** An image in linear sRGB: some of its pixels. */
   def addImage(pixels: Int, role: SpectrumRole)(color: Int => Rgb): Unit =
-    val some = 0.until(pixels, Math.max(1, pixels / PixelsOfImage)).map(color).toVector
-    for c <- farApartColors(some) do add(c, role, basis.fromSrgb(c))
+    addColors(ofImage(pixels)(color), role)
+
+  /** Colours that stand for those of an image. */
+  def addColors(some: Vector[Rgb], role: SpectrumRole): Unit =
+    for c <- some do add(c, role, basis.fromSrgb(c))
 
   /** A reflectance by wavelength in nm. */
   def addReflectance(key: Any, s: Float => Float): Unit =
@@ -130,7 +133,7 @@ final class ColorCensus(basis: ColorBasis):
         ColoredSpectrum(values.map(v => Math.exp(-v / mean)), through)
       )
 
-private object ColorCensus:
+object ColorCensus:
   /** Share of daylight in [[ColorCensus.light]]. */
   private val Daylight = 0.2
 
@@ -143,6 +146,10 @@ private object ColorCensus:
 
   /** Pixels that stand for the colours of an image. */
   private val PixelsOfImage = 1000
+
+  /** Colours that stand for those of an image in linear sRGB. */
+  def ofImage(pixels: Int)(color: Int => Rgb): Vector[Rgb] =
+    farApartColors(0.until(pixels, Math.max(1, pixels / PixelsOfImage)).map(color).toVector)
 
   private def farApart(all: Vector[ColoredSpectrum]): Vector[ColoredSpectrum] =
     // Scenes have thousands of colours

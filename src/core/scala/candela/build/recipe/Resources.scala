@@ -30,12 +30,13 @@ final class Resources private (
       seed: Int = 0,
       mayBeSpectral: Boolean = false,
       switches: Switches = Switches(),
-      allowance: Allowance = Allowance()
+      allowance: Allowance = Allowance(),
+      textures: TextureStore = TextureStore.InMemory
   ) = this(
     basis,
     pool,
     seed,
-    SharedResources(basis, mayBeSpectral, switches, allowance),
+    SharedResources(basis, mayBeSpectral, switches, allowance, textures),
     basis,
     NamedMaterials.Statements()
   )

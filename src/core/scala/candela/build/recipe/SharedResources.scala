@@ -1,17 +1,19 @@
 package candela.build.recipe
 
+import java.io.IOException
 import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
 
 import scala.collection.mutable
 
 import candela.accel.tracing.WarmUps
-import candela.base.{Allowance, Code, InputFile, Limit, SceneFolder, SourcePos}
-import candela.color.ColorBasis
+import candela.base.{Allowance, Code, InputFile, IoReason, Limit, Refusal, SceneFolder, SourcePos}
+import candela.color.{ColorBasis, Rgb}
 import candela.bsdf.layered.Coats
 import candela.bsdf.subsurface.ProfileTables
 import candela.image.{ImageError, ImageFiles, StoredImage}
 import candela.scenefile.{Declaration, Param}
+import candela.textures.{CachedImage, MadeTexels, Texels, TileCache, Wrap}
 
 /** Resources that do not depend on the colour basis: files, and tables computed from them. Safe for
   * threads: bases are made in parallel.
@@ -19,12 +21,14 @@ import candela.scenefile.{Declaration, Param}
   * @param mayBeSpectral whether rendering may be spectral
   * @param switches      settings of the whole scene
   * @param allowance     how much the scene may use
+  * @param textures      how image textures are kept
   */
 final class SharedResources(
     basis: ColorBasis,
     val mayBeSpectral: Boolean,
     val switches: Switches,
-    val allowance: Allowance
+    val allowance: Allowance,
+    val textures: TextureStore
 ):
   /** The spectra read so far. */
   val census = ColorCensus(basis)
@@ -95,14 +99,17 @@ final class SharedResources(
       found
 
   private def load(file: InputFile, at: SourcePos): Either[ImageError, StoredImage] = synchronized:
+    images.getOrElseUpdate(
+      file.path.toAbsolutePath.normalize,
+      try Right(decoded(file, at))
+      catch case e: ImageError => Left(e)
+    )
+
+  private def decoded(file: InputFile, at: SourcePos): StoredImage =
     def admit(width: Int, height: Int) =
       allowance.check(Limit.Pixels, width.toLong * height, Some(at)):
         s"`${file.path.getFileName}` has $width×$height pixels"
-    images.getOrElseUpdate(
-      file.path.toAbsolutePath.normalize,
-      try Right(ImageFiles.colored(file.path, ImageFiles.load(file, admit)))
-      catch case e: ImageError => Left(e)
-    )
+    ImageFiles.colored(file.path, ImageFiles.load(file, admit))
 
   /** Loads the image that a parameter names; images are cached. */
   def image(
@@ -112,11 +119,56 @@ final class SharedResources(
       standIn: String = StandIns.Magentas
   ): Option[StoredImage] =
     file(p, from, problems, standIn).flatMap: file =>
-      loaded.computeIfAbsent(file.path, _ => load(file, p.valuesAt)) match
-        case Right(image) =>
-          for remark <- remarks.computeIfAbsent(file.path, _ => ImageFiles.remark(file)) do
-            problems.warn(Code.CutImage, p.valuesAt, remark)
-          Some(image)
-        case Left(e) =>
-          problems.missing(e.code, p.valuesAt, e.getMessage, standIn)
-          None
+      val image = loaded.computeIfAbsent(file.path, _ => load(file, p.valuesAt))
+      told(image, file, p, problems, standIn)
+
+  /** The image that a parameter names, in tiles.
+    *
+    * @param ways    what its texels depend on, beside the file
+    * @param convert makes texels of each level, and the colours that stand for all
+    */
+  def tiled(
+      tiles: TileCache,
+      p: Param,
+      site: Site,
+      standIn: String,
+      ways: String,
+      wrap: Wrap
+  )(convert: StoredImage => (Array[Texels], Vector[Rgb])): Option[CachedImage] =
+    file(p, site.declaration, site.problems, standIn).flatMap: file =>
+      var isAgain = false
+      def make() =
+        if isAgain && !textures.isSame(file) then
+          throw ImageError(Code.Unreadable, s"$file: it has changed, or is gone")
+        isAgain = true
+        val stored = decoded(file, p.valuesAt)
+        val (levels, colors) = convert(stored)
+        MadeTexels(levels, stored.encoding, colors)
+      val image =
+        try
+          val digest = Refusal.placed(p.valuesAt)(textures.digest(file))
+          val made = tiles.image(s"$digest $ways", wrap)(() => make())
+          isAgain = true
+          Right(made)
+        catch
+          case e: ImageError => Left(e)
+          case e: IOException =>
+            Left(ImageError(Code.Unreadable, s"$file: can't be read: ${IoReason(e)}"))
+      textures.warn(site.problems)
+      told(image, file, p, site.problems, standIn)
+
+  /** Reports what is to be said of an image. */
+  private def told[A](
+      image: Either[ImageError, A],
+      file: InputFile,
+      p: Param,
+      problems: Findings,
+      standIn: String
+  ): Option[A] = image match
+    case Right(image) =>
+      for remark <- remarks.computeIfAbsent(file.path, _ => ImageFiles.remark(file)) do
+        problems.warn(Code.CutImage, p.valuesAt, remark)
+      Some(image)
+    case Left(e) =>
+      problems.missing(e.code, p.valuesAt, e.getMessage, standIn)
+      None

@@ -9,7 +9,8 @@ import candela.math.*
 import candela.scenefile.{Dialect, ParamType}
 import candela.textures.*
 
-abstract class ImageMapRecipe[A](standIn: String)
+/** @param category what its texels are */
+abstract class ImageMapRecipe[A](standIn: String, category: String)
     extends MappedRecipe[A]("imagemap", "image texture"):
   private val filename =
     string("filename", "image file: exr, pfm, hdr, png, qoi, tga, jpg …", shown = "none")("")
@@ -44,50 +45,85 @@ abstract class ImageMapRecipe[A](standIn: String)
   private val anisotropy =
     float("maxanisotropy", "maximum anisotropy: footprint length over width")(8f)
 
-  /** Returns the image's lookup. Reports problems and returns None.
-    *
-    * @param texels how to make the texels, when the texture is first seen
-    */
-  protected def lookup(texels: (StoredImage, Float => Float) => () => Texels)(using
-      site: Site
-  ): Option[ImageLookup] =
+  /** The texels of an image of the scene. */
+  protected def texels(stored: StoredImage, decode: Float => Float)(using Site): Texels
+
+  /** Likewise in memory, when the texture is first seen. */
+  protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels
+
+  /** Colours that stand for all of the texels, if they are colours. */
+  protected def colors(texels: Texels): Vector[Rgb]
+
+  /** Notes them, if they decide how the scene is rendered. */
+  protected def note(colors: => Vector[Rgb])(using Site): Unit
+
+  /** Returns the image's lookup. Reports problems and returns None. */
+  protected def lookup()(using site: Site): Option[ImageLookup] =
     site.declaration.param("filename").filter(_ => filename().nonEmpty) match
       case None =>
         site.error(Code.MissingParameter, "an \"imagemap\" needs `filename`")
         None
       case Some(p) =>
-        for stored <- site.resources.image(p, site.declaration, site.problems, standIn) yield
-          val wrapping = wrap match
-            case "black" => Wrap.Black
-            case "clamp" => Wrap.Clamp
-            case "mirror" => Wrap.Mirror
-            case "octahedralsphere" => Wrap.OctahedralSphere
-            case _ => Wrap.Repeat
-          pyramid:
-            filtered(texels(stored, decoding(stored)), wrapping, stored)
+        site.resources.textures.tiles match
+          case Some(tiles) =>
+            val made = site.resources.tiled(tiles, p, site, standIn, ways, wrapping): stored =>
+              val texels = this.texels(stored, decoding(stored.encoding))
+              val levels =
+                if isPlain then Array(texels)
+                else Pyramid.levels(texels, wrapping, most(stored), site.resources.pool)
+              (levels, colors(texels))
+            for image <- made yield
+              val _ = decoding(image.encoding) // reports what is wrong
+              note(image.colors)
+              pyramid(filtered(MipMap.of(image.levels)))
+          case None =>
+            for stored <- site.resources.image(p, site.declaration, site.problems, standIn)
+            yield pyramid:
+              val texels = whenSeen(stored, decoding(stored.encoding))
+              filtered:
+                if isPlain then MipMap.plain(wrapping)(texels)
+                else
+                  val (width, height) = (stored.width, stored.height)
+                  MipMap.ofImage(width, height, wrapping, most(stored), site.resources.pool):
+                    texels
 
-  private def filtered(texels: () => Texels, wrap: Wrap, stored: StoredImage)(using
-      site: Site
-  ): ImageLookup =
+  /** What the texels of an image file depend on. */
+  private def ways(using site: Site): String =
+    val file = filename().toLowerCase
+    val suffix = Seq(".png", ".tga").find(file.endsWith).mkString
+    val decoding = site.dialect match
+      case Dialect.V2 => s"${scale()} ${gammaNumber()}"
+      case Dialect.V3 => s"${gammaFlag.given_()}"
+      case Dialect.V4 | Dialect.Mitsuba => encoding()
+    s"$category ${site.dialect} of ${site.rules.program} $suffix $decoding $wrapping " +
+      (if isPlain then "plain" else "levels")
+
+  private def wrapping(using Site): Wrap = wrap match
+    case "black" => Wrap.Black
+    case "clamp" => Wrap.Clamp
+    case "mirror" => Wrap.Mirror
+    case "octahedralsphere" => Wrap.OctahedralSphere
+    case _ => Wrap.Repeat
+
+  /** Images that are not filtered are neither enlarged nor reduced. */
+  private def isPlain(using site: Site): Boolean =
+    !site.rules.filters && !site.resources.switches.meanImages
+
+  /** pbrt-v4 stores 8-bit images with 8 bits. */
+  private def most(stored: StoredImage)(using site: Site): Float =
+    val isBytes = stored match
+      case _: ByteImage => true
+      case _: Image => false
+    if site.dialect == Dialect.V4 && isBytes then 1f else Float.PositiveInfinity
+
+  private def filtered(all: MipMap)(using site: Site): ImageLookup =
     val dialect = site.dialect
     val bottomUp = dialect != Dialect.V2 || filename().toLowerCase.endsWith(".tga")
     val isV4 = dialect == Dialect.V4
     val kind =
       if isV4 then filter().toLowerCase else if trilinear() then "trilinear" else "ewa"
     site.resources.askForFootprints(s"$kind image textures")
-    // pbrt-v4 stores 8-bit images with 8 bits
-    val isBytes = stored match
-      case _: ByteImage => true
-      case _: Image => false
-    val most = if isV4 && isBytes then 1f else Float.PositiveInfinity
-    // Images that are not filtered are neither enlarged nor reduced
-    val switches = site.resources.switches
-    val pyramid =
-      if !site.rules.filters && !switches.meanImages then MipMap.plain(wrap)(texels)
-      else
-        val pool = site.resources.pool
-        val all = MipMap.ofImage(stored.width, stored.height, wrap, most, pool)(texels)
-        if switches.meanImages then MipMap.ofMean(all) else all
+    val pyramid = if site.resources.switches.meanImages then MipMap.ofMean(all) else all
     kind match
       case "point" => LevelLookup(pyramid, interpolates = false, bottomUp, turned = !isV4)
       case "bilinear" => LevelLookup(pyramid, interpolates = true, bottomUp, turned = !isV4)
@@ -96,7 +132,7 @@ abstract class ImageMapRecipe[A](standIn: String)
         TrilinearLookup(pyramid, factor, fromSecond = isV4, bottomUp, turned = !isV4)
       case _ => EwaLookup(pyramid, anisotropy(), bottomUp, turned = !isV4)
 
-  private def decoding(stored: StoredImage)(using site: Site): Float => Float =
+  private def decoding(stored: Encoding)(using site: Site): Float => Float =
     site.dialect match
       case Dialect.V2 =>
         // v2 scales before the exponent; `scale` must not be applied twice
@@ -111,9 +147,9 @@ abstract class ImageMapRecipe[A](standIn: String)
         if flag.getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
       case Dialect.V4 | Dialect.Mitsuba =>
         // Floating-point images are linear; in pbrt, `encoding` applies to PNG, all else is sRGB
-        val isOpen = site.rules.decodesAll && stored.encoding != Encoding.Linear
+        val isOpen = site.rules.decodesAll && stored != Encoding.Linear
         if isOpen || filename().toLowerCase.endsWith(".png") then encoded()
-        else if stored.encoding == Encoding.Linear then identity
+        else if stored == Encoding.Linear then identity
         else Encoding.Srgb.decode(_)
 
   private def encoded()(using site: Site): Float => Float =
@@ -143,28 +179,43 @@ abstract class ImageMapRecipe[A](standIn: String)
   protected def outerScale(using site: Site): Float =
     if site.dialect == Dialect.V2 then 1f else scale()
 
-object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones):
+object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "numbers"):
   protected def make()(using site: Site): FloatTexture =
-    def texels(stored: StoredImage, decode: Float => Float) =
-      val _ = stored.colorChannels // an error without any
-      () => site.rules.toNumber(stored, decode)
-    lookup(texels).fold(StandIns.number)(FloatImageTexture(mapped(period), _, outerScale, invert()))
+    lookup().fold(StandIns.number)(FloatImageTexture(mapped(period), _, outerScale, invert()))
 
-object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
+  protected def texels(stored: StoredImage, decode: Float => Float)(using site: Site): Texels =
+    site.rules.toNumber(stored, decode)
+
+  protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels =
+    val _ = stored.colorChannels // an error without any
+    () => texels(stored, decode)
+
+  protected def colors(texels: Texels): Vector[Rgb] = Vector.empty
+  protected def note(colors: => Vector[Rgb])(using Site): Unit = ()
+
+object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "colours"):
   protected def make()(using site: Site): RgbTexture =
     val basis = site.resources.basis
-    def texels(stored: StoredImage, decode: Float => Float) =
-      val made = inSrgb(stored, decode)
-      for census <- site.resources.counting if made.channels == 3 do
-        census.addImage(made.width * made.height, SpectrumRole.Reflectance): i =>
-          Rgb(made(i, 0), made(i, 1), made(i, 2))
-      () => made
-    lookup(texels).fold(StandIns.color(basis)): found =>
+    lookup().fold(StandIns.color(basis)): found =>
       val image = RgbImageTexture(mapped(period), found, outerScale, invert())
       if basis.isSrgb then image else RebasedTexture(image, basis.lookUp)
 
+  protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels =
+    val made = texels(stored, decode)
+    note(colors(made))
+    () => made
+
+  protected def colors(texels: Texels): Vector[Rgb] =
+    if texels.channels != 3 then Vector.empty
+    else
+      ColorCensus.ofImage(texels.width * texels.height): i =>
+        Rgb(texels(i, 0), texels(i, 1), texels(i, 2))
+
+  protected def note(colors: => Vector[Rgb])(using site: Site): Unit =
+    site.resources.counting.foreach(_.addColors(colors, SpectrumRole.Reflectance))
+
   /** pbrt-v4 alone knows other colour spaces. */
-  private def inSrgb(image: StoredImage, decode: Float => Float)(using site: Site): Texels =
+  protected def texels(image: StoredImage, decode: Float => Float)(using site: Site): Texels =
     val isConverted = site.dialect == Dialect.V4 && !image.colorSpace.isSrgb
     Texels.color(if isConverted then image.toImage.toReflectances else image, decode)
 

@@ -35,6 +35,7 @@ private[cli] object FilmInput:
       files = Vector(scene),
       settings = FilmHeaders.settings(film.header).copy(goal = now.settings.goal),
       limits = now.limits,
+      textures = now.textures,
       threads = now.threads,
       quiet = now.quiet,
       verbose = now.verbose,

@@ -3,6 +3,7 @@ package candela.cli.options
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.base.{Code, Problem, Suggest}
+import candela.build.recipe.TextureControl
 import candela.build.{RenderRegion, RenderSettings}
 import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
 import candela.convert.Baking
@@ -185,6 +186,7 @@ enum Page(val option: String):
   * @param compare options of `compare`
   * @param image options of `image` and `average`
   * @param limits what scenes may do
+  * @param textures how image textures are kept
   */
 final case class Options(
     command: Command = Command.Render,
@@ -220,7 +222,8 @@ final case class Options(
     to: Option[Dialect] = None,
     toPly: Option[Int] = None,
     bake: Option[Int] = None,
-    limits: SceneLimits = SceneLimits()
+    limits: SceneLimits = SceneLimits(),
+    textures: TextureControl = TextureControl()
 ):
   def setting(change: RenderSettings => RenderSettings): Options = copy(settings = change(settings))
 
@@ -237,7 +240,8 @@ final case class Options(
       isRendered = command != Command.Check,
       taken,
       footprint,
-      isFirst = command != Command.Render
+      isFirst = command != Command.Render,
+      textures = textures
     )
 
   /** How pictures show linear light: those of renderings, and of images that are there. */

@@ -21,8 +21,8 @@ private[cli] object LimitTable:
     else
       val most = limit match
         case Limit.Time => milliseconds(amount)
-        case Limit.Bytes => number(amount.replaceFirst("(?i)(?<=[0-9kmgti])b$", ""))
-        case _ => number(amount)
+        case Limit.Bytes => TextForm.size.read(amount)
+        case _ => TextForm.count.read(amount)
       Changed(
         limit,
         Some(most.getOrElse(
@@ -36,16 +36,6 @@ private[cli] object LimitTable:
     case Limit.Time => "a duration, e.g. time=90s, time=10m or time=none"
     case Limit.Bytes => "a size, e.g. bytes=500MB, bytes=2GB or bytes=none"
     case other => s"a number, e.g. ${other.word}=1000, ${other.word}=20M or ${other.word}=none"
-
-  private val Number = """(\d+(?:\.\d+)?)(?i:([kmgt])(i?))?""".r
-
-  private def number(text: String): Option[Long] = text match
-    case Number(digits, unit, binary) =>
-      val power = Option(unit).fold(0)(u => "kmgt".indexOf(u.toLowerCase) + 1)
-      val base = if Option(binary).exists(_.nonEmpty) then 1024 else 1000
-      val all = BigDecimal(digits) * BigDecimal(base).pow(power)
-      Option.when(all.isValidLong || all < Long.MaxValue)(all.toLong)
-    case _ => None
 
   private def milliseconds(text: String): Option[Long] =
     TextForm.seconds.read(text).map(s => Math.max(1L, (s * 1000).toLong))

@@ -214,12 +214,13 @@ private[cli] object OptionTable extends OptionRows:
     sampler,
     fireflies
   ) ++ SwitchTable.render ++ FilmTable.render ++ ClusterTable.options ++
-    DisplayTable.options ++ LimitTable.options
+    DisplayTable.options ++ TextureTable.options ++ LimitTable.options
 
   private val resumeOptions: Vector[Row] = Vector(
     threads,
     samples("samples per pixel; more than planned adds samples")
-  ) ++ FilmTable.resume ++ Vector(quiet, verbose(", and the time of each phase"))
+  ) ++ FilmTable.resume ++ TextureTable.options ++
+    Vector(quiet, verbose(", and the time of each phase"))
 
   private val mergeOptions: Vector[Row] = Vector(
     opt[Seq[String]]('o', "outfile").required().unbounded().valueName("FILE[,FILE]")

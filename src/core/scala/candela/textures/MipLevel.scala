@@ -1,0 +1,77 @@
+package candela.textures
+
+import candela.color.Rgb
+import candela.math.*
+
+/** One level of a MIP map. Positions are in the unit square, the second coordinate down from the
+  * image's upper edge; texel centres are at half-integer multiples of the texel size.
+  */
+abstract class MipLevel(final val width: Int, final val height: Int, final val isGray: Boolean):
+
+  /** Where the texel (`x`, `y`) is for `apply`, after wrapping; negative for black. */
+  def index(x: Int, y: Int): Int
+
+  def apply(index: Int, channel: Int): Float
+
+  /** The texel that contains the point. */
+  def nearest(s: Float, row: Float): Rgb =
+    val i = index(MipLevel.floor(s * width), MipLevel.floor(row * height))
+    if isGray then Rgb.gray(apply(i, 0)) else Rgb(apply(i, 0), apply(i, 1), apply(i, 2))
+
+  /** Bilinear interpolation of the four nearest texels. */
+  def bilinear(s: Float, row: Float): Rgb =
+    val x = MipLevel.within(s * width - 0.5f)
+    val y = MipLevel.within(row * height - 0.5f)
+    val x0 = MipLevel.floor(x)
+    val y0 = MipLevel.floor(y)
+    val dx = x - x0
+    val dy = y - y0
+    val i00 = index(x0, y0)
+    val i10 = index(x0 + 1, y0)
+    val i01 = index(x0, y0 + 1)
+    val i11 = index(x0 + 1, y0 + 1)
+    if isGray then Rgb.gray(blend(i00, i10, i01, i11, 0, dx, dy))
+    else
+      Rgb(
+        blend(i00, i10, i01, i11, 0, dx, dy),
+        blend(i00, i10, i01, i11, 1, dx, dy),
+        blend(i00, i10, i01, i11, 2, dx, dy)
+      )
+
+  /** Derivatives of the first channel of [[bilinear]], by `s` and `row`. */
+  def slopes(s: Float, row: Float): Slopes =
+    val x = MipLevel.within(s * width - 0.5f)
+    val y = MipLevel.within(row * height - 0.5f)
+    val x0 = MipLevel.floor(x)
+    val y0 = MipLevel.floor(y)
+    val v00 = apply(index(x0, y0), 0)
+    val v10 = apply(index(x0 + 1, y0), 0)
+    val v01 = apply(index(x0, y0 + 1), 0)
+    val v11 = apply(index(x0 + 1, y0 + 1), 0)
+    Slopes(lerp(y - y0, v10 - v00, v11 - v01) * width, lerp(x - x0, v01 - v00, v11 - v10) * height)
+
+  private def blend(i00: Int, i10: Int, i01: Int, i11: Int, c: Int, dx: Float, dy: Float): Float =
+    lerp(dy, lerp(dx, apply(i00, c), apply(i10, c)), lerp(dx, apply(i01, c), apply(i11, c)))
+
+/** A level in memory. */
+private final class TexelLevel(texels: Texels, wrap: Wrap)
+    extends MipLevel(texels.width, texels.height, texels.channels == 1):
+  def index(x: Int, y: Int): Int = wrap.index(x, y, width, height)
+  def apply(index: Int, channel: Int): Float = if index < 0 then 0f else texels(index, channel)
+
+object MipLevel:
+  def apply(texels: Texels, wrap: Wrap): MipLevel = TexelLevel(texels, wrap)
+
+  /** Texels farther out than this have no numbers that one can count on from. */
+  private val Farthest = 1e9f
+
+  /** A place in texels, brought to where they have numbers; 0 for NaN. */
+  private[textures] def within(x: Float): Float =
+    if x >= -Farthest && x <= Farthest then x
+    else if x > Farthest then Farthest
+    else if x < -Farthest then -Farthest
+    else 0f
+
+  private[textures] def floor(x: Float): Int =
+    val truncated = x.toInt
+    if truncated > x then truncated - 1 else truncated

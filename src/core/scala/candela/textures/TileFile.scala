@@ -1,0 +1,184 @@
+package candela.textures
+
+import java.io.{ByteArrayInputStream, ByteArrayOutputStream, DataInputStream, DataOutputStream}
+import java.io.IOException
+import java.nio.{ByteBuffer, ByteOrder}
+import java.nio.channels.FileChannel
+import java.nio.file.{Path, StandardOpenOption}
+import java.util.zip.{CRC32, CRC32C}
+
+import candela.base.loop
+import candela.color.{Encoding, Rgb}
+
+/** What is known of an image in tiles.
+  *
+  * @param key      what it was made from, and how
+  * @param encoding of the image file
+  * @param colors   some that stand for all of it
+  * @param channels of each texel
+  * @param sizes    width and height of each level, and whether it has bytes
+  * @param meaning  of bytes
+  */
+private[textures] final case class TileHeader(
+    key: String,
+    encoding: Encoding,
+    colors: Vector[Rgb],
+    channels: Int,
+    sizes: Vector[(Int, Int, Boolean)],
+    meaning: Vector[Float]
+):
+  val places: Vector[TilePlace] = TilePlace.all(sizes, channels)
+  def count: Int = TilePlace.count(places)
+
+/** Texels that are put into tiles. */
+private[textures] final class TilePacker(places: Vector[TilePlace], levels: Array[Texels]):
+
+  def pack(tile: Int, into: Array[Int]): Unit =
+    java.util.Arrays.fill(into, 0)
+    loop(places.size): i =>
+      val place = places(i)
+      val local = tile - place.start
+      if local >= 0 && local < place.count then pack(place, levels(i), local, into)
+
+  private def pack(place: TilePlace, texels: Texels, tile: Int, into: Array[Int]): Unit =
+    val channels = texels.channels
+    val x = tile % place.tiles << place.across
+    val y = tile / place.tiles << place.down
+    val length = channels * Math.min(1 << place.across, place.width - x)
+    loop(Math.min(1 << place.down, place.height - y)): row =>
+      val from = ((y + row) * place.width + x) * channels
+      val to = place.base + (row << place.across) * channels
+      if place.isBytes then
+        loop(length): i =>
+          val k = to + i
+          into(k >> 2) |= texels.code(from + i) << ((k & 3) << 3)
+      else loop(length)(i => into(to + i) = texels.code(from + i))
+
+/** A tile in a file: its numbers, little-endian, and their checksum. */
+private[textures] object TileRecord:
+  val Data: Int = 4 * TileMemory.Ints
+  val Bytes: Int = Data + 4
+
+  def seal(record: ByteBuffer): Int =
+    val sum = CRC32C()
+    sum.update(record)
+    sum.getValue.toInt
+
+/** A file of tiles: a mark, a header with its length and checksum, and tiles of one size. */
+private[textures] final class TileFile private (
+    val header: TileHeader,
+    channel: FileChannel,
+    start: Long
+):
+  /** Reads a tile.
+    *
+    * @return whether it is undamaged
+    */
+  def read(tile: Int, buffer: TileBuffer): Boolean =
+    val bytes = buffer.bytes.clear()
+    val at = start + tile.toLong * TileRecord.Bytes
+    val isThere =
+      try
+        while bytes.hasRemaining && channel.read(bytes, at + bytes.position()) >= 0 do ()
+        !bytes.hasRemaining
+      catch case _: IOException => false
+    isThere && {
+      val sum = TileRecord.seal(bytes.clear().limit(TileRecord.Data))
+      bytes.clear()
+      val isWhole = bytes.getInt(TileRecord.Data) == sum
+      if isWhole then bytes.asIntBuffer.get(buffer.ints): Unit
+      isWhole
+    }
+
+private[textures] object TileFile:
+  private val Mark = 0x43544c31 // CTL1
+  private val MostHeader = 1 << 20
+
+  /** Opens a file of this key; None if it is missing, damaged or another. */
+  def open(path: Path, key: String): Option[TileFile] =
+    try
+      val channel = FileChannel.open(path, StandardOpenOption.READ)
+      val found =
+        try opened(channel, key)
+        catch case _: IOException | _: IllegalArgumentException => None
+      if found.isEmpty then channel.close()
+      found
+    catch case _: IOException => None
+
+  private def opened(channel: FileChannel, key: String): Option[TileFile] =
+    val beginning = read(channel, 0, 12)
+    val (mark, length, sum) = (beginning.getInt, beginning.getInt, beginning.getInt)
+    if mark != Mark || length < 0 || length > MostHeader then None
+    else
+      val bytes = read(channel, 12, length).array
+      val header = Option.when(sum == checksum(bytes))(decoded(bytes)).filter(_.key == key)
+      val start = 12L + length
+      header.filter(h => channel.size == start + h.count.toLong * TileRecord.Bytes)
+        .map(TileFile(_, channel, start))
+
+  private def read(channel: FileChannel, at: Long, length: Int): ByteBuffer =
+    val bytes = ByteBuffer.allocate(length)
+    while bytes.hasRemaining && channel.read(bytes, at + bytes.position()) >= 0 do ()
+    if bytes.hasRemaining then throw IOException("the file ends early")
+    bytes.flip()
+
+  private def checksum(bytes: Array[Byte]): Int =
+    val sum = CRC32()
+    sum.update(bytes)
+    sum.getValue.toInt
+
+  def write(channel: FileChannel, header: TileHeader, levels: Array[Texels]): Unit =
+    val about = encoded(header)
+    val out = ByteBuffer.allocate(12 + about.length)
+    out.putInt(Mark).putInt(about.length).putInt(checksum(about)).put(about).flip()
+    while out.hasRemaining do channel.write(out): Unit
+    val packer = TilePacker(header.places, levels)
+    val ints = new Array[Int](TileMemory.Ints)
+    val some = ByteBuffer.allocateDirect(Together * TileRecord.Bytes).order(ByteOrder.LITTLE_ENDIAN)
+    loop(header.count): tile =>
+      packer.pack(tile, ints)
+      val at = some.position()
+      some.asIntBuffer.put(ints)
+      val sum = TileRecord.seal(some.duplicate().position(at).limit(at + TileRecord.Data))
+      some.position(at + TileRecord.Data)
+      some.putInt(sum)
+      if !some.hasRemaining || tile == header.count - 1 then
+        some.flip()
+        while some.hasRemaining do channel.write(some): Unit
+        some.clear(): Unit
+
+  /** Tiles that are written at once. */
+  private val Together = 64
+
+  private def encoded(h: TileHeader): Array[Byte] =
+    val bytes = ByteArrayOutputStream()
+    val out = DataOutputStream(bytes)
+    out.writeUTF(h.key)
+    out.writeFloat(h.encoding match
+      case Encoding.Linear => 0f
+      case Encoding.Srgb => -1f
+      case Encoding.Gamma(exponent) => exponent)
+    out.writeInt(h.channels)
+    out.writeInt(h.sizes.size)
+    for (width, height, isBytes) <- h.sizes do
+      out.writeInt(width)
+      out.writeInt(height)
+      out.writeBoolean(isBytes)
+    out.writeInt(h.colors.size)
+    for c <- h.colors; x <- Vector(c.r, c.g, c.b) do out.writeFloat(x)
+    out.writeInt(h.meaning.size)
+    h.meaning.foreach(out.writeFloat)
+    bytes.toByteArray
+
+  private def decoded(bytes: Array[Byte]): TileHeader =
+    val in = DataInputStream(ByteArrayInputStream(bytes))
+    def many[A](one: => A): Vector[A] = Vector.fill(in.readInt())(one)
+    val key = in.readUTF()
+    val encoding = in.readFloat() match
+      case 0f => Encoding.Linear
+      case -1f => Encoding.Srgb
+      case exponent => Encoding.Gamma(exponent)
+    val channels = in.readInt()
+    val sizes = many((in.readInt(), in.readInt(), in.readBoolean()))
+    val colors = many(Rgb(in.readFloat(), in.readFloat(), in.readFloat()))
+    TileHeader(key, encoding, colors, channels, sizes, many(in.readFloat()))

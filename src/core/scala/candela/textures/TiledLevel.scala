@@ -1,0 +1,158 @@
+package candela.textures
+
+import candela.color.Rgb
+import candela.math.*
+
+/** An image in tiles, of which a [[TileMemory]] holds some. */
+private[textures] final class TiledImage(
+    private[textures] val memory: TileMemory,
+    source: TileSource,
+    count: Int
+):
+  private val first = memory.numbers(count)
+
+  // Slots + 1. Written without order: what a slot holds, its stamp tells
+  private val pages = new Array[Int](count)
+
+  /** The slot that the tile was in, or −1. */
+  def slot(tile: Int): Int = pages(tile) - 1
+
+  /** The number of a tile in the memory. */
+  def number(tile: Int): Int = first + tile
+
+  /** One of a tile's numbers. */
+  def value(tile: Int, at: Int): Int =
+    val slot = pages(tile) - 1
+    val stamp = if slot < 0 then 0L else memory.stamp(slot)
+    if TileMemory.holder(stamp) == first + tile then
+      val found = memory.ints(slot)(at)
+      if memory.isStill(slot, stamp) then found else load(tile, at)
+    else load(tile, at)
+
+  private def load(tile: Int, at: Int): Int =
+    memory.load(source, tile, first + tile, pages, at)
+
+/** A level whose texels are in tiles. A texel's index is that of its tile, and its place there.
+  *
+  * @param meaning of bytes; empty if the texels are Floats
+  */
+private[textures] final class TiledLevel(
+    image: TiledImage,
+    place: TilePlace,
+    wrap: Wrap,
+    channels: Int,
+    meaning: Array[Float]
+) extends MipLevel(place.width, place.height, channels == 1):
+  private val memory = image.memory
+  private val isBytes = meaning.nonEmpty
+  private val (across, down, start, base) = (place.across, place.down, place.start, place.base)
+  private val tiles = place.tiles
+  private val (inRow, inColumn) = ((1 << across) - 1, (1 << down) - 1)
+  private val (bits, inTile) = (across + down, (1 << (across + down)) - 1)
+
+  def index(x: Int, y: Int): Int =
+    if x >= 0 && y >= 0 && x < width && y < height then address(x, y)
+    else
+      val i = wrap.index(x, y, width, height)
+      if i < 0 then -1 else address(i % width, i / width)
+
+  private def address(x: Int, y: Int): Int =
+    ((y >> down) * tiles + (x >> across)) << bits | (y & inColumn) << across | x & inRow
+
+  def apply(index: Int, channel: Int): Float =
+    if index < 0 then 0f
+    else
+      val k = base + (index & inTile) * channels + channel
+      val value = image.value(start + (index >>> bits), if isBytes then k >> 2 else k)
+      if isBytes then meaning(value >>> ((k & 3) << 3) & 0xff)
+      else java.lang.Float.intBitsToFloat(value)
+
+  /** As of any level, at once if the four texels are in one tile that is there. */
+  override def bilinear(s: Float, row: Float): Rgb =
+    val x = MipLevel.within(s * width - 0.5f)
+    val y = MipLevel.within(row * height - 0.5f)
+    val x0 = MipLevel.floor(x)
+    val y0 = MipLevel.floor(y)
+    val isInside = x0 >= 0 && y0 >= 0 && x0 < width - 1 && y0 < height - 1 &&
+      (x0 & inRow) != inRow && (y0 & inColumn) != inColumn
+    if !isInside then super.bilinear(s, row)
+    else
+      val tile = start + (y0 >> down) * tiles + (x0 >> across)
+      val slot = image.slot(tile)
+      val stamp = if slot < 0 then 0L else memory.stamp(slot)
+      if TileMemory.holder(stamp) != image.number(tile) then super.bilinear(s, row)
+      else
+        val ints = memory.ints(slot)
+        val k = base + ((y0 & inColumn) << across | x0 & inRow) * channels
+        val dx = x - x0
+        val dy = y - y0
+        val color =
+          if isGray then Rgb.gray(blend(ints, k, dx, dy))
+          else Rgb(blend(ints, k, dx, dy), blend(ints, k + 1, dx, dy), blend(ints, k + 2, dx, dy))
+        if memory.isStill(slot, stamp) then color else super.bilinear(s, row)
+
+  private def blend(ints: Array[Int], k: Int, dx: Float, dy: Float): Float =
+    val below = k + (channels << across)
+    lerp(
+      dy,
+      lerp(dx, value(ints, k), value(ints, k + channels)),
+      lerp(dx, value(ints, below), value(ints, below + channels))
+    )
+
+  private def value(ints: Array[Int], k: Int): Float =
+    if isBytes then meaning(ints(k >> 2) >>> ((k & 3) << 3) & 0xff)
+    else java.lang.Float.intBitsToFloat(ints(k))
+
+/** Where a level's texels are in the tiles of an image.
+  *
+  * @param across, down binary logarithms of a tile's width and height, in texels
+  * @param start  its first tile; rows of `tiles` tiles follow
+  * @param base   of its first number in that tile
+  */
+private[textures] final case class TilePlace(
+    width: Int,
+    height: Int,
+    isBytes: Boolean,
+    across: Int,
+    down: Int,
+    start: Int,
+    base: Int = 0
+):
+  val tiles: Int = (width - 1 >> across) + 1
+  def count: Int = tiles * ((height - 1 >> down) + 1)
+
+private[textures] object TilePlace:
+
+  /** Places of the levels of an image, the largest first. The smallest are in one tile together. */
+  def all(sizes: Vector[(Int, Int, Boolean)], channels: Int): Vector[TilePlace] =
+    val numbers = sizes.map((w, h, isBytes) => if isBytes then Large else w.toLong * h * channels)
+    val isPowers = sizes.forall((w, h, _) => Integer.bitCount(w) == 1 && Integer.bitCount(h) == 1)
+    val tail =
+      if isPowers then sizes.indices.find(i => numbers.drop(i).sum <= TileMemory.Ints)
+      else None
+    val whole = tail.getOrElse(sizes.size)
+    val large = sizes.take(whole).foldLeft(Vector.empty[TilePlace]):
+      case (before, (w, h, isBytes)) =>
+        val (across, down) = shape(channels, isBytes)
+        before :+ TilePlace(w, h, isBytes, across, down, before.lastOption.fold(0)(end))
+    val start = large.lastOption.fold(0)(end)
+    val bases = numbers.drop(whole).scanLeft(0L)(_ + _)
+    large ++ sizes.drop(whole).zip(bases).map:
+      case ((w, h, _), base) =>
+        val (across, down) = (Integer.numberOfTrailingZeros(w), Integer.numberOfTrailingZeros(h))
+        TilePlace(w, h, isBytes = false, across, down, start, base.toInt)
+
+  /** The number of tiles. */
+  def count(all: Vector[TilePlace]): Int = end(all.last)
+
+  private def end(place: TilePlace): Int = place.start + place.count
+
+  /** Of tiles that hold [[TileMemory.Ints]] numbers at most. */
+  private def shape(channels: Int, isBytes: Boolean): (Int, Int) =
+    (channels, isBytes) match
+      case (1, true) => (7, 6)
+      case (1, false) => (6, 5)
+      case (_, true) => (6, 6)
+      case (_, false) => (5, 5)
+
+  private val Large = 1L << 32

@@ -1,0 +1,56 @@
+package candela.cli.options
+
+import java.nio.file.{InvalidPathException, Path}
+
+import candela.build.recipe.TextureControl
+import candela.job.TextForm
+
+import scopt.{OParser, Read}
+
+/** Rows of the option table on image textures. Each call makes new rows: scopt gives a row one
+  * parent.
+  */
+private[cli] object TextureTable extends OptionRows:
+  private val b = OParser.builder[Options]
+  import b.{failure, opt, success}
+
+  private given Read[Path] = Read.reads: text =>
+    try Path.of(text)
+    catch
+      case e: InvalidPathException =>
+        throw IllegalArgumentException(s"expected a folder: ${e.getReason}")
+
+  /** Enough for the tiles that one lookup needs, and some more. */
+  private val Least = 1_000_000L
+
+  private def kept[A](change: (A, TextureControl) => TextureControl): (A, Options) => Options =
+    (value, o) => o.copy(textures = change(value, o.textures))
+
+  def options: Vector[Row] = Vector(
+    opt[Long]("texture-memory")(using reading(TextForm.size)).valueName("SIZE")
+      .text(OptionText(
+        "memory for image textures, e.g. 500M or 2G: those that may take more are read in tiles, " +
+          "from a cache (default: an eighth of the heap, at most 1G)",
+        "The image is the same: [textures](TEXTURES.md)."
+      ))
+      .validate: n =>
+        if n >= Least then success
+        else failure(s"--texture-memory must be at least 1M, found `$n`")
+      .action(kept((n, t) => t.copy(memory = Some(n)))),
+    opt[Path]("texture-cache").valueName("FOLDER")
+      .text(OptionText(
+        "folder of the texture cache (default: candela/textures in the user's cache folder)",
+        "It may be deleted at any time: [textures](TEXTURES.md#the-cache)."
+      ))
+      .validate: folder =>
+        if folder.toString.nonEmpty then success
+        else failure("--texture-cache must be a folder, found an empty name")
+      .action(kept((f, t) => t.copy(folder = Some(f)))),
+    opt[Long]("texture-cache-size")(using reading(TextForm.size)).valueName("SIZE")
+      .text(OptionText(
+        "size of the texture cache: files that were used least recently are deleted beyond it " +
+          "(default 20G)",
+        "Files that a run has written stay until the next file is written."
+      ))
+      .action(kept((n, t) => t.copy(folderSize = n)))
+  )

@@ -1,0 +1,120 @@
+package candela.cli
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.base.loop
+import candela.image.{Image, ImageFiles}
+import candela.testing.{Draws, TempFolder}
+
+/** Renderings whose image textures don't fit into the memory that they may take. */
+class TextureMemorySuite extends AnyFunSuite:
+
+  private def picture(file: Path, width: Int, height: Int, seed: Int): Unit =
+    val draws = Draws(seed)
+    val image = Image.rgb(width, height)
+    loop(image.data.length)(i => image.data(i) = draws.unit())
+    ImageFiles.write(file, image)
+
+  private val square = """Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
+    "point3 P" [-1 -1 0  1 -1 0  1 1 0  -1 1 0] """
+
+  private val head = s"""Film "image" "integer xresolution" 12 "integer yresolution" 12
+    Sampler "halton" "integer pixelsamples" 2
+    LookAt 0 -3 2  0 0 0  0 0 1
+    Camera "perspective" "float fov" 50
+    WorldBegin
+    LightSource "point" "point3 from" [0 -1 3] "rgb I" [9 9 9]
+    """
+
+  /** Colours of all filters, alpha, bumps and normals. */
+  private val v4 = head.replace("\"image\"", "\"rgb\"") + """
+    Texture "c" "spectrum" "imagemap" "string filename" "a.png" "string filter" "ewa"
+    Texture "d" "spectrum" "imagemap" "string filename" "b.exr" "string filter" "trilinear"
+    Texture "e" "spectrum" "imagemap" "string filename" "a.png" "string filter" "bilinear"
+      "string encoding" "gamma 1.7" "string wrap" "clamp"
+    Texture "h" "float" "imagemap" "string filename" "b.exr" "float scale" .1
+    Texture "o" "float" "imagemap" "string filename" "c.png" "string filter" "point"
+    Material "diffuse" "texture reflectance" "c" "texture displacement" "h"
+    """ + square + """ "texture alpha" "o" "point2 uv" [0 0 3 0 3 3 0 3]
+    Translate 0 0 -.4
+    Material "diffuse" "texture reflectance" "d" "string normalmap" "a.png"
+    """ + square + """ "point2 uv" [0 0 1 0 1 1 0 1]
+    Translate 0 .8 0 Rotate 60 1 0 0
+    Material "diffuse" "texture reflectance" "e"
+    """ + square + """ "point2 uv" [-1 -1 2 -1 2 2 -1 2]
+    """
+
+  private val v3 = head + """
+    Texture "c" "color" "imagemap" "string filename" "c.png"
+    Texture "b" "float" "imagemap" "string filename" "a.png" "bool trilinear" "true"
+    Material "matte" "texture Kd" "c" "texture bumpmap" "b"
+    """ + square + """ "float st" [0 0 2 0 2 2 0 2]
+    """
+
+  private def scenes(folder: Path): Vector[Path] =
+    picture(folder.resolve("a.png"), 512, 256, 1)
+    picture(folder.resolve("b.exr"), 300, 200, 2)
+    picture(folder.resolve("c.png"), 500, 300, 3)
+    Vector("v4" -> v4, "v3" -> v3).map: (name, text) =>
+      Files.writeString(folder.resolve(s"$name.pbrt"), text)
+
+  private def render(scene: Path, words: String*): (Vector[Byte], String) =
+    val out = scene.resolveSibling("out.pfm")
+    val dialect = Vector("--dialect", scene.getFileName.toString.take(2))
+    val all = Vector(s"$scene", "--outfile", s"$out") ++ dialect ++ words
+    val (code, captured) = Captured.run(all*)
+    assert(code == 0, captured.err)
+    (Files.readAllBytes(out).toVector, captured.err)
+
+  test("images are the same in tiles and in memory, by one thread and three, and once more"):
+    TempFolder.use: folder =>
+      for scene <- scenes(folder) do
+        val cache = folder.resolve(s"cache ${scene.getFileName}")
+        val tiles = Vector("--texture-memory", "1M", "--texture-cache", s"$cache", "--nthreads")
+        val (whole, _) = render(scene, "--texture-memory", "1G", "--nthreads", "2")
+        assert(!Files.exists(cache))
+        val (first, _) = render(scene, tiles :+ "1"*)
+        assert(TempFolder.names(cache).nonEmpty)
+        val (second, said) = render(scene, tiles ++ Vector("3", "--explain")*)
+        assert(first == whole && second == whole, scene)
+        assert(said.contains("in tiles: at most 1 MB in memory"), said)
+
+  test("an image that has changed is seen as it is now"):
+    TempFolder.use: folder =>
+      val scene = scenes(folder).last
+      val tiles =
+        Vector("--texture-memory", "1M", "--texture-cache", s"${folder.resolve("cache")}")
+      val (before, _) = render(scene, tiles*)
+      picture(folder.resolve("c.png"), 500, 300, 4)
+      val (after, _) = render(scene, tiles*)
+      assert(after != before)
+      assert(after == render(scene, "--texture-memory", "1G")._1)
+
+  test("where the cache can't be written, one warning says so, and the image is the same"):
+    TempFolder.use: folder =>
+      val scene = scenes(folder).head
+      val file = folder.resolve("b.exr")
+      val (image, said) = render(scene, "--texture-memory", "1M", "--texture-cache", s"$file")
+      assert(said.split("warning").length == 2, said)
+      assert(said.contains("texture cache are kept in memory"), said)
+      assert(image == render(scene)._1)
+
+  test("in a sandbox nothing is written to the user's cache"):
+    TempFolder.use: folder =>
+      val scene = scenes(folder).last
+      val (_, said) = render(scene, "--texture-memory", "1M", "--sandbox", "--explain")
+      assert(said.contains("there is no folder for tiles"), said)
+
+  test("a wrong memory or folder is refused, with what was expected"):
+    for
+      (words, expected) <- Seq(
+        Vector("--texture-memory", "much") -> "must be a size, e.g. 500MB, 2G or 1Gi",
+        Vector("--texture-memory", "10") -> "--texture-memory must be at least 1M, found `10`",
+        Vector("--texture-cache-size", "-3") -> "must be a size",
+        Vector("--texture-cache", "") -> "must be a folder"
+      )
+    do
+      val (code, captured) = Captured.run("x.pbrt" +: words*)
+      assert(code != 0 && captured.err.contains(expected), captured.err)
