@@ -4,13 +4,15 @@ package candela.measure
   *
   * @param seconds of the whole process
   * @param memory  its peak resident memory in bytes, if known
+  * @param parts   its squared error, taken apart
   */
 final case class Measurement(
     samples: Int,
     seed: Int,
     seconds: Double,
     errors: Errors,
-    memory: Option[Long] = None
+    memory: Option[Long] = None,
+    parts: Option[ErrorParts] = None
 )
 
 /** All images of one sample count.
@@ -19,10 +21,29 @@ final case class Measurement(
   */
 final case class MeasuredPoint(samples: Int, seconds: Double, runs: Vector[Measurement]):
 
+  private val parts = runs.flatMap(_.parts)
+
   /** Mean over the seeds, an estimate of the expected error. None if a run lacks this metric. */
   def apply(metric: Metric): Option[Interval] =
     val figures = runs.map(_.errors(metric))
-    Option.when(figures.forall(_.isDefined))(Interval.ofMean(figures.flatten))
+    Option.when(figures.forall(_.isDefined)):
+      val ofParts = parts.flatMap(_(metric))
+      if ofParts.size == runs.size then ErrorInterval.of(ofParts).interval
+      else Interval.ofMean(figures.flatten)
+
+  /** Standard deviation of an image's error over the seeds. None for one seed. */
+  def deviation(metric: Metric): Option[Double] =
+    val figures = runs.flatMap(_.errors(metric))
+    Option.when(figures.size == runs.size && figures.sizeIs > 1)(Interval.deviation(figures))
+
+  /** Share of the worst hundredth of pixels in the relative MSE, if known. */
+  def worst: Option[Double] =
+    val shares = parts.map(p => (p.relative.sum, p.worst))
+    Option.when(shares.nonEmpty && shares.map(_._1).sum > 0):
+      shares.map(_ * _).sum / shares.map(_._1).sum
+
+  /** The error spectrum ensemble, if known. */
+  def spectrum: Vector[SpectrumBand] = ErrorSpectrum.ensemble(parts.map(_.spectrum))
 
 /** Error of one program on one scene against samples and time.
   *
@@ -49,22 +70,40 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
     * After Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, §2.2.
     */
   def efficiency: Option[Interval] =
-    points.lastOption.filter(_.runs.forall(_.errors.relativeMse > 0)).map: point =>
-      val seconds = Math.max(point.seconds, 1e-9)
-      Interval.ofGeometricMean(point.runs.map(r => 1 / (r.errors.relativeMse * seconds)))
+    for
+      point <- points.lastOption
+      error <- point(Metric.RelativeMse)
+      if error.estimate > 0
+    yield (error * Math.max(point.seconds, 1e-9)).inverse
 
-  /** Time in seconds until the mean relative MSE is at most this; see [[LogLogFit.firstAt]]. */
-  def secondsUntil(relativeMse: Double): Option[Double] =
-    LogLogFit.firstAt(curve, relativeMse)
+  /** Time in seconds until the expected relative MSE is at most this; see [[LogLogFit.firstAt]].
+    * Its limits are where the error's limits are at most this: 0 if the lower one is from the
+    * beginning, infinite if the upper one is nowhere.
+    */
+  def secondsUntil(relativeMse: Double): Option[Interval] =
+    LogLogFit.firstAt(curve(_.estimate), relativeMse).map: estimate =>
+      val errors = points.flatMap(_(Metric.RelativeMse))
+      if !errors.forall(_.isKnown) then Interval(estimate, Double.NaN, Double.NaN)
+      else
+        val begins = errors.headOption.forall(_.low <= relativeMse)
+        // Where there is no limit, as good as none: logarithms need one
+        val lows = curve(e => Math.max(e.low, 1e-9 * e.estimate))
+        val highs = curve(e => Math.min(e.high, 1e9 * e.estimate))
+        Interval(
+          estimate,
+          if begins then 0 else LogLogFit.firstAt(lows, relativeMse).getOrElse(0),
+          LogLogFit.firstAt(highs, relativeMse).getOrElse(Double.PositiveInfinity)
+        )
 
   /** Mean relative MSE at this time; see [[LogLogFit.at]]. */
-  def errorAt(seconds: Double): Option[Double] = LogLogFit.at(curve, seconds)
+  def errorAt(seconds: Double): Option[Double] = LogLogFit.at(curve(_.estimate), seconds)
 
   /** From the shortest to the longest renderings, in seconds. */
   def span: Option[(Double, Double)] =
-    Option.when(curve.nonEmpty)((curve.map(_._1).min, curve.map(_._1).max))
+    val errors = curve(_.estimate)
+    Option.when(errors.nonEmpty)((errors.map(_._1).min, errors.map(_._1).max))
 
-  def least: Double = curve.map(_._2).minOption.getOrElse(Double.PositiveInfinity)
+  def least: Double = curve(_.estimate).map(_._2).minOption.getOrElse(Double.PositiveInfinity)
 
   /** The largest peak memory of all runs, in bytes, if known. */
   def memory: Option[Long] = measurements.flatMap(_.memory).maxOption
@@ -74,8 +113,8 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
     val ratios = points.lastOption.toVector.flatMap(_.runs.map(_.errors.meanRatio))
     if ratios.isEmpty then Vector.empty else ratios.transpose.map(c => c.sum / c.size)
 
-  private def curve: Vector[(Double, Double)] =
-    points.flatMap(p => p(Metric.RelativeMse).map(i => (p.seconds, i.estimate)))
+  private def curve(figure: Interval => Double): Vector[(Double, Double)] =
+    points.flatMap(p => p(Metric.RelativeMse).map(i => (p.seconds, figure(i))))
 
 /** Fits of straight lines in log-log space. */
 object LogLogFit:

@@ -44,3 +44,23 @@ object SeedNoise:
       val ratios =
         Vector.tabulate(3)(c => if sums(c) == scales(c) then 1.0 else sums(c) / scales(c))
       Errors(figure(squares), figure(relatives), None, None, None, ratios)
+
+  /** The same errors, taken apart.
+    *
+    * An image is in the mean that it is compared with. The variance of each part over the seeds is
+    * therefore that of the jackknife's pseudo-values: deviations are larger by (n − 1) / (n − 2).
+    * (Efron, Stein, "The jackknife estimate of variance", Annals of Statistics 9, 1981.)
+    *
+    * @param images at least three
+    */
+  def parts(images: Vector[Image], scale: Image): Vector[ErrorParts] =
+    require(images.sizeIs >= Fewest, s"parts take at least $Fewest seeds")
+    val center = mean(images)
+    val all = images.map(ErrorParts.of(_, center, scale, images.size / (images.size - 1.0)))
+    val stretch = (images.size - 1.0) / (images.size - 2)
+    def stretched(of: ErrorParts => Array[Double]): Vector[Array[Double]] =
+      val values = all.map(of)
+      val means = Array.tabulate(values.head.length)(i => values.map(_(i)).sum / values.size)
+      values.map(v => Array.tabulate(v.length)(i => means(i) + stretch * (v(i) - means(i))))
+    all.lazyZip(stretched(_.squared)).lazyZip(stretched(_.relative)).map: (p, squared, relative) =>
+      p.copy(squared = squared, relative = relative)

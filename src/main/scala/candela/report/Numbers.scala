@@ -31,6 +31,16 @@ private[report] object Numbers:
     if i.isKnown then s"${number(i.estimate)} ± ${number((i.high - i.low) / 2)}"
     else number(i.estimate)
 
+  /** The estimate with its interval, if known: for what can't be negative. */
+  def range(i: Interval): String =
+    val limits =
+      if !i.isKnown || (i.low == i.high && i.low == i.estimate) then ""
+      else if i.isBounded && i.low > 0 then s" (${short(i.low)} to ${short(i.high)})"
+      else if i.isBounded then s" (at most ${short(i.high)})"
+      else if i.low > 0 then s" (at least ${short(i.low)})"
+      else " (no limits)"
+    short(i.estimate) + limits
+
   /** Label of a logarithmic axis tick: `0.01`, `10`, `10⁻⁵`. */
   def tick(value: Double): String =
     val exponent = Math.floor(Math.log10(value) + 1e-9).toInt

@@ -30,6 +30,20 @@ object SuiteChart:
   ): LogLogChart =
     chart(s, s"${s.title}: ${metric.title}", metric, axis, frame)
 
+  /** The error by spatial frequency at the highest sample count, if known. */
+  def spectrum(s: SceneResult, frame: ChartFrame = ChartFrame.Whole): Option[LogLogChart] =
+    val curves = s.programs.map: p =>
+      val marks = p.curve.points.lastOption.toVector.flatMap(_.spectrum).map: band =>
+        val spread = if band.deviation.isNaN then 0 else band.deviation
+        val low = Math.max(band.power - spread, band.power / 10)
+        val place = s"${Numbers.short(band.frequency)} cycles per pixel"
+        val tip = s"${p.title}: $place, power ${Numbers.short(band.power)}"
+        Mark(band.frequency, band.power, low, band.power + spread, tip)
+      Series(p.title, p.color, p.isThin, marks)
+    Option.when(curves.exists(_.marks.nonEmpty)):
+      val title = s"${s.title}: error by spatial frequency"
+      LogLogChart(title, "cycles per pixel", "power", curves, None, frame = frame)
+
   private def chart(
       s: SceneResult,
       title: String,
@@ -48,17 +62,17 @@ object SuiteChart:
       point(metric).map: i =>
         val x = if axis == "seconds" then point.seconds else point.samples.toDouble
         val (low, high) = if i.isKnown then (i.low, i.high) else (i.estimate, i.estimate)
-        // On a logarithmic axis a bar that reaches 0 is unbounded.
-        val shown = Math.max(low, i.estimate / 10)
+        // On a logarithmic axis a bar that reaches 0 or has no upper limit is unbounded.
+        val (shown, top) = (Math.max(low, i.estimate / 10), Math.min(high, i.estimate * 10))
         val when = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
-        val figure = Numbers.plusMinus(i, Numbers.short)
-        Mark(x, i.estimate, shown, high, s"${p.title}: $when, ${metric.title} $figure")
+        val figure = Numbers.range(i)
+        Mark(x, i.estimate, shown, top, s"${p.title}: $when, ${metric.title} $figure")
     Series(p.title, p.color, p.isThin, marks)
 
   /** The first program to reach the scene's target, and the next one's time. */
   private def winner(s: SceneResult): String =
     val times = s.programs.filterNot(_.isThin)
-      .flatMap(p => p.curve.secondsUntil(s.target).map(p.title -> _)).sortBy(_._2)
+      .flatMap(p => p.curve.secondsUntil(s.target).map(p.title -> _.estimate)).sortBy(_._2)
     def seconds(t: Double) = s"${Numbers.fixed(t, if t < 9.95 then 1 else 0)} s"
     val goal = Numbers.tick(s.target)
     times.headOption match

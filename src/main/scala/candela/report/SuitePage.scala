@@ -21,7 +21,8 @@ object SuitePage:
           "Bold: best of the scene; –: not reached; blank: not run; ⚠: measured on a busy machine."
       ),
       overview(r)("relative MSE", s => Some(Numbers.tick(s.target))): (s, p) =>
-        p.curve.secondsUntil(s.target).map(t => (t, s"${Numbers.short(t)} s")),
+        p.curve.secondsUntil(s.target)
+          .map(t => (t.estimate, s"${Numbers.short(t.estimate)} s")),
       Option.when(r.scenes.exists(s => s.programs.sizeIs > 1 && s.equalTime.isDefined))(frag(
         h2("Error at equal time"),
         p(
@@ -102,7 +103,7 @@ object SuitePage:
       Page.grid(Head, s.programs.map(row(s, _))),
       p(
         cls := "soft",
-        "± and ranges: 95 % confidence over seeds (Student's t); none for one seed. Slope " +
+        "±: 95 % confidence over seeds (Student's t); none for one seed. Slope " +
           "of relative MSE against samples: −1 for independent samples, 0 where bias (or the " +
           s"reference's noise) dominates. First image: the whole process, with one sample per " +
           "pixel, median over seeds. Peak memory: resident, of all runs the largest. " +
@@ -113,8 +114,29 @@ object SuitePage:
               s"${s.makers.mkString(" and ")}; variants of a program count once."
           )(name => s"Reference: $name.")
       ),
+      certainty(s),
+      spectrum(s),
       Option.when(hasPictures)(frag(h3("Images"), Viewer(pictures)))
     )
+
+  private def spectrum(s: SceneResult): Frag =
+    val both =
+      for
+        whole <- SuiteChart.spectrum(s)
+        narrow <- SuiteChart.spectrum(s, ChartFrame.Narrow)
+      yield Page.fitting(whole.svg, narrow.svg)
+    both.fold(frag()): chart =>
+      frag(
+        h3("Error by spatial frequency"),
+        div(cls := "card chart", chart),
+        p(
+          cls := "soft",
+          "Power of the relative error at the highest sample count, mean over seeds; bars: " +
+            "standard deviation over seeds. Independent pixels give a level line, whose height " +
+            "is the relative MSE. More at low frequencies (left): neighbouring pixels share " +
+            "errors, which look like blotches. Less there: errors of neighbours balance."
+        )
+      )
 
   private val Head = Vector("program", "samples", "seconds", "relative MSE", "FLIP") ++
     Vector("mean ratio R, G, B", "slope", "efficiency", "seconds to target") ++
@@ -126,20 +148,49 @@ object SuitePage:
       p.title,
       last.samples.toString,
       Numbers.short(last.seconds),
-      last(Metric.RelativeMse).fold("–")(Numbers.plusMinus(_, Numbers.short)),
+      last(Metric.RelativeMse).fold("–")(estimate),
       last(Metric.Flip).fold("–")(i => Numbers.short(i.estimate)),
       p.curve.meanRatio.map(Numbers.fixed(_, 4)).mkString(", "),
       p.curve.slope.fold("–")(Numbers.plusMinus(_, Numbers.fixed(_, 2))),
-      p.curve.efficiency.fold("–")(range),
-      p.curve.secondsUntil(s.target).fold("–")(Numbers.short),
+      p.curve.efficiency.fold("–")(estimate),
+      p.curve.secondsUntil(s.target).fold("–")(estimate),
       p.firstImage.fold("–")(Numbers.short),
       p.curve.memory.fold("–")(m => Numbers.fixed(m * 1e-6, 0)),
       p.others.fold("–")(Numbers.percentage) + (if p.isDisturbed then " ⚠" else "")
     ).map(cell => stringFrag(cell.replace("± ", "±\u00a0")))
 
-  private def range(i: Interval): String =
-    val known = if i.isKnown then s" (${Numbers.short(i.low)} to ${Numbers.short(i.high)})" else ""
-    Numbers.short(i.estimate) + known
+  private def estimate(i: Interval): String = Numbers.short(i.estimate)
+
+  /** How certain the figures are that follow from the error. */
+  private def certainty(s: SceneResult): Frag =
+    val head = Vector("program", "relative MSE", "deviation over seeds") ++
+      Vector("worst hundredth of pixels", "efficiency", "seconds to target")
+    val rows = s.programs.map: p =>
+      val last = p.curve.points.last
+      val error = last(Metric.RelativeMse)
+      val share =
+        for e <- error; d <- last.deviation(Metric.RelativeMse) if e.estimate > 0
+        yield Numbers.percentage(d / e.estimate)
+      Vector(
+        p.title,
+        error.fold("–")(Numbers.range),
+        share.getOrElse("–"),
+        last.worst.fold("–")(Numbers.percentage),
+        p.curve.efficiency.fold("–")(Numbers.range),
+        p.curve.secondsUntil(s.target).fold("–")(Numbers.range)
+      ).map(stringFrag)
+    frag(
+      h3("How certain they are"),
+      Page.grid(head, rows),
+      p(
+        cls := "soft",
+        "Ranges: 95 % confidence, from parts of the images of all seeds; those of efficiency " +
+          "and time are the error's alone. Where few pixels carry the error, seeds don't bound " +
+          "it from above: then only the lower limit is known. Deviation over seeds: standard " +
+          "deviation of an image's relative MSE, as a share of the mean. Worst hundredth of " +
+          "pixels: its share in the relative MSE. docs/NOISE.md has tests of the ranges."
+      )
+    )
 
   private def method(r: SuiteReport): Frag = frag(
     p(

@@ -136,7 +136,10 @@ object SuiteData:
     "others" -> p.others.fold(ujson.Null: ujson.Value)(RenderData.number),
     "meanRatio" -> ujson.Arr.from(p.curve.meanRatio.map(RenderData.number)),
     "secondsToTarget" ->
-      p.curve.secondsUntil(s.target).fold(ujson.Null: ujson.Value)(RenderData.number),
+      p.curve.secondsUntil(s.target).fold(ujson.Null: ujson.Value)(i =>
+        RenderData.number(i.estimate)
+      ),
+    "secondsToTargetInterval" -> known(p.curve.secondsUntil(s.target)),
     "errorAtEqualTime" ->
       s.errorAtEqualTime(p).fold(ujson.Null: ujson.Value)(RenderData.number)
   )
@@ -147,6 +150,14 @@ object SuiteData:
     "relmse" -> known(p(Metric.RelativeMse)),
     "mse" -> known(p(Metric.Mse)),
     "flip" -> known(p(Metric.Flip)),
+    "deviation" -> number(p.deviation(Metric.RelativeMse)),
+    "worstPixels" -> number(p.worst),
+    "spectrum" -> ujson.Arr.from(p.spectrum.map: band =>
+      ujson.Obj(
+        "frequency" -> RenderData.number(band.frequency),
+        "power" -> RenderData.number(band.power),
+        "deviation" -> RenderData.number(band.deviation)
+      )),
     "runs" -> ujson.Arr.from(p.runs.map: run =>
       ujson.Obj(
         "seed" -> run.seed,
@@ -155,6 +166,9 @@ object SuiteData:
         "relmse" -> RenderData.number(run.errors.relativeMse)
       ))
   )
+
+  private def number(figure: Option[Double]): ujson.Value =
+    figure.fold(ujson.Null: ujson.Value)(RenderData.number)
 
   private def known(interval: Option[Interval]): ujson.Value =
     interval.fold(ujson.Null: ujson.Value): i =>

@@ -1,7 +1,7 @@
 package candela.suite
 
 import candela.image.{Image, ImageFiles}
-import candela.measure.{Errors, ImagePair, Measurement, SeedNoise}
+import candela.measure.{ErrorParts, Errors, ImagePair, Measurement, SeedNoise}
 
 import java.nio.file.Path
 
@@ -28,8 +28,10 @@ private[suite] abstract class Judge:
       job: Job,
       seconds: Double,
       memory: Option[Long],
-      errors: Errors
-  ): Result = Result(job, Measurement(job.samples, job.seed, seconds, errors, memory))
+      errors: Errors,
+      parts: ErrorParts
+  ): Result =
+    Result(job, Measurement(job.samples, job.seed, seconds, errors, memory, Some(parts)))
 
 /** Compares with a reference. */
 private[suite] final class ReferenceJudge(val reference: Image) extends Judge:
@@ -38,7 +40,8 @@ private[suite] final class ReferenceJudge(val reference: Image) extends Judge:
   def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String =
     val errors = Errors.against(reference)(image)
     if job.step != Job.WarmUp then
-      all = all.filterNot(_.job.isInPlaceOf(job)) :+ result(job, seconds, memory, errors)
+      val parts = ErrorParts.against(ImagePair(image, reference))
+      all = all.filterNot(_.job.isInPlaceOf(job)) :+ result(job, seconds, memory, errors, parts)
     f"relative MSE ${errors.relativeMse}%.3g"
 
   def results: Vector[Result] = all
@@ -79,9 +82,11 @@ private[suite] final class SeedJudge(suite: Suite, scratch: Path) extends Judge:
     else
       val scale = reference
       val errors = sets.flatMap: set =>
-        set.zip(SeedNoise.of(set.map(_.image), scale))
-      val byJob = errors.map((k, e) => k.job -> e).toMap
-      kept.flatMap(k => byJob.get(k.job).map(result(k.job, k.seconds, k.memory, _)))
+        val images = set.map(_.image)
+        set.map(_.job).zip(SeedNoise.of(images, scale).zip(SeedNoise.parts(images, scale)))
+      val byJob = errors.toMap
+      kept.flatMap: k =>
+        byJob.get(k.job).map((e, parts) => result(k.job, k.seconds, k.memory, e, parts))
 
   /** The mean of the longest renderings of one program of each family, all alike: more variants of
     * a program must not make it more right.

@@ -47,10 +47,9 @@ class IntervalSuite extends AnyFunSuite:
     assert(one.estimate == 3 && !one.isKnown)
     assert(Interval.ofMean(Vector(2.0, 2.0, 2.0)) == Interval(2, 2, 2))
 
-  test("geometric means spread by factors"):
-    val i = Interval.ofGeometricMean(Vector(1.0, 100.0))
-    assert(Math.abs(i.estimate - 10) < 1e-9)
-    assert(Math.abs(i.high / i.estimate - i.estimate / i.low) < 1e-9 * i.high)
+  test("a reciprocal has the reciprocal interval, and none of its ends where there was no limit"):
+    assert(Interval(2, 1, 4).inverse == Interval(0.5, 0.25, 1))
+    assert(Interval(2, 1, Double.PositiveInfinity).inverse == Interval(0.5, 0, 1))
 
   test("the median ignores what is far off"):
     assert(Interval.median(Vector(3.0, 1000.0, 1.0)) == 3)
