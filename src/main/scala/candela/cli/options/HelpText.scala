@@ -105,7 +105,10 @@ private[cli] object UsageErrors:
       case s"Unknown option $option" => UsageError(Code.UnknownOption, unknown(option, row))
       case s"Unknown argument '$file'" =>
         val all = row.files.mkString(" and ")
-        UsageError(Code.MoreArguments, s"$command takes $all, found `$file`, too")
+        val message =
+          if row.files.isEmpty then s"$command takes options alone, found `$file`"
+          else s"$command takes $all, found `$file`, too"
+        UsageError(Code.MoreArguments, message)
       case s"Missing argument $file" => missing(s"a file: $file")
       case s"Missing option --$name" => missing(s"--$name ${valueOf(name, row)}")
       case s"Missing value after $option" =>

@@ -40,3 +40,6 @@ class RobustnessCommandSuite extends AnyFunSuite:
     assert(count == 2 && saidCount.err.contains("--rays must be at least 1, found `0`"))
     val (format, saidFormat) = run(short ++ Vector("--report", "x.txt")*)
     assert(format == 1 && saidFormat.err.contains("reports are written as .html, .json or .md"))
+    val (extra, saidExtra) = run("scene.pbrt")
+    assert(extra == 2)
+    assert(saidExtra.err.contains("`candela robustness` takes options alone, found `scene.pbrt`"))
