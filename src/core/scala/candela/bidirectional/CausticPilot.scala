@@ -56,7 +56,12 @@ private[candela] final class CausticPilot(
 
   private def look(): (Option[CausticChoice], String) =
     trace(light, LearningPaths, Seed): Unit
-    if splats == 0 then (None, "none: no light path reaches the camera")
+    if splats == 0 then
+      val why = "no light path reaches the camera"
+      // Manifold walks may find the light yet
+      if !light.findsAll || light.media.isDefined || !scene.lights.exists(_.isDelta) then
+        (None, s"none: $why")
+      else (Some(CausticChoice(light.casters, Least.toFloat)), s"$why; manifold walks may")
     else
       isLearning = false
       val aimed = light.casters.aimed(learning.aim)

@@ -6,7 +6,7 @@ import candela.image.Image
 import candela.integrators.CausticsMode
 import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.Dialect
-import candela.testing.SceneTexts
+import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite
 

@@ -8,7 +8,7 @@ import candela.integrators.CausticsMode
 import candela.layers.Layer
 import candela.render.{Renderer, RenderMethod, RenderPlan}
 import candela.scenefile.Dialect
-import candela.testing.SceneTexts
+import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite

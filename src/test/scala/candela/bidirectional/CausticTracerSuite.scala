@@ -6,7 +6,7 @@ import candela.image.Image
 import candela.integrators.CausticsMode
 import candela.render.{Renderer, RenderMethod, RenderPlan}
 import candela.scenefile.Dialect
-import candela.testing.SceneTexts
+import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -42,7 +42,7 @@ final class CausticTracerSuite extends AnyFunSuite:
       BlockMeans.assertEqual(image(plan(text, CausticsMode.On)), expected)
 
   test("light paths beside guided paths find the same light"):
-    val text = Scenes.head._2
+    val text = scene(GlassBall)
     BlockMeans.assertEqual(
       image(plan(text, CausticsMode.On, guiding = GuidingMode.On)),
       image(plan(text, CausticsMode.Off, seed = 1))
@@ -119,7 +119,7 @@ final class CausticTracerSuite extends AnyFunSuite:
     assert(made.features.toMap.apply("caustics").startsWith("none"))
     assert(image(made).data.sameElements(image(plan(text, CausticsMode.Off)).data))
 
-private object CausticTracerSuite:
+private[candela] object CausticTracerSuite:
   val GlassBall = """Material "dielectric" Shape "sphere" "float radius" .5"""
 
   def square(x: Double): Double = x * x
@@ -168,12 +168,17 @@ private object CausticTracerSuite:
     s"""Material "dielectric" Shape "trianglemesh" "point3 P" [$p] "normal N" [$ns]
         "integer indices" [${faces.mkString(" ")}]"""
 
-  val Scenes: Vector[(String, String)] = Vector(
-    "a ball of glass, which focuses" -> scene(GlassBall),
-    "a ring of brushed metal" -> scene(
-      """Material "conductor" "float uroughness" .02 "float vroughness" .08
-         "bool remaproughness" false
-         Rotate -90 1 0 0 Shape "cylinder" "float radius" .6 "float zmin" -.6 "float zmax" 0"""
+  /** Where arithmetic is hard. */
+  val Hard: Vector[(String, String)] = Vector(
+    "a ball that focuses in a point of the ground" -> scene(
+      """Translate 0 -.2 0 Material "dielectric" "float eta" 2
+         Shape "sphere" "float radius" .5"""
+    ),
+    "water that light grazes" -> scene(
+      """Material "dielectric" "float eta" 1.33 Rotate -90 1 0 0
+         Shape "disk" "float radius" 4""",
+      """AttributeBegin AreaLightSource "diffuse" "rgb L" [9 9 9]
+         Translate 0 1.6 3.5 Shape "sphere" "float radius" .6 AttributeEnd"""
     ),
     "an index of one, which bends nothing" ->
       scene("""Material "dielectric" "float eta" 1 Shape "sphere" "float radius" .5"""),
@@ -184,7 +189,16 @@ private object CausticTracerSuite:
     "thousands of small triangles" -> scene(
       triangles(40, (x, _) => (-0.4 * Math.cos(4 * x), 1, 0))
     ),
-    "normals that point away" -> scene(triangles(6, (x, _) => (0.3 * x, -1, 0.2))),
+    "normals that point away" -> scene(triangles(6, (x, _) => (0.3 * x, -1, 0.2)))
+  )
+
+  val Scenes: Vector[(String, String)] = Hard ++ Vector(
+    "a ball of glass, which focuses" -> scene(GlassBall),
+    "a ring of brushed metal" -> scene(
+      """Material "conductor" "float uroughness" .02 "float vroughness" .08
+         "bool remaproughness" false
+         Rotate -90 1 0 0 Shape "cylinder" "float radius" .6 "float zmin" -.6 "float zmax" 0"""
+    ),
     "a mirrored and stretched instance" -> scene(
       s"""ObjectBegin "ball" $GlassBall ObjectEnd
           Scale -1 .6 1.3 ObjectInstance "ball""""
