@@ -87,9 +87,11 @@ object Architecture:
       "report" -> report,
       "suite" -> (report ++ Set("report", "job")),
       "robustness" -> (job ++ Set("job", "convert", "report", "suite")),
+      "peers" -> (job ++ Set("job", "convert", "suite")),
       "watch" -> (report ++ Set("film", "layers", "render", "report"))
     ) ++ below(program).map: (room, lower) =>
-      room -> (job ++ lower ++ Set("job", "convert", "report", "suite", "watch", "robustness"))
+      room ->
+        (job ++ lower ++ Set("job", "convert", "report", "suite", "peers", "watch", "robustness"))
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */
   private val libraries = Map(

@@ -30,7 +30,8 @@ object PlyWriter:
 
   private val InFile = Set("P", "N", "uv", "st", "indices", "discarddegenerateUVs")
 
-  private def bytes(d: Declaration): Array[Byte] =
+  /** The file of a `trianglemesh`. */
+  def bytes(d: Declaration): Array[Byte] =
     def floats(name: String) = d.param(name).fold(Array.emptyFloatArray)(_.floats)
     val (p, n) = (floats("P"), floats("N"))
     val uv = if floats("uv").nonEmpty then floats("uv") else floats("st")

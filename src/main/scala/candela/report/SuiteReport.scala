@@ -85,9 +85,14 @@ final case class SuiteReport(
 
 /** Machine-readable results: JSON with all runs, and CSV with one line per run. */
 object SuiteData:
+  /** Of the JSON: docs/bench/results.schema.json describes it. Higher where fields that were there
+    * mean something else.
+    */
+  val SchemaVersion = 1
 
   def json(r: SuiteReport): String =
     val all = ujson.Obj(
+      "schemaVersion" -> SchemaVersion,
       "title" -> r.title,
       "version" -> r.version,
       "begun" -> r.begun,
@@ -117,6 +122,8 @@ object SuiteData:
 
   private def scene(s: SceneResult): ujson.Obj = ujson.Obj(
     "name" -> s.name,
+    "title" -> s.title,
+    "note" -> s.note,
     "reference" -> s.referenceName.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
     "makers" -> ujson.Arr.from(s.makers),
     "target" -> RenderData.number(s.target),
@@ -163,7 +170,10 @@ object SuiteData:
         "seed" -> run.seed,
         "seconds" -> run.seconds,
         "memory" -> run.memory.fold(ujson.Null: ujson.Value)(m => RenderData.number(m.toDouble)),
-        "relmse" -> RenderData.number(run.errors.relativeMse)
+        "relmse" -> RenderData.number(run.errors.relativeMse),
+        "mse" -> number(run.errors(Metric.Mse)),
+        "flip" -> number(run.errors(Metric.Flip)),
+        "meanRatio" -> ujson.Arr.from(run.errors.meanRatio.map(RenderData.number))
       ))
   )
 

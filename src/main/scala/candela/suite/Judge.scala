@@ -15,6 +15,9 @@ private[suite] abstract class Judge:
     */
   def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String
 
+  /** Forgets all images of these programs. */
+  def drop(entries: Set[Entry]): Unit
+
   /** All that was measured so far, in the order of rendering. */
   def results: Vector[Result]
 
@@ -44,6 +47,8 @@ private[suite] final class ReferenceJudge(val reference: Image) extends Judge:
       all = all.filterNot(_.job.isInPlaceOf(job)) :+ result(job, seconds, memory, errors, parts)
     f"relative MSE ${errors.relativeMse}%.3g"
 
+  def drop(entries: Set[Entry]): Unit = all = all.filterNot(r => entries(r.job.entry))
+
   def results: Vector[Result] = all
 
 /** Compares the images of several seeds with each other. Each waits in a file for the last seed.
@@ -70,6 +75,10 @@ private[suite] final class SeedJudge(suite: Suite, scratch: Path) extends Judge:
       kept = kept.filterNot(_.job.isInPlaceOf(job)) :+ Kept(job, seconds, memory, file)
       pooled = None
     "error known after all seeds"
+
+  def drop(entries: Set[Entry]): Unit =
+    kept = kept.filterNot(k => entries(k.job.entry))
+    pooled = None
 
   /** Of the sample counts that have been rendered with enough seeds. */
   private def sets: Vector[Vector[Kept]] =

@@ -22,6 +22,8 @@ final case class Edit(find: Regex, replacement: String)
   * @param isThin whether its curve is dashed, beside another one of the same colour
   * @param layer layer of its images that is compared, instead of the colours
   * @param ownFamily name of its family; by default, programs of the same command are one
+  * @param counterpart name of the program whose images have the same means: it isn't compared where
+  *   they differ
   */
 final case class Program(
     name: String,
@@ -35,7 +37,8 @@ final case class Program(
     isThin: Boolean,
     needs: Vector[String] = Vector.empty,
     layer: Option[String] = None,
-    ownFamily: Option[String] = None
+    ownFamily: Option[String] = None,
+    counterpart: Option[String] = None
 ):
   /** Variants of a program are a family: together they count once. */
   def family: String = ownFamily.orElse(command.headOption).getOrElse(name)
@@ -49,7 +52,8 @@ final case class Program(
     title = s"$title, denoised",
     command = command :+ "--denoise",
     isThin = true,
-    layer = Some("Denoised")
+    layer = Some("Denoised"),
+    counterpart = None
   )
 
 /** A scene in one or more formats, and its reference.

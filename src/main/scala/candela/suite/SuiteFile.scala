@@ -33,7 +33,7 @@ object SuiteFile:
   private val suiteKeys = Set("title", "samples", "seconds", "seeds", "timeout") ++
     Set("programs", "scenes")
   private val programKeys = Set("title", "command", "reads", "threads", "edits", "seeded") ++
-    Set("color", "thin", "needs", "layer", "family")
+    Set("color", "thin", "needs", "layer", "family", "counterpart")
   private val sceneKeys = Set("title", "note", "files", "reference", "samples", "seconds") ++
     Set("target", "programs", "needs")
 
@@ -76,7 +76,8 @@ object SuiteFile:
       c.hasPath("thin") && c.getBoolean("thin"),
       if c.hasPath("needs") then texts(c, "needs") else Vector.empty,
       Option.when(c.hasPath("layer"))(c.getString("layer")),
-      Option.when(c.hasPath("family"))(c.getString("family"))
+      Option.when(c.hasPath("family"))(c.getString("family")),
+      Option.when(c.hasPath("counterpart"))(c.getString("counterpart"))
     )
 
   private def edit(c: Config): Edit = Edit(c.getString("find").r, c.getString("replace"))
@@ -138,20 +139,27 @@ object SuiteFolder:
       val help = s"scenes are of ${SceneFormat.inWords}"
       throw SceneError(Problem.general(Code.SuiteFile, s"no scene in $folder", Some(help)))
     val files = scenes.groupBy(SceneFormat.stem)
-    Suite(
-      folder.toAbsolutePath.getFileName.toString,
-      Vector(candela),
+    suite(
+      folder,
       scenes.map: file =>
         val stem = SceneFormat.stem(file)
         // Of several formats
         val name = if files(stem).sizeIs > 1 then file.getFileName.toString else stem
         val reference = references.resolve(s"$stem.exr")
         scene(name, file, Option.when(Files.isRegularFile(reference))(reference))
-      ,
-      Work.Samples(Vector(1, 4, 16)),
-      3,
-      SuiteFile.DefaultTimeout
     )
+
+  /** A single scene, without a reference. */
+  def ofScene(file: Path): Suite = suite(file, Vector(scene(SceneFormat.stem(file), file, None)))
+
+  private def suite(source: Path, scenes: Vector[SuiteScene]): Suite = Suite(
+    source.toAbsolutePath.getFileName.toString,
+    Vector(candela),
+    scenes,
+    Work.Samples(Vector(1, 4, 16)),
+    3,
+    SuiteFile.DefaultTimeout
+  )
 
   private val candela: Program =
     val command = "{candela} {scene} --quiet --spp {spp} --seed {seed} --nthreads {threads} " +

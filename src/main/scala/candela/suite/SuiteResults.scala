@@ -13,6 +13,7 @@ object SuiteResults:
   /** @param scratch folder for temporary images; the caller deletes it
     * @param isCancelled polled; cancellation returns the results so far
     * @param publish receives the results after each scene, so that a crash loses at most one
+    * @param leftOut what is not in the suite, and why
     */
   def of(
       suite: Suite,
@@ -21,7 +22,8 @@ object SuiteResults:
       version: String,
       say: String => Unit,
       isCancelled: () => Boolean = () => false,
-      publish: SuiteReport => Unit = _ => ()
+      publish: SuiteReport => Unit = _ => (),
+      leftOut: Vector[(String, String)] = Vector.empty
   ): SuiteReport =
     val names = PublicNames.of(suite, scratch)
     val machine = Machine.here()
@@ -44,9 +46,10 @@ object SuiteResults:
         seconds,
         suite.seeds,
         scenes,
-        runner.omissions
+        leftOut.map((what, why) => what -> names.of(why)) ++ runner.omissions
       )
     machine.business.foreach(words => say(s"warning: $words"))
+    for (what, why) <- leftOut do say(s"skipped: $what: ${names.of(why)}")
     val results = report(runner.run(results => publish(report(results))))
     results.disturbances.foreach(words => say(s"warning: $words"))
     results

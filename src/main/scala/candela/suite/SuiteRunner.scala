@@ -64,6 +64,7 @@ final class SuiteRunner(
   private val leftOut = Vector.newBuilder[(String, String)]
   private val pictures = scala.collection.mutable.Map.empty[Entry, (Job, Image)]
   private val shares = scala.collection.mutable.Map.empty[Entry, Vector[(Double, Double)]]
+  private val witnesses = Witnesses(suite)
   private val judges = scala.collection.mutable.Map.empty[SuiteScene, Judge]
 
   private var waiting = Vector.empty[SuiteScene]
@@ -116,6 +117,9 @@ final class SuiteRunner(
     val times = turn(1, plans, judge)
     val settledPlans = plans.map(settled(_, times, judge))
     for seed <- 2 to suite.seeds do turn(seed, settledPlans, judge): Unit
+    val refused = witnesses.refused()
+    for (entry, why) <- refused do leaveOut(s"${entry.program.title} on ${scene.title}", why)
+    judge.drop(refused.map(_._1).toSet)
     try judge.results
     catch
       case e: ImageError =>
@@ -235,6 +239,7 @@ final class SuiteRunner(
           val what = s"${name.padTo(nameWidth, ' ')}  ${counted.padTo(7, ' ')}"
           say(f"$what $seconds%7.2f s  $error  " + forecast.words)
           keep(job, image)
+          witnesses.take(job, image)
           Some(seconds)
         catch
           case e: ImageError =>

@@ -14,7 +14,7 @@ import java.nio.file.{Files, Path}
 /** Measures what the parts of a rendering on a cluster cost, and simulates up to 1,024 cores.
   *
   * Options: `--scene FILE` `--spp N` `--shards N` (measured) `--pixels N` (of the simulated film)
-  * `--svg FILE`. Figures are processor time, so that other processes disturb little.
+  * `--svg FILE`, beside which its numbers are written as CSV. Figures are processor time, so that other processes disturb little.
   */
 object ClusterScaling:
   def main(args: Array[String]): Unit =
@@ -40,6 +40,9 @@ object ClusterScaling:
       guideSlope = None
     )
     Files.writeString(Path.of(options("svg")), chart.standalone + "\n"): Unit
+    val rows = for (hours, s) <- Hours.zip(series); m <- s.marks yield s"$hours,${m.x},${m.y}\n"
+    val table = rows.mkString("core hours,cores,seconds\n", "", "")
+    Files.writeString(Path.of(options("svg").stripSuffix(".svg") + ".csv"), table): Unit
 
   private val Hours = Vector(1, 10, 100)
   private val Cores = Vector.iterate(1, 11)(_ * 2)

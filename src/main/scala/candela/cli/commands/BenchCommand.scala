@@ -14,6 +14,7 @@ import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.job.SceneFormat
+import candela.peers.PeerSuite
 import candela.render.Cancellation
 import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
 import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults}
@@ -23,19 +24,25 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
   private val asked = options.bench
   private val cancellation = Cancellation()
 
-  def run(): ExitCode = report.guarded:
-    val source = OutputFiles.path(options.files.head)
+  def run(): ExitCode = report.guarded(inScratch(compared(_)))
+
+  private def compared(scratch: Path): ExitCode =
+    val source = options.files.headOption.map(OutputFiles.path)
     val paths = reports(source)
     paths.foreach(checkFolder)
-    val whole = read(source)
+    val whole = source.fold(short(scratch))(read)
     val register = FileRegister()
-    register.read(source +: whole.scenes.flatMap(s => s.files.values ++ s.reference))
-    register.write(Output(paths, "report", options.files.head, "report"))
-    val suite = whole.only(asked.programs, asked.scenes)
+    register.read(source.toVector ++ whole.scenes.flatMap(s => s.files.values ++ s.reference))
+    register.write(Output(paths, "report", options.files.headOption.getOrElse("--peers"), "report"))
+    val chosen = whole.only(Vector.empty, asked.scenes)
+    val peers =
+      if asked.peers then PeerSuite.of(chosen, sys.env, scratch)
+      else PeerSuite(chosen, Vector.empty)
+    val suite = peers.suite.only(asked.programs, Vector.empty)
     val told = if asked.denoise then suite.withDenoised else suite
     val shown = asked.work.fold(told)(work => told.copy(work = work))
     terminal.interrupts.during(cancellation):
-      val results = inScratch(measured(seeded(withoutOwnWork(shown)), paths, _))
+      val results = measured(seeded(withoutOwnWork(shown)), peers.leftOut, paths, scratch)
       if results.scenes.nonEmpty then
         write(paths, results)
         for path <- paths do terminal.out.println(s"wrote $path")
@@ -44,7 +51,18 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
         throw SceneError(Problem.general(Code.NoProgram, "no program could run any scene"))
       if cancellation.isRequested then ExitCode.Interrupted else ExitCode.Done
 
-  private def measured(suite: Suite, paths: Vector[Path], scratch: Path): SuiteReport =
+  private def short(scratch: Path): Suite =
+    if asked.peers then PeerSuite.short(scratch)
+    else
+      val help = Some("or --peers, which has a suite of its own")
+      throw SceneError(Problem.general(Code.SuiteFile, "no suite is named", help))
+
+  private def measured(
+      suite: Suite,
+      leftOut: Vector[(String, String)],
+      paths: Vector[Path],
+      scratch: Path
+  ): SuiteReport =
     val say: String => Unit = if options.quiet then _ => () else terminal.err.println(_)
     SuiteResults.of(
       suite,
@@ -53,7 +71,8 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
       Version.current,
       say,
       () => cancellation.isRequested,
-      write(paths, _)
+      write(paths, _),
+      leftOut
     )
 
   /** Each file is written whole, so an interrupted run leaves the previous version. */
@@ -65,14 +84,16 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     if Files.isDirectory(source) then
       SuiteFolder.read(source, asked.references.fold(source)(OutputFiles.path))
     else if Files.isRegularFile(source) then
-      for other <- notSuite(source) do
-        val help = "a suite is a .conf file, or a folder of scenes with references"
-        throw SceneError(Problem.general(
-          Code.SuiteFile,
-          s"`$source` is $other, not a suite",
-          Some(help)
-        ))
-      SuiteFile.read(source)
+      if asked.peers && SceneFormat.named(source).isDefined then SuiteFolder.ofScene(source)
+      else
+        for other <- notSuite(source) do
+          val help = "a suite is a .conf file, or a folder of scenes with references"
+          throw SceneError(Problem.general(
+            Code.SuiteFile,
+            s"`$source` is $other, not a suite",
+            Some(help)
+          ))
+        SuiteFile.read(source)
     else throw SceneError(Problem.general(Code.SuiteFile, s"no such suite: `$source`"))
 
   private def notSuite(file: Path): Option[String] =
@@ -87,8 +108,8 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     else suite.copy(scenes = suite.scenes.map(_.copy(work = None)))
 
   /** Default without `--report`: an HTML page in the current folder, named after the suite. */
-  private def reports(source: Path): Vector[Path] =
-    val name = source.toAbsolutePath.getFileName.toString.stripSuffix(".conf")
+  private def reports(source: Option[Path]): Vector[Path] =
+    val name = source.fold("peers")(_.toAbsolutePath.getFileName.toString.stripSuffix(".conf"))
     val names = if options.reports.isEmpty then Vector(s"$name.html") else options.reports
     names.map(OutputFiles.path).distinct
 

@@ -9,6 +9,7 @@ import candela.suite.Work
   * @param references folder of the references of a folder of scenes, if not that folder
   * @param pictures whether the page contains all images
   * @param denoise whether Candela also renders with --denoise
+  * @param peers whether the programs are those of this machine, instead of the suite's
   */
 final case class BenchOptions(
     work: Option[Work] = None,
@@ -17,7 +18,8 @@ final case class BenchOptions(
     scenes: Vector[String] = Vector.empty,
     references: Option[String] = None,
     pictures: Boolean = true,
-    denoise: Boolean = false
+    denoise: Boolean = false,
+    peers: Boolean = false
 )
 
 /** Option table of `bench`, one row each. */
@@ -56,6 +58,9 @@ private[cli] object BenchTable extends OptionRows:
     opt[Unit]("denoise")
       .text("measure Candela with and without denoising")
       .action((_, o) => change(o)(_.copy(denoise = true))),
+    opt[Unit]("peers")
+      .text("compare the renderers of this machine on the suite's scenes, converted for each")
+      .action((_, o) => change(o)(_.copy(peers = true))),
     opt[Unit]("no-pictures")
       .text("omit images from the page: a tenth of the size")
       .action((_, o) => change(o)(_.copy(pictures = false)))

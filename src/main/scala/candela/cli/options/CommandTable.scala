@@ -137,7 +137,11 @@ private[cli] object CommandTable extends OptionRows:
     CommandRow(
       Command.Bench,
       "measure error against time, for several renderers",
-      Vector(file("suite.conf", "the suite, or a folder of scenes with references")),
+      Vector(file(
+        "[suite.conf]",
+        "the suite, or a folder of scenes with references; with --peers, " +
+          "a scene, or nothing: a suite of some minutes"
+      ).optional()),
       Words.suites,
       "[Error against time](BENCH.md)."
     ),
