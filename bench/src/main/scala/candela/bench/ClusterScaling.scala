@@ -14,7 +14,8 @@ import java.nio.file.{Files, Path}
 /** Measures what the parts of a rendering on a cluster cost, and simulates up to 1,024 cores.
   *
   * Options: `--scene FILE` `--spp N` `--shards N` (measured) `--pixels N` (of the simulated film)
-  * `--svg FILE`, beside which its numbers are written as CSV. Figures are processor time, so that other processes disturb little.
+  * `--svg FILE`, beside which its numbers are written as CSV. Figures are processor time, so that
+  * other processes disturb little.
   */
 object ClusterScaling:
   def main(args: Array[String]): Unit =
