@@ -18,6 +18,16 @@ abstract class Filter(val radiusX: Float, val radiusY: Float):
   /** Integral over its extent, by the midpoint rule along both axes. */
   final def integral: Double = Filter.along(radiusX, x) * Filter.along(radiusY, y)
 
+  /** How alike pixels are that share samples: the sum of a pixel's correlations with all pixels,
+    * its own 1 included. All that a sample counts is ∫f of the filter f, and the variance of one
+    * pixel has ∫f² of it.
+    */
+  final def correlation: Double =
+    def along(radius: Float, value: Float => Float) =
+      val whole = Filter.along(radius, value)
+      whole * whole / Filter.along(radius, d => value(d) * value(d))
+    along(radiusX, x) * along(radiusY, y)
+
 private object Filter:
   private val Steps = 4096
 

@@ -47,6 +47,20 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
       case None => (image, plan.layers.fold(Vector.empty)(_.metadata(image)))
     ImageFiles.write(path, written, about ++ last, how)
 
+  /** Writes a mean of renderings with its error, in the precision of its values.
+    *
+    * @param rendering with the samples of all
+    * @param more      to say of it
+    */
+  def writeReference(
+      path: Path,
+      image: Image,
+      rendering: Rendering,
+      more: Vector[(String, String)]
+  ): Unit =
+    val how = WriteOptions(window = window, pool = prepared.pool)
+    ImageFiles.write(path, image, facts ++ taken(rendering) ++ more, how)
+
   /** What does not depend on the samples. */
   private def facts: Vector[(String, String)] =
     val PixelBounds(x0, y0, x1, y1) = plan.crop

@@ -77,6 +77,18 @@ object TextForm:
     _.toString
   )
 
+  /** A part of a whole: 0.002, or 0.2 %. */
+  val share: TextForm[Double] = TextForm(
+    "a positive number or percentage, e.g. 0.02 or 2%",
+    text =>
+      val isPercentage = text.endsWith("%")
+      val number = if isPercentage then text.dropRight(1).trim else text
+      number.toDoubleOption.map(x => if isPercentage then x / 100 else x)
+        .filter(x => x > 0 && x < Double.PositiveInfinity)
+    ,
+    _.toString
+  )
+
   val definition: TextForm[(String, String)] = TextForm(
     "NAME=VALUE",
     text =>

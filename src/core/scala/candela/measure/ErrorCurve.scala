@@ -6,6 +6,8 @@ import candela.image.Image
   *
   * @param flip mean FLIP error, if there is a reference
   * @param meanRatio mean over the reference's mean, per channel; empty without a reference
+  * @param own the error of the reference itself, which is subtracted from `mse` and `relativeMse`;
+  *   if it is all of them, they are 0
   */
 final case class Errors(
     mse: Double,
@@ -13,8 +15,12 @@ final case class Errors(
     mae: Option[Double],
     psnr: Option[Double],
     flip: Option[Double],
-    meanRatio: Vector[Double]
+    meanRatio: Vector[Double],
+    own: Option[OwnError] = None
 ):
+  /** Whether the error is too small for the reference to tell. */
+  def isUnresolved: Boolean = own.isDefined && relativeMse == 0
+
   def apply(metric: Metric): Option[Double] = metric match
     case Metric.Mse => Some(mse)
     case Metric.Rmse => Some(Math.sqrt(mse))
@@ -25,7 +31,7 @@ final case class Errors(
 
 object Errors:
 
-  /** Error against a reference. */
+  /** Error against a reference, which may have an [[ErrorLayer]]. */
   def against(reference: Image)(image: Image): Errors =
     val pair = ImagePair(image, reference)
     val flip = Option.when(pair.isColor)(ErrorMap.mean(ErrorMap(Metric.Flip, pair)))
@@ -34,7 +40,18 @@ object Errors:
   /** Error against a reference, without FLIP, which takes by far the longest. */
   def quickly(reference: Image)(image: Image): Errors =
     val m = Metrics.compare(image, reference)
-    Errors(m.mse, m.relativeMse, Some(m.mae), Some(m.psnr), None, m.meanRatio)
+    val own = ErrorLayer.error(reference)
+    val mse = m.mse - own.fold(0.0)(_.mse)
+    val relativeMse = m.relativeMse - own.fold(0.0)(_.relativeMse)
+    Errors(
+      Math.max(0, mse),
+      Math.max(0, relativeMse),
+      Some(m.mae),
+      Some(m.psnr),
+      None,
+      m.meanRatio,
+      own
+    )
 
 /** Point of an error curve. */
 final case class CurvePoint(samples: Int, seconds: Double, errors: Errors)

@@ -4,7 +4,7 @@ import candela.base.{Code, Problem, Severity}
 import candela.cli.commands.{
   AverageCommand, BenchCommand, CheckCommand, ClusterCommand, CompareCommand, CompletionCommand,
   ConvertCommand, DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand,
-  PreviewCommand, RenderCommand, ResumeCommand, RobustnessCommand, ViewCommand
+  PreviewCommand, ReferenceCommand, RenderCommand, ResumeCommand, RobustnessCommand, ViewCommand
 }
 import candela.cli.options.{Command, CommandLine, OptionTable, Options}
 import candela.cli.terminal.{ExitCode, Interrupts, ProblemText, Report, Terminal}
@@ -84,6 +84,7 @@ object Main:
       case Command.Resume => ResumeCommand(options, terminal, report, loader).run()
       case Command.Merge => MergeCommand(options, terminal, report, loader).run()
       case Command.Check => CheckCommand(options, terminal, report, loader).run()
+      case Command.Reference => ReferenceCommand(options, terminal, report, loader).run()
       case Command.Compare => CompareCommand(options, terminal, report).run()
       case Command.Bench => BenchCommand(options, terminal, report).run()
       case Command.Robustness => RobustnessCommand(options, terminal, report).run()

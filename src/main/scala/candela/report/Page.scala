@@ -1,5 +1,7 @@
 package candela.report
 
+import candela.measure.{Errors, OwnError}
+
 import scalatags.Text.TypedTag
 import scalatags.Text.all.*
 
@@ -55,6 +57,15 @@ private[report] object Page:
       )
     )
     "<!DOCTYPE html>\n" + page.render
+
+  /** What is said of a reference's own error, which the errors lack. */
+  def subtracted(own: OwnError, errors: Vector[Errors]): String =
+    val lost = errors.count(_.isUnresolved)
+    val unresolved =
+      if lost == 0 then ""
+      else s" $lost of ${errors.size} errors are below it: they are shown as 0, and not resolved."
+    s"The reference's own error, a relative MSE of ${Numbers.short(own.relativeMse)}, is " +
+      s"subtracted from MSE and relative MSE.$unresolved"
 
   def chartStyle: String = resource("chart.css")
 

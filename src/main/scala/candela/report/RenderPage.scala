@@ -58,7 +58,8 @@ object RenderPage:
     val what =
       if r.reference.isDefined then
         "One rendering with one seed, without the variation between seeds. " +
-          "`candela bench` renders several seeds and plots error bars."
+          "`candela bench` renders several seeds and plots error bars." +
+          r.own.fold("")(own => s" ${Page.subtracted(own, r.points.map(_.errors))}")
       else
         "Without a reference, bias is unknown. The plot shows the difference between two subsets " +
           "of the samples, scaled to the noise of all of them; for low-discrepancy samplers it " +

@@ -1,7 +1,7 @@
 package candela.report
 
 import candela.image.Image
-import candela.measure.CurvePoint
+import candela.measure.{CurvePoint, OwnError}
 
 /** A time span, in seconds since the program started. */
 final case class Span(name: String, begin: Double, end: Double):
@@ -44,6 +44,8 @@ final case class RenderReport(
     rays: Long,
     learned: Vector[LearnedFigure] = Vector.empty
 ):
+  /** The reference's own error, which is subtracted, if it is known. */
+  def own: Option[OwnError] = points.lastOption.flatMap(_.errors.own)
   def width: Int = pictures.head.image.width
   def height: Int = pictures.head.image.height
 
@@ -59,6 +61,7 @@ object RenderData:
       "version" -> r.version,
       "scene" -> r.scene,
       "reference" -> r.reference.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
+      "referenceError" -> own(r.own),
       "estimated" -> r.reference.isEmpty,
       "width" -> r.width,
       "height" -> r.height,
@@ -85,6 +88,10 @@ object RenderData:
       (Vector(p.samples, p.seconds, e.mse, e.relativeMse).map(_.toString) ++ known ++ ratios)
         .mkString(",")
     (head +: rows).map(_ + "\n").mkString
+
+  /** The own error of a reference; null if it is unknown. */
+  def own(error: Option[OwnError]): ujson.Value = error.fold(ujson.Null: ujson.Value): o =>
+    ujson.Obj("mse" -> number(o.mse), "relmse" -> number(o.relativeMse))
 
   def machine(m: Machine): ujson.Obj = ujson.Obj(
     "processor" -> m.processor,

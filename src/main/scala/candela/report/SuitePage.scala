@@ -112,10 +112,11 @@ object SuitePage:
             "No reference: errors are the variance between the seeds, which reveals no bias. " +
               "They and the mean ratios are relative to the mean of the longest renderings of " +
               s"${s.makers.mkString(" and ")}; variants of a program count once."
-          )(name => s"Reference: $name.")
+          )(name => s"Reference: $name. ${ownError(s)}")
       ),
       certainty(s),
       spectrum(s),
+      Option.when(s.biases.nonEmpty)(BiasTable(s.biases, hasPictures)),
       Option.when(hasPictures)(frag(h3("Images"), Viewer(pictures)))
     )
 
@@ -137,6 +138,10 @@ object SuitePage:
             "errors, which look like blotches. Less there: errors of neighbours balance."
         )
       )
+
+  private def ownError(s: SceneResult): String =
+    val errors = s.programs.flatMap(_.curve.points.flatMap(_.runs.map(_.errors)))
+    s.own.fold("")(Page.subtracted(_, errors))
 
   private val Head = Vector("program", "samples", "seconds", "relative MSE", "FLIP") ++
     Vector("mean ratio R, G, B", "slope", "efficiency", "seconds to target") ++
@@ -202,7 +207,8 @@ object SuitePage:
     ),
     p(
       "All images of a scene are compared with one reference; docs/METRICS.md defines the " +
-        "metrics. Errors below the reference's noise are not resolved. Without a reference, " +
+        "metrics. The reference's own error is subtracted where it is known; elsewhere, errors " +
+        "below the reference's noise are not resolved. Without a reference, " +
         "images of several seeds are compared with each other."
     )
   )

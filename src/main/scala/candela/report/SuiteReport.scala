@@ -1,7 +1,9 @@
 package candela.report
 
 import candela.image.Image
-import candela.measure.{Interval, MeasuredCurve, MeasuredPoint, Metric}
+import candela.measure.{
+  BiasRegion, BiasTest, Interval, MeasuredCurve, MeasuredPoint, Metric, OwnError
+}
 
 /** Results of one program on one scene.
   *
@@ -28,11 +30,15 @@ object ProgramResult:
   /** Share of the processors whose loss is worth a warning. */
   private val Disturbing = 0.05
 
+/** Whether a program has the same expected image as another one. */
+final case class BiasAgainst(program: String, other: String, test: BiasTest)
+
 /** Results of all programs on one scene, against the named reference, or of seeds against each
   * other: the reference is then the mean of the longest renderings of some programs.
   *
   * @param target the relative MSE to reach
   * @param makers titles of these programs
+  * @param biases tests of the programs against the first one, where there are some seeds
   */
 final case class SceneResult(
     name: String,
@@ -42,8 +48,13 @@ final case class SceneResult(
     referenceName: Option[String],
     target: Double,
     programs: Vector[ProgramResult],
-    makers: Vector[String] = Vector.empty
+    makers: Vector[String] = Vector.empty,
+    biases: Vector[BiasAgainst] = Vector.empty
 ):
+  /** The reference's own error, which is subtracted, if it is known. */
+  def own: Option[OwnError] =
+    programs.flatMap(_.curve.points.flatMap(_.runs.flatMap(_.errors.own))).headOption
+
   /** The longest time, in seconds, for which all programs' errors are known. */
   val equalTime: Option[Double] =
     val spans = programs.flatMap(_.curve.span)
@@ -125,10 +136,32 @@ object SuiteData:
     "title" -> s.title,
     "note" -> s.note,
     "reference" -> s.referenceName.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
+    "referenceError" -> RenderData.own(s.own),
     "makers" -> ujson.Arr.from(s.makers),
+    "biases" -> ujson.Arr.from(s.biases.map(bias)),
     "target" -> RenderData.number(s.target),
     "equalTime" -> s.equalTime.fold(ujson.Null: ujson.Value)(RenderData.number),
     "programs" -> ujson.Arr.from(s.programs.map(program(s, _)))
+  )
+
+  private def bias(b: BiasAgainst): ujson.Obj = ujson.Obj(
+    "program" -> b.program,
+    "other" -> b.other,
+    "p" -> RenderData.number(b.test.p),
+    "wholeImage" -> ujson.Arr.from(b.test.whole.map(region)),
+    "mostDifferent" -> ujson.Arr.from(b.test.worst.map(region))
+  )
+
+  private def region(r: BiasRegion): ujson.Obj = ujson.Obj(
+    "x0" -> r.window.x0,
+    "x1" -> r.window.x1,
+    "y0" -> r.window.y0,
+    "y1" -> r.window.y1,
+    "channel" -> r.channel,
+    "mean" -> RenderData.number(r.a),
+    "otherMean" -> RenderData.number(r.b),
+    "standardError" -> RenderData.number(r.error),
+    "p" -> RenderData.number(r.adjusted)
   )
 
   private def program(s: SceneResult, p: ProgramResult): ujson.Obj = ujson.Obj(

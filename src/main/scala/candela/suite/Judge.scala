@@ -37,14 +37,18 @@ private[suite] abstract class Judge:
     Result(job, Measurement(job.samples, job.seed, seconds, errors, memory, Some(parts)))
 
 /** Compares with a reference. */
-private[suite] final class ReferenceJudge(val reference: Image) extends Judge:
+private[suite] final class ReferenceJudge(truth: Image) extends Judge:
+  val reference: Image = truth.toRgb
   private var all = Vector.empty[Result]
 
   def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String =
-    val errors = Errors.against(reference)(image)
+    val errors = Errors.against(truth)(image)
     if job.step != Job.WarmUp then
       val parts = ErrorParts.against(ImagePair(image, reference))
-      all = all.filterNot(_.job.isInPlaceOf(job)) :+ result(job, seconds, memory, errors, parts)
+      val made = result(job, seconds, memory, errors, parts)
+      // The parts include the reference's own error
+      val clean = made.copy(measurement = made.measurement.copy(parts = None))
+      all = all.filterNot(_.job.isInPlaceOf(job)) :+ (if errors.own.isEmpty then made else clean)
     f"relative MSE ${errors.relativeMse}%.3g"
 
   def drop(entries: Set[Entry]): Unit = all = all.filterNot(r => entries(r.job.entry))

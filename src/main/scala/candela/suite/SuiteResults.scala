@@ -76,7 +76,8 @@ object SuiteResults:
       scene.reference.map(_.getFileName.toString),
       scene.target.getOrElse(reachable(least)),
       programs,
-      makers.map(_.title)
+      makers.map(_.title),
+      runner.biases(suite.programs.flatMap(p => byEntry.keys.find(_.program == p)))
     )
 
   /** Error that at least half of them reach. */

@@ -3,7 +3,8 @@ package candela.suite
 import candela.base.Code
 
 import candela.image.{Image, ImageError, ImageFiles}
-import candela.measure.{Measurement, SeedNoise}
+import candela.measure.{BiasTest, ErrorLayer, Measurement, Renderings, SeedNoise, TileSums}
+import candela.report.BiasAgainst
 
 import java.nio.file.{Files, Path}
 
@@ -63,6 +64,7 @@ final class SuiteRunner(
   private val copies = SceneCopy(scratch)
   private val leftOut = Vector.newBuilder[(String, String)]
   private val pictures = scala.collection.mutable.Map.empty[Entry, (Job, Image)]
+  private val tiles = scala.collection.mutable.Map.empty[Entry, Map[Job, TileSums]]
   private val shares = scala.collection.mutable.Map.empty[Entry, Vector[(Double, Double)]]
   private val witnesses = Witnesses(suite)
   private val judges = scala.collection.mutable.Map.empty[SuiteScene, Judge]
@@ -82,6 +84,26 @@ final class SuiteRunner(
 
   /** Image of the longest rendering with the first seed. */
   private[suite] def picture(entry: Entry): Image = pictures(entry)._2
+
+  /** Whether the programs have the same expected image as the first one, by the images of their
+    * longest renderings, where there are some seeds.
+    */
+  private[suite] def biases(entries: Vector[Entry]): Vector[BiasAgainst] =
+    val sets = for entry <- entries; images <- longest(entry) yield entry.program.title -> images
+    sets.headOption.toVector.flatMap: (first, truth) =>
+      for (title, images) <- sets.tail; test <- tested(images, truth)
+      yield BiasAgainst(title, first, test)
+
+  private def longest(entry: Entry): Option[Vector[TileSums]] =
+    val all = tiles.getOrElse(entry, Map.empty)
+    val last = all.keys.maxByOption(_.samples)
+    val images = all.collect { case (job, t) if last.exists(_.step == job.step) => t }.toVector
+    Option.when(entry.program.isSeeded && images.sizeIs >= SeedNoise.Fewest)(images)
+
+  /** None where images can't be compared, such as those of a program that ignores its seed. */
+  private def tested(a: Vector[TileSums], b: Vector[TileSums]): Option[BiasTest] =
+    try Some(BiasTest.of(Renderings.seeds(a), Renderings.seeds(b)))
+    catch case _: ImageError => None
 
   /** What the scene's images were compared with, and the programs that made it. */
   private[suite] def reference(scene: SuiteScene): (Image, Vector[Program]) =
@@ -111,7 +133,7 @@ final class SuiteRunner(
 
   private def ofScene(scene: SuiteScene, entries: Vector[Entry]): Vector[Result] =
     val judge = scene.reference.fold[Judge](SeedJudge(suite, scratch)): file =>
-      ReferenceJudge(ImageFiles.read(file).toRgb)
+      ReferenceJudge(ErrorLayer.kept(ImageFiles.read(file)))
     judges(scene) = judge
     val plans = entries.flatMap(planned(_, judge))
     val times = turn(1, plans, judge)
@@ -260,6 +282,9 @@ final class SuiteRunner(
     val isBetter = pictures.get(job.entry).forall: (kept, _) =>
       job.samples > kept.samples || job.isInPlaceOf(kept)
     if job.isPoint && isBetter then pictures(job.entry) = (job, image)
+    if job.isPoint then
+      val others = tiles.getOrElse(job.entry, Map.empty).filterNot((j, _) => j.isInPlaceOf(job))
+      tiles(job.entry) = others + (job -> TileSums.of(image))
 
   private[suite] def words(job: Job, out: Path): Vector[String] =
     val program = job.entry.program

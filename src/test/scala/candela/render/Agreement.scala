@@ -1,6 +1,6 @@
 package candela.render
 
-import candela.film.{Filter, PixelBounds}
+import candela.film.PixelBounds
 import candela.image.Image
 import candela.testing.IncompleteGamma
 
@@ -141,15 +141,6 @@ final class Agreement(
     Disagreement(s"relative mean squared error: $numbers", p)
 
 object Agreement:
-  /** How alike pixels are that share samples: all that a sample counts is ∫f of the filter f, and
-    * the variance of one pixel has ∫f² of it.
-    */
-  def alike(filter: Filter): Double =
-    def along(radius: Float, value: Float => Float): Double =
-      val values = (0 until 1000).map(i => value(((2 * i + 1) / 1000f - 1f) * radius).toDouble)
-      values.sum * values.sum / values.map(v => v * v).sum * 2 * radius / 1000
-    along(filter.radiusX, filter.x) * along(filter.radiusY, filter.y)
-
   /** Pixels along the side of a block, beside the whole image. */
   val BlockSizes: Vector[Int] = Vector(8, 32)
 

@@ -108,7 +108,7 @@ object RenderSuite:
     val renders = Vector.tabulate(Seeds): seed =>
       render(scene, text, seed + 1, SamplesPerPixel, threads, guiding)
     val plan = planned(scene, text, seed = 1, SamplesPerPixel)
-    val alike = if plan.sharesSamples then Agreement.alike(plan.filter) else 1.0
+    val alike = if plan.sharesSamples then plan.filter.correlation else 1.0
     Agreement(renders, scene.image, scene.noise, scene.allowance, alike)
 
   private def render(

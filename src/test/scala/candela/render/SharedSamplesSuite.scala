@@ -43,7 +43,7 @@ class SharedSamplesSuite extends AnyFunSuite:
       values.map(v => (v - 0.5) * (v - 0.5)).sum / values.size * 12 * spp
     assert(Math.abs(variance(shares = false) - 1) < 0.1) // 1,850 pixels: ± 0.033
     assert(Math.abs(variance(shares = true) - 4.0 / 9) < 0.07) // fewer independent ones
-    assert(Math.abs(Agreement.alike(TriangleFilter(1f, 1f)) - 9.0 / 4) < 1e-3)
+    assert(Math.abs(TriangleFilter(1f, 1f).correlation - 9.0 / 4) < 1e-3)
 
   test("a window is cut from the whole image, its edges included"):
     val window = PixelBounds(9, 4, 29, 23)

@@ -11,7 +11,9 @@ class PagesSuite extends AnyFunSuite:
       // The name of the language of vector graphics is no address that is fetched.
       val addresses = """https?://[^\s"'<]+""".r.findAllIn(page).toSet
       assert(addresses == Set("http://www.w3.org/2000/svg"), name)
+      // Pictures are within the page
       val bare = page.replace("<link rel=\"icon\" href=\"data:,\"", "")
+        .replace("src=\"data:image/png;base64,", "")
       for word <- Vector("src=", "<link", "@import", "url(") do assert(!bare.contains(word), name)
 
   test("names can't break a page"):
@@ -35,6 +37,7 @@ class PagesSuite extends AnyFunSuite:
     assert(page.contains("pbrt-v9") && page.contains("is not installed"))
     // Error 0.2 on the mean curve 1.2 / samples at 6 samples, half a second each.
     assert(page.contains("""<td class="best">3.000 s</td>"""))
+    assert(page.contains("Bias against The fast") && page.contains("p-values of The slow"))
     // After 8 s, the longest run of the first and the second of the other
     assert(page.contains("""<td>8.000</td><td class="best">0.07500</td><td>0.3000</td>"""))
 
@@ -51,6 +54,10 @@ class PagesSuite extends AnyFunSuite:
     assert(fast("points")(2)("runs").arr.size == 3)
     assert(Math.abs(fast("slope")("estimate").num + 1) < 1e-9)
     assert(suite("scenes")(0)("equalTime").num == 8)
+    val bias = suite("scenes")(0)("biases")(0)
+    assert(bias("program").str == "The slow" && bias("p").num < 0.05)
+    assert(Math.abs(bias("wholeImage")(0)("mean").num / 1.1 /
+      bias("wholeImage")(0)("otherMean").num - 1) < 1e-6)
     assert(Math.abs(fast("errorAtEqualTime").num - 0.075) < 1e-9)
     assert(SuiteData.csv(Reports.suite).linesIterator.size == 1 + 2 * 9)
 

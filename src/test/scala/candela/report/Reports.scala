@@ -1,7 +1,9 @@
 package candela.report
 
 import candela.image.Image
-import candela.measure.{CurvePoint, Errors, MeasuredCurve, Measurement}
+import candela.measure.{
+  BiasTest, CurvePoint, Errors, MeasuredCurve, Measurement, Renderings, TileSums
+}
 
 /** Reports of nothing that was rendered, with numbers that are easy to find again. */
 object Reports:
@@ -36,6 +38,12 @@ object Reports:
   def errors(mse: Double): Errors =
     Errors(mse, mse, Some(mse), Some(30), Some(mse), Vector(1, 1.01, 0.99))
 
+  /** Of two programs, where one is a tenth brighter and both have noise of 1 %. */
+  private def bias: BiasTest =
+    def images(gain: Float) = Renderings.seeds(Vector(0.99f, 1f, 1.01f).map: noise =>
+      TileSums.of(picture(gain * noise)))
+    BiasTest.of(images(1.1f), images(1f))
+
   val suite: SuiteReport =
     def program(name: String, color: Int, factor: Double) =
       val runs =
@@ -50,7 +58,8 @@ object Reports:
       reference,
       Some("box.exr"),
       0.2,
-      Vector(program("fast", 0, 0.5), program("slow", 1, 2.0))
+      Vector(program("fast", 0, 0.5), program("slow", 1, 2.0)),
+      biases = Vector(BiasAgainst("The slow", "The fast", bias))
     )
     SuiteReport(
       "A race",

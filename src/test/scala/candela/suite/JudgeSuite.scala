@@ -1,6 +1,7 @@
 package candela.suite
 
 import candela.image.{Image, ImageError}
+import candela.measure.ErrorLayer
 
 import java.nio.file.Files
 
@@ -33,6 +34,16 @@ class JudgeSuite extends AnyFunSuite:
     assert(judge.results.isEmpty)
     take(judge, 0, 3, gray(3f))
     assert(judge.results.size == 6)
+
+  test("a reference's own error is subtracted"):
+    val own = gray(0.01f)
+    val judge = ReferenceJudge(ErrorLayer.behind(gray(1f), own))
+    take(judge, 0, 1, gray(1.5f))
+    take(judge, 0, 2, gray(1.05f))
+    val found = judge.results.map(_.measurement.errors)
+    assert(Math.abs(found(0).mse - 0.24) < 1e-6 && !found(0).isUnresolved)
+    assert(found(1).mse == 0 && found(1).isUnresolved)
+    assert(judge.reference.channelNames == Image.RgbNames)
 
   test("an image of another size than the first is an error, and not counted"):
     val judge = SeedJudge(suite, folder)

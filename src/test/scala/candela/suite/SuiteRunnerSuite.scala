@@ -148,6 +148,7 @@ class SuiteRunnerSuite extends AnyFunSuite:
       val scene = report.scenes.head
       assert(scene.referenceName.isEmpty && Math.abs(scene.reference(0, 0, 0) - 0.3f) < 1e-6)
       assert(scene.programs.map(_.name) == Vector("one", "two"))
+      assert(scene.biases.map(_.test.whole.size) == Vector(3))
       for (p, variance, ratio) <- scene.programs.zip(Seq(0.01, 0.04)).zip(Seq(2 / 3.0, 4 / 3.0))
           .map((a, b) => (a._1, a._2, b))
       do

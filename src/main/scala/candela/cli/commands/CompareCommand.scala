@@ -9,8 +9,8 @@ import candela.base.{Code, FileName}
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.{Limit, Options}
 import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
-import candela.image.{Contents, ImageError, ImageFiles, OutputFormat}
-import candela.measure.{ErrorMap, HeatMap, ImagePair, Metric, Metrics}
+import candela.image.{Contents, Image, ImageError, ImageFiles, OutputFormat}
+import candela.measure.{ErrorLayer, ErrorMap, HeatMap, ImagePair, Metric, Metrics, OwnError}
 
 /** `candela compare`: measures the error of an image, or of each image of a folder, against a
   * reference.
@@ -21,13 +21,16 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
   def run(): ExitCode = report.guarded:
     val Vector(image, reference) = options.files.map(OutputFiles.path): @unchecked
     val register = FileRegister()
-    register.read(Vector(image, reference))
+    lazy val Vector(a, b) = options.files.map(ImageSet.named): @unchecked
+    register.read(if asked.bias then a.files ++ b.files else Vector(image, reference))
     for (kind, name, option) <- pictures do
       val file = OutputFiles.asked(Vector(name))
       file.check()
       register.write(Output(file.paths, kind, options.files.head, option))
-    val code = if Files.isDirectory(image) then compareSet(image, reference)
-    else compareTwo(image, reference)
+    val code =
+      if asked.bias then BiasComparison(asked, terminal, a, b).run()
+      else if Files.isDirectory(image) then compareSet(image, reference)
+      else compareTwo(image, reference)
     terminal.out.flush()
     code
 
@@ -36,16 +39,22 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
       asked.heatMap.map(("heat map", _, "heatmap"))
 
   private def compareTwo(image: Path, reference: Path): ExitCode =
-    val comparison = Comparison(pairOf(image, reference))
+    val comparison = compared(image, reference)
     comparison.lines.foreach(terminal.out.println)
     if asked.perChannel then comparison.perChannel.foreach(terminal.out.println)
     write(comparison)
     judge(comparison, "")
 
-  private def pairOf(image: Path, reference: Path): ImagePair =
-    val (a, b) = (ImageFiles.read(image), ImageFiles.read(reference))
+  private def pairOf(a: Image, b: Image): ImagePair =
     val pair = asked.channels.fold(ImagePair(a, b))(ImagePair.of(a, b, _))
     asked.crop.fold(pair)(pair.cropped)
+
+  private def compared(image: Path, reference: Path): Comparison =
+    val truth = ImageFiles.read(reference)
+    val comparison = Comparison(pairOf(ImageFiles.read(image), truth))
+    // The error is that of R, G and B
+    val own = if comparison.pair.isColor then ErrorLayer.kept(truth) else truth
+    comparison.copy(own = ErrorLayer.error(asked.crop.fold(own)(_.of(own))))
 
   private def write(comparison: Comparison): Unit =
     val difference = asked.difference.map(OutputFiles.path)
@@ -79,7 +88,7 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     val set = ReferenceSet.of(images, references)
     for file <- set.missing do terminal.err.println(s"$file: no reference in $references")
     val comparisons =
-      set.pairs.map((image, reference) => image -> Comparison(pairOf(image, reference)))
+      set.pairs.map((image, reference) => image -> compared(image, reference))
     ReferenceSet.table(comparisons).foreach(terminal.out.println)
     val codes = comparisons.map((image, c) => judge(c, s"${image.getFileName}: "))
     val unknown = if set.missing.isEmpty then ExitCode.Done else ExitCode.BadInput
@@ -100,8 +109,14 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
 /** An image with its reference, and their error metrics.
   *
   * @param flip mean FLIP error; None if there are no colour channels
+  * @param own  the reference's own error, if it is stored with it
   */
-final case class Comparison(pair: ImagePair, metrics: Metrics, flip: Option[Double]):
+final case class Comparison(
+    pair: ImagePair,
+    metrics: Metrics,
+    flip: Option[Double],
+    own: Option[OwnError] = None
+):
 
   def lines: Vector[String] =
     val m = metrics
@@ -117,8 +132,20 @@ final case class Comparison(pair: ImagePair, metrics: Metrics, flip: Option[Doub
     ) ++ flip.map(f => s"FLIP          ${Figures.scientific(f)}") ++ Vector(
       s"mean ratio    ${ratios.mkString("  ")}",
       s"largest       $difference in ${most.channel} at (${most.x}, ${most.y})"
-    ) ++ Option.when(m.skipped > 0):
+    ) ++ own.toVector.flatMap(ofReference) ++ Option.when(m.skipped > 0):
       s"skipped       ${Figures.count(m.skipped, "pixel")}, NaN or infinite"
+
+  /** The reference's own error, and those of the image without it. */
+  private def ofReference(own: OwnError): Vector[String] =
+    def without(all: Double, part: Double) =
+      if all > part then Figures.scientific(all - part)
+      else s"not resolved (${Figures.scientific(all - part)})"
+    Vector(
+      s"reference     MSE ${Figures.scientific(own.mse)}, " +
+        s"relative MSE ${Figures.scientific(own.relativeMse)}, included above",
+      s"without it    MSE ${without(metrics.mse, own.mse)}, " +
+        s"relative MSE ${without(metrics.relativeMse, own.relativeMse)}"
+    )
 
   /** Table of per-channel metrics. */
   def perChannel: Vector[String] =
@@ -180,23 +207,27 @@ object ReferenceSet:
 
   /** One row per comparison, and the means. */
   def table(comparisons: Vector[(Path, Comparison)]): Vector[String] =
-    val head = Vector("image", "MSE", "MAE", "relative MSE", "PSNR", "FLIP", "bias")
+    // Which MSE and relative MSE include
+    val isOwnKnown = comparisons.exists(_._2.own.isDefined)
+    val last = Option.when(isOwnKnown)("reference's relative MSE")
+    val head = Vector("image", "MSE", "MAE", "relative MSE", "PSNR", "FLIP", "bias") ++ last
     def row(name: String, c: Comparison) =
       val m = c.metrics
       Vector(m.mse, m.mae, m.relativeMse).map(Figures.scientific).prepended(name) ++
-        Vector(Comparison.decibels(m.psnr), c.flip.fold("-")(Figures.scientific)) :+
-        Figures.scientific(m.bias)
+        Vector(Comparison.decibels(m.psnr), c.flip.fold("-")(Figures.scientific)) ++
+        Vector(Figures.scientific(m.bias)) ++
+        Option.when(isOwnKnown)(c.own.fold("-")(o => Figures.scientific(o.relativeMse)))
     def mean(figure: Comparison => Double) =
       Figures.scientific(comparisons.map((_, c) => figure(c)).sum / comparisons.size)
     val means = Option.when(comparisons.sizeIs > 1):
       val flip = if comparisons.forall(_._2.flip.isDefined) then mean(_.flip.get) else "-"
       Vector("mean", mean(_.metrics.mse), mean(_.metrics.mae), mean(_.metrics.relativeMse), "") ++
-        Vector(flip, mean(_.metrics.bias))
+        Vector(flip, mean(_.metrics.bias)) ++ Option.when(isOwnKnown)("")
     Comparison.aligned(
       head +: (comparisons.map((path, c) => row(path.getFileName.toString, c)) ++ means)
     )
 
-  private def files(folder: Path): Vector[Path] =
+  private[commands] def files(folder: Path): Vector[Path] =
     Using.resource(Files.list(folder)): all =>
       all.iterator.asScala.toVector.filter(f =>
         ImageFiles.readable.contains(FileName.suffix(f)) && Files.isRegularFile(f)

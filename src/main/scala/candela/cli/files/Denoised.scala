@@ -3,7 +3,7 @@ package candela.cli.files
 import candela.cli.terminal.Figures
 import candela.image.Image
 import candela.job.Denoising
-import candela.measure.Metrics
+import candela.measure.Errors
 
 /** A denoised image, and the time that denoising took.
   *
@@ -15,7 +15,7 @@ private[cli] final case class Denoised(image: Image, renderSeconds: Double, seco
     * the time had been spent on samples, whose error falls as 1/time.
     */
   def errors(reference: Image): String =
-    def error(of: Image) = Metrics.compare(of, reference).relativeMse
+    def error(of: Image) = Errors.quickly(reference)(of).relativeMse
     val noisy = error(image.toRgb)
     val atEqualTime = noisy * renderSeconds / (renderSeconds + seconds)
     val figures = Vector(noisy, atEqualTime, error(Denoising.shown(image).toRgb))

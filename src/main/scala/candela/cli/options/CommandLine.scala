@@ -135,6 +135,7 @@ enum Command(val word: String):
   case Merge extends Command("merge")
   case Check extends Command("check")
   case Compare extends Command("compare")
+  case Reference extends Command("reference")
   case Bench extends Command("bench")
   case Robustness extends Command("robustness")
   case Describe extends Command("describe")

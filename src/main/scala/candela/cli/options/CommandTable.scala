@@ -117,10 +117,21 @@ private[cli] object CommandTable extends OptionRows:
       "measure the error of an image against a reference",
       Vector(
         file("image", "an image, or a folder of images"),
-        file("reference", "its reference, or a folder of references by the same names")
+        file(
+          "reference",
+          "its reference, or a folder of references by the same names; with " +
+            "--bias, what another program makes of the scene"
+        )
       ),
       Words.images,
       "[Definitions of the metrics](METRICS.md)."
+    ),
+    CommandRow(
+      Command.Reference,
+      "render a reference, with its own error, by independent runs",
+      Vector(file("scene.pbrt", "the scene")),
+      Words.scenes,
+      "[References](NOISE.md#references)."
     ),
     CommandRow(
       Command.Image,
@@ -205,3 +216,5 @@ private[cli] object CommandTable extends OptionRows:
       ))
       .orElse(needsSingle(if o.watch.isDefined then "watch" else "display-server", o.isWatched))
       .orElse(needed("--watch-after needs --watch", o.watchAfter && o.watch.isEmpty))
+      .orElse(CompareTable.problem(o))
+      .orElse(ReferenceTable.problem(o))

@@ -10,6 +10,8 @@ import candela.measure.{Metric, PixelWindow}
   * @param difference file for the absolute difference |a − b|
   * @param heatMap file for the per-pixel error in false colours
   * @param heatMapMax error at the top of the colour scale
+  * @param bias whether to test for bias, between sets of images
+  * @param significance chance of a false alarm of this test
   * @param limits bounds that make the comparison fail: upper bounds, but a lower bound for PSNR
   */
 final case class CompareOptions(
@@ -20,6 +22,8 @@ final case class CompareOptions(
     heatMap: Option[String] = None,
     heatMapMetric: Metric = Metric.Flip,
     heatMapMax: Option[Double] = None,
+    bias: Boolean = false,
+    significance: Double = 0.05,
     limits: Vector[Limit] = Vector.empty
 ):
   /** FLIP takes longer than all other metrics together. */
@@ -100,7 +104,32 @@ private[cli] object CompareTable extends OptionRows:
       ))
       .action((m, o) => change(o)(_.copy(heatMapMetric = m))),
     opt[Double]("heatmap-max").valueName("X")
-      .text("top of its scale (default: 1 for flip, else the 99th percentile)")
+      .text(
+        "top of its scale (default: 1 for flip, 4 powers of ten for --bias, else the 99th " +
+          "percentile)"
+      )
       .validate(positive("heatmap-max"))
-      .action((x, o) => change(o)(_.copy(heatMapMax = Some(x))))
+      .action((x, o) => change(o)(_.copy(heatMapMax = Some(x)))),
+    opt[Unit]("bias")
+      .text(OptionText(
+        "test whether two programs render the same expected image: both arguments are sets of " +
+          "images with several seeds (a folder, A.exr,B.exr or 'NAME*.exr'), or an image with " +
+          "its variance; exit with 1 if they don't",
+        "[How the test works](METRICS.md#a-test-for-bias)."
+      ))
+      .action((_, o) => change(o)(_.copy(bias = true))),
+    opt[Double]("significance").valueName("X")
+      .text("chance of a false alarm of --bias (default 0.05)")
+      .validate: x =>
+        if x > 0 && x < 1 then success
+        else failure(s"--significance must be between 0 and 1, found `$x`")
+      .action((x, o) => change(o)(_.copy(significance = x)))
   ) ++ Limit.all.map(limit)
+
+  /** What is wrong with the options of `compare`, if anything. */
+  def problem(o: Options): Option[String] =
+    val c = o.compare
+    Option.when(c.bias && c.limits.nonEmpty):
+      s"--bias has no limits but --significance; omit --${c.limits.head.option}"
+    .orElse(Option.when(c.bias && c.difference.isDefined):
+      "--bias writes no --difference; --heatmap FILE writes a map of p-values")

@@ -63,7 +63,7 @@ private[cli] object FilmTable extends OptionRows:
 
   private def change(o: Options)(f: FilmOptions => FilmOptions): Options = o.copy(film = f(o.film))
 
-  private def every: Row = opt[Double]("checkpoint-every")(using seconds).valueName("TIME")
+  private[options] def every: Row = opt[Double]("checkpoint-every")(using seconds).valueName("TIME")
     .text("time between two checkpoints, e.g. 10s or 5m (default 60s)")
     .action((s, o) => change(o)(_.copy(every = Some(s))))
 
@@ -76,13 +76,12 @@ private[cli] object FilmTable extends OptionRows:
           "samples is no bound: [time and error](NOISE.md#time-and-error)."
       ))
       .action(setGoal((t, g) => g.copy(time = Some(t)))),
-    opt[Double]("error").valueName("X")
+    opt[Double]("error")(using reading(TextForm.share)).valueName("X")
       .text(OptionText(
-        "end when the relative error, estimated from the noise, is below X: 0.02 for 2 %",
+        "end when the relative error, estimated from the noise, is below X, e.g. 0.02 or 2%",
         "The relative error is the root of the relative MSE; `--spp N`, if given, is a ceiling: " +
           "[how the error is estimated](NOISE.md#time-and-error)."
       ))
-      .validate(x => if x > 0 then success else failure(s"--error must be positive, found `$x`"))
       .action(setGoal((x, g) => g.copy(error = Some(x))))
   )
 

@@ -16,7 +16,7 @@ private[cli] object IdleOptions:
   def of(o: Options): Vector[String] = o.command match
     case Command.Render => scenes(o) ++ rendering(o) ++ pictures(o)
     case Command.Preview => scenes(o) ++ pictures(o)
-    case Command.Check | Command.Convert => scenes(o)
+    case Command.Check | Command.Convert | Command.Reference => scenes(o)
     case Command.View | Command.Image | Command.Average => pictures(o) ++ halves(o)
     case Command.Resume => interval(o, isFilm = true)
     case Command.Compare => compared(o.compare)
@@ -99,7 +99,14 @@ private[cli] object IdleOptions:
       c.heatMap.flatMap(format).exists(_.contents == Contents.Display)
     idle("heatmap-metric", " without --heatmap")(
       c.heatMap.isEmpty && c.heatMapMetric != CompareOptions().heatMapMetric
-    ) ++ idle("heatmap-max", " without --heatmap")(c.heatMap.isEmpty && c.heatMapMax.isDefined) ++
+    ) ++ idle("heatmap-metric", ": --bias maps p-values")(
+      c.bias && c.heatMap.isDefined && c.heatMapMetric != CompareOptions().heatMapMetric
+    ) ++ idle("significance", " without --bias")(
+      !c.bias && c.significance != CompareOptions().significance
+    ) ++ idle("per-channel", ": --bias tests each channel")(c.bias && c.perChannel) ++ idle(
+      "heatmap-max",
+      " without --heatmap"
+    )(c.heatMap.isEmpty && c.heatMapMax.isDefined) ++
       idle("heatmap-max", ": the map holds numbers, not colours")(
         c.heatMap.isDefined && !isColored && c.heatMapMax.isDefined
       )

@@ -314,12 +314,26 @@ private[cli] object OptionTable extends OptionRows:
 
   private val averageOptions: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.shown
 
+  private val referenceOptions: Vector[Row] = ReferenceTable.options ++ Vector(
+    threads,
+    crop,
+    parsedAs,
+    defines,
+    keepGoing,
+    color,
+    sampler,
+    FilmTable.every,
+    quiet,
+    verbose(", and what --explain prints")
+  ) ++ LimitTable.options
+
   /** Rows of a command. */
   def of(command: Command): Vector[Row] = command match
     case Command.Render => renderOptions
     case Command.Resume => resumeOptions
     case Command.Merge => mergeOptions
     case Command.Check => checkOptions
+    case Command.Reference => referenceOptions
     case Command.Compare => CompareTable.options
     case Command.Bench => benchOptions
     case Command.Robustness => robustnessOptions

@@ -16,14 +16,21 @@ private[cli] final class ErrorLog(development: Development, reference: Image, fi
     extends RenderListener:
   private val lines = StringBuilder()
   private var lost = Vector.empty[Problem]
+  private var unresolved = 0
 
   override def looks: Looks = Looks.Doublings
 
   override def passed(pass: Pass, film: Film): Unit =
-    val mse = Errors.quickly(reference)(development(film)).mse
-    lines ++= s"${pass.samples}, ${Figures.general(mse)}\n"
+    val errors = Errors.quickly(reference)(development(film))
+    if errors.isUnresolved then unresolved += 1
+    lines ++= s"${pass.samples}, ${Figures.general(errors.mse)}\n"
     lost = OutputFiles.failures(Vector(file))(WholeFile.write(_, lines.toString.getBytes(UTF_8)))
       .map(_._2)
+
+  /** Which lines the reference's own error, which is subtracted, leaves nothing of. */
+  def remark: Option[String] = Option.when(unresolved > 0):
+    val lines = Figures.count(unresolved, "line")
+    s"$lines of $file: the MSE is below the reference's own, and shown as 0"
 
   /** Why the last lines could not be written. */
   def failure: Vector[Problem] = lost

@@ -6,7 +6,7 @@ import candela.cli.terminal.Figures
 import candela.film.Development
 import candela.image.{Image, ImageFiles}
 import candela.job.ErrorRecorder
-import candela.measure.PixelWindow
+import candela.measure.{ErrorLayer, PixelWindow}
 import candela.render.{Pass, RenderPlan}
 import candela.report.{PassSpan, Picture}
 
@@ -14,7 +14,7 @@ import candela.report.{PassSpan, Picture}
   *
   * @param reference same size as the image; None: errors are estimated from the noise
   */
-final class RenderRecorder(development: Development, reference: Option[Image])
+final class RenderRecorder(development: Development, val reference: Option[Image])
     extends ErrorRecorder(development, reference):
   private val foundPasses = Vector.newBuilder[PassSpan]
   private var first, last: Option[(Image, Int)] = None
@@ -26,7 +26,7 @@ final class RenderRecorder(development: Development, reference: Option[Image])
     def named(i: (Image, Int)) = Picture(Figures.count(i._2, "sample"), i._1)
     val begin = first.filter(f => last.exists(_._2 != f._2))
     last.map(named).toVector ++ begin.map(named) ++
-      reference.map(Picture("reference", _, isReference = true))
+      reference.map(r => Picture("reference", r.toRgb, isReference = true))
 
   override protected def measured(pass: Pass, image: Image): Unit =
     foundPasses += PassSpan(pass.samples, pass.begin, pass.end, pass.workers)
@@ -38,7 +38,7 @@ object RenderRecorder:
   def of(plan: RenderPlan, reference: Option[String]): RenderRecorder =
     RenderRecorder(plan.development, reference.map(fitting(plan, _)))
 
-  /** Reads the reference and crops it to the plan's crop window.
+  /** Reads the reference, with its own error if it has it, and crops it to the plan's crop window.
     *
     * @throws SceneError if its size differs from the image's
     */
@@ -47,7 +47,7 @@ object RenderRecorder:
     // It may be read more than once, and a scene may have named it
     for why <- InputFile.obstacle(file) do
       throw SceneError(Problem.general(Code.Unreadable, s"can't read the reference `$name`: $why"))
-    val image = ImageFiles.read(file).toRgb
+    val image = ErrorLayer.kept(ImageFiles.read(file))
     val crop = plan.crop
     def has(width: Int, height: Int) = image.width == width && image.height == height
     if has(crop.width, crop.height) then image

@@ -39,8 +39,8 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
       denoised: Option[Denoised]
   ): RenderReport =
     val (last, others) = recorder.pictures.splitAt(1)
-    val reference = recorder.pictures.find(_.isReference)
-    val errors = for d <- denoised; r <- reference yield "relative MSE" -> d.errors(r.image)
+    val errors =
+      for d <- denoised; r <- recorder.reference yield "relative MSE" -> d.errors(r)
     val clean = denoised.map: d =>
       Picture(s"${last.map(_.name).mkString}, denoised", Denoising.shown(d.image))
     RenderReport(

@@ -127,6 +127,7 @@ private[cli] final class SceneRun(
     Summary.print(options, terminal, files, prepared, rendering, after, isLate, noise.getOrElse(""))
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
+    for log <- errorLog; remark <- log.remark if told do terminal.err.println(remark)
     val threads = options.threadCount
     val (pages, failures) = reporting.fold((Vector.empty, Vector.empty)):
       _.write(rendering, threads, writeSeconds, denoised)

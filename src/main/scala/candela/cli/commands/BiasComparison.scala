@@ -1,0 +1,186 @@
+package candela.cli.commands
+
+import candela.base.Code
+import candela.cli.files.OutputFiles
+import candela.cli.options.CompareOptions
+import candela.cli.terminal.{ExitCode, Figures, Terminal}
+import candela.image.{Contents, Image, ImageEdits, ImageError, ImageFiles, OutputFormat}
+import candela.job.ReferenceFile
+import candela.measure.{BiasRegion, BiasTest, ErrorLayer, HeatMap, ImagePair, Renderings, TileSums}
+
+import java.nio.file.{FileSystems, Files, Path}
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+/** `candela compare --bias`: tests whether two programs render the same expected image. */
+private[commands] final class BiasComparison(
+    asked: CompareOptions,
+    terminal: Terminal,
+    a: ImageSet,
+    b: ImageSet
+):
+  def run(): ExitCode =
+    val test = BiasTest.of(renderings(a), renderings(b))
+    lines(test).foreach(terminal.out.println)
+    for name <- asked.heatMap do writeMap(test, OutputFiles.path(name))
+    if test.skipped > 0 then
+      terminal.err.println(s"NaN or infinite in ${Figures.count(test.skipped, "tile")}")
+    if isFound(test) || test.skipped > 0 then ExitCode.BadInput else ExitCode.Done
+
+  private def isFound(test: BiasTest): Boolean = test.p < asked.significance
+
+  private def renderings(set: ImageSet): Renderings = set.files match
+    case Vector(file) => withVariance(file)
+    case files =>
+      try Renderings.seeds(files.map(file => TileSums.of(shown(ImageFiles.read(file)))))
+      catch case e: ImageError => throw ImageError(e.code, s"${set.name}: ${e.getMessage}")
+
+  /** The channels to compare, of the part to compare. */
+  private def shown(image: Image): Image =
+    val pair =
+      asked.channels.fold(ImagePair(image, image))(ImagePair.of(image, image, _))
+    asked.crop.fold(pair)(pair.cropped).image
+
+  private def withVariance(file: Path): Renderings =
+    val image = ImageFiles.read(file)
+    val facts = ImageFiles.facts(file).toMap
+    val names = asked.channels.getOrElse(Image.RgbNames)
+    PixelNoise.of(image, facts, names) match
+      case Some(PixelNoise(variance, freedom, correlation)) =>
+        val values = asked.crop.fold(variance)(_.of(variance))
+        Renderings.known(shown(image), values, freedom, correlation)
+      case None =>
+        throw ImageError(
+          Code.DifferentImages,
+          s"$file: a single image needs its variance, as `candela reference` or `--aov " +
+            "variance,samples` stores it; or name images of several seeds: a folder, " +
+            "A.exr,B.exr or 'NAME*.exr'"
+        )
+
+  private def lines(test: BiasTest): Vector[String] =
+    val verdict = if isFound(test) then "found" else "none found"
+    val least =
+      if isFound(test) then test.worst.filter(_.adjusted < asked.significance)
+      else test.worst.take(1)
+    val title = if isFound(test) then "different" else "least alike"
+    val percent = Figures.percentage(test.shareBelow(asked.significance))
+    val tenths = test.histogram.map(s => Figures.fixed(100 * s, 1)).mkString(" ")
+    Vector(
+      s"bias          $verdict: p = ${figure(test.p)}",
+      s"compared      ${a.size} and ${b.size}",
+      s"whole image   ${test.whole.map(r => s"${r.channel} ${ratio(r)}").mkString("  ")}",
+      s"small tiles   $percent of ${test.tiles.length} have p < ${asked.significance}, by " +
+        s"chance ${Figures.percentage(asked.significance)}",
+      s"p by tenths   $tenths (% of them, by chance 10 each)"
+    ) ++ least.map: r =>
+      s"${title.padTo(14, ' ')}${place(r)}: ${ratio(r)}, p = ${figure(r.adjusted)}"
+
+  private def place(r: BiasRegion): String =
+    val w = r.window
+    s"${r.channel} in x ${w.x0} to ${w.x1}, y ${w.y0} to ${w.y1}"
+
+  /** With its standard error. */
+  private def ratio(r: BiasRegion): String =
+    if r.b == 0 then s"${Figures.scientific(r.a)} ± ${Figures.scientific(r.error)}, and 0"
+    else s"${Figures.fixed(r.a / r.b, 4)} ± ${Figures.fixed(Math.abs(r.error / r.b), 4)}"
+
+  private def figure(p: Double): String =
+    if p >= 0.001 then Figures.fixed(p, 3) else Figures.scientific(p)
+
+  private def writeMap(test: BiasTest, path: Path): Unit =
+    val isFalseColor = OutputFormat.of(path).exists(_.contents == Contents.Display)
+    if !isFalseColor then ImageFiles.write(path, test.map)
+    else
+      val most = asked.heatMapMax.getOrElse(BiasTest.UsualPowers)
+      val about = Vector("metric" -> "p-value", "brightest" -> most.toString)
+      ImageFiles.write(path, HeatMap.of(test.powers, most), about)
+      val least = Figures.general(Math.pow(10, -most))
+      terminal.out.println(s"heat map      p-value from 1 to $least, in $path")
+
+/** Images of one program, by the name that the user gave them. */
+private[commands] final case class ImageSet(name: String, files: Vector[Path]):
+  def size: String = files match
+    case Vector(file) => s"`${file.getFileName}` with its variance"
+    case several => Figures.count(several.size, "image")
+
+private[commands] object ImageSet:
+  /** A folder's images, or those of names and patterns between commas.
+    *
+    * @throws ImageError if there are none
+    */
+  def named(name: String): ImageSet =
+    val path = OutputFiles.path(name)
+    if Files.isDirectory(path) then found(name, ReferenceSet.files(path))
+    else if Files.exists(path) then ImageSet(name, Vector(path))
+    else
+      found(
+        name,
+        name.split(",").toVector.map(_.trim).filter(_.nonEmpty).flatMap(matching).distinct
+      )
+
+  private def found(name: String, files: Vector[Path]): ImageSet =
+    if files.isEmpty then
+      throw ImageError(Code.NoSuchFile, s"$name: expected images, found none")
+    ImageSet(name, files)
+
+  private def matching(name: String): Vector[Path] =
+    val isPattern = name.exists(c => c == '*' || c == '?')
+    // Windows allows no such names
+    val slash = name.lastIndexWhere(c => c == '/' || c == '\\')
+    if !isPattern then Vector(OutputFiles.path(name))
+    else
+      val folder = OutputFiles.path(name.take(slash + 1))
+      val matcher = FileSystems.getDefault.getPathMatcher(s"glob:${name.drop(slash + 1)}")
+      val here = if folder.toString.isEmpty then Path.of(".") else folder
+      if !Files.isDirectory(here) then Vector.empty
+      else
+        Using.resource(Files.list(here)): all =>
+          all.iterator.asScala.toVector.filter(f => matcher.matches(f.getFileName))
+            .map(f => folder.resolve(f.getFileName)).sorted
+
+/** The variance of an image's values, as far as its file has it.
+  *
+  * @param freedom degrees of freedom of each variance
+  * @param correlation of pixels that share samples, as in [[Renderings.Known]]
+  */
+private[commands] final case class PixelNoise(
+    variance: Image,
+    freedom: Double,
+    correlation: Double
+)
+
+private[commands] object PixelNoise:
+  /** Of the named channels.
+    *
+    * @param facts what the file says of itself
+    */
+  def of(
+      image: Image,
+      facts: Map[String, String],
+      channels: Vector[String]
+  ): Option[PixelNoise] =
+    def layer(name: String): Option[Image] =
+      val own = channels.map(c => s"$name.$c")
+      Option.when(own.forall(image.channelNames.contains)):
+        Image(image.width, image.height, channels, ImageEdits.select(image, own).data)
+    def count(name: String) = facts.get(name).flatMap(_.toIntOption).filter(_ >= 2)
+    def ofMean =
+      for variance <- layer(ErrorLayer.Name); runs <- count(ReferenceFile.Runs) yield
+        val correlation =
+          facts.get(ReferenceFile.Correlation).flatMap(_.toDoubleOption).getOrElse(1.0)
+        PixelNoise(variance, runs - 1, correlation)
+    def ofSamples =
+      for variance <- layer("Variance"); n <- samples(image, count) yield
+        val values =
+          Array.tabulate(variance.data.length)(i => variance.data(i) / n(i / channels.size))
+        val made = Image(image.width, image.height, channels, values)
+        PixelNoise(made, Math.max(1, n.min - 1), correlation = 1)
+    ofMean.orElse(ofSamples)
+
+  /** Of each pixel. */
+  private def samples(image: Image, count: String => Option[Int]): Option[Array[Float]] =
+    val pixels = image.width * image.height
+    image.channelNames.indexOf("samples") match
+      case -1 => count("samplesPerPixel").map(n => Array.fill(pixels)(n.toFloat))
+      case at => Some(Array.tabulate(pixels)(i => Math.max(1, image.data(i * image.channels + at))))

@@ -1,0 +1,40 @@
+package candela.cli.options
+
+import candela.job.{ReferenceFile, TextForm}
+
+import scopt.OParser
+
+/** Rows of the option table that `reference` has alone. Each call makes new rows: scopt gives a row
+  * one parent.
+  */
+private[cli] object ReferenceTable extends OptionRows:
+  private val b = OParser.builder[Options]
+  import b.opt
+
+  def options: Vector[Row] = Vector(
+    opt[String]('o', "outfile").valueName("FILE.exr")
+      .text("the reference (default: the scene's name with -reference.exr, in this folder)")
+      .action((f, o) => o.copy(outfiles = Vector(f))),
+    opt[Double]("error")(using reading(TextForm.share)).valueName("X")
+      .text(OptionText(
+        "end when the reference's own relative error is below X, e.g. 0.002 or 0.2%",
+        s"At least ${ReferenceFile.FewestRuns} runs are made, from whose differences the error " +
+          "is known: [references](NOISE.md#references)."
+      ))
+      .action(setGoal((x, g) => g.copy(error = Some(x)))),
+    opt[Double]("time")(using reading(TextForm.seconds)).valueName("TIME")
+      .text("end with the run that ends nearest to this time of rendering, e.g. 2h")
+      .action(setGoal((t, g) => g.copy(time = Some(t)))),
+    opt[Int]("spp").valueName("N")
+      .text(s"samples per pixel of each run (default ${ReferenceFile.UsualSamples})")
+      .validate(atLeast("spp", 1))
+      .action((n, o) => o.copy(taken = Some(n))),
+    opt[Int]("seed").valueName("N")
+      .text("another reference, independent of that of other seeds (default 0)")
+      .action(set((n, s) => s.copy(seed = n)))
+  )
+
+  /** What is wrong with the options of `reference`, if anything. */
+  def problem(o: Options): Option[String] =
+    Option.when(o.command == Command.Reference && !o.settings.goal.isGiven):
+      "reference needs --error X or --time TIME, which end it"

@@ -1,0 +1,105 @@
+package candela.cli.commands
+
+import candela.cli.Captured
+import candela.image.{Image, ImageFiles}
+import candela.testing.TempFolder
+
+import java.nio.file.{Files, Path}
+import java.util.SplittableRandom
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class BiasComparisonSuite extends AnyFunSuite:
+
+  private def run(args: String*): (Int, Captured) = Captured.run("compare" +: "--bias" +: args*)
+
+  /** Writes images of 24 × 16 pixels with 10 % of noise; returns their folder. */
+  private def images(folder: Path, count: Int, seed: Int, brightness: Double = 1): String =
+    val random = SplittableRandom(seed)
+    val _ = Files.createDirectories(folder)
+    for i <- 1 to count do
+      val image = Image.rgb(24, 16)
+      for at <- image.data.indices do
+        image.data(at) = (brightness * (1 + 0.35 * (random.nextDouble() - 0.5))).toFloat
+      ImageFiles.write(folder.resolve(s"run-$i.exr"), image)
+    folder.toString
+
+  test("equal programs pass, and the figures say how"):
+    TempFolder.use: folder =>
+      val a = images(folder.resolve("a"), 6, 1)
+      val b = images(folder.resolve("b"), 6, 2)
+      val (code, captured) = run(a, b)
+      assert(code == 0, captured.err)
+      val lines = captured.out.linesIterator.toVector
+      assert(lines(0).startsWith("bias          none found: p = "))
+      assert(lines(1) == "compared      6 images and 6 images")
+      assert(lines(2).startsWith("whole image   R ") && lines(2).contains(" ± 0.00"))
+      assert(lines(5).startsWith("least alike   "))
+
+  test("a bias has exit code 1, is named, and shows in the map"):
+    TempFolder.use: folder =>
+      val a = images(folder.resolve("a"), 6, 1, brightness = 1.05)
+      val b = images(folder.resolve("b"), 6, 2)
+      val (png, exr) = (folder.resolve("p.png"), folder.resolve("p.exr"))
+      val (code, captured) = run(a, b, "--heatmap", png.toString)
+      assert(code == 1)
+      assert(captured.out.startsWith("bias          found: p = "))
+      assert(captured.out.contains("\ndifferent     "))
+      assert(captured.out.contains("heat map      p-value from 1 to 0.0001, in "))
+      assert(run(a, b, "--heatmap", exr.toString)._1 == 1)
+      val map = ImageFiles.read(exr)
+      assert(map.width == 24 && map.data.forall(p => p >= 0 && p <= 1))
+      assert(map.data.count(_ < 0.05) > 24 * 16)
+      assert(ImageFiles.read(png).width == 24)
+      assert(run(a, b, "--significance", "1e-30")._1 == 0)
+
+  test("sets are folders, names between commas, and patterns"):
+    TempFolder.use: folder =>
+      val a = images(folder.resolve("a"), 4, 1)
+      val b = images(folder.resolve("b"), 4, 2)
+      val whole = run(a, b)._2.out
+      assert(run(
+        s"$a/run-*.exr",
+        (1 to 4).map(i => s"$b/run-$i.exr").mkString(",")
+      )._2.out == whole)
+
+  test("a single image needs its variance"):
+    TempFolder.use: folder =>
+      val a = images(folder.resolve("a"), 2, 1)
+      val (code, captured) = run(s"$a/run-1.exr", a)
+      assert(code == 1)
+      assert(captured.err.contains("a single image needs its variance"))
+
+  test("a single image with the layers variance and samples is compared"):
+    TempFolder.use: folder =>
+      val names = Vector("R", "G", "B", "Variance.R", "Variance.G", "Variance.B", "samples")
+      val random = SplittableRandom(5)
+      def written(name: String, brightness: Double) =
+        val image = Image(24, 16, names, new Array[Float](24 * 16 * names.size))
+        for i <- 0 until 24 * 16 do
+          for c <- 0 until 3 do
+            val mean = brightness * (1 + 0.35 * (random.nextDouble() - 0.5))
+            image.data(i * 7 + c) = mean.toFloat
+            // Of 64 samples, whose mean has the variance 0.35² / 12
+            image.data(i * 7 + 3 + c) = 64 * 0.35f * 0.35f / 12
+          image.data(i * 7 + 6) = 64
+        ImageFiles.write(folder.resolve(name), image)
+        folder.resolve(name).toString
+      val a = written("a.exr", 1)
+      assert(run(a, images(folder.resolve("b"), 6, 2))._1 == 0)
+      assert(run(a, written("c.exr", 1.04))._1 == 1)
+
+  test("sets without images, images that are the same, and idle options are told"):
+    TempFolder.use: folder =>
+      val a = images(folder.resolve("a"), 2, 1)
+      val none = run(s"$a/*.png", a)
+      assert(none._1 == 1 && none._2.err.contains("expected images, found none"))
+      val same = run(a, s"$a/*.exr,${copy(Path.of(a))}")
+      assert(same._1 == 1 && same._2.err.contains("are the same"))
+      assert(run(a, a, "--max-mse", "1")._1 == 2)
+      assert(run(a, a, "--difference", "d.exr")._1 == 2)
+      assert(run(a, a, "--significance", "2")._1 == 2)
+
+  private def copy(folder: Path): String =
+    val to = folder.resolveSibling("copy.exr")
+    Files.copy(folder.resolve("run-1.exr"), to).toString
