@@ -45,7 +45,7 @@ private[candela] final class AimPilot(
       (x, y) => blocks.addSaving(x, y, guide.takeSaving())
     val plain = pairs.follow(RayPairs, tracer(None, guide), PilotBlocks(view))((_, _) => ())
     val (aimed, saved) = blocks.savings()
-    (aimed + saved) / (aimed * Overhead * guided / plain)
+    CausticPilot.gainOf(aimed + saved, aimed * Overhead * guided / plain)
 
 private[candela] object AimPilot:
   /** Light paths of the pilot. */

@@ -61,7 +61,7 @@ private[candela] final class CausticPilot(
       // Manifold walks may find the light yet
       if !light.findsAll || light.media.isDefined || !scene.lights.exists(_.isDelta) then
         (None, s"none: $why")
-      else (Some(CausticChoice(light.casters, Least.toFloat)), s"$why; manifold walks may")
+      else (Some(CausticChoice(light.casters, Least.toFloat)), s"$why: manifold walks alone look for the light")
     else
       isLearning = false
       val aimed = light.casters.aimed(learning.aim)
@@ -75,7 +75,8 @@ private[candela] final class CausticPilot(
     val (byPaths, more, byLight) = blocks.variances()
     val best = Math.sqrt(byLight / (byPaths * cost))
     val perSample = Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
-    val gain = (byPaths + more) / ((byPaths + byLight / perSample) * (1 + perSample * cost))
+    val gain =
+      gainOf(byPaths + more, (byPaths + byLight / perSample) * (1 + perSample * cost))
     val figures =
       f"the pilot expects ${times(gain)} times the efficiency, with $perSample%.3g light " +
         "paths per camera sample"
@@ -149,6 +150,9 @@ private[candela] object CausticPilot:
 
   /** Expected efficiency from which on light paths are taken: the pilot is not exact. */
   inline val LeastGain = 1.25
+
+  /** Of the efficiency, by variance times cost before and after; one where nothing is noisy. */
+  def gainOf(before: Double, after: Double): Double = if after > 0.0 then before / after else 1.0
 
   def times(gain: Double): String = if gain > 10.0 then "more than 10" else f"$gain%.2f"
 

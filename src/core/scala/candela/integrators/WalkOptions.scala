@@ -15,7 +15,7 @@ import candela.guiding.PhotonField
   * @param caustics      weights against light paths, if there are any
   * @param manifolds     what manifold walks find beside paths, if anything
   * @param photons       what photons bring in place of paths, if anything; not with manifold walks
-  * @param aim           photons that guide paths, if there are any: those of a guide
+  * @param aim           photons that guide paths, if any do; the walk then has a guide
   */
 final case class WalkOptions(
     regularizes: Boolean = false,

@@ -82,15 +82,14 @@ private object CausticMethod:
   )(using site: Site):
     /** Light paths, and photons that guide the camera's, where they pay. */
     def pilot(view: View): (Option[CausticChoice], String) =
-      def besideLight(choice: Option[CausticChoice], over: Scene) = choice.fold(options): c =>
-        weighed(CausticWeights(over, c.casters, view.camera, c.perSample))
       val (found, told) = CausticPilot(
         scene,
         view,
         light,
         weights => tracer(scene, weighed(weights), null, null)
       ).run()
-      val beside = besideLight(found, scene)
+      val beside = found.fold(options): choice =>
+        weighed(CausticWeights(scene, choice.casters, view.camera, choice.perSample))
       val (aim, expected) = AimPilot(
         scene,
         view,

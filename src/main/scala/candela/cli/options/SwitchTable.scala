@@ -73,7 +73,8 @@ private[cli] object SwitchTable extends OptionRows:
       .action((_, o) => o.copy(partialImages = true))
   )
 
-  private def guides(s: RenderSettings): Boolean = s.choices.guiding != GuidingMode.Off
+  /** Was it asked for? A goal that chooses it can't be divided itself, and is refused as such. */
+  private def guides(s: RenderSettings): Boolean = s.guiding.exists(_ != GuidingMode.Off)
 
   /** What is wrong with the options of `render`, if anything. */
   def problem(o: Options): Option[String] =
