@@ -61,7 +61,11 @@ private[candela] final class CausticPilot(
       // Manifold walks may find the light yet
       if !light.findsAll || light.media.isDefined || !scene.lights.exists(_.isDelta) then
         (None, s"none: $why")
-      else (Some(CausticChoice(light.casters, Least.toFloat)), s"$why: manifold walks alone look for the light")
+      else
+        (
+          Some(CausticChoice(light.casters, Least.toFloat)),
+          s"$why: manifold walks alone look for the light"
+        )
     else
       isLearning = false
       val aimed = light.casters.aimed(learning.aim)

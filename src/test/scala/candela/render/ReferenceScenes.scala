@@ -6,6 +6,7 @@ import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
 import candela.image.{Image, ImageFiles}
+import candela.integrators.CausticsMode
 
 /** A scene of the `scenes` folder with the image that pbrt, or Mitsuba, makes of it.
   *
@@ -17,6 +18,15 @@ final case class ReferenceScene(name: String, noise: Double, allowance: Double):
   def file: Path =
     if isMitsubas then ReferenceScenes.OfMitsuba.resolve(s"$name.xml")
     else ReferenceScenes.Scenes.resolve(s"$name.pbrt")
+
+  /** Scenes of caustics show how these are looked for. Under water, few samples of paths lack what
+    * rare ones bring.
+    */
+  def caustics: CausticsMode =
+    if !name.startsWith("v4-caustics-") then CausticsMode.Off
+    else if name.endsWith("-pool") then CausticsMode.Photons
+    else CausticsMode.Auto
+
   def image: Image = ImageFiles.read(ReferenceScenes.References.resolve(s"$name.exr"))
 
 /** Finds the scenes that have a reference. */

@@ -5,6 +5,7 @@ import java.nio.file.{Files, Path}
 import candela.build.{RenderSettings, SceneBuilder}
 import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
+import candela.integrators.CausticsMode
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.Parser
 
@@ -32,6 +33,14 @@ class RenderSuite extends AnyFunSuite:
   test("guided paths in fog agree with the reference"):
     val scene = ReferenceScenes.named("v4-fog-gap")
     val agreement = compare(scene, Files.readString(scene.file), GuidingMode.On)
+    assert(agreement.disagreements(Significance).isEmpty)
+
+  test("light paths bring the rainbow of a prism to path"):
+    val scene = ReferenceScenes.named("v4-prism")
+    val text = Files.readString(scene.file)
+    assert(text.contains("\"bdpt\""))
+    val caustics = Some(CausticsMode.On)
+    val agreement = compare(scene, text.replace("\"bdpt\"", "\"path\""), caustics = caustics)
     assert(agreement.disagreements(Significance).isEmpty)
 
   test("every reference has its scene, its place in the manifest and its noise"):
@@ -102,11 +111,12 @@ object RenderSuite:
   private def compare(
       scene: ReferenceScene,
       text: String,
-      guiding: GuidingMode = GuidingMode.Off
+      guiding: GuidingMode = GuidingMode.Off,
+      caustics: Option[CausticsMode] = None
   ): Agreement =
     val threads = Runtime.getRuntime.availableProcessors
     val renders = Vector.tabulate(Seeds): seed =>
-      render(scene, text, seed + 1, SamplesPerPixel, threads, guiding)
+      render(scene, text, seed + 1, SamplesPerPixel, threads, guiding, caustics)
     val plan = planned(scene, text, seed = 1, SamplesPerPixel)
     val alike = if plan.sharesSamples then plan.filter.correlation else 1.0
     Agreement(renders, scene.image, scene.noise, scene.allowance, alike)
@@ -117,9 +127,10 @@ object RenderSuite:
       seed: Int,
       spp: Int,
       threads: Int,
-      guiding: GuidingMode = GuidingMode.Off
+      guiding: GuidingMode = GuidingMode.Off,
+      caustics: Option[CausticsMode] = None
   ): Image =
-    val plan = planned(scene, text, seed, spp, guiding)
+    val plan = planned(scene, text, seed, spp, guiding, caustics)
     val rendering = Renderer.render(plan, threads)
     assert(rendering.refused.isEmpty, s"not a number: ${rendering.refused}")
     rendering.image(plan.development)
@@ -129,13 +140,20 @@ object RenderSuite:
       text: String,
       seed: Int,
       spp: Int,
-      guiding: GuidingMode = GuidingMode.Off
+      guiding: GuidingMode = GuidingMode.Off,
+      caustics: Option[CausticsMode] = None
   ): RenderPlan =
     val description =
       if scene.isMitsubas then
         Parser.whole(MitsubaScene.readable(scene.file, Map.empty, keepGoing = false))
       else Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
-    SceneBuilder.build(description, RenderSettings(Some(spp), seed, guiding = Some(guiding)))._1
+    val settings = RenderSettings(
+      Some(spp),
+      seed,
+      guiding = Some(guiding),
+      caustics = Some(caustics.getOrElse(scene.caustics))
+    )
+    SceneBuilder.build(description, settings)._1
 
   /** Leaves images to look at; their paths. */
   private def keep(scene: ReferenceScene, agreement: Agreement): Vector[Path] =
