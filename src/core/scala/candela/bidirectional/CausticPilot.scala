@@ -152,8 +152,10 @@ private[candela] object CausticPilot:
   /** What one light path finds must not decide alone. */
   inline val MostRatio = 1e6
 
-  /** Expected efficiency from which on light paths are taken: the pilot is not exact. */
-  inline val LeastGain = 1.25
+  /** Expected efficiency from which on light paths are taken. The pilot is not exact: where
+    * fireflies are left that no light path finds, it expects up to three times too much.
+    */
+  inline val LeastGain = 3.0
 
   /** Of the efficiency, by variance times cost before and after; one where nothing is noisy. */
   def gainOf(before: Double, after: Double): Double = if after > 0.0 then before / after else 1.0
