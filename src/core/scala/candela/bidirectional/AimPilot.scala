@@ -41,8 +41,8 @@ private[candela] final class AimPilot(
     val pairs = CameraPairs(view, Seed)
     val guide = Guide.unlearning
     val blocks = PilotBlocks(view)
-    val guided = pairs.follow(CausticPilot.CameraPairs, tracer(Some(field), guide), blocks):
-      (x, y) => blocks.addSaving(x, y, guide.takeSaving())
+    val guided = pairs.follow(CausticPilot.Pairs, tracer(Some(field), guide), blocks): (x, y) =>
+      blocks.addSaving(x, y, guide.takeSaving())
     val plain = pairs.follow(RayPairs, tracer(None, guide), PilotBlocks(view))((_, _) => ())
     val (aimed, saved) = blocks.savings()
     CausticPilot.gainOf(aimed + saved, aimed * Overhead * guided / plain)

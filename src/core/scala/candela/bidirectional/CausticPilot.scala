@@ -42,7 +42,7 @@ private[candela] final class CausticPilot(
 ):
   import CausticPilot.*
   private val blocks = PilotBlocks(view)
-  private val pairs = candela.bidirectional.CameraPairs(view, Seed + 2)
+  private val pairs = CameraPairs(view, Seed + 2)
   private val learning = CasterLearning()
   private var isLearning = true
   private var splats = 0L
@@ -71,7 +71,7 @@ private[candela] final class CausticPilot(
       val aimed = light.casters.aimed(learning.aim)
       val rays = trace(light.copy(casters = aimed), LookingPaths, Seed + 1)
       val integrator = tracer(CausticWeights(scene, aimed, view.camera, 1f))
-      cameraRays = pairs.follow(CameraPairs, integrator, blocks)((_, _) => ())
+      cameraRays = pairs.follow(Pairs, integrator, blocks)((_, _) => ())
       decide(aimed, rays)
 
   private def decide(aimed: Casters, rays: Double): (Option[CausticChoice], String) =
@@ -79,13 +79,12 @@ private[candela] final class CausticPilot(
     val (byPaths, more, byLight) = blocks.variances()
     val best = Math.sqrt(byLight / (byPaths * cost))
     val perSample = Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
-    val gain =
-      gainOf(byPaths + more, (byPaths + byLight / perSample) * (1 + perSample * cost))
+    val gain = gainOf(byPaths + more, (byPaths + byLight / perSample) * (1 + perSample * cost))
     val figures =
       f"the pilot expects ${times(gain)} times the efficiency, with $perSample%.3g light " +
         "paths per camera sample"
-    if light.findsAll then (Some(CausticChoice(aimed, perSample.toFloat)), figures)
-    else if gain > LeastGain then (Some(CausticChoice(aimed, perSample.toFloat)), figures)
+    if light.findsAll || gain > LeastGain then
+      (Some(CausticChoice(aimed, perSample.toFloat)), figures)
     else (None, s"none: $figures")
 
   private def isCameraWhereItSays: Boolean =
@@ -141,7 +140,7 @@ private[candela] final class CausticPilot(
 private[candela] object CausticPilot:
   inline val LearningPaths = 16384
   inline val LookingPaths = 16384
-  inline val CameraPairs = 2048
+  inline val Pairs = 2048
   inline val CameraRaysLooked = 64
   inline val Seed = 0x5eed
 

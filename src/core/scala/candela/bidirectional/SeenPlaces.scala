@@ -10,7 +10,7 @@ import candela.scene.{CasterLearning, Scene}
 
 /** Where paths from the camera come to surfaces that receive photons. Mutable.
   *
-  * @param looks    paths from the camera
+  * @param looks      paths from the camera
   * @param onlyBehind only places that the camera sees by way of specular surfaces, and what paths
   *                   meet from there on; else the first such surface of each path
   */

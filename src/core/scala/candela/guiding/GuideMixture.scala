@@ -1,24 +1,17 @@
 package candela.guiding
 
-import candela.geometry.Frame
 import candela.math.*
 import candela.sampling.Warp
 
 /** The mixture of a region as seen from one point. Mutable, one per worker. */
-final class GuideMixture:
+final class GuideMixture extends LobeMixture(GuideField.Lobes):
   import GuideField.*
   import Lobe.*
-  private val xs, ys, zs, kappas, factors, ends = new Array[Float](Lobes)
-  private var count = 0
-
-  private val place = new Array[Float](3)
+  private val kappas = new Array[Float](Lobes)
 
   /** The region of a point of this side ([[GuideField.side]]). */
   def region(field: GuideField, p: Vec3, side: Int): Int =
-    place(0) = p.x
-    place(1) = p.y
-    place(2) = p.z
-    field.region(side, place, 0)
+    field.region(side, placeOf(p), 0)
 
   /** Takes the mixture of the region, as seen from `p`. */
   def locate(field: GuideField, region: Int, p: Vec3): Unit =
@@ -34,10 +27,7 @@ final class GuideMixture:
       val x = from(at) + cx * near
       val y = from(at + 1) + cy * near
       val z = from(at + 2) + cz * near
-      val s = 1f / Math.max(sqrt(x * x + y * y + z * z), 1e-12f)
-      xs(k) = x * s
-      ys(k) = y * s
-      zs(k) = z * s
+      turn(k, x, y, z)
       kappas(k) = from(at + Kappa)
       ends(k) = from(at + End)
       factors(k) = from(at + Factor)
@@ -56,21 +46,16 @@ final class GuideMixture:
       k += 1
     sum
 
-  /** Samples a direction into `to`. Each lobe is a strip of the square, so that evenly spread
-    * points give evenly spread directions: `u` chooses it and the angle to its axis.
-    */
+  /** Samples a direction into `to`: `u` chooses the lobe and the angle to its axis. */
   def sample(u: Float, v: Float, to: MutableVec3): Unit =
-    var k = 0
-    while k < count - 1 && u >= ends(k) do k += 1
-    val begin = if k == 0 then 0f else ends(k - 1)
-    val within = Math.max(0f, Math.min((u - begin) / (ends(k) - begin), 1f))
+    val k = chosen(u)
+    val part = within(u, k)
     val kappa = kappas(k)
     val least = exp(-2f * kappa)
-    val inverse = Math.log(within + (1f - within) * least + Tiny).toFloat / kappa
+    val inverse = Math.log(part + (1f - part) * least + Tiny).toFloat / kappa
     val cos = Math.max(-1f, Math.min(1f + inverse, 1f))
     val sin = sqrt(1f - cos * cos)
-    val frame = Frame.around(Vec3(xs(k), ys(k), zs(k)))
-    to.set(frame.toWorld(Warp.around(cos, sin, v)))
+    to.set(frame(k).toWorld(Warp.around(cos, sin, v)))
 
 private[guiding] object Lobe:
   /** Keeps the logarithm finite. */
