@@ -156,7 +156,9 @@ private[candela] object CausticPilot:
     */
   inline val LeastGain = 3.0
 
-  /** Of the efficiency, by variance times cost before and after; one where nothing is noisy. */
+  /** The factor of efficiency, from variance times cost before and after; one where nothing is
+    * noisy.
+    */
   def gainOf(before: Double, after: Double): Double = if after > 0.0 then before / after else 1.0
 
   def times(gain: Double): String = if gain > 10.0 then "more than 10" else f"$gain%.2f"
@@ -184,7 +186,9 @@ private final class PilotBlocks(view: View):
   def contains(x: Float, y: Float): Boolean =
     x >= 0f && y >= 0f && x < view.width && y < view.height
 
-  /** Adds what a pair of guided samples has less of second moments than unguided ones. */
+  /** Adds by how much the second moments of a pair of guided samples are below those of unguided
+    * ones.
+    */
   def addSaving(x: Int, y: Int, moment: Double): Unit = saved(block(x + 0.5f, y + 0.5f)) += moment
 
   private def block(x: Float, y: Float): Int =

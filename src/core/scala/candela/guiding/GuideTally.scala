@@ -8,5 +8,7 @@ final class GuideTally:
   /** Of these, those that were guided. */
   var guided = 0L
 
-  /** What the light met by specular ways has less of second moments than unguided paths' would. */
+  /** By how much the second moments of light met by way of specular surfaces are below those that
+    * unguided paths would have.
+    */
   var saving = 0.0

@@ -150,7 +150,9 @@ private[integrators] final class Guidance(
 
   private def crosses(local: Vec3) = !vertex.isInMedium && vertex.crosses(local)
 
-  /** The path has met a lamp, or the sky, by a specular way: light that nothing else finds. */
+  /** The path has met a lamp, or the sky, by way of a specular surface: light that nothing else
+    * finds.
+    */
   def meet(light: Float): Unit =
     tally.saving += light.toDouble * light * (Math.min(ratio, MostRatio) - 1.0)
 

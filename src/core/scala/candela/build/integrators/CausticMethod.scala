@@ -97,7 +97,7 @@ private object CausticMethod:
         site.resources.pool,
         (field, guide) => tracer(scene, beside.copy(aim = field), guide, null)
       ).run()
-      val guiding = s"photons guide paths to light seen by specular ways: $expected"
+      val guiding = s"photons guide paths to light seen by way of specular surfaces: $expected"
       aim match
         case None => (found, s"$told; $expected")
         case _ if found.isEmpty =>
