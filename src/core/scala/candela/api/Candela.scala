@@ -45,7 +45,7 @@ object Candela:
     Scenes.read(name.toString, how):
       val folder = how.of.limits.folder(name)
       val read = SceneLoader.refusing(SceneFormat.of(name).readText(name, text, folder, how.of))
-      read.copy(unfiled = Vector(s"$name, a text" -> candela.job.FilmHeaders.digest(text)))
+      read.copy(unfiled = Vector(s"$name, a text" -> candela.base.Sha256.of(text)))
 
   /** Begins a scene in code, statement by statement; file names in it are relative to the current
     * folder.

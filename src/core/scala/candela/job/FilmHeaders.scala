@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Code, InputFile, Problem, SceneError, Version}
+import candela.base.{Code, InputFile, Problem, SceneError, Sha256, Version}
 import candela.build.{RenderGoal, RenderSettings}
 import candela.film.PixelBounds
 import candela.render.{RenderPlan, Shard}
@@ -8,10 +8,8 @@ import candela.render.storage.FilmHeader
 import candela.scenefile.{SceneDescription, SceneFiles}
 
 import java.nio.file.{Files, Path}
-import java.security.MessageDigest
-import java.util.HexFormat
 
-import scala.util.{Try, Using}
+import scala.util.Try
 
 /** Describes renderings for their film files. */
 object FilmHeaders:
@@ -75,28 +73,16 @@ object FilmHeaders:
       folder.fold(file)(relative(_, file)).toString -> digest(file)
     filed ++ scene.unfiled
 
-  /** SHA-256 of a text. */
-  def digest(text: String): String =
-    HexFormat.of.formatHex(MessageDigest.getInstance("SHA-256").digest(text.getBytes("UTF-8")))
-
   private def digest(file: Path): String =
     for why <- InputFile.obstacle(file) do
       val message = s"can't tell `$file` again, for a saved rendering or one that is done: $why"
       val help = Some("write the scene to a file first")
       throw SceneError(Problem.general(Code.Unreadable, message, help))
-    val sum = MessageDigest.getInstance("SHA-256")
-    Using.resource(Files.newInputStream(file)): in =>
-      val buffer = new Array[Byte](1 << 16)
-      var count = in.read(buffer)
-      while count >= 0 do
-        sum.update(buffer, 0, count)
-        count = in.read(buffer)
-    HexFormat.of.formatHex(sum.digest)
+    Sha256.ofAll(Files.newInputStream(file))
 
   /** The digest of a whole rendering, which may have ended by a goal. */
   def digest(header: FilmHeader, goal: RenderGoal): String =
     val ends = goal.time.map("time" -> _) ++ goal.error.map("error" -> _)
     val facts =
       Vector(header.version, header.size, header.samples) ++ header.words ++ header.files ++ ends
-    val sum = MessageDigest.getInstance("SHA-256").digest(facts.mkString("\n").getBytes("UTF-8"))
-    HexFormat.of.formatHex(sum)
+    Sha256.of(facts.mkString("\n"))

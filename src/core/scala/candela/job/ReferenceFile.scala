@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Code, Problem, SceneError}
+import candela.base.{Code, Problem, SceneError, Sha256}
 import candela.build.sampling.PointChoice
 import candela.build.{RenderGoal, RenderSettings}
 import candela.image.{ImageError, ImageFiles}
@@ -70,7 +70,7 @@ final class ReferenceFile(path: Path, of: RenderSettings, scene: String, perRun:
 
   private def identity(prepared: Prepared): String =
     val header = FilmHeaders.of(settings(0), scene, prepared, path)
-    FilmHeaders.digest(s"${FilmHeaders.digest(header, RenderGoal())}, $perRun")
+    Sha256.of(s"${FilmHeaders.digest(header, RenderGoal())}, $perRun")
 
 object ReferenceFile:
   /** Samples per pixel of a run, unless the user says otherwise. */

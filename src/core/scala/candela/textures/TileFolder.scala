@@ -1,16 +1,13 @@
 package candela.textures
 
-import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 import java.nio.file.attribute.FileTime
-import java.security.MessageDigest
 import java.time.Instant
-import java.util.HexFormat
 
 import scala.jdk.CollectionConverters.*
 import scala.util.{Try, Using}
 
-import candela.base.WholeFile
+import candela.base.{Sha256, WholeFile}
 
 /** The folder of files of tiles. Several processes may share it: files are written whole, under
   * names of their content, and may be deleted at any time.
@@ -21,8 +18,7 @@ final class TileFolder(val path: Path, most: Long):
   import TileFolder.*
 
   private def file(key: String): Path =
-    val digest = MessageDigest.getInstance("SHA-256").digest(key.getBytes(UTF_8))
-    path.resolve(HexFormat.of.formatHex(digest).take(40) + Suffix)
+    path.resolve(Sha256.of(key).take(40) + Suffix)
 
   /** The file of this key, if there is one and it is undamaged as far as its header tells. */
   private[textures] def open(key: String): Option[TileFile] =

@@ -2,13 +2,9 @@ package candela.build.recipe
 
 import java.io.IOException
 import java.nio.file.Path
-import java.security.MessageDigest
-import java.util.HexFormat
 import java.util.concurrent.ConcurrentHashMap
 
-import scala.util.Using
-
-import candela.base.{Code, InputFile, Parallel, Refusal, Version}
+import candela.base.{Code, InputFile, Parallel, Refusal, Sha256, Version}
 import candela.image.ImageSize
 import candela.scenefile.SceneDescription
 import candela.textures.{TileCache, TileFolder, TileMemory}
@@ -116,12 +112,5 @@ object TextureStore:
       case ((folder, name), at) => Refusal.placed(at)(folder.glance(name))
 
   private def digest(file: InputFile): String =
-    val sum = MessageDigest.getInstance("SHA-256")
-    Using.resource(file.stream()): in =>
-      val some = new Array[Byte](1 << 16)
-      var count = in.read(some)
-      while count >= 0 do
-        sum.update(some, 0, count)
-        count = in.read(some)
     // Texels may differ from those of another version
-    s"${HexFormat.of.formatHex(sum.digest)} ${Version.current}"
+    s"${Sha256.ofAll(file.stream())} ${Version.current}"
