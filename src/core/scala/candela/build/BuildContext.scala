@@ -43,9 +43,12 @@ private[build] final class BuildContext(
 
   private val emissions = IdentityHashMap[Declaration, Option[AreaLightPlan]]()
 
-  /** The area light of a statement; many shapes may share it. */
+  private val alike = Alike[Option[AreaLightPlan]](problems)
+
+  /** The area light of a statement. Many shapes may share it, and many statements be alike. */
   def emission(statement: Declaration): Option[AreaLightPlan] =
-    emissions.computeIfAbsent(statement, d => AreaLights.all.build(site(d)).flatten)
+    alike(statement, _ => true):
+      emissions.computeIfAbsent(statement, d => AreaLights.all.build(site(d)).flatten)
 
   def site(d: Declaration, toWorld: Transform = Transform.Identity): Site =
     Site(d, d.dialect.getOrElse(dialect), resources, problems, toWorld)

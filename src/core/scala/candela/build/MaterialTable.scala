@@ -1,7 +1,5 @@
 package candela.build
 
-import java.util.IdentityHashMap
-
 import scala.collection.mutable
 
 import candela.bsdf.{DiffuseEquivalent, Material}
@@ -33,7 +31,8 @@ private[build] final class MaterialTable private (
     val touchesMedia: Boolean,
     named: => Vector[String],
     maker: (BuildContext, IntegratorPlan) => Int => Material,
-    dressed: ShapeDescription => DressedShape
+    ofShape: Array[Int],
+    ownPart: ShapeDescription => Declaration
 ):
   lazy val ofScene: SceneMaterials = SceneMaterials(materials)
 
@@ -54,7 +53,12 @@ private[build] final class MaterialTable private (
     context.resources.census.isDispersive &&
       materials.indices.map(maker(context, integrator)).exists(_.isDispersive)
 
-  def dress(shape: ShapeDescription): DressedShape = dressed(shape)
+  /** Of the shape at a place among all. */
+  def materialOf(place: Int): Int = ofShape(place)
+
+  /** @param place of the shape among all */
+  def dress(shape: ShapeDescription, place: Int): DressedShape =
+    DressedShape(shape, ownPart(shape), ofShape(place))
 
   def needsTangents: Boolean = materials.exists(_.isAnisotropic)
 
@@ -85,19 +89,28 @@ private[build] object MaterialTable:
     // Each has its material looked up once: there may be millions
     val worn = mutable.ArrayBuffer.empty[(Finish, MediumBorder)]
     val numbers = mutable.HashMap.empty[(Finish, MediumBorder), Int]
-    val ofShape = IdentityHashMap[ShapeDescription, Int](shapes.size)
+    val ofShape = new Array[Int](shapes.size)
     var touchesMedia = false
+    var place = 0
+    var last: (ShapeDescription, MaterialRef) | Null = null
     for s <- shapes do
-      val border = media.border(s)
-      touchesMedia |= border.inside >= 0 || border.outside >= 0
-      val wear = (Finish(split(s)._2, s.oneSided), media.seen(border))
-      val number = numbers.getOrElseUpdate(
-        wear, {
-          worn += wear
-          worn.size - 1
-        }
-      )
-      ofShape.put(s, number): Unit
+      val ref = split(s)._2
+      // Most shapes wear what the one before does: its statement is not compared part by part
+      val before = last
+      ofShape(place) =
+        if before != null && (before._2 eq ref) && isWornAlike(before._1, s) then ofShape(place - 1)
+        else
+          val border = media.border(s)
+          touchesMedia |= border.inside >= 0 || border.outside >= 0
+          val wear = (Finish(ref, s.oneSided), media.seen(border))
+          last = (s, ref)
+          numbers.getOrElseUpdate(
+            wear, {
+              worn += wear
+              worn.size - 1
+            }
+          )
+      place += 1
     for (name, d) <- named do
       context.resources.materials.define(
         name,
@@ -121,8 +134,13 @@ private[build] object MaterialTable:
       touchesMedia,
       worn.map((finish, _) => name(finish.ref)).toVector,
       maker,
-      s => DressedShape(s, split(s)._1, ofShape.get(s))
+      ofShape,
+      split(_)._1
     )
+
+  private def isWornAlike(a: ShapeDescription, b: ShapeDescription): Boolean =
+    a.oneSided == b.oneSided && a.insideMedium == b.insideMedium &&
+      a.outsideMedium == b.outsideMedium
 
   /** A material and whether it is black from behind. */
   private final case class Finish(ref: MaterialRef, isOneSided: Boolean):

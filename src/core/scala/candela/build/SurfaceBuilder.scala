@@ -81,18 +81,26 @@ private[build] final class SurfaceBuilder(
     lightCount += count
 
   def add(dressed: DressedShape): Unit =
+    context.resources.allowance.checkTime(Some(dressed.declared.at))
     val written = dressed.shape.objectToWorld.start
     val (declared, toWorld) = FarPoints.near(dressed.declared, written) match
       case Some((near, origin)) => (near, written * origin.fromOrigin)
       case None => (dressed.declared, written)
     val here = context.site(declared, toWorld)
-    for plan <- Shapes.all.build(here).flatten do
+    for plan <- alike(declared, isPlaced)(Shapes.all.build(here).flatten) do
       val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
         .filter(_ => !isUnlit(dressed.material, here))
       val before = soup.triangleCount + solids.size
       Placement(dressed, here, plan, lamp, toWorld).place(plan.geometry)
       val made = soup.triangleCount + solids.size - before
       context.resources.allowance.countShapes(made, Some(declared.at))
+
+  private val alike = Alike[Option[ShapePlan]](context.problems)
+
+  /** Is the plan the same wherever the shape is? */
+  private def isPlaced(plan: Option[ShapePlan]): Boolean = plan.map(_.geometry) match
+    case Some(ShapeGeometry.Solid(_, _)) => true
+    case _ => false
 
   private def isUnlit(material: Int, here: Site): Boolean =
     val is = !context.rules.glows && materials.materials(material).isInterface

@@ -79,9 +79,12 @@ private[build] final class WorldBuilder(
     val materials = MaterialTable.of(context, integrator, media, shapes)
 
     var lightCount = 0
+    var place = 0
     def collected(shapes: Vector[ShapeDescription]) =
       val builder = SurfaceBuilder(context, materials, integrator, lightCount)
-      for s <- shapes do builder.add(materials.dress(s))
+      for s <- shapes do
+        builder.add(materials.dress(s, place))
+        place += 1
       lightCount = builder.endOfLights
       builder
     val world = collected(uses.world)
@@ -157,7 +160,7 @@ private[build] final class WorldBuilder(
       placed.instanced.instances.moving > 0,
       () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id),
       () =>
-        val worn = shapes.iterator.map(materials.dress(_).material)
+        val worn = shapes.indices.iterator.map(materials.materialOf)
         CausticSurvey(context, materials, worn, lights)
     )
 

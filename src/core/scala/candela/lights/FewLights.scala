@@ -167,8 +167,12 @@ object FewLights:
 
   /** Are these so few that a loop over all is faster than a tree? */
   private[lights] def suits(lights: Array[Light]): Boolean =
-    val kinds = lights.toSeq.flatMap(_.bounds).map(kind)
-    kinds.map(k => if k == Bounded then BoundedCost else 1).sum <= Most
+    var cost = 0
+    var i = 0
+    while i < lights.length && cost <= Most do
+      for b <- lights(i).bounds do cost += (if kind(b) == Bounded then BoundedCost else 1)
+      i += 1
+    cost <= Most
 
   private def kind(b: LightBounds): Int =
     if b.cosNormals == -1f then Around

@@ -44,6 +44,10 @@ object LightBounds:
 
   /** Smallest cone around two cones, as axis and cosine of the half-angle. */
   private def unionCones(a: Vec3, cosA: Float, b: Vec3, cosB: Float): (Vec3, Float) =
+    // All directions contain any other: the usual case of spheres
+    if cosA == -1f then (a, cosA) else unionNarrow(a, cosA, b, cosB)
+
+  private def unionNarrow(a: Vec3, cosA: Float, b: Vec3, cosB: Float): (Vec3, Float) =
     val angleA = Math.acos(clamp(cosA, -1f, 1f).toDouble)
     val angleB = Math.acos(clamp(cosB, -1f, 1f).toDouble)
     val between = Math.acos(clamp(a dot b, -1f, 1f).toDouble)

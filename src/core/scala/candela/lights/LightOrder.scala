@@ -21,7 +21,7 @@ private[lights] final class LightOrder(bounds: Array[LightBounds]):
     * the second half begins.
     */
   def split(from: Int, until: Int): Int =
-    val center = centers((0 until 3).maxBy(extent(_, from, until)))
+    val center = centers(widest(from, until))
     val count = until - from
     loop(count): i =>
       keys(from + i) = (LightOrder.sortable(center(order(from + i))).toLong << 32) | i
@@ -29,6 +29,13 @@ private[lights] final class LightOrder(bounds: Array[LightBounds]):
     loop(count)(i => sorted(from + i) = order(from + keys(from + i).toInt))
     System.arraycopy(sorted, from, order, from, count)
     from + count / 2
+
+  /** The first axis of the largest extent. */
+  private def widest(from: Int, until: Int): Int =
+    val x = extent(0, from, until)
+    val y = extent(1, from, until)
+    val z = extent(2, from, until)
+    if !(y > x) && !(z > x) then 0 else if !(z > y) then 1 else 2
 
   private def extent(axis: Int, from: Int, until: Int): Float =
     val center = centers(axis)

@@ -1,5 +1,7 @@
 package candela.math
 
+import candela.base.loop
+
 /** An affine or projective map with its inverse.
   *
   * @param m       16 numbers in row order, applied to column vectors; Double, so that long chains
@@ -182,14 +184,20 @@ object Transform:
       )
     yield cameraToWorld.inverse
 
+  // Loops over plain arrays: scenes have millions of transforms
+
   private def transposed(m: IArray[Double]): IArray[Double] =
-    IArray.tabulate(16)(i => m(i % 4 * 4 + i / 4))
+    val made = new Array[Double](16)
+    loop(16)(i => made(i) = m(i % 4 * 4 + i / 4))
+    IArray.unsafeFromArray(made)
 
   private def product(a: IArray[Double], b: IArray[Double]): IArray[Double] =
-    IArray.tabulate(16): i =>
-      val r = i / 4 * 4
-      val c = i % 4
-      a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
+    val made = new Array[Double](16)
+    loop(16): i =>
+      val r = i & ~3
+      val c = i & 3
+      made(i) = a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
+    IArray.unsafeFromArray(made)
 
   /** Gauss–Jordan elimination with row pivoting. Tracks a bound of each number's rounding error,
     * including the input's: a pivot within its bound may as well be zero, and the matrix is then

@@ -1,6 +1,10 @@
 package candela.scenefile
 
+import candela.base.SceneFolder
+
 import java.nio.file.Path
+
+import scala.collection.mutable
 
 /** The files that a scene consists of. */
 object SceneFiles:
@@ -9,24 +13,33 @@ object SceneFiles:
     * write; without duplicates.
     */
   def of(scene: SceneDescription): Vector[Path] =
-    val texts =
-      for
-        declaration <- declarations(scene)
-        param <- declaration.params
-        text <- param.strings
-      yield (declaration.folder, text)
-    // Distinct, because thousands of shapes may have the same texture
-    val named = texts.distinct.flatMap((folder, text) => folder.belonging(text))
+    // A set, because thousands of shapes may have the same texture
+    val texts = mutable.LinkedHashSet.empty[(SceneFolder, String)]
+    for
+      declaration <- declarations(scene)
+      param <- declaration.params
+      text <- param.strings
+    do texts += (declaration.folder -> text)
+    val named = texts.toVector.flatMap((folder, text) => folder.belonging(text))
     (scene.sources ++ named).distinctBy(_.toAbsolutePath.normalize)
 
-  private def declarations(s: SceneDescription): Vector[Declaration] =
+  /** Some of them several times: comparing millions takes longer than reading them again. */
+  private def declarations(s: SceneDescription): Iterator[Declaration] =
     val single = Vector(s.camera, s.sampler, s.filter, s.integrator, s.accelerator, s.renderer)
-    val shapes = s.shapes ++ s.objects.values.flatten
-    (single :+ s.volumeIntegrator).flatten ++
-      s.textures.map(_.texture) ++
-      s.namedMaterials.map(_._2) ++
-      shapes.map(_.material).distinct.collect { case MaterialRef.Inline(d) => d } ++
+    def shapes = s.shapes.iterator ++ s.objects.valuesIterator.flatten
+    (single :+ s.volumeIntegrator).flatten.iterator ++
+      s.textures.iterator.map(_.texture) ++
+      s.namedMaterials.iterator.map(_._2) ++
+      changes(shapes.map(_.material)).collect { case MaterialRef.Inline(d) => d } ++
       shapes.map(_.shape) ++
-      shapes.flatMap(_.areaLight).distinct ++
-      (s.lights ++ s.volumes).map(_.light) ++
-      s.media.map(_.medium)
+      changes(shapes.map(_.areaLight)).flatten ++
+      (s.lights.iterator ++ s.volumes).map(_.light) ++
+      s.media.iterator.map(_.medium)
+
+  /** Without those that are the one before. */
+  private def changes[T <: AnyRef](all: Iterator[T]): Iterator[T] =
+    var last = Option.empty[T]
+    all.filter: next =>
+      val isNew = !last.exists(_ eq next)
+      if isNew then last = Some(next)
+      isNew

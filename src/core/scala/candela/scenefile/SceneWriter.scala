@@ -101,7 +101,9 @@ final class SceneWriter(
   private def declare(category: String, from: Named, defaults: String = ""): Declaration =
     evidence.uses(category, from.name, from.at)
     val inherited = state.defaults.getOrElse(defaults, Vector.empty)
-    val all = from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
+    val all =
+      if inherited.isEmpty then from.params
+      else from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
     val params = state.scope.resolve(all)
     Declaration(category, from.name, params, from.at, folder, state.colorSpace, foreign)
 

@@ -148,7 +148,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
       case ParamType.Rgb | ParamType.Xyz => 3
       case ParamType.Spectrum if param.strings.isEmpty => 2
       case _ => 1
-    val help = Some(example(param))
+    def help = Some(example(param))
     def fail(message: String) =
       throw SceneError(Problem.error(Code.ParameterSyntax, param.valuesAt, message, help))
     if n == 0 then

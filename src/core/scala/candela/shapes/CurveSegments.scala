@@ -38,7 +38,8 @@ final class CurveSegments(
 
   def bounds(segment: Int): Bounds3 =
     val half = 0.5f * Math.max(widths(2 * segment), widths(2 * segment + 1))
-    val box = Bounds3.of((0 until 4).map(control(segment, _)))
+    val box = control(segment, 0).union(control(segment, 1))
+      .union(control(segment, 2)).union(control(segment, 3))
     val wide = Bounds3(box.min - Vec3(half, half, half), box.max + Vec3(half, half, half))
     val placed = space.fold(wide)(t => Bounds3.of((0 until 8).map(i => t.point(wide.corner(i)))))
     val pad = TriangleSoup.roundingError(
@@ -50,9 +51,10 @@ final class CurveSegments(
     )
     Bounds3(placed.min - pad, placed.max + pad)
 
-  private def control(segment: Int, k: Int): Vec3 =
+  private def control(segment: Int, k: Int): Bounds3 =
     val i = 12 * segment + 3 * k
-    Vec3(points(i), points(i + 1), points(i + 2))
+    val p = Vec3(points(i), points(i + 1), points(i + 2))
+    Bounds3(p, p)
 
   /** Finds the closest hit in (0, `ray.tMax`) and shortens the ray; `hit` receives u along the
     * curve and v across it.

@@ -168,7 +168,7 @@ class CurveSuite extends AnyFunSuite:
       val normals = Option.when(kind == CurveKind.Ribbon)((draws.direction(), draws.direction()))
       val curve = BezierCurve(c, 0.2f, 0.1f, normals)
       val moved = CurveBuilder.segments(Seq(curve), kind, 2, toWorld, false, 2f)
-      val kept = CurveBuilder(kind, Some(toWorld), false, 2f)
+      val kept = CurveBuilder(4, kind, Some(toWorld), false, 2f)
       kept.add(curve, 2, None, 1f)
       val inSpace = kept.result
       val target = toWorld.point(point(c, draws.unit()))

@@ -26,13 +26,14 @@ class Field[T](
     adapt: (T, Site) => T
 ):
   /** Returns the value given at the site, else the default. Reports values of the wrong type. */
-  def apply()(using site: Site): T =
-    given_().getOrElse(adapt(default(site.dialect), site))
+  def apply()(using site: Site): T = given_() match
+    case Some(value) => value
+    case None => adapt(default(site.dialect), site)
 
   /** Returns the value given by the scene file, if any. */
-  def given_()(using site: Site): Option[T] =
-    site.declaration.param(name).filter(_ => site.speaks(dialects)).filter(fits(_, site))
-      .flatMap(read(_, site))
+  def given_()(using site: Site): Option[T] = site.declaration.param(name) match
+    case Some(p) if site.speaks(dialects) && fits(p, site) => read(p, site)
+    case _ => None
 
   /** Whether pbrt finds the value, which it looks for by type. Mitsuba's reader knows the types of
     * recipes, not those of pbrt.

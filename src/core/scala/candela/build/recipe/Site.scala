@@ -85,9 +85,14 @@ final class Findings(
   private val told = mutable.HashSet.empty[(Severity, Option[SourcePos], String)]
   @volatile private var errors = earlier.count(_.severity == Severity.Error)
   private var warnings = 0
+  private var reports = 0L
+
+  /** How often something was reported, repeated or not. */
+  def reported: Long = synchronized(reports)
 
   /** Help is looked for only if it is shown: what is missing may be missing a million times. */
   private def add(problem: Problem, help: => Option[String]): Unit = synchronized:
+    reports += 1
     val isError = problem.severity == Severity.Error
     if isError || warnings <= Problems.MostWarnings then
       if told.add((problem.severity, problem.at, problem.message)) then

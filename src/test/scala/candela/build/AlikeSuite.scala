@@ -1,0 +1,68 @@
+package candela.build
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.base.{Code, SceneFolder, SourcePos}
+import candela.build.recipe.Findings
+import candela.render.Renderer
+import candela.scenefile.{Declaration, Dialect, Param}
+import candela.testing.SceneTexts
+
+final class AlikeSuite extends AnyFunSuite:
+  private def place(line: Int) = SourcePos("scene", line, 1)
+
+  private def sphere(line: Int, params: Param*) =
+    Declaration("Shape", "sphere", params.toVector, place(line), SceneFolder.Nowhere)
+
+  private def radius(line: Int, r: Float) = sphere(line, Param.float("radius", place(line), r))
+
+  /** How often a value was made for these statements. */
+  private def made(all: Declaration*)(say: Findings => Unit): Int =
+    val problems = Findings()
+    val alike = Alike[Int](problems)
+    var count = 0
+    for d <- all do
+      alike(d, _ => true) {
+        count += 1
+        say(problems)
+        count
+      }: Unit
+    count
+
+  test("statements of equal numbers are one, wherever they stand"):
+    assert(made(radius(1, 2f), radius(2, 2f), radius(3, 2f))(_ => ()) == 1)
+
+  test("other numbers, types, names and counts of parameters are others"):
+    val plain = radius(1, 2f)
+    assert(made(plain, radius(2, 3f))(_ => ()) == 2)
+    assert(made(plain, sphere(2))(_ => ()) == 2)
+    assert(made(plain, sphere(2, Param.int("radius", place(2), 2)))(_ => ()) == 2)
+    assert(made(plain, sphere(2, Param.float("zmax", place(2), 2f)))(_ => ()) == 2)
+    assert(made(plain, plain.copy(name = "disk"))(_ => ()) == 2)
+    assert(made(plain, plain.copy(colorSpace = "aces2065-1"))(_ => ()) == 2)
+    assert(made(plain, plain.copy(dialect = Some(Dialect.V4)))(_ => ()) == 2)
+
+  test("names are read again: what they stand for may have changed"):
+    def textured(line: Int) = sphere(line, Param.texture("alpha", place(line), "t"))
+    assert(made(textured(1), textured(2))(_ => ()) == 2)
+
+  test("each statement gets its own message"):
+    def say(problems: Findings): Unit = problems.warn(Code.CorrectedValue, place(1), "odd")
+    assert(made(radius(1, -2f), radius(2, -2f))(say) == 2)
+    val world = "WorldBegin\nLightSource \"point\"\n" + "Shape \"sphere\" \"float radius\" -1\n" * 3
+    val lines = SceneTexts.problems(world, Dialect.V4).flatMap(_.at).map(_.line)
+    assert(lines == Vector(3, 4, 5))
+
+  test("shapes of alike statements are where each is placed"):
+    def image(params: Int => String) =
+      val spheres =
+        for i <- 1 to 3
+        yield s"AttributeBegin Translate ${i - 2} 0 3 " +
+          s"Shape \"sphere\" \"float radius\" .4 ${params(i)} AttributeEnd\n"
+      val head = "Film \"rgb\" \"integer xresolution\" 32 \"integer yresolution\" 32\n" +
+        "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
+      val plan = SceneTexts.plan(head + spheres.mkString, Dialect.V4)
+      Renderer.render(plan, threads = 1).image(plan.development).data.toVector
+    val alike = image(_ => "")
+    // Whole spheres, too, but of other numbers
+    assert(alike == image(i => s"\"float zmin\" -$i") && alike.distinct.sizeIs > 100)
