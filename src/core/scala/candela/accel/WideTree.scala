@@ -48,6 +48,29 @@ private[accel] object WideTree:
       boxes(axis + 3) = Math.nextUp(high + more)
       axis += 1
 
+  /** Writes the box of a node's child, six Floats, min and max.
+    *
+    * @param node index of the node's first Float
+    */
+  inline def writeBox(inline put: (Int, Float) => Unit)(
+      node: Int,
+      lane: Int,
+      width: Int,
+      box: Array[Float]
+  ): Unit =
+    var row = 0
+    while row < 6 do
+      put(node + row * width + lane, box(row))
+      row += 1
+
+  /** Writes a child that every ray misses: it begins at infinity or ends behind the origin. */
+  inline def writeEmpty(inline put: (Int, Float) => Unit)(node: Int, lane: Int, width: Int): Unit =
+    var row = 0
+    while row < 6 do
+      put(node + row * width + lane, Float.PositiveInfinity)
+      row += 1
+    put(node + 6 * width + lane, java.lang.Float.intBitsToFloat(NoChild))
+
   /** Twice the tolerance of [[candela.shapes.TriangleTest.Within]]. */
   private final val Pad = 4e-6f
 

@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.base.Code
+import candela.base.{Code, Keep}
 
 import candela.build.ReadSettings as CoreSettings
 import candela.job.{Preparation, TextForm}
@@ -8,7 +8,11 @@ import candela.scenefile.Dialect
 
 import java.time.Duration
 
-/** How scenes are read. Immutable: each method returns another value. */
+/** How scenes are read. Immutable: each method returns another value.
+  *
+  * Scenes that are read by one value, or by values made from it, share what they have in common
+  * when they are prepared: meshes, textures, acceleration structures.
+  */
 final class ReadSettings private (private[api] val of: Preparation):
   private def reading(change: CoreSettings => CoreSettings): ReadSettings =
     val settings = of.settings
@@ -48,7 +52,7 @@ final class ReadSettings private (private[api] val of: Preparation):
 
 object ReadSettings:
   /** The usual way. */
-  def apply(): ReadSettings = new ReadSettings(Preparation())
+  def apply(): ReadSettings = new ReadSettings(Preparation(keep = Keep()))
 
   /** The usual way, for Java and Kotlin. */
   def create(): ReadSettings = apply()

@@ -4,7 +4,7 @@ import java.io.{BufferedInputStream, FilterInputStream, InputStream, IOException
 import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.ISO_8859_1
-import java.nio.file.attribute.BasicFileAttributes
+import java.nio.file.attribute.{BasicFileAttributes, FileTime}
 import java.nio.file.{Files, InvalidPathException, Path, StandardOpenOption}
 
 import scala.util.{Try, Using}
@@ -66,6 +66,17 @@ final class InputFile private[base] (
   def beginning(most: Int): Array[Byte] =
     Using.resource(Files.newInputStream(readable))(_.readNBytes(most))
 
+  /** What tells its content from others. Its bytes are not counted, as they are read again.
+    *
+    * @throws IOException if it can't be read
+    */
+  def digest(): String = Sha256.ofAll(Files.newInputStream(readable))
+
+  /** What changes when the file does; None if the system doesn't tell, or the file has changed so
+    * lately that it may change again unnoticed.
+    */
+  private[base] def stamp: Option[FileStamp] = FileStamp.of(place)
+
   /** In memory as the system sees fit. Its whole size is counted. */
   def map(): ByteBuffer = Using.resource(channel()): channel =>
     if channel.size > Int.MaxValue then throw IOException("larger than 2 GB")
@@ -125,6 +136,36 @@ object InputFile:
       Some(Path.of(name)).filter(Files.isRegularFile(_)).map: path =>
         InputFile(path, path, _ => (), mayBePipe = false, shown = true)
     catch case _: InvalidPathException => None
+
+/** What a file system says of a file: it differs if the file was changed or replaced.
+  *
+  * @param changed when its content or its attributes were, which no program can set
+  */
+private[base] final case class FileStamp(
+    size: Long,
+    modified: FileTime,
+    changed: FileTime,
+    device: Any,
+    number: Any
+)
+
+private[base] object FileStamp:
+  /** Clocks of file systems tick: two changes within a tick have one time. In milliseconds. */
+  val Tick = 2000L
+
+  /** @param rest milliseconds since its last change, at least */
+  def of(file: Path, rest: Long = Tick): Option[FileStamp] = Try:
+    val all = Files.readAttributes(file, "unix:size,lastModifiedTime,ctime,dev,ino")
+    val changed = all.get("ctime").asInstanceOf[FileTime]
+    val stamp = FileStamp(
+      all.get("size").asInstanceOf[Long],
+      all.get("lastModifiedTime").asInstanceOf[FileTime],
+      changed,
+      all.get("dev"),
+      all.get("ino")
+    )
+    Option.when(System.currentTimeMillis - changed.toMillis >= rest)(stamp)
+  .toOption.flatten
 
 /** Counts the bytes read. */
 private final class Gated(in: InputStream, gate: Long => Unit) extends FilterInputStream(in):

@@ -2,7 +2,7 @@ package candela.build
 
 import java.util.IdentityHashMap
 
-import candela.base.{Code, Parallel, SceneFolder, SourcePos}
+import candela.base.{Code, Keep, Parallel, SceneFolder, SourcePos}
 import candela.build.lights.{AreaLightPlan, AreaLights}
 import candela.build.recipe.*
 import candela.build.settings.OptionRecipe
@@ -82,7 +82,8 @@ private[build] object BuildContext:
       whole: SceneDescription,
       settings: RenderSettings,
       pool: Parallel = Parallel.Alone,
-      textures: TextureControl = TextureControl()
+      textures: TextureControl = TextureControl(),
+      keep: Keep = Keep.Nothing
   ): BuildContext =
     val isBlind = whole.dialect.base == Dialect.V4 && whole.worldToCamera.start.isFlat
     val description = if isBlind then background(whole) else whole
@@ -109,13 +110,13 @@ private[build] object BuildContext:
         )
       val allowance = description.folder.allowance
       val resources =
-        new Resources(basis, pool, settings.seed, mayBeSpectral, switches, allowance, store)
+        new Resources(basis, pool, settings.seed, mayBeSpectral, switches, allowance, store, keep)
       new BuildContext(there, origin, resources, problems)
     val plain = context(Switches(), TextureStore.InMemory)
     val statement = plain.unwritten("Option", "")
       .copy(params = description.options, folder = description.folder)
     val asked = settings.over(OptionRecipe.build(plain.site(statement)))
-    context(asked, TextureStore.of(description, textures, pool))
+    context(asked, TextureStore.of(description, textures, pool, keep))
 
   /** The start of the scene's file, if it has one. */
   private def start(scene: SceneDescription): SourcePos =

@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.accel.tracing.Hierarchies
-import candela.base.{Code, Limit, Parallel, Problem}
+import candela.base.{Code, Keep, Limit, Parallel, Problem}
 import candela.build.recipe.TextureControl
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
@@ -21,12 +21,14 @@ import candela.scenefile.SceneDescription
   * @param taken     samples per pixel to take, if not as many as the points are made for
   * @param footprint size of a sample's footprint, in pixels, if not that of their number
   * @param textures  how image textures are kept
+  * @param keep      has what other scenes have made
   */
 final case class BuildControl(
     pool: Parallel = Parallel.Alone,
     taken: Option[Int] = None,
     footprint: Option[Float] = None,
-    textures: TextureControl = TextureControl()
+    textures: TextureControl = TextureControl(),
+    keep: Keep = Keep.Nothing
 )
 
 /** Builds a render plan from a description. Connects scene files to rendering.
@@ -45,7 +47,7 @@ object SceneBuilder:
       settings: RenderSettings = RenderSettings(),
       control: BuildControl = BuildControl()
   ): (RenderPlan, Vector[Problem]) =
-    val context = BuildContext(description, settings, control.pool, control.textures)
+    val context = BuildContext(description, settings, control.pool, control.textures, control.keep)
     val image = ImageSetup.of(context, settings)
     val taken = control.taken.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
     def integratorIn(context: BuildContext) =

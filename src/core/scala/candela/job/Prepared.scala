@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.Problem
+import candela.base.{Keep, Problem}
 import candela.build.RenderSettings
 import candela.build.recipe.TextureControl
 import candela.color.Rgb
@@ -24,6 +24,7 @@ import java.nio.file.Path
   * @param world      which of the file's worlds, from 0
   * @param isFirst    whether the others are not looked at, which is then told
   * @param textures   how image textures are kept
+  * @param keep       has what other scenes have made
   */
 final case class Preparation(
     settings: RenderSettings = RenderSettings(),
@@ -34,7 +35,8 @@ final case class Preparation(
     footprint: Option[Float] = None,
     world: Int = 0,
     isFirst: Boolean = false,
-    textures: TextureControl = TextureControl()
+    textures: TextureControl = TextureControl(),
+    keep: Keep = Keep.Nothing
 )
 
 /** How a prepared scene is rendered; the image is the same.

@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Code, Problem, Refusal, SceneError, Suggest}
+import candela.base.{Code, Keep, Problem, Refusal, SceneError, Suggest}
 import candela.build.{BuildControl, SceneBuilder}
 import candela.render.ThreadPool
 import candela.scenefile.{Excerpts, SceneDescription}
@@ -55,7 +55,10 @@ object SceneLoader:
     try
       // Scenes of strangers write nothing that their user did not ask for
       val textures = how.textures.copy(isShared = !how.limits.sandbox)
-      val control = BuildControl(pool, how.taken, how.footprint, textures)
+      // What a limited scene may use is counted as it is made
+      val keep = if how.limits.all.isEmpty then how.keep else Keep.Nothing
+      keep.begin()
+      val control = BuildControl(pool, how.taken, how.footprint, textures, keep)
       val (plan, warnings) = SceneBuilder.build(description, how.settings, control)
       val seconds = (System.nanoTime - started) * 1e-9
       val all = description.warnings ++ warnings

@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Code, Problem, SceneError}
+import candela.base.{Code, Keep, Problem, SceneError}
 import candela.render.Rendering
 import candela.render.storage.{FilmFile, FilmHeader}
 
@@ -14,12 +14,18 @@ import scala.util.Try
   * @param header  describes the whole
   * @param scene   the scene file on this machine
   * @param threads of each shard
+  * @param keep    has what other scenes of the process have made
   * @throws SceneError if the scene here is not what the header describes
   */
-final class ShardRenderer(header: FilmHeader, scene: Path, threads: Int) extends AutoCloseable:
+final class ShardRenderer(
+    header: FilmHeader,
+    scene: Path,
+    threads: Int,
+    keep: Keep = Keep.Nothing
+) extends AutoCloseable:
   private val settings = FilmHeaders.settings(header)
   private val prepared =
-    SceneLoader.FromFile.load(scene.toString, Preparation(settings, threads = threads))
+    SceneLoader.FromFile.load(scene.toString, Preparation(settings, threads = threads, keep = keep))
 
   def close(): Unit = prepared.close()
 

@@ -1,6 +1,6 @@
 package candela.cluster
 
-import candela.base.Scratch
+import candela.base.{Keep, Scratch}
 import candela.job.ShardRenderer
 
 import java.nio.file.{Files, Path}
@@ -17,6 +17,9 @@ object ExecutorScenes:
     Runtime.getRuntime.addShutdownHook(Thread(cleanUp))
     scratch.folder
 
+  // Frames of a sequence have most in common
+  private val keep = Keep()
+
   // By bundle; the latest last. Others wait while one is built.
   private val scenes = mutable.LinkedHashMap.empty[String, ShardRenderer]
 
@@ -26,7 +29,7 @@ object ExecutorScenes:
     val renderer = known.getOrElse:
       val folder = newFolder()
       // The scene is in memory once it is built.
-      try ShardRenderer(work.header, work.bundle.value.unpack(folder), work.threads)
+      try ShardRenderer(work.header, work.bundle.value.unpack(folder), work.threads, keep)
       finally delete(folder)
     scenes += key -> renderer
     // A sequence renders a few at a time.

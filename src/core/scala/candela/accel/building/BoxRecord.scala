@@ -131,17 +131,30 @@ private[building] object BoxRecord:
 
   /** Records of all primitives. */
   def all(primitives: Primitives, parallel: Parallel): Array[Int] =
+    collected(primitives, primitives.count, i => i, parallel)
+
+  /** Records of some. */
+  def some(primitives: Primitives, which: Array[Int], parallel: Parallel): Array[Int] =
+    collected(primitives, which.length, which(_), parallel)
+
+  private inline def collected(
+      primitives: Primitives,
+      count: Int,
+      inline which: Int => Int,
+      parallel: Parallel
+  ): Array[Int] =
     val soup = primitives.soup
-    val records = new Array[Int](Math.multiplyExact(Ints, primitives.count))
-    parallel.ranges(primitives.count): (from, until) =>
-      var i = from
-      while i < until do
-        val at = Ints * i
+    val records = new Array[Int](Math.multiplyExact(Ints, count))
+    parallel.ranges(count): (from, until) =>
+      var slot = from
+      while slot < until do
+        val at = Ints * slot
+        val i = which(slot)
         if i < soup.count then writeTriangle(records, at, soup, i)
         else
           val b = primitives.boundsOf(i)
           write(records, at, i, b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z)
-        i += 1
+        slot += 1
     records
 
   private def writeTriangle(to: Array[Int], at: Int, soup: TriangleSoup, triangle: Int): Unit =

@@ -1,6 +1,6 @@
 package candela.accel.building
 
-import candela.accel.{BinaryTree, Primitives, WideTree}
+import candela.accel.{BinaryTree, Primitives, Relocation, WideLayout, WideTree}
 import candela.base.{loop, FloatBuffer, IntBuffer, Parallel}
 import candela.shapes.TriangleSoup
 
@@ -53,16 +53,10 @@ private final class WideBuilder(
     part.owners.copyTo(owners, ownerStarts(i))
     part.others.copyTo(others, otherStarts(i))
     part.nodes.copyTo(nodes, nodeStarts(i))
-    if i > 0 then
-      var node = nodeStarts(i)
-      while node < nodeStarts(i + 1) do
-        loop(width): k =>
-          val at = node + 6 * width + k
-          val code = java.lang.Float.floatToRawIntBits(nodes(at))
-          nodes(at) = java.lang.Float.intBitsToFloat(moved(code, i))
-        node += WideTree.floats(width)
+    if i > 0 then relocation(i).relocate(nodes, nodeStarts(i), nodeStarts(i + 1), width)
   for i <- later.indices do
-    nodes(later(i).codeAt) = java.lang.Float.intBitsToFloat(moved(codes(i + 1), i + 1))
+    val code = relocation(i + 1).moved(codes(i + 1))
+    nodes(later(i).codeAt) = java.lang.Float.intBitsToFloat(code)
 
   /** Child code in the encoding of [[WideTree]]. */
   def rootCode: Int = topCode
@@ -73,14 +67,9 @@ private final class WideBuilder(
       throw IllegalStateException("the BVH exceeds the maximum array length")
     all.map(_.toInt)
 
-  /** Relocates a child code of part `i` to the whole tree. */
-  private def moved(code: Int, i: Int): Int =
-    if code == WideTree.NoChild then code
-    else if code >= 0 then code + nodeStarts(i)
-    else
-      val isBlock = WideTree.isBlock(code)
-      val start = if isBlock then ownerStarts(i) / lanes else otherStarts(i)
-      WideTree.leaf(isBlock, WideTree.first(code) + start, WideTree.size(code))
+  /** Of part `i` in the whole tree. */
+  private def relocation(i: Int): Relocation =
+    Relocation(nodeStarts(i), ownerStarts(i) / lanes, otherStarts(i))
 
 private[accel] object WideBuilder:
 
@@ -92,18 +81,33 @@ private[accel] object WideBuilder:
       maxLeaf: Int,
       parallel: Parallel
   ): WideTree =
+    val records = BoxRecord.all(primitives, parallel)
+    layout(primitives, records, width, lanes, maxLeaf, parallel).of(primitives, parallel)
+
+  /** The layout of some of the primitives.
+    *
+    * @param records of these, which are sorted
+    */
+  def layout(
+      primitives: Primitives,
+      records: Array[Int],
+      width: Int,
+      lanes: Int,
+      maxLeaf: Int,
+      parallel: Parallel
+  ): WideLayout =
     val size = LeafSize(maxLeaf, lanes, primitives.isSolidTriangle)
-    val built = BvhBuilder.of(primitives, size, parallel)
+    val built = BvhBuilder.ofRecords(records, size, parallel)
     val wide = WideBuilder(width, lanes, built, primitives.isSolidTriangle, parallel)
-    WideTree(
+    WideLayout(
       width,
       lanes,
-      primitives.count,
+      built.order.length,
       built.bounds,
       wide.nodes,
       wide.rootCode,
       blocks(primitives.soup, wide.owners, lanes, parallel),
-      primitives.packed(wide.others, parallel)
+      wide.others
     )
 
   private def blocks(
@@ -187,7 +191,9 @@ private[building] final class WideWriter(
       if k < count then
         val parent = boxes(k) & -BinaryTree.NodeFloats
         val side = if boxes(k) == parent then 0 else 1
-        writeBox(at, k, boxes(k))
+        System.arraycopy(tree.nodes, boxes(k), padded, 0, 6)
+        WideTree.pad(padded, 0)
+        WideTree.writeBox(nodes.update)(at, k, width, padded)
         val child = tree.child(parent, side)
         val codeAt = at + 6 * width + k
         if child >= 0 && partSize > 0 && tree.count(child) <= partSize then
@@ -195,7 +201,7 @@ private[building] final class WideWriter(
         else
           val code = write(child, tree.leafSize(parent, side))
           nodes(codeAt) = java.lang.Float.intBitsToFloat(code)
-      else writeEmpty(at, k)
+      else WideTree.writeEmpty(nodes.update)(at, k, width)
       k += 1
     at
 
@@ -212,19 +218,6 @@ private[building] final class WideWriter(
       boxes(count) = parent + 6 * side
       count + 1
     else gather(child, plan.choice(child, k), k, boxes, count)
-
-  private def writeBox(at: Int, lane: Int, box: Int): Unit =
-    System.arraycopy(tree.nodes, box, padded, 0, 6)
-    WideTree.pad(padded, 0)
-    loop(6)(row => nodes(at + row * width + lane) = padded(row))
-
-  /** Writes a lane that every ray misses: it begins at infinity or ends behind the origin. */
-  private def writeEmpty(at: Int, lane: Int): Unit =
-    var row = 0
-    while row < 6 do
-      nodes(at + row * width + lane) = Float.PositiveInfinity
-      row += 1
-    nodes(at + 6 * width + lane) = java.lang.Float.intBitsToFloat(WideTree.NoChild)
 
 private[building] object WideWriter:
 

@@ -1,8 +1,8 @@
 package candela.accel.tracing
 
 import candela.accel.{Accelerator, Primitives}
-import candela.accel.building.WideBuilder
-import candela.base.Parallel
+import candela.accel.building.{KeptTrees, WideBuilder}
+import candela.base.{Keep, Parallel}
 
 /** Selects the BVH for a set of primitives and this JVM. */
 object Hierarchies:
@@ -15,17 +15,19 @@ object Hierarchies:
 
   /** @param samples upper bound of the number of camera samples
     * @param warmUps those of the job
+    * @param keep    has the hierarchies of other scenes
     */
   def of(
       primitives: Primitives,
       parallel: Parallel = Parallel.Alone,
       samples: Long = Long.MaxValue,
-      warmUps: WarmUps = WarmUps()
+      warmUps: WarmUps = WarmUps(),
+      keep: Keep = Keep.Nothing
   ): Accelerator =
     if primitives.count > Most then Bvh(primitives, parallel = parallel)
     else if isWorthIt(primitives.count, samples) && hasVectors then
-      vector(primitives, parallel = parallel, warmUps = warmUps)
-    else scalar(primitives, parallel = parallel)
+      vector(primitives, parallel = parallel, warmUps = warmUps, keep = keep)
+    else scalar(primitives, parallel = parallel, keep = keep)
 
   /** Whether SIMD code repays its loading and compilation, of about a second of processor time. */
   private[tracing] def isWorthIt(primitives: Int, samples: Long): Boolean =
@@ -35,9 +37,11 @@ object Hierarchies:
   def scalar(
       primitives: Primitives,
       width: Int = 4,
-      parallel: Parallel = Parallel.Alone
+      parallel: Parallel = Parallel.Alone,
+      keep: Keep = Keep.Nothing
   ): Accelerator =
-    WideBvh(WideBuilder.of(primitives, width, 4, MaxLeaf, parallel), ScalarKernel, atOnce = true)
+    val tree = KeptTrees(keep, width, 4, MaxLeaf, parallel).of(primitives)
+    WideBvh(tree, ScalarKernel, atOnce = true)
 
   /** Wide BVH traversed by SIMD code, at once or as soon as another thread has had it compiled;
     * requires [[hasVectors]].
@@ -46,10 +50,12 @@ object Hierarchies:
       primitives: Primitives,
       atOnce: Boolean = false,
       parallel: Parallel = Parallel.Alone,
-      warmUps: WarmUps = WarmUps()
+      warmUps: WarmUps = WarmUps(),
+      keep: Keep = Keep.Nothing
   ): Accelerator =
     if !atOnce then warmUps.begin(parallel, true)
-    val tree = WideBuilder.of(primitives, VectorKernel.width, VectorKernel.lanes, MaxLeaf, parallel)
+    val (width, lanes) = (VectorKernel.width, VectorKernel.lanes)
+    val tree = KeptTrees(keep, width, lanes, MaxLeaf, parallel).of(primitives)
     WideBvh(tree, VectorKernel, atOnce, warmUps)
 
   private[tracing] def careful(primitives: Primitives): Accelerator =

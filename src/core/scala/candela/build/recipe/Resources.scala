@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import scala.collection.mutable
 
-import candela.base.{Allowance, Code, Limit, Parallel, SourcePos, Suggest}
+import candela.base.{Allowance, Code, Keep, Limit, Parallel, SourcePos, Suggest}
 import candela.bsdf.Material
 import candela.bsdf.composite.{ChosenMaterial, MixedMaterial}
 import candela.color.ColorBasis
@@ -31,12 +31,13 @@ final class Resources private (
       mayBeSpectral: Boolean = false,
       switches: Switches = Switches(),
       allowance: Allowance = Allowance(),
-      textures: TextureStore = TextureStore.InMemory
+      textures: TextureStore = TextureStore.InMemory,
+      keep: Keep = Keep.Nothing
   ) = this(
     basis,
     pool,
     seed,
-    SharedResources(basis, mayBeSpectral, switches, allowance, textures),
+    SharedResources(basis, mayBeSpectral, switches, allowance, textures, keep),
     basis,
     NamedMaterials.Statements()
   )

@@ -7,7 +7,9 @@ import java.util.concurrent.ConcurrentHashMap
 import scala.collection.mutable
 
 import candela.accel.tracing.WarmUps
-import candela.base.{Allowance, Code, InputFile, IoReason, Limit, Refusal, SceneFolder, SourcePos}
+import candela.base.{
+  Allowance, Code, InputFile, IoReason, Keep, Limit, Refusal, SceneFolder, SourcePos
+}
 import candela.color.{ColorBasis, Rgb}
 import candela.bsdf.layered.Coats
 import candela.bsdf.subsurface.ProfileTables
@@ -22,13 +24,15 @@ import candela.textures.{CachedImage, MadeTexels, Texels, TileCache, Wrap}
   * @param switches      settings of the whole scene
   * @param allowance     how much the scene may use
   * @param textures      how image textures are kept
+  * @param keep          has what other scenes have made
   */
 final class SharedResources(
     basis: ColorBasis,
     val mayBeSpectral: Boolean,
     val switches: Switches,
     val allowance: Allowance,
-    val textures: TextureStore
+    val textures: TextureStore,
+    val keep: Keep = Keep.Nothing
 ):
   /** The spectra read so far. */
   val census = ColorCensus(basis)
@@ -71,6 +75,7 @@ final class SharedResources(
   private val loaded = ConcurrentHashMap[Path, Either[ImageError, StoredImage]]()
   private val remarks = ConcurrentHashMap[Path, Option[String]]()
 
+  private val contents = ConcurrentHashMap[Path, String]()
   private val images = mutable.Map.empty[Path, Either[ImageError, StoredImage]]
   private val made = java.util.IdentityHashMap[Declaration, mutable.Map[Once[?], Any]]()
 
@@ -101,9 +106,19 @@ final class SharedResources(
   private def load(file: InputFile, at: SourcePos): Either[ImageError, StoredImage] = synchronized:
     images.getOrElseUpdate(
       file.path.toAbsolutePath.normalize,
-      try Right(decoded(file, at))
+      try
+        // The name tells the format
+        val way = file.path.getFileName.toString
+        val (image, content) = keep.ofFile(SharedResources.Images, file, way)(decoded(file, at))
+        for digest <- content do contents.put(file.path, s"$digest $way"): Unit
+        Right(image)
       catch case e: ImageError => Left(e)
     )
+
+  /** The key of a loaded image, if it is kept for other scenes. */
+  def keyOf(p: Param, from: Declaration): Option[String] =
+    val name = p.strings.headOption.getOrElse("")
+    Option(files.get((from.folder, name))).flatMap(file => Option(contents.get(file.path)))
 
   private def decoded(file: InputFile, at: SourcePos): StoredImage =
     def admit(width: Int, height: Int) =
@@ -172,3 +187,6 @@ final class SharedResources(
     case Left(e) =>
       problems.missing(e.code, p.valuesAt, e.getMessage, standIn)
       None
+
+private object SharedResources:
+  val Images: Keep.Shelf[StoredImage] = Keep.Shelf[StoredImage]()

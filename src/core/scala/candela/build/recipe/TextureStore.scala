@@ -4,7 +4,7 @@ import java.io.IOException
 import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
 
-import candela.base.{Code, InputFile, Parallel, Refusal, Sha256, Version}
+import candela.base.{Code, InputFile, Keep, Parallel, Refusal, Sha256, Version}
 import candela.image.ImageSize
 import candela.scenefile.SceneDescription
 import candela.textures.{TileCache, TileFolder, TileMemory}
@@ -35,7 +35,8 @@ final class TextureStore private (
     val tiles: Option[TileCache],
     val describe: Option[String],
     files: Vector[InputFile],
-    pool: Parallel
+    pool: Parallel,
+    keep: Keep
 ):
   private val digests = ConcurrentHashMap[Path, String]()
 
@@ -44,7 +45,12 @@ final class TextureStore private (
     catch case _: IOException | _: Refusal => () // told when the image is asked for
 
   private def note(file: InputFile): String =
-    digests.computeIfAbsent(file.path, _ => TextureStore.digest(file))
+    digests.computeIfAbsent(
+      file.path,
+      _ =>
+        TextureStore.versioned(if keep.isKeeping then keep.digest(file)
+        else TextureStore.digest(file))
+    )
 
   /** What tells the content of a file from others.
     *
@@ -56,7 +62,7 @@ final class TextureStore private (
 
   /** Whether the file is as it was. */
   def isSame(file: InputFile): Boolean =
-    try TextureStore.digest(file) == digest(file)
+    try TextureStore.versioned(TextureStore.digest(file)) == digest(file)
     catch case _: IOException => false
 
   /** Says, once, that files of tiles can't be written. */
@@ -69,13 +75,19 @@ final class TextureStore private (
       )
 
 object TextureStore:
-  val InMemory: TextureStore = new TextureStore(None, None, Vector.empty, Parallel.Alone)
+  val InMemory: TextureStore =
+    new TextureStore(None, None, Vector.empty, Parallel.Alone, Keep.Nothing)
 
   /** In memory up to this share of the heap, and this size. */
   private val ShareOfHeap = 8
   private val MostInMemory = 1_000_000_000L
 
-  def of(scene: SceneDescription, control: TextureControl, pool: Parallel): TextureStore =
+  def of(
+      scene: SceneDescription,
+      control: TextureControl,
+      pool: Parallel,
+      keep: Keep = Keep.Nothing
+  ): TextureStore =
     val files = filesOf(scene)
     if files.isEmpty then InMemory
     else
@@ -86,18 +98,18 @@ object TextureStore:
       val images = if files.size == 1 then "1 image" else s"${files.size} images"
       if size <= most then
         val say = s"$images in memory, about ${megabytes(size)} of ${megabytes(most)}"
-        new TextureStore(None, Some(say), files, pool)
+        new TextureStore(None, Some(say), files, pool, keep)
       else
         folder match
           case None =>
             val say = s"$images in memory, about ${megabytes(size)}: there is no folder for tiles"
-            new TextureStore(None, Some(say), files, pool)
+            new TextureStore(None, Some(say), files, pool, keep)
           case Some(path) =>
             val memory = new TileMemory(most)
             val cache = new TileCache(memory, TileFolder(path, control.folderSize))
             val say = s"$images, about ${megabytes(size)}, in tiles: at most ${megabytes(most)} " +
               s"in memory, all in $path"
-            new TextureStore(Some(cache), Some(say), files, pool)
+            new TextureStore(Some(cache), Some(say), files, pool, keep)
 
   private def megabytes(bytes: Long): String = s"${(bytes + 500_000) / 1_000_000} MB"
 
@@ -111,6 +123,7 @@ object TextureStore:
     names.distinctBy(_._1).flatMap:
       case ((folder, name), at) => Refusal.placed(at)(folder.glance(name))
 
-  private def digest(file: InputFile): String =
-    // Texels may differ from those of another version
-    s"${Sha256.ofAll(file.stream())} ${Version.current}"
+  private def digest(file: InputFile): String = Sha256.ofAll(file.stream())
+
+  /** Texels may differ from those of another version. */
+  private def versioned(digest: String) = s"$digest ${Version.current}"

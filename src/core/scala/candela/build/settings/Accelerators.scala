@@ -23,7 +23,7 @@ object BvhRecipe
   /** The default accelerator. */
   def accelerator(resources: Resources): AcceleratorPlan =
     (primitives, samples) =>
-      Hierarchies.of(primitives, resources.pool, samples, resources.warmUps)
+      Hierarchies.of(primitives, resources.pool, samples, resources.warmUps, resources.keep)
 
 object GridRecipe
     extends Recipe[AcceleratorPlan]("grid", "uniform grid", onlyV2):

@@ -1,11 +1,12 @@
 package candela.build.shapes
 
-import candela.base.{Code, Limit, SceneError, loop}
+import candela.base.{Code, Keep, Limit, Parallel, SceneError, Sha256, loop}
+import candela.base.Sha256.Numbers
 import candela.build.recipe.*
 import candela.geometry.ShadingPoint
 import candela.math.{Position, Transform}
 import candela.scenefile.Dialect
-import candela.shapes.{DisplacedMesh, LoopSubdivision, MeshError}
+import candela.shapes.{DisplacedMesh, LoopSubdivision, MeshError, SubdividedMesh}
 
 object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle mesh"):
   private val indices =
@@ -45,6 +46,7 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
     else MeshArrays.checked(p, normals(), uvs, index)
 
 object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY file", sinceV3):
+  private val Meshes = Keep.Shelf[PlyMesh]()
   private val filename = string("filename", ".ply or .ply.gz file", shown = "none")("")
   private val displacement =
     floatTexture("displacement", "height along the normal", onlyV4, "object space", "none")(0f)
@@ -57,7 +59,9 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
         val standIn = StandIns.LeftOut
         site.resources.file(p, site.declaration, site.problems, standIn).flatMap: file =>
           try
-            val read = PlyFile.read(file, keepQuads = site.dialect == Dialect.V4)
+            val keepQuads = site.dialect == Dialect.V4
+            val (read, _) = site.resources.keep.ofFile(Meshes, file, s"$keepQuads"):
+              PlyFile.read(file, keepQuads = keepQuads)
             val near = read.near(site.toWorld)
             val (mesh, origin) = near.getOrElse((read, Position.Origin))
             val toWorld = if near.isEmpty then site.toWorld else site.toWorld * origin.fromOrigin
@@ -151,6 +155,7 @@ object BilinearMeshRecipe
       )
 
 object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surface"):
+  private val Fine = Keep.Shelf[SubdividedMesh]()
   private val levels = integer("levels", "number of subdivision levels", sinceV3)(3)
   private val nlevels =
     integer("nlevels", "number of subdivision levels", untilV3)(3)
@@ -176,7 +181,12 @@ object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surf
           val count = (faces.length.toLong / 3) << (2 * depth)
           site.allowance.check(Limit.Triangles, count, Some(site.declaration.at)):
             s"\"loopsubdiv\" makes $count triangles"
-          val fine = LoopSubdivision.subdivide(depth, faces, points())
+          def key = Sha256.hex(Sha256.ofNumbers(
+            Seq(Numbers(Array(depth)), Numbers(faces), Numbers(points())),
+            Parallel.Alone
+          ))
+          val fine = site.resources.keep(Fine, key):
+            LoopSubdivision.subdivide(depth, faces, points())
           for edge <- fine.crowded do
             site.warn(Code.BrokenMesh, s"\"loopsubdiv\": $edge, as in pbrt")
           Some(ShapeGeometry.Triangles(fine.positions, fine.normals, Array.empty, fine.indices))

@@ -84,8 +84,9 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
                 if isPlain then MipMap.plain(wrapping)(texels)
                 else
                   val (width, height) = (stored.width, stored.height)
-                  MipMap.ofImage(width, height, wrapping, most(stored), site.resources.pool):
-                    texels
+                  val (pool, keep) = (site.resources.pool, site.resources.keep)
+                  val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
+                  MipMap.ofImage(width, height, wrapping, most(stored), pool, keep, key)(texels)
 
   /** What the texels of an image file depend on. */
   private def ways(using site: Site): String =

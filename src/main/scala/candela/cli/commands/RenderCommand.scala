@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{Code, InputFile, Problem, SceneError}
+import candela.base.{Code, InputFile, Keep, Problem, SceneError}
 import candela.build.RenderRegion
 import candela.cli.files.{FileRegister, FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.Options
@@ -31,6 +31,7 @@ final class RenderCommand(
 ):
   private val cancellation = Cancellation()
   private val files = RenderOutputs(options, report, register, resumed)
+  private lazy val keep = if Sequence(options).frames.size > 1 then Keep() else Keep.Nothing
   private lazy val denoising = Option.when(options.settings.output.denoise):
     Denoising(Oidn.load(terminal.environment), options.threadCount)
 
@@ -75,7 +76,7 @@ final class RenderCommand(
     files.check(scene, outfiles)
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
-    val prepared = loader.load(scene, options.preparation.copy(world = world))
+    val prepared = loader.load(scene, options.preparation.copy(world = world, keep = keep))
     // A first look ignores most of what warnings are about.
     val isBrief = options.settings.preview && !options.verbose
     val told = if isBrief then prepared.warnings.filter(_.standIn.nonEmpty) else prepared.warnings

@@ -1,0 +1,80 @@
+package candela.accel.building
+
+import candela.accel.{Primitives, WideLayout, WideTree}
+import candela.base.{Keep, Parallel}
+
+/** Builds hierarchies, but for what a scene before has built: the whole, if nothing has moved, or
+  * the part that has not, if most has not. Hits do not depend on the hierarchy, so neither do
+  * images.
+  *
+  * @param width, lanes, maxLeaf as in [[WideBuilder]]
+  */
+private[accel] final class KeptTrees(
+    keep: Keep,
+    width: Int,
+    lanes: Int,
+    maxLeaf: Int,
+    parallel: Parallel
+):
+  import KeptTrees.*
+
+  def of(primitives: Primitives): WideTree =
+    if !keep.isKeeping || primitives.count < Least then
+      WideBuilder.of(primitives, width, lanes, maxLeaf, parallel)
+    else layout(primitives).of(primitives, parallel)
+
+  private def layout(primitives: Primitives): WideLayout =
+    val parts = TreeParts.of(primitives, parallel)
+    val whole = key(parts, _ => true)
+    keep.find(Layouts, whole).getOrElse:
+      val form = s"$width $lanes $maxLeaf ${parts.form}"
+      val before = keep.find(Latest, form)
+      val moves = moving(parts, before)
+      keep.put(Latest, form, Moves(parts, moves))
+      val resting = primitives.count - movers(parts, moves)
+      if before.isEmpty || resting < primitives.count / 2 || resting == primitives.count then
+        val all = built(primitives, BoxRecord.all(primitives, parallel))
+        keep.put(Layouts, whole, all)
+        all
+      else
+        val rest = keep(Layouts, key(parts, !moves(_))):
+          built(primitives, some(primitives, parts, !moves(_)))
+        rest.joined(built(primitives, some(primitives, parts, moves(_))))
+
+  private def key(parts: TreeParts, chosen: Int => Boolean): String =
+    s"$width $lanes $maxLeaf ${parts.form} ${parts.digest(chosen)}"
+
+  private def built(primitives: Primitives, records: Array[Int]): WideLayout =
+    WideBuilder.layout(primitives, records, width, lanes, maxLeaf, parallel)
+
+  private def some(primitives: Primitives, parts: TreeParts, chosen: Int => Boolean) =
+    val which = new Array[Int](size(parts, chosen))
+    var at = 0
+    for i <- 0 until parts.count if chosen(i); p <- parts.start(i) until parts.start(i + 1) do
+      which(at) = p
+      at += 1
+    BoxRecord.some(primitives, which, parallel)
+
+private[accel] object KeptTrees:
+  /** Primitives below which building takes no longer than digests. */
+  private val Least = 4096
+
+  private val Layouts = Keep.Shelf[WideLayout]()
+  private val Latest = Keep.Shelf[Moves]()
+
+  /** The latest parts of their form.
+    *
+    * @param moves those that have ever moved: the others' hierarchy is then one for many frames
+    */
+  private final class Moves(val parts: TreeParts, val moves: Array[Boolean])
+
+  private def moving(parts: TreeParts, before: Option[Moves]): Array[Boolean] =
+    Array.tabulate(parts.count): i =>
+      before.exists(b => b.moves(i) || !parts.isSame(i, b.parts))
+
+  private def movers(parts: TreeParts, moves: Array[Boolean]): Int = size(parts, moves(_))
+
+  private def size(parts: TreeParts, chosen: Int => Boolean): Int =
+    var sum = 0
+    for i <- 0 until parts.count if chosen(i) do sum += parts.start(i + 1) - parts.start(i)
+    sum

@@ -1,0 +1,98 @@
+package candela.accel.building
+
+import candela.accel.Primitives
+import candela.base.{loop, Parallel, Sha256}
+import candela.base.Sha256.Numbers
+import candela.geometry.Bounds3
+
+import java.nio.ByteBuffer
+import java.util.Arrays
+
+/** What the hierarchy of primitives depends on, by parts that may move: a digest of each mesh, and
+  * a box of each other primitive.
+  *
+  * @param sums  the digests, one after another
+  * @param boxes six Floats each
+  * @param form  tells which primitives belong to each part
+  */
+private[building] final class TreeParts private (
+    ends: Array[Int],
+    private val sums: Array[Byte],
+    private val boxes: Array[Float],
+    val form: String
+):
+  import TreeParts.*
+
+  def meshes: Int = ends.length
+  def count: Int = ends.length + boxes.length / 6
+
+  /** The first primitive of part `i`, or that after the last part's end. */
+  def start(i: Int): Int =
+    if i == 0 then 0
+    else if i <= meshes then ends(i - 1)
+    else (if meshes == 0 then 0 else ends(meshes - 1)) + i - meshes
+
+  /** Whether part `i` is the same in parts of the same form. */
+  def isSame(i: Int, other: TreeParts): Boolean =
+    if i < meshes then
+      Arrays.equals(sums, Size * i, Size * (i + 1), other.sums, Size * i, Size * (i + 1))
+    else
+      val at = 6 * (i - meshes)
+      Arrays.equals(boxes, at, at + 6, other.boxes, at, at + 6)
+
+  /** Of all parts of a choice. */
+  def digest(chosen: Int => Boolean): String =
+    val all = ByteBuffer.allocate(count * (Size + 4))
+    loop(count): i =>
+      if chosen(i) then
+        all.putInt(i)
+        if i < meshes then all.put(sums, Size * i, Size): Unit
+        else loop(6)(k => all.putFloat(boxes(6 * (i - meshes) + k)): Unit)
+    Sha256.of(all.flip())
+
+private[building] object TreeParts:
+  /** Bytes of a digest. */
+  private val Size = 32
+
+  def of(primitives: Primitives, parallel: Parallel): TreeParts =
+    val soup = primitives.soup
+    // Soups of tests may have no meshes
+    val starts =
+      if soup.meshes.isEmpty then Array((0, 0))
+      else soup.meshes.map(m => (m.firstTriangle, m.firstVertex))
+    val ends = starts.indices.map: i =>
+      if i + 1 < starts.length then starts(i + 1)._1 else soup.count
+    .toArray
+    val sums = new Array[Byte](starts.length * Size)
+    val solid = new Array[Int](starts.length)
+    def note(i: Int, parallel: Parallel): Unit =
+      val vertices = if i + 1 < starts.length then 3 * starts(i + 1)._2 else soup.positions.length
+      val numbers = Seq(
+        Numbers(soup.positions, 3 * starts(i)._2, vertices),
+        Numbers(soup.indices, 3 * starts(i)._1, 3 * ends(i))
+      )
+      System.arraycopy(Sha256.ofNumbers(numbers, parallel), 0, sums, Size * i, Size)
+      if ends(i) > starts(i)._1 && primitives.isSolidTriangle(starts(i)._1) then solid(i) = 1
+    // A few large meshes, or many small ones
+    if starts.length < 4 * parallel.threads then starts.indices.foreach(note(_, parallel))
+    else parallel.each(starts.length)(note(_, Parallel.Alone))
+    val others = primitives.count - soup.count
+    val boxes = new Array[Float](6 * others)
+    parallel.ranges(others): (from, until) =>
+      var i = from
+      while i < until do
+        write(boxes, 6 * i, primitives.boundsOf(soup.count + i))
+        i += 1
+    val form = Sha256.ofNumbers(
+      Seq(Numbers(ends), Numbers(solid), Numbers(Array(others))),
+      Parallel.Alone
+    )
+    new TreeParts(ends, sums, boxes, Sha256.hex(form))
+
+  private def write(to: Array[Float], at: Int, b: Bounds3): Unit =
+    to(at) = b.min.x
+    to(at + 1) = b.min.y
+    to(at + 2) = b.min.z
+    to(at + 3) = b.max.x
+    to(at + 4) = b.max.y
+    to(at + 5) = b.max.z

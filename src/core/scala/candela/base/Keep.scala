@@ -1,0 +1,97 @@
+package candela.base
+
+import java.io.IOException
+import java.lang.ref.SoftReference
+import java.nio.file.Path
+import java.util.concurrent.ConcurrentHashMap
+import java.util.concurrent.atomic.AtomicInteger
+
+/** Keeps what the scenes of a process have in common, by its content, so that it is made once:
+  * frames of a sequence, or many views of one scene. What is kept is immutable. Safe for threads.
+  *
+  * It has what the scene before the latest has used, or the latest itself, and gives that up where
+  * the JVM lacks memory.
+  */
+final class Keep private (val isKeeping: Boolean):
+  import Keep.*
+
+  private val things = ConcurrentHashMap[(Shelf[?], String), Kept]()
+  private val digests = ConcurrentHashMap[Path, (FileStamp, String)]()
+  private val scenes = AtomicInteger()
+
+  /** Begins another scene. */
+  def begin(): Unit =
+    val latest = scenes.incrementAndGet()
+    val _ = things.values.removeIf(k => k.isGone || k.last < latest - 1)
+
+  /** What was made of this key before; else what `make` makes.
+    *
+    * @param key tells all that it is made from
+    */
+  def apply[A <: AnyRef](shelf: Shelf[A], key: => String)(make: => A): A =
+    if !isKeeping then make
+    else
+      val name = key
+      find(shelf, name).getOrElse:
+        val made = make
+        put(shelf, name, made)
+        made
+
+  def find[A <: AnyRef](shelf: Shelf[A], key: String): Option[A] =
+    Option(things.get((shelf, key))).flatMap: kept =>
+      kept.last = scenes.get
+      Option(kept.thing.get).map(_.asInstanceOf[A]) // what was put on this shelf
+
+  def put[A <: AnyRef](shelf: Shelf[A], key: String, thing: A): Unit =
+    if isKeeping then things.put((shelf, key), Kept(SoftReference(thing), scenes.get)): Unit
+
+  /** As `apply`, of what is made from a file, and in which way.
+    *
+    * @return also the file's digest, unless nothing is kept or the file was written meanwhile
+    */
+  def ofFile[A <: AnyRef](shelf: Shelf[A], file: InputFile, way: String)(
+      make: => A
+  ): (A, Option[String]) =
+    val before = content(file)
+    before.flatMap(digest => find(shelf, s"$digest $way")) match
+      case Some(known) => (known, before)
+      case None =>
+        val made = make
+        val same = before.filter(_ => content(file) == before)
+        for digest <- same do put(shelf, s"$digest $way", made)
+        (made, same)
+
+  /** None also of a file that can't be read, which its reader will say. */
+  private def content(file: InputFile): Option[String] =
+    try Option.when(isKeeping)(digest(file))
+    catch case _: IOException => None
+
+  /** The digest of a file, if it is remembered. */
+  private def known(file: InputFile): Option[String] =
+    for
+      stamp <- if isKeeping then file.stamp else None
+      (same, digest) <- Option(digests.get(file.path)) if same == stamp
+    yield digest
+
+  /** The digest of a file, which is remembered while the file is not touched.
+    *
+    * @throws IOException if it can't be read
+    */
+  def digest(file: InputFile): String = known(file).getOrElse:
+    val before = if isKeeping then file.stamp else None
+    val made = file.digest()
+    for stamp <- before if file.stamp.contains(stamp) do digests.put(file.path, (stamp, made)): Unit
+    made
+
+object Keep:
+  def apply(): Keep = new Keep(true)
+
+  /** Keeps nothing. */
+  val Nothing: Keep = new Keep(false)
+
+  /** What things of one kind are kept on; each is itself alone. */
+  final class Shelf[A <: AnyRef]
+
+  /** @param last the scene that used it last */
+  private final class Kept(val thing: SoftReference[AnyRef], @volatile var last: Int):
+    def isGone: Boolean = thing.get == null

@@ -1,0 +1,143 @@
+package candela.cli
+
+import java.nio.file.{Files, Path}
+
+import scala.util.Using
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.api.{Candela, ReadSettings, RenderSettings}
+import candela.base.loop
+import candela.image.{Image, ImageFiles}
+import candela.testing.{Draws, TempFolder}
+
+/** Scenes that are rendered one after another in one process: each image is that of its scene
+  * alone.
+  */
+class KeptScenesSuite extends AnyFunSuite:
+
+  /** A wavy sheet of 2 · 60² triangles. */
+  private def sheet(file: Path, height: Double): Unit =
+    val side = 61
+    val vertices =
+      for j <- 0 until side; i <- 0 until side yield
+        val (x, y) = (4.0 * i / (side - 1) - 2, 4.0 * j / (side - 1) - 2)
+        s"$x $y ${height * Math.sin(3 * x) * Math.cos(4 * y)} ${i / 60.0} ${j / 60.0}\n"
+    val faces =
+      for j <- 0 until side - 1; i <- 0 until side - 1; half <- 0 to 1 yield
+        val a = j * side + i
+        if half == 0 then s"3 $a ${a + 1} ${a + side + 1}\n"
+        else s"3 $a ${a + side + 1} ${a + side}\n"
+    val head = s"ply\nformat ascii 1.0\nelement vertex ${vertices.size}\n" +
+      Seq("x", "y", "z", "u", "v").map(p => s"property float $p\n").mkString +
+      s"element face ${faces.size}\nproperty list uchar int vertex_indices\nend_header\n"
+    Files.writeString(file, head + vertices.mkString + faces.mkString): Unit
+
+  private def picture(file: Path, seed: Int): Unit =
+    val draws = Draws(seed)
+    val image = Image.rgb(33, 20)
+    loop(image.data.length)(i => image.data(i) = draws.unit())
+    ImageFiles.write(file, image)
+
+  /** @param eye      of the camera
+    * @param at       of the object that moves
+    * @param mesh     of the ground
+    * @param material of the object
+    */
+  private def scene(
+      eye: String = "0 -4 3",
+      at: String = "0 0 1",
+      mesh: String = "sheet.ply",
+      material: String = "\"conductor\" \"float roughness\" .2"
+  ): String =
+    s"""Film "rgb" "integer xresolution" 16 "integer yresolution" 12
+       |Sampler "zsobol" "integer pixelsamples" 4
+       |LookAt $eye  0 0 0  0 0 1
+       |Camera "perspective" "float fov" 50
+       |WorldBegin
+       |LightSource "infinite" "rgb L" [.6 .7 .9]
+       |Texture "c" "spectrum" "imagemap" "string filename" "c.png" "string filter" "trilinear"
+       |Texture "h" "float" "imagemap" "string filename" "c.png" "string filter" "bilinear"
+       |Material "diffuse" "texture reflectance" "c"
+       |Shape "plymesh" "string filename" "$mesh" "texture alpha" "h"
+       |Translate 0 0 -1
+       |Shape "plymesh" "string filename" "sheet.ply"
+       |AttributeBegin
+       |Material $material
+       |Translate $at
+       |Scale .3 .3 .3
+       |Shape "loopsubdiv" "integer levels" 2 "integer indices" [0 1 2 0 3 1 1 3 2 2 3 0]
+       |  "point3 P" [1 1 1 -1 -1 1 -1 1 -1 1 -1 -1]
+       |AreaLightSource "diffuse" "rgb L" [3 2 1]
+       |Shape "sphere" "float radius" .5
+       |AttributeEnd
+       |ObjectBegin "o"
+       |Shape "plymesh" "string filename" "$mesh"
+       |ObjectEnd
+       |AttributeBegin
+       |Translate $at
+       |Scale .1 .1 .1
+       |ObjectInstance "o"
+       |AttributeEnd
+       |""".stripMargin
+
+  private def run(words: String*): Unit =
+    val (code, captured) = Captured.run(words*)
+    assert(code == 0, captured.err): Unit
+
+  /** Renders the scenes at once, and each alone, and compares their images. */
+  private def assertSame(scenes: String*): Unit = TempFolder.use: folder =>
+    sheet(folder.resolve("sheet.ply"), 0.2)
+    sheet(folder.resolve("other.ply"), 0.3)
+    picture(folder.resolve("c.png"), 1)
+    for (text, i) <- scenes.zipWithIndex do
+      Files.writeString(folder.resolve(s"s$i.pbrt"), text): Unit
+    def image(name: String) = Files.readAllBytes(folder.resolve(name)).toVector
+    val alone = scenes.indices.map: i =>
+      run(s"$folder/s$i.pbrt", "--outfile", s"$folder/alone.pfm", "--nthreads", "1", "--quiet")
+      image("alone.pfm")
+    assert(alone.distinct.size == scenes.distinct.size)
+    for threads <- Seq("1", "2") do
+      val to = s"$folder/t$threads-%d.pfm"
+      val frames = s"0-${scenes.size - 1}"
+      run(
+        s"$folder/s%d.pbrt",
+        "--frames",
+        frames,
+        "--outfile",
+        to,
+        "--nthreads",
+        threads,
+        "--quiet"
+      )
+      for i <- scenes.indices do assert(image(s"t$threads-$i.pfm") == alone(i), s"$threads, $i")
+
+  test("many views of one scene are as each alone"):
+    assertSame((0 to 2).map(i => scene(eye = s"$i -4 3"))*)
+
+  test("frames in which an object moves are as each alone"):
+    assertSame((0 to 3).map(i => scene(at = s"${0.2 * i} 0 1"))*)
+
+  test("frames that differ in meshes and materials are as each alone, and in any order"):
+    val (glass, dull) = ("\"dielectric\"", "\"coateddiffuse\"")
+    assertSame(
+      scene(), scene(mesh = "other.ply"), scene(material = glass), scene(material = dull), scene()
+    )
+
+  test("files that change between two renderings are read again"):
+    TempFolder.use: folder =>
+      val file = Files.writeString(folder.resolve("s.pbrt"), scene())
+      def rendered(how: ReadSettings) =
+        Using.resource(Candela.read(file, how).prepare(RenderSettings())): job =>
+          val to = folder.resolve("x.pfm")
+          job.render(1).image.save(to)
+          Files.readAllBytes(to).toVector
+      val shared = ReadSettings()
+      val images =
+        for (height, seed) <- Vector((0.2, 1), (0.25, 1), (0.25, 2), (0.2, 1)) yield
+          sheet(folder.resolve("sheet.ply"), height)
+          picture(folder.resolve("c.png"), seed)
+          val image = rendered(shared)
+          assert(image == rendered(ReadSettings()), s"$height, $seed")
+          image
+      assert(images.distinct.size == 3 && images.head == images.last)
