@@ -5,9 +5,10 @@ import candela.measure.Metric
 /** Charts of a suite: one per scene, and an overview. */
 object SuiteChart:
 
-  /** Standalone chart of the relative MSE against time. */
+  /** Standalone chart of the relative MSE against time; of scenes that grow, of time and memory. */
   def svg(r: SuiteReport): String =
-    if r.scenes.sizeIs == 1 then of(r.scenes.head, Metric.RelativeMse, "seconds").standalone
+    if r.growing.nonEmpty then GrowthPart.grid(r, r.growing).standalone
+    else if r.scenes.sizeIs == 1 then of(r.scenes.head, Metric.RelativeMse, "seconds").standalone
     else all(r).standalone
 
   /** Small charts of all scenes; each subtitle names the winner. */

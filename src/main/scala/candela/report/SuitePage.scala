@@ -11,8 +11,24 @@ object SuitePage:
     */
   def html(r: SuiteReport, hasPictures: Boolean = true): String =
     val when = s"${r.begun} on ${r.machine.processor}, ${r.machine.cores} hardware threads"
+    // Of scenes that grow, time and memory matter, not the error
+    val judged = r.copy(scenes = r.scenes.filter(_.growth.isEmpty))
     Page.html(r.title, when, r.version)(
       warnings(r),
+      GrowthPart(r.growing),
+      Option.when(judged.scenes.nonEmpty)(errors(judged, hasPictures)),
+      h2("Method"),
+      method(r),
+      Option.when(r.leftOut.nonEmpty)(frag(h3("Not run"), Page.facts(r.leftOut))),
+      h3("Machine"),
+      Page.facts(r.machine.rows ++ Vector("version" -> s"Candela ${r.version}")),
+      h3("Commands"),
+      Page.facts(commands(r))
+    )
+
+  /** The error against time. */
+  private def errors(r: SuiteReport, hasPictures: Boolean): Frag =
+    frag(
       h2("Time to target"),
       p(
         "Seconds from program start until the relative MSE reaches the second column, including " +
@@ -38,14 +54,7 @@ object SuitePage:
           Page.fitting(SuiteChart.all(r).svg, SuiteChart.all(r, columns = 1).svg)
         )
       ),
-      r.scenes.map(scene(_, hasPictures)),
-      h2("Method"),
-      method(r),
-      Option.when(r.leftOut.nonEmpty)(frag(h3("Not run"), Page.facts(r.leftOut))),
-      h3("Machine"),
-      Page.facts(r.machine.rows ++ Vector("version" -> s"Candela ${r.version}")),
-      h3("Commands"),
-      Page.facts(commands(r))
+      r.scenes.map(scene(_, hasPictures))
     )
 
   private def warnings(r: SuiteReport): Option[Frag] =

@@ -39,6 +39,7 @@ final case class BiasAgainst(program: String, other: String, test: BiasTest)
   * @param target the relative MSE to reach
   * @param makers titles of these programs
   * @param biases tests of the programs against the first one, where there are some seeds
+  * @param growth what it has more of than other scenes
   */
 final case class SceneResult(
     name: String,
@@ -49,7 +50,8 @@ final case class SceneResult(
     target: Double,
     programs: Vector[ProgramResult],
     makers: Vector[String] = Vector.empty,
-    biases: Vector[BiasAgainst] = Vector.empty
+    biases: Vector[BiasAgainst] = Vector.empty,
+    growth: Option[Growth] = None
 ):
   /** The reference's own error, which is subtracted, if it is known. */
   def own: Option[OwnError] =
@@ -79,6 +81,9 @@ final case class SuiteReport(
     scenes: Vector[SceneResult],
     leftOut: Vector[(String, String)]
 ):
+  /** The scenes that grow, by what they have more of. */
+  def growing: Vector[GrowingScenes] = GrowingScenes.of(scenes)
+
   /** What the load at the start tells. It may be that of what had just ended: where the share of
     * other programs is known of all runs, that tells.
     */
@@ -138,6 +143,9 @@ object SuiteData:
     "reference" -> s.referenceName.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
     "referenceError" -> RenderData.own(s.own),
     "makers" -> ujson.Arr.from(s.makers),
+    "grows" -> s.growth.fold(ujson.Null: ujson.Value)(g =>
+      ujson.Obj("of" -> g.of, "size" -> RenderData.number(g.size))
+    ),
     "biases" -> ujson.Arr.from(s.biases.map(bias)),
     "target" -> RenderData.number(s.target),
     "equalTime" -> s.equalTime.fold(ujson.Null: ujson.Value)(RenderData.number),

@@ -1,6 +1,7 @@
 package candela.suite
 
 import candela.base.{Code, SceneError}
+import candela.report.Growth
 
 import java.nio.file.Path
 
@@ -63,6 +64,7 @@ final case class Program(
   * @param target relative MSE to reach; by default one that most programs reach
   * @param programs the programs that render it, by default all
   * @param needs environment variables that locate it
+  * @param growth what it has more of than other scenes
   */
 final case class SuiteScene(
     name: String,
@@ -73,7 +75,8 @@ final case class SuiteScene(
     work: Option[Work],
     target: Option[Double],
     programs: Option[Vector[String]],
-    needs: Vector[String]
+    needs: Vector[String],
+    growth: Option[Growth] = None
 )
 
 /** Amount of work: sample counts, or approximate render times in seconds. */

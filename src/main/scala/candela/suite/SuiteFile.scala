@@ -2,6 +2,7 @@ package candela.suite
 
 import candela.base.{Code, Problem, SceneError}
 import candela.job.SceneFormat
+import candela.report.Growth
 
 import com.typesafe.config.{Config, ConfigException, ConfigFactory, ConfigParseOptions}
 
@@ -35,7 +36,7 @@ object SuiteFile:
   private val programKeys = Set("title", "command", "reads", "threads", "edits", "seeded") ++
     Set("color", "thin", "needs", "layer", "family", "counterpart")
   private val sceneKeys = Set("title", "note", "files", "reference", "samples", "seconds") ++
-    Set("target", "programs", "needs")
+    Set("target", "programs", "needs", "grows")
 
   private def suite(c: Config, folder: Path): Suite =
     // Keys for substitution only start with an underscore: `_flags`.
@@ -94,8 +95,16 @@ object SuiteFile:
       work(c),
       Option.when(c.hasPath("target"))(c.getDouble("target")),
       Option.when(c.hasPath("programs"))(texts(c, "programs")),
-      if c.hasPath("needs") then texts(c, "needs") else Vector.empty
+      if c.hasPath("needs") then texts(c, "needs") else Vector.empty,
+      Option.when(c.hasPath("grows"))(growth(c.getConfig("grows"), name))
     )
+
+  private def growth(c: Config, scene: String): Growth =
+    known(c, Set("of", "size"), s"`grows` of scene $scene")
+    val size = c.getDouble("size")
+    if !(size > 0) then
+      throw wrong(s"`size` must be greater than 0, found `${c.getString("size")}`")
+    Growth(c.getString("of"), size)
 
   private def work(c: Config): Option[Work] =
     if c.hasPath("samples") then

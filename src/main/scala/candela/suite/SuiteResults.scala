@@ -77,7 +77,8 @@ object SuiteResults:
       scene.target.getOrElse(reachable(least)),
       programs,
       makers.map(_.title),
-      runner.biases(suite.programs.flatMap(p => byEntry.keys.find(_.program == p)))
+      runner.biases(suite.programs.flatMap(p => byEntry.keys.find(_.program == p))),
+      scene.growth
     )
 
   /** Error that at least half of them reach. */

@@ -1,6 +1,7 @@
 package candela.suite
 
 import candela.base.SceneError
+import candela.report.Growth
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
@@ -26,7 +27,8 @@ class SuiteFileSuite extends AnyFunSuite:
       |  a { command = ${?NO_SUCH_VARIABLE}, reads = [v3], needs = [X] }
       |}
       |scenes {
-      |  z { files { v3 = "z.pbrt" }, reference = "z.exr", target = 0.01, needs = [SOMETHING] }
+      |  z { files { v3 = "z.pbrt" }, reference = "z.exr", target = 0.01, needs = [SOMETHING]
+      |      grows { of = "knots", size = 1e3 } }
       |  y { files { v4 = "/tmp/y.pbrt" }, reference = "y.exr", seconds = [1, 2], programs = [b] }
       |}
       |""".stripMargin
@@ -42,15 +44,26 @@ class SuiteFileSuite extends AnyFunSuite:
     assert(a.title == "a" && a.color == 1 && a.isSeeded)
     val Vector(z, y) = suite.scenes: @unchecked
     assert(z.target.contains(0.01) && z.needs == Vector("SOMETHING") && z.work.isEmpty)
+    assert(z.growth.contains(Growth("knots", 1000)) && y.growth.isEmpty)
     assert(z.files("v3").isAbsolute && z.reference.exists(_.endsWith("z.exr")))
     assert(y.files("v4") == Path.of("/tmp/y.pbrt") && y.programs.contains(Vector("b")))
     assert(y.work.contains(Work.Seconds(Vector(1, 2))))
+
+  test("the suite of growing scenes has three sizes of each at least"):
+    val scenes = SuiteFile.read(Path.of("bench/suites/growth.conf")).scenes
+    val sizes = scenes.groupMap(_.growth.get.of)(_.growth.get.size)
+    assert(sizes.size == 13 && sizes.values.forall(_.sizeIs >= 3))
+    assert(sizes.values.forall(s => s.lazyZip(s.tail).forall((a, b) => b >= 3 * a)))
+    assert(scenes.forall(s => s.name.endsWith(f"-${s.growth.get.size}%.0f")))
+    assert(scenes.forall(s => s.files("v4").getFileName.toString == s"${s.name}.pbrt"))
 
   private val wrong = Vector(
     ("seeds = 2", "seeds = 0", "`seeds` must be at least 1"),
     ("seeds = 2", "seedz = 2", "unknown key `seedz` in the suite"),
     ("threads = 1", "treads = 1", "unknown key `treads` in program b"),
     ("target = 0.01", "tarket = 0.01", "unknown key `tarket` in scene z"),
+    ("size = 1e3", "size = 0", "`size` must be greater than 0"),
+    ("size = 1e3", "sizes = 1", "unknown key `sizes` in `grows` of scene z"),
     ("samples = [4, 1]", "samples = [0]", "`samples` must be at least 1"),
     ("seconds = [1, 2]", "seconds = [-1]", "`seconds` must be greater than 0"),
     ("spp (", "spp ((", "invalid regular expression"),
