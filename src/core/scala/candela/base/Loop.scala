@@ -6,3 +6,10 @@ inline def loop(count: Int)(inline body: Int => Unit): Unit =
   while i < count do
     body(i)
     i += 1
+
+/** Likewise for `from` until `until`. */
+inline def loop(from: Int, until: Int)(inline body: Int => Unit): Unit =
+  var i = from
+  while i < until do
+    body(i)
+    i += 1

@@ -13,6 +13,12 @@ abstract class Parallel:
     */
   def each(count: Int)(task: Int => Unit): Unit
 
+  /** What `task` gives for each of 0 until `count`, in that order. */
+  final def map[A](count: Int)(task: Int => A): IndexedSeq[A] =
+    val results = java.util.concurrent.atomic.AtomicReferenceArray[A](count)
+    each(count)(i => results.set(i, task(i)))
+    IndexedSeq.tabulate(count)(results.get)
+
   /** Whether tasks aside are run. */
   def worksAside: Boolean
 

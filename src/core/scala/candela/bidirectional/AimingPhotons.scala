@@ -13,7 +13,7 @@ import candela.scene.{CasterLearning, Scene}
   */
 private final class AimingPhotons(scene: Scene, view: View, light: CausticLight, pool: Parallel):
   import AimingPhotons.*
-  private val places = SeenPlaces(scene, view, light, Looks, onlyBehind = true)
+  private val places = SeenPlaces(scene, view, light, pool, Looks, onlyBehind = true)
 
   private val aimed: Option[CausticLight] =
     val learning = if places.isEmpty then CasterLearning() else places.learn()
@@ -26,8 +26,7 @@ private final class AimingPhotons(scene: Scene, view: View, light: CausticLight,
     */
   def trace(paths: Int): Option[PhotonField] = aimed.flatMap: by =>
     val aside = Math.sqrt(light.casters.area / paths).toFloat
-    val parts = new Array[FieldPhotons](Parts)
-    pool.each(Parts)(i => parts(i) = Tracer(by, aside).part(i * paths / Parts, paths / Parts))
+    val parts = pool.map(Parts)(i => Tracer(by, aside).part(i * paths / Parts, paths / Parts))
     val all = FieldPhotons()
     for part <- parts do all.append(part)
     Option.when(all.count > 0)(PhotonFieldBuilder(all, pool).result())

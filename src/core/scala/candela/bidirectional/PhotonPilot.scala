@@ -1,17 +1,23 @@
 package candela.bidirectional
 
+import candela.base.Parallel
 import candela.film.View
 import candela.scene.Scene
 
 /** Finds out which photons arrive where the camera sees them, and how large a pixel is there.
   * Depends on the scene and its camera alone, as [[CausticPilot]].
   */
-private[candela] final class PhotonPilot(scene: Scene, view: View, light: CausticLight):
+private[candela] final class PhotonPilot(
+    scene: Scene,
+    view: View,
+    light: CausticLight,
+    pool: Parallel
+):
   import PhotonPilot.*
 
   /** @return the choice, if there are such photons; and what is done, or why nothing is */
   def run(): (Option[CausticChoice], String) =
-    val places = SeenPlaces(scene, view, light, Looks, onlyBehind = false)
+    val places = SeenPlaces(scene, view, light, pool, Looks, onlyBehind = false)
     if places.isEmpty then (None, "none: the camera sees no surface that receives photons")
     else
       val learning = places.learn()

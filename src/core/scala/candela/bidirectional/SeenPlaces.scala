@@ -1,5 +1,6 @@
 package candela.bidirectional
 
+import candela.base.Parallel
 import candela.cameras.CameraRays
 import candela.film.View
 import candela.geometry.Ray
@@ -7,6 +8,8 @@ import candela.integrators.{PhotonLight, SurfaceWalk}
 import candela.math.*
 import candela.sampling.IndependentSampler
 import candela.scene.{CasterLearning, Scene}
+
+import scala.collection.mutable.ArrayBuffer
 
 /** Where paths from the camera come to surfaces that receive photons. Mutable.
   *
@@ -18,19 +21,17 @@ private[bidirectional] final class SeenPlaces(
     scene: Scene,
     view: View,
     light: CausticLight,
+    pool: Parallel,
     looks: Int,
     onlyBehind: Boolean
 ):
-  private val found = Vector.newBuilder[Vec3]
-  private val sizes = Array.newBuilder[Float]
-  private val sampler = IndependentSampler(1, CausticPilot.Seed)
-  private val walk = SurfaceWalk(scene)
-  look()
-  private val places = found.result()
+  import SeenPlaces.*
+  private val parts = pool.map(Parts)(i => Look(i * looks / Parts, (i + 1) * looks / Parts))
+  private val places = parts.flatMap(_.found)
 
   /** The median size of pixels there; 0: there is none. */
   val footprint: Float =
-    val sorted = sizes.result().sorted
+    val sorted = parts.flatMap(_.sizes).sorted
     if sorted.isEmpty then 0f else sorted(sorted.length / 2)
 
   // As far apart as the places are, on average
@@ -49,9 +50,15 @@ private[bidirectional] final class SeenPlaces(
   /** Learns where light begins its way that arrives there. */
   def learn(): CasterLearning =
     val learning = CasterLearning()
+    val each = CausticPilot.LearningPaths / Parts
+    pool.map(Parts)(i => learn(i * each, (i + 1) * each)).foreach(learning.addAll)
+    learning
+
+  private def learn(from: Int, until: Int): CasterLearning =
+    val learning = CasterLearning()
     val paths = light.photonPaths(scene)
     val sampler = IndependentSampler(1, CausticPilot.Seed + 1)
-    for k <- 0 until CausticPilot.LearningPaths do
+    for k <- from until until do
       sampler.start(k, 0, 0)
       paths.trace(view.shutter.fold(0f)(_.at(sampler.next1D())), sampler)
       for i <- 0 until paths.count do
@@ -60,50 +67,58 @@ private[bidirectional] final class SeenPlaces(
           learning.add(paths.place, power)
     learning
 
-  private def look(): Unit =
-    val rays = CameraRays(view.camera, view.shutter, 0f)
-    val beside = CameraRays(view.camera, view.shutter, 0f)
-    val spread = SpreadPlaces(view)
-    for k <- 0 until looks do
+  private def key(p: Vec3): Long =
+    def of(x: Float) = Math.floor(x.toDouble / cell).toLong & 0x1fffff
+    of(p.x) << 42 | of(p.y) << 21 | of(p.z)
+
+  /** Follows some of the paths. */
+  private final class Look(from: Int, until: Int):
+    val found = ArrayBuffer[Vec3]()
+    val sizes = ArrayBuffer[Float]()
+    private val sampler = IndependentSampler(1, CausticPilot.Seed)
+    private val walk = SurfaceWalk(scene)
+    private val rays = CameraRays(view.camera, view.shutter, 0f)
+    private val beside = CameraRays(view.camera, view.shutter, 0f)
+    private val spread = SpreadPlaces(view)
+
+    for k <- from until until do
       val x = spread.x(k).toFloat
       val y = spread.y(k).toFloat
       sampler.start(k, 0, 0)
       val weight = rays.next(x, y, sampler)
       sampler.start(k, 0, 0)
-      if weight > 0f && beside.next(x + 1f, y, sampler) > 0f then
-        val (eye, direction) = (rays.ray.origin, rays.ray.direction.normalized)
-        follow(rays.ray): p =>
-          val distance = (p - eye).length
-          val other = beside.ray.origin + beside.ray.direction.normalized * distance
-          sizes += (eye + direction * distance - other).length
+      if weight > 0f && beside.next(x + 1f, y, sampler) > 0f then follow(rays.ray)
 
-  /** Follows a path.
-    *
-    * @param first is called for its first place
-    */
-  private def follow(ray: Ray)(first: Vec3 => Unit): Unit =
-    var count = 0
-    var isWanted = !onlyBehind
-    walk.begin(ray, sampler)
-    while walk.goesOn do
-      if !walk.intersect() then walk.addEnvironment()
-      else if walk.isAtInterface then walk.passThrough()
-      else if walk.hasHad(light.maxDepth) then walk.end()
-      else
-        walk.evaluate()
-        val receives = PhotonLight.receives(scene, walk.vertex)
-        if receives && isWanted then
-          val p = walk.vertex.at.p.toVec3
-          if count == 0 then first(p)
-          found += p
-          count += 1
-        if receives && !onlyBehind then walk.end()
+    private def follow(ray: Ray): Unit =
+      // Walking moves the ray
+      val (eye, direction) = (ray.origin, ray.direction.normalized)
+      var isFirst = true
+      var isWanted = !onlyBehind
+      walk.begin(ray, sampler)
+      while walk.goesOn do
+        if !walk.intersect() then walk.addEnvironment()
+        else if walk.isAtInterface then walk.passThrough()
+        else if walk.hasHad(light.maxDepth) then walk.end()
         else
-          walk.scatter(sampler)
-          if onlyBehind && walk.depth == 1 then isWanted = walk.vertex.bounce.isSpecular
-          walk.leave()
-          if onlyBehind && !isWanted then walk.end()
+          walk.evaluate()
+          val receives = PhotonLight.receives(scene, walk.vertex)
+          if receives && isWanted then
+            val p = walk.vertex.at.p.toVec3
+            if isFirst then sizes += size(eye, direction, (p - eye).length)
+            found += p
+            isFirst = false
+          if receives && !onlyBehind then walk.end()
+          else
+            walk.scatter(sampler)
+            if onlyBehind && walk.depth == 1 then isWanted = walk.vertex.bounce.isSpecular
+            walk.leave()
+            if onlyBehind && !isWanted then walk.end()
 
-  private def key(p: Vec3): Long =
-    def of(x: Float) = Math.floor(x.toDouble / cell).toLong & 0x1fffff
-    of(p.x) << 42 | of(p.y) << 21 | of(p.z)
+    /** Of a pixel, so far away. */
+    private def size(eye: Vec3, direction: Vec3, distance: Float): Float =
+      val other = beside.ray.origin + beside.ray.direction.normalized * distance
+      (eye + direction * distance - other).length
+
+private object SeenPlaces:
+  /** In which paths are traced. */
+  inline val Parts = 16

@@ -175,6 +175,9 @@ final class CasterLearning:
   def add(place: Double, light: Double): Unit =
     moments(Math.min((place * Cells).toInt, Cells - 1)) += light * light
 
+  def addAll(other: CasterLearning): Unit =
+    for i <- moments.indices do moments(i) += other.moments(i)
+
   /** No path has brought light. */
   def isEmpty: Boolean = moments.forall(_ == 0.0)
 

@@ -38,6 +38,11 @@ class ChoicesSuite extends AnyFunSuite:
     assert(!isGuided(samples) && !plan(samples).sampler.isProgressive)
     assert(samples.choices == Choices.OfScene)
 
+  test("a goal looks for caustics, unless the time is too short for it"):
+    assert(timed.choices.caustics == CausticsMode.Off)
+    assert(exact.choices.caustics == CausticsMode.Auto)
+    assert(timed.copy(goal = RenderGoal(time = Some(20))).choices.caustics == CausticsMode.Auto)
+
   test("what is asked for is done, whatever ends the rendering"):
     for goal <- Vector(RenderGoal(), timed.goal) do
       assert(asked.copy(goal = goal).choices == Choices(
@@ -61,6 +66,8 @@ class ChoicesSuite extends AnyFunSuite:
       "chosen as a time or an error ends the rendering (--guiding off takes none)")
     assert(told(timed, "sampler").get.contains("any number of which are evenly spread"))
     assert(told(timed, "caustics").get.contains("--caustics auto looks for them"))
+    val long = timed.copy(goal = RenderGoal(time = Some(20)))
+    for goal <- Vector(long, exact) do assert(told(goal, "caustics").get.startsWith("none: "))
     val auto = timed.copy(guiding = Some(GuidingMode.Auto))
     assert(told(auto, "guiding").get.endsWith("ends sooner if it does not"))
     assert(told(RenderSettings(), "guiding").isEmpty && told(RenderSettings(), "caustics").isEmpty)

@@ -50,8 +50,13 @@ private object CausticMethod:
           )
           val beside = Beside(scene, options, light, tracer)
           if mode == CausticsMode.Photons then
-            RenderMethod
-              .Piloted(alone, PhotonPilot(scene, _, light).run(), beside.photons, connects = false)
+            val pool = site.resources.pool
+            RenderMethod.Piloted(
+              alone,
+              PhotonPilot(scene, _, light, pool).run(),
+              beside.photons,
+              connects = false
+            )
           else RenderMethod.Piloted(alone, beside.pilot, beside.method)
 
   private def without(why: String, alone: RenderMethod): RenderMethod =
@@ -86,6 +91,7 @@ private object CausticMethod:
         scene,
         view,
         light,
+        site.resources.pool,
         weights => tracer(scene, weighed(weights), null, null)
       ).run()
       val beside = found.fold(options): choice =>

@@ -53,8 +53,9 @@ private[cli] object SwitchTable extends OptionRows:
       .text(OptionText(
         "look for caustics, too: by light paths, and by paths that photons guide, where these " +
           "reduce the noise (auto); also for those of lamps without extent (on); by photon maps, " +
-          "which blur caustics a little (photons); or not (off, default)",
-        "[What it brings](CAUSTICS.md)."
+          "which blur caustics a little (photons); or not (off, default with a number of samples)",
+        "`auto` is the default with `--error`, and with `--time` from 20 s on. " +
+          "[What it brings](CAUSTICS.md)."
       ))
       .action(set((mode, s) => s.copy(caustics = Some(mode)))),
     flag("force-diffuse", "make all materials diffuse")(_.copy(diffuse = true)),
