@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.accel.tracing.Hierarchies
-import candela.base.{Code, Keep, Limit, Parallel, Problem}
+import candela.base.{Code, JavaHeap, Keep, Limit, Parallel, Problem}
 import candela.build.recipe.TextureControl
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
@@ -10,7 +10,7 @@ import candela.guiding.{Guide, GuidingMode}
 import candela.integrators.CausticsMode
 import candela.layers.{Layer, LayerFilm, ScreenMotion, VisibleSurface}
 import candela.math.{Motion, Still}
-import candela.render.{ErrorFile, LayerPlan, RenderMethod, RenderPlan}
+import candela.render.{ErrorFile, FilmSize, LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
 import candela.scenefile.SceneDescription
@@ -22,13 +22,17 @@ import candela.scenefile.SceneDescription
   * @param footprint size of a sample's footprint, in pixels, if not that of their number
   * @param textures  how image textures are kept
   * @param keep      has what other scenes have made
+  * @param heap      bytes that the scene may take
+  * @param isRendered whether it needs a film
   */
 final case class BuildControl(
     pool: Parallel = Parallel.Alone,
     taken: Option[Int] = None,
     footprint: Option[Float] = None,
     textures: TextureControl = TextureControl(),
-    keep: Keep = Keep.Nothing
+    keep: Keep = Keep.Nothing,
+    heap: Long = JavaHeap.limit,
+    isRendered: Boolean = true
 )
 
 /** Builds a render plan from a description. Connects scene files to rendering.
@@ -70,6 +74,9 @@ object SceneBuilder:
         Some("give the film a crop window, or render parts of it with --cropwindow")
       )
     checkLimits(context, image, crop, sampling)
+    val film = Option.when(control.isRendered):
+      FilmSize.least(crop.pixels, image.layers, image.film.development.bands)
+    val memory = MemoryCheck(control.heap, film, context)
     val samples = crop.pixels * taken.getOrElse(sampling.sampler.samplesPerPixel)
     Hierarchies.expect(samples, control.pool, context.resources.warmUps)
     val built =
@@ -83,6 +90,8 @@ object SceneBuilder:
         image.film.camera,
         Option.when(image.layers.exists(_.isLight) || dimsLight(settings)):
           settings.lightGroups.getOrElse(LightGrouping.Statements)
+        ,
+        memory
       ).build(footprints)
     context.problems.stopAtErrors()
     if !settings.preview then IdleSettings(context, settings).checkCaustics(built.method)
@@ -299,6 +308,7 @@ object SceneBuilder:
       errors = for r <- switches.reference; f <- switches.errors yield ErrorFile(r, f),
       fireflies = if settings.preview then Fireflies.Kept else settings.fireflies,
       lights = world.scene.lights.length,
+      built = world.costs,
       samples = taken
     )
 

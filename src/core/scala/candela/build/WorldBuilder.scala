@@ -11,7 +11,7 @@ import candela.cameras.Shutter
 import candela.color.{CameraSensor, ColorBasis}
 import candela.layers.Cryptomatte
 import candela.lights.LightSelection
-import candela.render.RenderMethod
+import candela.render.{Cost, CostKind, RenderMethod}
 import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}
 import candela.scenefile.{Declaration, Dialect, LightDescription, ShapeDescription}
 
@@ -22,6 +22,7 @@ private[build] final class World(
     val color: ColorPlan,
     val features: Vector[(String, String)],
     val moves: Boolean,
+    val costs: Vector[Cost],
     names: () => SurfaceNames,
     survey: () => CausticSurvey
 ):
@@ -33,7 +34,7 @@ private[build] final class World(
 
   /** The same, rendered otherwise. */
   def rendered(method: RenderMethod, told: Vector[(String, String)]): World =
-    World(scene, method, color, features ++ told, moves, names, survey)
+    World(scene, method, color, features ++ told, moves, costs, names, survey)
 
 /** All surfaces of the world and its objects, with their acceleration structures. */
 private[build] final class Structure(
@@ -55,6 +56,7 @@ private[build] final class Structure(
   * @param mode         as asked for
   * @param sensor       the camera's, unless it is the standard observer
   * @param grouping     how to group lights, if light is to be divided
+  * @param memory       that there is
   */
 private[build] final class WorldBuilder(
     context: BuildContext,
@@ -64,19 +66,26 @@ private[build] final class WorldBuilder(
     samples: Long,
     mode: ColorMode,
     sensor: Option[CameraSensor],
-    grouping: Option[LightGrouping]
+    grouping: Option[LightGrouping],
+    memory: MemoryCheck
 ):
   import context.{description, problems}
+  import context.resources.clock
 
   /** @param footprints evaluated only if a texture or a material needs ray differentials */
   def build(footprints: => Footprints): World =
-    defineTextures(context)
     val uses = ObjectUses(description, context.origin.at, problems)
+    memory.estimate(uses)
+    memory.during(build(uses, footprints))
+
+  private def build(uses: ObjectUses, footprints: => Footprints): World =
+    clock.during(CostKind.Textures)(defineTextures(context))
     for l <- description.lights.headOption do
       context.resources.allowance.countShapes(description.lights.size, Some(l.light.at))
     val media = MediaBuilder(context, integrator)
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
-    val materials = MaterialTable.of(context, integrator, media, shapes)
+    val materials =
+      clock.during(CostKind.Materials)(MaterialTable.of(context, integrator, media, shapes))
 
     var lightCount = 0
     var place = 0
@@ -87,21 +96,25 @@ private[build] final class WorldBuilder(
         place += 1
       lightCount = builder.endOfLights
       builder
-    val world = collected(uses.world)
-    val objects = uses.shared.map(o => collected(o.shapes))
-    val lightPlans = description.lights.map(l => l -> lightPlan(l, context))
+    val (world, objects) = clock.during(CostKind.Triangles):
+      (collected(uses.world), uses.shared.map(o => collected(o.shapes)))
+    val lightPlans = clock.during(CostKind.Lights):
+      description.lights.map(l => l -> lightPlan(l, context))
     problems.stopAtErrors()
 
-    val lit = world.result()
-    val litObjects = objects.map(_.result())
+    val (lit, litObjects) = clock.during(CostKind.Triangles):
+      (world.result(), objects.map(_.result()))
     def areaLights(context: BuildContext) =
       lit.lights(context) ++ litObjects.flatMap(_.lights(context))
-    val shining = lightPlans.flatMap((l, plan) => light(l, plan).map(l -> _))
-    val lights = areaLights(context) ++ shining.map(_._2)
-    val placed = structure(lit.surfaces, litObjects.map(_.surfaces), uses.shared)
+    val (shining, lights) = clock.during(CostKind.Lights):
+      val shining = lightPlans.flatMap((l, plan) => light(l, plan).map(l -> _))
+      (shining, areaLights(context) ++ shining.map(_._2))
+    val placed = clock.during(CostKind.Hierarchies):
+      structure(lit.surfaces, litObjects.map(_.surfaces), uses.shared)
     val all = lights.map(_.light).toArray
     val pool = context.resources.pool
-    val selection = LightSelection.of(all, integrator.lights, placed.accelerator.bounds, pool)
+    val selection = clock.during(CostKind.Lights):
+      LightSelection.of(all, integrator.lights, placed.accelerator.bounds, pool)
     val scene = Scene(
       placed.surfaces,
       placed.instanced,
@@ -139,7 +152,9 @@ private[build] final class WorldBuilder(
       plan.methodIn(around(MediaBuilder(other, plan), otherScene)._1, otherScene, samples)
     val method =
       if !color.isSpectral then plain
-      else RenderMethod.spectral(color.bases.zip(ofEach(color.bases)(recolored)))
+      else
+        clock.during(CostKind.Materials):
+          RenderMethod.spectral(color.bases.zip(ofEach(color.bases)(recolored)))
     World(
       scene,
       method,
@@ -158,6 +173,7 @@ private[build] final class WorldBuilder(
         "lights" -> (if all.isEmpty then "none" else selection.describe)
       ) ++ scene.lightGroups.map(g => "light groups" -> g.names.mkString(", ")),
       placed.instanced.instances.moving > 0,
+      memory.costs,
       () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id),
       () =>
         val worn = shapes.indices.iterator.map(materials.materialOf)

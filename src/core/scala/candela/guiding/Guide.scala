@@ -31,6 +31,7 @@ final class Guide(
   @volatile private var current =
     if learns then newPass(GuideField.Start, 0, UsualEvents, lit = 1.0)
     else Pass(GuideField.Start, 0, part = 1f, null)
+  @volatile private var learnt = 0.0
   private var tallies = Vector.empty[GuideTally]
 
   /** The field to use, and where to record, until the pass ends. */
@@ -67,6 +68,9 @@ final class Guide(
     if !settings.adapts then s"${what}everywhere, $until"
     else if isLongEnough then s"where it pays, $until; ends sooner if it does not"
     else "none: the rendering is too short to learn"
+
+  /** Seconds that workers were busy with learning alone. */
+  def seconds: Double = learnt
 
   /** What was learnt; no path may be on its way. */
   def outcome: GuideOutcome =
@@ -133,6 +137,7 @@ final class Guide(
     val ends =
       settings.adapts && progress.doubts >= (if isLast then 1 else GuideProgress.MostDoubts)
     if ends then progress = progress.copy(gaveUp = true)
+    for l <- Option(learning) do learnt += l.seconds
     current = if ends then Pass(GuideField.Start, sample, part = 0f, null) else following
     learning = null
     was.records.nn.release()

@@ -7,6 +7,11 @@ import java.util.concurrent.atomic.AtomicInteger
 /** The end of a pass: all workers that come to it fit regions, and go on when the field is whole.
   */
 private[guiding] final class GuideLearning(prepare: => GuideGrowth):
+  private val started = System.nanoTime
+
+  /** Seconds since the pass ended. */
+  def seconds: Double = (System.nanoTime - started) * 1e-9
+
   /** Made by the first worker; the others wait. */
   lazy val growth: GuideGrowth = prepare
   private val next = AtomicInteger()

@@ -135,6 +135,10 @@ object GuideRecords:
     * sampled BSDFs only, and the light found before; else 0.
     */
   private[guiding] inline val Size = 14
+
+  /** Of an event. */
+  val Bytes: Long = 4L * Size
+
   private[guiding] inline val Side = 3
   private[guiding] inline val Wi = 4
   private[guiding] inline val Light = 7

@@ -1,12 +1,12 @@
 package candela.job
 
-import candela.base.{Keep, Problem}
+import candela.base.{JavaHeap, Keep, Problem, SceneError}
 import candela.build.RenderSettings
 import candela.build.recipe.TextureControl
 import candela.color.Rgb
 import candela.render.{
-  Cancellation, Checkpointer, Renderer, Rendering, RenderListener, RenderPlan, RenderState, Shard,
-  ThreadPool
+  Cancellation, Checkpointer, Renderer, RenderFailure, Rendering, RenderListener, RenderPlan,
+  RenderState, Shard, ThreadPool
 }
 import candela.render.storage.{FilmHeader, FilmWriter}
 import candela.scene.PathReport
@@ -73,15 +73,20 @@ final case class Prepared(
   /** Number of missing items replaced by placeholders. */
   def standIns: Int = warnings.distinct.count(_.standIn.nonEmpty)
 
+  /** @throws SceneError if the heap is full, with what takes it */
   def render(control: RenderControl): Rendering =
-    Renderer.render(
-      plan,
-      control.threads,
-      control.cancellation,
-      control.listener,
-      control.shard,
-      control.checkpointer
-    )
+    try
+      Renderer.render(
+        plan,
+        control.threads,
+        control.cancellation,
+        control.listener,
+        control.shard,
+        control.checkpointer
+      )
+    catch
+      case e: Throwable if Prepared.isOfMemory(e) =>
+        throw SceneError(plan.costs.problem(JavaHeap.limit, None))
 
   /** Traces a single sample, identical to that of [[render]].
     *
@@ -112,6 +117,11 @@ final case class Prepared(
   def gather(load: RenderState => Unit): Rendering = Renderer.gather(plan, load)
 
 object Prepared:
+  private def isOfMemory(e: Throwable): Boolean = e match
+    case _: OutOfMemoryError => true
+    case f: RenderFailure => f.getCause.isInstanceOf[OutOfMemoryError]
+    case _ => false
+
   /** Writes a film file. */
   def write(header: FilmHeader, state: RenderState, to: Path): Unit =
     val writer = FilmWriter(to)

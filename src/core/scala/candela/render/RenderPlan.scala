@@ -30,6 +30,7 @@ import candela.scene.SurfaceNames
   * @param errors            where to write errors while rendering, if anywhere
   * @param fireflies         what is done about them; limited light is divided by its way
   * @param lights            number of lights
+  * @param built             what the scene takes in memory, estimated, and its building in time
   * @param samples           samples per pixel to take, if not as many as the sampler's points are
   *                          made for
   */
@@ -56,8 +57,12 @@ final class RenderPlan(
     val errors: Option[ErrorFile] = None,
     val fireflies: Fireflies = Fireflies.Kept,
     val lights: Int = 0,
+    built: Vector[Cost] = Vector.empty,
     samples: Option[Int] = None
 ):
+  /** What the rendering takes in memory, estimated, and has taken in time until it begins. */
+  def costs: Costs = Costs() ++ (built ++ FilmSize.of(this))
+
   /** Samples per pixel to take. */
   val samplesPerPixel: Int = samples.getOrElse(sampler.samplesPerPixel)
 

@@ -145,7 +145,8 @@ object Renderer:
       0,
       state.refused,
       job.layers,
-      job.guide.map(_.outcome)
+      job.guide.map(_.outcome),
+      job.guide.fold(0.0)(_.seconds)
     )
 
   /** The waves after which the workers wait for each other. */

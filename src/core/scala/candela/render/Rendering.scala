@@ -64,6 +64,7 @@ private[render] object Refused:
   * @param refused         discarded samples, if any
   * @param layers          requested AOVs, if any
   * @param learned         what its paths learnt, if they did
+  * @param learning        of the seconds, those that workers did nothing but learn
   * @param earlier         of the samples done, those of earlier runs that it continues
   */
 final case class Rendering(
@@ -76,6 +77,7 @@ final case class Rendering(
     refused: Option[Refused],
     layers: Option[LayerFilm] = None,
     learned: Option[GuideOutcome] = None,
+    learning: Double = 0,
     earlier: Int = 0
 ):
   /** Colour channels, then AOVs, then wavelength bands.

@@ -31,6 +31,9 @@ object RenderPage:
       p(cls := "soft", "Render time excludes the measuring of errors."),
       h2("Scene"),
       Page.facts(r.plan),
+      Option.when(r.costs.nonEmpty):
+        frag(h2("Memory, estimated, and time"), Page.facts(r.costs.map(c => (c.kind, c.text))))
+      ,
       Option.when(r.learned.nonEmpty):
         frag(h2("What paths learnt"), Page.facts(r.learned.map(f => (f.what, f.text))))
       ,

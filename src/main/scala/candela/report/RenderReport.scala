@@ -21,6 +21,9 @@ final case class Picture(name: String, image: Image, isReference: Boolean = fals
   */
 final case class LearnedFigure(key: String, what: String, value: Double, text: String)
 
+/** What a part of a rendering takes: bytes of memory, estimated, and seconds. */
+final case class CostFigure(kind: String, bytes: Long, seconds: Double, text: String)
+
 /** Data of the report about one rendering.
   *
   * @param options options for display: (option, value)
@@ -29,6 +32,7 @@ final case class LearnedFigure(key: String, what: String, value: Double, text: S
   * @param passes time span of each pass, in seconds since rendering started, with each worker's
   *   busy time
   * @param learned what the paths learnt, if they did
+  * @param costs what takes memory and time
   */
 final case class RenderReport(
     scene: String,
@@ -42,7 +46,8 @@ final case class RenderReport(
     passes: Vector[PassSpan],
     pictures: Vector[Picture],
     rays: Long,
-    learned: Vector[LearnedFigure] = Vector.empty
+    learned: Vector[LearnedFigure] = Vector.empty,
+    costs: Vector[CostFigure] = Vector.empty
 ):
   /** The reference's own error, which is subtracted, if it is known. */
   def own: Option[OwnError] = points.lastOption.flatMap(_.errors.own)
@@ -69,6 +74,8 @@ object RenderData:
       "options" -> pairs(r.options),
       "plan" -> pairs(r.plan),
       "machine" -> machine(r.machine),
+      "costs" -> ujson.Arr.from(r.costs.map: c =>
+        ujson.Obj("kind" -> c.kind, "bytes" -> c.bytes.toDouble, "seconds" -> c.seconds)),
       "phases" -> ujson.Arr.from(
         r.phases.map(s => ujson.Obj("name" -> s.name, "begin" -> s.begin, "end" -> s.end))
       ),

@@ -39,7 +39,8 @@ class PartialsReadSuite extends AnyFunSuite:
       samples = 1,
       ColorMode.Rgb,
       sensor = None,
-      grouping = None
+      grouping = None,
+      MemoryCheck(Long.MaxValue, None, context)
     ).build(Footprints(followsSpecular = true, otherwise = None)).scene
 
   private def look(scene: Scene, square: Int, at: ShadingPoint, isKnown: Boolean = false) =

@@ -188,7 +188,10 @@ final class SceneBuilderSuite extends AnyFunSuite:
       val world = "LightSource \"point\" ".repeat(lights)
       val text = s"Film $film \"integer xresolution\" 9000 \"integer yresolution\" 9000\n" +
         s"Integrator \"path\"\nWorldBegin $world Shape \"sphere\""
-      intercept[SceneError](SceneTexts.plan(text, Dialect.V4, RenderSettings(layers = layers)))
+      val scene = SceneTexts.parse(text, Dialect.V4)
+      // Such a film would not fit the heap of the tests either
+      val control = BuildControl(heap = Long.MaxValue)
+      intercept[SceneError](SceneBuilder.build(scene, RenderSettings(layers = layers), control))
         .problems.filter(_.severity == Severity.Error).map(_.message)
     val all = Layer.values.toVector.filterNot(_.dividesLight)
     val why = "can't render 9000×9000 pixels with all their"

@@ -14,6 +14,7 @@ import candela.color.{ColorBasis, Rgb}
 import candela.bsdf.layered.Coats
 import candela.bsdf.subsurface.ProfileTables
 import candela.image.{ImageError, ImageFiles, StoredImage}
+import candela.render.CostKind
 import candela.scenefile.{Declaration, Param}
 import candela.textures.{CachedImage, MadeTexels, Texels, TileCache, Wrap}
 
@@ -36,6 +37,9 @@ final class SharedResources(
 ):
   /** The spectra read so far. */
   val census = ColorCensus(basis)
+
+  /** Tells how long parts take to build. */
+  val clock = BuildClock()
 
   /** Tables of coated materials, shared by materials with equal parameters. */
   val coats = Coats()
@@ -124,7 +128,8 @@ final class SharedResources(
     def admit(width: Int, height: Int) =
       allowance.check(Limit.Pixels, width.toLong * height, Some(at)):
         s"`${file.path.getFileName}` has $width×$height pixels"
-    ImageFiles.colored(file.path, ImageFiles.load(file, admit))
+    clock.during(CostKind.Textures):
+      ImageFiles.colored(file.path, ImageFiles.load(file, admit))
 
   /** Loads the image that a parameter names; images are cached. */
   def image(

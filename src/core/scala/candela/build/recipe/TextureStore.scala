@@ -29,11 +29,13 @@ object TextureControl:
 /** Keeps the image textures of a scene: in memory, or in tiles if they may not fit.
   *
   * @param tiles    none: in memory
+  * @param bytes    that the images take in memory, estimated
   * @param describe for people, if there are any
   */
 final class TextureStore private (
     val tiles: Option[TileCache],
     val describe: Option[String],
+    val bytes: Long,
     files: Vector[InputFile],
     pool: Parallel,
     keep: Keep
@@ -76,7 +78,7 @@ final class TextureStore private (
 
 object TextureStore:
   val InMemory: TextureStore =
-    new TextureStore(None, None, Vector.empty, Parallel.Alone, Keep.Nothing)
+    new TextureStore(None, None, 0, Vector.empty, Parallel.Alone, Keep.Nothing)
 
   /** In memory up to this share of the heap, and this size. */
   private val ShareOfHeap = 8
@@ -98,18 +100,18 @@ object TextureStore:
       val images = if files.size == 1 then "1 image" else s"${files.size} images"
       if size <= most then
         val say = s"$images in memory, about ${megabytes(size)} of ${megabytes(most)}"
-        new TextureStore(None, Some(say), files, pool, keep)
+        new TextureStore(None, Some(say), size, files, pool, keep)
       else
         folder match
           case None =>
             val say = s"$images in memory, about ${megabytes(size)}: there is no folder for tiles"
-            new TextureStore(None, Some(say), files, pool, keep)
+            new TextureStore(None, Some(say), size, files, pool, keep)
           case Some(path) =>
             val memory = new TileMemory(most)
             val cache = new TileCache(memory, TileFolder(path, control.folderSize))
             val say = s"$images, about ${megabytes(size)}, in tiles: at most ${megabytes(most)} " +
               s"in memory, all in $path"
-            new TextureStore(Some(cache), Some(say), files, pool, keep)
+            new TextureStore(Some(cache), Some(say), most, files, pool, keep)
 
   private def megabytes(bytes: Long): String = s"${(bytes + 500_000) / 1_000_000} MB"
 

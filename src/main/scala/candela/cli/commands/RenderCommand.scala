@@ -4,7 +4,7 @@ import candela.base.{Code, InputFile, Keep, Problem, SceneError}
 import candela.build.RenderRegion
 import candela.cli.files.{FileRegister, FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.Options
-import candela.cli.rendering.{ImageWriter, RenderOutputs, SceneRun, Summary}
+import candela.cli.rendering.{CostRows, ImageWriter, RenderOutputs, SceneRun, Summary}
 import candela.cli.terminal.{ExitCode, Printer, Report, Terminal, Thumbnail}
 import candela.image.Oidn
 import candela.job.{Denoising, FilmKeeper, Prepared, SceneLoader}
@@ -149,8 +149,9 @@ final class RenderCommand(
 /** Prints the features of a plan, one line each: the choices that the builder made. */
 object Explanation:
   def print(plan: RenderPlan, to: Printer): Unit =
-    val width = plan.features.map(_._1.length).maxOption.getOrElse(0)
-    for (what, value) <- plan.features do to.println(s"  ${what.padTo(width, ' ')}  $value")
+    val rows = plan.features ++ CostRows.of(plan.costs)
+    val width = rows.map(_._1.length).max
+    for (what, value) <- rows do to.println(s"  ${what.padTo(width, ' ')}  $value")
 
 /** `candela render --pixel x,y --sample n --debug`: traces one sample and logs its path. */
 private[cli] object PixelTrace:

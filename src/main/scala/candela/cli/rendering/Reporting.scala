@@ -26,15 +26,18 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
   def write(
       rendering: Rendering,
       threads: Int,
+      developSeconds: Double,
       writeSeconds: Double,
       denoised: Option[Denoised] = None
   ): (Vector[Path], Vector[Problem]) =
     if recorder.pictures.forall(_.isReference) then (Vector.empty, Vector.empty)
-    else ReportFiles.write(paths, report(rendering, threads, writeSeconds, denoised))
+    else
+      ReportFiles.write(paths, report(rendering, threads, developSeconds, writeSeconds, denoised))
 
   private def report(
       rendering: Rendering,
       threads: Int,
+      developSeconds: Double,
       writeSeconds: Double,
       denoised: Option[Denoised]
   ): RenderReport =
@@ -51,15 +54,17 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
       loaded.plan.features,
       options.reference,
       recorder.points,
-      phases(rendering, writeSeconds, denoised),
+      phases(rendering, developSeconds, writeSeconds, denoised),
       recorder.passes,
       last ++ clean ++ others,
       rendering.rays,
-      rendering.learned.fold(Vector.empty)(Learning.figures)
+      rendering.learned.fold(Vector.empty)(Learning.figures),
+      CostRows.figures(loaded.plan.costs, rendering, developSeconds + writeSeconds)
     )
 
   private def phases(
       rendering: Rendering,
+      developSeconds: Double,
       writeSeconds: Double,
       denoised: Option[Denoised]
   ): Vector[Span] =
@@ -68,7 +73,9 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
       "build" -> loaded.buildSeconds,
       "render" -> rendering.seconds,
       "measure errors" -> recorder.seconds
-    ) ++ denoised.map("denoise" -> _.seconds) :+ ("write" -> writeSeconds)
+    ) :+ denoised.fold("develop" -> developSeconds)(
+      "denoise" -> _.seconds
+    ) :+ ("write" -> writeSeconds)
     val begins = phases.map(_._2).scanLeft(0.0)(_ + _)
     phases.zip(begins).map:
       case ((name, seconds), begin) => Span(name, begin, begin + seconds)

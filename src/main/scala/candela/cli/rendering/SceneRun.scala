@@ -130,7 +130,7 @@ private[cli] final class SceneRun(
     for log <- errorLog; remark <- log.remark if told do terminal.err.println(remark)
     val threads = options.threadCount
     val (pages, failures) = reporting.fold((Vector.empty, Vector.empty)):
-      _.write(rendering, threads, writeSeconds, denoised)
+      _.write(rendering, threads, developSeconds, writeSeconds, denoised)
     for path <- pages if told do terminal.out.println(s"wrote $path")
     terminal.out.flush()
     for r <- reference; d <- denoised if told do

@@ -6,7 +6,7 @@ import java.nio.channels.ClosedByInterruptException
 import java.nio.file.{FileSystemException, InvalidPathException}
 
 import candela.base.{
-  Code, Excerpt, IoReason, Problem, Refusal, SceneError, Severity, SourcePos, Visible
+  Code, Excerpt, IoReason, JavaHeap, Problem, Refusal, SceneError, Severity, SourcePos, Visible
 }
 import candela.image.{ImageError, Natives}
 import candela.render.RenderFailure
@@ -127,16 +127,12 @@ final class Report(
 
   private def tooDeep(): ExitCode =
     val message = "the scene is nested too deeply: Java's stack is full"
-    errors(Vector(Problem.general(Code.TooDeep, message, Some(raised("-Xss64m")))))
+    errors(Vector(Problem.general(Code.TooDeep, message, Some(JavaHeap.raised("-Xss64m")))))
 
   private def outOfMemory(): ExitCode =
-    val limit = Figures.metric(Runtime.getRuntime.maxMemory.toDouble)
+    val limit = Figures.metric(JavaHeap.limit.toDouble)
     val message = s"out of memory: Java's heap is limited to ${limit}B"
-    errors(Vector(Problem.general(Code.OutOfMemory, message, Some(raised("-Xmx8g")))))
-
-  private def raised(limit: String): String =
-    val variable = Report.heapVariable(sys.props.getOrElse("java.class.path", ""), sys.env)
-    s"raise the limit, e.g. with the environment variable $variable=$limit"
+    errors(Vector(Problem.general(Code.OutOfMemory, message, Some(JavaHeap.raise("8g")))))
 
   private def bug(e: Throwable): ExitCode =
     val (place, cause) = e match
@@ -156,13 +152,6 @@ object Report:
 
   /** Limit for readability. */
   private[cli] val MostErrors = 20
-
-  /** The variable whose limit of the heap counts: the launcher's options precede Java's own. */
-  private[cli] def heapVariable(classPath: String, environment: Map[String, String]): String =
-    val javas = "JDK_JAVA_OPTIONS"
-    if classPath.endsWith("candela.jar") then "JAVA_OPTS"
-    else if environment.get(javas).exists(_.contains("-Xmx")) then javas
-    else "JAVA_TOOL_OPTIONS"
 
 /** Formats a problem as text; no other class does:
   *

@@ -159,11 +159,3 @@ class ProblemTextSuite extends AnyFunSuite:
     val problem =
       Problem.error(Code.Undefined, SourcePos("a", 1, 4), "wrong").copy(excerpt = Some("x"))
     assert(ProblemText.format(problem).linesIterator.toVector.last == "   |    ^")
-
-  test("the hint on memory names the variable that no other one overrides"):
-    def variable(classPath: String, environment: (String, String)*) =
-      Report.heapVariable(classPath, environment.toMap)
-    assert(variable("/opt/candela/lib/candela.jar", "JDK_JAVA_OPTIONS" -> "-Xmx1g") == "JAVA_OPTS")
-    assert(variable("classes:a.jar") == "JAVA_TOOL_OPTIONS")
-    assert(variable("classes", "JDK_JAVA_OPTIONS" -> "-Xmx1g") == "JDK_JAVA_OPTIONS")
-    assert(variable("classes", "JDK_JAVA_OPTIONS" -> "-Xss4m") == "JAVA_TOOL_OPTIONS")

@@ -1,0 +1,41 @@
+package candela.build
+
+import candela.base.SceneError
+import candela.render.{Cost, CostKind, Costs}
+
+/** Ends the building of a scene that the heap can't hold, before it begins if that is known by
+  * then.
+  *
+  * @param heap in bytes
+  * @param film of the rendering, if there will be one
+  */
+private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: BuildContext):
+  private var known = Vector.empty[Cost]
+
+  /** What the scene takes, with the seconds until now. */
+  def costs: Vector[Cost] =
+    val clock = context.resources.clock
+    val bytes = known.map(c => c.kind -> c.bytes).toMap
+    CostKind.values.toVector.map(k => Cost(k, bytes.getOrElse(k, 0L), clock.seconds(k)))
+      .filter(c => c.bytes > 0 || c.seconds > 0)
+
+  /** Estimates what the scene takes.
+    *
+    * @throws SceneError if that is too much
+    */
+  def estimate(uses: ObjectUses): Unit =
+    val size = SceneSize(context.description, uses, context.resources.textures.bytes)
+    known = size.costs
+    val all = Costs(known ++ film)
+    val least = (all.bytes * MemoryCheck.Sure).toLong + size.building
+    if least > heap && !context.problems.hasErrors then
+      throw SceneError(all.problem(heap, Some(all.bytes + size.building)))
+
+  /** Builds the scene; says what takes the memory if there is not enough. */
+  def during[A](build: => A): A =
+    try build
+    catch case _: OutOfMemoryError => throw SceneError(Costs(known ++ film).problem(heap, None))
+
+private object MemoryCheck:
+  /** Part of the estimate that a scene takes if the estimate is too high. */
+  private val Sure = 0.8

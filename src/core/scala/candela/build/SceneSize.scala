@@ -1,0 +1,185 @@
+package candela.build
+
+import candela.base.InputFile
+import candela.build.shapes.PlySize
+import candela.image.ImageSize
+import candela.render.{Cost, CostKind}
+import candela.scenefile.{Declaration, Dialect, Param, SceneDescription, ShapeDescription}
+
+/** What a scene takes in memory, estimated before it is built: from the numbers in its statements
+  * and from the beginnings of its files. Parts that only building finds out, such as displaced
+  * triangles, are not in it.
+  *
+  * @param textures bytes of image textures in memory
+  */
+private[build] final class SceneSize(
+    description: SceneDescription,
+    uses: ObjectUses,
+    textures: Long
+):
+  import SceneSize.*
+
+  private val worlds =
+    (uses.world +: uses.shared.map(_.shapes)).map: shapes =>
+      shapes.map(SurfaceCount.of(_, description.dialect.base)).foldLeft(SurfaceCount())(_ + _)
+  private val surfaces = worlds.foldLeft(SurfaceCount())(_ + _)
+  private val places = uses.shared.map(_.places.size.toLong).sum
+
+  def costs: Vector[Cost] =
+    val hierarchies = surfaces.triangles * TriangleNode + (surfaces.others + places) * OtherNode
+    Vector(
+      Cost(CostKind.Statements, statements),
+      Cost(CostKind.Triangles, worlds.map(_.soupBytes).sum),
+      Cost(
+        CostKind.Shapes,
+        surfaces.solids * Solid + surfaces.segments * Segment + surfaces.patches * Patch
+      ),
+      Cost(CostKind.Instances, places * Instance),
+      Cost(CostKind.Hierarchies, hierarchies),
+      Cost(CostKind.Textures, textures),
+      Cost(CostKind.Materials, materials * Material),
+      Cost(CostKind.Lights, lights),
+      Cost(CostKind.Media, media)
+    ).filter(_.bytes > 0)
+
+  /** Bytes that building the largest hierarchy takes beside, at least. */
+  def building: Long = worlds.map(w => w.triangles + w.others).maxOption.getOrElse(0L) * Building
+
+  private def statements: Long =
+    val shapes = description.shapes ++ description.objects.valuesIterator.flatten
+    val listed = shapes.iterator.map(s => Statement + arrays(s.shape)).sum +
+      description.media.iterator.map(m => arrays(m.medium)).sum
+    val lamps = shapes.count(_.areaLight.isDefined) + description.lights.size
+    listed + description.instances.size * Placed + lamps * LampStatement
+
+  private def materials: Long =
+    description.namedMaterials.size + description.shapes.iterator.map(_.material).distinct.size
+
+  private def lights: Long =
+    val images = description.lights.map(_.light).flatMap(l => ImageNames.flatMap(file(l, _)))
+    val lamps = uses.world.iterator.filter(_.areaLight.isDefined)
+      .map(SurfaceCount.of(_, description.dialect.base)).foldLeft(SurfaceCount())(_ + _)
+    lamps.triangles * TriangleLamp + (lamps.solids + description.lights.size) * Lamp +
+      images.map(i => ImageSize.guess(i).fold(0L)(s => s.width.toLong * s.height * LightPixel)).sum
+
+  private def media: Long =
+    description.media.iterator.map: m =>
+      val floats = m.medium.params.iterator.map(_.floats.length.toLong).sum
+      4 * floats + file(m.medium, "filename").fold(0L)(_.size)
+    .sum
+
+private[build] object SceneSize:
+  // Bytes in memory of one of each, as objects of Java lie there on 64 bits
+  private val Statement = 330L
+  private val LampStatement = 280L
+  private val Placed = 400L
+  private val Solid = 530L
+  private val Segment = 160L
+  private val Patch = 200L
+  private val Instance = 200L
+  private val Material = 1000L
+  private val Lamp = 450L
+  private val TriangleLamp = 550L
+
+  // Blocks of triangles that are not quite full, and nodes
+  private val TriangleNode = 54L
+  private val OtherNode = 94L
+
+  /** Boxes and orders of primitives, while a hierarchy is built. */
+  private val Building = 56L
+
+  /** Pixels of environment maps, with their table of directions. */
+  private val LightPixel = 20L
+
+  private val ImageNames = Vector("filename", "mapname")
+
+  /** A file to look at in passing. */
+  private[build] def file(d: Declaration, name: String): Option[InputFile] =
+    for
+      p <- d.param(name)
+      word <- p.strings.headOption if word.nonEmpty
+      file <- d.folder.glance(word) if file.isRegular
+    yield file
+
+  private def arrays(d: Declaration): Long = d.params.iterator.map(arrays).sum
+
+  private def arrays(p: Param): Long = 4L * (p.floats.length + p.ints.length + p.rests.length)
+
+/** Numbers of surfaces.
+  *
+  * @param meshBytes of vertices and indices
+  * @param segments  of curves
+  * @param patches   bilinear ones
+  */
+private[build] final case class SurfaceCount(
+    triangles: Long = 0,
+    meshBytes: Long = 0,
+    solids: Long = 0,
+    segments: Long = 0,
+    patches: Long = 0,
+    meshes: Int = 0
+):
+  /** Primitives other than triangles. */
+  def others: Long = solids + segments + patches
+
+  /** Bytes of all triangles, which know their meshes if there are several. */
+  def soupBytes: Long = meshBytes + (if meshes > 1 then 4 * triangles else 0)
+
+  def +(more: SurfaceCount): SurfaceCount =
+    SurfaceCount(
+      triangles + more.triangles,
+      meshBytes + more.meshBytes,
+      solids + more.solids,
+      segments + more.segments,
+      patches + more.patches,
+      meshes + more.meshes
+    )
+
+private[build] object SurfaceCount:
+  def of(shape: ShapeDescription, dialect: Dialect): SurfaceCount =
+    val d = shape.shape
+    d.name match
+      case "trianglemesh" => mesh(d)
+      case "loopsubdiv" =>
+        val levels = Vector("levels", "nlevels").flatMap(d.param(_)).flatMap(_.ints.headOption)
+        val growth = 1L << (2 * Math.max(0, Math.min(levels.headOption.getOrElse(3), 12)))
+        val triangles = count(d, "indices") / 3 * growth
+        SurfaceCount(triangles, triangles * (Corners + LoopVertex / 2), meshes = 1)
+      case "bilinearmesh" => SurfaceCount(patches = count(d, "indices") / 4)
+      case "plymesh" =>
+        val size = SceneSize.file(d, "filename").flatMap(PlySize.guess)
+        size.fold(SurfaceCount())(ofFile(_, keepsQuads = dialect == Dialect.V4))
+      case "curve" =>
+        val degree = number(d, "degree", 3)
+        val points = count(d, "P") / 3
+        val isSpline = d.param("basis").exists(_.strings.contains("bspline"))
+        val curves = if isSpline then points - degree else (points - 1) / Math.max(1, degree)
+        val halvings = Math.max(0, Math.min(number(d, "splitdepth", 3), 16))
+        SurfaceCount(segments = Math.max(1, curves) << halvings)
+      case _ => SurfaceCount(solids = 1)
+
+  private def mesh(d: Declaration): SurfaceCount =
+    val corners = if d.param("indices").isEmpty then 3L else count(d, "indices")
+    val numbers = Vector("P", "N", "uv", "st").map(count(d, _)).sum
+    SurfaceCount(corners / 3, corners / 3 * Corners + numbers * 4, meshes = 1)
+
+  private def ofFile(size: PlySize, keepsQuads: Boolean): SurfaceCount =
+    val numbers = size.vertices * size.numbers * 4
+    if keepsQuads && size.corners > 3.5 && size.corners < 4.5 then
+      SurfaceCount(0, numbers, patches = size.faces)
+    else
+      val triangles = (size.faces * (size.corners - 2)).toLong
+      SurfaceCount(triangles, triangles * Corners + numbers, meshes = 1)
+
+  private def count(d: Declaration, name: String): Long =
+    d.param(name).fold(0L)(p => Math.max(p.floats.length, p.ints.length))
+
+  private def number(d: Declaration, name: String, usual: Int): Int =
+    d.param(name).fold(usual): p =>
+      p.ints.headOption.orElse(p.floats.headOption.map(_.toInt)).getOrElse(usual)
+
+  /** Bytes of a triangle's indices. */
+  private val Corners = 12L
+
+  /** Bytes of a subdivided vertex, its point and normal; there are half as many as triangles. */
+  private val LoopVertex = 24L

@@ -1,0 +1,46 @@
+package candela.render
+
+import candela.base.{ByteCount, Code, JavaHeap, Problem, SourcePos}
+
+/** What a rendering takes memory for. */
+final case class Costs(all: Vector[Cost] = Vector.empty):
+  def bytes: Long = all.map(_.bytes).sum
+
+  def ++(more: Vector[Cost]): Costs =
+    val kinds = (all ++ more).groupBy(_.kind).toVector.sortBy(_._1.ordinal)
+    Costs(kinds.map((kind, same) => Cost(kind, same.map(_.bytes).sum, same.map(_.seconds).sum)))
+
+  /** The greatest parts, those that matter. */
+  def greatest: Vector[Cost] =
+    all.filter(_.bytes * Costs.Matters >= bytes).sortBy(-_.bytes).take(Costs.Told)
+
+  /** Why the rendering ends: the heap is too small.
+    *
+    * @param heap   its limit, in bytes
+    * @param needed bytes that are needed at least, if that is known
+    */
+  def problem(heap: Long, needed: Option[Long], at: Option[SourcePos] = None): Problem =
+    val parts = greatest.map(c => s"${c.kind.word} ${ByteCount.show(c.bytes)}").mkString(", ")
+    val limit = s"Java's heap is limited to ${ByteCount.show(heap)}"
+    val message = needed match
+      case Some(n) => s"the scene needs about ${ByteCount.show(n)} of memory, but $limit: $parts"
+      case None if parts.isEmpty => s"out of memory: $limit"
+      case None => s"out of memory: $limit; the scene has $parts"
+    val most = Math.max(needed.getOrElse(0L), Math.max(heap, bytes))
+    val enough = Math.ceil(most * Costs.Room / 1e9).toLong
+    val cures = JavaHeap.raise(s"${enough}g") +: greatest.flatMap(c => Costs.cure(c.kind))
+    Problem.error(Code.OutOfMemory, at, message, Some(cures.mkString("; ")))
+
+object Costs:
+  /** Parts below one in so many are not told. */
+  private val Matters = 20
+
+  private val Told = 4
+
+  /** A heap that is a little larger than a scene makes it slow. */
+  private val Room = 1.5
+
+  private def cure(kind: CostKind): Option[String] = kind match
+    case CostKind.Film => Some("or render parts of the image with --cropwindow")
+    case CostKind.Textures => Some("or give images less memory with --texture-memory")
+    case _ => None

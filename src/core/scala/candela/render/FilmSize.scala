@@ -1,0 +1,65 @@
+package candela.render
+
+import candela.film.{Fireflies, SpectralBands}
+import candela.guiding.{GuideRecords, GuideSettings}
+import candela.layers.{Layer, LayerFilm}
+
+/** What the film of a rendering takes in memory, and what is learnt for it. */
+object FilmSize:
+
+  /** Before the method is known.
+    *
+    * @param pixels that are rendered
+    */
+  def least(pixels: Long, layers: Vector[Layer], bands: Option[SpectralBands]): Cost =
+    film(pixels, if layers.isEmpty then 0 else LayerFilm.size(layers, None), bands, 0)
+
+  private[render] def of(plan: RenderPlan): Vector[Cost] =
+    val pixels = plan.crop.pixels
+    val layers = plan.layers.fold(0L)(asked => LayerFilm.size(asked.layers, asked.groups))
+    val bands = plan.bands.fold(0)(_.channels.size)
+    val groups = plan.layers.filter(_.layers.contains(Layer.Lights)).flatMap(_.groups)
+    val splats = plan.method match
+      case _: RenderMethod.SplattedTiles | _: RenderMethod.Chains =>
+        3 * groups.fold(1)(_.size) + bands
+      case _ => 0
+    val levels = if plan.fireflies == Fireflies.Reweighted then Levels * 3L * Sum else 0L
+    val borders = if plan.sharesSamples then Border * 4 * Sum else 0
+    val all = film(pixels, layers, plan.bands, splats)
+    all.copy(bytes = all.bytes + pixels * (levels + borders.toLong)) +: guide(plan).toVector
+
+  private def film(
+      pixels: Long,
+      layers: Long,
+      bands: Option[SpectralBands],
+      splats: Int
+  ): Cost =
+    val sums = 4L + layers + bands.fold(0L)(2L * _.channels.size)
+    val shown = 3L + layers
+    Cost(CostKind.Film, pixels * ((sums + splats) * Sum + shown * 4))
+
+  private def guide(plan: RenderPlan): Option[Cost] = plan.method match
+    case RenderMethod.Guided(_, settings, _) => Some(guide(plan, settings))
+    case RenderMethod.SplattedTiles(_, _, Some(guided), _) => Some(guide(plan, guided.settings))
+    case _ => None
+
+  private def guide(plan: RenderPlan, settings: GuideSettings): Cost =
+    val paths = plan.sampled.pixels.toDouble * plan.samplesPerPixel / LastPass
+    val records = Math.min(settings.records.toDouble, paths * Events).toLong
+    // As threads record them, in one array, and its order
+    Cost(CostKind.Guiding, records * (2 * GuideRecords.Bytes + 8))
+
+  /** An exact sum is two Doubles. */
+  private val Sum = 16L
+
+  /** Pixels beside tiles that samples of a tile contribute to, relative to its own. */
+  private val Border = 0.27
+
+  /** Levels of brightness that most tiles have samples of. */
+  private val Levels = 4
+
+  /** The last pass has one of so many of the samples. */
+  private val LastPass = 4
+
+  /** Events of a path that find light, about. */
+  private val Events = 2
