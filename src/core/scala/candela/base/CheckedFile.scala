@@ -75,6 +75,29 @@ final class CheckedOutput private[base] (channel: FileChannel):
     int(bytes.length)
     for b <- bytes do room(1).put(b): Unit
 
+  /** The count, and all. */
+  def floats(values: Array[Float]): Unit =
+    int(values.length)
+    var i = 0
+    while i < values.length do
+      val count = together(values.length - i)
+      buffer.asFloatBuffer.put(values, i, count)
+      buffer.position(buffer.position() + 4 * count)
+      i += count
+
+  /** Likewise. */
+  def ints(values: Array[Int]): Unit =
+    int(values.length)
+    var i = 0
+    while i < values.length do
+      val count = together(values.length - i)
+      buffer.asIntBuffer.put(values, i, count)
+      buffer.position(buffer.position() + 4 * count)
+      i += count
+
+  /** How many numbers of four bytes have room. */
+  private def together(most: Int): Int = Math.min(most, room(4).remaining / 4)
+
   private def room(bytes: Int): ByteBuffer =
     if buffer.remaining < bytes then flush()
     buffer
@@ -111,6 +134,32 @@ final class CheckedInput private[base] (channel: FileChannel):
     if count < 0 || count.toLong * bytes > left + buffer.remaining then throw EOFException()
     count
 
+  /** Numbers that were written together. */
+  def floats(): Array[Float] =
+    val values = new Array[Float](count(bytes = 4))
+    var i = 0
+    while i < values.length do
+      val some = together(values.length - i)
+      buffer.asFloatBuffer.get(values, i, some)
+      buffer.position(buffer.position() + 4 * some)
+      i += some
+    values
+
+  /** Likewise. */
+  def ints(): Array[Int] =
+    val values = new Array[Int](count(bytes = 4))
+    var i = 0
+    while i < values.length do
+      val some = together(values.length - i)
+      buffer.asIntBuffer.get(values, i, some)
+      buffer.position(buffer.position() + 4 * some)
+      i += some
+    values
+
+  /** How many numbers of four bytes are in the buffer, at least one. */
+  private def together(most: Int): Int =
+    Math.min(most, take(4).remaining / 4)
+
   def isAtEnd: Boolean = left <= 0 && !buffer.hasRemaining
 
   def text(): String =
@@ -119,6 +168,7 @@ final class CheckedInput private[base] (channel: FileChannel):
     for i <- bytes.indices do bytes(i) = take(1).get
     String(bytes, UTF_8)
 
+  /** The buffer, which has so many bytes. */
   private def take(bytes: Int): ByteBuffer =
     if buffer.remaining < bytes then
       buffer.compact().limit(Math.min(

@@ -9,10 +9,12 @@ import java.util.concurrent.atomic.AtomicInteger
 /** Keeps what the scenes of a process have in common, by its content, so that it is made once:
   * frames of a sequence, or many views of one scene. What is kept is immutable. Safe for threads.
   *
+  * Large things of some kinds may also be kept in files, for other processes.
+  *
   * It has what the scene before the latest has used, or the latest itself, and gives that up where
   * the JVM lacks memory.
   */
-final class Keep private (val isKeeping: Boolean):
+final class Keep private (val isKeeping: Boolean, files: Option[PartFiles]):
   import Keep.*
 
   private val things = ConcurrentHashMap[(Shelf[?], String), Kept]()
@@ -38,12 +40,29 @@ final class Keep private (val isKeeping: Boolean):
         made
 
   def find[A <: AnyRef](shelf: Shelf[A], key: String): Option[A] =
+    remembered(shelf, key).orElse:
+      for
+        store <- files; form <- shelf.form
+        found <- store.read(form, key)
+      yield
+        remember(shelf, key, found)
+        found
+
+  private def remembered[A <: AnyRef](shelf: Shelf[A], key: String): Option[A] =
     Option(things.get((shelf, key))).flatMap: kept =>
       kept.last = scenes.get
       Option(kept.thing.get).map(_.asInstanceOf[A]) // what was put on this shelf
 
+  private def remember[A <: AnyRef](shelf: Shelf[A], key: String, thing: A): Unit =
+    things.put((shelf, key), Kept(SoftReference(thing), scenes.get)): Unit
+
   def put[A <: AnyRef](shelf: Shelf[A], key: String, thing: A): Unit =
-    if isKeeping then things.put((shelf, key), Kept(SoftReference(thing), scenes.get)): Unit
+    if isKeeping then
+      remember(shelf, key, thing)
+      for store <- files; form <- shelf.form do store.write(form, key, thing)
+
+  /** Why files can't be written, if that was not told before. */
+  def trouble(): Option[String] = files.flatMap(_.trouble())
 
   /** As `apply`, of what is made from a file, and in which way.
     *
@@ -84,13 +103,17 @@ final class Keep private (val isKeeping: Boolean):
     made
 
 object Keep:
-  def apply(): Keep = new Keep(true)
+  /** @param files also keep large things */
+  def apply(files: Option[PartFiles] = None): Keep = new Keep(true, files)
 
   /** Keeps nothing. */
-  val Nothing: Keep = new Keep(false)
+  val Nothing: Keep = new Keep(false, None)
 
-  /** What things of one kind are kept on; each is itself alone. */
-  final class Shelf[A <: AnyRef]
+  /** What things of one kind are kept on; each is itself alone.
+    *
+    * @param form of their files, if they may be kept in files
+    */
+  final class Shelf[A <: AnyRef](val form: Option[PartForm[A]] = None)
 
   /** @param last the scene that used it last */
   private final class Kept(val thing: SoftReference[AnyRef], @volatile var last: Int):

@@ -104,6 +104,8 @@ object SceneBuilder:
     context.problems.stopAtErrors()
     val made = plan(context, settings, taken, image, crop, integrator, sampling, camera, world)
     checkSize(context, made)
+    for why <- control.keep.trouble() do
+      context.problems.warn(Code.Unwritable, None, s"$why; the scene cache gets no more files")
     (made, context.problems.result)
 
   /** The world, with its method chosen. */

@@ -3,7 +3,7 @@ package candela.textures
 import java.io.IOException
 import java.util.concurrent.ConcurrentHashMap
 
-import candela.base.{IoReason, Problem, SceneError, WriteError}
+import candela.base.{CacheFolder, IoReason, Problem, SceneError, WriteError}
 import candela.color.{Encoding, Rgb}
 import candela.image.ImageError
 
@@ -28,7 +28,7 @@ final class CachedImage(
 /** Images that are read in tiles from files of a folder, which are made once. An image whose file
   * can't be written is kept in memory as it is. Safe for threads.
   */
-final class TileCache(memory: TileMemory, folder: TileFolder):
+final class TileCache(memory: TileMemory, folder: CacheFolder):
   private val images = ConcurrentHashMap[String, CachedImage]()
   @volatile private var obstacle: Option[String] = None
 
@@ -46,7 +46,7 @@ final class TileCache(memory: TileMemory, folder: TileFolder):
     else synchronized(images.computeIfAbsent(key, _ => stored(key, wrap, make)))
 
   private def stored(key: String, wrap: Wrap, make: () => MadeTexels): CachedImage =
-    folder.open(key) match
+    open(key) match
       case Some(file) => tiled(file, wrap, make)
       case None =>
         val made = make()
@@ -54,12 +54,20 @@ final class TileCache(memory: TileMemory, folder: TileFolder):
           case Some(file) => tiled(file, wrap, make)
           case None => CachedImage(made.levels.map(MipLevel(_, wrap)), made.encoding, made.colors)
 
+  private def place(key: String) = folder.file(key, CacheFolder.Tiles)
+
+  /** The file of this key, if there is one and it is undamaged as far as its header tells. */
+  private def open(key: String): Option[TileFile] =
+    val opened = TileFile.open(place(key), key)
+    if opened.nonEmpty then folder.use(place(key))
+    opened
+
   private def written(key: String, made: MadeTexels): Option[TileFile] =
     if obstacle.nonEmpty || !TileCache.fits(made.levels) then None
     else
       try
-        folder.write(TileCache.header(key, made), made.levels)
-        folder.open(key)
+        folder.write(place(key))(TileFile.write(_, TileCache.header(key, made), made.levels))
+        open(key)
       catch
         case e: WriteError =>
           obstacle = Some(e.getMessage)

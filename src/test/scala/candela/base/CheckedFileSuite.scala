@@ -31,6 +31,22 @@ class CheckedFileSuite extends AnyFunSuite:
     withFile: file =>
       assert(read(file) == (-3, text, 19999 * 0.1, Long.MinValue, 0.1f))
 
+  test("many numbers are read as they were written, wherever the buffer ends"):
+    val floats = Array.tabulate(40_003)(_ * 0.1f)
+    val ints = Array.tabulate(33_333)(i => i * i)
+    for before <- 0 to 5 do
+      val file = Files.createTempFile("checked", ".bin")
+      try
+        CheckedFile.write(file, "x" * before): out =>
+          out.floats(floats)
+          out.ints(ints)
+          out.floats(Array.emptyFloatArray)
+          out.int(7)
+        CheckedFile.read(file, "x" * before): in =>
+          assert(in.floats().sameElements(floats) && in.ints().sameElements(ints))
+          assert(in.floats().isEmpty && in.int() == 7 && in.isAtEnd)
+      finally Files.delete(file)
+
   test("a file of another kind is refused"):
     withFile: file =>
       assert(reason(file, "test 2") == "it begins with other bytes")

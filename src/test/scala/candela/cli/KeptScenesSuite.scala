@@ -78,6 +78,8 @@ class KeptScenesSuite extends AnyFunSuite:
        |Translate $at
        |Scale .1 .1 .1
        |ObjectInstance "o"
+       |Translate 9 0 0
+       |ObjectInstance "o"
        |AttributeEnd
        |""".stripMargin
 
@@ -141,3 +143,80 @@ class KeptScenesSuite extends AnyFunSuite:
           assert(image == rendered(ReadSettings()), s"$height, $seed")
           image
       assert(images.distinct.size == 3 && images.head == images.last)
+
+  private def prepared[A](body: Path => A): A = TempFolder.use: folder =>
+    sheet(folder.resolve("sheet.ply"), 0.2)
+    sheet(folder.resolve("other.ply"), 0.3)
+    picture(folder.resolve("c.png"), 1)
+    Files.writeString(folder.resolve("s.pbrt"), scene(mesh = "other.ply")): Unit
+    body(folder)
+
+  /** The image and the warnings of a rendering. */
+  private def rendered(folder: Path, words: String*): (Vector[Byte], String) =
+    val to = folder.resolve("x.pfm")
+    val (code, captured) =
+      Captured.run(Seq(s"$folder/s.pbrt", "--outfile", s"$to") ++ words*)
+    assert(code == 0, captured.err)
+    val warnings = captured.err.linesIterator.filter(_.contains("warning")).mkString
+    (Files.readAllBytes(to).toVector, warnings)
+
+  test("images are the same with a scene cache, cold, warm and damaged, for any number of threads"):
+    prepared: folder =>
+      val (alone, _) = rendered(folder, "--nthreads", "1")
+      val cache = folder.resolve("cache")
+      def cached(threads: Int) =
+        rendered(folder, "--nthreads", s"$threads", "--scene-cache", s"$cache")
+      assert(cached(1) == (alone, ""))
+      val names = TempFolder.names(cache)
+      // Two meshes, the hierarchy of the world, and that of the object
+      assert(names.size == 4 && names.forall(_.endsWith(".part")), names)
+      val files = names.toVector.map(cache.resolve(_)).map(f => f -> Files.readAllBytes(f))
+      assert(cached(2) == (alone, ""))
+      val damages = Seq[Array[Byte] => Array[Byte]](
+        all => all.updated(all.length / 2, (all(all.length / 2) ^ 1).toByte),
+        _.dropRight(5),
+        _ => Array.emptyByteArray
+      )
+      for damage <- damages; threads <- 1 to 2 do
+        for (file, bytes) <- files do Files.write(file, damage(bytes)): Unit
+        assert(cached(threads) == (alone, ""))
+        for (file, bytes) <- files do assert(Files.readAllBytes(file).sameElements(bytes))
+
+  test("a mesh that changes has other files in the scene cache"):
+    prepared: folder =>
+      def cached() = rendered(folder, "--scene-cache", s"$folder/cache")
+      val (first, _) = cached()
+      sheet(folder.resolve("other.ply"), 0.25)
+      assert(cached() == rendered(folder))
+      sheet(folder.resolve("other.ply"), 0.3)
+      assert(cached() == (first, ""))
+
+  test("the scene cache is in the folder of the texture cache, unless it has its own"):
+    prepared: folder =>
+      val cache = folder.resolve("cache")
+      val _ = rendered(folder, "--scene-cache", "--texture-cache", s"$cache")
+      assert(TempFolder.names(cache).count(_.endsWith(".part")) == 4)
+      run(
+        "--scene-cache",
+        s"$folder/s.pbrt",
+        "--texture-cache",
+        s"$folder/d",
+        "--outfile",
+        s"$folder/y.pfm"
+      )
+      assert(TempFolder.names(folder.resolve("d")).size == 4)
+
+  test("a scene cache that can't be written is told of once, and nothing is lost"):
+    prepared: folder =>
+      val (alone, _) = rendered(folder)
+      val file = Files.write(folder.resolve("file"), Array.emptyByteArray)
+      val under = file.resolve("cache")
+      val (image, said) = rendered(folder, s"--scene-cache=$under")
+      assert(image == alone)
+      assert(said.linesIterator.count(_.contains("the scene cache gets no more files")) == 1, said)
+
+  test("scenes of strangers have no scene cache"):
+    prepared: folder =>
+      val cache = folder.resolve("cache")
+      val _ = rendered(folder, "--sandbox", "--scene-cache", s"$cache")
+      assert(!Files.exists(cache))

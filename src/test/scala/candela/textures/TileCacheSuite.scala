@@ -7,7 +7,7 @@ import scala.util.Using
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Code, Parallel, SceneError}
+import candela.base.{CacheFolder, Code, Parallel, SceneError}
 import candela.color.{Encoding, Rgb}
 import candela.image.ImageError
 import candela.render.ThreadPool
@@ -32,7 +32,7 @@ class TileCacheSuite extends AnyFunSuite:
 
   /** As little memory as there can be. */
   private def cache(folder: Path, memory: Long = 1, most: Long = Long.MaxValue) =
-    new TileCache(new TileMemory(memory), TileFolder(folder, most))
+    new TileCache(new TileMemory(memory), CacheFolder(folder, most))
 
   private def never(): MadeTexels = fail("the texels are made again")
 
@@ -172,12 +172,3 @@ class TileCacheSuite extends AnyFunSuite:
       assert(files(folder).size == 3)
       for key <- Vector("a", "c", "d") do
         cache(folder).image(key, Wrap.Repeat)(() => never()): Unit
-
-  test("the user's cache folder is the one that the system names"):
-    def usual(variables: (String, String)*) = TileFolder.usual(variables.toMap).map(_.toString)
-    val root = Path.of("").toAbsolutePath.getRoot.resolve("x")
-    val tail = Path.of("candela", "textures")
-    assert(usual("XDG_CACHE_HOME" -> s"$root", "HOME" -> "/h").contains(s"${root.resolve(tail)}"))
-    assert(usual("HOME" -> s"$root").contains(s"${root.resolve(".cache").resolve(tail)}"))
-    assert(usual("LOCALAPPDATA" -> s"$root").contains(s"${root.resolve(tail)}"))
-    assert(usual("XDG_CACHE_HOME" -> "relative").isEmpty && usual().isEmpty)

@@ -1,7 +1,9 @@
 package candela.accel.building
 
 import candela.accel.{Primitives, WideLayout, WideTree}
-import candela.base.{Keep, Parallel}
+import candela.base.{CheckedInput, CheckedOutput, Keep, Parallel, PartForm}
+import candela.geometry.Bounds3
+import candela.math.Vec3
 
 /** Builds hierarchies, but for what a scene before has built: the whole, if nothing has moved, or
   * the part that has not, if most has not. Hits do not depend on the hierarchy, so neither do
@@ -59,7 +61,7 @@ private[accel] object KeptTrees:
   /** Primitives below which building takes no longer than digests. */
   private val Least = 4096
 
-  private val Layouts = Keep.Shelf[WideLayout]()
+  private val Layouts = Keep.Shelf(Some(LayoutForm))
   private val Latest = Keep.Shelf[Moves]()
 
   /** The latest parts of their form.
@@ -78,3 +80,32 @@ private[accel] object KeptTrees:
     var sum = 0
     for i <- 0 until parts.count if chosen(i) do sum += parts.start(i + 1) - parts.start(i)
     sum
+
+/** Files of layouts. */
+private object LayoutForm extends PartForm[WideLayout]("hierarchy 1"):
+  def size(layout: WideLayout): Long =
+    4L * layout.nodes.length + 4L * layout.blocks.length + 4L * layout.order.length
+
+  def write(layout: WideLayout, out: CheckedOutput): Unit =
+    out.int(layout.width)
+    out.int(layout.lanes)
+    out.int(layout.count)
+    val (low, high) = (layout.bounds.min, layout.bounds.max)
+    for x <- Seq(low.x, low.y, low.z, high.x, high.y, high.z) do out.float(x)
+    out.floats(layout.nodes)
+    out.int(layout.root)
+    out.floats(layout.blocks)
+    out.ints(layout.order)
+
+  def read(in: CheckedInput): WideLayout =
+    def corner() = Vec3(in.float(), in.float(), in.float())
+    WideLayout(
+      in.int(),
+      in.int(),
+      in.int(),
+      Bounds3(corner(), corner()),
+      in.floats(),
+      in.int(),
+      in.floats(),
+      in.ints()
+    )

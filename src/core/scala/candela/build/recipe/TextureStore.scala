@@ -4,10 +4,10 @@ import java.io.IOException
 import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
 
-import candela.base.{Code, InputFile, Keep, Parallel, Refusal, Sha256, Version}
+import candela.base.{CacheFolder, Code, InputFile, Keep, Parallel, Refusal, Sha256, Version}
 import candela.image.ImageSize
 import candela.scenefile.SceneDescription
-import candela.textures.{TileCache, TileFolder, TileMemory}
+import candela.textures.{TileCache, TileMemory}
 
 /** How image textures are kept; the image is the same.
   *
@@ -19,12 +19,11 @@ import candela.textures.{TileCache, TileFolder, TileMemory}
 final case class TextureControl(
     memory: Option[Long] = None,
     folder: Option[Path] = None,
-    folderSize: Long = TextureControl.FolderSize,
+    folderSize: Long = CacheFolder.UsualSize,
     isShared: Boolean = true
-)
-
-object TextureControl:
-  val FolderSize: Long = 20_000_000_000L
+):
+  /** The folder of files, if there is one. */
+  def cache: Option[Path] = folder.orElse(if isShared then CacheFolder.usual() else None)
 
 /** Keeps the image textures of a scene: in memory, or in tiles if they may not fit.
   *
@@ -96,7 +95,7 @@ object TextureStore:
       val size = files.map(f => ImageSize.guess(f).fold(0L)(_.asTexture)).sum
       val usual = Math.min(Runtime.getRuntime.maxMemory / ShareOfHeap, MostInMemory)
       val most = control.memory.getOrElse(usual)
-      val folder = control.folder.orElse(if control.isShared then TileFolder.usual() else None)
+      val folder = control.cache
       val images = if files.size == 1 then "1 image" else s"${files.size} images"
       if size <= most then
         val say = s"$images in memory, about ${megabytes(size)} of ${megabytes(most)}"
@@ -108,7 +107,7 @@ object TextureStore:
             new TextureStore(None, Some(say), size, files, pool, keep)
           case Some(path) =>
             val memory = new TileMemory(most)
-            val cache = new TileCache(memory, TileFolder(path, control.folderSize))
+            val cache = new TileCache(memory, CacheFolder(path, control.folderSize))
             val say = s"$images, about ${megabytes(size)}, in tiles: at most ${megabytes(most)} " +
               s"in memory, all in $path"
             new TextureStore(Some(cache), Some(say), most, files, pool, keep)

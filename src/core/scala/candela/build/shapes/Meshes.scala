@@ -46,7 +46,7 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
     else MeshArrays.checked(p, normals(), uvs, index)
 
 object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY file", sinceV3):
-  private val Meshes = Keep.Shelf[PlyMesh]()
+  private val Meshes = Keep.Shelf(Some(PlyMeshForm))
   private val filename = string("filename", ".ply or .ply.gz file", shown = "none")("")
   private val displacement =
     floatTexture("displacement", "height along the normal", onlyV4, "object space", "none")(0f)

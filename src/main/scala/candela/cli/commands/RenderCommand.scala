@@ -31,7 +31,13 @@ final class RenderCommand(
 ):
   private val cancellation = Cancellation()
   private val files = RenderOutputs(options, report, register, resumed)
-  private lazy val keep = if Sequence(options).frames.size > 1 then Keep() else Keep.Nothing
+  private lazy val keep =
+    val files = options.sceneCache
+    if options.keepsScenes && files.isEmpty then
+      val help = Some("name one: --scene-cache FOLDER")
+      val message = "--scene-cache needs a folder, and this system names none for caches"
+      throw SceneError(Problem.general(Code.OptionMisfit, message, help))
+    if files.nonEmpty || Sequence(options).frames.size > 1 then Keep(files) else Keep.Nothing
   private lazy val denoising = Option.when(options.settings.output.denoise):
     Denoising(Oidn.load(terminal.environment), options.threadCount)
 

@@ -2,7 +2,7 @@ package candela.cli.options
 
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
-import candela.base.{Code, Problem, Suggest}
+import candela.base.{CacheFolder, Code, PartFiles, Problem, Suggest}
 import candela.build.recipe.TextureControl
 import candela.build.{RenderRegion, RenderSettings}
 import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
@@ -123,6 +123,9 @@ object CommandLine:
     args.foldRight(List.empty[String]):
       case ("--watch", value :: rest) if WatchAddresses.isOne(value) => s"--watch=$value" :: rest
       case ("--watch", rest) => "--watch=" :: rest
+      case ("--scene-cache", value :: rest) if TextureTable.isFolder(value) =>
+        s"--scene-cache=$value" :: rest
+      case ("--scene-cache", rest) => "--scene-cache=" :: rest
       case ("--bake", size :: rest) if size.toIntOption.nonEmpty => s"--bake=$size" :: rest
       case ("--bake", rest) => s"--bake=${Baking.DefaultSize}" :: rest
       // As Mitsuba's command line has it; scopt would split the word into short options
@@ -224,8 +227,15 @@ final case class Options(
     toPly: Option[Int] = None,
     bake: Option[Int] = None,
     limits: SceneLimits = SceneLimits(),
-    textures: TextureControl = TextureControl()
+    textures: TextureControl = TextureControl(),
+    keepsScenes: Boolean = false,
+    sceneFolder: Option[Path] = None
 ):
+  /** Where prepared scenes are kept, if they are to be. */
+  def sceneCache: Option[PartFiles] = Option.when(keepsScenes):
+    sceneFolder.orElse(textures.cache).map(f => PartFiles(CacheFolder(f, textures.folderSize)))
+  .flatten
+
   def setting(change: RenderSettings => RenderSettings): Options = copy(settings = change(settings))
 
   /** How the scenes are prepared. */

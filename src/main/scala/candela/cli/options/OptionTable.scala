@@ -214,7 +214,7 @@ private[cli] object OptionTable extends OptionRows:
     sampler,
     fireflies
   ) ++ SwitchTable.render ++ FilmTable.render ++ ClusterTable.options ++
-    DisplayTable.options ++ TextureTable.options ++ LimitTable.options
+    DisplayTable.options ++ TextureTable.options ++ TextureTable.scenes ++ LimitTable.options
 
   private val resumeOptions: Vector[Row] = Vector(
     threads,

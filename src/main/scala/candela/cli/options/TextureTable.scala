@@ -1,9 +1,11 @@
 package candela.cli.options
 
-import java.nio.file.{InvalidPathException, Path}
+import java.nio.file.{Files, InvalidPathException, Path}
 
 import candela.build.recipe.TextureControl
-import candela.job.TextForm
+import candela.job.{SceneFormat, TextForm}
+
+import scala.util.Try
 
 import scopt.{OParser, Read}
 
@@ -25,6 +27,23 @@ private[cli] object TextureTable extends OptionRows:
 
   private def kept[A](change: (A, TextureControl) => TextureControl): (A, Options) => Options =
     (value, o) => o.copy(textures = change(value, o.textures))
+
+  /** Whether a word after `--scene-cache` is its folder, and not a scene or an option. */
+  def isFolder(word: String): Boolean =
+    def isOther(file: Path) =
+      SceneFormat.named(file).nonEmpty || (Files.exists(file) && !Files.isDirectory(file))
+    word.nonEmpty && !word.startsWith("-") && !Try(Path.of(word)).toOption.exists(isOther)
+
+  /** Of prepared scenes. */
+  def scenes: Vector[Row] = Vector(
+    opt[Option[Path]]("scene-cache").valueName("[FOLDER]")
+      .text(OptionText(
+        "keep meshes and hierarchies for later renderings, in the folder of the texture cache or " +
+          "another one",
+        "The image is the same: [the scene cache](FILMS.md#the-scene-cache)."
+      ))
+      .action((folder, o) => o.copy(keepsScenes = true, sceneFolder = folder))
+  )
 
   def options: Vector[Row] = Vector(
     opt[Long]("texture-memory")(using reading(TextForm.size)).valueName("SIZE")

@@ -44,7 +44,7 @@ private[cli] object Words:
 
   /** The value of an option, by what its help calls it; None: it has no value. */
   def of(option: OptionDef[?, Options]): Option[Words] = option.valueName.map:
-    case "FOLDER" => Folders
+    case "FOLDER" | "[FOLDER]" => Folders
     case s"[FILE.$suffix]" => Files(Vector(suffix))
     case name if name.contains("FILE") => Files(Vector.empty)
     case s"LAYER$_" => Listed(Layer.values.toVector.map(_.word))

@@ -53,7 +53,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     Set(
       "spark", "shards", "checkpoint", "checkpoint-every", "frames", "skip-done", "time", "error",
       "thumbnail", "watch", "watch-after", "display-server", "sandbox", "limit",
-      "texture-memory", "texture-cache", "texture-cache-size"
+      "texture-memory", "texture-cache", "texture-cache-size", "scene-cache"
     )
 
   test("every option of render is known to shape the image or not to"):

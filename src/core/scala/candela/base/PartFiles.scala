@@ -1,0 +1,58 @@
+package candela.base
+
+import java.io.IOException
+
+/** How things of a kind are written to files, and read from them.
+  *
+  * @param name tells the kind and the version of its form
+  */
+abstract class PartForm[A](val name: String):
+  /** Bytes of the file, about. */
+  def size(thing: A): Long
+
+  def write(thing: A, out: CheckedOutput): Unit
+
+  /** @throws IOException if the file ends early */
+  def read(in: CheckedInput): A
+
+/** Parts of scenes, in files of a cache folder, by key. Safe for threads and processes. */
+final class PartFiles(folder: CacheFolder):
+  @volatile private var obstacle: Option[String] = None
+  private var isTold = false
+
+  /** Why files can't be written, if that was not told before. */
+  def trouble(): Option[String] = synchronized:
+    val now = obstacle.filterNot(_ => isTold)
+    if now.nonEmpty then isTold = true
+    now
+
+  /** What is in the file of this key; None if there is none, or none that is whole. */
+  def read[A](form: PartForm[A], key: String): Option[A] =
+    val file = folder.file(mark(form, key), CacheFolder.Parts)
+    try
+      val found = CheckedFile.read(file, mark(form, key)): in =>
+        val made = form.read(in)
+        if !in.isAtEnd then throw IOException("it has more than it should")
+        made
+      folder.use(file)
+      Some(found)
+    catch case _: IOException => None
+
+  /** Writes the file of a key, if the thing is large enough. After a failure nothing is written. */
+  def write[A](form: PartForm[A], key: String, thing: A): Unit =
+    if obstacle.isEmpty && form.size(thing) >= PartFiles.Least then
+      val words = mark(form, key)
+      try
+        folder.write(folder.file(words, CacheFolder.Parts)): channel =>
+          CheckedFile.writeTo(channel, words)(form.write(thing, _))
+      catch
+        case e: WriteError => obstacle = Some(e.getMessage)
+        case e: IOException =>
+          obstacle = Some(s"can't write to `${folder.path}`: ${IoReason(e)}")
+
+  /** What is made by another version may differ. */
+  private def mark(form: PartForm[?], key: String) = s"${form.name} $key ${Version.current}"
+
+object PartFiles:
+  /** Bytes below which a thing is made as fast as its file is read. */
+  val Least: Long = 1 << 16
