@@ -79,16 +79,6 @@ object EmbreeRays:
     try stream.readAllBytes
     finally stream.close()
 
-  /** Why a Python can't be asked; None if it can. */
-  def missing(python: String, folder: Path, commands: Commands): Option[String] =
-    if !Commands.isExecutable(python) then Some(s"`$python` is not installed")
-    else
-      val out = folder.resolve("embreex.txt")
-      val text = s"import embreex.rtcore_scene; open(r'$out', 'w').write('there')"
-      commands.run(Vector(python, "-c", text), out, Timeout) match
-        case Outcome.Done(_, _) => None
-        case _ => Some(s"`$python` has no module embreex (PyPI)")
-
   private def buffer(bytes: Int): ByteBuffer =
     ByteBuffer.allocate(bytes).order(ByteOrder.LITTLE_ENDIAN)
 

@@ -10,7 +10,7 @@ import candela.image.{Image, ImageError, ImageFiles}
 import candela.render.{Cancellation, Renderer}
 import candela.report.RobustProgram
 import candela.scenefile.{Dialect, Parser, SceneDescription}
-import candela.suite.{Commands, Outcome}
+import candela.suite.{Absent, Commands, Installed, Outcome, Present}
 
 /** What a program renders: a scene of [[PeerScene]], or one in pbrt-v3's words alone. */
 final case class PeerInput(v3: String, mitsuba: Option[(String, Map[String, String])])
@@ -90,46 +90,32 @@ object OtherPainter:
   enum Language:
     case V3, V4, Mitsuba
 
-  /** Those whose commands the environment has, by the names that suites use; and those that it has
-    * not, with the reason.
-    */
+  /** Those that are installed, and those that are not, with the reason. */
   def found(
       folder: Path,
       commands: Commands,
       threads: Int,
-      env: Map[String, String]
+      installed: Installed
   ): (Vector[Painter], Vector[(String, String)]) =
-    val all = Vector[(String, String, Language, (Vector[String], Path, Path) => Vector[String])](
-      (
-        "pbrt-v3",
-        "PBRT_V3",
-        Language.V3,
-        (c, s, o) =>
-          c ++ Vector("--quiet", s"--nthreads=$threads", s"--outfile=$o", s"$s")
-      ),
-      (
-        "pbrt-v4",
-        "PBRT_V4",
-        Language.V4,
-        (c, s, o) =>
-          c ++ Vector("--quiet", "--nthreads", s"$threads", "--outfile", s"$o", s"$s")
-      ),
-      // With one thread more than processors: with as many or fewer, 3.9.1 hangs when it writes
-      (
-        "Mitsuba 3",
-        "MITSUBA",
-        Language.Mitsuba,
-        (c, s, o) =>
-          c ++ Vector("-m", "scalar_rgb", "-t", s"${threads + 1}", "-o", s"$o", s"$s")
-      )
+    def made(title: String, language: Language, program: Either[Absent, Present])(
+        options: (Path, Path) => Vector[String]
+    ): Either[(String, String), Painter] = program match
+      case Left(absent) => Left(title -> absent.obtain)
+      case Right(there) if !Commands.isExecutable(there.words.head) =>
+        val named = there.variable.fold("")(v => s" ($v)")
+        Left(title -> s"`${there.words.head}`$named is not installed")
+      case Right(there) =>
+        val key = title.toLowerCase.replace(' ', '-')
+        val words = (scene: Path, out: Path) => there.words ++ options(scene, out)
+        val known = RobustProgram(key, title, isOurs = false)
+        Right(OtherPainter(known, folder, commands, language, words))
+    val all = Vector(
+      made("pbrt-v3", Language.V3, installed.pbrt(3)): (scene, out) =>
+        Vector("--quiet", s"--nthreads=$threads", s"--outfile=$out", s"$scene"),
+      made("pbrt-v4", Language.V4, installed.pbrt(4)): (scene, out) =>
+        Vector("--quiet", "--nthreads", s"$threads", "--outfile", s"$out", s"$scene"),
+      made("Mitsuba 3", Language.Mitsuba, installed.mitsuba): (scene, out) =>
+        val count = s"${Installed.mitsubaThreads(threads)}"
+        Vector("-m", "scalar_rgb", "-t", count, "-o", s"$out", s"$scene")
     )
-    val sorted = all.map: (title, variable, language, words) =>
-      env.get(variable).map(_.trim.split("\\s+").toVector).filter(_.head.nonEmpty) match
-        case None => Left(title -> Commands.notSet(Vector(variable)))
-        case Some(command) if !Commands.isExecutable(command.head) =>
-          Left(title -> s"`${command.head}` ($variable) is not installed")
-        case Some(command) =>
-          val key = title.toLowerCase.replace(' ', '-')
-          val program = RobustProgram(key, title, isOurs = false)
-          Right(OtherPainter(program, folder, commands, language, words(command, _, _)))
-    (sorted.collect { case Right(p) => p }, sorted.collect { case Left(why) => why })
+    (all.collect { case Right(p) => p }, all.collect { case Left(why) => why })

@@ -7,12 +7,12 @@ import java.time.format.DateTimeFormatter
 import candela.base.Version
 import candela.render.{Cancellation, ThreadPool}
 import candela.report.{Machine, RobustGroup, RobustRow, RobustnessReport}
-import candela.suite.Commands
+import candela.suite.{Commands, Installed}
 
 /** Measures numerical robustness: of Candela, and of other programs that are there.
   *
   * @param rays    trials of each row
-  * @param python  a Python that has embreex
+  * @param python  a Python that has embreex, if not that of [[Installed]]
   * @param scratch folder for scenes and images
   * @param command command line that makes the same report
   * @param say     receives each row when it is measured, with its group
@@ -29,15 +29,16 @@ final class RobustnessRun(
 ):
   private val commands = Commands(Vector.empty, scratch, () => cancellation.isRequested)
   private val kernels = Kernel.all
-  private val (others, without) = OtherPainter.found(scratch, commands, threads, sys.env)
+  private val installed = Installed(sys.env ++ python.map(Installed.Python -> _))
+  private val (others, without) = OtherPainter.found(scratch, commands, threads, installed)
   private val painters = OwnPainter(threads, cancellation) +: others
-  private val noEmbree = EmbreeRays.missing(python.getOrElse("python3"), scratch, commands)
+  private val noEmbree = installed.library("Embree", "embreex", "numpy")
   private val embree =
-    Option.when(noEmbree.isEmpty)(EmbreeRays(python.getOrElse("python3"), scratch, commands))
+    Option.when(noEmbree.isEmpty)(EmbreeRays(installed.python, scratch, commands))
 
   /** Programs that can't be asked, and why. */
   val leftOut: Vector[(String, String)] =
-    Kernel.missing ++ without ++ noEmbree.map("Embree" -> _)
+    Kernel.missing ++ without ++ noEmbree.map(a => a.title -> a.obtain)
 
   def report(): RobustnessReport =
     val machine = Machine.here()

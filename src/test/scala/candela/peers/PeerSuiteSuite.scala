@@ -1,7 +1,7 @@
 package candela.peers
 
 import candela.image.{Image, ImageFiles}
-import candela.suite.{SuiteFolder, SuiteResults, Work}
+import candela.suite.{Installed, SuiteFolder, SuiteResults, Work}
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
@@ -34,7 +34,7 @@ class PeerSuiteSuite extends AnyFunSuite:
 
   test("programs that are absent are named with where to get them"):
     TempFolder.use: folder =>
-      val (programs, absent) = found(folder, PeerPrograms.Python -> "/no/such/python")
+      val (programs, absent) = found(folder, Installed.Python -> "/no/such/python")
       assert(programs.map(_.name) == Vector("candela"))
       val where = absent.map(a => a.title -> a.obtain).toMap
       assert(where("pbrt-v4").contains("PBRT_V4") && where("Mitsuba 3").contains("pip install"))
@@ -77,7 +77,7 @@ class PeerSuiteSuite extends AnyFunSuite:
       ): Unit
       val suite = SuiteFolder.ofScene(scene).copy(work = Work.Samples(Vector(1, 2)))
       val environment =
-        Map("MITSUBA" -> mitsuba.toString, PeerPrograms.Python -> python.toString, "PATH" -> "")
+        Map("MITSUBA" -> mitsuba.toString, Installed.Python -> python.toString, "PATH" -> "")
       val peers = PeerSuite.of(suite, environment, folder)
       val report = SuiteResults.of(
         // The variables are not set for this process

@@ -55,6 +55,7 @@ private[cli] object RobustnessTable extends OptionRows:
       .text("also write the table as .html (with pictures where programs differ), .json or .md")
       .action((f, o) => o.copy(reports = o.reports ++ f)),
     opt[String]("python").valueName("PYTHON")
-      .text("a Python with the module embreex, to measure Embree (default: python3)")
+      .text("a Python with the module embreex, to measure Embree (default: that of " +
+        "CANDELA_PYTHON, else python3)")
       .action((p, o) => change(o)(_.copy(python = Some(p))))
   )
