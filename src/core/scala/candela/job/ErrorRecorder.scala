@@ -3,7 +3,7 @@ package candela.job
 import candela.base.GivenUp
 import candela.film.{Development, Film}
 import candela.image.Image
-import candela.measure.{CurvePoint, ErrorEstimate, Errors}
+import candela.measure.{CurvePoint, ErrorEstimate, Errors, Interval}
 import candela.render.{Looks, Pass, RenderListener}
 
 /** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
@@ -41,6 +41,10 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
       if reference.isEmpty then estimate.at(samples) else points.lastOption.map(_.errors)
     errors.map(e => Math.sqrt(e.relativeMse))
 
+  /** The estimated relative MSE after so many samples per pixel, with its 95 % interval. */
+  def interval(samples: Double): Option[Interval] =
+    if reference.isEmpty then estimate.interval(samples) else None
+
   /** Whether few pixels have nearly all of the estimated error. */
   def isOfFew: Boolean = reference.isEmpty && estimate.isOfFew
 
@@ -67,5 +71,6 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
       case None =>
         val anew = estimate.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
         anew.orElse(Option.when(pass.isLast)(estimate.at(pass.samples)).flatten)
-    errors.foreach(e => foundPoints += CurvePoint(pass.samples, pass.end, e))
+    val interval = this.interval(pass.samples)
+    errors.foreach(e => foundPoints += CurvePoint(pass.samples, pass.end, e, interval))
     image

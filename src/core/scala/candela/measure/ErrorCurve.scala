@@ -53,5 +53,13 @@ object Errors:
       own
     )
 
-/** Point of an error curve. */
-final case class CurvePoint(samples: Int, seconds: Double, errors: Errors)
+/** Point of an error curve.
+  *
+  * @param interval 95 % interval of the relative MSE, where that is an estimate
+  */
+final case class CurvePoint(
+    samples: Int,
+    seconds: Double,
+    errors: Errors,
+    interval: Option[Interval] = None
+)

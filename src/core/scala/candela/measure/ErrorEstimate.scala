@@ -62,6 +62,26 @@ final class ErrorEstimate:
     val errors = known.errors
     errors.copy(mse = errors.mse * factor, relativeMse = errors.relativeMse * factor)
 
+  /** The relative MSE after so many samples per pixel, with its 95 % interval. This has no upper
+    * limit where the error is that of few pixels.
+    *
+    * Its logarithm is uncertain by what few pixels tell, and by how far the trend of scatter can be
+    * extrapolated. How far, is calibrated over many scenes by docs/NOISE.md, "Intervals": of one
+    * scene the estimate may be too low or too high in all renderings.
+    */
+  def interval(samples: Double): Option[Interval] =
+    for
+      known <- last
+      errors <- at(samples)
+    yield
+      val estimate = errors.relativeMse
+      def far(ofTrend: Double) =
+        val variance = ofTrend * ofTrend + ErrorEstimate.OfPixel / known.pixels
+        Math.exp(1.959964 * Math.sqrt(variance))
+      val high =
+        if isOfFew then Double.PositiveInfinity else estimate * far(ErrorEstimate.TrendUp)
+      Interval(estimate, estimate / far(ErrorEstimate.TrendDown), high)
+
   /** Samples per pixel at which the relative MSE is this. */
   def samplesUntil(relativeMse: Double): Option[Double] = last.map: known =>
     known.samples * known.trend.times(Math.max(relativeMse, 1e-30) / known.errors.relativeMse)
@@ -121,6 +141,15 @@ object ErrorEstimate:
     * of 3: the root of a sum is then uncertain by the root of 1 / 6 over these pixels, here 0.075.
     */
   private val FewPixels = 30.0
+
+  /** Standard deviations of the logarithm of an estimate, by its trend: points that get even later
+    * than the scatter shows make it too high more often than too low.
+    */
+  private val TrendUp = 0.12
+  private val TrendDown = 0.35
+
+  /** Its variance by the squares of a single pixel, of its true error and of its scatter. */
+  private val OfPixel = 4.0 / 3
 
   /** Of each value the squared difference of the samples from `begin` until `middle`, and until
     * `end`: times the product of their shares of the weight.

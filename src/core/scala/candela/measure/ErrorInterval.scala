@@ -25,6 +25,11 @@ object ErrorInterval:
   /** Fewer events allow for no upper limit: what the next seed finds may outweigh all of them. */
   val FewestEvents = 12.0
 
+  /** How large an event the next seed may have, relative to the largest one's square over the
+    * deviation of the mean: by docs/NOISE.md, "Intervals".
+    */
+  private val NextEvent = 1.5
+
   /** @param parts for each image, the share of each part in its error: their sum is the error */
   def of(parts: Vector[Array[Double]]): ErrorInterval =
     val seeds = parts.size
@@ -44,7 +49,7 @@ object ErrorInterval:
       val events = mean * mean / within.variance
       val t = Interval.studentT(spread.degrees)
       val low = gamma(mean, spread.variance, -t)
-      val next = 2 * (1 + 1.0 / seeds) * spread.largest * spread.largest /
+      val next = NextEvent * (1 + 1.0 / seeds) * spread.largest * spread.largest /
         Math.sqrt(spread.variance)
       val high =
         if events < FewestEvents then Double.PositiveInfinity

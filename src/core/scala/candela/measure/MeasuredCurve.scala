@@ -77,22 +77,22 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
     yield (error * Math.max(point.seconds, 1e-9)).inverse
 
   /** Time in seconds until the expected relative MSE is at most this; see [[LogLogFit.firstAt]].
-    * Its limits are where the error's limits are at most this: 0 if the lower one is from the
-    * beginning, infinite if the upper one is nowhere.
+    * Its limits are where the curve is when the errors there may be as low, or as high, as their
+    * intervals allow: 0 if it may be there from the beginning, infinite if the curve doesn't fall
+    * so far.
     */
   def secondsUntil(relativeMse: Double): Option[Interval] =
-    LogLogFit.firstAt(curve(_.estimate), relativeMse).map: estimate =>
-      val errors = points.flatMap(_(Metric.RelativeMse))
-      if !errors.forall(_.isKnown) then Interval(estimate, Double.NaN, Double.NaN)
+    val estimates = curve(_.estimate)
+    LogLogFit.firstAt(estimates, relativeMse).map: estimate =>
+      val errors = points.flatMap(p => p(Metric.RelativeMse).map((p.seconds, _))).sortBy(_._1)
+      if !errors.forall(_._2.isKnown) then Interval(estimate, Double.NaN, Double.NaN)
       else
-        val begins = errors.headOption.forall(_.low <= relativeMse)
-        // Where there is no limit, as good as none: logarithms need one
-        val lows = curve(e => Math.max(e.low, 1e-9 * e.estimate))
-        val highs = curve(e => Math.min(e.high, 1e9 * e.estimate))
+        val (down, up) = CurveDoubts.at(errors, estimate)
+        val begins = estimates.head._2 <= relativeMse * down
         Interval(
           estimate,
-          if begins then 0 else LogLogFit.firstAt(lows, relativeMse).getOrElse(0),
-          LogLogFit.firstAt(highs, relativeMse).getOrElse(Double.PositiveInfinity)
+          if begins then 0 else LogLogFit.firstAt(estimates, relativeMse * down).getOrElse(0),
+          LogLogFit.firstAt(estimates, relativeMse / up).getOrElse(Double.PositiveInfinity)
         )
 
   /** Mean relative MSE at this time; see [[LogLogFit.at]]. */
@@ -115,6 +115,31 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
 
   private def curve(figure: Interval => Double): Vector[(Double, Double)] =
     points.flatMap(p => p(Metric.RelativeMse).map(i => (p.seconds, figure(i))))
+
+/** What the limits of errors make of limits in time. */
+private object CurveDoubts:
+  /** Of the errors of the same seeds after twice as many samples: those are in both images. If
+    * noise is normal, and samples independent.
+    */
+  private val Correlation = 0.5
+
+  /** By what factor the curve may be too high, and too low, between two of its points.
+    *
+    * @param errors by seconds, in their order
+    */
+  def at(errors: Vector[(Double, Interval)], seconds: Double): (Double, Double) =
+    val after = errors.indexWhere(_._1 >= seconds)
+    val next = errors(if after < 0 then errors.size - 1 else after)
+    val last = if after > 0 then errors(after - 1) else next
+    val width = Math.log(next._1 / last._1)
+    val part = if width > 0 then Math.log(seconds / last._1) / width else 0.0
+    def together(far: Interval => Double): Double =
+      val (a, b) = ((1 - part) * Math.log(far(last._2)), part * Math.log(far(next._2)))
+      // Zero times an infinite logarithm: the other point is that of the curve
+      if part <= 0 then far(last._2)
+      else if part >= 1 then far(next._2)
+      else Math.exp(Math.sqrt(a * a + b * b + 2 * Correlation * a * b))
+    (together(i => i.estimate / i.low), together(i => i.high / i.estimate))
 
 /** Fits of straight lines in log-log space. */
 object LogLogFit:

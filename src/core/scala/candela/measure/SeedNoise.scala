@@ -47,9 +47,10 @@ object SeedNoise:
 
   /** The same errors, taken apart.
     *
-    * An image is in the mean that it is compared with. The variance of each part over the seeds is
-    * therefore that of the jackknife's pseudo-values: deviations are larger by (n − 1) / (n − 2).
-    * (Efron, Stein, "The jackknife estimate of variance", Annals of Statistics 9, 1981.)
+    * An image is in the mean that it is compared with, which makes deviations over the seeds too
+    * small. Rare bright paths need the jackknife's factor, (n − 1) / (n − 2) (Efron, Stein, "The
+    * jackknife estimate of variance", Annals of Statistics 9, 1981), normal noise its root. Three
+    * seeds can't tell the two apart; the factor is the mean of both, of their logarithms.
     *
     * @param images at least three
     */
@@ -57,7 +58,7 @@ object SeedNoise:
     require(images.sizeIs >= Fewest, s"parts take at least $Fewest seeds")
     val center = mean(images)
     val all = images.map(ErrorParts.of(_, center, scale, images.size / (images.size - 1.0)))
-    val stretch = (images.size - 1.0) / (images.size - 2)
+    val stretch = Math.pow((images.size - 1.0) / (images.size - 2), 0.75)
     def stretched(of: ErrorParts => Array[Double]): Vector[Array[Double]] =
       val values = all.map(of)
       val means = Array.tabulate(values.head.length)(i => values.map(_(i)).sum / values.size)

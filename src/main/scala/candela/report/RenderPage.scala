@@ -46,7 +46,7 @@ object RenderPage:
     val slope = LogLogFit.slope(r.points.map(p => (p.samples.toDouble, p.errors.relativeMse)))
     div(
       cls := "tiles",
-      last.map(p => Page.tile(Numbers.short(p.errors.relativeMse), charts.word("relative MSE"))),
+      last.map(p => Page.tile(relative(p), charts.word("relative MSE"))),
       last.map(p => Page.tile(s"${Numbers.short(p.seconds)} s", "rendering")),
       last.map(p => Page.tile(p.samples.toString, "samples per pixel")),
       last.filter(p => p.errors.relativeMse > 0).map: p =>
@@ -64,9 +64,10 @@ object RenderPage:
           "`candela bench` renders several seeds and plots error bars." +
           r.own.fold("")(own => s" ${Page.subtracted(own, r.points.map(_.errors))}")
       else
-        "Without a reference, bias is unknown. The plot shows the difference between two subsets " +
-          "of the samples, scaled to the noise of all of them; for low-discrepancy samplers it " +
-          "overestimates the noise."
+        "Without a reference, bias is unknown, and so is light that no path has found. The " +
+          "error is estimated from the difference between two halves of the samples, and how " +
+          "that falls. The limits behind it hold the true one in 95 % of renderings, over scenes " +
+          "of many kinds."
     p(cls := "soft", what)
 
   private def figures(r: RenderReport): Frag =
@@ -74,11 +75,17 @@ object RenderPage:
       "mean ratio R, G, B"
     Page.grid(head, r.points.map(row))
 
+  /** The relative MSE, with its interval if it is estimated. */
+  private def relative(p: CurvePoint): String =
+    Numbers.short(p.errors.relativeMse) + p.interval.fold(""): i =>
+      if i.isBounded then s" (${Numbers.short(i.low)} to ${Numbers.short(i.high)})"
+      else s" (at least ${Numbers.short(i.low)})"
+
   private def row(p: CurvePoint): Vector[Frag] =
     val e = p.errors
     val psnr = e.psnr.map(d => if d.isInfinite then "infinite" else s"${Numbers.fixed(d, 2)} dB")
     val words = Vector(p.samples.toString, Numbers.short(p.seconds)) ++
-      Vector(e.relativeMse, e.mse).map(Numbers.short) ++
+      Vector(relative(p), Numbers.short(e.mse)) ++
       Vector(e.mae.map(Numbers.short), psnr, e.flip.map(Numbers.short)).map(_.getOrElse("–")) :+
       (if e.meanRatio.isEmpty then "–" else e.meanRatio.map(Numbers.fixed(_, 4)).mkString(", "))
     words.map(stringFrag)

@@ -87,12 +87,16 @@ object RenderData:
     ujson.write(all, indent = 2) + "\n"
 
   def csv(r: RenderReport): String =
-    val head = "samples,seconds,mse,relmse,mae,psnr,flip,mean_ratio_r,mean_ratio_g,mean_ratio_b"
+    val head = "samples,seconds,mse,relmse,mae,psnr,flip,mean_ratio_r,mean_ratio_g,mean_ratio_b," +
+      "relmse_low,relmse_high"
     val rows = r.points.map: p =>
       val e = p.errors
       val ratios = e.meanRatio.map(_.toString).padTo(3, "")
       val known = Vector(e.mae, e.psnr, e.flip).map(_.fold("")(_.toString))
-      (Vector(p.samples, p.seconds, e.mse, e.relativeMse).map(_.toString) ++ known ++ ratios)
+      val limits = Vector(p.interval.map(_.low), p.interval.map(_.high).filter(_.isFinite))
+        .map(_.fold("")(_.toString))
+      (Vector(p.samples, p.seconds, e.mse, e.relativeMse).map(_.toString) ++ known ++ ratios ++
+        limits)
         .mkString(",")
     (head +: rows).map(_ + "\n").mkString
 
@@ -131,6 +135,8 @@ object RenderData:
       "seconds" -> p.seconds,
       "mse" -> number(e.mse),
       "relmse" -> number(e.relativeMse),
+      "relmseInterval" -> p.interval.fold(ujson.Null: ujson.Value): i =>
+        ujson.Obj("low" -> number(i.low), "high" -> number(i.high)),
       "mae" -> known(e.mae),
       "psnr" -> known(e.psnr),
       "flip" -> known(e.flip),

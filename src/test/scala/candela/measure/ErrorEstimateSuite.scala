@@ -74,9 +74,32 @@ class ErrorEstimateSuite extends AnyFunSuite:
         for i <- image.data.indices do
           image.data(i) = if i / 3 < noisy then random.nextFloat() else 0.5f
         val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), isLast = false)
+      assert(estimate.interval(2).get.isBounded != estimate.isOfFew)
       estimate.isOfFew
     // Of 2304 pixels a third or less counts, as few halves differ much
     assert(!isOfFew(side * side) && isOfFew(9))
+
+  test("the interval of an estimate holds the true error, and is open where few pixels have it"):
+    var hits = 0
+    for seed <- 1 to 40 do
+      val random = scala.util.Random(seed)
+      val estimate = ErrorEstimate()
+      val sums = new Array[Double](side * side)
+      var image = Image.rgb(side, side)
+      for n <- 1 to 16 do
+        image = Image.rgb(side, side)
+        for i <- sums.indices do
+          // A quarter of the pixels is noisy
+          sums(i) += (if i % 4 == 0 then 2 * random.nextDouble() else 1)
+          for c <- 0 until 3 do image.data(3 * i + c) = (sums(i) / n).toFloat
+        val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), isLast = false)
+      val truth = image.data.map(v => Metrics.relativeSquare(v, 1f)).sum / image.data.length
+      val found = estimate.interval(16).get
+      assert(found.estimate == estimate.at(16).get.relativeMse)
+      // By the trend deviations of 0.12 and 0.35, and by 576 / 3 pixels one of 0.083
+      assert(found.isBounded && found.high / found.low < Math.exp(1.96 * (0.16 + 0.37)))
+      if found.low <= truth && truth <= found.high then hits += 1
+    assert(hits >= 37)
 
   test("the gap between scatters closes, and an error takes as many samples as that says"):
     val parts = Vector(0.4, 1.0, 2.86).map(d => Array.fill(20)(d))

@@ -81,15 +81,17 @@ private object SeedImages:
         val _ = Files.write(path, bytes.array, StandardOpenOption.CREATE, StandardOpenOption.APPEND)
       image
 
-/** All images of a scene: what is true of all, and how often a few tell it. Means of two and of
-  * four images are images of twice and four times the samples.
+/** All images of a scene: what is true of all, and how often a few tell it. A seed's images of
+  * twice and four times the samples are means of its own and others, as those of `bench` contain
+  * the samples of the shorter ones.
   */
 private final class CoveragePool(images: Vector[Image], samples: Int):
   private val center = SeedNoise.mean(images)
   private val steps = Vector(1, 2, 4).map: n =>
-    val all = images.grouped(n).filter(_.size == n).toVector.map(SeedNoise.mean)
+    val all = images.indices.toVector.map: i =>
+      SeedNoise.mean(Vector(0, 7, 31, 109).take(n).map(k => images((i + k) % images.size)))
     // An image is in the mean of all, which therefore is too near
-    val own = all.size / (all.size - 1.0)
+    val own = images.size / (images.size - n.toDouble)
     all.map: image =>
       val parts = ErrorParts.against(ImagePair(image, center))
       parts.copy(squared = parts.squared.map(_ * own), relative = parts.relative.map(_ * own))
@@ -103,16 +105,14 @@ private final class CoveragePool(images: Vector[Image], samples: Int):
   /** @param count of seeds that are drawn */
   def row(count: Int, repeats: Int): String =
     val random = SplittableRandom(count)
-    def draw(n: Int): Vector[Int] =
-      Iterator.continually(random.nextInt(n)).distinct.take(count).toVector
+    def draw(): Vector[Int] =
+      Iterator.continually(random.nextInt(images.size)).distinct.take(count).toVector
     val truth = truths.head
     val all = Vector.fill(repeats):
-      val of = draw(images.size)
+      val of = draw()
       val curve = MeasuredCurve(
         steps.zipWithIndex.flatMap: (pool, step) =>
-          val seeds = if step == 0 then of else draw(pool.size)
-          seeds.zipWithIndex.map((i, seed) => measurement(samples << step, seed, pool(i)))
-        ,
+          of.zipWithIndex.map((i, seed) => measurement(samples << step, seed, pool(i))),
         steps.indices.map(i => (samples << i) -> Vector((samples << i).toDouble)).toMap
       )
       val student = Interval.ofMean(of.map(steps.head(_).relative.sum))

@@ -1,5 +1,7 @@
 package candela.report
 
+import candela.measure.Interval
+
 import org.scalatest.funsuite.AnyFunSuite
 
 class PagesSuite extends AnyFunSuite:
@@ -41,13 +43,27 @@ class PagesSuite extends AnyFunSuite:
     // After 8 s, the longest run of the first and the second of the other
     assert(page.contains("""<td>8.000</td><td class="best">0.07500</td><td>0.3000</td>"""))
 
+  test("an estimated error is shown with its limits, or with the lower one alone"):
+    def report(high: Double) =
+      val interval = Interval(0.3, 0.25, high)
+      val point = Reports.report.points.head.copy(interval = Some(interval))
+      Reports.report.copy(reference = None, points = Vector(point))
+    def limits(high: Double) =
+      ujson.read(RenderData.json(report(high)))("points")(0)("relmseInterval")
+    assert(RenderPage.html(report(0.5)).contains("0.3000 (0.2500 to 0.5000)"))
+    assert(RenderPage.html(report(Double.PositiveInfinity)).contains("0.3000 (at least 0.2500)"))
+    assert(limits(0.5)("low").num == 0.25 && limits(0.5)("high").num == 0.5)
+    assert(limits(Double.PositiveInfinity)("high").isNull)
+    assert(RenderData.csv(report(Double.PositiveInfinity)).trim.endsWith(",0.25,"))
+
   test("JSON and CSV have the same figures"):
     val json = ujson.read(RenderData.json(Reports.report))
     assert(json("points").arr.map(_("samples").num.toInt).toVector == Vector(1, 4, 16, 64))
     assert(json("points")(0)("mse").num == 0.3 && json("estimated").bool == false)
+    assert(json("points")(0)("relmseInterval").isNull)
     assert(json("guiding")("share").num == 0.375)
     val csv = RenderData.csv(Reports.report).linesIterator.toVector
-    assert(csv.size == 5 && csv.forall(_.count(_ == ',') == 9))
+    assert(csv.size == 5 && csv.forall(_.count(_ == ',') == 11))
     assert(csv(1).startsWith("1,0.5,0.3,0.3,"))
     val suite = ujson.read(SuiteData.json(Reports.suite))
     val fast = suite("scenes")(0)("programs")(0)
