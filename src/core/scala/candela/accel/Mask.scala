@@ -71,3 +71,8 @@ final class Masks(val ofMesh: Array[Mask], val ofShape: Array[Mask]):
 
 object Masks:
   val Empty: Masks = Masks(Array.empty, Array.empty)
+
+  /** Empty if all is opaque: there may be millions of shapes. */
+  def of(meshes: Iterable[Mask], shapes: Iterable[Mask]): Masks =
+    def isOpaque(masks: Iterable[Mask]) = masks.forall(_ eq SolidMask)
+    if isOpaque(meshes) && isOpaque(shapes) then Empty else Masks(meshes.toArray, shapes.toArray)

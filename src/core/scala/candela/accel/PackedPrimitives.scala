@@ -30,7 +30,8 @@ object PackedPrimitives:
 /** Opaque primitives.
   *
   * @param order   primitive in each slot
-  * @param corners nine Floats per slot: x, y, z of a triangle's corners; unused for other shapes
+  * @param corners nine Floats per slot: x, y, z of a triangle's corners; unused for other shapes;
+  *   empty if there are no triangles
   */
 final class SolidPrimitives(
     order: Array[Int],

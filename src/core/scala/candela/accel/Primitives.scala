@@ -41,6 +41,12 @@ final class Primitives(
 
   /** Primitives packed in the given order for sequential tests. */
   def packed(order: Array[Int], parallel: Parallel = Parallel.Alone): PackedPrimitives =
+    // Other shapes have no corners, and there may be millions
+    val corners = if soup.count == 0 then Array.emptyFloatArray else cornersOf(order, parallel)
+    if masks.isEmpty then SolidPrimitives(order, corners, soup.count, shapes, instances)
+    else MaskedPrimitives(order, corners, soup, shapes, instances, masks)
+
+  private def cornersOf(order: Array[Int], parallel: Parallel): Array[Float] =
     val corners = new Array[Float](Math.multiplyExact(9, order.length))
     parallel.ranges(order.length): (from, until) =>
       var slot = from
@@ -56,5 +62,4 @@ final class Primitives(
               3
             )
         slot += 1
-    if masks.isEmpty then SolidPrimitives(order, corners, soup.count, shapes, instances)
-    else MaskedPrimitives(order, corners, soup, shapes, instances, masks)
+    corners

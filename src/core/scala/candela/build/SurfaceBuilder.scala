@@ -110,8 +110,8 @@ private[build] final class SurfaceBuilder(
 
   def result(): LitSurfaces =
     val triangles = soup.result(materials.needsTangents, context.resources.hasRelief)
-    val masks = Masks(meshMasks.toArray, solidMasks.toArray)
-    val veils = Masks(meshVeils.toArray, solidVeils.toArray)
+    val masks = Masks.of(meshMasks, solidMasks)
+    val veils = Masks.of(meshVeils, solidVeils)
     LitSurfaces(
       Surfaces(triangles, solids.toArray, masks, veils),
       (meshStatements ++ solidStatements).toVector,

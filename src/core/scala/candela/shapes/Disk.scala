@@ -21,7 +21,10 @@ final class Disk(
     phiMax: Float,
     reversed: Boolean,
     uAlong: DiskU = DiskU.Angle
-) extends SurfaceOfRevolution(objectToWorld, Math.abs(radius), Math.abs(height)):
+) extends SurfaceOfRevolution(objectToWorld, objectToWorld):
+  protected def widest: Double = Math.abs(radius)
+  protected def reach: Double = Math.abs(height)
+
   private val normal =
     val n = objectToWorld.normal(Vec3.Z).normalized
     if reversed then -n else n

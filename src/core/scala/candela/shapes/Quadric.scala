@@ -17,11 +17,10 @@ final class Quadric(
     profile: Profile,
     phiMax: Float,
     reversed: Boolean
-) extends SurfaceOfRevolution(
-      objectToWorld,
-      profile.radius,
-      Math.max(Math.abs(profile.zMin), Math.abs(profile.zMax))
-    ):
+) extends SurfaceOfRevolution(objectToWorld, objectToWorld):
+  protected def widest: Double = profile.radius
+  protected def reach: Double = Math.max(Math.abs(profile.zMin), Math.abs(profile.zMax))
+
   private val g0 = profile.g0
   private val g1 = profile.g1
   private val g2 = profile.g2

@@ -9,26 +9,19 @@ import candela.math.*
   * Solves the quadratic in Double: with Float data its discriminant is exact enough for spheres a
   * million radii away (stability suite), and the hit point's error is that of its rounding alone.
   *
-  * @param zMin, zMax clipping planes in object space; −radius, radius for a full sphere
-  * @param phiMax     sweep in radians, 2π for a full sphere
-  * @param reversed   whether the outside faces the centre
+  * @param form          what it shares with others
+  * @param objectToWorld differs from that of its form in its translation alone
   */
-final class Sphere(
-    objectToWorld: Transform,
-    radius: Float,
-    zMin: Float,
-    zMax: Float,
-    phiMax: Float,
-    reversed: Boolean
-) extends SurfaceOfRevolution(objectToWorld, radius, radius):
-  private val full = zMin <= -radius && zMax >= radius && phiMax >= TwoPi
-  private val thetaMin = Math.acos(clamp(zMin / radius, -1f, 1f).toDouble)
-  private val thetaMax = Math.acos(clamp(zMax / radius, -1f, 1f).toDouble)
-  private val center = objectToWorld.point(Vec3.Zero)
+final class Sphere private[shapes] (
+    private[candela] val form: SphereForm,
+    objectToWorld: Transform
+) extends SurfaceOfRevolution(objectToWorld, form.map):
+  import form.*
 
-  private val uniformScale: Option[Float] = objectToWorld.uniformScale.map(_.toFloat)
-  private val worldRadius = radius * uniformScale.getOrElse(1f)
-  private val conical = full && uniformScale.isDefined
+  protected def widest: Double = radius
+  protected def reach: Double = radius
+
+  private def center: Vec3 = worldPoint(Vec3.Zero)
 
   def bounds: Bounds3 = worldBounds(radius, zMin, zMax)
 
@@ -81,12 +74,12 @@ final class Sphere(
     val y = py * scale
     val z = pz * scale
     put(x, y, z, at)
-    val outward = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
+    val outward = map.normal(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
     at.geometricNormal = if reversed then -outward else outward
     at.u = (phi(x, y) / phiMax).toFloat
     at.v = ((Math.acos(Math.max(-1.0, Math.min(1.0, z / radius))) - thetaMin) /
       (thetaMax - thetaMin)).toFloat
-    val dpdu = objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0f))
+    val dpdu = map.vector(Vec3(-y.toFloat, x.toFloat, 0f))
     at.frame.set(Frame.along(at.geometricNormal, dpdu))
     if at.wantsPartials then partials(x, y, z, at)
 
@@ -101,12 +94,12 @@ final class Sphere(
     val alongV = Vec3((z * c * perV).toFloat, (z * s * perV).toFloat, (-r * perV).toFloat)
     // The normal of an untransformed sphere is the point itself, over the radius
     val side = if reversed then -1f / radius else 1f / radius
-    val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat) * side)
-    val alongNU = objectToWorld.normal(alongU * side)
-    val alongNV = objectToWorld.normal(alongV * side)
+    val n = map.normal(Vec3(x.toFloat, y.toFloat, z.toFloat) * side)
+    val alongNU = map.normal(alongU * side)
+    val alongNV = map.normal(alongV * side)
     at.setPartials(
-      objectToWorld.vector(alongU),
-      objectToWorld.vector(alongV),
+      map.vector(alongU),
+      map.vector(alongV),
       ShadingPoint.turn(n, alongNU),
       ShadingPoint.turn(n, alongNV)
     )
@@ -119,7 +112,7 @@ final class Sphere(
   def area: Float = uniformScale match
     case Some(scale) => phiMax * radius * (zMax - zMin) * square(scale)
     case None =>
-      RevolutionSampling(objectToWorld, Profile.sphere(radius, zMin, zMax), phiMax).area.toFloat
+      RevolutionSampling(map, Profile.sphere(radius, zMin, zMax), phiMax).area.toFloat
 
   override def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     if conical && (from - center).lengthSquared > square(worldRadius) * 1.0001f then
@@ -138,9 +131,9 @@ final class Sphere(
     val x = r * Math.cos(angle)
     val y = r * Math.sin(angle)
     put(x, y, z, out)
-    val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat))
+    val n = map.normal(Vec3(x.toFloat, y.toFloat, z.toFloat))
     // dA(world) = |det M| · |M⁻ᵀ n| dA(object) for the unit normal n
-    val stretch = Math.abs(objectToWorld.determinant).toFloat * n.length / radius
+    val stretch = Math.abs(map.determinant).toFloat * n.length / radius
     out.n = if reversed then -n.normalized else n.normalized
     out.pdf = 1f / (phiMax * radius * (zMax - zMin) * stretch)
 
@@ -150,7 +143,22 @@ final class Sphere(
     else super.pdf(from, p, n)
 
   def areaPdf(p: Vec3): Float =
-    val q = objectToWorld.inverse.point(p)
+    val q = objectPoint(p)
     val stretch =
-      Math.abs(objectToWorld.determinant).toFloat * objectToWorld.normal(q).length / radius
+      Math.abs(map.determinant).toFloat * map.normal(q).length / radius
     1f / (phiMax * radius * (zMax - zMin) * stretch)
+
+object Sphere:
+  /** @param zMin, zMax clipping planes in object space; −radius, radius for a full sphere
+    * @param phiMax     sweep in radians, 2π for a full sphere
+    * @param reversed   whether the outside faces the centre
+    */
+  def apply(
+      objectToWorld: Transform,
+      radius: Float,
+      zMin: Float,
+      zMax: Float,
+      phiMax: Float,
+      reversed: Boolean
+  ): Sphere =
+    new Sphere(SphereForm(objectToWorld, radius, zMin, zMax, phiMax, reversed), objectToWorld)

@@ -7,36 +7,55 @@ import candela.math.*
 /** A surface of revolution about the z-axis of object space, optionally partial, under any affine
   * transform. Common base: transforms rays to object space in Double, and points to world space.
   *
-  * @param radius upper bound of its radius, in object space
-  * @param reach  upper bound of |z|, in object space
+  * @param like a transform that differs from `objectToWorld` in its translation alone, if at all:
+  *             its numbers are shared
   */
-abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, reach: Double)
-    extends Shape:
-  private val toWorld = objectToWorld.m
+abstract class SurfaceOfRevolution(objectToWorld: Transform, like: Transform) extends Shape:
+  // Without their translations, which follow
+  private val toWorld = like.m
+  private val toObject = like.inverseM
+  private val worldX = objectToWorld.m(3)
+  private val worldY = objectToWorld.m(7)
+  private val worldZ = objectToWorld.m(11)
+  private val backX = objectToWorld.inverseM(3)
+  private val backY = objectToWorld.inverseM(7)
+  private val backZ = objectToWorld.inverseM(11)
+
+  /** Upper bounds of its radius and of |z|, in object space. */
+  protected def widest: Double
+  protected def reach: Double
 
   override def bendsAsSeen: Boolean = true
-  private val toObject = objectToWorld.inverseM
 
   /** Largest error, per component, of a point in a box of this half extent around the origin of
     * object space, caused by Double arithmetic on the way to world space and back: some 2⁶ rounding
     * errors of the largest number involved. It matters for points close to the world's origin, as
     * on a ground that is a sphere of radius 1e6.
     */
-  protected final val doubleError: Vec3 =
-    def row(r: Int) =
-      (1.4e-14 * (Math.abs(toWorld(r)) * radius + Math.abs(toWorld(r + 1)) * radius +
-        Math.abs(toWorld(r + 2)) * reach + Math.abs(toWorld(r + 3)))).toFloat
-    Vec3(row(0), row(4), row(8))
+  protected final def doubleError: Vec3 =
+    Vec3(doubleError(0, worldX), doubleError(4, worldY), doubleError(8, worldZ))
+
+  private def doubleError(r: Int, shift: Double): Float =
+    (1.4e-14 * (Math.abs(toWorld(r)) * widest + Math.abs(toWorld(r + 1)) * widest +
+      Math.abs(toWorld(r + 2)) * reach + Math.abs(shift))).toFloat
 
   // A world-space point in object space
 
-  protected final def objectX(x: Double, y: Double, z: Double): Double = point(0, x, y, z)
-  protected final def objectY(x: Double, y: Double, z: Double): Double = point(4, x, y, z)
-  protected final def objectZ(x: Double, y: Double, z: Double): Double = point(8, x, y, z)
+  protected final def objectX(x: Double, y: Double, z: Double): Double = point(0, backX, x, y, z)
+  protected final def objectY(x: Double, y: Double, z: Double): Double = point(4, backY, x, y, z)
+  protected final def objectZ(x: Double, y: Double, z: Double): Double = point(8, backZ, x, y, z)
 
-  private def point(row: Int, x: Double, y: Double, z: Double): Double =
+  private def point(row: Int, shift: Double, x: Double, y: Double, z: Double): Double =
     val m = toObject
-    m(row) * x + m(row + 1) * y + m(row + 2) * z + m(row + 3)
+    m(row) * x + m(row + 1) * y + m(row + 2) * z + shift
+
+  /** A point of object space in world space, by maps with a perspective, too. */
+  protected final def worldPoint(p: Vec3): Vec3 =
+    SurfaceOfRevolution.mapped(toWorld, worldX, worldY, worldZ, p)
+
+  /** A point of world space in object space. */
+  protected final def objectPoint(p: Vec3): Vec3 =
+    SurfaceOfRevolution.mapped(toObject, backX, backY, backZ, p)
 
   // The ray's direction in object space
 
@@ -64,11 +83,14 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, rea
 
   /** Sets the point from object space, with its error bound in world space. */
   protected final def put(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
-    at.p = SurfaceOfRevolution.place(toWorld, x, y, z)
+    at.p = placed(x, y, z)
     at.pError = TriangleSoup.roundingError(at.p) + doubleError
 
+  private def placed(x: Double, y: Double, z: Double): Vec3 =
+    SurfaceOfRevolution.place(toWorld, worldX, worldY, worldZ, x, y, z)
+
   protected final def put(x: Double, y: Double, z: Double, out: SurfaceSample): Unit =
-    out.p = SurfaceOfRevolution.place(toWorld, x, y, z)
+    out.p = placed(x, y, z)
     out.pError = TriangleSoup.roundingError(out.p) + doubleError
 
   /** Angle around the z-axis, from 0 to 2π. */
@@ -80,15 +102,45 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, rea
   protected final def worldBounds(radius: Float, zMin: Float, zMax: Float): Bounds3 =
     val box = Bounds3(Vec3(-radius, -radius, zMin), Vec3(radius, radius, zMax))
     var world = Bounds3.Empty
-    loop(8)(i => world = world.union(objectToWorld.point(box.corner(i))))
+    loop(8)(i => world = world.union(worldPoint(box.corner(i))))
     def reach(axis: Int) = Math.max(Math.abs(world.min(axis)), Math.abs(world.max(axis)))
     val pad = TriangleSoup.roundingError(Vec3(reach(0), reach(1), reach(2)))
     Bounds3(world.min - pad, world.max + pad)
 
 object SurfaceOfRevolution:
   private[shapes] def place(m: IArray[Double], x: Double, y: Double, z: Double): Vec3 =
+    place(m, m(3), m(7), m(11), x, y, z)
+
+  /** By an affine map with another translation. */
+  private def place(
+      m: IArray[Double],
+      shiftX: Double,
+      shiftY: Double,
+      shiftZ: Double,
+      x: Double,
+      y: Double,
+      z: Double
+  ): Vec3 =
     Vec3(
-      (m(0) * x + m(1) * y + m(2) * z + m(3)).toFloat,
-      (m(4) * x + m(5) * y + m(6) * z + m(7)).toFloat,
-      (m(8) * x + m(9) * y + m(10) * z + m(11)).toFloat
+      (m(0) * x + m(1) * y + m(2) * z + shiftX).toFloat,
+      (m(4) * x + m(5) * y + m(6) * z + shiftY).toFloat,
+      (m(8) * x + m(9) * y + m(10) * z + shiftZ).toFloat
+    )
+
+  /** As [[Transform.point]], with another translation. */
+  private def mapped(
+      m: IArray[Double],
+      shiftX: Double,
+      shiftY: Double,
+      shiftZ: Double,
+      p: Vec3
+  ): Vec3 =
+    val x = p.x.toDouble
+    val y = p.y.toDouble
+    val z = p.z.toDouble
+    val w = m(12) * x + m(13) * y + m(14) * z + m(15)
+    Vec3(
+      ((m(0) * x + m(1) * y + m(2) * z + shiftX) / w).toFloat,
+      ((m(4) * x + m(5) * y + m(6) * z + shiftY) / w).toFloat,
+      ((m(8) * x + m(9) * y + m(10) * z + shiftZ) / w).toFloat
     )

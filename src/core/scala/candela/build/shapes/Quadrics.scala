@@ -5,7 +5,7 @@ import candela.base.Code
 import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect
-import candela.shapes.{Disk, Profile, Quadric, Sphere}
+import candela.shapes.{Disk, Profile, Quadric, Spheres}
 
 object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whole or partial"):
   private val radius = float("radius", "radius", unit = "scene units")(1f)
@@ -33,11 +33,9 @@ object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whol
       site.warn(Code.NoSurface, "this sphere has no surface within its bounds; it is ignored")
       None
     else
-      Some(
-        ShapeGeometry.Solid((toWorld, reversed) =>
-          Sphere(toWorld, r, Math.min(z0, z1), Math.max(z0, z1), phi, reversed)
-        )
-      )
+      // One for all that the plan places
+      val spheres = Spheres(r, Math.min(z0, z1), Math.max(z0, z1), phi)
+      Some(ShapeGeometry.Solid(spheres(_, _)))
 
 object DiskRecipe
     extends ShapeRecipe("disk", "disk or annulus in a plane of constant z, whole or partial"):

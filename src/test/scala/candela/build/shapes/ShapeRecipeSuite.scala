@@ -2,7 +2,12 @@ package candela.build.shapes
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.scenefile.Dialect
+import candela.base.{SceneFolder, SourcePos}
+import candela.build.recipe.{Findings, Resources, Site}
+import candela.color.ColorBasis
+import candela.math.Transform
+import candela.scenefile.{Declaration, Dialect}
+import candela.shapes.Sphere
 import candela.testing.SceneTexts
 
 class ShapeRecipeSuite extends AnyFunSuite:
@@ -33,6 +38,18 @@ class ShapeRecipeSuite extends AnyFunSuite:
   test("shadowalpha is v3's alone"):
     assert(masks(mesh + "\"float shadowalpha\" 0", Dialect.V3) != "none")
     assert(masks(mesh + "\"float shadowalpha\" 0", Dialect.V4) == "none")
+
+  test("the spheres that a plan places share what does not depend on the place"):
+    val statement =
+      Declaration("Shape", "sphere", Vector.empty, SourcePos.Nowhere, SceneFolder.Nowhere)
+    val site = Site(statement, Dialect.V4, Resources(ColorBasis.Srgb), Findings())
+    val made = Shapes.all.build(site).flatten.map(_.geometry) match
+      case Some(ShapeGeometry.Solid(make, _)) =>
+        for x <- Vector(1, 2); shape <- Some(make(Transform.translate(x, 0, 0), false))
+        yield shape.asInstanceOf[Sphere]
+      case other => fail(s"$other")
+    assert(made(0).form eq made(1).form)
+    assert(made.map(_.bounds.center.x) == Vector(1f, 2f))
 
   private val floor =
     "Material \"diffuse\" \"rgb reflectance\" [1 1 1]\nShape \"disk\" \"float radius\" 100\n"
