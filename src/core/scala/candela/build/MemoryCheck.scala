@@ -29,7 +29,8 @@ private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: 
     val all = Costs(known ++ film)
     val least = (all.bytes * MemoryCheck.Sure).toLong + size.building
     if least > heap && !context.problems.hasErrors then
-      throw SceneError(all.problem(heap, Some(all.bytes + size.building)))
+      val most = all ++ Vector(Cost(CostKind.Hierarchies, size.building))
+      throw SceneError(most.problem(heap, Some(most.bytes)))
 
   /** Builds the scene; says what takes the memory if there is not enough. */
   def during[A](build: => A): A =
