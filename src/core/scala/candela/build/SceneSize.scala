@@ -26,14 +26,13 @@ private[build] final class SceneSize(
   private val places = uses.shared.map(_.places.size.toLong).sum
 
   def costs: Vector[Cost] =
-    val hierarchies = surfaces.triangles * TriangleNode + (surfaces.others + places) * OtherNode
+    val corners = if surfaces.triangles > 0 then OtherCorners else 0L
+    val hierarchies = surfaces.triangles * TriangleNode +
+      (surfaces.others + places) * (OtherNode + corners)
     Vector(
       Cost(CostKind.Statements, statements),
       Cost(CostKind.Triangles, worlds.map(_.soupBytes).sum),
-      Cost(
-        CostKind.Shapes,
-        surfaces.solids * Solid + surfaces.segments * Segment + surfaces.patches * Patch
-      ),
+      Cost(CostKind.Shapes, shapes),
       Cost(CostKind.Instances, places * Instance),
       Cost(CostKind.Hierarchies, hierarchies),
       Cost(CostKind.Textures, textures),
@@ -45,11 +44,16 @@ private[build] final class SceneSize(
   /** Bytes that building the largest hierarchy takes beside, at least. */
   def building: Long = worlds.map(w => w.triangles + w.others).maxOption.getOrElse(0L) * Building
 
+  private def shapes: Long =
+    val others = surfaces.solids - surfaces.spheres
+    surfaces.spheres * Sphere + others * Solid + surfaces.segments * Segment +
+      surfaces.patches * Patch
+
   private def statements: Long =
-    val shapes = description.shapes ++ description.objects.valuesIterator.flatten
-    val listed = shapes.iterator.map(s => Statement + arrays(s.shape)).sum +
+    val written = description.shapes ++ description.objects.valuesIterator.flatten
+    val listed = written.iterator.map(s => Statement + arrays(s.shape)).sum +
       description.media.iterator.map(m => arrays(m.medium)).sum
-    val lamps = shapes.count(_.areaLight.isDefined) + description.lights.size
+    val lamps = written.count(_.areaLight.isDefined) + description.lights.size
     listed + description.instances.size * Placed + lamps * LampStatement
 
   private def materials: Long =
@@ -73,6 +77,7 @@ private[build] object SceneSize:
   private val Statement = 330L
   private val LampStatement = 280L
   private val Placed = 400L
+  private val Sphere = 105L
   private val Solid = 530L
   private val Segment = 160L
   private val Patch = 200L
@@ -83,7 +88,10 @@ private[build] object SceneSize:
 
   // Blocks of triangles that are not quite full, and nodes
   private val TriangleNode = 54L
-  private val OtherNode = 94L
+  private val OtherNode = 58L
+
+  /** Of each other primitive, where there are triangles, too. */
+  private val OtherCorners = 36L
 
   /** Boxes and orders of primitives, while a hierarchy is built. */
   private val Building = 56L
@@ -110,6 +118,7 @@ private[build] object SceneSize:
   * @param meshBytes of vertices and indices
   * @param segments  of curves
   * @param patches   bilinear ones
+  * @param spheres   of the solids
   */
 private[build] final case class SurfaceCount(
     triangles: Long = 0,
@@ -117,7 +126,8 @@ private[build] final case class SurfaceCount(
     solids: Long = 0,
     segments: Long = 0,
     patches: Long = 0,
-    meshes: Int = 0
+    meshes: Int = 0,
+    spheres: Long = 0
 ):
   /** Primitives other than triangles. */
   def others: Long = solids + segments + patches
@@ -132,7 +142,8 @@ private[build] final case class SurfaceCount(
       solids + more.solids,
       segments + more.segments,
       patches + more.patches,
-      meshes + more.meshes
+      meshes + more.meshes,
+      spheres + more.spheres
     )
 
 private[build] object SurfaceCount:
@@ -156,6 +167,7 @@ private[build] object SurfaceCount:
         val curves = if isSpline then points - degree else (points - 1) / Math.max(1, degree)
         val halvings = Math.max(0, Math.min(number(d, "splitdepth", 3), 16))
         SurfaceCount(segments = Math.max(1, curves) << halvings)
+      case "sphere" => SurfaceCount(solids = 1, spheres = 1)
       case _ => SurfaceCount(solids = 1)
 
   private def mesh(d: Declaration): SurfaceCount =
