@@ -53,13 +53,20 @@ final class Installed(environment: Map[String, String]):
   def library(title: String, packages: String*): Option[Absent] =
     Option.unless(packages.forall(known)):
       val names = packages.mkString(" ")
-      Absent(title, s"`pip install $names`, for the Python that $Python names or `python3`")
+      val install = s"`pip install $names`, for the Python that $Python names or `python3`"
+      val missing = if told.isEmpty then s"`$python` is not installed; after that, " else ""
+      Absent(title, missing + install)
 
-  private lazy val known: Set[String] =
+  private def known(name: String): Boolean = told.contains(s"'$name'")
+
+  /** A list of the packages that Python has; empty if it can't be started. */
+  private lazy val told: String =
     val listed = Packages.mkString("['", "', '", "']")
-    val code = s"import importlib.util as u; print([x for x in $listed if u.find_spec(x)])"
-    val told = output(Vector(python, "-c", code))
-    Packages.filter(x => told.contains(s"'$x'")).toSet
+    output(Vector(
+      python,
+      "-c",
+      s"import importlib.util as u; print([x for x in $listed if u.find_spec(x)])"
+    ))
 
   private def on(word: String) = Present(Vector(word), None)
 
