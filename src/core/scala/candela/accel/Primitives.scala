@@ -23,21 +23,23 @@ final class Primitives(
   /** Bounds of each primitive as six Floats: lower and upper corner. */
   def bounds: Array[Float] =
     val all = new Array[Float](6 * count)
-    loop(count)(i => write(all, 6 * i, boundsOf(i)))
+    loop(count)(i => writeBounds(all, 6 * i, i))
     all
 
-  private[accel] def boundsOf(i: Int): Bounds3 =
-    if i < soup.count then soup.bounds(i)
-    else if i < firstInstance then shapes(i - soup.count).bounds
-    else instances.bounds(i - firstInstance)
-
-  private def write(to: Array[Float], at: Int, b: Bounds3): Unit =
+  /** Writes the bounds of primitive `i` as six Floats. */
+  private[accel] def writeBounds(to: Array[Float], at: Int, i: Int): Unit =
+    val b = boundsOf(i)
     to(at) = b.min.x
     to(at + 1) = b.min.y
     to(at + 2) = b.min.z
     to(at + 3) = b.max.x
     to(at + 4) = b.max.y
     to(at + 5) = b.max.z
+
+  private[accel] def boundsOf(i: Int): Bounds3 =
+    if i < soup.count then soup.bounds(i)
+    else if i < firstInstance then shapes(i - soup.count).bounds
+    else instances.bounds(i - firstInstance)
 
   /** Primitives packed in the given order for sequential tests. */
   def packed(order: Array[Int], parallel: Parallel = Parallel.Alone): PackedPrimitives =

@@ -77,26 +77,24 @@ final class CheckedOutput private[base] (channel: FileChannel):
 
   /** The count, and all. */
   def floats(values: Array[Float]): Unit =
-    int(values.length)
-    var i = 0
-    while i < values.length do
-      val count = together(values.length - i)
-      buffer.asFloatBuffer.put(values, i, count)
-      buffer.position(buffer.position() + 4 * count)
-      i += count
+    together(values.length)(buffer.asFloatBuffer.put(values, _, _))
 
   /** Likewise. */
   def ints(values: Array[Int]): Unit =
-    int(values.length)
-    var i = 0
-    while i < values.length do
-      val count = together(values.length - i)
-      buffer.asIntBuffer.put(values, i, count)
-      buffer.position(buffer.position() + 4 * count)
-      i += count
+    together(values.length)(buffer.asIntBuffer.put(values, _, _))
 
-  /** How many numbers of four bytes have room. */
-  private def together(most: Int): Int = Math.min(most, room(4).remaining / 4)
+  /** Writes how many numbers of four bytes there are, and as many at once as have room.
+    *
+    * @param write those from a number on, so many
+    */
+  private def together(count: Int)(write: (Int, Int) => Any): Unit =
+    int(count)
+    var i = 0
+    while i < count do
+      val some = Math.min(count - i, room(4).remaining / 4)
+      write(i, some): Unit
+      buffer.position(buffer.position() + 4 * some)
+      i += some
 
   private def room(bytes: Int): ByteBuffer =
     if buffer.remaining < bytes then flush()
@@ -137,28 +135,26 @@ final class CheckedInput private[base] (channel: FileChannel):
   /** Numbers that were written together. */
   def floats(): Array[Float] =
     val values = new Array[Float](count(bytes = 4))
-    var i = 0
-    while i < values.length do
-      val some = together(values.length - i)
-      buffer.asFloatBuffer.get(values, i, some)
-      buffer.position(buffer.position() + 4 * some)
-      i += some
+    together(values.length)(buffer.asFloatBuffer.get(values, _, _))
     values
 
   /** Likewise. */
   def ints(): Array[Int] =
     val values = new Array[Int](count(bytes = 4))
-    var i = 0
-    while i < values.length do
-      val some = together(values.length - i)
-      buffer.asIntBuffer.get(values, i, some)
-      buffer.position(buffer.position() + 4 * some)
-      i += some
+    together(values.length)(buffer.asIntBuffer.get(values, _, _))
     values
 
-  /** How many numbers of four bytes are in the buffer, at least one. */
-  private def together(most: Int): Int =
-    Math.min(most, take(4).remaining / 4)
+  /** Reads numbers of four bytes, as many at once as are in the buffer.
+    *
+    * @param read those from a number on, so many
+    */
+  private def together(count: Int)(read: (Int, Int) => Any): Unit =
+    var i = 0
+    while i < count do
+      val some = Math.min(count - i, take(4).remaining / 4)
+      read(i, some): Unit
+      buffer.position(buffer.position() + 4 * some)
+      i += some
 
   def isAtEnd: Boolean = left <= 0 && !buffer.hasRemaining
 

@@ -37,8 +37,7 @@ object Sha256:
       (p.from until p.until by Piece).map(i =>
         p.copy(from = i, until = Math.min(i + Piece, p.until))
       )
-    val sums = new Array[Array[Byte]](pieces.size)
-    parallel.each(pieces.size)(i => sums(i) = start().digest(pieces(i).bytes))
+    val sums = parallel.map(pieces.size)(i => start().digest(pieces(i).bytes))
     val all = start()
     for p <- parts do all.update(ByteBuffer.allocate(4).putInt(p.until - p.from).flip())
     sums.foreach(all.update)

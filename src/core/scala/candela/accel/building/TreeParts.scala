@@ -3,7 +3,6 @@ package candela.accel.building
 import candela.accel.Primitives
 import candela.base.{loop, Parallel, Sha256}
 import candela.base.Sha256.Numbers
-import candela.geometry.Bounds3
 
 import java.nio.ByteBuffer
 import java.util.Arrays
@@ -81,18 +80,10 @@ private[building] object TreeParts:
     parallel.ranges(others): (from, until) =>
       var i = from
       while i < until do
-        write(boxes, 6 * i, primitives.boundsOf(soup.count + i))
+        primitives.writeBounds(boxes, 6 * i, soup.count + i)
         i += 1
     val form = Sha256.ofNumbers(
       Seq(Numbers(ends), Numbers(solid), Numbers(Array(others))),
       Parallel.Alone
     )
     new TreeParts(ends, sums, boxes, Sha256.hex(form))
-
-  private def write(to: Array[Float], at: Int, b: Bounds3): Unit =
-    to(at) = b.min.x
-    to(at + 1) = b.min.y
-    to(at + 2) = b.min.z
-    to(at + 3) = b.max.x
-    to(at + 4) = b.max.y
-    to(at + 5) = b.max.z
