@@ -41,8 +41,9 @@ private[candela] final class AimPilot(
     val plain = followed(None, 0, RayPairs)
     val found = followed(Some(field), 0, CausticPilot.Pairs)
     def gain: Double =
-      val (aimed, saved) = found.blocks.savings()
-      CausticPilot.gainOf(aimed + saved, aimed * Overhead * found.cost / plain.cost)
+      val (aimed, saved) = found.savings()
+      val cost = Overhead * found.raysPerPath / plain.raysPerPath
+      CausticPilot.gainOf(aimed + saved, aimed * cost)
     if gain > CausticPilot.LeastGain then
       found.add(
         followed(Some(field), CausticPilot.Pairs, CausticPilot.Rounds * CausticPilot.Pairs)
@@ -50,34 +51,10 @@ private[candela] final class AimPilot(
     gain
 
   /** Follows the pairs `from` to `until`. */
-  private def followed(field: Option[PhotonField], from: Int, until: Int): Found =
-    val each = CausticPilot.Pairs / CausticPilot.Parts
-    val found = Found()
-    pool
-      .map((until - from) / each): i =>
-        val part = Found()
-        val guide = Guide.unlearning
-        val start = from + i * each
-        part.pairs = each
-        part.rays = CameraPairs(view, Seed)
-          .follow(start, start + each, tracer(field, guide), part.blocks): (x, y) =>
-            part.blocks.addSaving(x, y, guide.takeSaving())
-        part
-      .foreach(found.add)
-    found
-
-  /** What some of the paths found. Mutable. */
-  private final class Found:
-    val blocks = PilotBlocks(view)
-    var pairs = 0
-    var rays = 0L
-
-    def cost: Double = rays.toDouble / pairs
-
-    def add(other: Found): Unit =
-      blocks.add(other.blocks)
-      pairs += other.pairs
-      rays += other.rays
+  private def followed(field: Option[PhotonField], from: Int, until: Int): PilotBlocks =
+    CameraPairs.followed(view, Seed, pool, from, until): part =>
+      val guide = Guide.unlearning
+      (tracer(field, guide), (x, y) => part.addSaving(x, y, guide.takeSaving()))
 
 private[candela] object AimPilot:
   /** Light paths of the pilot. */

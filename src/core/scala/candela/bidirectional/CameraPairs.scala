@@ -1,6 +1,6 @@
 package candela.bidirectional
 
-import candela.base.loop
+import candela.base.{Parallel, loop}
 import candela.cameras.CameraRays
 import candela.film.View
 import candela.integrators.Integrator
@@ -19,17 +19,16 @@ private final class CameraPairs(view: View, seed: Int):
     *
     * @param integrator a new one
     * @param after called after each pair with its pixel
-    * @return rays of the paths
     */
   def follow(from: Int, until: Int, integrator: Integrator, blocks: PilotBlocks)(
       after: (Int, Int) => Unit
-  ): Long =
+  ): Unit =
     loop(from, until): k =>
       val first = radiance(integrator, 2 * k, k)
       val second = radiance(integrator, 2 * k + 1, k)
       blocks.addPair(pixelX(k), pixelY(k), first, second)
       after(pixelX(k), pixelY(k))
-    integrator.raysTraced
+    blocks.rays += integrator.raysTraced
 
   def pixelX(k: Int): Int = Math.min(spread.x(k).toInt, view.width - 1)
   def pixelY(k: Int): Int = Math.min(spread.y(k).toInt, view.height - 1)
@@ -42,6 +41,28 @@ private final class CameraPairs(view: View, seed: Int):
     if found.isFinite then found else 0f
 
 private object CameraPairs:
+  /** Pairs that are followed by one thread. */
+  inline val OfPart = 128
+
+  /** Follows the pairs `from` to `until`, in parts that threads share.
+    *
+    * @param begin gives a new integrator for a part, and what is called after each of its pairs,
+    *              with the pixel
+    */
+  def followed(view: View, seed: Int, pool: Parallel, from: Int, until: Int)(
+      begin: PilotBlocks => (Integrator, (Int, Int) => Unit)
+  ): PilotBlocks =
+    val all = PilotBlocks(view)
+    pool
+      .map((until - from) / OfPart): i =>
+        val part = PilotBlocks(view)
+        val (integrator, after) = begin(part)
+        val start = from + i * OfPart
+        CameraPairs(view, seed).follow(start, start + OfPart, integrator, part)(after)
+        part
+      .foreach(all.add)
+    all
+
   /** Starts the path `k` of a pilot. */
   def start(view: View, sampler: Sampler, k: Int): Unit =
     sampler.start(k % view.width, k / view.width, 0)

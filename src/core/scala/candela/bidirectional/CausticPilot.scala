@@ -97,17 +97,9 @@ private[candela] final class CausticPilot(
     val found =
       traced(by, from * LookingPaths, until * LookingPaths, Seed + 1, isLearning = false)
     val weights = CausticWeights(scene, aimed, view.camera, 1f)
-    val parts = (until - from) * Parts
-    val each = Pairs / Parts
-    pool
-      .map(parts): i =>
-        val start = from * Pairs + i * each
-        val part = Found()
-        part.cameraRays = CameraPairs(view, Seed + 2)
-          .follow(start, start + each, tracer(weights), part.blocks)((_, _) => ())
-        part.cameraPaths = 2 * each
-        part
-      .foreach(found.add)
+    found.blocks.add:
+      CameraPairs.followed(view, Seed + 2, pool, from * Pairs, until * Pairs): _ =>
+        (tracer(weights), (_, _) => ())
     found
 
   /** What the light paths `from` to `until` find. */
@@ -132,17 +124,15 @@ private[candela] final class CausticPilot(
   private final class Found:
     val blocks = PilotBlocks(view)
     val learning = CasterLearning()
-    var splats, lightRays, cameraRays = 0L
-    var lightPaths, cameraPaths = 0
+    var splats, lightRays = 0L
+    var lightPaths = 0
 
     def add(other: Found): Unit =
       blocks.add(other.blocks)
       learning.addAll(other.learning)
       splats += other.splats
       lightRays += other.lightRays
-      cameraRays += other.cameraRays
       lightPaths += other.lightPaths
-      cameraPaths += other.cameraPaths
 
     def trace(by: CausticLight, from: Int, until: Int, seed: Int, isLearning: Boolean): Unit =
       val within = by.within(scene)
@@ -198,8 +188,7 @@ private[candela] final class CausticPilot(
 
   private object Expected:
     def of(found: Found): Expected =
-      val cost = (found.lightRays.toDouble / found.lightPaths) /
-        (found.cameraRays.toDouble / found.cameraPaths)
+      val cost = (found.lightRays.toDouble / found.lightPaths) / found.blocks.raysPerPath
       val (byPaths, more, byLight) = found.blocks.variances(found.lightPaths)
       val best = Math.sqrt(byLight / (byPaths * cost))
       val perSample = Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
@@ -211,8 +200,7 @@ private[candela] object CausticPilot:
   inline val LookingPaths = 16384
   inline val Pairs = 2048
 
-  /** Parts of them that are followed at once, and light paths of a part. */
-  inline val Parts = 16
+  /** Light paths that are traced by one thread. */
   inline val LightPathsOfPart = 1024
 
   /** Times as many paths, before light paths are taken. */

@@ -23,6 +23,11 @@ private final class PilotBlocks(view: View):
   private val pairs = new Array[Int](count)
   private val sum, spread, splat, alone, rest, own, saved = new Array[Double](count)
 
+  /** Rays of all pairs. */
+  var rays = 0L
+
+  def raysPerPath: Double = rays.toDouble / (2 * pairs.sum)
+
   def contains(x: Float, y: Float): Boolean =
     x >= 0f && y >= 0f && x < view.width && y < view.height
 
@@ -43,6 +48,7 @@ private final class PilotBlocks(view: View):
 
   /** Adds what others found. */
   def add(other: PilotBlocks): Unit =
+    rays += other.rays
     loop(count): i =>
       pairs(i) += other.pairs(i)
       for (mine, their) <- all.zip(other.all) do mine(i) += their(i)
