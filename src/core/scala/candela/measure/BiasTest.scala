@@ -130,10 +130,12 @@ object BiasTest:
   private val FloatRounding = 1e-5
   private val HalfRounding = 1.0 / (1 << 12)
 
-  /** @throws ImageError if they have not the same size and channels */
-  def of(a: Renderings, b: Renderings): BiasTest =
+  /** @param allowance relative difference that is no bias
+    * @throws ImageError if they have not the same size and channels
+    */
+  def of(a: Renderings, b: Renderings, allowance: Double = 0): BiasTest =
     alike(a.first, b.first)
-    Pyramid(a, b).result
+    Pyramid(a, b, allowance).result
 
   private[measure] def alike(a: TileSums, b: TileSums): Unit =
     def fail(what: String) = throw ImageError(Code.DifferentImages, what)
@@ -145,7 +147,7 @@ object BiasTest:
   /** Squares of so many tiles along a side, at these places. */
   private final case class Level(size: Int, columns: Vector[Int], rows: Vector[Int])
 
-  private final class Pyramid(a: Renderings, b: Renderings):
+  private final class Pyramid(a: Renderings, b: Renderings, allowance: Double):
     private val image = a.first
     private val (columns, rows) = (image.columns, image.rows)
     private val isSound = Array.tabulate(columns * rows): tile =>
@@ -213,7 +215,7 @@ object BiasTest:
         channel: Int
     ): Option[BiasRegion] =
       val scale = Math.max(Math.abs(p.mean), Math.abs(q.mean))
-      val apart = Math.abs(p.mean - q.mean)
+      val apart = Math.max(0, Math.abs(p.mean - q.mean) - allowance * scale)
       val isEqual = p.variance + q.variance == 0 && apart <= rounding * scale
       Option.unless(isEqual):
         val floor = Math.pow(rounding * scale, 2)

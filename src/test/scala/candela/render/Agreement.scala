@@ -1,8 +1,7 @@
 package candela.render
 
-import candela.film.PixelBounds
 import candela.image.Image
-import candela.testing.IncompleteGamma
+import candela.measure.{BiasTest, Renderings, StudentT, TileSums}
 
 /** How a part of an image differs from its reference, beyond what noise explains.
   *
@@ -13,25 +12,19 @@ final case class Disagreement(what: String, pValue: Double)
 /** Are independent renderings of one scene the same image as a reference, up to the noise of both?
   *
   * Two questions are asked, and each answer is a p-value:
-  *  - of each channel of each block of 8 × 8 and of 32 × 32 pixels, and of the whole image: is the
-  *    mean that of the reference? A bias of a fraction of a percent shows in large blocks, and a
-  *    wrong highlight or edge in small ones;
+  *  - of each channel of squares of 8 × 8 pixels up to the whole image: is the mean that of the
+  *    reference? [[BiasTest]] asks it;
   *  - of the image: is the relative mean squared error what the noise predicts? This sees what
   *    cancels in the mean of a block, like an edge that is moved.
   *
-  * The noise of the renderings is measured by their variance from each other in each pixel. A
-  * block's mean then has Student's distribution, with the degrees of freedom of Welch and
-  * Satterthwaite (few if a few pixels have most of the noise). The noise of the reference is known
-  * as a mean over the image; a block is given as much more than that as its share in the noise of
-  * the renderings is above average, and never less.
+  * The noise of the renderings is measured by their variance from each other in each pixel. That of
+  * the reference is known as a mean over the image; a block of 8 × 8 pixels is given as much more
+  * than that as its share in the noise of the renderings is above average, and never less.
   *
   * @param noise     variance of the reference's pixel values, mean over pixels and channels
   * @param allowance relative systematic error that is no fault
   * @param alike     sum of a pixel's correlations with all pixels of its rendering, its own 1
   *                  included: so much more variance a block has than its pixels
-  *
-  * Sources: Welch, "The generalization of Student's problem", Biometrika 34, 1947; Satterthwaite,
-  * "An approximate distribution of estimates of variance components", Biometrics Bulletin 2, 1946.
   */
 final class Agreement(
     renders: Vector[Image],
@@ -75,50 +68,39 @@ final class Agreement(
       Array.tabulate(values)(i => (mean(i) - expected(i)).toFloat)
     )
 
-  /** What a chance of `significance`, for all questions together, does not explain; worst first. */
+  /** What a chance of `significance`, for both questions together, does not explain; worst first,
+    * of the means the worst of each size.
+    */
   def disagreements(significance: Double): Vector[Disagreement] =
-    val all =
-      Agreement.BlockSizes.flatMap(blockMeans) ++ blockMeans(Math.max(width, height)) :+ error
-    // Šidák's correction for many questions
-    val each = -Math.expm1(Math.log1p(-significance) / all.size)
-    all.filter(_.pValue < each).sortBy(_.pValue)
+    (means :+ error).filter(_.pValue < significance / 2).sortBy(_.pValue)
 
-  private def blockMeans(size: Int): Vector[Disagreement] =
-    for block <- blocks(size); c <- Vector(0, 1, 2) yield blockMean(block, c)
+  private def means: Vector[Disagreement] =
+    def filled(data: Int => Double) =
+      Image(width, height, Image.RgbNames, Array.tabulate(values)(data(_).toFloat))
+    val found = Renderings.known(image, filled(variance), count - 1.0, alike)
+    val wanted =
+      Renderings.known(reference.toRgb, filled(ofReference), Agreement.KnownFreedom)
+    BiasTest.of(found, wanted, tolerated).worst.map: r =>
+      val w = r.window
+      val place = s"x ${w.x0} to ${w.x1 - 1}, y ${w.y0} to ${w.y1 - 1}"
+      val apart = 100 * (r.a / r.b - 1)
+      val numbers = f"${r.a}%.5f, reference ${r.b}%.5f ($apart%+.2f %%, noise ${r.error}%.5f)"
+      Disagreement(s"mean of ${r.channel} in $place: $numbers", r.adjusted)
 
-  private def blocks(size: Int): Vector[PixelBounds] =
-    (for y <- 0 until height by size; x <- 0 until width by size
-    yield PixelBounds(x, y, Math.min(x + size, width), Math.min(y + size, height))).toVector
-
-  private def indices(block: PixelBounds, channel: Int): IndexedSeq[Int] =
-    for y <- block.y0 until block.y1; x <- block.x0 until block.x1
-    yield 3 * (y * width + x) + channel
-
-  private def blockMean(block: PixelBounds, channel: Int): Disagreement =
-    val at = indices(block, channel)
-    val n = at.size
-    val wanted = at.map(expected(_).toDouble).sum / n
-    val found = at.map(mean).sum / n
-    val sum = at.map(variance).sum
-    val total = alike * sum / n / n + referenceVariance(sum / n) / n
-    val excess = Math.max(0.0, Math.abs(found - wanted) - tolerated * Math.abs(wanted))
-    val t = if excess == 0 then 0.0 else excess / Math.sqrt(total)
-    val p = Agreement.twoSided(t, freedom(sum, at.map(i => variance(i) * variance(i)).sum))
-    val place = s"x ${block.x0} to ${block.x1 - 1}, y ${block.y0} to ${block.y1 - 1}"
-    val numbers =
-      f"$found%.5f, reference $wanted%.5f (${100 * (found / wanted - 1)}%+.2f %%, t = $t%.1f)"
-    Disagreement(s"mean of ${"RGB" (channel)} in $place: $numbers", p)
+  /** The variance of a value of the reference, by that of the renderings in its block. */
+  private lazy val ofReference: Array[Double] =
+    val size = TileSums.Size
+    val (columns, rows) = ((width + size - 1) / size, (height + size - 1) / size)
+    val sums, counts = new Array[Double](3 * columns * rows)
+    def block(i: Int) = 3 * (i / 3 / width / size * columns + i / 3 % width / size) + i % 3
+    for i <- 0 until values do
+      sums(block(i)) += variance(i)
+      counts(block(i)) += 1
+    Array.tabulate(values)(i => referenceVariance(sums(block(i)) / counts(block(i))))
 
   /** Of a pixel of the reference, where those of the renderings have `local` on average. */
   private def referenceVariance(local: Double): Double =
     noise * Math.max(1.0, if meanVariance > 0 then local / meanVariance else 1.0)
-
-  /** Degrees of freedom of a sum of variances, each estimated with k = count − 1 of its own, from
-    * their sum and the sum of their squares (which expects 1 + 2/k times the true squares).
-    */
-  private def freedom(sum: Double, squares: Double): Double =
-    val k = count - 1.0
-    if squares > 0 then Math.max(k, k * (1 + 2 / k) * sum * sum / squares / alike) else k
 
   /** The relative mean squared error against its prediction. The excess of each pixel over it has a
     * mean of 0, so their sum is judged by their own spread; squares of errors are at most as
@@ -136,14 +118,11 @@ final class Agreement(
       (3 * pixel until 3 * pixel + 3).map(i => found(i) - predicted(i)).sum
     val spread = Math.sqrt(alike * excesses.map(e => e * e).sum)
     val t = if spread > 0 then Math.max(0.0, excesses.sum / spread) else 0.0
-    val p = Agreement.twoSided(t, excesses.length - 1.0)
+    val p = StudentT.twoSided(t, excesses.length - 1.0)
     val numbers = f"${found.sum / values}%.3g, predicted ${predicted.sum / values}%.3g (t = $t%.1f)"
     Disagreement(s"relative mean squared error: $numbers", p)
 
 object Agreement:
-  /** Pixels along the side of a block, beside the whole image. */
-  val BlockSizes: Vector[Int] = Vector(8, 32)
-
   /** References are stored as half floats, whose 11 bits round by at most this part of the
     * value.
     */
@@ -152,22 +131,5 @@ object Agreement:
   /** The same as in [[candela.measure.Metrics]]. */
   val RelativeEpsilon: Double = 0.01
 
-  /** How many disagreements could be found in an image of this size. */
-  def questions(width: Int, height: Int): Int =
-    def parts(size: Int, block: Int) = (size + block - 1) / block
-    3 * (BlockSizes.map(b => parts(width, b) * parts(height, b)).sum + 1) + 1
-
-  /** Chance that Student's t is beyond ±t, by Wallace's normal deviate. It overstates small chances
-    * where degrees of freedom are few, so that a disagreement is more likely missed than invented:
-    * one of 1e-4 by 54 % at 3 degrees, by 5 % at 10.
-    *
-    * Source: Wallace, "Bounds on normal approximations to Student's and the chi-square
-    * distributions", Annals of Mathematical Statistics 30, 1959.
-    */
-  def twoSided(t: Double, freedom: Double): Double =
-    if t == 0 then 1.0
-    else if t.isInfinite then 0.0
-    else
-      val scale = (8 * freedom + 1) / (8 * freedom + 3)
-      val z = scale * Math.sqrt(freedom * Math.log1p(t * t / freedom))
-      IncompleteGamma.upper(0.5, z * z / 2) // of the normal distribution, both tails
+  /** The noise of a reference is known, not estimated from few images. */
+  private val KnownFreedom = 1e6

@@ -4,6 +4,7 @@ import candela.base.Code
 import candela.cli.options.Options
 import candela.cli.terminal.{Figures, ProblemText, Terminal}
 import candela.job.Prepared
+import candela.measure.Interval
 import candela.render.{Refused, Rendering}
 import candela.render.storage.FilmFile
 
@@ -45,12 +46,24 @@ object Summary:
         else s"$done sample"
       s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r)}$missing"
 
-  /** @param error   relative error
-    * @param isOfFew whether few pixels have nearly all of it
+  /** `error 4.6 % (3.3 to 5.2 %)`: with the interval, where that is wider than 15 %.
+    *
+    * @param error    relative error
+    * @param isOfFew  whether few pixels have nearly all of it
+    * @param interval of the relative MSE, which is the error's square; with 95 % confidence
     */
-  def noise(error: Double, isOfFew: Boolean): String =
-    val doubt = if isOfFew then " or more, as few pixels have nearly all of it" else ""
+  def noise(error: Double, isOfFew: Boolean, interval: Option[Interval] = None): String =
+    def isFar(limit: Double) = Math.abs(limit / error - 1) > Known
+    val doubt =
+      if isOfFew then " or more, as few pixels have nearly all of it"
+      else
+        val limits = interval.filter(_.isBounded).map(i => (Math.sqrt(i.low), Math.sqrt(i.high)))
+        limits.filter((low, high) => isFar(low) || isFar(high)).fold(""): (low, high) =>
+          s" (${Figures.percentage(low).stripSuffix(" %")} to ${Figures.percentage(high)})"
     s"error ${Figures.percentage(error)}$doubt"
+
+  /** An error that is known to this part of it needs no interval. */
+  private val Known = 0.15
 
   private def ended(isLate: Boolean) = if isLate then "out of time" else "interrupted"
 
