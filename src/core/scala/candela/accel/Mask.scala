@@ -1,5 +1,8 @@
 package candela.accel
 
+import scala.collection.mutable.ArrayBuffer
+
+import candela.base.loop
 import candela.geometry.{Ray, ShadingPoint}
 import candela.sampling.SampleHash
 import candela.textures.FloatTexture
@@ -72,7 +75,22 @@ final class Masks(val ofMesh: Array[Mask], val ofShape: Array[Mask]):
 object Masks:
   val Empty: Masks = Masks(Array.empty, Array.empty)
 
-  /** Empty if all is opaque: there may be millions of shapes. */
-  def of(meshes: Iterable[Mask], shapes: Iterable[Mask]): Masks =
-    def isOpaque(masks: Iterable[Mask]) = masks.forall(_ eq SolidMask)
-    if isOpaque(meshes) && isOpaque(shapes) then Empty else Masks(meshes.toArray, shapes.toArray)
+  /** Empty if all is opaque. */
+  def of(meshes: MaskColumn, shapes: MaskColumn): Masks =
+    if meshes.isOpaque && shapes.isOpaque then Empty else Masks(meshes.toArray, shapes.toArray)
+
+/** Collects the masks of meshes or of shapes; those before the first that is not opaque are only
+  * counted, as there may be millions.
+  */
+final class MaskColumn:
+  private var opaque = 0
+  private val others = ArrayBuffer.empty[Mask]
+
+  def isOpaque: Boolean = others.isEmpty
+
+  /** Adds the mask of so many shapes. */
+  def add(mask: Mask, count: Int = 1): Unit =
+    if isOpaque && (mask eq SolidMask) then opaque += count
+    else loop(count)(_ => others += mask)
+
+  def toArray: Array[Mask] = Array.fill[Mask](opaque)(SolidMask) ++ others

@@ -105,4 +105,4 @@ object DialectChoice:
     recipes.all.exists: r =>
       r.name == d.name && r.dialects(dialect) && r.fields.exists: f =>
         f.name == p.name && f.dialects(dialect) &&
-          ValueTypes.accepts(f.typeName, f.name, p, dialect)
+          ValueTypes.accepts(ValueTypes.plain(f.typeName), f.name, p, dialect)

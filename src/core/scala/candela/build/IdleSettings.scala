@@ -40,7 +40,7 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
     idle("disable-pixel-jitter", takesNone && settings.centers)(chains)
     idle("disable-wavelength-jitter", settings.oneColorSet && !world.color.isSpectral):
       "colours are three numbers here; --color spectral takes wavelengths"
-    val isDisplaced = context.description.shapes.exists(_.shape.param("displacement").isDefined) ||
+    def isDisplaced = context.description.shapes.exists(_.shape.param("displacement").isDefined) ||
       context.description.objects.values.exists(_.exists(_.shape.param("displacement").isDefined))
     idle("displacement-edge-scale", settings.edgeScale.isDefined && !isDisplaced):
       "no mesh is displaced"

@@ -4,7 +4,7 @@ import candela.base.InputFile
 import candela.build.shapes.PlySize
 import candela.image.ImageSize
 import candela.render.{Cost, CostKind}
-import candela.scenefile.{Declaration, Dialect, Param, SceneDescription, ShapeDescription}
+import candela.scenefile.{Declaration, Dialect, MaterialRef, SceneDescription, ShapeDescription}
 
 /** What a scene takes in memory, estimated before it is built: from the numbers in its statements
   * and from the beginnings of its files. Parts that only building finds out, such as displaced
@@ -20,8 +20,7 @@ private[build] final class SceneSize(
   import SceneSize.*
 
   private val worlds =
-    (uses.world +: uses.shared.map(_.shapes)).map: shapes =>
-      shapes.map(SurfaceCount.of(_, description.dialect.base)).foldLeft(SurfaceCount())(_ + _)
+    (uses.world +: uses.shared.map(_.shapes)).map(SurfaceCount.of(_, description.dialect.base))
   private val surfaces = worlds.foldLeft(SurfaceCount())(_ + _)
   private val places = uses.shared.map(_.places.size.toLong).sum
 
@@ -50,19 +49,23 @@ private[build] final class SceneSize(
       surfaces.patches * Patch
 
   private def statements: Long =
-    val written = description.shapes ++ description.objects.valuesIterator.flatten
-    val listed = written.iterator.map(s => Statement + arrays(s.shape)).sum +
-      description.media.iterator.map(m => arrays(m.medium)).sum
-    val lamps = written.count(_.areaLight.isDefined) + description.lights.size
+    var listed = description.media.iterator.map(m => arrays(m.medium)).sum
+    var lamps = description.lights.size
+    for shapes <- description.shapes +: description.objects.values.toVector; s <- shapes do
+      listed += Statement + arrays(s.shape)
+      if s.areaLight.isDefined then lamps += 1
     listed + description.instances.size * Placed + lamps * LampStatement
 
   private def materials: Long =
-    description.namedMaterials.size + description.shapes.iterator.map(_.material).distinct.size
+    // Shapes of one statement share it
+    val worn = java.util.IdentityHashMap[MaterialRef, Unit]()
+    for s <- description.shapes do worn.put(s.material, ())
+    description.namedMaterials.size + worn.size
 
   private def lights: Long =
     val images = description.lights.map(_.light).flatMap(l => ImageNames.flatMap(file(l, _)))
-    val lamps = uses.world.iterator.filter(_.areaLight.isDefined)
-      .map(SurfaceCount.of(_, description.dialect.base)).foldLeft(SurfaceCount())(_ + _)
+    val lamps =
+      SurfaceCount.of(uses.world.filter(_.areaLight.isDefined), description.dialect.base)
     lamps.triangles * TriangleLamp + (lamps.solids + description.lights.size) * Lamp +
       images.map(i => ImageSize.guess(i).fold(0L)(s => s.width.toLong * s.height * LightPixel)).sum
 
@@ -77,10 +80,10 @@ private[build] object SceneSize:
   private val Statement = 330L
   private val LampStatement = 280L
   private val Placed = 400L
-  private val Sphere = 105L
-  private val Solid = 530L
-  private val Segment = 160L
-  private val Patch = 200L
+  private val Sphere = 80L
+  private val Solid = 500L
+  private val Segment = 98L
+  private val Patch = 172L
   private val Instance = 200L
   private val Material = 1000L
   private val Lamp = 450L
@@ -109,9 +112,10 @@ private[build] object SceneSize:
       file <- d.folder.glance(word) if file.isRegular
     yield file
 
-  private def arrays(d: Declaration): Long = d.params.iterator.map(arrays).sum
-
-  private def arrays(p: Param): Long = 4L * (p.floats.length + p.ints.length + p.rests.length)
+  private def arrays(d: Declaration): Long =
+    var numbers = 0L
+    for p <- d.params do numbers += p.floats.length + p.ints.length + p.rests.length
+    4 * numbers
 
 /** Numbers of surfaces.
   *
@@ -147,7 +151,19 @@ private[build] final case class SurfaceCount(
     )
 
 private[build] object SurfaceCount:
-  def of(shape: ShapeDescription, dialect: Dialect): SurfaceCount =
+  /** Of all these shapes: there may be millions of spheres and curves. */
+  def of(shapes: Vector[ShapeDescription], dialect: Dialect): SurfaceCount =
+    var spheres = 0L
+    var segments = 0L
+    var others = SurfaceCount()
+    for s <- shapes do
+      s.shape.name match
+        case "sphere" => spheres += 1
+        case "curve" => segments += segmentsOf(s.shape)
+        case _ => others += of(s, dialect)
+    others + SurfaceCount(solids = spheres, spheres = spheres, segments = segments)
+
+  private def of(shape: ShapeDescription, dialect: Dialect): SurfaceCount =
     val d = shape.shape
     d.name match
       case "trianglemesh" => mesh(d)
@@ -160,15 +176,15 @@ private[build] object SurfaceCount:
       case "plymesh" =>
         val size = SceneSize.file(d, "filename").flatMap(PlySize.guess)
         size.fold(SurfaceCount())(ofFile(_, keepsQuads = dialect == Dialect.V4))
-      case "curve" =>
-        val degree = number(d, "degree", 3)
-        val points = count(d, "P") / 3
-        val isSpline = d.param("basis").exists(_.strings.contains("bspline"))
-        val curves = if isSpline then points - degree else (points - 1) / Math.max(1, degree)
-        val halvings = Math.max(0, Math.min(number(d, "splitdepth", 3), 16))
-        SurfaceCount(segments = Math.max(1, curves) << halvings)
-      case "sphere" => SurfaceCount(solids = 1, spheres = 1)
       case _ => SurfaceCount(solids = 1)
+
+  private def segmentsOf(curve: Declaration): Long =
+    val degree = number(curve, "degree", 3)
+    val points = count(curve, "P") / 3
+    val isSpline = curve.param("basis").exists(_.strings.contains("bspline"))
+    val curves = if isSpline then points - degree else (points - 1) / Math.max(1, degree)
+    val halvings = Math.max(0, Math.min(number(curve, "splitdepth", 3), 16))
+    Math.max(1, curves) << halvings
 
   private def mesh(d: Declaration): SurfaceCount =
     val corners = if d.param("indices").isEmpty then 3L else count(d, "indices")

@@ -1,10 +1,10 @@
 package candela.build
 
-import candela.base.Code
+import candela.base.{Code, IntBuffer, loop}
 
 import scala.collection.mutable.ArrayBuffer
 
-import candela.accel.{Mask, Masks, SolidMask}
+import candela.accel.{MaskColumn, Masks, SolidMask}
 import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{AreaLightPlan, MeshLights}
 import candela.build.recipe.*
@@ -13,7 +13,7 @@ import candela.build.shapes.{
 }
 import candela.lights.{Light, ShownLight, SurfaceLight}
 import candela.math.Transform
-import candela.scene.{ShapeInstance, Surfaces}
+import candela.scene.{ShapeRows, ShapeTable, Surfaces}
 import candela.scenefile.{Declaration, Dialect}
 import candela.shapes.{BumpTangents, Shape, TriangleSoup}
 
@@ -22,14 +22,15 @@ private[build] final case class SampledLight(light: Light, samples: Int, stateme
 
 /** Surfaces and their area lights, in the order of their indices.
   *
-  * @param statements of the meshes, then of the other shapes
+  * @param stated     statements of the meshes, then of the other shapes
   * @param lit        makes the lights, in the colour basis of a context
   */
 private[build] final class LitSurfaces(
     val surfaces: Surfaces,
-    val statements: Vector[Declaration],
+    stated: () => Vector[Declaration],
     lit: BuildContext => Vector[SampledLight]
 ):
+  def statements: Vector[Declaration] = stated()
   def lights(context: BuildContext): Vector[SampledLight] = lit(context)
 
 /** Collects the surfaces of the world or of an instanced object.
@@ -44,12 +45,13 @@ private[build] final class SurfaceBuilder(
     firstLight: Int = 0
 ):
   private val soup = SoupBuilder()
-  private val solids = ArrayBuffer.empty[ShapeInstance]
-  private val meshMasks = ArrayBuffer.empty[Mask]
-  private val solidMasks = ArrayBuffer.empty[Mask]
-  private val meshVeils = ArrayBuffer.empty[Mask]
-  private val solidVeils = ArrayBuffer.empty[Mask]
-  private val meshStatements, solidStatements = ArrayBuffer.empty[Declaration]
+  private val solids = ShapeRows(context.resources.pool)
+  private val meshMasks, solidMasks, meshVeils, solidVeils = MaskColumn()
+  private val meshStatements = ArrayBuffer.empty[Declaration]
+
+  /** The statements of solids; each with the number of the first solid after its own. */
+  private val solidStatements = ArrayBuffer.empty[Declaration]
+  private val endsOfStatements = IntBuffer()
 
   /** Creates the area lights from all triangles, in the order of their indices. */
   private val lights = ArrayBuffer.empty[(BuildContext, TriangleSoup) => Vector[SampledLight]]
@@ -90,9 +92,9 @@ private[build] final class SurfaceBuilder(
     for plan <- alike(declared, isPlaced)(Shapes.all.build(here).flatten) do
       val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
         .filter(_ => !isUnlit(dressed.material, here))
-      val before = soup.triangleCount + solids.size
+      val before = soup.triangleCount + solids.count
       Placement(dressed, here, plan, lamp, toWorld).place(plan.geometry)
-      val made = soup.triangleCount + solids.size - before
+      val made = soup.triangleCount + solids.count - before
       context.resources.allowance.countShapes(made, Some(declared.at))
 
   private val alike = Alike[Option[ShapePlan]](context.problems)
@@ -113,10 +115,19 @@ private[build] final class SurfaceBuilder(
     val masks = Masks.of(meshMasks, solidMasks)
     val veils = Masks.of(meshVeils, solidVeils)
     LitSurfaces(
-      Surfaces(triangles, solids.toArray, masks, veils),
-      (meshStatements ++ solidStatements).toVector,
+      Surfaces(triangles, solids.result(), masks, veils),
+      () => statements,
       context => lights.iterator.flatMap(_(context, triangles)).toVector
     )
+
+  /** Of the meshes, then of each solid. */
+  private def statements: Vector[Declaration] =
+    val all = Vector.newBuilder[Declaration].addAll(meshStatements)
+    var first = 0
+    for i <- solidStatements.indices do
+      loop(endsOfStatements(i) - first)(_ => all += solidStatements(i))
+      first = endsOfStatements(i)
+    all.result()
 
   /** A shape being placed in the world. */
   private final class Placement(
@@ -148,15 +159,16 @@ private[build] final class SurfaceBuilder(
         val isOdd = isConsistent && isReflected && lamp.isDefined &&
           dressed.declared.name == "cylinder"
         addSolid(make(toWorld, facesInwards != isOdd), lamp, (isInverted != turned) != isOdd)
-      case ShapeGeometry.Solids(make, emits) =>
-        if lamp.isDefined && !emits then
+      case ShapeGeometry.Solids(make) =>
+        for shape <- make(toWorld, isReversed) do addSolid(shape, lamp, isInverted = false)
+      case ShapeGeometry.Curves(all, form) =>
+        if lamp.isDefined then
           val name = dressed.shape.shape.name
           here.warn(
             Code.DarkLight,
             s"a \"$name\" can't be an area light, as in pbrt; emission is ignored"
           )
-        for shape <- make(toWorld, isReversed) do
-          addSolid(shape, lamp.filter(_ => emits), isInverted = false)
+        note(solids.addCurves(all, form, toWorld, isReversed, dressed.material))
       case ShapeGeometry.Several(parts) => parts.foreach(place)
       case ShapeGeometry.Around(origin, parts) =>
         Placement(dressed, here, plan, lamp, toWorld * origin.fromOrigin).place(parts)
@@ -176,14 +188,19 @@ private[build] final class SurfaceBuilder(
         isInverted: Boolean
     ): Unit =
       val lit = lamp.filter(_ => hasArea(shape))
-      val light = lit.fold(-1)(_ => lightCount)
+      val light = lit.fold(ShapeTable.Dark)(_ => lightCount)
       for lamp <- lit do
         addLights(1, lamp, dressed.shape.inObject): (emitted, _) =>
           Vector(holes.light(emitted.ofShape(shape, isInverted), shape))
-      solids += ShapeInstance(shape, dressed.material, light, isInverted)
-      solidMasks += mask
-      solidVeils += veil
+      solids.add(shape, dressed.material, light, isInverted)
+      note(1)
+
+    /** Notes what the last solids share. */
+    private def note(count: Int): Unit =
+      solidMasks.add(mask, count)
+      solidVeils.add(veil, count)
       solidStatements += dressed.declared
+      endsOfStatements += solids.count
 
     private def hasArea(shape: Shape): Boolean =
       val isFinite = java.lang.Float.isFinite(shape.area)
@@ -219,8 +236,8 @@ private[build] final class SurfaceBuilder(
           readsPartials,
           turned = context.dialect == Dialect.V3 && materials.materials(dressed.material).isDirected
         )
-        meshMasks += mask
-        meshVeils += veil
+        meshMasks.add(mask)
+        meshVeils.add(veil)
         meshStatements += dressed.declared
         val shown = dressed.shape.inObject
         for lamp <- lamp do

@@ -162,7 +162,7 @@ private[build] final class WorldBuilder(
       Vector(
         "accelerator" -> placed.accelerator.describe,
         "triangles" -> placed.surfaces.soup.count.toString,
-        "other shapes" -> placed.surfaces.solids.length.toString,
+        "other shapes" -> placed.surfaces.solids.count.toString,
         "instances" -> placed.instanced.describe,
         "masks" -> placed.describeMasks,
         "materials" -> materials.describe,

@@ -85,7 +85,10 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
   def isIdentity: Boolean = this == Transform.Identity
 
   override def equals(other: Any): Boolean = other match
-    case t: Transform => m.sameElements(t.m)
+    case t: Transform =>
+      var i = 0
+      while i < 16 && m(i) == t.m(i) do i += 1
+      i == 16
     case _ => false
   override def hashCode: Int = m.toSeq.hashCode
   override def toString: String = m.mkString("[", " ", "]")

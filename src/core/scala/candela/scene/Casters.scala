@@ -239,7 +239,7 @@ private final class CasterTable(surfaces: Surfaces, casts: Array[Boolean]):
       to.pdf = 1f
       out.reach = Float.PositiveInfinity
     else
-      val shape = surfaces.solids(primitive - soup.count).shape
+      val shape = surfaces.solids.shape(primitive - soup.count)
       shape.sampleArea(u1, u2, to)
       // A ray meets closed shapes twice, and other parts of them are farther away than this
       out.reach = CasterTable.Near * sqrt(shape.area)
@@ -252,12 +252,12 @@ private final class CasterTable(surfaces: Surfaces, casts: Array[Boolean]):
   def chance(primitive: Int, p: Vec3): Double =
     if isEven(primitive) then 1.0
     else
-      val shape = surfaces.solids(primitive - soup.count).shape
+      val shape = surfaces.solids.shape(primitive - soup.count)
       shape.area.toDouble * shape.areaPdf(p)
 
   private def materialOf(primitive: Int): Int =
     if primitive < soup.count then soup.meshes(soup.meshOf(primitive)).material
-    else surfaces.solids(primitive - soup.count).material
+    else surfaces.solids.material(primitive - soup.count)
 
   private def areaOf(primitive: Int): Double =
     if primitive < soup.count then
@@ -265,7 +265,7 @@ private final class CasterTable(surfaces: Surfaces, casts: Array[Boolean]):
       val across = (soup.vertex(primitive, 1) - p) cross (soup.vertex(primitive, 2) - p)
       across.length * 0.5
     else
-      val shape = surfaces.solids(primitive - soup.count).shape
+      val shape = surfaces.solids.shape(primitive - soup.count)
       val area = shape.area
       if area < Float.PositiveInfinity then area.toDouble else 0.0
 

@@ -6,21 +6,6 @@ import candela.color.Rgb
 import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, Light, LightGroups, LightSelection, SurfaceLight}
 import candela.math.Vec3
-import candela.shapes.Shape
-
-/** A shape other than a triangle, with its appearance.
-  *
-  * @param material index into the scene's materials
-  * @param light    index into the scene's lights; −1 if the shape does not emit
-  * @param inverted whether the normals seen by rays are opposite to those of light sampling: some
-  *   of pbrt's shapes emit visibly on one side and illuminate the other
-  */
-final case class ShapeInstance(
-    shape: Shape,
-    material: Int,
-    light: Int,
-    inverted: Boolean = false
-)
 
 /** Geometry, materials, lights and media of a scene. Immutable; shared by all workers.
   *

@@ -13,11 +13,11 @@ import candela.shapes.TriangleSoup
   */
 final class Surfaces(
     val soup: TriangleSoup,
-    val solids: Array[ShapeInstance],
+    val solids: ShapeTable,
     val masks: Masks = Masks.Empty,
     val veils: Masks = Masks.Empty
 ):
-  def count: Int = soup.count + solids.length
+  def count: Int = soup.count + solids.count
 
   /** Index of the primitive's mesh or, behind the meshes, of its shape. */
   def partOf(primitive: Int): Int =
@@ -31,21 +31,21 @@ final class Surfaces(
       else veils.ofShape(primitive - soup.count)
     veil.isHole(at, ray, primitive, shadow = false)
 
-  def parts: Int = soup.meshes.length + solids.length
+  def parts: Int = soup.meshes.length + solids.count
 
   /** The primitives to build an accelerator from: these surfaces, and `instances` of others. */
   def primitives(instances: Instances = Instances.Empty): Primitives =
-    Primitives(soup, solids.map(_.shape), instances, masks)
+    Primitives(soup, solids.shapes, instances, masks)
 
   /** Computes the geometry of the hit on `primitive`, in the space of these surfaces. */
   def fill(primitive: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     if primitive < soup.count then soup.surface(primitive, hit, at)
     else
-      val solid = solids(primitive - soup.count)
-      solid.shape.surface(ray, hit, at)
-      at.material = solid.material
-      at.areaLight = solid.light
-      if solid.inverted then at.invert()
+      val i = primitive - soup.count
+      solids.shape(i).surface(ray, hit, at)
+      at.material = solids.material(i)
+      at.areaLight = solids.light(i)
+      if solids.isInverted(i) then at.invert()
 
   /** As [[fill]], but the partial derivatives are by any two parameters of the surface, and those
     * of the normal of the unit normal that rays see.
@@ -53,13 +53,13 @@ final class Surfaces(
   def fillBent(primitive: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     fill(primitive, ray, hit, at)
     if primitive < soup.count then soup.bend(primitive, hit, at)
-    else if solids(primitive - soup.count).inverted then
+    else if solids.isInverted(primitive - soup.count) then
       at.dndu = -at.dndu
       at.dndv = -at.dndv
 
   /** Does [[fillBent]] know the derivatives? */
   def isBent(primitive: Int): Boolean =
-    primitive < soup.count || solids(primitive - soup.count).shape.bendsAsSeen
+    primitive < soup.count || solids.shape(primitive - soup.count).bendsAsSeen
 
 /** The instances of a scene, with the surfaces of their objects.
   *
@@ -103,7 +103,7 @@ final class Instanced(val objects: Array[Surfaces], val instances: Instances):
     if instances.count == 0 then "none"
     else
       val triangles = objects.map(_.soup.count.toLong).sum
-      val others = objects.map(_.solids.length).sum
+      val others = objects.map(_.solids.count).sum
       val solids = if others == 0 then "" else s" and $others other shapes"
       val moving = if instances.moving == 0 then "" else s", ${instances.moving} of them moving"
       s"${instances.count} of ${objects.length} objects with $triangles triangles$solids$moving"

@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Code, Problem, SceneError, SourcePos}
+import candela.base.{Code, Problem, SceneError, SourcePos, loop}
 
 /** The arguments of a directive; each method takes some, or throws a located error.
   *
@@ -29,11 +29,11 @@ abstract class Arguments(directive: Directive, val at: SourcePos, val report: Pr
     */
   def include(file: String, nameAt: SourcePos): Unit
 
-  /** The next `count` numbers. */
-  def numbers(count: Int): Vector[Double]
+  /** The next `count` numbers, unboxed: there are millions. */
+  def numbers(count: Int): Array[Double]
 
   /** A 4×4 matrix in column order. */
-  def matrix(): Vector[Double]
+  def matrix(): Array[Double]
 
   /** A quoted string and its position. */
   def quoted(what: String): (String, SourcePos)
@@ -69,16 +69,18 @@ private[scenefile] final class WrittenArguments(
 
   def include(file: String, nameAt: SourcePos): Unit = including(file, nameAt, at)
 
-  def numbers(count: Int): Vector[Double] =
-    Vector.tabulate(count): i =>
-      val value = in.numberHere.getOrElse:
+  def numbers(count: Int): Array[Double] =
+    val values = new Array[Double](count)
+    loop(count): i =>
+      if !in.isNumber then
         val found = if in.current == Token.End then "missing: the file ends here" else in.shown
         wrongNumber(in.at, count, i, found)
+      values(i) = in.asDouble
       in.advance()
-      value
+    values
 
   /** With or without brackets. */
-  def matrix(): Vector[Double] =
+  def matrix(): Array[Double] =
     val isList = in.current == Token.Open
     if isList then in.advance()
     val values = numbers(16)

@@ -1,5 +1,7 @@
 package candela.scenefile
 
+import scala.jdk.CollectionConverters.*
+
 import candela.base.{Code, Problem, SceneError, SourcePos, Suggest}
 import candela.math.Transform
 
@@ -15,12 +17,14 @@ final class Directive(val name: String, val usage: String, val place: Place)(
     val run: (Arguments, SceneWriter) => Unit
 ):
   /** What is wrong with it at a place before or behind the beginning of the world. */
-  def misplaced(worldBegin: Option[SourcePos]): Option[String] = (place, worldBegin) match
-    case (Place.Options, Some(begin)) if name == "WorldBegin" =>
-      Some(s"WorldBegin is repeated; the first is at $begin")
-    case (Place.Options, Some(begin)) => Some(s"$name must be before WorldBegin (at $begin)")
-    case (Place.World, None) => Some(s"$name must be after WorldBegin")
-    case _ => None
+  def misplaced(worldBegin: Option[SourcePos]): Option[String] = place match
+    case Place.Anywhere => None
+    case Place.World =>
+      if worldBegin.isEmpty then Some(s"$name must be after WorldBegin") else None
+    case Place.Options =>
+      worldBegin.map: begin =>
+        if name == "WorldBegin" then s"WorldBegin is repeated; the first is at $begin"
+        else s"$name must be before WorldBegin (at $begin)"
 
 /** All directives of all dialects. */
 object Directives:
@@ -72,7 +76,7 @@ object Directives:
     ,
     Directive("LookAt", "eye.x eye.y eye.z  look.x look.y look.z  up.x up.y up.z", Anywhere):
       (in, scene) =>
-        val v = in.numbers(9)
+        val v = in.numbers(9).toVector
         val (eye, target) = (v.take(3), v.slice(3, 6))
         val view = Transform.lookAt(eye, target, v.drop(6)).getOrElse:
           if eye == target then noDirection(in, scene.inV4) else noUp(in, scene.inV4)
@@ -138,7 +142,7 @@ object Directives:
       flat
 
   private def matrixOf(in: Arguments): Transform =
-    val columns = in.matrix()
+    val columns = in.matrix().toIndexedSeq
     orFlat(in, "matrix of determinant 0")(Transform.fromColumns(columns)):
       Transform.flat(Vector.tabulate(16)(i => columns(i % 4 * 4 + i / 4)))
 
@@ -229,6 +233,11 @@ object Directives:
 
   val all: Map[String, Directive] =
     (options ++ transforms ++ blocks ++ world ++ others).map(d => d.name -> d).toMap
+
+  private val byName = java.util.HashMap(all.asJava)
+
+  /** The directive of a word, or null: scenes have millions. */
+  private[scenefile] def named(word: String): Directive | Null = byName.get(word)
 
 /** Names of v4's `Option` statement, with the types of their values. */
 object SceneOptions:

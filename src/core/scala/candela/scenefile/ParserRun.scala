@@ -123,7 +123,7 @@ private[scenefile] final class ParserRun(
     finally in.source.close()
 
   /** Runs `body`; after an error, skips to the next apparent directive. */
-  private def attempt(in: Tokenizer)(body: => Unit): Unit =
+  private inline def attempt(in: Tokenizer)(inline body: Unit): Unit =
     try body
     catch
       case e: SceneError =>
@@ -137,19 +137,19 @@ private[scenefile] final class ParserRun(
   private def statement(in: Tokenizer): Unit =
     val at = in.at
     folder.allowance.checkTime(Some(at))
-    Directives.all.get(in.text).filter(_ => in.current == Token.Word) match
-      case None => unknown(in)
-      case Some(directive) if scene.worldEnd.nonEmpty && worldsToSkip == 0 =>
-        trailing = trailing.orElse(Some(at))
-        isFollowed = directive.name == "WorldBegin"
-        isDone = isFollowed
-        if !isDone then in.advanceToName()
-      case Some(directive) =>
-        if scene.worldEnd.nonEmpty then beginNext()
-        evidence.uses("directive", directive.name, at)
-        in.advance()
-        if isMisplaced(directive, at) then skipToDirective(in)
-        else run(directive, at, in)
+    val directive = if in.current == Token.Word then Directives.named(in.text) else null
+    if directive == null then unknown(in)
+    else if scene.worldEnd.nonEmpty && worldsToSkip == 0 then
+      trailing = trailing.orElse(Some(at))
+      isFollowed = directive.name == "WorldBegin"
+      isDone = isFollowed
+      if !isDone then in.advanceToName()
+    else
+      if scene.worldEnd.nonEmpty then beginNext()
+      evidence.uses("directive", directive.name, at)
+      in.advance()
+      if isMisplaced(directive, at) then skipToDirective(in)
+      else run(directive, at, in)
 
   /** Forgets the world just read; v2 keeps the settings of the image. */
   private def beginNext(): Unit =
@@ -176,7 +176,7 @@ private[scenefile] final class ParserRun(
       for include <- next do attempt(in)(losing("Include")(include()))
 
   /** Runs a directive; if that fails, the names that it may have defined are lost. */
-  private def losing(directive: String)(body: => Unit): Unit =
+  private inline def losing(directive: String)(inline body: Unit): Unit =
     try body
     catch
       case e: SceneError =>
@@ -186,7 +186,7 @@ private[scenefile] final class ParserRun(
   private def unknown(in: Tokenizer): Nothing =
     val (at, shown) = (in.at, in.shown)
     val problem =
-      if in.current != Token.Word || in.numberHere.nonEmpty then
+      if in.current != Token.Word || in.isNumber then
         val help = "write several values of a parameter in brackets: [ … ]"
         Problem.error(Code.NoDirective, at, s"expected a directive, found $shown", Some(help))
       else

@@ -93,14 +93,14 @@ private final class GivenArguments(
   def include(file: String, nameAt: SourcePos): Unit =
     fail(nameAt, s"${directive.name} is for files only")
 
-  def numbers(count: Int): Vector[Double] =
-    Vector.tabulate(count): i =>
+  def numbers(count: Int): Array[Double] =
+    Array.tabulate(count): i =>
       if !numbersLeft.hasNext then wrongNumber(at, count, i, "missing")
       val x = numbersLeft.next()
       if x.isNaN || x.isInfinite then wrongNumber(at, count, i, x.toString)
       x
 
-  def matrix(): Vector[Double] = numbers(16)
+  def matrix(): Array[Double] = numbers(16)
 
   def quoted(what: String): (String, SourcePos) =
     if !textsLeft.hasNext then notQuoted(at, what, "nothing")

@@ -28,7 +28,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   private var start = 0
   private var tokenLine = 1
   private var tokenColumn = 1
-  private var content = Option.empty[String]
+  private var content: String | Null = null
 
   /** Kind of the current token. */
   def current: Token = kind
@@ -47,11 +47,14 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   private def column: Int = (next - lineStart - wide + 1).min(Int.MaxValue).toInt
 
   /** The current token: a word, or a string without quotes and escapes. */
-  def text: String = content.getOrElse:
-    val quote = if kind == Token.Text then 1 else 0
-    val found = names.of(source, start + quote, next - quote)
-    content = Some(found)
-    found
+  def text: String =
+    val known = content
+    if known != null then known
+    else
+      val quote = if kind == Token.Text then 1 else 0
+      val found = names.of(source, start + quote, next - quote)
+      content = found
+      found
 
   /** The current token as shown in messages. */
   def shown: String =
@@ -65,7 +68,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     start = next
     tokenLine = line
     tokenColumn = column
-    content = None
+    content = null
     if next >= source.limit then kind = Token.End
     else
       source.bytes(next) match
@@ -91,10 +94,10 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
       catch case _: SceneError => ()
 
   /** Whether the current token is a number; if so, `number` holds it. */
-  private def isNumber: Boolean = kind == Token.Word && number.scan(start) == next
+  def isNumber: Boolean = kind == Token.Word && number.scan(start) == next
 
-  /** The current token as a number, if it is one. */
-  def numberHere: Option[Double] = Option.when(isNumber)(number.toDouble)
+  /** The number that [[isNumber]] has just found. */
+  def asDouble: Double = number.toDouble
 
   /** Appends the current token as a number; false if it isn't one. */
   def readFloat(into: FloatBuffer): Boolean =
@@ -212,7 +215,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
       more = i == end && fetch()
     val isEnd = next >= source.limit
     if isEnd || source.bytes(next) != '"' then
-      content = Some("")
+      content = ""
       val what = if isEnd then "string not closed at the end of the file" else "string not closed"
       throw SceneError(Problem.error(
         Code.Token,
@@ -221,13 +224,13 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
         Some("end it with `\"` on the same line")
       ))
     next += 1
-    if hasEscapes then content = Some(unescaped(start + 1, next - 1))
+    if hasEscapes then content = unescaped(start + 1, next - 1)
 
   private def unescaped(from: Int, until: Int): String =
     Escapes.unescaped(source.bytes, from, until) match
       case Right(text) => text
       case Left(i) =>
-        content = Some("")
+        content = ""
         val place = SourcePos(source.name, line, tokenColumn + i - start - 1, includedFrom)
         val what = s"unknown escape sequence `\\${source.text(i, i + 1)}`"
         val help = Some("write `\\\\` for a backslash, `/` between folders")

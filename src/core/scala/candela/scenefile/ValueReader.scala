@@ -83,7 +83,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
   private def misfit(param: Param, in: Tokenizer, openAt: Option[SourcePos]): Problem =
     val name = s"`${param.name}`"
     def word = if in.current == Token.Word then in.text else ""
-    val isNumber = in.numberHere.nonEmpty
+    val isNumber = in.isNumber
     val isQuotedNumber = in.current == Token.Text && in.text.toFloatOption.nonEmpty
     val isDirective = word.headOption.exists(_.isUpper)
     openAt match

@@ -20,24 +20,32 @@ final class BezierCurve(
   */
 object BezierCurve:
 
-  private def point(p: Array[Float], i: Int): Array[Double] =
-    Array(p(3 * i), p(3 * i + 1), p(3 * i + 2))
-
   private def mix(t: Double, a: Array[Double], b: Array[Double]): Array[Double] =
-    Array.tabulate(3)(k => (1 - t) * a(k) + t * b(k))
+    val mixed = new Array[Double](3)
+    loop(3)(k => mixed(k) = (1 - t) * a(k) + t * b(k))
+    mixed
+
+  /** Points that follow one another in `p`, from the point `first` on: three numbers each. */
+  private def numbers(p: Array[Float], first: Int, points: Int): Array[Double] =
+    val doubles = new Array[Double](3 * points)
+    loop(3 * points)(k => doubles(k) = p(3 * first + k))
+    doubles
+
+  private def point(p: Array[Float], i: Int): Array[Double] = numbers(p, i, 1)
 
   /** A Bézier chain: the first `degree` + 1 control points, then `degree` more per curve. */
-  def ofBezier(p: Array[Float], degree: Int): Vector[Array[Double]] =
-    Vector.tabulate((p.length / 3 - 1) / degree): i =>
-      val at = Vector.tabulate(degree + 1)(k => point(p, degree * i + k))
-      if degree == 2 then raised(at(0), at(1), at(2)) else at.flatten.toArray
+  def ofBezier(p: Array[Float], degree: Int): Array[Array[Double]] =
+    Array.tabulate((p.length / 3 - 1) / degree): i =>
+      val first = degree * i
+      if degree == 2 then raised(point(p, first), point(p, first + 1), point(p, first + 2))
+      else numbers(p, first, 4)
 
   /** A uniform B-spline: every `degree` + 1 consecutive control points make a curve. By blossoming,
     * with the knots 0, 1, 2, … (Ramshaw, "Blossoms are polar forms", CAGD 6, 1989).
     */
-  def ofBSpline(p: Array[Float], degree: Int): Vector[Array[Double]] =
-    Vector.tabulate(p.length / 3 - degree): i =>
-      val at = Vector.tabulate(degree + 1)(k => point(p, i + k))
+  def ofBSpline(p: Array[Float], degree: Int): Array[Array[Double]] =
+    Array.tabulate(p.length / 3 - degree): i =>
+      val at = Array.tabulate(degree + 1)(k => point(p, i + k))
       if degree == 2 then raised(mix(0.5, at(0), at(1)), at(1), mix(0.5, at(1), at(2)))
       else
         val b = mix(1.0 / 3, at(1), at(2))
@@ -50,19 +58,24 @@ object BezierCurve:
   private def raised(a: Array[Double], b: Array[Double], c: Array[Double]): Array[Double] =
     Array.concat(a, mix(2.0 / 3, a, b), mix(1.0 / 3, b, c), c)
 
-  /** Control points of the part of a curve from u0 to u1. */
-  def part(points: Array[Double], u0: Double, u1: Double): Array[Double] =
-    def blossom(a: Double, b: Double, c: Double, k: Int): Double =
-      def at(i: Int) = points(3 * i + k)
-      def along(t: Double, p: Double, q: Double) = p + t * (q - p)
-      val ab = along(a, at(0), at(1))
-      val bc = along(a, at(1), at(2))
-      val cd = along(a, at(2), at(3))
-      along(c, along(b, ab, bc), along(b, bc, cd))
-    val out = new Array[Double](12)
+  /** Control points of the part of a curve from u0 to u1, in `out`. */
+  def part(
+      points: Array[Double],
+      u0: Double,
+      u1: Double,
+      out: Array[Double] = new Array[Double](12)
+  ): Array[Double] =
     loop(3): k =>
-      out(k) = blossom(u0, u0, u0, k)
-      out(3 + k) = blossom(u0, u0, u1, k)
-      out(6 + k) = blossom(u0, u1, u1, k)
-      out(9 + k) = blossom(u1, u1, u1, k)
+      out(k) = blossom(points, k, u0, u0, u0)
+      out(3 + k) = blossom(points, k, u0, u0, u1)
+      out(6 + k) = blossom(points, k, u0, u1, u1)
+      out(9 + k) = blossom(points, k, u1, u1, u1)
     out
+
+  private def blossom(p: Array[Double], k: Int, a: Double, b: Double, c: Double): Double =
+    val ab = along(a, p(k), p(3 + k))
+    val bc = along(a, p(3 + k), p(6 + k))
+    val cd = along(a, p(6 + k), p(9 + k))
+    along(c, along(b, ab, bc), along(b, bc, cd))
+
+  private inline def along(t: Double, p: Double, q: Double) = p + t * (q - p)

@@ -1,86 +1,116 @@
 package candela.shapes
 
-import candela.base.loop
+import scala.collection.mutable.ArrayBuffer
+
+import candela.base.{Parallel, loop}
 import candela.math.*
 
-/** Collects curves of one kind for one [[CurveSegments]].
+/** How curves are drawn.
   *
-  * @param total   number of segments: scenes have millions of curves of a few each
-  * @param space   object to world; if empty, curves are transformed to world space when added
+  * @param splitDepth  each is split into 2^`splitDepth` segments of equal length in u
+  * @param errorWidths see [[CurveSegments]]
+  */
+final case class CurveForm(kind: CurveKind, splitDepth: Int, errorWidths: Float)
+
+/** Collects curves of one form and space for one [[CurveSegments]].
+  *
+  * @param space   object to world; if empty, curves are transformed to world space
   * @param flipped see [[CurveSegments]]
   */
-final class CurveBuilder(
-    total: Int,
-    kind: CurveKind,
-    space: Option[Transform],
-    flipped: Boolean,
-    errorWidths: Float
-):
-  private val points = new Array[Float](Math.multiplyExact(12, total))
-  private val params, widths = new Array[Float](2 * total)
-  private val normals = new Array[Float](if kind == CurveKind.Ribbon then 6 * total else 0)
-  private var count = 0
+final class CurveBuilder(form: CurveForm, space: Option[Transform], flipped: Boolean):
+  import CurveBuilder.Placed
 
-  /** Adds a curve, split into 2^`splitDepth` segments of equal length in u. `toWorld` is empty if
-    * the curve needs no transform. Lengths are scaled by `scale`.
+  private val placed = ArrayBuffer.empty[Placed]
+  private val split = 1 << form.splitDepth
+
+  /** Number of segments. */
+  def count: Int = Math.multiplyExact(placed.length, split)
+
+  /** Whether curves with this transform can be added. */
+  def takes(form: CurveForm, toWorld: Transform, reversed: Boolean): Boolean =
+    val scale = CurveBuilder.scaleOf(toWorld)
+    form == this.form && flipped == (reversed != toWorld.swapsHandedness) &&
+    (if scale.isEmpty then space.exists(_ eq toWorld) else space.isEmpty)
+
+  /** Adds curves that are transformed as `takes` was asked. */
+  def add(curves: Seq[BezierCurve], toWorld: Transform): Unit =
+    if space.isDefined then add(curves, None, 1f)
+    else
+      val move = Option.unless(toWorld.isIdentity)(toWorld)
+      add(curves, move, CurveBuilder.scaleOf(toWorld).getOrElse(1.0).toFloat)
+
+  /** Adds curves with a transform that is not in `space`, if they need one. Lengths are scaled by
+    * `scale`.
     */
-  def add(curve: BezierCurve, splitDepth: Int, toWorld: Option[Transform], scale: Float): Unit =
-    val n = 1 << splitDepth
-    loop(n): i =>
-      val u0 = i.toFloat / n
-      val u1 = (i + 1).toFloat / n
-      val part = BezierCurve.part(curve.points, u0, u1)
-      loop(4)(k => putPoint(part, 3 * k, toWorld, 12 * count + 3 * k))
-      params(2 * count) = u0
-      params(2 * count + 1) = u1
-      widths(2 * count) = lerp(u0, curve.width0, curve.width1) * scale
-      widths(2 * count + 1) = lerp(u1, curve.width0, curve.width1) * scale
-      for (n0, n1) <- curve.normals do
-        putNormal(n0, toWorld, 6 * count)
-        putNormal(n1, toWorld, 6 * count + 3)
-      count += 1
+  def add(curves: Seq[BezierCurve], toWorld: Option[Transform], scale: Float): Unit =
+    for c <- curves do placed += Placed(c, toWorld, scale)
 
-  private def putPoint(p: Array[Double], i: Int, toWorld: Option[Transform], at: Int): Unit =
-    toWorld match
-      case None => loop(3)(k => points(at + k) = p(i + k).toFloat)
-      case Some(t) =>
-        val m = t.m
-        loop(3): r =>
-          val c = 4 * r
-          points(at + r) =
-            (m(c) * p(i) + m(c + 1) * p(i + 1) + m(c + 2) * p(i + 2) + m(c + 3)).toFloat
-
-  private def putNormal(n: Vec3, toWorld: Option[Transform], at: Int): Unit =
-    val unit = toWorld.fold(n)(_.normal(n)).normalized
-    normals(at) = unit.x
-    normals(at + 1) = unit.y
-    normals(at + 2) = unit.z
-
-  def result: CurveSegments =
-    require(count == total, s"$count of $total segments")
-    CurveSegments(points, params, widths, normals, kind, space, flipped, errorWidths)
+  def result(parallel: Parallel = Parallel.Alone): CurveSegments =
+    val points = new Array[Float](Math.multiplyExact(12, count))
+    val params, widths = new Array[Float](2 * count)
+    val normals = new Array[Float](if form.kind == CurveKind.Ribbon then 6 * count else 0)
+    val pieces = (placed.length + CurveBuilder.Piece - 1) / CurveBuilder.Piece
+    parallel.each(pieces): piece =>
+      val part = new Array[Double](12)
+      val from = piece * CurveBuilder.Piece
+      loop(from, Math.min(placed.length, from + CurveBuilder.Piece)): k =>
+        val curve = placed(k).curve
+        loop(split): i =>
+          val segment = k * split + i
+          val u0 = i.toFloat / split
+          val u1 = (i + 1).toFloat / split
+          placed(k).putPoints(BezierCurve.part(curve.points, u0, u1, part), points, 12 * segment)
+          params(2 * segment) = u0
+          params(2 * segment + 1) = u1
+          widths(2 * segment) = lerp(u0, curve.width0, curve.width1) * placed(k).scale
+          widths(2 * segment + 1) = lerp(u1, curve.width0, curve.width1) * placed(k).scale
+          for (n0, n1) <- curve.normals do
+            placed(k).putNormal(n0, normals, 6 * segment)
+            placed(k).putNormal(n1, normals, 6 * segment + 3)
+    CurveSegments(points, params, widths, normals, form.kind, space, flipped, form.errorWidths)
 
 object CurveBuilder:
+  /** Curves that a thread splits at a time. */
+  private inline val Piece = 256
 
-  /** Builds the segments of transformed curves: in world space if the transform is a similarity
-    * (rotation, translation, uniform scale); else in object space, where widths are measured.
+  /** A builder of transformed curves: in world space if the transform is a similarity (rotation,
+    * translation, uniform scale); else in object space, where widths are measured.
     */
+  def apply(form: CurveForm, toWorld: Transform, reversed: Boolean): CurveBuilder =
+    val space = Option.when(scaleOf(toWorld).isEmpty)(toWorld)
+    new CurveBuilder(form, space, reversed != toWorld.swapsHandedness)
+
+  /** The scale of a similarity, which keeps the shape of curves in world space. */
+  private def scaleOf(toWorld: Transform): Option[Double] =
+    toWorld.uniformScale.filter(_ => !toWorld.swapsHandedness)
+
+  /** The segments of transformed curves. */
   def segments(
       curves: Seq[BezierCurve],
-      kind: CurveKind,
-      splitDepth: Int,
+      form: CurveForm,
       toWorld: Transform,
-      reversed: Boolean,
-      errorWidths: Float
+      reversed: Boolean
   ): CurveSegments =
-    val scale = toWorld.uniformScale.filter(_ => !toWorld.swapsHandedness)
-    val builder = CurveBuilder(
-      Math.multiplyExact(curves.size, 1 << splitDepth),
-      kind,
-      Option.when(scale.isEmpty)(toWorld),
-      reversed != toWorld.swapsHandedness,
-      errorWidths
-    )
-    val move = Option.when(scale.isDefined && !toWorld.isIdentity)(toWorld)
-    for c <- curves do builder.add(c, splitDepth, move, scale.getOrElse(1.0).toFloat)
-    builder.result
+    val builder = CurveBuilder(form, toWorld, reversed)
+    builder.add(curves, toWorld)
+    builder.result()
+
+  /** A curve with its transform and scale. */
+  private final class Placed(val curve: BezierCurve, toWorld: Option[Transform], val scale: Float):
+
+    /** Writes four points. */
+    def putPoints(p: Array[Double], to: Array[Float], at: Int): Unit = toWorld match
+      case None => loop(12)(k => to(at + k) = p(k).toFloat)
+      case Some(t) =>
+        val m = t.m
+        loop(12): k =>
+          val i = k - k % 3
+          val c = 4 * (k - i)
+          to(at + k) =
+            (m(c) * p(i) + m(c + 1) * p(i + 1) + m(c + 2) * p(i + 2) + m(c + 3)).toFloat
+
+    def putNormal(n: Vec3, to: Array[Float], at: Int): Unit =
+      val unit = toWorld.fold(n)(_.normal(n)).normalized
+      to(at) = unit.x
+      to(at + 1) = unit.y
+      to(at + 2) = unit.z

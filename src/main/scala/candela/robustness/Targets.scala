@@ -3,7 +3,7 @@ package candela.robustness
 import candela.accel.{Accelerator, BruteForce, Instances, Primitives}
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
-import candela.scene.{Instanced, ShapeInstance, Surfaces}
+import candela.scene.{Instanced, ShapeTable, Surfaces}
 import candela.shapes.*
 
 /** Something that rays land on and leave: a surface alone in the world. */
@@ -30,11 +30,10 @@ object Target:
   private val AtRest = Still(Transform.Identity)
 
   def apply(shapes: Seq[Shape], motion: Motion = AtRest): Target =
-    val solids = shapes.map(s => ShapeInstance(s, material = 0, light = -1))
-    new Target(Surfaces(Solids.Empty, solids.toArray), motion)
+    new Target(Surfaces(Solids.Empty, ShapeTable.of(shapes.toArray)), motion)
 
   def mesh(soup: TriangleSoup, motion: Motion = AtRest): Target =
-    new Target(Surfaces(soup, Array.empty), motion)
+    new Target(Surfaces(soup, ShapeTable.Empty), motion)
 
 /** Where rays that leave a surface go: to any side, to the outside, or to the outside and not along
   * the surface, which bends up to them.
@@ -86,7 +85,7 @@ object Kind:
       val normals = Option.when(kind == CurveKind.Ribbon)((draws.direction(), draws.direction()))
       val width = size * draws.magnitude(1e-2, 0.2)
       val curve = BezierCurve(points, width, width * draws.between(0.3f, 1f), normals)
-      val segments = CurveBuilder.segments(Seq(curve), kind, 2, toWorld, false, 1f)
+      val segments = CurveBuilder.segments(Seq(curve), CurveForm(kind, 2, 1f), toWorld, false)
       Seq.tabulate(segments.count)(CurveSegment(segments, _))
 
   private def triangles(draws: Draws, toWorld: Transform, size: Float) =

@@ -65,6 +65,18 @@ class MaskSuite extends AnyFunSuite:
         soup.surface(1, hit, at)
         assert(Math.abs(at.u - 0.3f) < 1e-6f && Math.abs(at.p.z + 1f) < 1e-6f)
 
+  test("columns of masks keep none while all are opaque, and each from the first on that is not"):
+    val (solid, mixed) = (MaskColumn(), MaskColumn())
+    solid.add(SolidMask, 1000)
+    mixed.add(SolidMask, 2)
+    assert(Masks.of(solid, mixed).isEmpty && Masks.of(solid, mixed).ofShape.isEmpty)
+    val mask = HoleMask(ConstantFloat(0f), ConstantFloat(0f))
+    mixed.add(mask, 2)
+    mixed.add(SolidMask)
+    val masks = Masks.of(solid, mixed)
+    assert(masks.meshes == 0 && masks.shapes == 2 && masks.ofMesh.length == 1000)
+    assert(masks.ofShape.toVector == Vector(SolidMask, SolidMask, mask, mask, SolidMask))
+
   test("holes of shadows are none for other rays"):
     val world = Bvh(triangles(HoleMask(whole, LeftHalf)))
     assert(world.closest(down(0.3f, 0.2f), hit))

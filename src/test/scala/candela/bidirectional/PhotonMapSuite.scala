@@ -9,7 +9,7 @@ import candela.bsdf.{ConstantMaterial, Lambert}
 import candela.color.Rgb
 import candela.lights.{LightSelection, PointLight}
 import candela.math.*
-import candela.scene.{Instanced, Scene, SceneMaterials, Surfaces}
+import candela.scene.{Instanced, Scene, SceneMaterials, ShapeTable, Surfaces}
 import candela.testing.{Draws, Soups}
 
 final class PhotonMapSuite extends AnyFunSuite:
@@ -17,7 +17,7 @@ final class PhotonMapSuite extends AnyFunSuite:
 
   private def scene: Scene =
     val light = PointLight(Vec3.Zero, Rgb.White)
-    val surfaces = Surfaces(Soups.Empty, Array.empty)
+    val surfaces = Surfaces(Soups.Empty, ShapeTable.Empty)
     Scene(
       surfaces,
       Instanced(Array.empty, Instances.Empty),

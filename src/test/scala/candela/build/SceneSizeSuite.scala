@@ -102,14 +102,14 @@ class SceneSizeSuite extends AnyFunSuite:
     val spheres = parsed(Sky + Vector.fill(2000)(
       s"AttributeBegin Translate $somewhere Shape \"sphere\" \"float radius\" 0.1 AttributeEnd\n"
     ).mkString)
-    val (shapes, solids) = sizes(spheres, CostKind.Shapes, "ShapeInstance")()
+    val (shapes, solids) = sizes(spheres, CostKind.Shapes, "ShapeTable")()
     assertNear(shapes, solids, 0.5)
-    val (nodes, trees) = sizes(spheres, CostKind.Hierarchies, Hierarchies*)("ShapeInstance")
+    val (nodes, trees) = sizes(spheres, CostKind.Hierarchies, Hierarchies*)("ShapeTable")
     assertNear(nodes, trees, 0.5)
     val curves = parsed(Sky + Vector.fill(500)(
       s"Shape \"curve\" \"point3 P\" [ 0 0 0 $somewhere 1 1 1 1 0 1 ] \"float width\" 0.01\n"
     ).mkString)
-    val (hair, segments) = sizes(curves, CostKind.Shapes, "ShapeInstance")()
+    val (hair, segments) = sizes(curves, CostKind.Shapes, "ShapeTable")()
     assertNear(hair, segments, 0.5)
     val instances =
       parsed(Sky + s"ObjectBegin \"o\"\nShape \"sphere\"\nObjectEnd\n" + Vector.fill(2000)(
@@ -126,7 +126,7 @@ class SceneSizeSuite extends AnyFunSuite:
         "AttributeEnd\n"
     ).mkString)
     val (lamps, lights) = sizes(balls, CostKind.Lights, "Scene")(
-      ("ShapeInstance" +: "TriangleSoup" +: "SceneMaterials" +: Hierarchies)*
+      ("ShapeTable" +: "TriangleSoup" +: "SceneMaterials" +: Hierarchies)*
     )
     assertNear(lamps, lights, 0.5)
     val shining = parsed(sheet(0, emission))

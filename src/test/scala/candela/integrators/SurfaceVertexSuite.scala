@@ -8,7 +8,7 @@ import candela.geometry.Ray
 import candela.lights.{LightSelection, PointLight}
 import candela.math.Vec3
 import candela.sampling.{HenyeyGreenstein, IndependentSampler}
-import candela.scene.{Instanced, Scene, SceneMaterials, Surfaces}
+import candela.scene.{Instanced, Scene, SceneMaterials, ShapeTable, Surfaces}
 import candela.testing.Soups
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -16,7 +16,7 @@ import org.scalatest.funsuite.AnyFunSuite
 final class SurfaceVertexSuite extends AnyFunSuite:
   private val scene =
     val light = PointLight(Vec3.Zero, Rgb.White)
-    val surfaces = Surfaces(Soups.Empty, Array.empty)
+    val surfaces = Surfaces(Soups.Empty, ShapeTable.Empty)
     Scene(
       surfaces,
       Instanced(Array.empty, Instances.Empty),

@@ -10,7 +10,7 @@ import candela.lights.{LightSelection, PointLight}
 import candela.math.Vec3
 import candela.media.{MediumBorder, SceneMedia}
 import candela.sampling.IndependentSampler
-import candela.scene.{Instanced, Scene, SceneMaterials, Surfaces}
+import candela.scene.{Instanced, Scene, SceneMaterials, ShapeTable, Surfaces}
 import candela.testing.Soups
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -22,7 +22,7 @@ final class WalkSuite extends AnyFunSuite:
   private val scene =
     val light = PointLight(Vec3(0f, 0f, 1f), Rgb.White)
     val triangle = (Vec3(-2f, -1f, 0f), Vec3(2f, -1f, 0f), Vec3(0f, 2f, 0f))
-    val surfaces = Surfaces(Soups.of(Seq(triangle)), Array.empty)
+    val surfaces = Surfaces(Soups.of(Seq(triangle)), ShapeTable.Empty)
     Scene(
       surfaces,
       Instanced(Array.empty, Instances.Empty),

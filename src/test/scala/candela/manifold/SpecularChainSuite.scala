@@ -9,7 +9,7 @@ import candela.geometry.ShadingPoint
 import candela.lights.{LightSelection, PointLight}
 import candela.math.*
 import candela.sampling.RandomStream
-import candela.scene.{SceneMaterials, Instanced, Scene, ShapeInstance, Surfaces}
+import candela.scene.{SceneMaterials, Instanced, Scene, ShapeTable, Surfaces}
 import candela.shapes.{Mesh, Shape, Sphere, TriangleSoup}
 import candela.testing.Soups
 
@@ -186,7 +186,7 @@ private object SpecularChainSuite:
 
   private def of(soup: TriangleSoup, shapes: Array[Shape], bsdf: Bsdf): Scene =
     val light = PointLight(Vec3(0f, 0f, 1f), Rgb.White)
-    val surfaces = Surfaces(soup, shapes.map(ShapeInstance(_, material = 0, light = -1)))
+    val surfaces = Surfaces(soup, ShapeTable.of(shapes))
     Scene(
       surfaces,
       Instanced(Array.empty, Instances.Empty),

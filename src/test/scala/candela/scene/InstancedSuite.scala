@@ -16,11 +16,11 @@ class InstancedSuite extends AnyFunSuite:
   private val at = ShadingPoint()
 
   private def placed(surfaces: Surfaces, toWorld: Transform): Instanced =
-    val primitives = Primitives(surfaces.soup, surfaces.solids.map(_.shape))
+    val primitives = Primitives(surfaces.soup, surfaces.solids.shapes)
     Instanced(Array(surfaces), Instances.of(Array(Bvh(primitives)), Vector((0, Still(toWorld)))))
 
   private def solid(shape: Shape): Surfaces =
-    Surfaces(Soups.Empty, Array(ShapeInstance(shape, material = 0, light = -1)))
+    Surfaces(Soups.Empty, ShapeTable.of(Array(shape)))
 
   private def placement(draws: Draws): Transform =
     val size = draws.magnitude(1e-2, 1e3)
@@ -40,7 +40,7 @@ class InstancedSuite extends AnyFunSuite:
       def moved(p: Vec3) = toWorld.point(p)
       val copy =
         Soups.of(facets.map((a, b, c) => (moved(a), moved(b), moved(c))), toWorld.swapsHandedness)
-      val instanced = placed(Surfaces(Soups.of(facets), Array.empty), toWorld)
+      val instanced = placed(Surfaces(Soups.of(facets), ShapeTable.Empty), toWorld)
       val size = copy.positions.map(Math.abs).max
       for _ <- 0 until 200 do
         val target = moved(draws.vec(-1, 1))
@@ -91,7 +91,7 @@ class InstancedSuite extends AnyFunSuite:
 
   test("a triangle of an instance is not met again, on either side"):
     neverMetAgain(2)(draws =>
-      Surfaces(Soups.of(Soups.around(draws, 1, 1)(draws.vec(-3, 3))), Array.empty)
+      Surfaces(Soups.of(Soups.around(draws, 1, 1)(draws.vec(-3, 3))), ShapeTable.Empty)
     )(_.direction())
 
   test("a disk of an instance is not met again, on either side"):
@@ -115,7 +115,7 @@ class InstancedSuite extends AnyFunSuite:
       assert(((at.geometricNormal dot at.p) < 0f) == reversed)
 
   test("ten thousand instances need less than 200 bytes each"):
-    val mesh = Surfaces(Soups.icosphere(5, Transform.Identity), Array.empty)
+    val mesh = Surfaces(Soups.icosphere(5, Transform.Identity), ShapeTable.Empty)
     val objects = Array[Accelerator](Bvh(Primitives(mesh.soup, Array.empty)))
     val draws = Draws(5)
     val places = Vector.fill(10000)((0, Still(placement(draws))))

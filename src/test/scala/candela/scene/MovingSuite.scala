@@ -36,7 +36,7 @@ class MovingSuite extends AnyFunSuite:
     for _ <- 0 until 60 do
       val soup = Soups.of(Soups.around(draws, 20, 1)(draws.vec(-1, 1)))
       val way = motion(draws)
-      val box = placed(Surfaces(soup, Array.empty), way).instances.bounds(0)
+      val box = placed(Surfaces(soup, ShapeTable.Empty), way).instances.bounds(0)
       for _ <- 0 until 100 do
         val now = way.transform(draws.unit())
         for i <- 0 until soup.count; c <- 0 until 3 do
@@ -59,7 +59,7 @@ class MovingSuite extends AnyFunSuite:
   test("it is met where it is at the ray's time, and its hit points lie there"):
     val draws = Draws(2)
     val soup = Soups.of(Soups.around(draws, 30, 0.6f)(draws.vec(-1, 1)))
-    val surfaces = Surfaces(soup, Array.empty)
+    val surfaces = Surfaces(soup, ShapeTable.Empty)
     val (at, there) = (ShadingPoint(), ShadingPoint())
     val (other, otherHit) = (Ray(), Hit())
     var hits = 0
@@ -92,7 +92,7 @@ class MovingSuite extends AnyFunSuite:
     var spawned = 0
     while spawned < 10000 do
       val soup = Soups.of(Soups.around(draws, 1, 1)(draws.vec(-3, 3)))
-      val moving = placed(Surfaces(soup, Array.empty), motion(draws))
+      val moving = placed(Surfaces(soup, ShapeTable.Empty), motion(draws))
       val box = moving.instances.bounds(0)
       for _ <- 0 until 30 do
         ray.time = draws.unit()

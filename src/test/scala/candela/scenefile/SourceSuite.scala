@@ -19,7 +19,8 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     def step(): String =
       try
         if in.current == Token.Open then in.readFloats(floats, RestBuffer()) else in.advance()
-        s"${in.at} ${in.current} ${in.text} ${in.numberHere} ${floats.take().mkString(",")}"
+        val number = Option.when(in.isNumber)(in.asDouble)
+        s"${in.at} ${in.current} ${in.text} $number ${floats.take().mkString(",")}"
       catch case e: SceneError => e.problems.mkString
     Iterator.continually(step()).takeWhile(_ => in.current != Token.End).toVector
 

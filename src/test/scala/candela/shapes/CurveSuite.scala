@@ -35,7 +35,7 @@ class CurveSuite extends AnyFunSuite:
       depth: Int = 3
   ): CurveSegments =
     val curve = BezierCurve(c, w0, w1, normals)
-    CurveBuilder.segments(Seq(curve), kind, depth, toWorld, reversed = false, errorWidths = 2)
+    CurveBuilder.segments(Seq(curve), CurveForm(kind, depth, 2), toWorld, reversed = false)
 
   /** The segment that is met first, or −1; `hit` and `ray.tMax` are its. */
   private def first(s: CurveSegments): Int =
@@ -167,10 +167,10 @@ class CurveSuite extends AnyFunSuite:
       val toWorld = draws.translation(3) * draws.rotation() * Transform.scale(2, 2, 2).get
       val normals = Option.when(kind == CurveKind.Ribbon)((draws.direction(), draws.direction()))
       val curve = BezierCurve(c, 0.2f, 0.1f, normals)
-      val moved = CurveBuilder.segments(Seq(curve), kind, 2, toWorld, false, 2f)
-      val kept = CurveBuilder(4, kind, Some(toWorld), false, 2f)
-      kept.add(curve, 2, None, 1f)
-      val inSpace = kept.result
+      val moved = CurveBuilder.segments(Seq(curve), CurveForm(kind, 2, 2f), toWorld, false)
+      val kept = new CurveBuilder(CurveForm(kind, 2, 2f), Some(toWorld), false)
+      kept.add(Seq(curve), None, 1f)
+      val inSpace = kept.result()
       val target = toWorld.point(point(c, draws.unit()))
       for k <- 0 until moved.count do
         aim(draws.direction() * 9f, target)

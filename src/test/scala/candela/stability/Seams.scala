@@ -64,7 +64,10 @@ private object Seams:
     val strips = CurveKind.values.toSeq.map: kind =>
       val normals = Option.when(kind == CurveKind.Ribbon)((Vec3.Z, Vec3.Y))
       val curve = BezierCurve(straight, 0.1f, 0.1f, normals)
-      CurveSegment(CurveBuilder.segments(Seq(curve), kind, 0, Transform.Identity, false, 1f), 0)
+      CurveSegment(
+        CurveBuilder.segments(Seq(curve), CurveForm(kind, 0, 1f), Transform.Identity, false),
+        0
+      )
     val sphere = candela.testing.Soups.sphere(Transform.Identity, 1f)
     var i = 0L
     while i < count do

@@ -25,6 +25,8 @@ class Field[T](
     read: (Param, Site) => Option[T],
     adapt: (T, Site) => T
 ):
+  private val plainType = ValueTypes.plain(typeName)
+
   /** Returns the value given at the site, else the default. Reports values of the wrong type. */
   def apply()(using site: Site): T = given_() match
     case Some(value) => value
@@ -40,7 +42,7 @@ class Field[T](
     */
   private def fits(p: Param, site: Site): Boolean =
     val fits = !site.rules.typed ||
-      ValueTypes.accepts(typeName, name, p, site.dialect)
+      ValueTypes.accepts(plainType, name, p, site.dialect)
     if !fits && !p.isDefault then
       site.unread(
         Code.ParameterType,

@@ -1,6 +1,7 @@
 package candela.build.recipe
 
 import scala.collection.mutable
+import scala.jdk.CollectionConverters.*
 
 import candela.base.{Code, Suggest}
 import candela.scenefile.Dialect
@@ -22,7 +23,9 @@ abstract class Recipe[A](
   private val declared = mutable.ArrayBuffer.empty[Field[?]]
   private val unused = mutable.HashMap.empty[Field[?], Support]
 
-  private lazy val byName = declared.toVector.groupBy(_.name)
+  // Statements ask for it a million times
+  private lazy val byName =
+    java.util.HashMap(declared.toVector.groupBy(_.name).view.mapValues(_.toArray).toMap.asJava)
 
   /** Makes the object from the statement's parameters.
     *
@@ -79,7 +82,7 @@ abstract class Recipe[A](
 
   final def build(site: Site): A =
     for p <- site.declaration.params do
-      val named = byName.getOrElse(p.name, Vector.empty)
+      val named = byName.getOrDefault(p.name, Recipe.NoFields)
       named.find(f => site.speaks(f.dialects)) match
         case Some(field) => inspect(field, p.at, site)
         case None if named.nonEmpty =>
@@ -113,6 +116,9 @@ abstract class Recipe[A](
             s"`${field.name}` of \"$name\" is not supported; $instead"
           )
         case _ => ()
+
+private object Recipe:
+  val NoFields: Array[Field[?]] = Array.empty
 
 /** Something that a statement needs in every colour basis, made when it is first asked for. */
 final class Once[T]:

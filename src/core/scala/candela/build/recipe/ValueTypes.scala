@@ -10,10 +10,13 @@ private[build] object ValueTypes:
 
   private val Spectra = Set(Rgb, Xyz, Blackbody, Spectrum)
 
-  /** @param typeName as a [[Field]] declares it */
-  def accepts(typeName: String, name: String, p: Param, dialect: Dialect): Boolean =
+  /** The type that a [[Field]] declares, without the number of its values. */
+  def plain(typeName: String): String = typeName.takeWhile(_ != '[')
+
+  /** @param plainType see [[plain]] */
+  def accepts(plainType: String, name: String, p: Param, dialect: Dialect): Boolean =
     val given_ = p.paramType
-    typeName.takeWhile(_ != '[') match
+    plainType match
       case "float" => given_ == Float || (name == "splitdepth" && given_ == Integer)
       case "integer" => given_ == Integer
       case "bool" => given_ == Bool
@@ -37,11 +40,11 @@ private[build] object ValueTypes:
 
   /** An example of what to write. */
   def example(typeName: String, p: Param): Option[String] =
-    val (plain, name) = (typeName.takeWhile(_ != '['), p.name)
+    val (plainType, name) = (ValueTypes.plain(typeName), p.name)
     def numbers = p.floats ++ p.ints.map(_.toFloat)
     def text(values: Array[Float]) = values.map(DefaultText.number).mkString("[ ", " ", " ]")
     def one = numbers.headOption.map(DefaultText.number)
-    plain match
+    plainType match
       case "spectrum" | "spectrum texture" | "rgb" =>
         val color = numbers match
           case Array(x) => Array(x, x, x)
@@ -52,4 +55,4 @@ private[build] object ValueTypes:
         Some(s"write \"float $name\"" + one.fold("")(x => s" $x"))
       case "integer" =>
         Some(s"write \"integer $name\"" + p.floats.headOption.fold("")(x => s" ${x.toInt}"))
-      case _ => Some(s"write \"$plain $name\"")
+      case _ => Some(s"write \"$plainType $name\"")

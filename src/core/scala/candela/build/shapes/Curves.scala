@@ -1,10 +1,12 @@
 package candela.build.shapes
 
+import scala.collection.immutable.ArraySeq
+
 import candela.base.{Code, Limit}
 import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect
-import candela.shapes.{BezierCurve, CurveBuilder, CurveKind, CurveSegment}
+import candela.shapes.{BezierCurve, CurveForm, CurveKind}
 
 object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or grass", sinceV3):
   private val points = numbers("P", "point3[]", "control points")
@@ -37,7 +39,7 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       else if isBezier && (count - 1) % d != 0 then
         Some(s"`P` of a Bézier curve of degree $d must have ${d + 1} points plus $d per " +
           s"further segment, found $count")
-      else if p.exists(x => !java.lang.Float.isFinite(x)) then
+      else if !MeshArrays.isFinite(p) then
         Some("`P` must not contain NaN or infinite numbers")
       else None
     wrong match
@@ -46,7 +48,7 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
         None
       case None =>
         val chain = if isBezier then BezierCurve.ofBezier(p, d) else BezierCurve.ofBSpline(p, d)
-        val ends = ribbonNormals(chain.size)
+        val ends = ribbonNormals(chain.length)
         if kind() == "ribbon" && ends.isEmpty then None else curves(chain, ends)
 
   /** Normals at the ends of segments. Reports a wrong count and returns None. */
@@ -69,11 +71,11 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       )
       None
 
-  private def curves(chain: Vector[Array[Double]], ends: Option[Vector[Vec3]])(using
+  private def curves(chain: Array[Array[Double]], ends: Option[Vector[Vec3]])(using
       site: Site
   ): Option[ShapeGeometry] =
     val (w0, w1) = (width0.given_().getOrElse(width()), width1.given_().getOrElse(width()))
-    def widthAt(i: Int) = lerp(i.toFloat / chain.size, w0, w1)
+    def widthAt(i: Int) = lerp(i.toFloat / chain.length, w0, w1)
     val depth = splitdepth().toInt
     if !(w0 >= 0f && w1 >= 0f && w0 + w1 > 0f) then
       site.warn(Code.NoSurface, s"a curve of width $w0 to $w1 is invisible; it is ignored")
@@ -82,24 +84,16 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       site.error(Code.ParameterValue, s"`splitdepth` must be between 0 and 16, found $depth")
       None
     else
-      val count = chain.size.toLong << depth
+      val count = chain.length.toLong << depth
       site.allowance.check(Limit.Triangles, count, Some(site.declaration.at)):
         s"a curve of $count segments"
-      val all = chain.zipWithIndex.map: (points, i) =>
-        BezierCurve(points, widthAt(i), widthAt(i + 1), ends.map(n => (n(i), n(i + 1))))
+      val all = Array.tabulate(chain.length): i =>
+        BezierCurve(chain(i), widthAt(i), widthAt(i + 1), ends.map(n => (n(i), n(i + 1))))
       val drawn = kind() match
         case "ribbon" => CurveKind.Ribbon
         case "cylinder" => CurveKind.Cylinder
         case _ => CurveKind.Flat
       // pbrt-v4's ray offset at curves is half of pbrt-v3's
       val errorWidths = if site.dialect == Dialect.V4 then 1f else 2f
-      Some(
-        ShapeGeometry.Solids(
-          (toWorld, reversed) =>
-            val segments =
-              CurveBuilder.segments(all, drawn, depth, toWorld, reversed, errorWidths)
-            Vector.tabulate(segments.count)(CurveSegment(segments, _))
-          ,
-          emits = false
-        )
-      )
+      val form = CurveForm(drawn, depth, errorWidths)
+      Some(ShapeGeometry.Curves(ArraySeq.unsafeWrapArray(all), form))

@@ -65,18 +65,15 @@ private[build] object MeshArrays:
     val vertices = positions.length / 3
     val n = matching("N", normals, vertices, 3)
     val t = matching("uv", uvs, vertices, 2)
-    ShapeGeometry.Solids(
-      (toWorld, reversed) =>
-        val mesh = BilinearMesh(
-          SoupBuilder.points(positions, toWorld),
-          indices,
-          SoupBuilder.normals(n, toWorld, reversed),
-          t,
-          flipped = reversed != toWorld.swapsHandedness
-        )
-        Vector.tabulate(mesh.count)(BilinearPatch(mesh, _))
-      ,
-      emits = true
+    ShapeGeometry.Solids((toWorld, reversed) =>
+      val mesh = BilinearMesh(
+        SoupBuilder.points(positions, toWorld),
+        indices,
+        SoupBuilder.normals(n, toWorld, reversed),
+        t,
+        flipped = reversed != toWorld.swapsHandedness
+      )
+      Vector.tabulate(mesh.count)(BilinearPatch(mesh, _))
     )
 
   /** Checks that indices are in range and positions finite. Reports an error otherwise. */
@@ -96,11 +93,17 @@ private[build] object MeshArrays:
           case Some(i) =>
             problem(s"`indices` must be vertices of `P`, 0 to ${vertices - 1}, found $i")
           case None =>
-            if positions.exists(x => !java.lang.Float.isFinite(x)) then
+            if !isFinite(positions) then
               problem("`P` must not contain NaN or infinite numbers")
             else None
     wrong.foreach(site.unusable(Code.BrokenMesh, _))
     wrong.isEmpty
+
+  /** Whether no number is infinite or NaN. */
+  def isFinite(numbers: Array[Float]): Boolean =
+    var i = 0
+    while i < numbers.length && java.lang.Float.isFinite(numbers(i)) do i += 1
+    i == numbers.length
 
   /** Drops attributes that don't match the number of vertices, with a warning, as pbrt does. */
   private def matching(name: String, values: Array[Float], vertices: Int, each: Int)(using

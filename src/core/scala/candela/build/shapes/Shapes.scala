@@ -5,7 +5,7 @@ import candela.build.recipe.*
 import candela.lights.{HiddenLight, Light, PerforatedLight, SurfaceLight}
 import candela.math.{Position, Transform}
 import candela.scenefile.Dialect
-import candela.shapes.{Shape, SurfaceSampler}
+import candela.shapes.{BezierCurve, CurveForm, Shape, SurfaceSampler}
 import candela.textures.{ConstantFloat, FloatTexture}
 
 /** Recipes of shapes. */
@@ -114,11 +114,11 @@ enum ShapeGeometry:
     */
   case Solid(make: (Transform, Boolean) => Shape, turned: Boolean = false)
 
-  /** Many surfaces, created as above.
-    *
-    * @param emits whether they can be area lights
-    */
-  case Solids(make: (Transform, Boolean) => Vector[Shape], emits: Boolean)
+  /** Many surfaces, created as above. */
+  case Solids(make: (Transform, Boolean) => Vector[Shape])
+
+  /** Curves, as they are drawn. They can't be area lights. */
+  case Curves(all: IndexedSeq[BezierCurve], form: CurveForm)
 
   /** A part whose points are relative to one in object space. */
   case Around(origin: Position, part: ShapeGeometry)
