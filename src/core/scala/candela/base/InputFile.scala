@@ -66,11 +66,17 @@ final class InputFile private[base] (
   def beginning(most: Int): Array[Byte] =
     Using.resource(Files.newInputStream(readable))(_.readNBytes(most))
 
+  /** Its bytes, not counted: who has read it reads it again.
+    *
+    * @throws IOException if it can't be read
+    */
+  def again(): InputStream = Files.newInputStream(readable)
+
   /** What tells its content from others. Its bytes are not counted, as they are read again.
     *
     * @throws IOException if it can't be read
     */
-  def digest(): String = Sha256.ofAll(Files.newInputStream(readable))
+  def digest(): String = Sha256.ofAll(again())
 
   /** What changes when the file does; None if the system doesn't tell, or the file has changed so
     * lately that it may change again unnoticed.

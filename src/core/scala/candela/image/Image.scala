@@ -27,20 +27,27 @@ sealed abstract class StoredImage:
 
   /** Indices of the named channels, if all are present. */
   final def indicesOf(names: Vector[String]): Option[Vector[Int]] =
-    val found = names.map(channelNames.indexOf)
-    Option.when(found.forall(_ >= 0))(found)
+    StoredImage.indicesOf(channelNames, names)
 
   /** The colour channels: R, G and B, or Y or the only channel three times.
     *
     * @throws ImageError if there are none of these
     */
-  final def colorChannels: Vector[Int] =
-    indicesOf(Image.RgbNames)
-      .orElse(indicesOf(Vector("Y")).map(y => Vector.fill(3)(y.head)))
-      .orElse(Option.when(channels == 1)(Vector.fill(3)(0)))
+  final def colorChannels: Vector[Int] = StoredImage.colorChannels(channelNames)
+
+object StoredImage:
+  private def indicesOf(all: Vector[String], names: Vector[String]): Option[Vector[Int]] =
+    val found = names.map(all.indexOf)
+    Option.when(found.forall(_ >= 0))(found)
+
+  /** Those of images whose channels have these names. */
+  def colorChannels(names: Vector[String]): Vector[Int] =
+    indicesOf(names, Image.RgbNames)
+      .orElse(indicesOf(names, Vector("Y")).map(y => Vector.fill(3)(y.head)))
+      .orElse(Option.when(names.size == 1)(Vector.fill(3)(0)))
       .getOrElse(throw ImageError(
         Code.ImageContents,
-        s"no channels R, G, B or Y, only ${channelNames.mkString(", ")}"
+        s"no channels R, G, B or Y, only ${names.mkString(", ")}"
       ))
 
 /** An image of Floats, in the layout of [[StoredImage]]; linear by default. */

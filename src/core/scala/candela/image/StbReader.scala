@@ -77,7 +77,7 @@ private[image] object StbReader:
   /** Upper bound of compression ratios: deflate reaches 1032, JPEG with one bit per block 1365.
     * Limits the memory that a damaged size can request; the decoder would fill it.
     */
-  private val MostPacked = 1400
+  private[image] val MostPacked = 1400
 
   private def failed(): Nothing =
     val why = Option(STBImage.stbi_failure_reason).getOrElse("unknown reason")

@@ -3,7 +3,6 @@ package candela.textures
 import scala.collection.mutable.ArrayBuffer
 
 import candela.base.{loop, Parallel}
-import candela.math.*
 
 /** Builds MIP maps: an image and its reductions, each averaging four texels of the previous one,
   * down to one texel.
@@ -34,43 +33,44 @@ object Pyramid:
   def size(width: Int, height: Int): Int =
     Integer.numberOfTrailingZeros(powerOfTwo(Math.max(width, height))) + 1
 
-  /** If an edge is one texel long, that texel counts twice. */
+  /** Width and height of each level, as of `levels`. */
+  def sizes(width: Int, height: Int): Vector[(Int, Int)] =
+    Vector.iterate((powerOfTwo(width), powerOfTwo(height)), size(width, height)): (w, h) =>
+      (Math.max(1, w / 2), Math.max(1, h / 2))
+
   private def halved(from: Texels, parallel: Parallel): Texels =
     val width = Math.max(1, from.width / 2)
     val height = Math.max(1, from.height / 2)
     val channels = from.channels
-    val across = if from.width > 1 then 2 else 1
     val down = if from.height > 1 then 2 else 1
-    val right = (across - 1) * channels
     val values = new Array[Float](width * height * channels)
     rows(parallel, width, height)(() => Rows(from)): (y, source) =>
       from.row(y * down, source.upper)
       from.row(y * down + down - 1, source.lower)
-      halve(source, values, y * width * channels, width, channels, across * channels, right)
+      halve(source.upper, source.lower, from.width, channels, values, y * width * channels)
     FloatTexels(width, height, from.channels, values)
 
   /** Two rows of texels, channels interleaved. */
   private final class Rows(from: Texels):
     val upper, lower = new Array[Float](from.width * from.channels)
 
-  /** @param step  distance of two new texels' first texels
-    * @param right distance of the right neighbour
-    */
-  private def halve(
-      from: Rows,
-      to: Array[Float],
-      start: Int,
+  /** One row from two, of `width` texels. If an edge is one texel long, that texel counts twice. */
+  private[textures] def halve(
+      upper: Array[Float],
+      lower: Array[Float],
       width: Int,
       channels: Int,
-      step: Int,
-      right: Int
+      to: Array[Float],
+      start: Int
   ): Unit =
-    loop(width): x =>
+    val across = if width > 1 then 2 else 1
+    val (step, right) = (across * channels, (across - 1) * channels)
+    loop(Math.max(1, width / 2)): x =>
       val i = x * step
       loop(channels): c =>
-        val upper = from.upper(i + c) + from.upper(i + c + right)
-        val lower = from.lower(i + c) + from.lower(i + c + right)
-        to(start + x * channels + c) = 0.25f * (upper + lower)
+        val above = upper(i + c) + upper(i + c + right)
+        val below = lower(i + c) + lower(i + c + right)
+        to(start + x * channels + c) = 0.25f * (above + below)
 
   private[textures] def enlarged(
       from: Texels,
@@ -78,81 +78,18 @@ object Pyramid:
       most: Float,
       parallel: Parallel = Parallel.Alone
   ): Texels =
-    val width = powerOfTwo(from.width)
-    val height = powerOfTwo(from.height)
-    if width == from.width && height == from.height then from
+    val way = Enlargement(from.width, from.height, from.channels, wrap, most)
+    if way.isNone then from
     else
-      val wide = widened(from, wrap, width, parallel)
-      val values = heightened(wide, from, wrap, width, height, parallel)
-      rows(parallel, width * from.channels, height)(() => ()): (y, _) =>
-        val start = y * width * from.channels
-        loop(width * from.channels): k =>
-          values(start + k) = clamp(values(start + k), 0f, most)
-      FloatTexels(width, height, from.channels, values)
-
-  /** Resamples rows to `width` texels each. */
-  private def widened(from: Texels, wrap: Wrap, width: Int, parallel: Parallel): Array[Float] =
-    val channels = from.channels
-    val wide = new Array[Float](width * from.height * channels)
-    val across = weights(from.width, width)
-    rows(parallel, width, from.height)(() => Rows(from)): (y, source) =>
-      from.row(y, source.upper)
-      val start = y * width * channels
-      loop(width): x =>
-        val first = across.first(x)
-        if first >= 0 && first + Taps <= from.width then
-          val i = first * channels
-          loop(channels): c =>
-            var sum = 0f
-            loop(Taps): k =>
-              sum += across.weight(Taps * x + k) * source.upper(i + k * channels + c)
-            wide(start + x * channels + c) = sum
-        else
-          loop(Taps): k =>
-            val i = wrap.index(first + k, y, from.width, from.height)
-            if i >= 0 then
-              val weight = across.weight(Taps * x + k)
-              loop(channels)(c => wide(start + x * channels + c) += weight * from(i, c))
-    wide
-
-  /** Resamples the columns of `wide` to `height` texels each: row by row, for contiguous access.
-    */
-  private def heightened(
-      wide: Array[Float],
-      from: Texels,
-      wrap: Wrap,
-      width: Int,
-      height: Int,
-      parallel: Parallel
-  ): Array[Float] =
-    val channels = from.channels
-    val length = width * channels
-    val values = new Array[Float](length * height)
-    val down = weights(from.height, height)
-    rows(parallel, width, height)(() => ()): (y, _) =>
-      loop(Taps): k =>
-        val row = down.first(y) + k
-        val weight = down.weight(Taps * y + k)
-        val at = y * length
-        if row >= 0 && row < from.height then add(wide, row * length, weight, values, at, length)
-        else
-          loop(width): x =>
-            val i = wrap.index(x, row, width, from.height)
-            if i >= 0 then add(wide, i * channels, weight, values, at + x * channels, channels)
-    values
-
-  private def add(
-      from: Array[Float],
-      start: Int,
-      weight: Float,
-      to: Array[Float],
-      at: Int,
-      length: Int
-  ): Unit =
-    var i = 0
-    while i < length do
-      to(at + i) += weight * from(start + i)
-      i += 1
+      val length = way.length
+      val wide = new Array[Float](length * from.height)
+      rows(parallel, way.width, from.height)(() => Rows(from)): (y, source) =>
+        from.row(y, source.upper)
+        way.widen(y, source.upper, wide, y * length)((i, c) => from(i, c))
+      val values = new Array[Float](length * way.height)
+      rows(parallel, length, way.height)(() => ()): (y, _) =>
+        way.heighten(y, wide, values, y * length)(_ * length)
+      FloatTexels(way.width, way.height, from.channels, values)
 
   /** Executes rows of an image, in parallel unless it is small.
     *
@@ -176,28 +113,5 @@ object Pyramid:
   /** Number of texels below which threads do not pay. */
   private val SmallPicture = 1L << 14
 
-  private def powerOfTwo(n: Int): Int =
+  private[textures] def powerOfTwo(n: Int): Int =
     if Integer.bitCount(n) == 1 then n else Integer.highestOneBit(n) << 1
-
-  /** For each new texel the first of four old ones, and their weights. */
-  private final class Weights(val first: Array[Int], val weight: Array[Float])
-
-  private val Taps = 4
-
-  /** Lanczos-windowed sinc over two old texels to each side (Lanczos, "Applied Analysis", 1956).
-    */
-  private def weights(from: Int, to: Int): Weights =
-    val first = new Array[Int](to)
-    val weight = new Array[Float](to * Taps)
-    loop(to): i =>
-      val center = (i + 0.5) * from / to
-      first(i) = Math.floor(center - 2 + 0.5).toInt
-      val raw = Array.tabulate(Taps)(k => lanczos((first(i) + k + 0.5 - center) / 2))
-      loop(Taps)(k => weight(Taps * i + k) = (raw(k) / raw.sum).toFloat)
-    Weights(first, weight)
-
-  private def lanczos(x: Double): Double =
-    if Math.abs(x) > 1 then 0 else sinc(x) * sinc(2 * x)
-
-  private def sinc(x: Double): Double =
-    if Math.abs(x) < 1e-5 then 1 else Math.sin(Math.PI * x) / (Math.PI * x)

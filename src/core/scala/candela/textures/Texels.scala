@@ -2,7 +2,7 @@ package candela.textures
 
 import candela.base.loop
 import candela.color.Rgb
-import candela.image.{ByteImage, Image, StoredImage}
+import candela.image.{ByteImage, Image, ImageBands, StoredImage}
 
 /** Pixels of an image texture as linear numbers, in the compact form of their file: one channel, or
   * red, green and blue. Rows from the top.
@@ -48,13 +48,14 @@ final class FloatTexels(w: Int, h: Int, channels: Int, values: Array[Float])
 object Texels:
 
   /** Texels of a colour texture; drops alpha, and keeps one channel of a grey image. */
-  def color(image: StoredImage, decode: Float => Float): Texels =
-    val channels = image.colorChannels.toArray
+  def color(image: ImageBands, decode: Float => Float): TexelBands =
+    val channels = channelsOf(image)
     if isGray(image, channels) then single(image, channels(0), decode)
     else
-      image match
+      val meaning = if image.isBytes then table(decode) else Array.emptyFloatArray
+      TexelBands(image, 3, meaning):
         case stored: ByteImage =>
-          ByteTexels(stored.width, stored.height, 3, selected(stored, channels), table(decode))
+          ByteTexels(stored.width, stored.height, 3, selected(stored, channels), meaning)
         case floats: Image =>
           val values = new Array[Float](floats.width * floats.height * 3)
           loop(floats.width * floats.height): i =>
@@ -64,29 +65,33 @@ object Texels:
   /** A number per pixel, as in pbrt-v2 and v3: the luminance of the stored colours, decoded. The
     * weights are those of pbrt's RGB colours.
     */
-  def luminance(image: StoredImage, decode: Float => Float): Texels =
-    val channels = image.colorChannels.toArray
+  def luminance(image: ImageBands, decode: Float => Float): TexelBands =
+    val channels = channelsOf(image)
     if isGray(image, channels) then single(image, channels(0), decode)
     else
       combined(image, channels): (r, g, b) =>
         decode(0.212671f * r + 0.715160f * g + 0.072169f * b)
 
   /** A number per pixel, as in Mitsuba: the luminance of the decoded colours. */
-  def decodedLuminance(image: StoredImage, decode: Float => Float): Texels =
-    val channels = image.colorChannels.toArray
+  def decodedLuminance(image: ImageBands, decode: Float => Float): TexelBands =
+    val channels = channelsOf(image)
     if isGray(image, channels) then single(image, channels(0), decode)
     else combined(image, channels)((r, g, b) => Rgb(decode(r), decode(g), decode(b)).luminance)
 
   /** A number per pixel, as in pbrt-v4: alpha (decoded like a colour) if the image has alpha other
     * than 1, else the mean of the decoded colours.
     */
-  def meanOrAlpha(image: StoredImage, decode: Float => Float): Texels =
-    val channels = image.colorChannels.toArray
+  def meanOrAlpha(image: ImageBands, decode: Float => Float): TexelBands =
+    val channels = channelsOf(image)
     val alpha = image.channelNames.indexOf("A")
     val hasAlpha = channels.distinct.length == 3 && alpha >= 0 && !isOpaque(image, alpha)
     if hasAlpha then single(image, alpha, decode)
     else if isGray(image, channels) then single(image, channels(0), decode)
     else combined(image, channels)((r, g, b) => (decode(r) + decode(g) + decode(b)) * (1f / 3f))
+
+  /** As [[StoredImage.colorChannels]]. */
+  private def channelsOf(image: ImageBands): Array[Int] =
+    StoredImage.colorChannels(image.channelNames).toArray
 
   /** Some channels; the image's own bytes if these are all. */
   private def selected(image: ByteImage, channels: Array[Int]): Array[Byte] =
@@ -98,8 +103,11 @@ object Texels:
           bytes(channels.length * i + c) = image.bytes(i * image.channels + channels(c))
       bytes
 
-  private def isOpaque(image: StoredImage, alpha: Int): Boolean =
-    every(image)(i => stored(image, i * image.channels + alpha) == 1f)
+  private def isOpaque(image: ImageBands, alpha: Int): Boolean =
+    image.every(band => every(band)(i => stored(band, i * band.channels + alpha) == 1f))
+
+  private def isGray(image: ImageBands, c: Array[Int]): Boolean =
+    (image.isBytes && c.distinct.length == 1) || image.every(isGray(_, c))
 
   private def isGray(image: StoredImage, c: Array[Int]): Boolean = image match
     case stored: ByteImage =>
@@ -123,25 +131,27 @@ object Texels:
     case stored: ByteImage => (stored.bytes(index) & 0xff) / 255f
     case floats: Image => floats.data(index)
 
-  private def single(image: StoredImage, channel: Int, decode: Float => Float): Texels =
-    image match
+  private def single(image: ImageBands, channel: Int, decode: Float => Float): TexelBands =
+    val meaning = if image.isBytes then table(decode) else Array.emptyFloatArray
+    TexelBands(image, 1, meaning):
       case stored: ByteImage =>
         val bytes = selected(stored, Array(channel))
-        ByteTexels(stored.width, stored.height, 1, bytes, table(decode))
+        ByteTexels(stored.width, stored.height, 1, bytes, meaning)
       case floats: Image =>
-        val count = image.width * image.height
+        val count = floats.width * floats.height
         val values = new Array[Float](count)
         loop(count)(i => values(i) = decode(floats.data(i * floats.channels + channel)))
         FloatTexels(floats.width, floats.height, 1, values)
 
-  private inline def combined(image: StoredImage, c: Array[Int])(
+  private inline def combined(image: ImageBands, c: Array[Int])(
       inline f: (Float, Float, Float) => Float
-  ): Texels =
-    val values = new Array[Float](image.width * image.height)
-    loop(values.length): i =>
-      val at = i * image.channels
-      values(i) = f(stored(image, at + c(0)), stored(image, at + c(1)), stored(image, at + c(2)))
-    FloatTexels(image.width, image.height, 1, values)
+  ): TexelBands =
+    TexelBands(image, 1, Array.emptyFloatArray): band =>
+      val values = new Array[Float](band.width * band.height)
+      loop(values.length): i =>
+        val at = i * band.channels
+        values(i) = f(stored(band, at + c(0)), stored(band, at + c(1)), stored(band, at + c(2)))
+      FloatTexels(band.width, band.height, 1, values)
 
   private def table(decode: Float => Float): Array[Float] =
     Array.tabulate(256)(code => decode(code / 255f))

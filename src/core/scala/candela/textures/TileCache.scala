@@ -3,16 +3,9 @@ package candela.textures
 import java.io.IOException
 import java.util.concurrent.ConcurrentHashMap
 
-import candela.base.{CacheFolder, IoReason, Problem, SceneError, WriteError}
+import candela.base.{CacheFolder, IoReason, Parallel, Problem, SceneError, WriteError}
 import candela.color.{Encoding, Rgb}
 import candela.image.ImageError
-
-/** The texels of an image file.
-  *
-  * @param encoding of the file
-  * @param colors   some that stand for all
-  */
-final case class MadeTexels(levels: Array[Texels], encoding: Encoding, colors: Vector[Rgb])
 
 /** An image of a cache.
   *
@@ -27,8 +20,10 @@ final class CachedImage(
 
 /** Images that are read in tiles from files of a folder, which are made once. An image whose file
   * can't be written is kept in memory as it is. Safe for threads.
+  *
+  * @param pool makes levels of images in memory
   */
-final class TileCache(memory: TileMemory, folder: CacheFolder):
+final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = Parallel.Alone):
   private val images = ConcurrentHashMap[String, CachedImage]()
   @volatile private var obstacle: Option[String] = None
 
@@ -39,6 +34,7 @@ final class TileCache(memory: TileMemory, folder: CacheFolder):
     *
     * @param key  tells its content, and what is made of it
     * @param make makes its texels
+    * @throws ImageError if the image can't be read
     */
   def image(key: String, wrap: Wrap)(make: () => MadeTexels): CachedImage =
     val known = images.get(key)
@@ -50,9 +46,11 @@ final class TileCache(memory: TileMemory, folder: CacheFolder):
       case Some(file) => tiled(file, wrap, make)
       case None =>
         val made = make()
-        written(key, made) match
+        written(key, made, wrap) match
           case Some(file) => tiled(file, wrap, make)
-          case None => CachedImage(made.levels.map(MipLevel(_, wrap)), made.encoding, made.colors)
+          case None =>
+            val (levels, colors) = made.whole(wrap, pool)
+            CachedImage(levels.map(MipLevel(_, wrap)), made.encoding, colors)
 
   private def place(key: String) = folder.file(key, CacheFolder.Tiles)
 
@@ -62,11 +60,11 @@ final class TileCache(memory: TileMemory, folder: CacheFolder):
     if opened.nonEmpty then folder.use(place(key))
     opened
 
-  private def written(key: String, made: MadeTexels): Option[TileFile] =
-    if obstacle.nonEmpty || !TileCache.fits(made.levels) then None
+  private def written(key: String, made: MadeTexels, wrap: Wrap): Option[TileFile] =
+    if obstacle.nonEmpty || !TileCache.fits(made) then None
     else
       try
-        folder.write(place(key))(TileFile.write(_, TileCache.header(key, made), made.levels))
+        folder.write(place(key))(TileFile.write(_, key, made, wrap))
         open(key)
       catch
         case e: WriteError =>
@@ -80,13 +78,14 @@ final class TileCache(memory: TileMemory, folder: CacheFolder):
     val header = file.header
     val meaning = header.meaning.toArray
     val none = Array.emptyFloatArray
-    val image = TiledImage(memory, MendedSource(file, make), header.count)
+    val image = TiledImage(memory, MendedSource(file, wrap, make), header.count)
     val levels = header.places.map: place =>
       TiledLevel(image, place, wrap, header.channels, if place.isBytes then meaning else none)
     CachedImage(levels.toArray, header.encoding, header.colors)
 
   /** A file; if a tile of it is damaged, one that is made again, or memory. */
-  private final class MendedSource(file: TileFile, make: () => MadeTexels) extends TileSource:
+  private final class MendedSource(file: TileFile, wrap: Wrap, make: () => MadeTexels)
+      extends TileSource:
     @volatile private var current = file
     @volatile private var packer: TilePacker | Null = null
     private var isMade = false
@@ -98,34 +97,23 @@ final class TileCache(memory: TileMemory, folder: CacheFolder):
 
     private def mend(tile: Int, buffer: TileBuffer): Unit = synchronized:
       if packer == null && (!isMade || !current.read(tile, buffer)) then
-        val made =
-          try make()
-          catch
-            case e: ImageError =>
-              val what = "a file of the texture cache is damaged, and can't be made again"
-              throw SceneError(Problem.general(e.code, s"$what: ${e.getMessage}"))
-        val next = if isMade then None else written(file.header.key, made)
-        isMade = true
-        next match
-          case Some(again) => current = again
-          case None => packer = TilePacker(file.header.places, made.levels)
+        try
+          val made = make()
+          val next = if isMade then None else written(file.header.key, made, wrap)
+          isMade = true
+          next match
+            case Some(again) => current = again
+            case None => packer = TilePacker(file.header.places, made.whole(wrap, pool)._1)
+        catch
+          case e: ImageError =>
+            val what = "a file of the texture cache is damaged, and can't be made again"
+            throw SceneError(Problem.general(e.code, s"$what: ${e.getMessage}"))
         fill(tile, buffer)
       else if packer != null then fill(tile, buffer)
 
 private object TileCache:
-  private def header(key: String, made: MadeTexels): TileHeader =
-    val sizes = made.levels.map(t => (t.width, t.height, t.meaning.nonEmpty)).toVector
-    TileHeader(
-      key,
-      made.encoding,
-      made.colors,
-      made.levels.head.channels,
-      sizes,
-      made.levels.head.meaning.toVector
-    )
 
   /** Whether texels have numbers: those of very narrow images have not. */
-  private def fits(levels: Array[Texels]): Boolean =
-    val sizes = levels.map(t => (t.width, t.height, t.meaning.nonEmpty)).toVector
-    TilePlace.all(sizes, levels.head.channels).forall: place =>
+  private def fits(made: MadeTexels): Boolean =
+    TilePlace.all(made.sizes, made.bands.channels).forall: place =>
       place.count.toLong << (place.across + place.down) < Int.MaxValue

@@ -2,7 +2,7 @@ package candela.textures
 
 import java.io.{ByteArrayInputStream, ByteArrayOutputStream, DataInputStream, DataOutputStream}
 import java.io.IOException
-import java.nio.{ByteBuffer, ByteOrder}
+import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
 import java.nio.file.{Path, StandardOpenOption}
 import java.util.zip.{CRC32, CRC32C}
@@ -30,7 +30,7 @@ private[textures] final case class TileHeader(
   val places: Vector[TilePlace] = TilePlace.all(sizes, channels)
   def count: Int = TilePlace.count(places)
 
-/** Texels that are put into tiles. */
+/** Texels in memory that are put into tiles. */
 private[textures] final class TilePacker(places: Vector[TilePlace], levels: Array[Texels]):
 
   def pack(tile: Int, into: Array[Int]): Unit =
@@ -38,15 +38,23 @@ private[textures] final class TilePacker(places: Vector[TilePlace], levels: Arra
     loop(places.size): i =>
       val place = places(i)
       val local = tile - place.start
-      if local >= 0 && local < place.count then pack(place, levels(i), local, into)
+      if local >= 0 && local < place.count then TilePacker.pack(place, levels(i), 0, local, into)
 
-  private def pack(place: TilePlace, texels: Texels, tile: Int, into: Array[Int]): Unit =
+private[textures] object TilePacker:
+
+  /** Puts texels into one of the tiles of a level.
+    *
+    * @param texels rows of the level, all that are in the tile
+    * @param first  the first of them
+    * @param tile   of the level
+    */
+  def pack(place: TilePlace, texels: Texels, first: Int, tile: Int, into: Array[Int]): Unit =
     val channels = texels.channels
     val x = tile % place.tiles << place.across
     val y = tile / place.tiles << place.down
     val length = channels * Math.min(1 << place.across, place.width - x)
     loop(Math.min(1 << place.down, place.height - y)): row =>
-      val from = ((y + row) * place.width + x) * channels
+      val from = ((y - first + row) * place.width + x) * channels
       val to = place.base + (row << place.across) * channels
       if place.isBytes then
         loop(length): i =>
@@ -127,28 +135,24 @@ private[textures] object TileFile:
     sum.update(bytes)
     sum.getValue.toInt
 
-  def write(channel: FileChannel, header: TileHeader, levels: Array[Texels]): Unit =
-    val about = encoded(header)
-    val out = ByteBuffer.allocate(12 + about.length)
-    out.putInt(Mark).putInt(about.length).putInt(checksum(about)).put(about).flip()
-    while out.hasRemaining do channel.write(out): Unit
-    val packer = TilePacker(header.places, levels)
-    val ints = new Array[Int](TileMemory.Ints)
-    val some = ByteBuffer.allocateDirect(Together * TileRecord.Bytes).order(ByteOrder.LITTLE_ENDIAN)
-    loop(header.count): tile =>
-      packer.pack(tile, ints)
-      val at = some.position()
-      some.asIntBuffer.put(ints)
-      val sum = TileRecord.seal(some.duplicate().position(at).limit(at + TileRecord.Data))
-      some.position(at + TileRecord.Data)
-      some.putInt(sum)
-      if !some.hasRemaining || tile == header.count - 1 then
-        some.flip()
-        while some.hasRemaining do channel.write(some): Unit
-        some.clear(): Unit
-
-  /** Tiles that are written at once. */
-  private val Together = 64
+  /** @throws candela.image.ImageError if the image can't be read */
+  def write(channel: FileChannel, key: String, made: MadeTexels, wrap: Wrap): Unit =
+    val bands = made.bands
+    val header = TileHeader(
+      key,
+      made.encoding,
+      Vector.empty,
+      bands.channels,
+      made.sizes,
+      bands.meaning.toVector
+    )
+    // The colours are known at the end: there is room for as many as there may be
+    val room = encoded(header).length + made.colors.fold(0)(_.most * 12)
+    val colors = TileWriter(channel, 12L + room, header.places, made, wrap).write()
+    val about = encoded(header.copy(colors = colors)).padTo(room, 0.toByte)
+    val out = ByteBuffer.allocate(12 + room)
+    out.putInt(Mark).putInt(room).putInt(checksum(about)).put(about).flip()
+    while out.hasRemaining do channel.write(out, out.position()): Unit
 
   private def encoded(h: TileHeader): Array[Byte] =
     val bytes = ByteArrayOutputStream()

@@ -2,10 +2,16 @@ package candela.textures
 
 import candela.color.{Encoding, Rgb, Srgb}
 import candela.geometry.ShadingPoint
-import candela.image.{ByteImage, Image}
+import candela.image.{ByteImage, Image, ImageBands, StoredImage}
 import org.scalatest.funsuite.AnyFunSuite
 
 class ImageTextureSuite extends AnyFunSuite:
+
+  private def made(
+      way: (ImageBands, Float => Float) => TexelBands,
+      image: StoredImage,
+      decode: Float => Float
+  ): Texels = way(ImageBands.of(image), decode).whole
 
   private val linear: Float => Float = x => x
 
@@ -21,7 +27,12 @@ class ImageTextureSuite extends AnyFunSuite:
       wrap: Wrap = Wrap.Repeat,
       bottomUp: Boolean = true
   ) =
-    LevelLookup(MipMap.plain(wrap)(() => Texels.color(image, linear)), interpolates, bottomUp, true)
+    LevelLookup(
+      MipMap.plain(wrap)(() => made(Texels.color, image, linear)),
+      interpolates,
+      bottomUp,
+      true
+    )
 
   extension (lookup: LevelLookup)
     private def color(c: TexCoord): Rgb = lookup.color(UvMapping(1f, 1f, 0f, 0f), at(c.s, c.t))
@@ -99,14 +110,15 @@ class ImageTextureSuite extends AnyFunSuite:
   test("bytes decode by their table, and stay bytes"):
     val codes = Array.tabulate(256 * 3)(i => (i * 7).toByte)
     val stored = ByteImage(16, 16, Image.RgbNames, codes, Encoding.Srgb)
-    val texels = Texels.color(stored, stored.encoding.decode)
+    val texels = made(Texels.color, stored, stored.encoding.decode)
     assert(texels.isInstanceOf[ByteTexels])
     for i <- 0 until 256; c <- 0 until 3 do
       assert(texels(i, c) == Srgb.decode((codes(3 * i + c) & 0xff) / 255f))
 
   test("alpha is dropped and gray kept in one channel"):
     val gray = Array[Byte](7, 7, 7, 1, 9, 9, 9, 2)
-    val texels = Texels.color(ByteImage(2, 1, Image.RgbNames :+ "A", gray, Encoding.Srgb), linear)
+    val texels =
+      made(Texels.color, ByteImage(2, 1, Image.RgbNames :+ "A", gray, Encoding.Srgb), linear)
     assert(texels.channels == 1)
     assert(texels(0, 0) == 7 / 255f && texels(1, 0) == 9 / 255f)
 
@@ -114,13 +126,13 @@ class ImageTextureSuite extends AnyFunSuite:
     val image = Image(1, 1, Image.RgbNames, Array(0.2f, 0.5f, 0.8f))
     val squared: Float => Float = x => x * x
     val y = 0.212671f * 0.2f + 0.715160f * 0.5f + 0.072169f * 0.8f
-    assert(near(Texels.luminance(image, squared)(0, 0), y * y))
-    assert(near(Texels.meanOrAlpha(image, squared)(0, 0), (0.04f + 0.25f + 0.64f) / 3))
+    assert(near(made(Texels.luminance, image, squared)(0, 0), y * y))
+    assert(near(made(Texels.meanOrAlpha, image, squared)(0, 0), (0.04f + 0.25f + 0.64f) / 3))
 
   test("numbers from pictures with alpha: the alpha, unless it is 1 everywhere"):
     def texels(alpha: Float) =
       val data = Array(0.5f, 0.5f, 0.5f, alpha, 0.5f, 0.5f, 0.5f, 1f)
-      Texels.meanOrAlpha(Image(2, 1, Image.RgbNames :+ "A", data), linear)
+      made(Texels.meanOrAlpha, Image(2, 1, Image.RgbNames :+ "A", data), linear)
     assert(texels(0.25f)(0, 0) == 0.25f && texels(0.25f)(1, 0) == 1f)
     assert(texels(1f)(0, 0) == 0.5f)
 

@@ -9,7 +9,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{CacheFolder, Code, Parallel, SceneError}
 import candela.color.{Encoding, Rgb}
-import candela.image.ImageError
+import candela.image.{ImageBands, ImageError}
 import candela.render.ThreadPool
 import candela.testing.{Draws, TempFolder}
 
@@ -24,11 +24,37 @@ class TileCacheSuite extends AnyFunSuite:
     val draws = Draws(seed)
     FloatTexels(w, h, channels, Array.fill(w * h * channels)(draws.unit()))
 
-  private def made(levels: Array[Texels]) =
-    MadeTexels(levels, Encoding.Srgb, Vector(Rgb(0.25f, 0.5f, 1f)))
+  private val colors = Vector(Rgb(0.25f, 0.5f, 1f))
+
+  /** What is written of levels, of which the first has been enlarged or not. */
+  private def made(levels: Array[Texels], from: Option[Texels] = None) =
+    val most = Option.when(levels.length > 1)(1f)
+    val bands = TexelBands.of(from.getOrElse(levels(0)))
+    val choice = ColorChoice(1 << 20, 1, _ => colors)
+    MadeTexels(bands, most, Encoding.Srgb, Option.when(bands.channels == 3)(choice))
 
   private def pyramid(texels: Texels, wrap: Wrap) =
     Pyramid.levels(texels, wrap, 1f, Parallel.Alone)
+
+  /** The same in bands of few rows, as of a file that is read so. */
+  private def inBands(texels: Texels): TexelBands =
+    new TexelBands(texels.width, texels.height, texels.channels, texels.meaning):
+      def visit(from: Int)(band: (Int, Texels) => Unit): Unit =
+        for y <- 0 until height by ImageBands.Rows; end = Math.min(height, y + ImageBands.Rows) do
+          if end > from then
+            val size = width * (end - y) * channels
+            val part =
+              if isBytes then
+                val codes = Array.tabulate(size)(i => texels.code(y * width * channels + i).toByte)
+                ByteTexels(width, end - y, channels, codes, meaning)
+              else
+                val values = new Array[Float](size)
+                val row = new Array[Float](width * channels)
+                for k <- y until end do
+                  texels.row(k, row)
+                  System.arraycopy(row, 0, values, (k - y) * row.length, row.length)
+                FloatTexels(width, end - y, channels, values)
+            band(y, part)
 
   /** As little memory as there can be. */
   private def cache(folder: Path, memory: Long = 1, most: Long = Long.MaxValue) =
@@ -72,11 +98,41 @@ class TileCacheSuite extends AnyFunSuite:
           val (whole, plain) = (pyramid(texels, wrap), Array(texels))
           for levels <- Seq(whole, plain) do
             val key = s"$i ${texels.getClass} ${levels.length}"
-            val first = cache(folder).image(key, wrap)(() => made(levels))
+            val first = cache(folder).image(key, wrap)(() => made(levels, Some(texels)))
             assertSame(first.levels, levels, wrap)
             val second = cache(folder).image(key, wrap)(() => never())
             assertSame(second.levels, levels, wrap)
-            assert(second.encoding == Encoding.Srgb && second.colors == made(levels).colors)
+            assert(second.encoding == Encoding.Srgb)
+            assert(second.colors == (if channels == 3 then colors else Vector.empty))
+
+  test("an image that is read in bands is in the same file as one in memory"):
+    TempFolder.use: folder =>
+      val sizes =
+        Seq((256, 128), (130, 200), (128, 67), (5, 300), (64, 3), (1, 70), (200, 1), (3, 2))
+      for
+        ((w, h), i) <- sizes.zipWithIndex
+        channels <- Seq(1, 3)
+        texels <- Seq(bytes(w, h, channels, i), floats(w, h, channels, i))
+        wrap <- Wrap.values
+      do
+        val key = s"$i $channels ${texels.getClass} $wrap"
+        val own = folder.resolve(key)
+        val levels = pyramid(texels, wrap)
+        val whole = made(levels, Some(texels))
+        val first = cache(own).image(key, wrap)(() => whole)
+        val Vector(file) = files(own): @unchecked
+        val content = Files.readAllBytes(file).toVector
+        Files.delete(file)
+        cache(own).image(key, wrap)(() => whole.copy(bands = inBands(texels))): Unit
+        assert(Files.readAllBytes(file).toVector == content, key)
+        assertSame(first.levels, levels, wrap)
+
+  test("colours that stand for all are among those that are looked at, band by band"):
+    val texels = floats(37, 150, 3, 9)
+    val choice = ColorChoice(101, 99, identity)
+    var seen = Vector.empty[Rgb]
+    inBands(texels).visit(0)((y, band) => seen ++= choice.seen(band, y.toLong * 37))
+    assert(seen == choice.of(texels) && seen.size == (37 * 150 + 100) / 101)
 
   test("many threads see the same texels in a memory that is much too small"):
     TempFolder.use: folder =>

@@ -10,9 +10,11 @@ import candela.bsdf.composite.Edition
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
-import candela.image.StoredImage
+import candela.image.ImageBands
 import candela.scenefile.{Declaration, Dialect, Param}
-import candela.textures.{AffineUvMapping, FloatTexture, Mapping2D, MipLevel, Texels, Wrap}
+import candela.textures.{
+  AffineUvMapping, FloatTexture, MadeTexels, Mapping2D, MipLevel, Texels, Wrap
+}
 
 /** Recipes of materials. */
 object Materials:
@@ -155,21 +157,21 @@ abstract class MaterialRecipe(
           "pbrt-v4 decodes this normal map as sRGB; it reads PNG and EXR as they are"
         )
       isDecoded
-    def texels(stored: StoredImage) =
-      Texels.color(stored, if decodes(stored.encoding) then Encoding.Srgb.decode(_) else identity)
+    def texels(image: ImageBands) =
+      Texels.color(image, if decodes(image.encoding) then Encoding.Srgb.decode(_) else identity)
     site.resources.textures.tiles match
       case Some(tiles) =>
         val ways = s"normals ${site.rules.decodesNormals && !isPng}"
         for
           image <- site.resources.tiled(tiles, p, site, StandIns.Magentas, ways, Wrap.Repeat):
-            stored => (Array(texels(stored)), Vector.empty)
+            bands => MadeTexels(texels(bands), None, bands.encoding, None)
         yield
           val _ = decodes(image.encoding)
           pyramid(image.levels(0))
       case None =>
         for stored <- site.resources.image(p, site.declaration, site.problems) yield
           val _ = decodes(stored.encoding)
-          pyramid(MipLevel(texels(stored), Wrap.Repeat))
+          pyramid(MipLevel(texels(ImageBands.of(stored)).whole, Wrap.Repeat))
 
 /** Base of materials with the common roughness parameters.
   *

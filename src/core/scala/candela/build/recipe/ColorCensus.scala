@@ -4,6 +4,7 @@ import scala.collection.mutable
 
 import candela.base.loop
 import candela.color.{ColorBasis, ColorError, ColoredSpectrum, Rgb, SmoothSpectra}
+import candela.textures.ColorChoice
 
 /** The spectra that a scene is built from, collected as recipes read them, to decide whether three
   * numbers render its colours.
@@ -149,7 +150,12 @@ object ColorCensus:
 
   /** Colours that stand for those of an image in linear sRGB. */
   def ofImage(pixels: Int)(color: Int => Rgb): Vector[Rgb] =
-    farApartColors(0.until(pixels, Math.max(1, pixels / PixelsOfImage)).map(color).toVector)
+    val choice = choiceOf(pixels)
+    choice.choose(0.until(pixels, choice.step).map(color).toVector)
+
+  /** How they are chosen. */
+  def choiceOf(pixels: Long): ColorChoice =
+    ColorChoice(Math.max(1L, pixels / PixelsOfImage).toInt, Most, farApartColors)
 
   private def farApart(all: Vector[ColoredSpectrum]): Vector[ColoredSpectrum] =
     // Scenes have thousands of colours

@@ -1,11 +1,11 @@
 package candela.build.recipe
 
-import candela.image.StoredImage
+import candela.image.ImageBands
 import candela.lights.Fade
 import candela.math.GridEdge
 import candela.scenefile.Dialect
 import candela.shapes.DiskU
-import candela.textures.Texels
+import candela.textures.{TexelBands, Texels}
 
 /** How a program renders what scenes of its dialect say, where the programs differ and the words
   * don't: one value for each dialect. Mitsuba's holds for all statements of its scenes.
@@ -42,7 +42,7 @@ final case class Rules(
     isSpectral: Boolean = false,
     typed: Boolean = true,
     filters: Boolean = true,
-    toNumber: (StoredImage, Float => Float) => Texels = Texels.luminance,
+    toNumber: (ImageBands, Float => Float) => TexelBands = Texels.luminance,
     decodesAll: Boolean = false,
     decodesNormals: Boolean = true,
     decodesLights: Boolean = false,

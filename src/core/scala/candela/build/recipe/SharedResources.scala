@@ -10,13 +10,13 @@ import candela.accel.tracing.WarmUps
 import candela.base.{
   Allowance, Code, InputFile, IoReason, Keep, Limit, Refusal, SceneFolder, SourcePos
 }
-import candela.color.{ColorBasis, Rgb}
+import candela.color.ColorBasis
 import candela.bsdf.layered.Coats
 import candela.bsdf.subsurface.ProfileTables
-import candela.image.{ImageError, ImageFiles, StoredImage}
+import candela.image.{ImageBands, ImageError, ImageFiles, StoredImage}
 import candela.render.CostKind
 import candela.scenefile.{Declaration, Param}
-import candela.textures.{CachedImage, MadeTexels, Texels, TileCache, Wrap}
+import candela.textures.{CachedImage, MadeTexels, TileCache, Wrap}
 
 /** Resources that do not depend on the colour basis: files, and tables computed from them. Safe for
   * threads: bases are made in parallel.
@@ -125,11 +125,12 @@ final class SharedResources(
     Option(files.get((from.folder, name))).flatMap(file => Option(contents.get(file.path)))
 
   private def decoded(file: InputFile, at: SourcePos): StoredImage =
-    def admit(width: Int, height: Int) =
-      allowance.check(Limit.Pixels, width.toLong * height, Some(at)):
-        s"`${file.path.getFileName}` has $width×$height pixels"
     clock.during(CostKind.Textures):
-      ImageFiles.colored(file.path, ImageFiles.load(file, admit))
+      ImageFiles.colored(file.path, ImageFiles.load(file, admit(file, at)))
+
+  private def admit(file: InputFile, at: SourcePos)(width: Int, height: Int): Unit =
+    allowance.check(Limit.Pixels, width.toLong * height, Some(at)):
+      s"`${file.path.getFileName}` has $width×$height pixels"
 
   /** Loads the image that a parameter names; images are cached. */
   def image(
@@ -145,7 +146,7 @@ final class SharedResources(
   /** The image that a parameter names, in tiles.
     *
     * @param ways    what its texels depend on, beside the file
-    * @param convert makes texels of each level, and the colours that stand for all
+    * @param convert makes its texels
     */
   def tiled(
       tiles: TileCache,
@@ -154,22 +155,28 @@ final class SharedResources(
       standIn: String,
       ways: String,
       wrap: Wrap
-  )(convert: StoredImage => (Array[Texels], Vector[Rgb])): Option[CachedImage] =
+  )(convert: ImageBands => MadeTexels): Option[CachedImage] =
     file(p, site.declaration, site.problems, standIn).flatMap: file =>
       var isAgain = false
-      def make() =
+      def make(bands: => ImageBands) =
         if isAgain && !textures.isSame(file) then
           throw ImageError(Code.Unreadable, s"$file: it has changed, or is gone")
         isAgain = true
-        val stored = decoded(file, p.valuesAt)
-        val (levels, colors) = convert(stored)
-        MadeTexels(levels, stored.encoding, colors)
+        convert(bands)
+      def whole() = make(ImageBands.of(decoded(file, p.valuesAt)))
+      // What is wrong with a file, and what may be overlooked, its decoder knows
+      def inBands() = ImageBands.ofFile(file) match
+        case Some(bands) =>
+          admit(file, p.valuesAt)(bands.width, bands.height)
+          make(bands)
+        case None => whole()
       val image =
         try
           val digest = Refusal.placed(p.valuesAt)(textures.digest(file))
-          val made = tiles.image(s"$digest $ways", wrap)(() => make())
-          isAgain = true
-          Right(made)
+          def made(make: () => MadeTexels) =
+            clock.during(CostKind.Textures)(tiles.image(s"$digest $ways", wrap)(make))
+          try Right(made(() => inBands()))
+          catch case _: ImageError => Right(made(() => whole()))
         catch
           case e: ImageError => Left(e)
           case e: IOException =>

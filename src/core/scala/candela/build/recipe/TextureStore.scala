@@ -107,7 +107,7 @@ object TextureStore:
             new TextureStore(None, Some(say), size, files, pool, keep)
           case Some(path) =>
             val memory = new TileMemory(most)
-            val cache = new TileCache(memory, CacheFolder(path, control.folderSize))
+            val cache = new TileCache(memory, CacheFolder(path, control.folderSize), pool)
             val say = s"$images, about ${megabytes(size)}, in tiles: at most ${megabytes(most)} " +
               s"in memory, all in $path"
             new TextureStore(Some(cache), Some(say), most, files, pool, keep)

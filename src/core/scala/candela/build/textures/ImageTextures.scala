@@ -4,7 +4,7 @@ import candela.base.Code
 
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
-import candela.image.{ByteImage, Image, StoredImage}
+import candela.image.{ImageBands, StoredImage}
 import candela.math.*
 import candela.scenefile.{Dialect, ParamType}
 import candela.textures.*
@@ -46,13 +46,13 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     float("maxanisotropy", "maximum anisotropy: footprint length over width")(8f)
 
   /** The texels of an image of the scene. */
-  protected def texels(stored: StoredImage, decode: Float => Float)(using Site): Texels
+  protected def texels(image: ImageBands, decode: Float => Float)(using Site): TexelBands
 
   /** Likewise in memory, when the texture is first seen. */
   protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels
 
-  /** Colours that stand for all of the texels, if they are colours. */
-  protected def colors(texels: Texels): Vector[Rgb]
+  /** How colours are chosen that stand for all of the texels, if they are colours. */
+  protected def colors(texels: TexelBands): Option[ColorChoice]
 
   /** Notes them, if they decide how the scene is rendered. */
   protected def note(colors: => Vector[Rgb])(using Site): Unit
@@ -66,12 +66,10 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
       case Some(p) =>
         site.resources.textures.tiles match
           case Some(tiles) =>
-            val made = site.resources.tiled(tiles, p, site, standIn, ways, wrapping): stored =>
-              val texels = this.texels(stored, decoding(stored.encoding))
-              val levels =
-                if isPlain then Array(texels)
-                else Pyramid.levels(texels, wrapping, most(stored), site.resources.pool)
-              (levels, colors(texels))
+            val made = site.resources.tiled(tiles, p, site, standIn, ways, wrapping): image =>
+              val texels = this.texels(image, decoding(image.encoding))
+              val limit = if isPlain then None else Some(most(image.isBytes))
+              MadeTexels(texels, limit, image.encoding, colors(texels))
             for image <- made yield
               val _ = decoding(image.encoding) // reports what is wrong
               note(image.colors)
@@ -84,9 +82,10 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
                 if isPlain then MipMap.plain(wrapping)(texels)
                 else
                   val (width, height) = (stored.width, stored.height)
+                  val limit = most(ImageBands.of(stored).isBytes)
                   val (pool, keep) = (site.resources.pool, site.resources.keep)
                   val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
-                  MipMap.ofImage(width, height, wrapping, most(stored), pool, keep, key)(texels)
+                  MipMap.ofImage(width, height, wrapping, limit, pool, keep, key)(texels)
 
   /** What the texels of an image file depend on. */
   private def ways(using site: Site): String =
@@ -111,10 +110,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     !site.rules.filters && !site.resources.switches.meanImages
 
   /** pbrt-v4 stores 8-bit images with 8 bits. */
-  private def most(stored: StoredImage)(using site: Site): Float =
-    val isBytes = stored match
-      case _: ByteImage => true
-      case _: Image => false
+  private def most(isBytes: Boolean)(using site: Site): Float =
     if site.dialect == Dialect.V4 && isBytes then 1f else Float.PositiveInfinity
 
   private def filtered(all: MipMap)(using site: Site): ImageLookup =
@@ -184,14 +180,14 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "
   protected def make()(using site: Site): FloatTexture =
     lookup().fold(StandIns.number)(FloatImageTexture(mapped(period), _, outerScale, invert()))
 
-  protected def texels(stored: StoredImage, decode: Float => Float)(using site: Site): Texels =
-    site.rules.toNumber(stored, decode)
+  protected def texels(image: ImageBands, decode: Float => Float)(using site: Site): TexelBands =
+    site.rules.toNumber(image, decode)
 
   protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels =
     val _ = stored.colorChannels // an error without any
-    () => texels(stored, decode)
+    () => texels(ImageBands.of(stored), decode).whole
 
-  protected def colors(texels: Texels): Vector[Rgb] = Vector.empty
+  protected def colors(texels: TexelBands): Option[ColorChoice] = None
   protected def note(colors: => Vector[Rgb])(using Site): Unit = ()
 
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "colours"):
@@ -202,23 +198,21 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "
       if basis.isSrgb then image else RebasedTexture(image, basis.lookUp)
 
   protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels =
-    val made = texels(stored, decode)
-    note(colors(made))
+    val made = texels(ImageBands.of(stored), decode).whole
+    note(colors(TexelBands.of(made)).fold(Vector.empty)(_.of(made)))
     () => made
 
-  protected def colors(texels: Texels): Vector[Rgb] =
-    if texels.channels != 3 then Vector.empty
-    else
-      ColorCensus.ofImage(texels.width * texels.height): i =>
-        Rgb(texels(i, 0), texels(i, 1), texels(i, 2))
+  protected def colors(texels: TexelBands): Option[ColorChoice] =
+    Option.when(texels.channels == 3):
+      ColorCensus.choiceOf(texels.width.toLong * texels.height)
 
   protected def note(colors: => Vector[Rgb])(using site: Site): Unit =
     site.resources.counting.foreach(_.addColors(colors, SpectrumRole.Reflectance))
 
   /** pbrt-v4 alone knows other colour spaces. */
-  protected def texels(image: StoredImage, decode: Float => Float)(using site: Site): Texels =
+  protected def texels(image: ImageBands, decode: Float => Float)(using site: Site): TexelBands =
     val isConverted = site.dialect == Dialect.V4 && !image.colorSpace.isSrgb
-    Texels.color(if isConverted then image.toImage.toReflectances else image, decode)
+    Texels.color(if isConverted then image.toReflectances else image, decode)
 
 private object ImageMapRecipe:
   val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")

@@ -1,0 +1,200 @@
+package candela.image
+
+import java.io.{DataInputStream, EOFException, InputStream, IOException}
+import java.util.zip.{DataFormatException, Inflater}
+
+import scala.util.Using
+
+import candela.base.{Code, InputFile, loop}
+import candela.color.{ColorSpace, Encoding}
+
+/** A PNG file of 8 or 16 bits, neither interlaced nor with a palette or a transparent colour: the
+  * pixels that [[StbReader]] reads, in bands.
+  *
+  * Source: "Portable Network Graphics (PNG) Specification", W3C, 2003.
+  */
+private[image] final class PngBands private (
+    file: InputFile,
+    w: Int,
+    h: Int,
+    names: Vector[String],
+    bytesPerValue: Int
+) extends ImageBands(w, h, names, Encoding.Srgb, ColorSpace.Srgb, bytesPerValue == 1):
+  private val pixel = names.size * bytesPerValue
+  private val values = w * names.size
+
+  def visit(band: (Int, StoredImage) => Boolean): Unit =
+    try
+      Using.resource(file.again()): stream =>
+        Using.resource(PngData(stream))(visit(_, band))
+    catch
+      case _: EOFException => throw damaged("it ends early")
+      case e: DataFormatException => throw damaged(s"${e.getMessage}")
+      case e: IOException =>
+        throw ImageError(Code.Unreadable, s"$file: can't be read: ${e.getMessage}")
+
+  private def visit(data: PngData, band: (Int, StoredImage) => Boolean): Unit =
+    val row = new Array[Byte](w * pixel)
+    val above = new Array[Byte](w * pixel)
+    val rows = Math.min(h, ImageBands.Rows)
+    val bytes = if isBytes then new Array[Byte](rows * values) else Array.emptyByteArray
+    val floats = if isBytes then Array.emptyFloatArray else new Array[Float](rows * values)
+    var y = 0
+    var goesOn = true
+    while goesOn && y < h do
+      val inBand = y % ImageBands.Rows
+      val filter = data.byte()
+      data.read(row)
+      unfilter(filter, row, above)
+      if isBytes then System.arraycopy(row, 0, bytes, inBand * values, values)
+      else
+        loop(values): i =>
+          val value = (row(2 * i) & 0xff) << 8 | row(2 * i + 1) & 0xff
+          floats(inBand * values + i) = value / 65535f
+      System.arraycopy(row, 0, above, 0, row.length)
+      y += 1
+      if inBand == ImageBands.Rows - 1 || y == h then
+        goesOn = band(y - 1 - inBand, image(bytes, floats, inBand + 1))
+
+  private def image(bytes: Array[Byte], floats: Array[Float], rows: Int): StoredImage =
+    val count = rows * values
+    if isBytes then ByteImage(w, rows, names, first(bytes, count), encoding)
+    else
+      val some = if floats.length == count then floats else floats.take(count)
+      Image(w, rows, names, some, encoding)
+
+  private def first(bytes: Array[Byte], count: Int): Array[Byte] =
+    if bytes.length == count then bytes else bytes.take(count)
+
+  private def unfilter(filter: Int, row: Array[Byte], above: Array[Byte]): Unit =
+    val length = row.length
+    filter match
+      case 0 => ()
+      case 1 =>
+        var i = pixel
+        while i < length do
+          row(i) = (row(i) + row(i - pixel)).toByte
+          i += 1
+      case 2 =>
+        var i = 0
+        while i < length do
+          row(i) = (row(i) + above(i)).toByte
+          i += 1
+      case 3 =>
+        var i = 0
+        while i < length do
+          val left = if i < pixel then 0 else row(i - pixel) & 0xff
+          row(i) = (row(i) + ((left + (above(i) & 0xff)) >> 1)).toByte
+          i += 1
+      case 4 =>
+        var i = 0
+        while i < Math.min(pixel, length) do
+          row(i) = (row(i) + above(i)).toByte
+          i += 1
+        while i < length do
+          val a = row(i - pixel) & 0xff
+          val b = above(i) & 0xff
+          val c = above(i - pixel) & 0xff
+          row(i) = (row(i) + paeth(a, b, c)).toByte
+          i += 1
+      case _ => throw damaged("a row has an unknown filter")
+
+  /** The neighbour that is nearest to `a + b − c`. */
+  private def paeth(a: Int, b: Int, c: Int): Int =
+    val ofA = Math.abs(b - c)
+    val ofB = Math.abs(a - c)
+    val ofC = Math.abs(a + b - 2 * c)
+    if ofA <= ofB && ofA <= ofC then a else if ofB <= ofC then b else c
+
+  private def damaged(why: String) = ImageError(Code.DamagedImage, s"$file: $why")
+
+private[image] object PngBands:
+  private val Signature = Vector[Int](0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a).map(_.toByte)
+
+  /** Channels by colour type. */
+  private val Names = Map(
+    0 -> Vector("Y"),
+    2 -> Image.RgbNames,
+    4 -> Vector("Y", "A"),
+    6 -> (Image.RgbNames :+ "A")
+  )
+
+  private val Beginning = 33
+
+  def of(file: InputFile): Option[PngBands] =
+    try
+      val start = file.beginning(Beginning)
+      val isPng = start.length == Beginning && start.startsWith(Signature) &&
+        number(start, 8) == 13 && String(start, 12, 4, "US-ASCII") == "IHDR"
+      val (width, height) = if isPng then (number(start, 16), number(start, 20)) else (0, 0)
+      for
+        names <- if width > 0 && height > 0 then Names.get(start(25)) else None
+        bits = start(24)
+        if (bits == 8 || bits == 16) && (start(26) | start(27) | start(28)) == 0
+        row = width.toLong * names.size * (bits / 8)
+        if row * ImageBands.Rows < Int.MaxValue && row * height <= file.size * StbReader.MostPacked
+        if !isKeyed(file)
+      yield PngBands(file, width, height, names, bits / 8)
+    catch case _: IOException => None
+
+  /** Whether a chunk before the pixels says more than how to show them. */
+  private def isKeyed(file: InputFile): Boolean =
+    Using.resource(file.again()): stream =>
+      val in = DataInputStream(stream)
+      in.skipNBytes(Beginning)
+      var length = in.readInt()
+      var kind = in.readInt()
+      // An upper-case first letter: without this chunk the pixels are others
+      def isPlain = (kind & 0x20000000) != 0 && kind != Transparency
+      while isPlain && length >= 0 do
+        in.skipNBytes(length + 4L)
+        length = in.readInt()
+        kind = in.readInt()
+      kind != Data || length < 0
+
+  private[image] val Data = 0x49444154 // IDAT
+  private val Transparency = 0x74524e53 // tRNS
+
+  private def number(bytes: Array[Byte], at: Int): Int =
+    (0 until 4).foldLeft(0)((n, i) => n << 8 | bytes(at + i) & 0xff)
+
+/** The unpacked bytes of a PNG file's pixels. */
+private final class PngData(stream: InputStream) extends AutoCloseable:
+  private val in = DataInputStream(stream)
+  private val inflater = Inflater()
+  private val packed = new Array[Byte](1 << 16)
+  private val one = new Array[Byte](1)
+  private var left = 0
+  private var isInData = false
+  in.skipNBytes(8)
+
+  def close(): Unit = inflater.end()
+
+  def byte(): Int =
+    read(one)
+    one(0) & 0xff
+
+  def read(bytes: Array[Byte]): Unit =
+    var at = 0
+    while at < bytes.length do
+      val count = inflater.inflate(bytes, at, bytes.length - at)
+      at += count
+      if count == 0 then
+        if inflater.needsInput then feed() else throw EOFException()
+
+  private def feed(): Unit =
+    while left == 0 do
+      if isInData then in.skipNBytes(4)
+      left = in.readInt()
+      val kind = in.readInt()
+      isInData = kind == PngBands.Data && left >= 0
+      if !isInData then
+        if kind == End then throw EOFException()
+        in.skipNBytes((left & 0xffffffffL) + 4)
+        left = 0
+    val count = in.read(packed, 0, Math.min(left, packed.length))
+    if count < 0 then throw EOFException()
+    left -= count
+    inflater.setInput(packed, 0, count)
+
+  private val End = 0x49454e44 // IEND

@@ -1,0 +1,116 @@
+package candela.textures
+
+import candela.base.loop
+import candela.math.*
+
+/** How an image is enlarged to edges that are powers of two, as in pbrt: first across, then down,
+  * each time by four texels of a Lanczos-windowed sinc.
+  *
+  * Source: Lanczos, "Applied Analysis", 1956.
+  *
+  * @param most upper limit of new texels
+  */
+private[textures] final class Enlargement(
+    fromWidth: Int,
+    fromHeight: Int,
+    channels: Int,
+    wrap: Wrap,
+    most: Float
+):
+  import Enlargement.*
+
+  val width: Int = Pyramid.powerOfTwo(fromWidth)
+  val height: Int = Pyramid.powerOfTwo(fromHeight)
+
+  /** Whether the image stays as it is. */
+  def isNone: Boolean = width == fromWidth && height == fromHeight
+
+  /** Numbers of a new row. */
+  val length: Int = width * channels
+
+  private lazy val across = weights(fromWidth, width)
+  private lazy val down = weights(fromHeight, height)
+
+  /** Resamples the row `y` across.
+    *
+    * @param source its numbers
+    * @param to     receives the new ones from `start` on; zero before
+    * @param texel  a channel of an old texel, by its index
+    */
+  def widen(y: Int, source: Array[Float], to: Array[Float], start: Int)(
+      texel: (Int, Int) => Float
+  ): Unit =
+    loop(width): x =>
+      val first = across.first(x)
+      if first >= 0 && first + Taps <= fromWidth then
+        val i = first * channels
+        loop(channels): c =>
+          var sum = 0f
+          loop(Taps): k =>
+            sum += across.weight(Taps * x + k) * source(i + k * channels + c)
+          to(start + x * channels + c) = sum
+      else
+        loop(Taps): k =>
+          val i = wrap.index(first + k, y, fromWidth, fromHeight)
+          if i >= 0 then
+            val weight = across.weight(Taps * x + k)
+            loop(channels)(c => to(start + x * channels + c) += weight * texel(i, c))
+
+  /** The last of the old rows that the new row `y` needs, unless it is beyond the image. */
+  def lastOf(y: Int): Int = Math.min(fromHeight, down.first(y) + Taps) - 1
+
+  /** Resamples down, for contiguous access row by row.
+    *
+    * @param wide has rows that were resampled across
+    * @param to   receives the new row `y` from `start` on; zero before
+    * @param at   where an old row begins
+    */
+  def heighten(y: Int, wide: Array[Float], to: Array[Float], start: Int)(at: Int => Int): Unit =
+    loop(Taps): k =>
+      val row = down.first(y) + k
+      val weight = down.weight(Taps * y + k)
+      if row >= 0 && row < fromHeight then add(wide, at(row), weight, to, start, length)
+      else
+        loop(width): x =>
+          val i = wrap.index(x, row, width, fromHeight)
+          if i >= 0 then
+            val from = at(i / width) + i % width * channels
+            add(wide, from, weight, to, start + x * channels, channels)
+    loop(length)(k => to(start + k) = clamp(to(start + k), 0f, most))
+
+private[textures] object Enlargement:
+
+  private def add(
+      from: Array[Float],
+      start: Int,
+      weight: Float,
+      to: Array[Float],
+      at: Int,
+      length: Int
+  ): Unit =
+    var i = 0
+    while i < length do
+      to(at + i) += weight * from(start + i)
+      i += 1
+
+  /** For each new texel the first of four old ones, and their weights. */
+  private final class Weights(val first: Array[Int], val weight: Array[Float])
+
+  private val Taps = 4
+
+  /** Over two old texels to each side. */
+  private def weights(from: Int, to: Int): Weights =
+    val first = new Array[Int](to)
+    val weight = new Array[Float](to * Taps)
+    loop(to): i =>
+      val center = (i + 0.5) * from / to
+      first(i) = Math.floor(center - 2 + 0.5).toInt
+      val raw = Array.tabulate(Taps)(k => lanczos((first(i) + k + 0.5 - center) / 2))
+      loop(Taps)(k => weight(Taps * i + k) = (raw(k) / raw.sum).toFloat)
+    Weights(first, weight)
+
+  private def lanczos(x: Double): Double =
+    if Math.abs(x) > 1 then 0 else sinc(x) * sinc(2 * x)
+
+  private def sinc(x: Double): Double =
+    if Math.abs(x) < 1e-5 then 1 else Math.sin(Math.PI * x) / (Math.PI * x)

@@ -1,0 +1,47 @@
+package candela.textures
+
+import candela.base.Parallel
+import candela.color.{Encoding, Rgb}
+
+/** How some texels are chosen that stand for all.
+  *
+  * @param step   one of so many, in row order, is looked at
+  * @param most   so many are chosen
+  * @param choose them
+  */
+final case class ColorChoice(step: Int, most: Int, choose: Vector[Rgb] => Vector[Rgb]):
+
+  /** Those of texels in memory. */
+  def of(texels: Texels): Vector[Rgb] = choose(seen(texels, 0))
+
+  /** Those that are looked at, of a band whose first texel is the `first` of the image. */
+  private[textures] def seen(band: Texels, first: Long): Vector[Rgb] =
+    val start = Math.floorMod(-first, step.toLong).toInt
+    start.until(band.width * band.height, step)
+      .map(i => Rgb(band(i, 0), band(i, 1), band(i, 2)))
+      .toVector
+
+/** The texels of an image file, as they are to be made.
+  *
+  * @param most     upper limit of the texels of enlarged images; None: neither enlarged nor reduced
+  * @param encoding of the file
+  * @param colors   which stand for all of them, if they are colours
+  */
+final case class MadeTexels(
+    bands: TexelBands,
+    most: Option[Float],
+    encoding: Encoding,
+    colors: Option[ColorChoice]
+):
+  /** Width and height of each level, the largest first, and whether it has bytes. */
+  def sizes: Vector[(Int, Int, Boolean)] =
+    if most.isEmpty then Vector((bands.width, bands.height, bands.isBytes))
+    else
+      Pyramid.sizes(bands.width, bands.height).map: (w, h) =>
+        (w, h, bands.isBytes && w == bands.width && h == bands.height)
+
+  /** All levels in memory, and the colours that stand for all. */
+  def whole(wrap: Wrap, parallel: Parallel): (Array[Texels], Vector[Rgb]) =
+    val texels = bands.whole
+    val levels = most.fold(Array(texels))(Pyramid.levels(texels, wrap, _, parallel))
+    (levels, colors.fold(Vector.empty)(_.of(texels)))
