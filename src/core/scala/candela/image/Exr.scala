@@ -41,12 +41,17 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
 
   private def decoded(file: Array[Byte], parts: Vector[ExrPart], chosen: Int): Image =
     val part = parts(chosen)
-    val inFile = part.channels.map(_.name)
-    val first = (Image.RgbNames :+ "A").map(inFile.indexOf).filter(_ >= 0)
-    val order = first ++ inFile.indices.filterNot(first.contains)
+    val order = this.order(part)
     val data = new Array[Float](part.width * part.height * order.size)
     ExrDecoder.decode(file, parts, chosen, order.toArray, data)
-    Image(part.width, part.height, order.map(inFile), data, colorSpace = part.colorSpace)
+    val names = order.map(part.channels(_).name)
+    Image(part.width, part.height, names, data, colorSpace = part.colorSpace)
+
+  /** The channels of an image, by their numbers in the file: R, G, B, A, then the others. */
+  private[image] def order(part: ExrPart): Vector[Int] =
+    val inFile = part.channels.map(_.name)
+    val first = (Image.RgbNames :+ "A").map(inFile.indexOf).filter(_ >= 0)
+    first ++ inFile.indices.filterNot(first.contains)
 
   override def keepsTexts: Boolean = true
 

@@ -37,8 +37,11 @@ private[image] final case class ExrPart(
     obstacle: Option[String]
 ):
   /** Uncompressed size of the finest level. */
-  def storedBytes: Long =
-    width.toLong * height * channels.map(c => if c.pixelType == ExrHeader.Half then 2L else 4L).sum
+  def storedBytes: Long = bytes(width, height)
+
+  /** Uncompressed size of some pixels. */
+  def bytes(w: Int, h: Int): Long =
+    w.toLong * h * channels.map(c => if c.pixelType == ExrHeader.Half then 2L else 4L).sum
 
   /** Upper bound of its compression ratio; DWA and HTJ2K drop details of blocks before. */
   def maxRatio: Int = if obstacle.isEmpty then ExrHeader.MaxRatio else 64 * ExrHeader.MaxRatio
@@ -52,6 +55,9 @@ private[image] final case class ExrTiling(
     levelMode: Int,
     roundsUp: Boolean
 ):
+  /** Whether there are smaller levels. */
+  def hasLevels: Boolean = levelMode != 0
+
   /** Number of tiles in all levels of a part of `w` × `h` pixels. */
   def tiles(w: Int, h: Int): Long =
     def levels(size: Int) =
@@ -97,21 +103,8 @@ private[image] object ExrHeader:
 
   /** The parts of a file, validated; at least one. */
   def parts(file: Array[Byte]): Vector[ExrPart] =
-    val in = Reader(file)
-    val _ = in.int()
-    val word = in.int()
-    val version = word & 0xff
-    if version != 2 then
-      throw ImageError(Code.UnsupportedImage, s"EXR version $version is not supported")
-    val isMultipart = (word & 0x1000) != 0
-    val flags = Option.when(!isMultipart)(word)
-    val found = mutable.ArrayBuffer(part(in.attributes(), flags))
-    if isMultipart then
-      var more = in.attributes()
-      while more.nonEmpty do
-        found += part(more, flags)
-        more = in.attributes()
-    val rest = file.length.toLong - in.position
+    val (found, table) = parts(Reader(file), isWhole = true)
+    val rest = file.length.toLong - table
     // A chunk has 8 bytes in the table and 8 or more of its own.
     if found.map(chunks).sum * 16 > rest then
       throw ImageError(Code.DamagedImage, "the file is cut short")
@@ -120,7 +113,29 @@ private[image] object ExrHeader:
         Code.DamagedImage,
         s"${p.width}×${p.height} pixels can't be in a file of ${file.length} bytes"
       )
-    found.toVector
+    found
+
+  /** The parts by the beginning of a file, which is read in tiles and may be larger than memory.
+    *
+    * @return also where the headers end
+    */
+  def ofBeginning(file: Array[Byte]): (Vector[ExrPart], Int) = parts(Reader(file), isWhole = false)
+
+  private def parts(in: Reader, isWhole: Boolean): (Vector[ExrPart], Int) =
+    val _ = in.int()
+    val word = in.int()
+    val version = word & 0xff
+    if version != 2 then
+      throw ImageError(Code.UnsupportedImage, s"EXR version $version is not supported")
+    val isMultipart = (word & 0x1000) != 0
+    val flags = Option.when(!isMultipart)(word)
+    val found = mutable.ArrayBuffer(part(in.attributes(), flags, isWhole))
+    if isMultipart then
+      var more = in.attributes()
+      while more.nonEmpty do
+        found += part(more, flags, isWhole)
+        more = in.attributes()
+    (found.toVector, in.position)
 
   private[image] def chunks(part: ExrPart): Long = part.tiling match
     case Some(tiling) => tiling.tiles(part.width, part.height)
@@ -131,7 +146,11 @@ private[image] object ExrHeader:
   /** @param flags version flags, which define the type of a single part; multi-part files define it
     *   per part
     */
-  private def part(attributes: Map[String, (String, ByteBuffer)], flags: Option[Int]): ExrPart =
+  private def part(
+      attributes: Map[String, (String, ByteBuffer)],
+      flags: Option[Int],
+      isWhole: Boolean
+  ): ExrPart =
     def value(name: String, kind: String, size: Int): Option[ByteBuffer] =
       attributes.get(name).map: (found, data) =>
         if found != kind || data.remaining < size then
@@ -157,7 +176,7 @@ private[image] object ExrHeader:
     val compression = required("compression", "compression", 1).get() & 0xff
     val (width, height) = (x1 - x0 + 1, y1 - y0 + 1)
     if width < 1 || height < 1 then throw ImageError(Code.DamagedImage, "the data window is empty")
-    checkSize(width, height, channels.size, tiling)
+    checkSize(width, height, if isWhole then channels.size else 0, tiling)
     val unread = obstacle(compression, channels)
     val space = value("chromaticities", "chromaticities", 32).fold(ColorSpace.Srgb)(spaceOf)
     val display = value("displayWindow", "box2i", 16).map(d => Vector.fill(4)(d.getInt()))
@@ -191,7 +210,9 @@ private[image] object ExrHeader:
       .getOrElse(throw ImageError(Code.DamagedImage, "attribute `chromaticities` is damaged"))
 
   private def checkSize(w: Long, h: Long, channels: Int, tiling: Option[ExrTiling]): Unit =
-    val fits = w <= Int.MaxValue && h <= Int.MaxValue && w * h <= (Int.MaxValue - 8) / channels
+    // Without channels: of a file that is never in memory as a whole
+    val most = if channels == 0 then Long.MaxValue else (Int.MaxValue - 8L) / channels
+    val fits = w <= Int.MaxValue && h <= Int.MaxValue && w * h <= most
     if !fits then
       throw ImageError(
         Code.TooLarge,
@@ -201,7 +222,7 @@ private[image] object ExrHeader:
       // Tiles may extend past the image; the decoder allocates each in full.
       def padded(size: Long, tile: Long) = (size + tile - 1) / tile * tile
       val sane = t.width > 0 && t.height > 0 && t.width <= MaxTile && t.height <= MaxTile &&
-        padded(w, t.width) * padded(h, t.height) <= (Int.MaxValue - 8) / channels
+        padded(w, t.width) * padded(h, t.height) <= most
       if !sane then
         throw ImageError(
           Code.UnsupportedImage,

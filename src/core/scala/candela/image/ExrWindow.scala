@@ -76,6 +76,13 @@ private[image] object ExrWindow:
       yield chunk + 8 + bytes.getInt(chunk.toInt + 4)
     ends.maxOption.getOrElse(0L)
 
+  /** Where the values of attributes are, by their names. */
+  def places(header: Array[Byte]): Map[String, Int] =
+    val found = scala.collection.mutable.Map.empty[String, Int]
+    val bytes = ByteBuffer.wrap(header).order(ByteOrder.LITTLE_ENDIAN)
+    val _ = attributes(bytes)((name, at) => found(name) = at)
+    found.toMap
+
   /** Visits the attributes' names and places; returns where the table of chunks begins. */
   private def attributes(bytes: ByteBuffer)(visit: (String, Int) => Unit): Int =
     var at = HeaderStart

@@ -40,15 +40,18 @@ object StoredImage:
     val found = names.map(all.indexOf)
     Option.when(found.forall(_ >= 0))(found)
 
-  /** Those of images whose channels have these names. */
-  def colorChannels(names: Vector[String]): Vector[Int] =
+  /** The colour channels of images whose channels have these names, as [[colorChannels]]. */
+  def colors(names: Vector[String]): Option[Vector[Int]] =
     indicesOf(names, Image.RgbNames)
       .orElse(indicesOf(names, Vector("Y")).map(y => Vector.fill(3)(y.head)))
       .orElse(Option.when(names.size == 1)(Vector.fill(3)(0)))
-      .getOrElse(throw ImageError(
-        Code.ImageContents,
-        s"no channels R, G, B or Y, only ${names.mkString(", ")}"
-      ))
+
+  /** @throws ImageError if there are none */
+  def colorChannels(names: Vector[String]): Vector[Int] =
+    colors(names).getOrElse(throw ImageError(
+      Code.ImageContents,
+      s"no channels R, G, B or Y, only ${names.mkString(", ")}"
+    ))
 
 /** An image of Floats, in the layout of [[StoredImage]]; linear by default. */
 final class Image(

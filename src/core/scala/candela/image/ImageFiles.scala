@@ -101,7 +101,7 @@ object ImageFiles:
 
   private val Scenes = Set("pbrt", "xml")
 
-  private val ExrMark = Array[Byte](0x76, 0x2f, 0x31, 0x01)
+  private[image] val ExrMark = Array[Byte](0x76, 0x2f, 0x31, 0x01)
 
   /** The file's signature overrides its extension, which may be wrong: none of the signatures can
     * begin a valid TGA file, the only format without one.

@@ -41,6 +41,12 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
     if known != null then known
     else synchronized(images.computeIfAbsent(key, _ => stored(key, wrap, make)))
 
+  /** Levels that an image file has itself. */
+  def levels(file: FileLevels, wrap: Wrap): Array[MipLevel] =
+    val places = TilePlace.all(file.sizes, file.channels)
+    val image = TiledImage(memory, file.source, TilePlace.count(places))
+    places.map(TiledLevel(image, _, wrap, file.channels, Array.emptyFloatArray)).toArray
+
   private def stored(key: String, wrap: Wrap, make: () => MadeTexels): CachedImage =
     open(key) match
       case Some(file) => tiled(file, wrap, make)

@@ -120,6 +120,8 @@ private[textures] trait TileSource:
 
 /** For a tile on its way. */
 private[textures] final class TileBuffer:
+  /** What was read last from an image file that has tiles itself. */
+  var decoded: DecodedTile | Null = null
   val ints = new Array[Int](TileMemory.Ints)
   val bytes: java.nio.ByteBuffer = java.nio.ByteBuffer
     .allocateDirect(TileRecord.Bytes)

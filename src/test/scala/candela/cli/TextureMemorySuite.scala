@@ -6,7 +6,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.loop
 import candela.image.{Image, ImageFiles}
-import candela.testing.{Draws, TempFolder}
+import candela.testing.{Draws, TempFolder, TiledExr}
 
 /** Renderings whose image textures don't fit into the memory that they may take. */
 class TextureMemorySuite extends AnyFunSuite:
@@ -80,6 +80,49 @@ class TextureMemorySuite extends AnyFunSuite:
         val (second, said) = render(scene, tiles ++ Vector("3", "--explain")*)
         assert(first == whole && second == whole, scene)
         assert(said.contains("in tiles: at most 1 MB in memory"), said)
+
+  /** A square whose texture is `a.exr`. */
+  private def ownLevels(folder: Path, made: TiledExr, use: String = ""): Path =
+    made.write(folder.resolve("a.exr")): Unit
+    val text = head.replace("\"image\"", "\"rgb\"") + """
+      Texture "c" "spectrum" "imagemap" "string filename" "a.exr" "string filter" "trilinear" """ +
+      use + """
+      Material "diffuse" "texture reflectance" "c"
+      """ + square + """ "point2 uv" [0 0 4 0 4 4 0 4]
+      """
+    Files.writeString(folder.resolve("v4.pbrt"), text)
+
+  test("levels in a tiled EXR file are used as they are, in tiles and in memory, without a copy"):
+    TempFolder.use: folder =>
+      val draws = Draws(1)
+      // Smaller levels are darker than they would be made
+      val scene = ownLevels(
+        folder,
+        TiledExr(512, 512, 64, 64)((level, _, _, _) => draws.unit() / (1 + level))
+      )
+      val cache = folder.resolve("cache")
+      val tiles = Vector("--texture-memory", "1M", "--texture-cache", s"$cache", "--nthreads")
+      val (whole, said) = render(scene, "--texture-memory", "1G")
+      assert(!said.contains("warning"), said)
+      for threads <- Seq("1", "3") do assert(render(scene, tiles :+ threads*)._1 == whole)
+      assert(!Files.exists(cache))
+      val other = ownLevels(folder, TiledExr(512, 512, 64, 64, mode = 0)((_, _, _, _) => 0.5f))
+      assert(render(other, "--texture-memory", "1G")._1 != whole)
+
+  test("why levels in a file are not used is said, and they are made"):
+    TempFolder.use: folder =>
+      val cases = Seq(
+        (300, 200, "", "300×200 texels are no powers of two"),
+        (64, 64, "\"string encoding\" \"sRGB\"", "")
+      )
+      for (w, h, use, why) <- cases do
+        val scene = ownLevels(folder, TiledExr(w, h, 32, 32)((_, x, y, _) => x / (1f + y)), use)
+        val cache = folder.resolve(s"cache $w")
+        val small = Vector("--texture-memory", "1M", "--texture-cache", s"$cache")
+        val (image, said) = render(scene, small*)
+        if why.isEmpty then assert(!said.contains("warning"), said)
+        else assert(said.contains(s"the levels in the file are not used: $why"), said)
+        assert(image == render(scene, "--texture-memory", "1G")._1)
 
   test("an image that has changed is seen as it is now"):
     TempFolder.use: folder =>

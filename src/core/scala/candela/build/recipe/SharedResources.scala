@@ -10,13 +10,13 @@ import candela.accel.tracing.WarmUps
 import candela.base.{
   Allowance, Code, InputFile, IoReason, Keep, Limit, Refusal, SceneFolder, SourcePos
 }
-import candela.color.ColorBasis
+import candela.color.{ColorBasis, Encoding, Rgb}
 import candela.bsdf.layered.Coats
 import candela.bsdf.subsurface.ProfileTables
-import candela.image.{ImageBands, ImageError, ImageFiles, StoredImage}
+import candela.image.{ExrLevels, ImageBands, ImageError, ImageFiles, StoredImage}
 import candela.render.CostKind
 import candela.scenefile.{Declaration, Param}
-import candela.textures.{CachedImage, MadeTexels, TileCache, Wrap}
+import candela.textures.{CachedImage, FileLevels, MadeTexels, MipLevel, Texels, TileCache, Wrap}
 
 /** Resources that do not depend on the colour basis: files, and tables computed from them. Safe for
   * threads: bases are made in parallel.
@@ -78,6 +78,7 @@ final class SharedResources(
   private val files = ConcurrentHashMap[(SceneFolder, String), InputFile]()
   private val loaded = ConcurrentHashMap[Path, Either[ImageError, StoredImage]]()
   private val remarks = ConcurrentHashMap[Path, Option[String]]()
+  private val inFiles = ConcurrentHashMap[(Path, String), Option[CachedImage]]()
 
   private val contents = ConcurrentHashMap[Path, String]()
   private val images = mutable.Map.empty[Path, Either[ImageError, StoredImage]]
@@ -184,6 +185,49 @@ final class SharedResources(
       textures.warn(site.problems)
       told(image, file, p, site.problems, standIn)
 
+  /** The image that a parameter names with the levels that its file has, if these can be used.
+    *
+    * @param ways   what its texels depend on, beside the file
+    * @param accept tells the channels of colours, or why the levels can't be used
+    * @param colors of a small level, which stand for all
+    */
+  def prepared(p: Param, site: Site, standIn: String, ways: String, wrap: Wrap)(
+      accept: ExrLevels => Either[String, Vector[Int]]
+  )(colors: Texels => Vector[Rgb]): Option[CachedImage] =
+    file(p, site.declaration, site.problems, standIn).flatMap: file =>
+      inFiles.computeIfAbsent(
+        (file.path, ways),
+        _ =>
+          ExrLevels.of(file).flatMap: found =>
+            found.flatMap(levels => accept(levels).map(FileLevels(levels, _))) match
+              case Right(levels) => inLevels(file, levels, ways, wrap, colors)
+              case Left(why) =>
+                val what = s"$file: the levels in the file are not used: $why"
+                site.problems.warn(Code.ImageContents, p.valuesAt, what)
+                None
+      )
+
+  /** None if the file is damaged: reading it as a whole tells. */
+  private def inLevels(
+      file: InputFile,
+      found: FileLevels,
+      ways: String,
+      wrap: Wrap,
+      colors: Texels => Vector[Rgb]
+  ): Option[CachedImage] =
+    clock.during(CostKind.Textures):
+      try
+        val small = found.sizes.indexWhere((w, h, _) => w.toLong * h <= SharedResources.Small)
+        val some = colors(found.texels(small))
+        val levels = textures.tiles match
+          case Some(tiles) => tiles.levels(found, wrap)
+          case None =>
+            val (all, _) = keep.ofFile(SharedResources.Levels, file, ways):
+              found.sizes.indices.map(found.texels).toArray
+            all.map(MipLevel(_, wrap))
+        Some(CachedImage(levels, Encoding.Linear, some))
+      catch case _: ImageError => None
+
   /** Reports what is to be said of an image. */
   private def told[A](
       image: Either[ImageError, A],
@@ -202,3 +246,7 @@ final class SharedResources(
 
 private object SharedResources:
   val Images: Keep.Shelf[StoredImage] = Keep.Shelf[StoredImage]()
+  val Levels: Keep.Shelf[Array[Texels]] = Keep.Shelf[Array[Texels]]()
+
+  /** Texels of levels that stand for the others. */
+  private val Small = 4096L

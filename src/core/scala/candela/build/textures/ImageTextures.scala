@@ -4,9 +4,9 @@ import candela.base.Code
 
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
-import candela.image.{ImageBands, StoredImage}
+import candela.image.{ExrLevels, ImageBands, StoredImage}
 import candela.math.*
-import candela.scenefile.{Dialect, ParamType}
+import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.*
 
 /** @param category what its texels are */
@@ -64,28 +64,57 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
         site.error(Code.MissingParameter, "an \"imagemap\" needs `filename`")
         None
       case Some(p) =>
-        site.resources.textures.tiles match
-          case Some(tiles) =>
-            val made = site.resources.tiled(tiles, p, site, standIn, ways, wrapping): image =>
-              val texels = this.texels(image, decoding(image.encoding))
-              val limit = if isPlain then None else Some(most(image.isBytes))
-              MadeTexels(texels, limit, image.encoding, colors(texels))
-            for image <- made yield
-              val _ = decoding(image.encoding) // reports what is wrong
-              note(image.colors)
-              pyramid(filtered(MipMap.of(image.levels)))
-          case None =>
-            for stored <- site.resources.image(p, site.declaration, site.problems, standIn)
-            yield pyramid:
-              val texels = whenSeen(stored, decoding(stored.encoding))
-              filtered:
-                if isPlain then MipMap.plain(wrapping)(texels)
-                else
-                  val (width, height) = (stored.width, stored.height)
-                  val limit = most(ImageBands.of(stored).isBytes)
-                  val (pool, keep) = (site.resources.pool, site.resources.keep)
-                  val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
-                  MipMap.ofImage(width, height, wrapping, limit, pool, keep, key)(texels)
+        inFile(p).map(image => pyramid(filtered(MipMap.of(image.levels)))).orElse(made(p))
+
+  /** The image with the levels of its file, if there are some that can be used. */
+  private def inFile(p: Param)(using site: Site): Option[CachedImage] =
+    val image =
+      if isPlain then None
+      else
+        site.resources.prepared(p, site, standIn, s"$ways in the file", wrapping)(usable): texels =>
+          colors(TexelBands.of(texels)).fold(Vector.empty)(_.of(texels))
+    for found <- image do note(found.colors)
+    image
+
+  /** The channels of the colours of levels in a file, if textures may use these as they are. */
+  private def usable(levels: ExrLevels)(using site: Site): Either[String, Vector[Int]] =
+    val decode = decoding(Encoding.Linear)
+    val names = levels.channelNames
+    if !ImageMapRecipe.Probes.forall(x => decode(x) == x) then
+      Left("the texture changes texels, which is done before they are reduced")
+    else if site.dialect == Dialect.V4 && !levels.colorSpace.isSrgb then
+      Left("their primaries are not those of sRGB")
+    else
+      StoredImage.colors(names).filter(isPicked).toRight:
+        s"the texture is not made of the channels ${names.mkString(", ")} as they are"
+
+  /** Whether texels are these channels as they are. */
+  protected def isPicked(channels: Vector[Int]): Boolean
+
+  /** The image with levels that are made. */
+  private def made(p: Param)(using site: Site): Option[ImageLookup] =
+    site.resources.textures.tiles match
+      case Some(tiles) =>
+        val made = site.resources.tiled(tiles, p, site, standIn, ways, wrapping): image =>
+          val texels = this.texels(image, decoding(image.encoding))
+          val limit = if isPlain then None else Some(most(image.isBytes))
+          MadeTexels(texels, limit, image.encoding, colors(texels))
+        for image <- made yield
+          val _ = decoding(image.encoding) // reports what is wrong
+          note(image.colors)
+          pyramid(filtered(MipMap.of(image.levels)))
+      case None =>
+        for stored <- site.resources.image(p, site.declaration, site.problems, standIn)
+        yield pyramid:
+          val texels = whenSeen(stored, decoding(stored.encoding))
+          filtered:
+            if isPlain then MipMap.plain(wrapping)(texels)
+            else
+              val (width, height) = (stored.width, stored.height)
+              val limit = most(ImageBands.of(stored).isBytes)
+              val (pool, keep) = (site.resources.pool, site.resources.keep)
+              val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
+              MipMap.ofImage(width, height, wrapping, limit, pool, keep, key)(texels)
 
   /** What the texels of an image file depend on. */
   private def ways(using site: Site): String =
@@ -188,6 +217,7 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "
     () => texels(ImageBands.of(stored), decode).whole
 
   protected def colors(texels: TexelBands): Option[ColorChoice] = None
+  protected def isPicked(channels: Vector[Int]): Boolean = channels.distinct.size == 1
   protected def note(colors: => Vector[Rgb])(using Site): Unit = ()
 
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "colours"):
@@ -206,6 +236,8 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "
     Option.when(texels.channels == 3):
       ColorCensus.choiceOf(texels.width.toLong * texels.height)
 
+  protected def isPicked(channels: Vector[Int]): Boolean = true
+
   protected def note(colors: => Vector[Rgb])(using site: Site): Unit =
     site.resources.counting.foreach(_.addColors(colors, SpectrumRole.Reflectance))
 
@@ -215,6 +247,9 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "
     Texels.color(if isConverted then image.toReflectances else image, decode)
 
 private object ImageMapRecipe:
+  /** Numbers that only what changes nothing leaves as they are. */
+  val Probes: Vector[Float] = Vector(0f, 0.1f, 0.5f, 1f, 3f)
+
   val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
   val FilterNames: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")
 

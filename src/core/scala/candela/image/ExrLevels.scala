@@ -1,0 +1,157 @@
+package candela.image
+
+import java.io.IOException
+import java.nio.{ByteBuffer, ByteOrder}
+import java.nio.channels.FileChannel
+
+import candela.base.{Code, InputFile, IoReason}
+import candela.color.ColorSpace
+
+/** A tiled EXR file with a MIP map, whose edges are powers of two, read tile by tile. Safe for
+  * threads.
+  */
+final class ExrLevels private (
+    file: InputFile,
+    channel: FileChannel,
+    part: ExrPart,
+    tiling: ExrTiling,
+    parts: ExrTileFile,
+    offsets: Array[Long]
+):
+  def width: Int = part.width
+  def height: Int = part.height
+  def colorSpace: ColorSpace = part.colorSpace
+
+  /** As of the image. */
+  val channelNames: Vector[String] = Exr.order(part).map(part.channels(_).name)
+
+  val tileWidth: Int = tiling.width
+  val tileHeight: Int = tiling.height
+
+  /** Width and height of each level, the largest first. */
+  val sizes: Vector[(Int, Int)] = ExrLevels.sizes(part)
+
+  private val firstTiles = sizes.scanLeft(0)((sum, size) => sum + ExrLevels.tiles(size, tiling))
+
+  /** A tile of a level.
+    *
+    * @param x, y number of the tile, across and down
+    * @throws ImageError if it is damaged
+    */
+  def tile(level: Int, x: Int, y: Int): Image =
+    val (w, h) = sizes(level)
+    val across = (w + tileWidth - 1) / tileWidth
+    val at = offsets(firstTiles(level) + y * across + x)
+    val width = Math.min(tileWidth, w - x * tileWidth)
+    val height = Math.min(tileHeight, h - y * tileHeight)
+    try
+      val start = read(at, ExrLevels.ChunkStart)
+      val place = Vector.fill(4)(start.getInt())
+      val length = start.getInt()
+      if place != Vector(x, y, level, level) || length < 1 || length > part.bytes(width, height)
+      then throw damaged(level, x, y, "it is not where it should be")
+      Exr.read(parts.of(read(at + ExrLevels.ChunkStart, length).array, width, height))
+    catch
+      case e: IOException => throw ImageError(Code.Unreadable, s"$file: ${IoReason(e)}")
+      case e: ImageError => throw damaged(level, x, y, e.getMessage)
+
+  private def damaged(level: Int, x: Int, y: Int, why: String) =
+    ImageError(Code.DamagedImage, s"$file: tile $x, $y of level $level: $why")
+
+  private def read(at: Long, length: Int): ByteBuffer = ExrLevels.read(channel, at, length)
+
+object ExrLevels:
+  private val ChunkStart = 20
+  private val Beginning = 1 << 16
+
+  /** Texels of the largest tiles that are read alone. */
+  private val MostOfTile = 1 << 16
+
+  /** The levels of a file.
+    *
+    * @return None if it has none, or is damaged; else a reason why they can't be read one by one
+    */
+  def of(file: InputFile): Option[Either[String, ExrLevels]] =
+    try
+      val start = file.beginning(Beginning)
+      if !start.startsWith(ImageFiles.ExrMark) then None
+      else
+        val (parts, table) = ExrHeader.ofBeginning(start)
+        val part = parts.head
+        for tiling <- part.tiling if tiling.hasLevels && part.obstacle.isEmpty
+        yield obstacle(parts, part, tiling).toLeft(opened(file, start, part, tiling, table))
+    catch case _: IOException | _: ImageError => None
+
+  private def obstacle(
+      parts: Vector[ExrPart],
+      part: ExrPart,
+      tiling: ExrTiling
+  ): Option[String] =
+    val isPowers = Integer.bitCount(part.width) == 1 && Integer.bitCount(part.height) == 1
+    if parts.size > 1 then Some("the file has several parts")
+    else if tiling.levelMode != 1 then Some("they are those of a RIP map, not of a MIP map")
+    else if !isPowers then Some(s"${part.width}×${part.height} texels are no powers of two")
+    else if tiling.width.toLong * tiling.height > MostOfTile then
+      Some(s"its tiles of ${tiling.width}×${tiling.height} texels have more than $MostOfTile")
+    else None
+
+  private def opened(
+      file: InputFile,
+      start: Array[Byte],
+      part: ExrPart,
+      tiling: ExrTiling,
+      table: Int
+  ): ExrLevels =
+    val channel = file.channel()
+    try
+      val count = tiling.tiles(part.width, part.height)
+      if count > Int.MaxValue / 8 then throw IOException("too many tiles")
+      val numbers = read(channel, table, 8 * count.toInt).asLongBuffer
+      val offsets = Array.fill(count.toInt)(numbers.get())
+      val first = table + 8L * count
+      if offsets.exists(o => o < first || o > channel.size - ChunkStart) then
+        throw IOException("tiles are missing")
+      ExrLevels(file, channel, part, tiling, ExrTileFile(start, table, tiling), offsets)
+    catch
+      case e: Throwable =>
+        channel.close()
+        throw e
+
+  private def sizes(part: ExrPart): Vector[(Int, Int)] =
+    val count = Integer.numberOfTrailingZeros(Math.max(part.width, part.height)) + 1
+    Vector.iterate((part.width, part.height), count)((w, h) =>
+      (Math.max(1, w / 2), Math.max(1, h / 2))
+    )
+
+  private def tiles(size: (Int, Int), t: ExrTiling): Int =
+    ((size._1 + t.width - 1) / t.width) * ((size._2 + t.height - 1) / t.height)
+
+  private def read(channel: FileChannel, at: Long, length: Int): ByteBuffer =
+    val bytes = ByteBuffer.allocate(length).order(ByteOrder.LITTLE_ENDIAN)
+    while bytes.hasRemaining && channel.read(bytes, at + bytes.position()) >= 0 do ()
+    if bytes.hasRemaining then throw IOException("the file ends early")
+    bytes.flip()
+
+/** Makes files of one tile each from tiles of a file, since the decoder reads files.
+  *
+  * @param start of that file
+  * @param table where its headers end
+  */
+private final class ExrTileFile(start: Array[Byte], table: Int, tiling: ExrTiling):
+  // The windows and the tiling are each tile's own, and neither levels nor their number matter
+  private val header = start.take(table)
+  private val values = ExrWindow.places(header)
+
+  def of(data: Array[Byte], width: Int, height: Int): Array[Byte] =
+    val file = ByteBuffer.allocate(table + 28 + data.length).order(ByteOrder.LITTLE_ENDIAN)
+    file.put(header)
+    for name <- Vector("dataWindow", "displayWindow"); at <- values.get(name) do
+      for (value, i) <- Vector(0, 0, width - 1, height - 1).zipWithIndex do
+        file.putInt(at + 4 * i, value): Unit
+    for at <- values.get("tiles") do
+      file.putInt(at, tiling.width).putInt(at + 4, tiling.height).put(at + 8, 0.toByte): Unit
+    for at <- values.get("chunkCount") do file.putInt(at, 1): Unit
+    file.putLong(table + 8L)
+    for _ <- 0 until 4 do file.putInt(0)
+    file.putInt(data.length).put(data)
+    file.array
