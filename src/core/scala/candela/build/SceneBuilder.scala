@@ -24,6 +24,7 @@ import candela.scenefile.SceneDescription
   * @param keep      has what other scenes have made
   * @param heap      bytes that the scene may take
   * @param isRendered whether it needs a film
+  * @param pixels     at most, for a trial: the image is made as small
   */
 final case class BuildControl(
     pool: Parallel = Parallel.Alone,
@@ -32,7 +33,8 @@ final case class BuildControl(
     textures: TextureControl = TextureControl(),
     keep: Keep = Keep.Nothing,
     heap: Long = JavaHeap.limit,
-    isRendered: Boolean = true
+    isRendered: Boolean = true,
+    pixels: Option[Int] = None
 )
 
 /** Builds a render plan from a description. Connects scene files to rendering.
@@ -52,7 +54,7 @@ object SceneBuilder:
       control: BuildControl = BuildControl()
   ): (RenderPlan, Vector[Problem]) =
     val context = BuildContext(description, settings, control.pool, control.textures, control.keep)
-    val image = ImageSetup.of(context, settings)
+    val image = ImageSetup.of(context, settings, control.pixels)
     val taken = control.taken.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
     def integratorIn(context: BuildContext) =
       if settings.preview then Preview.integrator(context) else integratorPlan(context)

@@ -84,7 +84,8 @@ final class Guide(
       guided = tallies.map(_.guided).sum,
       left = progress.left,
       weight = weight,
-      gaveUp = progress.gaveUp
+      gaveUp = progress.gaveUp,
+      pays = progress.pays
     )
 
   /** Called when sample number `sample` begins, and no path of an earlier pass is on its way.

@@ -12,6 +12,7 @@ package candela.guiding
   *   if they were enough
   * @param weight     of the last samples, relative to the first
   * @param gaveUp     was guiding given up because it did not pay?
+  * @param pays       did it in the last of these passes?
   */
 final case class GuideOutcome(
     samples: Int,
@@ -22,7 +23,8 @@ final case class GuideOutcome(
     guided: Long,
     left: Option[Double],
     weight: Float,
-    gaveUp: Boolean
+    gaveUp: Boolean,
+    pays: Boolean
 ):
   /** Part of the bounces that were guided. */
   def share: Double = if bounces > 0 then guided.toDouble / bounces else 0.0

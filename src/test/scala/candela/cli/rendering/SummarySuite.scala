@@ -2,6 +2,7 @@ package candela.cli.rendering
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.job.Sooner
 import candela.measure.Interval
 
 class SummarySuite extends AnyFunSuite:
@@ -22,3 +23,9 @@ class SummarySuite extends AnyFunSuite:
     val open = Some(Interval(0.01, 0.005, Double.PositiveInfinity))
     val words = "error 10 % or more, as few pixels have nearly all of it"
     assert(Summary.noise(0.1, isOfFew = true, open) == words)
+
+  test("what would have been sooner is told by its options"):
+    val both = Summary.sooner(Sooner(guiding = true, caustics = true))
+    assert(both.startsWith("sooner: --guiding auto --caustics auto would have reached this error"))
+    val one = Summary.sooner(Sooner(guiding = false, caustics = true))
+    assert(one.startsWith("sooner: --caustics auto would have"))
