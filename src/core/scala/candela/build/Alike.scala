@@ -11,11 +11,30 @@ import candela.scenefile.Declaration
 private[build] final class Alike[T](problems: Findings):
   private var last: Option[(Declaration, T)] = None
 
-  /** @param serves whether what was made is the same for all statements that are alike */
-  def apply(statement: Declaration, serves: T => Boolean)(make: => T): T = last match
-    case Some((earlier, made)) if earlier.isAlike(statement) => made
-    case _ =>
+  /** @param serves  whether what was made is the same for all statements that are alike
+    * @param through what becomes of it with other points `P`, if these alone are others; None where
+    *   it is to be made anew
+    */
+  def apply(
+      statement: Declaration,
+      serves: T => Boolean,
+      through: T => Option[Array[Float] => Option[T]] = (_: T) => None
+  )(make: => T): T =
+    def fresh =
       val before = problems.reported
       val made = make
-      last = Option.when(problems.reported == before && serves(made))(statement -> made)
+      val isKept = problems.reported == before && (serves(made) || through(made).isDefined)
+      last = Option.when(isKept)(statement -> made)
       made
+    last match
+      case Some((earlier, made)) if serves(made) =>
+        if earlier.isAlike(statement) then made else fresh
+      case Some((earlier, made)) if earlier.isAlikeBut("P", statement) =>
+        val varied =
+          for
+            through <- through(made)
+            points <- statement.param("P")
+            other <- through(points.floats)
+          yield other
+        varied.getOrElse(fresh)
+      case _ => fresh

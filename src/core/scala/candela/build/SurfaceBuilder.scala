@@ -89,7 +89,7 @@ private[build] final class SurfaceBuilder(
       case Some((near, origin)) => (near, written * origin.fromOrigin)
       case None => (dressed.declared, written)
     val here = context.site(declared, toWorld)
-    for plan <- alike(declared, isPlaced)(Shapes.all.build(here).flatten) do
+    for plan <- alike(declared, isPlaced, throughOthers)(Shapes.all.build(here).flatten) do
       val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
         .filter(_ => !isUnlit(dressed.material, here))
       val before = soup.triangleCount + solids.count
@@ -103,6 +103,17 @@ private[build] final class SurfaceBuilder(
   private def isPlaced(plan: Option[ShapePlan]): Boolean = plan.map(_.geometry) match
     case Some(ShapeGeometry.Solid(_, _)) => true
     case _ => false
+
+  /** The plan of curves through other points. */
+  private def throughOthers(
+      plan: Option[ShapePlan]
+  ): Option[Array[Float] => Option[Option[ShapePlan]]] =
+    plan.map(_.geometry) match
+      case Some(ShapeGeometry.Curves(strand, _)) =>
+        Some: p =>
+          strand.through(p).map: curves =>
+            plan.map(_.copy(geometry = ShapeGeometry.Curves(strand, curves)))
+      case _ => None
 
   private def isUnlit(material: Int, here: Site): Boolean =
     val is = !context.rules.glows && materials.materials(material).isInterface
@@ -161,14 +172,14 @@ private[build] final class SurfaceBuilder(
         addSolid(make(toWorld, facesInwards != isOdd), lamp, (isInverted != turned) != isOdd)
       case ShapeGeometry.Solids(make) =>
         for shape <- make(toWorld, isReversed) do addSolid(shape, lamp, isInverted = false)
-      case ShapeGeometry.Curves(all, form) =>
+      case ShapeGeometry.Curves(strand, curves) =>
         if lamp.isDefined then
           val name = dressed.shape.shape.name
           here.warn(
             Code.DarkLight,
             s"a \"$name\" can't be an area light, as in pbrt; emission is ignored"
           )
-        note(solids.addCurves(all, form, toWorld, isReversed, dressed.material))
+        note(solids.addCurves(curves, strand.form, toWorld, isReversed, dressed.material))
       case ShapeGeometry.Several(parts) => parts.foreach(place)
       case ShapeGeometry.Around(origin, parts) =>
         Placement(dressed, here, plan, lamp, toWorld * origin.fromOrigin).place(parts)

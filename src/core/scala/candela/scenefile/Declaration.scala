@@ -83,10 +83,13 @@ final class Param(
 
   /** Whether another one has the same numbers, and neither has a name. */
   def isAlike(p: Param): Boolean =
+    isOfKind(p) && bools == p.bools && Arrays.equals(ints, p.ints) &&
+      Arrays.equals(floats, p.floats) && Arrays.equals(rests, p.rests)
+
+  /** Likewise, whatever the numbers. */
+  private[scenefile] def isOfKind(p: Param): Boolean =
     strings.isEmpty && p.strings.isEmpty && paramType == p.paramType && name == p.name &&
-      isDefault == p.isDefault && colorSpace == p.colorSpace && bools == p.bools &&
-      Arrays.equals(ints, p.ints) && Arrays.equals(floats, p.floats) &&
-      Arrays.equals(rests, p.rests)
+      isDefault == p.isDefault && colorSpace == p.colorSpace
 
   private def copy(
       paramType: ParamType = paramType,
@@ -169,9 +172,16 @@ final case class Declaration(
     * have equal numbers and no names.
     */
   def isAlike(d: Declaration): Boolean =
-    (this eq d) || name == d.name && category == d.category && colorSpace == d.colorSpace &&
-      dialect == d.dialect && (folder eq d.folder) && params.size == d.params.size &&
-      params.corresponds(d.params)(_.isAlike(_))
+    (this eq d) || isOfType(d) && params.corresponds(d.params)(_.isAlike(_))
+
+  /** Likewise, but for the numbers of one parameter. */
+  def isAlikeBut(parameter: String, d: Declaration): Boolean =
+    isOfType(d) && params.corresponds(d.params): (p, q) =>
+      if p.name == parameter then p.isOfKind(q) else p.isAlike(q)
+
+  private def isOfType(d: Declaration): Boolean =
+    name == d.name && category == d.category && colorSpace == d.colorSpace &&
+      dialect == d.dialect && (folder eq d.folder) && params.size == d.params.size
 
   /** Name of the colour space of a parameter. */
   def colorSpaceOf(p: Param): String = p.colorSpace.getOrElse(colorSpace)

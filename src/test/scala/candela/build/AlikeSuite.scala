@@ -5,7 +5,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import candela.base.{Code, SceneFolder, SourcePos}
 import candela.build.recipe.Findings
 import candela.render.Renderer
-import candela.scenefile.{Declaration, Dialect, Param}
+import candela.scenefile.{Declaration, Dialect, Param, ParamType}
 import candela.testing.SceneTexts
 
 final class AlikeSuite extends AnyFunSuite:
@@ -15,6 +15,9 @@ final class AlikeSuite extends AnyFunSuite:
     Declaration("Shape", "sphere", params.toVector, place(line), SceneFolder.Nowhere)
 
   private def radius(line: Int, r: Float) = sphere(line, Param.float("radius", place(line), r))
+
+  private val head = "Film \"rgb\" \"integer xresolution\" 32 \"integer yresolution\" 32\n" +
+    "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
 
   /** How often a value was made for these statements. */
   private def made(all: Declaration*)(say: Findings => Unit): Int =
@@ -53,14 +56,47 @@ final class AlikeSuite extends AnyFunSuite:
     val lines = SceneTexts.problems(world, Dialect.V4).flatMap(_.at).map(_.line)
     assert(lines == Vector(3, 4, 5))
 
+  test("where points alone are others, what was made of the others goes through them"):
+    def points(line: Int, p: Array[Float], width: Float = 1f, at: String = "P") =
+      val all = Vector(
+        Param.floats(ParamType.Point3, at, place(line), p),
+        Param.float("width", place(line), width)
+      )
+      Declaration("Shape", "curve", all, place(line), SceneFolder.Nowhere)
+    val alike = Alike[String](Findings())
+    def made(d: Declaration) =
+      def through(p: Array[Float]) = Option.when(p.length == 2)(s"through ${p(0)}")
+      alike(d, _ => false, _ => Some(through))("fresh")
+    val (a, b, three) = (Array(1f, 2f), Array(3f, 4f), Array(1f, 2f, 3f))
+    assert(made(points(1, a)) == "fresh")
+    assert(made(points(2, b)) == "through 3.0")
+    assert(made(points(3, three)) == "fresh")
+    assert(made(points(4, b)) == "through 3.0")
+    assert(made(points(5, b, width = 2f)) == "fresh")
+    assert(made(points(6, b, width = 2f, at = "Q")) == "fresh")
+
+  test("curves through other points are as each alone; what is wrong with them is said"):
+    def hair(wave: Int, more: String = "") =
+      val p = Seq(-1.0, wave * 0.1, 3, -0.3, 0.3, 3, 0.3, -0.3, 3, 1, wave * 0.1, 3).mkString(" ")
+      s"Shape \"curve\" \"point3 P\" [ $p ] \"float width\" .1 $more\n"
+    def image(more: Int => String) =
+      val plan = SceneTexts.plan(head + (1 to 4).map(i => hair(i, more(i))).mkString, Dialect.V4)
+      Renderer.render(plan, threads = 1).image(plan.development).data.toVector
+    val alike = image(_ => "")
+    // As many segments, but said otherwise
+    assert(alike == image(i => if i % 2 == 0 then "" else "\"integer splitdepth\" 3"))
+    assert(alike != image(i => if i % 2 == 0 then "" else "\"float width0\" 0.3"))
+    val wrong = "Shape \"curve\" \"point3 P\" [ 0 0 0  1 1 1 ] \"float width\" 0.1\n"
+    val world = "WorldBegin\nLightSource \"point\"\n" + hair(1) + wrong + hair(2)
+    val problem = SceneTexts.problems(world, Dialect.V4).head
+    assert(problem.at.exists(_.line == 4) && problem.message.contains("at least 4 points"))
+
   test("shapes of alike statements are where each is placed"):
     def image(params: Int => String) =
       val spheres =
         for i <- 1 to 3
         yield s"AttributeBegin Translate ${i - 2} 0 3 " +
           s"Shape \"sphere\" \"float radius\" .4 ${params(i)} AttributeEnd\n"
-      val head = "Film \"rgb\" \"integer xresolution\" 32 \"integer yresolution\" 32\n" +
-        "Camera \"perspective\" WorldBegin LightSource \"infinite\"\n"
       val plan = SceneTexts.plan(head + spheres.mkString, Dialect.V4)
       Renderer.render(plan, threads = 1).image(plan.development).data.toVector
     val alike = image(_ => "")

@@ -1,12 +1,10 @@
 package candela.build.shapes
 
-import scala.collection.immutable.ArraySeq
-
 import candela.base.{Code, Limit}
 import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect
-import candela.shapes.{BezierCurve, CurveForm, CurveKind}
+import candela.shapes.{CurveForm, CurveKind}
 
 object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or grass", sinceV3):
   private val points = numbers("P", "point3[]", "control points")
@@ -27,29 +25,19 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
     float("splitdepth", "number of halvings: each curve is split into 2^splitdepth pieces")(3f)
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
-    val (p, d) = (points(), degree())
-    val count = p.length / 3
-    val isBezier = basis() == "bezier"
-    val wrong =
-      if d != 2 && d != 3 then Some(s"`degree` of a \"curve\" must be 2 or 3, found $d")
-      else if p.length % 3 != 0 then
-        Some(s"`P` must have a multiple of 3 numbers, found ${p.length}")
-      else if count < d + 1 then
-        Some(s"`P` of a \"curve\" must have at least ${d + 1} points, found $count")
-      else if isBezier && (count - 1) % d != 0 then
-        Some(s"`P` of a Bézier curve of degree $d must have ${d + 1} points plus $d per " +
-          s"further segment, found $count")
-      else if !MeshArrays.isFinite(p) then
-        Some("`P` must not contain NaN or infinite numbers")
-      else None
-    wrong match
+    val p = points()
+    val spline = Spline(basis() == "bezier", degree())
+    spline.wrong(p) match
       case Some(message) =>
         site.unusable(Code.ParameterValue, message)
         None
       case None =>
-        val chain = if isBezier then BezierCurve.ofBezier(p, d) else BezierCurve.ofBSpline(p, d)
-        val ends = ribbonNormals(chain.length)
-        if kind() == "ribbon" && ends.isEmpty then None else curves(chain, ends)
+        val count = spline.count(p)
+        val ends = ribbonNormals(count)
+        if kind() == "ribbon" && ends.isEmpty then None
+        else
+          for strand <- strand(spline, count, ends)
+          yield ShapeGeometry.Curves(strand, strand.drawn(p))
 
   /** Normals at the ends of segments. Reports a wrong count and returns None. */
   private def ribbonNormals(curves: Int)(using site: Site): Option[Vector[Vec3]] =
@@ -71,11 +59,10 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       )
       None
 
-  private def curves(chain: Array[Array[Double]], ends: Option[Vector[Vec3]])(using
+  private def strand(spline: Spline, curves: Int, ends: Option[Vector[Vec3]])(using
       site: Site
-  ): Option[ShapeGeometry] =
+  ): Option[Strand] =
     val (w0, w1) = (width0.given_().getOrElse(width()), width1.given_().getOrElse(width()))
-    def widthAt(i: Int) = lerp(i.toFloat / chain.length, w0, w1)
     val depth = splitdepth().toInt
     if !(w0 >= 0f && w1 >= 0f && w0 + w1 > 0f) then
       site.warn(Code.NoSurface, s"a curve of width $w0 to $w1 is invisible; it is ignored")
@@ -84,16 +71,13 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       site.error(Code.ParameterValue, s"`splitdepth` must be between 0 and 16, found $depth")
       None
     else
-      val count = chain.length.toLong << depth
+      val count = curves.toLong << depth
       site.allowance.check(Limit.Triangles, count, Some(site.declaration.at)):
         s"a curve of $count segments"
-      val all = Array.tabulate(chain.length): i =>
-        BezierCurve(chain(i), widthAt(i), widthAt(i + 1), ends.map(n => (n(i), n(i + 1))))
       val drawn = kind() match
         case "ribbon" => CurveKind.Ribbon
         case "cylinder" => CurveKind.Cylinder
         case _ => CurveKind.Flat
       // pbrt-v4's ray offset at curves is half of pbrt-v3's
       val errorWidths = if site.dialect == Dialect.V4 then 1f else 2f
-      val form = CurveForm(drawn, depth, errorWidths)
-      Some(ShapeGeometry.Curves(ArraySeq.unsafeWrapArray(all), form))
+      Some(Strand(spline, curves, w0, w1, ends, CurveForm(drawn, depth, errorWidths)))

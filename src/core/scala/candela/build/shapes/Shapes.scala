@@ -5,7 +5,7 @@ import candela.build.recipe.*
 import candela.lights.{HiddenLight, Light, PerforatedLight, SurfaceLight}
 import candela.math.{Position, Transform}
 import candela.scenefile.Dialect
-import candela.shapes.{BezierCurve, CurveForm, Shape, SurfaceSampler}
+import candela.shapes.{BezierCurve, Shape, SurfaceSampler}
 import candela.textures.{ConstantFloat, FloatTexture}
 
 /** Recipes of shapes. */
@@ -118,7 +118,7 @@ enum ShapeGeometry:
   case Solids(make: (Transform, Boolean) => Vector[Shape])
 
   /** Curves, as they are drawn. They can't be area lights. */
-  case Curves(all: IndexedSeq[BezierCurve], form: CurveForm)
+  case Curves(strand: Strand, all: IndexedSeq[BezierCurve])
 
   /** A part whose points are relative to one in object space. */
   case Around(origin: Position, part: ShapeGeometry)
