@@ -1,6 +1,9 @@
 package candela.accel
 
-import candela.base.loop
+import scala.collection.IndexedSeqView
+import scala.collection.mutable.ArrayBuffer
+
+import candela.base.{Parallel, loop}
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 
@@ -102,34 +105,36 @@ final class Instances private (
       space
 
 object Instances:
-  val Empty: Instances = of(Array.empty, Vector.empty)
+  val Empty: Instances = of(Array.empty, IndexedSeqView.Id(Vector.empty))
 
-  /** @param places      (index into `objects`, object to world); animated instances are numbered
-    *   last
+  /** @param places      (index into `objects`, object to world), which are made when asked for, as
+    *   there may be millions; animated instances are numbered last
     * @param open, close shutter times
     */
   def of(
       objects: Array[Accelerator],
-      places: IndexedSeq[(Int, Motion)],
+      places: IndexedSeqView[(Int, Motion)],
       open: Float = 0f,
-      close: Float = 1f
+      close: Float = 1f,
+      parallel: Parallel = Parallel.Alone
   ): Instances =
-    val moving = places.count(_._2.moves)
-    val still = places.length - moving
-    val matrices = new Array[Double](still * Motion.Doubles)
-    val motions = new Array[Motion](moving)
+    val moving = ArrayBuffer.empty[Int]
+    loop(places.length)(i => if places(i)._2.moves then moving += i)
+    val still = places.length - moving.length
     val objectOf = new Array[Int](places.length)
-    var atRest = 0
-    var underWay = 0
-    loop(places.length): i =>
-      val which = places(i)._1
-      val motion = places(i)._2
-      if motion.moves then
-        objectOf(still + underWay) = which
-        motions(underWay) = motion
-        underWay += 1
-      else
-        objectOf(atRest) = which
-        motion.write(0f, matrices, atRest * Motion.Doubles)
-        atRest += 1
+    val matrices = new Array[Double](Math.multiplyExact(Motion.Doubles, still))
+    val motions = new Array[Motion](moving.length)
+    loop(moving.length): k =>
+      val (which, motion) = places(moving(k))
+      objectOf(still + k) = which
+      motions(k) = motion
+    parallel.ranges(places.length): (from, until) =>
+      // Moving ones before `from`
+      var passed = moving.search(from).insertionPoint
+      loop(from, until): i =>
+        if passed < moving.length && moving(passed) == i then passed += 1
+        else
+          val place = places(i)
+          objectOf(i - passed) = place._1
+          place._2.write(0f, matrices, (i - passed) * Motion.Doubles)
     new Instances(objects, objectOf, matrices, motions, open, close)

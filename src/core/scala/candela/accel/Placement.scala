@@ -1,5 +1,6 @@
 package candela.accel
 
+import candela.base.loop
 import candela.geometry.{Bounds3, Frame, Ray, ShadingPoint}
 import candela.math.*
 
@@ -54,13 +55,20 @@ object Placement:
         Math.max(Math.abs(box.min.z), Math.abs(box.max.z))
       )
       val slack = stretched(m, at, far) * gamma(2)
-      val corners = Bounds3.of((0 until 8).map(k => point(m, at, box.corner(k))))
+      val corners = cornersOf(m, at, box)
       val pad = slack + Vec3(
         Math.max(Math.abs(corners.min.x), Math.abs(corners.max.x)),
         Math.max(Math.abs(corners.min.y), Math.abs(corners.max.y)),
         Math.max(Math.abs(corners.min.z), Math.abs(corners.max.z))
       ) * gamma(2)
       Bounds3(corners.min - pad, corners.max + pad)
+
+  /** Bounds of the transformed corners. */
+  private def cornersOf(m: Array[Double], at: Int, box: Bounds3): Bounds3 =
+    // Without collections: there may be millions
+    var all = Bounds3.Empty
+    loop(8)(k => all = all.union(point(m, at, box.corner(k))))
+    all
 
   /** Bounds of the object's box over the shutter interval.
     *

@@ -44,7 +44,9 @@ private[build] final class Motions(description: SceneDescription, origin: Positi
 private[build] object Motions:
   /** Whether the transform is invertible and not perspective. */
   def isAffine(t: AnimatedTransform): Boolean =
-    Seq(t.start, t.end).forall(m => m.isAffine && !m.isFlat)
+    isAffine(t.start) && ((t.end eq t.start) || isAffine(t.end))
+
+  private def isAffine(map: Transform): Boolean = map.isAffine && !map.isFlat
 
   /** Whether the motion can be rendered. Others have no polar decomposition. */
   def moves(t: AnimatedTransform): Boolean = t.isAnimated && isAffine(t)

@@ -1,5 +1,6 @@
 package candela.build
 
+import scala.collection.IndexedSeqView
 import scala.collection.mutable.ArrayBuffer
 
 import candela.base.{Code, Suggest}
@@ -9,11 +10,13 @@ import candela.scenefile.*
 
 /** An object and the motions of its instances.
   *
-  * @param name of the object; empty for an animated shape, which is one
+  * @param places are made when they are asked for, as there may be millions, unless they are
+  *   animated
+  * @param name   of the object; empty for an animated shape, which is one
   */
 final case class PlacedObject(
     shapes: Vector[ShapeDescription],
-    places: Vector[Motion],
+    places: IndexedSeqView[Motion],
     name: String = ""
 )
 
@@ -40,7 +43,7 @@ private[build] final class ObjectUses(
   for s <- description.shapes do
     if Motions.moves(s.objectToWorld) then
       val dark = withoutLight(s, "animated shapes can't be area lights; emission is ignored")
-      objects += placed(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)))
+      objects += placed(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)).view)
     else
       if s.objectToWorld.isAnimated then
         problems.warn(
@@ -87,7 +90,9 @@ private[build] final class ObjectUses(
       own ++= shapes.map(copied(_, u))
     val (moving, still) = shapes.partition(s => Motions.moves(s.objectToWorld))
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated
-    val places = affine.map(u => motions.ofInstance(u.instanceToWorld))
+    val placing = affine.view.map(u => motions.ofInstance(u.instanceToWorld))
+    val places =
+      if affine.exists(_.instanceToWorld.isAnimated) then placing.toVector.view else placing
     if isAlone then own ++= affine.flatMap(u => still.map(copied(_, u)))
     else if still.nonEmpty && places.nonEmpty then objects += placed(still, places, name)
     if places.nonEmpty then
@@ -98,7 +103,7 @@ private[build] final class ObjectUses(
   /** An object whose shapes are far from its origin is built around another. */
   private def placed(
       shapes: Vector[ShapeDescription],
-      places: Vector[Motion],
+      places: IndexedSeqView[Motion],
       name: String = ""
   ): PlacedObject =
     val middle = RenderOrigin.ofObject(shapes, looks = !origin.isOrigin)

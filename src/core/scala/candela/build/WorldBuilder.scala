@@ -1,5 +1,7 @@
 package candela.build
 
+import scala.collection.IndexedSeqView
+
 import candela.base.Code
 
 import candela.accel.{Accelerator, Instances, Primitives}
@@ -10,6 +12,7 @@ import candela.build.textures.Textures
 import candela.cameras.Shutter
 import candela.color.{CameraSensor, ColorBasis}
 import candela.layers.Cryptomatte
+import candela.math.Motion
 import candela.lights.LightSelection
 import candela.render.{Cost, CostKind, RenderMethod}
 import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}
@@ -220,12 +223,22 @@ private[build] final class WorldBuilder(
       description.accelerator.flatMap(d => Accelerators.all.build(context.site(d)))
     val plan = asked.getOrElse(BvhRecipe.accelerator(context.resources))
     def accelerate(primitives: Primitives): Accelerator = plan(primitives, samples)
-    val places = uses.zipWithIndex.flatMap((use, o) => use.places.map(o -> _))
+    val places = placesOf(uses)
     for i <- description.instances.headOption do
       context.resources.allowance.countShapes(places.size, Some(i.at))
     val accelerators = objects.map(o => accelerate(o.primitives()))
-    val instances = Instances.of(accelerators.toArray, places, shutter.open, shutter.close)
+    val pool = context.resources.pool
+    val instances = Instances.of(accelerators.toArray, places, shutter.open, shutter.close, pool)
     Structure(world, Instanced(objects.toArray, instances), accelerate(world.primitives(instances)))
+
+  /** The number of the object and the motion of each instance, made when asked for. */
+  private def placesOf(uses: Vector[PlacedObject]): IndexedSeqView[(Int, Motion)] =
+    val firsts = uses.scanLeft(0)((first, use) => Math.addExact(first, use.places.length)).toArray
+    val objectOf = new Array[Int](firsts.last)
+    for o <- uses.indices do java.util.Arrays.fill(objectOf, firsts(o), firsts(o + 1), o)
+    objectOf.indices.view.map: i =>
+      val o = objectOf(i)
+      (o, uses(o).places(i - firsts(o)))
 
   private def warnOfShadows(surface: Declaration): Unit =
     val name = description.integrator.fold("path")(_.name)

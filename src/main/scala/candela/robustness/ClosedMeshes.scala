@@ -26,7 +26,7 @@ final case class ClosedMesh(
     else
       val unit = Solids.icosphere(ClosedMesh.Levels, Transform.Identity)
       val ball = make(Primitives(unit, Array.empty))
-      val placed = Instances.of(Array(ball), Vector((0, Still(toWorld))), 0f, 1f)
+      val placed = Instances.of(Array(ball), Vector((0, Still(toWorld))).view, 0f, 1f)
       Hierarchies.scalar(Primitives(Solids.Empty, Array.empty, placed))
 
 object ClosedMesh:

@@ -12,7 +12,7 @@ final class Target(surfaces: Surfaces, motion: Motion):
   private val isPlain = !motion.moves && motion.transform(0f).isIdentity
   private val instances =
     if isPlain then Instances.Empty
-    else Instances.of(Array(BruteForce(primitives)), Vector((0, motion)), 0f, 1f)
+    else Instances.of(Array(BruteForce(primitives)), Vector((0, motion)).view, 0f, 1f)
   private val instanced = Instanced(Array(surfaces), instances)
   private val accelerator: Accelerator =
     if isPlain then BruteForce(primitives)

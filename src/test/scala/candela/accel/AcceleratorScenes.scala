@@ -20,8 +20,7 @@ object AcceleratorScenes:
       BruteForce(mixed(Nil, Soups.shapes(draws, 5, 1)(near))),
       Grid(mixed(Soups.around(draws, 20, 0.5f)(near), Soups.shapes(draws, 5, 0.5f)(near)))
     )
-    Instances.of(
-      objects,
+    val places =
       Vector.tabulate(count): i =>
         val c = centre
         val scale = Transform.scale(size, size, size).get
@@ -33,7 +32,7 @@ object AcceleratorScenes:
           if isMoving then Interpolation(there, away * there, 0f, 1f, shortest = true)
           else Still(there)
         (i % 3, place)
-    )
+    Instances.of(objects, places.view)
 
   def all: Seq[(String, Primitives)] =
     val draws = Draws(1)

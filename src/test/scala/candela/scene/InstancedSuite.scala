@@ -4,6 +4,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.accel.*
 import candela.accel.tracing.Bvh
+import candela.base.Parallel
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.shapes.{Disk, Shape}
@@ -17,7 +18,10 @@ class InstancedSuite extends AnyFunSuite:
 
   private def placed(surfaces: Surfaces, toWorld: Transform): Instanced =
     val primitives = Primitives(surfaces.soup, surfaces.solids.shapes)
-    Instanced(Array(surfaces), Instances.of(Array(Bvh(primitives)), Vector((0, Still(toWorld)))))
+    Instanced(
+      Array(surfaces),
+      Instances.of(Array(Bvh(primitives)), Vector((0, Still(toWorld))).view)
+    )
 
   private def solid(shape: Shape): Surfaces =
     Surfaces(Soups.Empty, ShapeTable.of(Array(shape)))
@@ -123,7 +127,30 @@ class InstancedSuite extends AnyFunSuite:
       java.lang.management.ManagementFactory.getThreadMXBean match
         case bean: com.sun.management.ThreadMXBean => bean
     val before = thread.getCurrentThreadAllocatedBytes
-    val instances = Instances.of(objects, places)
+    val instances = Instances.of(objects, places.view)
     val bytes = thread.getCurrentThreadAllocatedBytes - before
     assert(bytes < 200L * places.length + 10000, s"$bytes bytes")
     assert(instances.count == places.length)
+
+  test("instances are the same, however their places are divided; moving ones are last"):
+    val soup = Soups.icosphere(1, Transform.Identity)
+    val objects = Array[Accelerator](Bvh(Primitives(soup, Array.empty)))
+    val draws = Draws(6)
+    val places = Vector.tabulate(20_000): i =>
+      val there = draws.translation(9)
+      val away = there * Transform.translate(1, 0, 0)
+      (0, if i % 7 < 3 then Interpolation(there, away, 0f, 1f, shortest = true) else Still(there))
+    val divided = new Parallel:
+      def threads = 3
+      def worksAside = false
+      def aside(name: String)(task: => Unit): Unit = ()
+      def each(count: Int)(task: Int => Unit): Unit = (0 until count).reverse.foreach(task)
+    val alone = Instances.of(objects, places.view)
+    val together = Instances.of(objects, places.view, parallel = divided)
+    val (moving, still) = places.partition(_._2.moves)
+    assert(alone.count == places.length)
+    assert(alone.moving == moving.length && together.moving == moving.length)
+    val expected = still ++ moving
+    for i <- expected.indices by 9 do
+      val each = Instances.of(objects, Vector(expected(i)).view).bounds(0)
+      assert(alone.bounds(i) == each && together.bounds(i) == each)

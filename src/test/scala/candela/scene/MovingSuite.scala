@@ -28,7 +28,7 @@ class MovingSuite extends AnyFunSuite:
   private def placed(surfaces: Surfaces, motion: Motion): Instanced =
     Instanced(
       Array(surfaces),
-      Instances.of(Array(Bvh(surfaces.primitives())), Vector((0, motion)), 0f, 1f)
+      Instances.of(Array(Bvh(surfaces.primitives())), Vector((0, motion)).view, 0f, 1f)
     )
 
   test("bounds contain the surface whenever the shutter is open"):
@@ -53,7 +53,7 @@ class MovingSuite extends AnyFunSuite:
       shortest = true
     )
     val objects = Array[Accelerator](Bvh(Primitives(soup, Array.empty)))
-    val short = Instances.of(objects, Vector((0, far)), 0.5f, 0.51f)
+    val short = Instances.of(objects, Vector((0, far)).view, 0.5f, 0.51f)
     assert(Math.abs(short.bounds(0).extent.x - 3f) < 1e-4f)
 
   test("it is met where it is at the ray's time, and its hit points lie there"):
@@ -117,7 +117,7 @@ class MovingSuite extends AnyFunSuite:
       1f,
       shortest = true
     )
-    val instances = Instances.of(objects, Vector((0, way), (0, Still(Transform.Identity))))
+    val instances = Instances.of(objects, Vector((0, way), (0, Still(Transform.Identity))).view)
     assert(instances.count == 2 && instances.moving == 1)
     assert(instances.bounds(0).extent.x < 3f && instances.bounds(1).extent.x > 10f)
     val world = Bvh(Primitives(Soups.Empty, Array.empty, instances))
