@@ -7,7 +7,7 @@ import candela.sampling.SampleHash
 /** What the paths of one rendering learn, shared by all workers. Passes end after 1, 2, 4, 8, …
   * samples per pixel: the paths of a pass use the field of those before, and record for the next.
   * No path uses what it recorded itself, so every sample is unbiased. After a quarter of the
-  * samples nothing more is learnt, unless the settings say so.
+  * samples nothing more is learnt; or, if the settings say so, when a pass has brought no more.
   *
   * @param planned samples per pixel
   * @param pixels  of the image
@@ -59,7 +59,7 @@ final class Guide(
   /** What will be learnt. */
   def describe: String =
     val until =
-      if samples == Int.MaxValue then "learnt until the end"
+      if samples == Int.MaxValue then "learnt until it brings no more"
       else s"learnt in the first ${Math.max(1, lastPass)} of $samples samples"
     val what =
       if !settings.divides then "directions alone, "
@@ -130,10 +130,12 @@ final class Guide(
   private def take(growth: GuideGrowth, sample: Int): Unit =
     val was = current
     val found = perPath(was, sample, growth.events.count)
+    val isSettled = settings.learnsOn && settings.adapts && was.field.guides &&
+      sample >= SettledSamples && progress.isSettledBy(growth.verdict)
     progress =
       if was.field.guides then progress.after(growth.verdict)
       else progress.copy(cost = growth.verdict.cost)
-    val following = newPass(growth.result(), sample, found, growth.lit)
+    val following = newPass(growth.result(), sample, found, growth.lit, learnsMore = !isSettled)
     val isLast = following.records == null
     val ends =
       settings.adapts && progress.doubts >= (if isLast then 1 else GuideProgress.MostDoubts)
@@ -153,9 +155,15 @@ final class Guide(
   /** @param found events per sample that found light
     * @param lit   part of all paths that has such events
     */
-  private def newPass(field: GuideField, begun: Int, found: Double, lit: Double): Pass =
+  private def newPass(
+      field: GuideField,
+      begun: Int,
+      found: Double,
+      lit: Double,
+      learnsMore: Boolean = true
+  ): Pass =
     val end = next(begun)
-    val learns = isLongEnough && goesOn(end)
+    val learns = learnsMore && isLongEnough && goesOn(end)
     val paths = pixels.toDouble * (end - begun)
     val part =
       if !learns && !field.guides then 0f
@@ -231,6 +239,9 @@ object Guide:
 
   /** Samples per pixel, and paths, of a rendering in which learning may pay. */
   private val FewestSamples = 16
+
+  /** Passes that end before are short: what they learn costs little, and brings much later. */
+  private val SettledSamples = 32
   private val FewestPaths = 1 << 17
 
   /** Paths of a pass that learn and find light, about, until guiding was seen to pay. */

@@ -39,6 +39,14 @@ private[guiding] final case class GuideProgress(
       if next.pays then next.copy(doubts = 0, plain = plain.orElse(Some(verdict.unguidedNoise)))
       else next.copy(doubts = doubts + 1)
 
+  /** Has the field that was learnt from the pass before brought no more? What counts for equal time
+    * is the variance of a path times its rays.
+    */
+  def isSettledBy(verdict: GuideVerdict): Boolean =
+    val next = after(verdict)
+    pays && next.pays && verdict.paths >= Enough &&
+    next.noise * next.effort > Settled * noise * effort
+
   /** What a guided path counts beside those of the first passes: the inverse of its variance, a
     * power of two. So products with it are exact, and one path more or less seldom changes it: it
     * should depend little on the paths that are averaged.
@@ -76,6 +84,11 @@ private[guiding] object GuideProgress:
 
   /** Passes in which it does not pay, until it is given up: the next fields are finer. */
   val MostDoubts = 2
+
+  /** What another pass of learning must leave of the variance times the rays: it costs some percent
+    * of its time.
+    */
+  private val Settled = 0.98
 
   /** So that a variance that was estimated too low does not discard all other passes. */
   private val MostWeight = 32.0

@@ -53,7 +53,7 @@ class ChoicesSuite extends AnyFunSuite:
     val on = timed.copy(guiding = Some(GuidingMode.On))
     assert(on.choices.guiding == GuidingMode.On && !isGuided(on))
 
-  test("paths guided where it pays learn until the end if nobody knows how many samples there are"):
+  test("paths guided where it pays learn until it brings no more if samples are not counted"):
     val auto = timed.copy(guiding = Some(GuidingMode.Auto))
     assert(auto.choices.guiding == GuidingMode.Progressive)
     assert(auto.copy(samples = Some(64)).choices.guiding == GuidingMode.Auto)
@@ -62,7 +62,7 @@ class ChoicesSuite extends AnyFunSuite:
     def told(s: RenderSettings, what: String, integrator: String = "path") =
       plan(s, integrator).features.toMap.get(what)
     assert(told(timed, "guiding").get ==
-      "where it pays, learnt until the end; ends sooner if it does not; " +
+      "where it pays, learnt until it brings no more; ends sooner if it does not; " +
       "chosen as a time or an error ends the rendering (--guiding off takes none)")
     assert(told(timed, "sampler").get.contains("any number of which are evenly spread"))
     assert(told(timed, "caustics").get.contains("--caustics auto looks for them"))

@@ -39,6 +39,16 @@ class GuideProgressSuite extends AnyFunSuite:
     val doubtful = start.after(verdict(0.9, 1.0)).after(verdict(0.9, 1.0))
     assert(doubtful.doubts == 2 && doubtful.after(verdict(0.3, 1.0)).doubts == 0)
 
+  test("learning has settled where a pass brings less than two percent for the time"):
+    def isSettled(noise: Double, cost: Double, before: Double = 0.4, paths: Long = 20000L) =
+      start.after(verdict(before, 1.0, cost = 3.0)).isSettledBy(verdict(noise, 1.0, paths, cost))
+    assert(!isSettled(0.38, cost = 3.0) && isSettled(0.395, cost = 3.0))
+    // Fewer rays are as good as less noise
+    assert(!isSettled(0.4, cost = 2.8 * 1.25, before = 0.5) && isSettled(0.38, cost = 3.3))
+    // What does not pay may still come to
+    assert(!isSettled(0.395, cost = 3.0, before = 0.9) && !isSettled(0.9, cost = 3.0))
+    assert(!isSettled(0.395, cost = 3.0, paths = 100L))
+
   test("no sample counts without bounds, nor less than the first"):
     assert(start.after(verdict(0.0, 1.0)).weight == 32f)
     assert(start.after(verdict(0.5, 1.0)).after(verdict(9.0, 20.0)).weight == 1f)
