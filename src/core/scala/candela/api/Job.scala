@@ -1,5 +1,6 @@
 package candela.api
 
+import candela.base.SceneError
 import candela.image.{Image, Oidn}
 import candela.job.{
   Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared,
@@ -110,6 +111,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
       catch
         case e: RenderFailure =>
           throw RenderException(e.x, e.y, e.sample, Option(e.getCause).getOrElse(e))
+        case e: SceneError => throw SceneException(e.problems)
         case _: InterruptedException =>
           Thread.currentThread.interrupt()
           throw CancellationException("the rendering thread was interrupted")

@@ -50,7 +50,9 @@ final class ExrLevels private (
       val length = start.getInt()
       if place != Vector(x, y, level, level) || length < 1 || length > part.bytes(width, height)
       then throw damaged(level, x, y, "it is not where it should be")
-      Exr.read(parts.of(read(at + ExrLevels.ChunkStart, length).array, width, height))
+      // What would not be smaller compressed is not, which the decoder doesn't know of every kind
+      val isPlain = length == part.bytes(width, height)
+      Exr.read(parts.of(read(at + ExrLevels.ChunkStart, length).array, width, height, isPlain))
     catch
       case e: IOException => throw ImageError(Code.Unreadable, s"$file: ${IoReason(e)}")
       case e: ImageError => throw damaged(level, x, y, e.getMessage)
@@ -142,7 +144,8 @@ private final class ExrTileFile(start: Array[Byte], table: Int, tiling: ExrTilin
   private val header = start.take(table)
   private val values = ExrWindow.places(header)
 
-  def of(data: Array[Byte], width: Int, height: Int): Array[Byte] =
+  /** @param isPlain whether the pixels are not compressed */
+  def of(data: Array[Byte], width: Int, height: Int, isPlain: Boolean): Array[Byte] =
     val file = ByteBuffer.allocate(table + 28 + data.length).order(ByteOrder.LITTLE_ENDIAN)
     file.put(header)
     for name <- Vector("dataWindow", "displayWindow"); at <- values.get(name) do
@@ -150,6 +153,7 @@ private final class ExrTileFile(start: Array[Byte], table: Int, tiling: ExrTilin
         file.putInt(at + 4 * i, value): Unit
     for at <- values.get("tiles") do
       file.putInt(at, tiling.width).putInt(at + 4, tiling.height).put(at + 8, 0.toByte): Unit
+    if isPlain then for at <- values.get("compression") do file.put(at, 0.toByte): Unit
     for at <- values.get("chunkCount") do file.putInt(at, 1): Unit
     file.putLong(table + 8L)
     for _ <- 0 until 4 do file.putInt(0)

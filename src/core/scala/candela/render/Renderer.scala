@@ -13,6 +13,7 @@ object Renderer:
     * @param shard        part of the samples to take
     * @param checkpointer keeps the state, if it is to be kept
     * @throws RenderFailure if a sample fails; all workers then stop
+    * @throws candela.base.SceneError if a file of the scene can't be read any more; likewise
     */
   def render(
       plan: RenderPlan,

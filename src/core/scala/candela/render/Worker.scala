@@ -2,6 +2,8 @@ package candela.render
 
 import java.util.concurrent.atomic.AtomicLong
 
+import candela.base.SceneError
+
 /** A worker of one rendering: takes steps from the shared queue, wave by wave, and owns its scratch
   * memory.
   */
@@ -44,7 +46,10 @@ private[render] abstract class Worker(schedule: Schedule, queue: TaskQueue) exte
         step = queue.takeStep()
       current = Worker.Idle
       runNanos = System.nanoTime - started
-    catch case e: Throwable => throw failure(e)
+    catch
+      // A file of the scene can't be read any more
+      case e: SceneError => throw e
+      case e: Throwable => throw failure(e)
 
 private object Worker:
   val Idle: Int = -1

@@ -124,6 +124,23 @@ class TextureMemorySuite extends AnyFunSuite:
         else assert(said.contains(s"the levels in the file are not used: $why"), said)
         assert(image == render(scene, "--texture-memory", "1G")._1)
 
+  test("a damaged tile of such a file ends the rendering with an error that names it"):
+    TempFolder.use: folder =>
+      val draws = Draws(7)
+      val made = TiledExr(256, 256, 64, 64)((_, _, _, _) => draws.unit())
+      // Ten texels across
+      val scene = ownLevels(folder, made, "\"float uscale\" .01 \"float vscale\" .01")
+      val file = folder.resolve("a.exr")
+      val bytes = Files.readAllBytes(file)
+      // All but the levels of 64 × 64 texels and less, of 66 kB before compression
+      for i <- made.firstChunk until bytes.length - 100_000 do bytes(i) = 7
+      Files.write(file, bytes): Unit
+      val cache = folder.resolve("cache")
+      val words = Vector(s"$scene", "--texture-memory", "1M", "--texture-cache", s"$cache")
+      val (code, captured) = Captured.run(words*)
+      assert(code == 1 && captured.err.contains("a.exr: tile "), captured.err)
+      assert(!captured.err.contains("bug"), captured.err)
+
   test("an image that has changed is seen as it is now"):
     TempFolder.use: folder =>
       val scene = scenes(folder).last

@@ -20,11 +20,11 @@ class ExrLevelsSuite extends AnyFunSuite:
         (tw, th) <- Seq((16, 16), (32, 8), (64, 64))
         names <- Seq(Vector("B", "G", "R"), Vector("Y"), Vector("A", "B", "G", "R"))
         isHalf <- Seq(true, false)
-        zips <- Seq(true, false)
+        coding <- Seq(0, 3, 4, 5)
       do
         val draws = Draws(w + tw)
         // Numbers that halves have
-        val made = TiledExr(w, h, tw, th, names, isHalf, zips)((_, _, _, _) =>
+        val made = TiledExr(w, h, tw, th, names, isHalf, coding)((_, _, _, _) =>
           draws.below(1000) / 256f
         )
         val levels = opened(made.write(folder.resolve("a.exr")))

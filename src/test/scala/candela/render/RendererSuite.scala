@@ -1,5 +1,6 @@
 package candela.render
 
+import candela.base.{Code, Problem, SceneError}
 import candela.color.Rgb
 import candela.film.{Film, PixelBounds, SampleLimit}
 import candela.image.Image
@@ -89,6 +90,13 @@ class RendererSuite extends AnyFunSuite:
       val failure = intercept[RenderFailure](Renderer.render(plan, threads))
       assert((failure.x, failure.y, failure.sample) == (21, 9, 2))
       assert(failure.getCause eq bug)
+
+  test("a file of the scene that can't be read any more ends the rendering as it is"):
+    val problem = Problem.general(Code.DamagedImage, "planted")
+    val plan = TinyPlan(spp = 100_000_000): (where, _) =>
+      if where == Where(21, 9, 2) then throw SceneError(problem) else gray
+    for threads <- 1 to 3 do
+      assert(intercept[SceneError](Renderer.render(plan, threads)).problems == Vector(problem))
 
   test("a cancelled rendering keeps the samples that every pixel has"):
     val cancellation = Cancellation()

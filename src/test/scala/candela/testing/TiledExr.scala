@@ -10,7 +10,7 @@ import java.util.zip.Deflater
   * Source: "OpenEXR File Layout", openexr.com.
   *
   * @param names  of channels, sorted
-  * @param isZip  whether tiles are deflated; else they are not compressed
+  * @param coding 0: not compressed, 3: ZIP; of others, tiles which that would not make smaller
   * @param mode   0: one level, 1: MIP map, 2: RIP map
   * @param texel  by level, x, y and channel; of RIP maps by x and y alone
   */
@@ -21,7 +21,7 @@ final class TiledExr(
     tileHeight: Int,
     names: Vector[String] = Vector("B", "G", "R"),
     isHalf: Boolean = false,
-    isZip: Boolean = true,
+    coding: Int = 3,
     mode: Int = 1,
     primaries: Option[Vector[Float]] = None
 )(texel: (Int, Int, Int, Int) => Float):
@@ -60,7 +60,7 @@ final class TiledExr(
       ints(if isHalf then 1 else 2, 0, 1, 1)
     out.write(0)
     attribute("compression", "compression", 1)
-    out.write(if isZip then 3 else 0)
+    out.write(coding)
     for window <- Vector("dataWindow", "displayWindow") do
       attribute(window, "box2i", 16)
       ints(0, 0, width - 1, height - 1)
@@ -111,7 +111,7 @@ final class TiledExr(
 
   /** Even bytes before odd ones, differences, deflated; as it is if that is no smaller. */
   private def packed(raw: Array[Byte]): Array[Byte] =
-    if !isZip then raw
+    if coding != 3 then raw
     else
       val sorted = raw.indices.by(2).map(raw(_)) ++ raw.indices.drop(1).by(2).map(raw(_))
       val differences = sorted.indices.map: i =>
