@@ -22,7 +22,7 @@ final class ReachedError(development: Development, planned: Int)
 
   override def passed(pass: Pass, film: Film): Unit =
     val isWanted = pass.samples >= first && Integer.bitCount(pass.samples) == 1
-    isGivenUp ||= seconds > Unnoticed && seconds > MostPart * pass.clock
+    isGivenUp ||= takesLong(seconds, pass.clock * planned / pass.samples)
     if isWanted && !isGivenUp then super.passed(pass, film)
 
   /** None if too little is known. */
@@ -36,3 +36,11 @@ object ReachedError:
   /** What it may take of a rendering, and in seconds of a short one. */
   private val MostPart = 0.01
   private val Unnoticed = 0.2
+
+  /** Has it taken too much of a rendering that is expected to last so long? The first look is slow,
+    * as it is compiled meanwhile, and the rendering young.
+    *
+    * @param spent and `whole` in seconds
+    */
+  private[job] def takesLong(spent: Double, whole: Double): Boolean =
+    spent > Unnoticed && spent > MostPart * whole
