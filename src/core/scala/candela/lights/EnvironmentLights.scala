@@ -1,5 +1,6 @@
 package candela.lights
 
+import candela.base.loop
 import candela.color.Rgb
 import candela.math.*
 import candela.sampling.{Distribution2D, Warp}
@@ -71,10 +72,17 @@ object ImageEnvironment:
     val width = image.width
     val height = image.height
     val shares = Array.tabulate(height)(image.layout.share(_, height))
-    def weights(least: Float): Array[Float] =
-      Array.tabulate(width * height): i =>
-        Math.max(0f, image.brightness(i % width, i / width) - least) * shares(i / width)
-    val all = weights(least = 0f)
-    val mean = (all.foldLeft(0.0)(_ + _) / (shares.foldLeft(0.0)(_ + _) * width)).toFloat
-    val above = if complete then all else weights(mean)
-    Distribution2D(if above.exists(_ > 0f) then above else all, width, height)
+    // Of a hundred million pixels closures would make boxes
+    val bright = new Array[Float](Math.multiplyExact(width, height))
+    loop(height)(y => loop(width)(x => bright(y * width + x) = image.brightness(x, y)))
+    var sum = 0.0
+    loop(bright.length)(i => sum += Math.max(0f, bright(i)) * shares(i / width))
+    val mean = (sum / (shares.foldLeft(0.0)(_ + _) * width)).toFloat
+    def above(least: Float): Boolean =
+      var i = 0
+      while i < bright.length && !(Math.max(0f, bright(i) - least) * shares(i / width) > 0f) do
+        i += 1
+      i < bright.length
+    val least = if !complete && above(mean) then mean else 0f
+    loop(bright.length)(i => bright(i) = Math.max(0f, bright(i) - least) * shares(i / width))
+    Distribution2D(bright, width, height)

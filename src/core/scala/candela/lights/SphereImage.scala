@@ -62,11 +62,13 @@ final class SphereImage(
   def brightness(x: Int, y: Int): Float =
     if !smooth then brightness(pixel(x, y))
     else
+      val isInside = x > 0 && y > 0 && x < width - 1 && y < height - 1
       var sum = 0f
       loop(9): k =>
-        val i = k % 3 - 1
-        val j = k / 3 - 1
-        sum += SphereImage.Tent(k) * brightness(pixel(x + i, y + j))
+        val i = x + k % 3 - 1
+        val j = y + k / 3 - 1
+        val at = if isInside then 3 * (j * width + i) else pixel(i, j)
+        sum += SphereImage.Tent(k) * brightness(at)
       sum
 
   private def brightness(at: Int): Float = (data(at) + data(at + 1) + data(at + 2)) * (1f / 3f)

@@ -99,6 +99,25 @@ final class EnvironmentLightsSuite extends AnyFunSuite:
         assert(env.radiance(Vec3.Zero, bright).average > mean)
         assert(env.pdf(Vec3.Zero, bright) > 0f)
 
+  test("pixels are as probable as lookups within them are bright, at borders and poles, too"):
+    val draws = Draws(3)
+    val (w, h) = (8, 8)
+    val image = Image(w, h, Image.RgbNames, Array.fill(3 * w * h)(draws.unit()))
+    for layout <- Seq(LatLongMap, PolarLatLongMap(h), EqualAreaMap) do
+      val sphere = SphereImage(image, layout, Rgb.White, smooth = true)
+      // Lookups are bilinear in each quarter of a pixel, where the midpoint rule is exact
+      val expected =
+        for y <- 0 until h; x <- 0 until w yield
+          val quarters =
+            for j <- Seq(0.25f, 0.75f); i <- Seq(0.25f, 0.75f)
+            yield sphere.between(Vec3((x + i) / w, (y + j) / h, 0f)).average
+          quarters.sum / 4 * layout.share(y, h)
+      val mean = expected.sum / (w * h)
+      val found = ImageEnvironment.distribution(sphere, complete = true)
+      for (e, i) <- expected.zipWithIndex do
+        val density = found.pdf((i % w + 0.5f) / w, (i / w + 0.5f) / h)
+        assert(Math.abs(density - e / mean) < 1e-5f * (1 + e / mean), s"$layout $i")
+
   test("a factor multiplies the image"):
     val (one, scaled) = (
       environment(picture(16, 8), LatLongMap, Rgb.White, true, true),

@@ -75,7 +75,7 @@ private[build] object LightImages:
     try
       val rgb = linear.toRgb
       // Sums of brighter pixels overflow
-      if rgb.data.forall(x => Math.abs(x) < Brightest) then Some(rgb)
+      if areUsable(rgb.data) then Some(rgb)
       else
         fail("the image of a light has pixels that are NaN, infinite, or above 1e30")
         None
@@ -83,6 +83,11 @@ private[build] object LightImages:
       case e: ImageError =>
         fail(e.getMessage)
         None
+
+  private def areUsable(values: Array[Float]): Boolean =
+    var i = 0
+    while i < values.length && Math.abs(values(i)) < Brightest do i += 1
+    i == values.length
 
   /** Checks that an equal-area map is square. Reports an error otherwise. */
   def isSquare(image: Image)(using site: Site): Boolean =
