@@ -83,6 +83,7 @@ object EwaLookup:
     val y1 = MipLevel.floor(y + reachY)
     // Where Floats lie farther apart than texels, at least the texel itself
     val x0 = Math.min(MipLevel.floor(x - reachX) + 1, MipLevel.floor(x))
+    val texels = level.reader
     var sum, red, green, blue = 0f
     var iy = Math.min(MipLevel.floor(y - reachY) + 1, MipLevel.floor(y))
     while iy <= y1 do
@@ -95,10 +96,10 @@ object EwaLookup:
           val weight = weights(Math.min((r2 * Steps).toInt, Steps - 1))
           val texel = level.index(ix, iy)
           sum += weight
-          red += weight * level(texel, 0)
+          red += weight * texels(texel, 0)
           if !level.isGray then
-            green += weight * level(texel, 1)
-            blue += weight * level(texel, 2)
+            green += weight * texels(texel, 1)
+            blue += weight * texels(texel, 2)
         ix += 1
       iy += 1
     val scale = 1f / sum

@@ -3,15 +3,21 @@ package candela.textures
 import candela.color.Rgb
 import candela.math.*
 
+/** Reads texels of a level by their index. */
+trait TexelReader:
+  def apply(index: Int, channel: Int): Float
+
 /** One level of a MIP map. Positions are in the unit square, the second coordinate down from the
   * image's upper edge; texel centres are at half-integer multiples of the texel size.
   */
-abstract class MipLevel(final val width: Int, final val height: Int, final val isGray: Boolean):
+abstract class MipLevel(final val width: Int, final val height: Int, final val isGray: Boolean)
+    extends TexelReader:
 
   /** Where the texel (`x`, `y`) is for `apply`, after wrapping; negative for black. */
   def index(x: Int, y: Int): Int
 
-  def apply(index: Int, channel: Int): Float
+  /** For many texels that are near each other; not safe for threads. */
+  def reader: TexelReader = this
 
   /** The texel that contains the point. */
   def nearest(s: Float, row: Float): Rgb =

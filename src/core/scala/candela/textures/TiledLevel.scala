@@ -67,6 +67,38 @@ private[textures] final class TiledLevel(
       if isBytes then meaning(value >>> ((k & 3) << 3) & 0xff)
       else java.lang.Float.intBitsToFloat(value)
 
+  override def reader: TexelReader = TileReader()
+
+  /** Keeps the tile of the latest texel at hand. */
+  private final class TileReader extends TexelReader:
+    private var tile = -1
+    private var slot = 0
+    private var stamp = 0L
+    private var ints = TiledLevel.NoInts
+
+    def apply(index: Int, channel: Int): Float =
+      if index < 0 then 0f
+      else
+        val next = start + (index >>> bits)
+        if next != tile then turn(next)
+        val k = base + (index & inTile) * channels + channel
+        if tile == next then
+          val found = value(ints, k)
+          if memory.isStill(slot, stamp) then found else missing(index, channel)
+        else missing(index, channel)
+
+    private def turn(next: Int): Unit =
+      slot = image.slot(next)
+      stamp = if slot < 0 then 0L else memory.stamp(slot)
+      if TileMemory.holder(stamp) == image.number(next) then
+        tile = next
+        ints = memory.ints(slot)
+      else tile = -1
+
+    private def missing(index: Int, channel: Int): Float =
+      tile = -1
+      TiledLevel.this(index, channel)
+
   /** As of any level, at once if the four texels are in one tile that is there. */
   override def bilinear(s: Float, row: Float): Rgb =
     val x = MipLevel.within(s * width - 0.5f)
@@ -102,6 +134,9 @@ private[textures] final class TiledLevel(
   private def value(ints: Array[Int], k: Int): Float =
     if isBytes then meaning(ints(k >> 2) >>> ((k & 3) << 3) & 0xff)
     else java.lang.Float.intBitsToFloat(ints(k))
+
+private object TiledLevel:
+  private val NoInts = Array.emptyIntArray
 
 /** Where a level's texels are in the tiles of an image.
   *

@@ -139,6 +139,8 @@ class TileCacheSuite extends AnyFunSuite:
       val levels = pyramid(bytes(512, 512, 3, 1), Wrap.Repeat)
       val tiles = cache(folder).image("a", Wrap.Repeat)(() => made(levels)).levels
       val plain = levels.map(MipLevel(_, Wrap.Repeat))
+      def ewa(of: Array[MipLevel]) = EwaLookup(MipMap.of(of), 8f, bottomUp = true, turned = false)
+      val (inTiles, inMemory) = (ewa(tiles), ewa(plain))
       val wrong = AtomicInteger()
       Using.resource(ThreadPool(4)): pool =>
         pool.each(8): i =>
@@ -147,6 +149,8 @@ class TileCacheSuite extends AnyFunSuite:
             val (k, s, row) = ((3 * draws.unit()).toInt, draws.unit(), draws.unit())
             if tiles(k).bilinear(s, row) != plain(k).bilinear(s, row) then
               wrong.incrementAndGet(): Unit
+            def wide(of: EwaLookup) = of.filtered(s, row, 0.02f, 0.01f, 0.005f, 0.02f)
+            if wide(inTiles) != wide(inMemory) then wrong.incrementAndGet(): Unit
       assert(wrong.get == 0)
 
   test("a damaged tile is found, and its file made again"):
