@@ -4,7 +4,7 @@ import candela.base.GivenUp
 import candela.film.{Development, Film}
 import candela.image.Image
 import candela.measure.{CurvePoint, ErrorEstimate, Errors, Interval}
-import candela.render.{Looks, Pass, RenderListener}
+import candela.render.{Looks, Pass, Rendering, RenderListener}
 
 /** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
   *
@@ -59,6 +59,16 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
     try measured(pass, measure(pass, film))
     catch case _: GivenUp => () // the rendering ends without
     spent += (System.nanoTime - started) * 1e-9
+
+  /** Adds the error of the final image, if the rendering ended between two measurements. */
+  def ended(rendering: Rendering): Unit =
+    val samples = rendering.samplesDone
+    if samples > 0 && points.lastOption.forall(_.samples < samples) then
+      val errors = reference match
+        case Some(r) => Some(Errors.against(r)(development(rendering.film)))
+        case None => estimate.at(samples)
+      for e <- errors do
+        foundPoints += CurvePoint(samples, rendering.seconds, e, interval(samples))
 
   /** Called with the image of each pass that was measured. */
   protected def measured(pass: Pass, image: Image): Unit = ()

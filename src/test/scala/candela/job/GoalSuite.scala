@@ -3,6 +3,7 @@ package candela.job
 import candela.build.RenderGoal
 import candela.color.Rgb
 import candela.film.{Development, Film}
+import candela.image.Image
 import candela.render.{Pass, Renderer, Rendering, TinyPlan}
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -22,6 +23,21 @@ class GoalSuite extends AnyFunSuite:
     val rendering = rendered(goal(RenderGoal(error = Some(0.0436))))
     assert(rendering.samplesDone == 48 && rendering.isComplete)
     assert(rendering.samplesTaken == 48 * 40 * 30)
+
+  test("the last point is that of the image, wherever the goal ended it"):
+    val estimating = ErrorRecorder(Development(), None)
+    val rendering = rendered(Goal(RenderGoal(error = Some(0.0436)), 1000, estimating))
+    assert(rendering.samplesDone == 48)
+    val measuring =
+      ErrorRecorder(Development(), Some(Image(40, 30, Image.RgbNames, Array.fill(3600)(1f))))
+    for recorder <- Vector(estimating, measuring) do
+      recorder.ended(rendering)
+      val last = recorder.points.last
+      assert(last.samples == 48 && last.seconds == rendering.seconds)
+      assert(Math.abs(last.errors.relativeMse * 48 * 12 - 1) < 0.15)
+      // Once
+      recorder.ended(rendering)
+      assert(recorder.points.count(_.samples == 48) == 1)
 
   test("an error of a few samples ends nothing"):
     assert(rendered(goal(RenderGoal(error = Some(10)))).samplesDone == Goal.Fewest)

@@ -51,6 +51,7 @@ private[cli] final class SceneRun(
       val rendering = rendered(progress, checkpoints, watching)
       if !rendering.isComplete then terminal.interrupts.checkTime()
       watching.foreach(_.end(rendering))
+      reporting.foreach(_.recorder.ended(rendering))
       val result = results(rendering)
       val films = keeping.map(_.path)
         .filter(_ => writer.paths.isEmpty && checkpoints.forall(_.failure.isEmpty))

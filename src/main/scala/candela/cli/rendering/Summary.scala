@@ -46,21 +46,28 @@ object Summary:
         else s"$done sample"
       s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r)}$missing"
 
-  /** `error 4.6 % (3.3 to 5.2 %)`: with the interval, where that is wider than 15 %.
+  /** `error 4.6 % (3.3 to 5.2 %)`: with the interval, where that is wider than 15 %. Where few
+    * pixels have nearly all of it, the interval has a lower limit alone.
     *
     * @param error    relative error
     * @param isOfFew  whether few pixels have nearly all of it
     * @param interval of the relative MSE, which is the error's square; with 95 % confidence
     */
   def noise(error: Double, isOfFew: Boolean, interval: Option[Interval] = None): String =
-    def isFar(limit: Double) = Math.abs(limit / error - 1) > Known
-    val doubt =
-      if isOfFew then " or more, as few pixels have nearly all of it"
-      else
-        val limits = interval.filter(_.isBounded).map(i => (Math.sqrt(i.low), Math.sqrt(i.high)))
-        limits.filter((low, high) => isFar(low) || isFar(high)).fold(""): (low, high) =>
-          s" (${Figures.percentage(low).stripSuffix(" %")} to ${Figures.percentage(high)})"
-    s"error ${Figures.percentage(error)}$doubt"
+    val known = interval.filter(_.isKnown)
+    val low = known.map(i => Math.sqrt(i.low))
+    val high = known.filter(_.isBounded).map(i => Math.sqrt(i.high))
+    val isWide = (low ++ high).exists(limit => Math.abs(limit / error - 1) > Known)
+    val range =
+      if isOfFew then
+        val least = low.fold("")(l => s"${Figures.percentage(l)} ")
+        s" (${least}or more, as few pixels have nearly all of it)"
+      else if isWide then
+        val both = low.zip(high).map: (l, h) =>
+          s" (${Figures.percentage(l).stripSuffix(" %")} to ${Figures.percentage(h)})"
+        both.getOrElse("")
+      else ""
+    s"error ${Figures.percentage(error)}$range"
 
   /** An error that is known to this part of it needs no interval. */
   private val Known = 0.15

@@ -21,8 +21,9 @@ class SummarySuite extends AnyFunSuite:
 
   test("an error of few pixels has no upper limit"):
     val open = Some(Interval(0.01, 0.005, Double.PositiveInfinity))
-    val words = "error 10 % or more, as few pixels have nearly all of it"
-    assert(Summary.noise(0.1, isOfFew = true, open) == words)
+    val words = "or more, as few pixels have nearly all of it)"
+    assert(Summary.noise(0.1, isOfFew = true, open) == s"error 10 % (7.07 % $words")
+    assert(Summary.noise(0.1, isOfFew = true) == s"error 10 % ($words")
 
   test("what would have been sooner is told by its options"):
     val both = Summary.sooner(Sooner(guiding = true, caustics = true))
