@@ -20,7 +20,7 @@ import candela.math.Vec3
 final class Scene(
     surfaces: Surfaces,
     instanced: Instanced,
-    accelerator: Accelerator,
+    private[candela] val accelerator: Accelerator,
     materials: SceneMaterials,
     val lights: Array[Light],
     val selection: LightSelection,
