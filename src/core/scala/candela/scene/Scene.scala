@@ -18,10 +18,10 @@ import candela.math.Vec3
   * @param lightGroups     present if light is to be divided by them
   */
 final class Scene(
-    surfaces: Surfaces,
+    private[candela] val surfaces: Surfaces,
     instanced: Instanced,
     private[candela] val accelerator: Accelerator,
-    materials: SceneMaterials,
+    private[candela] val materials: SceneMaterials,
     val lights: Array[Light],
     val selection: LightSelection,
     val sidesByGeometry: Boolean,

@@ -80,6 +80,7 @@ object Lanes:
       println(
         f"# µs a path: camera ${per(w.cameraNanos)}%.3f, closest ${per(w.wave.closestNanos)}%.3f, " +
           f"shadow ${per(w.wave.shadowNanos)}%.3f, vertices ${per(w.wave.vertexNanos)}%.3f, " +
+          f"in lanes ${per(w.wave.diffuseNanos)}%.3f, " +
           f"film ${per(w.filmNanos)}%.3f; rays ${w.wave.raysTraced / paths}%.2f, " +
           f"alone ${w.wave.singles / paths}%.2f"
       )

@@ -1,8 +1,9 @@
 package candela.integrators
 
 import candela.accel.tracing.RayStreams
+import candela.color.MutableRgb
 import candela.geometry.{Ray, RayDifferential}
-import candela.sampling.Sampler
+import candela.sampling.{SampleHash, Sampler}
 import candela.scene.Scene
 
 /** Many paths at once: all rays of the wave are traced, then each path is followed at what its ray
@@ -10,18 +11,26 @@ import candela.scene.Scene
   *
   * @param most   paths at a time
   * @param ray    of the camera
+  * @param clock  nanoseconds of the thread's processor time
   */
 private[candela] final class PathWave(
     scene: Scene,
     limits: PathLimits,
     sampler: Sampler,
     ray: Ray,
-    most: Int
+    most: Int,
+    clock: () => Long
 ):
   private val current = SurfacePath()
   private val walk = WaveWalk(scene, limits, current)
   private val closest = RayStreams.of(scene.accelerator, most, anyHit = false).get
   private val shadows = RayStreams.of(scene.accelerator, most, anyHit = true).get
+
+  private val diffuse: DiffuseStage | Null =
+    if java.lang.Boolean.getBoolean("candela.lanes.raysOnly") then null
+    else DiffuseStage.of(scene, limits, most).orNull
+  private val shadow = Ray()
+  private val brings = MutableRgb()
 
   private val paths = Array.fill(most)(SurfacePath())
   private val differentials = Array.fill(most)(RayDifferential())
@@ -38,7 +47,7 @@ private[candela] final class PathWave(
   def singles: Long = closest.singles + shadows.singles
 
   /** Nanoseconds in streams of rays, and at vertices. */
-  var closestNanos, shadowNanos, vertexNanos: Long = 0L
+  var closestNanos, shadowNanos, vertexNanos, diffuseNanos: Long = 0L
 
   /** Begins a path, along the camera's ray, of this sample, whose number no other has. */
   def begin(number: Int, x: Int, y: Int, sample: Int): Unit =
@@ -59,39 +68,100 @@ private[candela] final class PathWave(
   /** Follows all paths to their ends. */
   def follow(): Unit =
     while count > 0 do
-      val t0 = System.nanoTime
+      val t0 = clock()
       closest.trace()
-      val t1 = System.nanoTime
+      val t1 = clock()
       shadows.trace()
-      val t2 = System.nanoTime
+      val t2 = clock()
       closest.clear()
       shadows.clear()
       var left = 0
       var i = 0
+      val stage = diffuse
+      if stage != null then stage.clear()
       while i < count do
         val number = active(i)
-        if advance(number) then
+        addLight(number)
+        if stage != null && isDiffuse(stage, number) then stage.add(number, closest)
+        else if lives(number) && advance(number) then
           active(left) = number
           left += 1
         i += 1
+      val t3 = clock()
+      if stage != null then left = advance(stage, left)
       count = left
       closestNanos += t1 - t0
       shadowNanos += t2 - t1
-      vertexNanos += System.nanoTime - t2
+      vertexNanos += t3 - t2
+      diffuseNanos += clock() - t3
+
+  /** Adds the last light sample, if it is visible. */
+  private def addLight(number: Int): Unit =
+    if waits(number) && !shadows.isHit(number) then
+      val at = 3 * number
+      found(at) += pending(at)
+      found(at + 1) += pending(at + 1)
+      found(at + 2) += pending(at + 2)
+    waits(number) = false
+
+  private def isDiffuse(stage: DiffuseStage, number: Int): Boolean =
+    lives(number) && closest.isHit(number) && stage.takes(closest.primitiveOf(number)) &&
+      paths(number).depth + paths(number).passed != limits.maxDepth
+
+  /** Follows the paths at diffuse vertices.
+    *
+    * @param from place of the first that goes on, in `active`
+    */
+  private def advance(stage: DiffuseStage, from: Int): Int =
+    var left = from
+    val n = stage.size
+    var i = 0
+    while i < n do
+      select(stage.at.who(i))
+      stage.draw(i, sampler)
+      i += 1
+    stage.compute()
+    i = 0
+    while i < n do
+      val number = stage.at.who(i)
+      val goesOn = if stage.isSound(i) then leave(stage, i, number) else advance(number)
+      if goesOn then
+        active(left) = number
+        left += 1
+      i += 1
+    left
+
+  private def select(number: Int): Unit =
+    sampler.start(xs(number), ys(number), samples(number))
+    sampler.goTo(positions(number))
+
+  private def leave(stage: DiffuseStage, i: Int, number: Int): Boolean =
+    val path = paths(number)
+    if stage.aim(i, path, shadow, brings) then
+      pending(3 * number) = brings.r
+      pending(3 * number + 1) = brings.g
+      pending(3 * number + 2) = brings.b
+      waits(number) = true
+      shadows.add(number, shadow)
+      rays += 1
+    select(number)
+    sampler.goTo(sampler.position + 4 * SampleHash.Step)
+    lives(number) = stage.leave(i, path, ray, sampler)
+    if lives(number) then
+      positions(number) = sampler.position
+      differentials(number).isKnown = false
+      closest.add(number, ray)
+      rays += 1
+    lives(number) || waits(number)
 
   /** Follows a path at what its ray has met; false: it has ended. */
   private def advance(number: Int): Boolean =
     val at = 3 * number
-    if waits(number) && !shadows.isHit(number) then
-      found(at) += pending(at)
-      found(at + 1) += pending(at + 1)
-      found(at + 2) += pending(at + 2)
     if !lives(number) then false
     else
       current.set(paths(number))
       walk.setFound(found(at), found(at + 1), found(at + 2))
-      sampler.start(xs(number), ys(number), samples(number))
-      sampler.goTo(positions(number))
+      select(number)
       val isHit = closest.isHit(number)
       closest.restore(number, ray)
       ray.differential.copyKnown(differentials(number))

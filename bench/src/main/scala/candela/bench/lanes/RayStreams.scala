@@ -99,6 +99,23 @@ private[candela] final class RayStreams private (
     ray.dz = records(at + Direction + 2)
     ray.tMax = records(at + End)
 
+  def primitiveOf(number: Int): Int = primitive(number * Record)
+  def u(number: Int): Double = us(number)
+  def v(number: Int): Double = vs(number)
+
+  /** Writes the ray's direction at `i`. */
+  def direction(
+      number: Int,
+      x: Array[Float],
+      y: Array[Float],
+      z: Array[Float],
+      i: Int
+  ): Unit =
+    val at = number * Record + Direction
+    x(i) = records(at)
+    y(i) = records(at + 1)
+    z(i) = records(at + 2)
+
   /** Writes what the ray has met. */
   def read(number: Int, ray: Ray, hit: Hit): Unit =
     val at = number * Record

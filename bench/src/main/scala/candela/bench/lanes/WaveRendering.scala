@@ -137,7 +137,7 @@ final class WaveWorker private[render] (
   private val limit: SampleLimit | Null = plan.limit.orNull
   private val shared: SharedPass = film.shares.get.pass()
   private val own = WaveRendering.tracer(plan).get
-  val wave: PathWave = PathWave(own.scene, own.limits, sampler, rays.ray, most)
+  val wave: PathWave = PathWave(own.scene, own.limits, sampler, rays.ray, most, WaveRendering.threadNanos)
   private val filmX, filmY = new Array[Float](most)
   private val states = new Array[Byte](most)
 
@@ -148,7 +148,7 @@ final class WaveWorker private[render] (
   var paths: Long = 0L
 
   def take(tile: Int, from: Int, until: Int): Unit =
-    val t0 = System.nanoTime
+    val t0 = WaveRendering.threadNanos()
     val box = schedule.tiles(tile)
     val count = box.pixels.toInt
     shared.begin(tile)
@@ -157,9 +157,9 @@ final class WaveWorker private[render] (
       while i < count do
         begin((sample - from) * count + i, box.x0 + i % box.width, box.y0 + i / box.width, sample)
         i += 1
-    val t1 = System.nanoTime
+    val t1 = WaveRendering.threadNanos()
     wave.follow()
-    val t2 = System.nanoTime
+    val t2 = WaveRendering.threadNanos()
     for sample <- from until until do
       var i = 0
       while i < count do
@@ -168,7 +168,7 @@ final class WaveWorker private[render] (
       shared.end()
     paths += count * (until - from)
     cameraNanos += t1 - t0
-    filmNanos += System.nanoTime - t2
+    filmNanos += WaveRendering.threadNanos() - t2
 
   private def begin(number: Int, x: Int, y: Int, sample: Int): Unit =
     val px = Math.floorMod(x, plan.width)

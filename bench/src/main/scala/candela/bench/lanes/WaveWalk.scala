@@ -59,12 +59,15 @@ private[candela] final class WaveWalk(scene: Scene, limits: PathLimits, surfaceP
       addEmission()
       if isPassed then passThrough(limits.maxDepth)
       else if hasHad(limits.maxDepth) then end()
-      else
-        evaluate()
-        if sampleLight(sampler) then connect(isBoundary = false)
-        scatter(sampler)
-        leave()
-        if goesOn && depth > limits.rouletteAfter then roulette(limits.rouletteThreshold, sampler)
+      else bounce(sampler)
+
+  /** Apart, as in [[PathTracer]]. */
+  private def bounce(sampler: Sampler): Unit =
+    evaluate()
+    if sampleLight(sampler) then connect(isBoundary = false)
+    scatter(sampler)
+    leave()
+    if goesOn && depth > limits.rouletteAfter then roulette(limits.rouletteThreshold, sampler)
 
   /** As [[LightConnection.scatters]], as if the light sample were visible: its ray waits. */
   def connect(isBoundary: Boolean): Unit =
