@@ -39,6 +39,7 @@ private[candela] final class RayStreams private (
   private val sure = ((most + Lanes - 1) / Lanes) * lanes
   private val may = new Array[Long](2 * sure)
 
+  private val decisions = Decisions(lanes * most)
   private val scratch = Ray()
   private val scratchHit = Hit()
   private val isTame = WideKernel.isTame(tree.bounds)
@@ -205,48 +206,78 @@ private[candela] final class RayStreams private (
     if any then
       var row = 0
       var g = 0
+      val d = decisions
+      d.count = 0
       while g < n do
         var k = 0
         while k < size do
-          decide(may(row), from + g, corners + k, true, axis, isBack)
-          decide(may(row + sure), from + g, corners + k, false, axis, isBack)
+          collect(may(row), from + g, corners + k)
+          decide(may(row + sure), from + g, corners + k, axis, isBack)
           row += 1
           k += 1
         g += Lanes
+      DecisionKernel.decide(d, tree.blocks, lanes, records)
+      var i = 0
+      while i < d.count do
+        settle(d, i, axis, isBack)
+        i += 1
 
-  /** Decides about one triangle and the rays whose bits are set. */
-  private def decide(
-      bits: Long,
-      from: Int,
-      triangle: Int,
-      isInside: Boolean,
-      axis: Int,
-      isBack: Boolean
-  ): Unit =
+  /** Lists the rays whose bits are set, which pass inside a triangle. */
+  private def collect(bits: Long, from: Int, triangle: Int): Unit =
+    val d = decisions
     var left = bits
-    if left != 0L then
+    while left != 0L do
+      d.ray(d.count) = lists(from + java.lang.Long.numberOfTrailingZeros(left))
+      d.triangle(d.count) = triangle
+      d.count += 1
+      left &= left - 1
+
+  /** Decides by what [[DecisionKernel]] has computed. */
+  private def settle(d: Decisions, i: Int, axis: Int, isBack: Boolean): Unit =
+    val at = d.ray(i)
+    val triangle = d.triangle(i)
+    val owner = java.lang.Float.floatToRawIntBits(tree.blocks(triangle + 9 * lanes))
+    if d.clear(i) >= 0L then decide(at, triangle, owner, axis, isBack)
+    else if !(anyHit && primitive(at) >= 0) then
+      val end = d.t(i)
+      val old = records(at + End)
+      val isCloser =
+        if anyHit then end > 0f && end <= old && pair(end, Int.MaxValue) < pair(old, -1)
+        else end > 0f && end <= old && pair(end, owner) < pair(old, primitive(at))
+      if isCloser then
+        if anyHit then
+          setPrimitive(at, 0)
+          records(at + Limit) = Ended
+        else
+          records(at + End) = end
+          records(at + Limit) = java.lang.Float.intBitsToFloat(WideWalk.limitOf(end))
+          setPrimitive(at, owner)
+          us(at / Record) = d.b1(i)
+          vs(at / Record) = d.b2(i)
+
+  private inline def pair(t: Float, primitive: Int): Long =
+    (java.lang.Float.floatToRawIntBits(t).toLong << 32) + (primitive.toLong - Int.MinValue)
+
+  /** Decides about one triangle and the rays whose bits are set, by scalar code. */
+  private def decide(bits: Long, from: Int, triangle: Int, axis: Int, isBack: Boolean): Unit =
+    if bits != 0L then
       val owner = java.lang.Float.floatToRawIntBits(tree.blocks(triangle + 9 * lanes))
+      var left = bits
       while left != 0L do
         val at = lists(from + java.lang.Long.numberOfTrailingZeros(left))
+        decide(at, triangle, owner, axis, isBack)
         left &= left - 1
-        if !(anyHit && primitive(at) >= 0) then
-          load(at, axis, isBack)
-          trace(at, scratch): () =>
-            val isHit =
-              if anyHit then
-                if isInside then isHitInside(triangle) else
-                  TriangleTest.isHit(tree.blocks, triangle, lanes, scratch, scratchHit)
-              else if isInside then intersectInside(triangle, owner)
-              else
-                TriangleTest.intersect(tree.blocks, triangle, lanes, owner, scratch, scratchHit)
-            if isHit then scratchHit.primitive = owner
-            isHit
 
-  private def intersectInside(triangle: Int, owner: Int): Boolean =
-    TriangleTest.intersectInside(tree.blocks, triangle, lanes, owner, scratch, scratchHit)
-
-  private def isHitInside(triangle: Int): Boolean =
-    TriangleTest.isHitInside(tree.blocks, triangle, lanes, scratch, scratchHit)
+  private def decide(at: Int, triangle: Int, owner: Int, axis: Int, isBack: Boolean): Unit =
+    if !(anyHit && primitive(at) >= 0) then
+      load(at, axis, isBack)
+      trace(at, scratch): () =>
+        val isHit =
+          if anyHit then
+            TriangleTest.isHit(tree.blocks, triangle, lanes, scratch, scratchHit)
+          else TriangleTest.intersect(tree.blocks, triangle, lanes, owner, scratch, scratchHit)
+        if isHit then scratchHit.primitive = owner
+        isHit
 
   private def others(code: Int, from: Int, n: Int, axis: Int, isBack: Boolean): Unit =
     val first = WideTree.first(code)
