@@ -134,8 +134,9 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
     for line <- Seq(sky, "Material \"hair\" \"float eumelanin\" 1.3") do out.println(line)
     for _ <- 0 until count do
       val (x, y, lean) = (between(-2, 2), between(-2, 2), between(0, 2 * Math.PI))
-      val points = for k <- 0 until 4 yield
-        words(x + .05 * k * Math.cos(lean), y + .05 * k * Math.sin(lean), k / 12.0)
+      val points =
+        for k <- 0 until 4
+        yield words(x + .05 * k * Math.cos(lean), y + .05 * k * Math.sin(lean), k / 12.0)
       out.println(points.mkString("Shape \"curve\" \"point3 P\" [", "  ", "]"))
       out.println("  \"float width0\" .004 \"float width1\" .001")
 

@@ -33,14 +33,17 @@ object RayKernels:
     val java = Runtime.version.feature
     for set <- sets; (name, accelerator) <- built do
       val m = measure(accelerator, set, number("seconds", "3"))
-      println(f"java $java\t$name\t${set.name}\t${m.rate}%.3f\t${m.hits}\t${m.sum}%.1f\t${m.bytes}%.2f")
+      println(
+        f"java $java\t$name\t${set.name}\t${m.rate}%.3f\t${m.hits}\t${m.sum}%.1f\t${m.bytes}%.2f"
+      )
 
   def kernels(primitives: Primitives): Seq[(String, () => Accelerator)] =
     val vector =
       if Hierarchies.hasVectors then
         Seq("vector" -> (() => Hierarchies.vector(primitives, atOnce = true)))
       else Nil
-    val few = if primitives.count > 10000 then Nil else Seq("brute" -> (() => BruteForce(primitives)))
+    val few =
+      if primitives.count > 10000 then Nil else Seq("brute" -> (() => BruteForce(primitives)))
     vector ++ Seq(
       "scalar4" -> (() => Hierarchies.scalar(primitives)),
       "scalar8" -> (() => Hierarchies.scalar(primitives, width = 8)),

@@ -33,7 +33,8 @@ final class RayPass(a: Accelerator, set: RaySet):
     var i = 7 * first
     while i < 7 * end do
       ray.set(f(i), f(i + 1), f(i + 2), f(i + 3), f(i + 4), f(i + 5), f(i + 6))
-      if set.anyHit then { if a.isOccluded(ray, hit) then hits += 1 }
+      if set.anyHit then
+        if a.isOccluded(ray, hit) then hits += 1
       else if a.closest(ray, hit) then
         hits += 1
         sum += ray.tMax

@@ -53,9 +53,10 @@ final class Torus(triangles: Int):
   def write(path: Path): Unit =
     val out = BufferedOutputStream(Files.newOutputStream(path), 1 << 20)
     try
-      val header = s"ply\nformat binary_little_endian 1.0\nelement vertex ${positions.length / 3}\n" +
-        "property float x\nproperty float y\nproperty float z\n" +
-        s"element face $count\nproperty list uchar int vertex_indices\nend_header\n"
+      val header =
+        s"ply\nformat binary_little_endian 1.0\nelement vertex ${positions.length / 3}\n" +
+          "property float x\nproperty float y\nproperty float z\n" +
+          s"element face $count\nproperty list uchar int vertex_indices\nend_header\n"
       out.write(header.getBytes("US-ASCII"))
       val words = ByteBuffer.allocate(13).order(ByteOrder.LITTLE_ENDIAN)
       def put(fill: => Unit): Unit =

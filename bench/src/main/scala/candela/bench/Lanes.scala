@@ -1,4 +1,4 @@
-package candela.bench.lanes
+package candela.bench
 
 import candela.build.{ColorMode, RenderSettings}
 import candela.guiding.GuidingMode
@@ -21,7 +21,7 @@ object Lanes:
       measure(by, scene, samples.toInt, rest.headOption.fold(Double.PositiveInfinity)(_.toDouble))
     case _ => sys.error("check SCENE [SAMPLES] | scalar|waves SCENE SAMPLES [SECONDS]")
 
-  private val waveSamples = Integer.getInteger("candela.lanes.samples", 32).intValue
+  private val waveSamples = Integer.getInteger("candela.lanes.samples", 8).intValue
 
   private def plan(scene: String, samples: Int): RenderPlan =
     val settings = RenderSettings(
@@ -82,5 +82,6 @@ object Lanes:
           f"shadow ${per(w.wave.shadowNanos)}%.3f, vertices ${per(w.wave.vertexNanos)}%.3f, " +
           f"in lanes ${per(w.wave.diffuseNanos)}%.3f, " +
           f"film ${per(w.filmNanos)}%.3f; rays ${w.wave.raysTraced / paths}%.2f, " +
-          f"alone ${w.wave.singles / paths}%.2f"
+          f"alone ${w.wave.singles / paths}%.2f; vertices in lanes " +
+          f"${w.wave.inLanes / paths}%.2f, others ${w.wave.others / paths}%.2f"
       )

@@ -60,6 +60,9 @@ private[candela] final class PathWave(
     count += 1
     leave(number)
 
+  /** Vertices in lanes, and those of the walk, which include ends of paths. */
+  var inLanes, others: Long = 0L
+
   /** What a path has found. */
   def red(number: Int): Float = found(3 * number)
   def green(number: Int): Float = found(3 * number + 1)
@@ -88,7 +91,9 @@ private[candela] final class PathWave(
           left += 1
         i += 1
       val t3 = clock()
-      if stage != null then left = advance(stage, left)
+      if stage != null then
+        inLanes += stage.size
+        left = advance(stage, left)
       count = left
       closestNanos += t1 - t0
       shadowNanos += t2 - t1
@@ -159,6 +164,7 @@ private[candela] final class PathWave(
     val at = 3 * number
     if !lives(number) then false
     else
+      others += 1
       current.set(paths(number))
       walk.setFound(found(at), found(at + 1), found(at + 2))
       select(number)

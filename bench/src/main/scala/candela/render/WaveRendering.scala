@@ -137,7 +137,8 @@ final class WaveWorker private[render] (
   private val limit: SampleLimit | Null = plan.limit.orNull
   private val shared: SharedPass = film.shares.get.pass()
   private val own = WaveRendering.tracer(plan).get
-  val wave: PathWave = PathWave(own.scene, own.limits, sampler, rays.ray, most, WaveRendering.threadNanos)
+  val wave: PathWave =
+    PathWave(own.scene, own.limits, sampler, rays.ray, most, WaveRendering.threadNanos)
   private val filmX, filmY = new Array[Float](most)
   private val states = new Array[Byte](most)
 
