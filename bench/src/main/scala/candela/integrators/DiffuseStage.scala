@@ -123,8 +123,11 @@ private[integrators] final class DiffuseStage private (
         i += 1
 
   private def light(k: Int, n: Int): Unit =
-    val s = samples
     val lamp = lamps.rows(k)
+    if lamp != null then light(k, lamp, n)
+
+  private def light(k: Int, lamp: RectangleLamp, n: Int): Unit =
+    val s = samples
     var m = 0
     var i = 0
     while i < n do
@@ -155,8 +158,9 @@ private[integrators] final class DiffuseStage private (
         at.fraction(to) = s.fraction(i)
         i += 1
 
-  /** Could it be computed? Not a triangle without area. */
-  def isSound(i: Int): Boolean = at.length(i) > 0.0
+  /** Could it be computed? Not on a triangle without area, nor under a lamp of another shape. */
+  def isSound(i: Int): Boolean =
+    at.length(i) > 0.0 && (at.light(i) < 0 || lamps.rows(at.light(i)) != null)
 
   /** Sets the light sample's ray, and what it brings if it is visible; false: nothing. */
   def aim(i: Int, path: SurfacePath, ray: Ray, brings: MutableRgb): Boolean =
@@ -200,11 +204,11 @@ private[integrators] final class DiffuseStage private (
       !path.isDead
 
 private[integrators] object DiffuseStage:
-  /** @param rows rectangles, of each lamp in the order of the choice
+  /** @param rows rectangles, of each lamp in the order of the choice; null: another shape
     * @param data numbers of [[FewLights]] of each, `stride` apart
     */
   final class Lamps(
-      val rows: Array[RectangleLamp],
+      val rows: Array[RectangleLamp | Null],
       val radiances: Array[Rgb],
       val data: Array[Float],
       val stride: Int,
@@ -242,10 +246,10 @@ private[integrators] object DiffuseStage:
   private def lampsOf(scene: Scene): Option[Lamps] =
     def all(order: Array[Int], data: Array[Float], stride: Int, isRandom: Boolean) =
       val lights = order.map(scene.lights(_))
-      val rows = lights.flatMap(lamp(_))
-      Option.when(rows.length == order.length):
-        val radiances = lights.map(l => member[Rgb](l, "emitted"))
-        Lamps(rows, radiances, data, stride, isRandom)
+      val rows: Array[RectangleLamp | Null] = lights.map(lamp(_).orNull)
+      val radiances = lights.zip(rows).map: (l, row) =>
+        if row == null then Rgb.Black else member[Rgb](l, "emitted")
+      Option.when(rows.exists(_ != null))(Lamps(rows, radiances, data, stride, isRandom))
     scene.selection match
       case _: SingleLight => all(Array(0), Array.empty, 0, false)
       case few: FewLights =>
