@@ -50,6 +50,16 @@ object WholeFile:
         case Some(file) => obstacleOf(file)
     catch case e: IOException => Some(reason(e))
 
+  /** Why a file can't be opened beside it, where permissions promise that it can, as in `/proc`:
+    * one is opened, and deleted.
+    */
+  def refusal(path: Path): Option[String] =
+    try
+      if target(path).nonEmpty then NextFile.of(path).close()
+      None
+    catch
+      case e: IOException => Some(reason(e))
+
   private def obstacleOf(file: Path): Option[String] =
     val folder = Option(file.toAbsolutePath.getParent)
     if Files.isDirectory(file) then Some("it is a folder")
@@ -177,6 +187,8 @@ object NextFile:
           NextFile(path, target, temporary, channel)
     catch
       case e: WriteError => throw e
+      // The folder is there
+      case _: NoSuchFileException => throw WriteError(path, "its folder takes no new files")
       case e: IOException => throw WriteError(path, WholeFile.reason(e))
 
   /** Moves a file in place of another one. */

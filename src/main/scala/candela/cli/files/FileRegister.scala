@@ -60,6 +60,7 @@ private[cli] final class FileRegister:
       )
     def problem(file: Path) = outside(file, output).orElse(irregular(file, output))
       .orElse(obstacle(file)).orElse(isInput(file))
+      .orElse(WholeFile.refusal(file).map(unwritable(file, _)))
     val problems = output.files.flatMap(problem)
     if problems.nonEmpty then throw SceneError(problems)
     for first <- output.beside.flatMap(problem).headOption do throw SceneError(first)
@@ -118,8 +119,10 @@ private[cli] object FileRegister:
 
   /** Why a file can't be written. */
   def obstacle(file: Path): Option[Problem] =
-    WholeFile.obstacle(file).map: why =>
-      Problem.general(Code.Unwritable, s"can't write `$file`: $why", Some("choose another file"))
+    WholeFile.obstacle(file).map(unwritable(file, _))
+
+  private def unwritable(file: Path, why: String): Problem =
+    Problem.general(Code.Unwritable, s"can't write `$file`: $why", Some("choose another file"))
 
   /** A path that all names of a file have, by links or in other cases, whether it exists or not.
     * None for pipes and devices.

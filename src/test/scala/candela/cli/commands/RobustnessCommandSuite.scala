@@ -33,6 +33,12 @@ class RobustnessCommandSuite extends AnyFunSuite:
     val (code, said) = run(short :+ "--quiet"*)
     assert((code, said.out, said.err) == (0, "", ""))
 
+  test("a report that the file system refuses is told before anything is measured"):
+    assume(Files.isWritable(java.nio.file.Path.of("/proc")))
+    val (code, said) = run(short ++ Vector("--report", "/proc/x.html")*)
+    assert((code, said.out) == (1, ""), said.err)
+    assert(said.err.contains("can't write `/proc/x.html`"), said.err)
+
   test("unknown kinds, counts and formats are refused with what is known"):
     val (kind, saidKind) = run("--only", "leak")
     assert(kind == 2 && saidKind.err.contains("--only has no kind `leak`: did you mean `leaks`?"))
