@@ -73,11 +73,27 @@ open class Commands(self: Vector[String], scratch: Path, isCancelled: () => Bool
       // Also if the wait is interrupted: no process outlives the run.
       val _ = process.destroyForcibly().waitFor()
 
+  /** The first line that names an error, else the last one. */
   private def lastWords(log: Path): String =
-    val lines = String(Files.readAllBytes(log), "UTF-8").linesIterator.filter(_.trim.nonEmpty)
-    lines.toVector.lastOption.fold("no output")(_.trim.take(200))
+    val text = Commands.Colours.replaceAllIn(String(Files.readAllBytes(log), "UTF-8"), "")
+    val lines = text.linesIterator.filter(_.trim.nonEmpty).toVector
+    val named = lines.find(line => !line.head.isWhitespace && Commands.NamesError.matches(line))
+    named.orElse(lines.lastOption).fold("no output")(_.trim.take(200))
 
 object Commands:
+  /** Placeholders of edits. */
+  val EditPlaceholders: Vector[String] = Vector("{spp}", "{seed}", "{threads}")
+
+  /** Placeholders of commands. */
+  val Placeholders: Vector[String] = Vector("{candela}", "{scene}", "{out}") ++ EditPlaceholders
+
+  /** As in `error[E0001]: …`, `ValueError: …`, `… FATAL …`. */
+  private val NamesError =
+    """.*([Ee]rror|[Ee]xception)(\[\w+\])?:.*|.*\b(ERROR|FATAL|[Ff]atal)\b.*""".r
+
+  /** A terminal's control sequences. */
+  private val Colours = "\u001b\\[[0-9;]*m".r
+
   /** Polling interval for cancellation and memory, in milliseconds. */
   private val Patience = 20L
 

@@ -115,11 +115,12 @@ final class SuiteRunner(
 
   /** @param afterScene receives the results so far after each scene */
   private[suite] def run(afterScene: Vector[Result] => Unit): Vector[Result] =
-    val scenes = suite.scenes.filter(isThere)
+    val there = suite.scenes.filter(isThere)
     val programs = suite.programs.filter: program =>
       commands.missing(program).forall: why =>
         leaveOut(program.title, why)
         false
+    val scenes = there.filter(isRead(_, programs))
     val plans = scenes.map(scene => scene -> programs.flatMap(entryOf(_, scene)))
     forecast = Forecast(plans.flatMap(_._2).flatMap(Forecast.runs(_, suite)))
     nameWidth = plans.flatMap(_._2).map(e => named(e, 1000).length).maxOption.getOrElse(0)
@@ -199,8 +200,21 @@ final class SuiteRunner(
     why.foreach(leaveOut(scene.title, _))
     why.isEmpty
 
+  private def isWanted(program: Program, scene: SuiteScene): Boolean =
+    scene.programs.forall(_.contains(program.name))
+
+  /** Whether one of these programs takes one of the scene's files. */
+  private def isRead(scene: SuiteScene, programs: Vector[Program]): Boolean =
+    val wanted = programs.filter(isWanted(_, scene))
+    val isRead = wanted.exists(_.kinds.exists(scene.files.contains))
+    if wanted.nonEmpty && !isRead then
+      val files = scene.files.keys.toVector.sorted.mkString(", ")
+      val read = wanted.map(p => s"${p.title} reads ${p.kinds.mkString(", ")}").mkString("; ")
+      leaveOut(scene.title, s"no program reads its files ($files); $read")
+    isRead
+
   private def entryOf(program: Program, scene: SuiteScene): Option[Entry] =
-    val wanted = scene.programs.forall(_.contains(program.name))
+    val wanted = isWanted(program, scene)
     val file = program.kinds.flatMap(scene.files.get).headOption
     for
       f <- file if wanted

@@ -209,6 +209,30 @@ class SuiteRunnerSuite extends AnyFunSuite:
       assert(reasons("edited on Flat") == "edit matches nothing: `no such words`")
       for (what, why) <- reasons do assert(said.contains(s"skipped: $what: $why"))
 
+  test("the reason for a failure is the line that names the error, else the last one"):
+    inFolder: folder =>
+      def said(lines: String*): String =
+        val script = folder.resolve("fails.sh")
+        val text = lines.map(l => s"printf '%b\\n' '$l'").mkString("", "\n", "\nexit 3\n")
+        val _ = Files.writeString(script, text)
+        Commands(Vector.empty, folder).run(
+          Vector("sh", script.toString),
+          folder.resolve("none.exr"),
+          30
+        ) match
+          case Outcome.Failed(why) => why
+          case other => fail(other.toString)
+      assert(said("reading", "error[E0001]: no lamp", " --> a.pbrt:1:1", "bye") ==
+        "exit code 3: error[E0001]: no lamp")
+      assert(said("Traceback:", "  raise ValueError(x)", "ValueError: 3", "bye") ==
+        "exit code 3: ValueError: 3")
+      assert(said(
+        "\\033[31mError\\033[0m: a.pbrt: what",
+        "bye"
+      ) == "exit code 3: Error: a.pbrt: what")
+      assert(said("[ x.cpp:3 ] FATAL no file", "bye") == "exit code 3: [ x.cpp:3 ] FATAL no file")
+      assert(said("estimated error 0.1", "bye") == "exit code 3: bye")
+
   /** Renders for 0.01 s per sample, from 100 samples on for four times as long each. */
   private final class Slowing(folder: Path) extends Commands(Vector.empty, folder):
     override def run(words: Vector[String], out: Path, timeout: Double): Outcome =
