@@ -1,6 +1,6 @@
 package candela.suite
 
-import candela.base.{Code, SceneError}
+import candela.base.{Code, Problem, SceneError, Suggest}
 import candela.report.Growth
 
 import java.nio.file.Path
@@ -84,6 +84,10 @@ enum Work:
   case Samples(counts: Vector[Int])
   case Seconds(budgets: Vector[Double])
 
+object Work:
+  /** The first that is there more than once. */
+  def repeated[A](all: Seq[A]): Option[A] = all.diff(all.distinct).headOption
+
 /** A benchmark suite.
   *
   * @param seeds independent images per sample count
@@ -115,8 +119,8 @@ final case class Suite(
   def only(programNames: Vector[String], sceneNames: Vector[String]): Suite =
     def check(asked: Vector[String], known: Vector[String], what: String): Unit =
       for name <- asked if !known.contains(name) do
-        val message = s"unknown $what `$name`; known: ${known.mkString(", ")}"
-        throw SceneError(candela.base.Problem.general(Code.SuiteFile, message))
+        val message = s"unknown $what `$name`"
+        throw SceneError(Problem.general(Code.SuiteFile, message, Suggest.help(name, known)))
     check(programNames, programs.map(_.name), "program")
     check(sceneNames, scenes.map(_.name), "scene")
     copy(

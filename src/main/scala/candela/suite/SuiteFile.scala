@@ -1,15 +1,18 @@
 package candela.suite
 
-import candela.base.{Code, Problem, SceneError}
+import candela.base.{Code, FileName, Problem, SceneError, SourcePos, Suggest}
 import candela.job.SceneFormat
 import candela.report.Growth
 
-import com.typesafe.config.{Config, ConfigException, ConfigFactory, ConfigParseOptions}
+import com.typesafe.config.{
+  Config, ConfigException, ConfigFactory, ConfigOrigin, ConfigParseOptions
+}
 
 import java.nio.file.{Files, Path}
 import java.util.regex.PatternSyntaxException
 
 import scala.jdk.CollectionConverters.*
+import scala.util.Try
 
 /** Reads suites in HOCON (a superset of JSON with comments); docs/BENCH.md documents the format.
   * File names are relative to the suite's folder.
@@ -22,7 +25,7 @@ object SuiteFile:
       val options = ConfigParseOptions.defaults.setAllowMissing(false)
       // Includes are found beside a file whose folder is known, and are ignored where they are not
       val file = path.toAbsolutePath
-      suite(ConfigFactory.parseFile(file.toFile, options).resolve(), file.getParent)
+      suite(ConfigFactory.parseFile(file.toFile, options).resolve(), file)
     catch
       case e: ConfigException =>
         // Some of its messages begin with the file
@@ -30,6 +33,10 @@ object SuiteFile:
         throw wrong(s"$path: $why")
       case e: PatternSyntaxException =>
         throw wrong(s"$path: invalid regular expression: ${e.getMessage.linesIterator.next()}")
+      case e: SceneError =>
+        val own = path.toAbsolutePath.toString
+        throw SceneError(e.problems.map: p =>
+          p.copy(at = p.at.map(at => if at.file == own then at.copy(file = s"$path") else at)))
 
   private val suiteKeys = Set("title", "samples", "seconds", "seeds", "timeout") ++
     Set("programs", "scenes")
@@ -38,13 +45,22 @@ object SuiteFile:
   private val sceneKeys = Set("title", "note", "files", "reference", "samples", "seconds") ++
     Set("target", "programs", "needs", "grows")
 
-  private def suite(c: Config, folder: Path): Suite =
+  private def suite(c: Config, file: Path): Suite =
     // Keys for substitution only start with an underscore: `_flags`.
     known(c, suiteKeys, "the suite")
+    val own = named(c, "programs", file)
+    val programs = own.zipWithIndex.map: (n, i) =>
+      val entries = c.getConfig(s"programs.$n")
+      checkPrograms(entries, "counterpart", s"program $n", own)(one)
+      program(n, entries, i)
+    val scenes = named(c, "scenes", file).map: n =>
+      val entries = c.getConfig(s"scenes.$n")
+      checkPrograms(entries, "programs", s"scene $n", own)(texts)
+      scene(n, entries, file.getParent)
     Suite(
-      c.getString("title"),
-      named(c, "programs").zipWithIndex.map((n, i) => program(n, c.getConfig(s"programs.$n"), i)),
-      named(c, "scenes").map(n => scene(n, c.getConfig(s"scenes.$n"), folder)),
+      text(c, "title", FileName.stem(file)),
+      programs,
+      scenes,
       work(c).getOrElse(Work.Samples(Vector(1, 4, 16, 64))),
       positive(c, "seeds", 3),
       if c.hasPath("timeout") then c.getDouble("timeout") else DefaultTimeout
@@ -54,9 +70,9 @@ object SuiteFile:
   val DefaultTimeout = 600.0
 
   /** In file order, those of included files last. */
-  private def named(c: Config, key: String): Vector[String] =
+  private def named(c: Config, key: String, file: Path): Vector[String] =
     val entries = c.getObject(key)
-    val own = Option(c.getValue("title").origin.filename)
+    val own = Option(file.toString)
     entries.keySet.asScala.toVector.sortBy: k =>
       val origin = entries.get(k).origin
       (Option(origin.filename) != own, origin.lineNumber)
@@ -64,13 +80,14 @@ object SuiteFile:
   private def program(name: String, c: Config, index: Int): Program =
     known(c, programKeys, s"program $name")
     val command = if c.hasPath("command") then c.getString("command") else ""
+    filled(c, "command", s"program $name", Commands.Placeholders)
     Program(
       name,
       text(c, "title", name),
       command.split(' ').toVector.filter(_.nonEmpty),
       texts(c, "reads"),
       positive(c, "threads", Runtime.getRuntime.availableProcessors),
-      if c.hasPath("edits") then c.getConfigList("edits").asScala.toVector.map(edit)
+      if c.hasPath("edits") then c.getConfigList("edits").asScala.toVector.map(edit(_, name))
       else Vector.empty,
       !c.hasPath("seeded") || c.getBoolean("seeded"),
       if c.hasPath("color") then c.getInt("color") else index,
@@ -81,7 +98,47 @@ object SuiteFile:
       Option.when(c.hasPath("counterpart"))(c.getString("counterpart"))
     )
 
-  private def edit(c: Config): Edit = Edit(c.getString("find").r, c.getString("replace"))
+  private def edit(c: Config, program: String): Edit =
+    known(c, Set("find", "replace"), s"`edits` of program $program")
+    filled(c, "replace", s"an edit of program $program", Commands.EditPlaceholders)
+    Edit(c.getString("find").r, c.getString("replace"))
+
+  /** Neither a shell's `${NAME}` nor what follows a backslash. */
+  private val Placeholder = """(?<![$\\])\{\w+\}""".r
+
+  /** Rejects unknown placeholders, because programs would get them as they are. */
+  private def filled(c: Config, key: String, where: String, known: Vector[String]): Unit =
+    if c.hasPath(key) then
+      for found <- Placeholder.findAllIn(c.getString(key)) if !known.contains(found) do
+        val message = s"unknown placeholder `$found` in $where"
+        throw unknown(message, found, known, c.getValue(key).origin)
+
+  private def checkPrograms(c: Config, key: String, where: String, known: Vector[String])(
+      names: (Config, String) => Vector[String]
+  ): Unit =
+    if c.hasPath(key) then
+      for name <- names(c, key) if !known.contains(name) do
+        val message = s"unknown program `$name` in `$key` of $where"
+        throw unknown(message, name, known, c.getValue(key).origin)
+
+  /** An unknown name, with its place and the nearest known one. */
+  private def unknown(
+      message: String,
+      name: String,
+      known: Iterable[String],
+      origin: ConfigOrigin
+  ): SceneError =
+    val text =
+      for
+        file <- Option(origin.filename)
+        lines <- Try(Files.readAllLines(Path.of(file)).asScala.toVector).toOption
+        // Of a value in parts, the origin is that of the first one
+        first = origin.lineNumber - 1
+        index = Some(lines.indexWhere(_.contains(name), first)).filter(_ >= 0).getOrElse(first)
+        text <- lines.lift(index)
+      yield (SourcePos(file, index + 1, math.max(text.indexOf(name), 0) + 1), text)
+    val problem = Problem.error(Code.SuiteFile, text.map(_._1), message, Suggest.help(name, known))
+    SceneError(problem.copy(excerpt = text.map(_._2)))
 
   private def scene(name: String, c: Config, folder: Path): SuiteScene =
     known(c, sceneKeys, s"scene $name")
@@ -108,22 +165,29 @@ object SuiteFile:
 
   private def work(c: Config): Option[Work] =
     if c.hasPath("samples") then
-      val counts = c.getIntList("samples").asScala.toVector.map(_.intValue).distinct.sorted
+      val counts = once("samples", c.getIntList("samples").asScala.toVector.map(_.intValue))
       if counts.isEmpty || counts.head < 1 then throw wrong("`samples` must be at least 1")
       Some(Work.Samples(counts))
     else if c.hasPath("seconds") then
-      val budgets = c.getDoubleList("seconds").asScala.toVector.map(_.doubleValue).distinct.sorted
+      val budgets = once("seconds", c.getDoubleList("seconds").asScala.toVector.map(_.doubleValue))
       if budgets.isEmpty || budgets.head <= 0 then throw wrong("`seconds` must be greater than 0")
       Some(Work.Seconds(budgets))
     else None
 
+  /** In order. */
+  private def once[N: Ordering](key: String, all: Vector[N]): Vector[N] =
+    for n <- Work.repeated(all) do throw wrong(s"`$key` has `$n` twice")
+    all.sorted
+
   /** Rejects unknown keys, because a misspelt one must not be ignored. */
   private def known(c: Config, keys: Set[String], where: String): Unit =
     for key <- c.root.keySet.asScala.toVector.sorted if !keys(key) && !key.startsWith("_") do
-      throw wrong(s"unknown key `$key` in $where; known: ${keys.toVector.sorted.mkString(", ")}")
+      throw unknown(s"unknown key `$key` in $where", key, keys, c.root.get(key).origin)
 
   private def text(c: Config, key: String, other: String): String =
     if c.hasPath(key) then c.getString(key) else other
+
+  private def one(c: Config, key: String): Vector[String] = Vector(c.getString(key))
 
   private def texts(c: Config, key: String): Vector[String] = c.getStringList(key).asScala.toVector
 

@@ -59,6 +59,16 @@ class SuiteFileSuite extends AnyFunSuite:
 
   private val wrong = Vector(
     ("seeds = 2", "seeds = 0", "`seeds` must be at least 1"),
+    (
+      "command = \"b \"${_flags}\" {scene}\"",
+      "command = \"b {scen}\"",
+      "unknown placeholder `{scen}`"
+    ),
+    ("replace = \"spp {spp}\"", "replace = \"spp {sp}\"", "unknown placeholder `{sp}`"),
+    ("programs = [b]", "programs = [bb]", "unknown program `bb` in `programs` of scene y"),
+    ("thin = true", "counterpart = aa", "unknown program `aa` in `counterpart` of program b"),
+    ("samples = [4, 1]", "samples = [4, 1, 4]", "`samples` has `4` twice"),
+    ("seconds = [1, 2]", "seconds = [2, 2.0]", "`seconds` has `2.0` twice"),
     ("seeds = 2", "seedz = 2", "unknown key `seedz` in the suite"),
     ("threads = 1", "treads = 1", "unknown key `treads` in program b"),
     ("target = 0.01", "tarket = 0.01", "unknown key `tarket` in scene z"),
@@ -98,7 +108,36 @@ class SuiteFileSuite extends AnyFunSuite:
     val suite = read(good).only(Vector("b"), Vector("y"))
     assert(suite.programs.map(_.name) == Vector("b") && suite.scenes.map(_.name) == Vector("y"))
     val error = intercept[SceneError](read(good).only(Vector("c"), Vector.empty))
-    assert(error.problems.head.message == "unknown program `c`; known: b, a")
+    assert(error.problems.head.message == "unknown program `c`")
+
+  test("what is misspelt is told with its place and the nearest name"):
+    def problem(written: String, instead: String) =
+      assert(good.contains(written))
+      intercept[SceneError](read(good.replace(written, instead))).problems.head
+    val slips = Vector(
+      ("programs {", "progams {", 5, "programs"),
+      ("seeded =", "sedeed =", 8, "seeded"),
+      ("spp {spp}", "spp {sp}", 8, "{spp}"),
+      (" {scene}\"", " {scen}\"", 6, "{scene}"),
+      ("programs = [b]", "programs = [bb]", 14, "b"),
+      ("of = \"knots\"", "off = 1", 13, "of")
+    )
+    for (written, instead, line, meant) <- slips do
+      val p = problem(written, instead)
+      assert(p.help.contains(s"did you mean `$meant`?"), p)
+      assert(p.at.exists(_.line == line), p)
+
+  test("braces that are no placeholders stay: of variables, of JSON, behind a backslash"):
+    val suite = read(good.replace("spp {spp}", """spp \\{sp}""")
+      .replace(" {scene}\"", """ ${HOME} {\"a\":1}""" + "\""))
+    assert(suite.programs.head.command.drop(2) == Vector("${HOME}", "{\"a\":1}"))
+
+  test("without a title, a suite has the name of its file"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("quick.conf")
+      val untitled = good.linesIterator.drop(1).mkString("\n")
+      val suite = SuiteFile.read(Files.writeString(file, untitled))
+      assert(suite.title == "quick" && suite.programs.map(_.name) == Vector("b", "a"))
 
   test("the suites of the repository can be read"):
     for name <- Vector("own", "peers", "long", "mitsuba") do

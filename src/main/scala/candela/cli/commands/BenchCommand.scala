@@ -8,7 +8,8 @@ import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
 import candela.base.{
-  Code, FileName, ForeignFile, ForeignKind, Problem, SceneError, Scratch, Version, WholeFile
+  Code, FileName, ForeignFile, ForeignKind, Problem, SceneError, SceneFolder, Scratch, Version,
+  WholeFile
 }
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.Options
@@ -48,7 +49,11 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
         for path <- paths do terminal.out.println(s"wrote $path")
         terminal.out.flush()
       else if !cancellation.isRequested then
-        throw SceneError(Problem.general(Code.NoProgram, "no program could run any scene"))
+        // Else they are told already
+        val reasons = Option.when(options.quiet):
+          results.leftOut.map((what, why) => s"$what: $why").mkString("; ")
+        val message = "no program could run any scene"
+        throw SceneError(Problem.general(Code.NoProgram, message, reasons.filter(_.nonEmpty)))
       if cancellation.isRequested then ExitCode.Interrupted else ExitCode.Done
 
   private def short(scratch: Path): Suite =
@@ -82,7 +87,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
 
   private def read(source: Path): Suite =
     if Files.isDirectory(source) then
-      SuiteFolder.read(source, asked.references.fold(source)(OutputFiles.path))
+      SuiteFolder.read(source, asked.references.fold(source)(folder))
     else if Files.isRegularFile(source) then
       if asked.peers && SceneFormat.named(source).isDefined then SuiteFolder.ofScene(source)
       else
@@ -94,7 +99,16 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
             Some(help)
           ))
         SuiteFile.read(source)
-    else throw SceneError(Problem.general(Code.SuiteFile, s"no such suite: `$source`"))
+    else throw missing("suite", source)
+
+  private def folder(name: String): Path =
+    val path = OutputFiles.path(name)
+    if !Files.isDirectory(path) then throw missing("folder", path)
+    path
+
+  private def missing(what: String, path: Path): SceneError =
+    val near = Option(path.getFileName).flatMap(n => SceneFolder.of(path).suggestion(n.toString))
+    SceneError(Problem.general(Code.SuiteFile, s"no such $what: `$path`", near))
 
   private def notSuite(file: Path): Option[String] =
     if SceneFormat.named(file).isDefined then Some("a scene")

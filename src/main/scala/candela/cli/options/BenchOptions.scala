@@ -30,6 +30,9 @@ private[cli] object BenchTable extends OptionRows:
   private def change(o: Options)(f: BenchOptions => BenchOptions): Options =
     o.copy(bench = f(o.bench))
 
+  private def once(option: String)(all: Seq[?]): Either[String, Unit] =
+    Work.repeated(all).fold(success)(n => failure(s"--$option has `$n` twice"))
+
   val options: Vector[Row] = Vector(
     opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
       .text("output files: .html, .json, .csv, .svg (default: SUITE.html)")
@@ -37,11 +40,13 @@ private[cli] object BenchTable extends OptionRows:
     opt[Seq[Int]]("samples").valueName("N,...")
       .text("samples per pixel; overrides the suite")
       .validate(n => if n.forall(_ >= 1) then success else failure("--samples must be at least 1"))
-      .action((n, o) => change(o)(_.copy(work = Some(Work.Samples(n.toVector.distinct.sorted))))),
+      .validate(once("samples"))
+      .action((n, o) => change(o)(_.copy(work = Some(Work.Samples(n.toVector.sorted))))),
     opt[Seq[Double]]("seconds").valueName("N,...")
       .text("time per image, instead of samples; overrides the suite")
       .validate(n => if n.forall(_ > 0) then success else failure("--seconds must be above 0"))
-      .action((n, o) => change(o)(_.copy(work = Some(Work.Seconds(n.toVector.distinct.sorted))))),
+      .validate(once("seconds"))
+      .action((n, o) => change(o)(_.copy(work = Some(Work.Seconds(n.toVector.sorted))))),
     opt[Int]("seeds").valueName("N")
       .text("independent images per sample count; overrides the suite")
       .validate(atLeast("seeds", 1))

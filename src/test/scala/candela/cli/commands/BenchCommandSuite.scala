@@ -89,6 +89,44 @@ class BenchCommandSuite extends AnyFunSuite:
       assert(Files.readString(files(0)).contains("partly rendered when this report was written"))
       assert(!Files.list(folder).anyMatch(_.toString.endsWith(".tmp")))
 
+  test("a report that the file system refuses is told before anything runs"):
+    assume(Files.isWritable(Path.of("/proc"))) // by its permissions, for the superuser
+    inSuite: (_, suite) =>
+      val (code, captured) = run(suite, "--samples", "1", "--report", "/proc/x.html")
+      assert(code == 1 && captured.err.contains("can't write `/proc/x.html`"), captured.err)
+      assert(!captured.err.contains("spp"))
+
+  test("names that are close to known ones are suggested"):
+    inSuite: (folder, suite) =>
+      val (_, file) = run(s"$folder/copied.conf")
+      assert(file.err.contains("did you mean `copies.conf`?"), file.err)
+      val (_, program) = run(suite, "--programs", "cpy")
+      assert(program.err.contains("did you mean `copy`?"), program.err)
+
+  test("a folder of references that isn't there is refused"):
+    TempFolder.use: folder =>
+      val _ = Files.writeString(folder.resolve("a.pbrt"), "")
+      val _ = Files.createDirectory(folder.resolve("truths"))
+      val (code, captured) = run(s"$folder", "--references", s"$folder/truth")
+      assert(code == 1 && captured.err.contains(s"no such folder: `$folder/truth`"), captured.err)
+      assert(captured.err.contains("did you mean `truths`?"), captured.err)
+
+  test("a scene that no program reads is named, with --quiet, too"):
+    inSuite: (_, suite) =>
+      val text = Files.readString(Path.of(suite)).replace("files { exr", "files { v9")
+      val _ = Files.writeString(Path.of(suite), text)
+      for words <- Vector(Vector.empty, Vector("--quiet")) do
+        val (code, captured) = run(Vector(suite, "--samples", "1") ++ words*)
+        assert(code == 1)
+        val why = "no program reads its files (v9); copy reads exr"
+        assert(captured.err.contains(s"flat: $why"), captured.err)
+
+  test("a count that is given twice is refused"):
+    inSuite: (_, suite) =>
+      for option <- Vector("samples", "seconds") do
+        val (code, captured) = run(suite, s"--$option", "1,2,1")
+        assert(code == 2 && captured.err.contains(s"--$option has `1"), captured.err)
+
   test("what can't be is said before anything runs"):
     inSuite: (folder, suite) =>
       def error(args: String*) =
@@ -98,7 +136,8 @@ class BenchCommandSuite extends AnyFunSuite:
       assert(error(s"$folder/none.conf").contains("no such suite"))
       assert(error(suite, "--report", s"$folder/x.pdf").contains(".html, .json, .csv, or .svg"))
       assert(error(suite, "--report", s"$folder/none/x.html").contains("no such folder"))
-      assert(error(suite, "--scenes", "flut").contains("unknown scene `flut`; known: flat"))
+      val scene = error(suite, "--scenes", "flut")
+      assert(scene.contains("unknown scene `flut`") && scene.contains("did you mean `flat`?"))
       assert(error(folder.toString, "--report", s"$folder/x.csv").contains("no scene in"))
       assert(!Files.exists(folder.resolve("x.csv")))
 
