@@ -160,3 +160,26 @@ class EarlyInterruptSuite extends AnyFunSuite:
       val ended = running.ended()
       assert(ended.code == 130 && ended.err.contains("stopping"), ended)
       assert(Files.exists(folder.resolve("a.exr")))
+
+  test("a reference interrupted in its first run goes on with its own options alone"):
+    inFolder: folder =>
+      val film = folder.resolve("a.run-1.film")
+      def reference(options: String*) =
+        Running(folder, Seq("reference", "s.pbrt", "--outfile", "a.exr") ++ options)
+      def interrupted() =
+        val running = reference("--spp", "1000000", "--error", "0.5%")
+        eventually("lock"):
+          Option.when(Files.exists(folder.resolve(".a.run-1.film.lock")) || !running.isAlive)(())
+        Thread.sleep(500)
+        running.interrupt()
+        running.ended()
+      assert(interrupted().code == 130)
+      val kept = Files.readAllBytes(film)
+      for samples <- Vector("4", "2000000") do
+        val running = reference("--spp", samples, "--error", "50%", "--time", "1s")
+        val other = running.ended()
+        assert(other.code == 1 && other.err.contains("[E1002]"), other)
+        assert(other.err.contains("`a.run-1.film`") && other.err.contains("remove it"), other)
+        assert(Files.readAllBytes(film).sameElements(kept))
+      assert(!Files.exists(folder.resolve("a.exr")))
+      assert(interrupted().code == 130)

@@ -99,7 +99,8 @@ final class ReferenceCommand(
 
   /** One run; what an interrupted one has rendered is kept in a film file. */
   private def rendered(prepared: Prepared, film: Path, run: Int): Rendering =
-    val now = FilmHeaders.of(settings(run), scene, prepared, film)
+    // A film of other runs must not go on as this one
+    val now = FilmHeaders.of(settings(run), scene, prepared, film).copy(samples = perRun)
     def warn(problem: Problem) = report.warnings(Vector(problem), all = true)
     val how = FilmKeeper.How(options.film.every, warn)
     val progress = ProgressLine(terminal.err, terminal.isInteractive, terminal.isReadByProgram)
