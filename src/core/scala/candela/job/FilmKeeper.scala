@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Code, Problem, SceneError, Severity, Version}
+import candela.base.{Code, Problem, SceneError, Severity, Version, WholeFile}
 import candela.render.RenderPlan
 import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmLock, FilmWriter}
 
@@ -70,9 +70,15 @@ object FilmKeeper:
     val next = continued(film, now, plan.samplesPerPixel, obstacle)
     FilmKeeper(film.path, next, Some(film), obstacle.isEmpty, None, how)
 
-  /** @throws SceneError if another rendering writes this film file */
+  /** @throws SceneError if another rendering writes this film file, or none can */
   def locked(path: Path): FilmLock =
-    FilmLock.take(path).getOrElse:
+    val lock =
+      try FilmLock.take(path)
+      catch
+        case e: IOException =>
+          val why = WholeFile.reason(e)
+          fail(Code.Unwritable, s"can't write `$path`: $why", "choose another file")
+    lock.getOrElse:
       fail(
         Code.FilmInUse,
         s"`$path` is being written by another rendering",

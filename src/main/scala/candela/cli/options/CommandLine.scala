@@ -100,7 +100,10 @@ object CommandLine:
         val (options, effects) = OParser.runParser(CommandTable.table, words, Options(), setup)
         val errors = effects.collect:
           case OEffect.ReportError(text) => text
-        options.toRight(refusal(UsageErrors.explained(errors.toVector, command), command))
+        def refused(texts: Vector[String]) =
+          refusal(UsageErrors.explained(texts, command), command)
+        options.toRight(refused(errors.toVector)).flatMap: read =>
+          CommandTable.problem(read).map(text => refused(Vector(text))).toLeft(read)
 
   /** Whether it is a word whose parts scopt would all take for short options: their size is that of
     * the word, squared.

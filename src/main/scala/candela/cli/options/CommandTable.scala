@@ -34,7 +34,7 @@ private[cli] final case class CommandRow(
 /** All commands. */
 private[cli] object CommandTable extends OptionRows:
   private val b = OParser.builder[Options]
-  import b.{arg, checkConfig, cmd, programName}
+  import b.{arg, cmd, programName}
 
   private def file(name: String, text: String): OParser[String, Options] =
     arg[String](name).text(text).action((f, o) => o.copy(files = o.files :+ f))
@@ -193,11 +193,13 @@ private[cli] object CommandTable extends OptionRows:
   /** For scopt. */
   val table: Row = OParser.sequence(
     programName("candela"),
-    (rows.map(parsed) :+ checkConfig(o => problem(o).toLeft(())))*
+    rows.map(parsed)*
   )
 
-  /** What is wrong with options that belong together, if anything. */
-  private def problem(o: Options): Option[String] =
+  /** What is wrong with options that belong together, if anything. It holds for options that could
+    * all be read: one that could not would seem to be missing.
+    */
+  def problem(o: Options): Option[String] =
     val isRender = o.command == Command.Render
     val isSeveral = o.files.size > 1
     def needsSingle(option: String, isGiven: Boolean) =

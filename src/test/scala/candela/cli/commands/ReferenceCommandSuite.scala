@@ -111,3 +111,19 @@ class ReferenceCommandSuite extends AnyFunSuite:
       val nowhere = folder.resolve("no/where.exr").toString
       assert(run(ball, "--error", "5%", "--outfile", nowhere)._1 == 1)
       assert(run(ball, "--error", "5%", "--outfile", ball)._1 == 1)
+
+  test("a goal that can't be read is the only error"):
+    TempFolder.use: folder =>
+      val ball = scene(folder)
+      for goal <- Vector("0", "-1%", "nan", "5%%") do
+        val (code, captured) = run(ball, "--error", goal)
+        assert(code == 2 && captured.err.contains(s"found `$goal`"))
+        assert(!captured.err.contains("reference needs"))
+
+  test("a place without files can't be written, and is not said to be read"):
+    assume(Files.isDirectory(Path.of("/proc")))
+    TempFolder.use: folder =>
+      val (code, captured) = run(scene(folder), "--error", "5%", "--outfile", "/proc/x.exr")
+      assert(code == 1)
+      assert(captured.err.startsWith("error: can't write `/proc/x."), captured.err)
+      assert(captured.err.contains("[E0105]"))
