@@ -1,7 +1,7 @@
 package candela.cli.commands
 
 import candela.base.Code
-import candela.cli.files.OutputFiles
+import candela.cli.files.{FileRegister, OutputFiles}
 import candela.cli.options.CompareOptions
 import candela.cli.terminal.{ExitCode, Figures, Terminal}
 import candela.image.{Contents, Image, ImageEdits, ImageError, ImageFiles, OutputFormat}
@@ -104,24 +104,44 @@ private[commands] final case class ImageSet(name: String, files: Vector[Path]):
     case Vector(file) => s"`${file.getFileName}` with its variance"
     case several => Figures.count(several.size, "image")
 
+  /** Noise of the same seeds would cancel in the difference, and any two sets seem alike.
+    *
+    * @throws ImageError if both sets have an image
+    */
+  def checkApart(other: ImageSet): Unit =
+    val register = FileRegister()
+    register.read(other.files)
+    val common = files.filter(register.hasRead)
+    for first <- common.headOption do
+      val more = common.size - 1
+      val which =
+        if more == 0 then s"`$first` is"
+        else s"`$first` and ${Figures.count(more, "more image")} are"
+      throw ImageError(
+        Code.DifferentImages,
+        s"$which in both sets; each set needs images of seeds of its own"
+      )
+
 private[commands] object ImageSet:
   /** A folder's images, or those of names and patterns between commas.
     *
-    * @throws ImageError if there are none
+    * @throws ImageError if there are none, or one is named twice
     */
   def named(name: String): ImageSet =
     val path = OutputFiles.path(name)
     if Files.isDirectory(path) then found(name, ReferenceSet.files(path))
     else if Files.exists(path) then ImageSet(name, Vector(path))
     else
-      found(
-        name,
-        name.split(",").toVector.map(_.trim).filter(_.nonEmpty).flatMap(matching).distinct
-      )
+      found(name, name.split(",").toVector.map(_.trim).filter(_.nonEmpty).flatMap(matching))
 
   private def found(name: String, files: Vector[Path]): ImageSet =
     if files.isEmpty then
       throw ImageError(Code.NoSuchFile, s"$name: expected images, found none")
+    for twice <- files.diff(files.distinct).headOption do
+      throw ImageError(
+        Code.DifferentImages,
+        s"$name: `$twice` is named twice; noise shows between different seeds"
+      )
     ImageSet(name, files)
 
   private def matching(name: String): Vector[Path] =

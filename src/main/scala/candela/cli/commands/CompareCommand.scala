@@ -5,7 +5,7 @@ import java.nio.file.{Files, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-import candela.base.{Code, FileName}
+import candela.base.{Code, FileName, Problem, SceneError, SceneFolder}
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.{Limit, Options}
 import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
@@ -22,7 +22,10 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     val Vector(image, reference) = options.files.map(OutputFiles.path): @unchecked
     val register = FileRegister()
     lazy val Vector(a, b) = options.files.map(ImageSet.named): @unchecked
-    register.read(if asked.bias then a.files ++ b.files else Vector(image, reference))
+    val files = if asked.bias then a.files ++ b.files else Vector(image, reference)
+    files.foreach(CompareCommand.check)
+    if asked.bias then a.checkApart(b)
+    register.read(files)
     for (kind, name, option) <- pictures do
       val file = OutputFiles.asked(Vector(name))
       file.check()
@@ -105,6 +108,12 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
       else asked.limits.flatMap(BrokenLimits.of(_, comparison))
     wrong.foreach(text => terminal.err.println(name + text))
     if wrong.isEmpty then ExitCode.Done else ExitCode.BadInput
+
+object CompareCommand:
+  /** @throws SceneError if there is no such file */
+  private def check(file: Path): Unit = if !Files.exists(file) then
+    val near = Option(file.getFileName).flatMap(n => SceneFolder.of(file).suggestion(n.toString))
+    throw SceneError(Problem.general(Code.NoSuchFile, s"$file: there is no such file", near))
 
 /** An image with its reference, and their error metrics.
   *

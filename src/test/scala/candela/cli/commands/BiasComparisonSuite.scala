@@ -66,7 +66,8 @@ class BiasComparisonSuite extends AnyFunSuite:
   test("a single image needs its variance"):
     TempFolder.use: folder =>
       val a = images(folder.resolve("a"), 2, 1)
-      val (code, captured) = run(s"$a/run-1.exr", a)
+      val b = images(folder.resolve("b"), 2, 2)
+      val (code, captured) = run(s"$a/run-1.exr", b)
       assert(code == 1)
       assert(captured.err.contains("a single image needs its variance"))
 
@@ -94,11 +95,34 @@ class BiasComparisonSuite extends AnyFunSuite:
       val a = images(folder.resolve("a"), 2, 1)
       val none = run(s"$a/*.png", a)
       assert(none._1 == 1 && none._2.err.contains("expected images, found none"))
-      val same = run(a, s"$a/*.exr,${copy(Path.of(a))}")
+      val b = images(folder.resolve("b"), 2, 2)
+      val same = run(b, s"$a/*.exr,${copy(Path.of(a))}")
       assert(same._1 == 1 && same._2.err.contains("are the same"))
       assert(run(a, a, "--max-mse", "1")._1 == 2)
       assert(run(a, a, "--difference", "d.exr")._1 == 2)
       assert(run(a, a, "--significance", "2")._1 == 2)
+
+  test("images of both sets, and images named twice, are told"):
+    TempFolder.use: folder =>
+      val a = images(folder.resolve("a"), 3, 1)
+      val b = images(folder.resolve("b"), 3, 2)
+      val common = s"`$a/run-1.exr` and 2 more images are in both sets"
+      val same = run(a, a)
+      assert(same._1 == 1 && same._2.err.contains(common), same._2.err)
+      val one = run(a, s"$b/run-1.exr,$a/../a/run-2.exr")
+      assert(one._1 == 1 && one._2.err.contains(s"`$a/run-2.exr` is in both"), one._2.err)
+      val twice = run(b, s"$a/run-1.exr,$a/run-1.exr")
+      assert(twice._1 == 1 && twice._2.err.contains(s"`$a/run-1.exr` is named twice"))
+
+  test("a missing file or folder is told with a name like it"):
+    TempFolder.use: folder =>
+      val a = images(folder.resolve("a"), 2, 1)
+      val _ = images(folder.resolve("b"), 2, 2)
+      val bias = run(a, folder.resolve("bb").toString)
+      assert(bias._1 == 1 && bias._2.err.contains("did you mean `b`?"), bias._2.err)
+      assert(bias._2.err.contains("there is no such file [E0104]"))
+      val two = Captured.run("compare", s"$a/run-1.exr", s"$a/run-2.exrr")
+      assert(two._1 == 1 && two._2.err.contains("did you mean `run-2.exr`?"), two._2.err)
 
   private def copy(folder: Path): String =
     val to = folder.resolveSibling("copy.exr")
