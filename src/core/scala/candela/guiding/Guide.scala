@@ -239,10 +239,10 @@ object Guide:
 
   /** Samples per pixel, and paths, of a rendering in which learning may pay. */
   private val FewestSamples = 16
+  private val FewestPaths = 1 << 17
 
   /** Passes that end before are short: what they learn costs little, and brings much later. */
   private val SettledSamples = 32
-  private val FewestPaths = 1 << 17
 
   /** Paths of a pass that learn and find light, about, until guiding was seen to pay. */
   private val TrialPaths = 1 << 15

@@ -75,11 +75,10 @@ final class Agreement(
     (means :+ error).filter(_.pValue < significance / 2).sortBy(_.pValue)
 
   private def means: Vector[Disagreement] =
-    def filled(data: Int => Double) =
-      Image(width, height, Image.RgbNames, Array.tabulate(values)(data(_).toFloat))
-    val found = Renderings.known(image, filled(variance), count - 1.0, alike)
+    val variances = filled(variance)
+    val found = Renderings.known(image, variances, count - 1.0, alike)
     val wanted =
-      Renderings.known(reference.toRgb, filled(ofReference), Agreement.KnownFreedom)
+      Renderings.known(reference.toRgb, ofReference(variances), Agreement.KnownFreedom)
     BiasTest.of(found, wanted, tolerated).worst.map: r =>
       val w = r.window
       val place = s"x ${w.x0} to ${w.x1 - 1}, y ${w.y0} to ${w.y1 - 1}"
@@ -87,16 +86,18 @@ final class Agreement(
       val numbers = f"${r.a}%.5f, reference ${r.b}%.5f ($apart%+.2f %%, noise ${r.error}%.5f)"
       Disagreement(s"mean of ${r.channel} in $place: $numbers", r.adjusted)
 
-  /** The variance of a value of the reference, by that of the renderings in its block. */
-  private lazy val ofReference: Array[Double] =
-    val size = TileSums.Size
-    val (columns, rows) = ((width + size - 1) / size, (height + size - 1) / size)
-    val sums, counts = new Array[Double](3 * columns * rows)
-    def block(i: Int) = 3 * (i / 3 / width / size * columns + i / 3 % width / size) + i % 3
-    for i <- 0 until values do
-      sums(block(i)) += variance(i)
-      counts(block(i)) += 1
-    Array.tabulate(values)(i => referenceVariance(sums(block(i)) / counts(block(i))))
+  private def filled(data: Int => Double): Image =
+    Image(width, height, Image.RgbNames, Array.tabulate(values)(data(_).toFloat))
+
+  /** The variance of each value of the reference, by those of the renderings in its block. */
+  private def ofReference(variances: Image): Image =
+    val sums = TileSums.of(variances)
+    def pixels(tile: Int, all: Int) = Math.min(TileSums.Size, all - tile * TileSums.Size)
+    filled: i =>
+      val column = i / 3 % width / TileSums.Size
+      val row = i / 3 / width / TileSums.Size
+      val sum = sums(row * sums.columns + column, i % 3)
+      referenceVariance(sum / (pixels(column, width) * pixels(row, height)))
 
   /** Of a pixel of the reference, where those of the renderings have `local` on average. */
   private def referenceVariance(local: Double): Double =

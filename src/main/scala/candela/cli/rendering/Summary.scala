@@ -54,20 +54,17 @@ object Summary:
     * @param interval of the relative MSE, which is the error's square; with 95 % confidence
     */
   def noise(error: Double, isOfFew: Boolean, interval: Option[Interval] = None): String =
-    val known = interval.filter(_.isKnown)
-    val low = known.map(i => Math.sqrt(i.low))
-    val high = known.filter(_.isBounded).map(i => Math.sqrt(i.high))
-    val isWide = (low ++ high).exists(limit => Math.abs(limit / error - 1) > Known)
-    val range =
-      if isOfFew then
-        val least = low.fold("")(l => s"${Figures.percentage(l)} ")
-        s" (${least}or more, as few pixels have nearly all of it)"
-      else if isWide then
-        val both = low.zip(high).map: (l, h) =>
-          s" (${Figures.percentage(l).stripSuffix(" %")} to ${Figures.percentage(h)})"
-        both.getOrElse("")
-      else ""
+    val limits = interval.filter(_.isKnown).map(i => (Math.sqrt(i.low), Math.sqrt(i.high)))
+    def isWide(limit: Double) = Math.abs(limit / error - 1) > Known
+    val range = limits match
+      case Some((low, _)) if isOfFew => s" (${Figures.percentage(low)} or more, $OfFew)"
+      case None if isOfFew => s" (or more, $OfFew)"
+      case Some((low, high)) if isWide(low) || isWide(high) =>
+        s" (${Figures.percentage(low).stripSuffix(" %")} to ${Figures.percentage(high)})"
+      case _ => ""
     s"error ${Figures.percentage(error)}$range"
+
+  private val OfFew = "as few pixels have nearly all of it"
 
   /** An error that is known to this part of it needs no interval. */
   private val Known = 0.15
