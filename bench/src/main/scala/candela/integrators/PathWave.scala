@@ -171,7 +171,7 @@ private[candela] final class PathWave(
       val isHit = closest.isHit(number)
       closest.restore(number, ray)
       ray.differential.copyKnown(differentials(number))
-      if isHit then closest.read(number, ray, walk.met)
+      if isHit then closest.read(number, walk.met)
       walk.follow(isHit, sampler)
       waits(number) = walk.waits
       if walk.waits then

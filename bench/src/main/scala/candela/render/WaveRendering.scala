@@ -11,7 +11,6 @@ import java.lang.management.ManagementFactory
   * are compiled and faster. The film is the same to the bit.
   *
   * @param waveSamples samples per pixel of a tile that are a wave
-  * @param passed      is told the samples per pixel done, and who takes the next
   */
 final class WaveRendering(plan: RenderPlan, waveSamples: Int):
   import WaveRendering.*
@@ -45,7 +44,11 @@ final class WaveRendering(plan: RenderPlan, waveSamples: Int):
     runScalar(passed, () => false): Unit
     job.film
 
-  /** Renders by workers until waves are ready, and then by waves. */
+  /** Renders by workers until waves are ready, and then by waves.
+    *
+    * @param passed is told the samples per pixel done; negative or zero: waves take over after as
+    *               many
+    */
   def waves(passed: Int => Unit, atOnce: Boolean): Film =
     val waves = WaveWorker(plan, job.film, schedule, waveSamples)
     worker = Some(waves)

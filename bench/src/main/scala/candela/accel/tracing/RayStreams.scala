@@ -65,18 +65,16 @@ private[candela] final class RayStreams private (
     r(at + Direction) = ray.dx
     r(at + Direction + 1) = ray.dy
     r(at + Direction + 2) = ray.dz
-    val a = if ray.kz == 2 then 0 else ray.kz + 1
-    val isInOrder = ray.kx == a
-    r(at + ShearA) = if isInOrder then ray.shearX else ray.shearY
-    r(at + ShearB) = if isInOrder then ray.shearY else ray.shearX
+    val isBack = ray.dAlongZ < 0f
+    r(at + ShearA) = if isBack then ray.shearY else ray.shearX
+    r(at + ShearB) = if isBack then ray.shearX else ray.shearY
     setPrimitive(at, -1)
     if isTame && WideKernel.isTame(ray) then
-      val stream = 2 * ray.kz + (if ray.dAlongZ < 0f then 1 else 0)
+      val stream = 2 * ray.kz + (if isBack then 1 else 0)
       streams(stream)(sizes(stream)) = at
       sizes(stream) += 1
     else
-      load(at, ray.kz, ray.dAlongZ < 0f)
-      trace(at, scratch): () =>
+      alone(at, ray.kz, isBack): () =>
         if anyHit then scalar.isOccluded(scratch, scratchHit)
         else scalar.closest(scratch, scratchHit)
 
@@ -118,9 +116,8 @@ private[candela] final class RayStreams private (
     z(i) = records(at + 2)
 
   /** Writes what the ray has met. */
-  def read(number: Int, ray: Ray, hit: Hit): Unit =
+  def read(number: Int, hit: Hit): Unit =
     val at = number * Record
-    ray.tMax = records(at + End)
     hit.primitive = primitive(at)
     hit.inner = java.lang.Float.floatToRawIntBits(records(at + Inner))
     hit.u = us(number)
@@ -238,22 +235,12 @@ private[candela] final class RayStreams private (
     val triangle = d.triangle(i)
     val owner = java.lang.Float.floatToRawIntBits(tree.blocks(triangle + 9 * lanes))
     if d.clear(i) >= 0L then decide(at, triangle, owner, axis, isBack)
-    else if !(anyHit && primitive(at) >= 0) then
+    else if isWanted(at) then
       val end = d.t(i)
       val old = records(at + End)
-      val isCloser =
-        if anyHit then end > 0f && end <= old && pair(end, Int.MaxValue) < pair(old, -1)
-        else end > 0f && end <= old && pair(end, owner) < pair(old, primitive(at))
-      if isCloser then
-        if anyHit then
-          setPrimitive(at, 0)
-          records(at + Limit) = Ended
-        else
-          records(at + End) = end
-          records(at + Limit) = java.lang.Float.intBitsToFloat(WideWalk.limitOf(end))
-          setPrimitive(at, owner)
-          us(at / Record) = d.b1(i)
-          vs(at / Record) = d.b2(i)
+      val own = if anyHit then Int.MaxValue else owner
+      if end > 0f && end <= old && pair(end, own) < pair(old, primitive(at)) then
+        keep(at, end, owner, d.b1(i), d.b2(i))
 
   private inline def pair(t: Float, primitive: Int): Long =
     (java.lang.Float.floatToRawIntBits(t).toLong << 32) + (primitive.toLong - Int.MinValue)
@@ -269,27 +256,21 @@ private[candela] final class RayStreams private (
         left &= left - 1
 
   private def decide(at: Int, triangle: Int, owner: Int, axis: Int, isBack: Boolean): Unit =
-    if !(anyHit && primitive(at) >= 0) then
-      load(at, axis, isBack)
-      trace(at, scratch): () =>
-        val isHit =
-          if anyHit then
-            TriangleTest.isHit(tree.blocks, triangle, lanes, scratch, scratchHit)
-          else TriangleTest.intersect(tree.blocks, triangle, lanes, owner, scratch, scratchHit)
-        if isHit then scratchHit.primitive = owner
-        isHit
+    alone(at, axis, isBack): () =>
+      val isHit =
+        if anyHit then TriangleTest.isHit(tree.blocks, triangle, lanes, scratch, scratchHit)
+        else TriangleTest.intersect(tree.blocks, triangle, lanes, owner, scratch, scratchHit)
+      if isHit then scratchHit.primitive = owner
+      isHit
 
   private def others(code: Int, from: Int, n: Int, axis: Int, isBack: Boolean): Unit =
     val first = WideTree.first(code)
     val end = first + WideTree.size(code)
     var i = from
     while i < from + n do
-      val at = lists(i)
-      if !(anyHit && primitive(at) >= 0) then
-        load(at, axis, isBack)
-        trace(at, scratch): () =>
-          if anyHit then tree.others.isHit(first, end, scratch, scratchHit)
-          else tree.others.intersect(first, end, scratch, scratchHit)
+      alone(lists(i), axis, isBack): () =>
+        if anyHit then tree.others.isHit(first, end, scratch, scratchHit)
+        else tree.others.intersect(first, end, scratch, scratchHit)
       i += 1
 
   /** Goes on with rays one by one. */
@@ -307,42 +288,41 @@ private[candela] final class RayStreams private (
     singles += n
     var i = from
     while i < from + n do
-      val at = lists(i)
-      if !(anyHit && primitive(at) >= 0) then
-        load(at, axis, isBack)
-        trace(at, scratch): () =>
-          if anyHit then VectorKernel.isOccluded(below, scratch, scratchHit)
-          else VectorKernel.closest(below, scratch, scratchHit)
+      alone(lists(i), axis, isBack): () =>
+        if anyHit then VectorKernel.isOccluded(below, scratch, scratchHit)
+        else VectorKernel.closest(below, scratch, scratchHit)
       i += 1
 
-  /** Traces the scratch ray, and keeps what it hits. */
-  private inline def trace(at: Int, ray: Ray)(inline isHit: () => Boolean): Unit =
-    if isHit() then
-      if anyHit then
-        setPrimitive(at, 0)
-        records(at + Limit) = Ended
-      else
-        records(at + End) = ray.tMax
-        records(at + Limit) = java.lang.Float.intBitsToFloat(WideWalk.limitOf(ray.tMax))
-        setPrimitive(at, scratchHit.primitive)
+  /** Does the ray still ask? Not for any hit, once it has one. */
+  private def isWanted(at: Int): Boolean = !(anyHit && primitive(at) >= 0)
+
+  /** Traces one ray, the scratch ray, by scalar code, and keeps what it hits. */
+  private inline def alone(at: Int, axis: Int, isBack: Boolean)(inline isHit: () => Boolean): Unit =
+    if isWanted(at) then
+      load(at, axis, isBack)
+      if isHit() then
         records(at + Inner) = java.lang.Float.intBitsToFloat(scratchHit.inner)
-        us(at / Record) = scratchHit.u
-        vs(at / Record) = scratchHit.v
+        keep(at, scratch.tMax, scratchHit.primitive, scratchHit.u, scratchHit.v)
+
+  private def keep(at: Int, end: Float, owner: Int, u: Double, v: Double): Unit =
+    if anyHit then
+      setPrimitive(at, 0)
+      records(at + Limit) = Ended
+    else
+      records(at + End) = end
+      records(at + Limit) = java.lang.Float.intBitsToFloat(WideWalk.limitOf(end))
+      setPrimitive(at, owner)
+      us(at / Record) = u
+      vs(at / Record) = v
 
   /** Makes the scratch ray and its hit those of a record, as [[Ray.set]] does. */
   private def load(at: Int, axis: Int, isBack: Boolean): Unit =
     val r = records
     val ray = scratch
-    ray.ox = r(at)
-    ray.oy = r(at + 1)
-    ray.oz = r(at + 2)
+    restore(at / Record, ray)
     ray.invX = r(at + Inverse)
     ray.invY = r(at + Inverse + 1)
     ray.invZ = r(at + Inverse + 2)
-    ray.tMax = r(at + End)
-    ray.dx = r(at + Direction)
-    ray.dy = r(at + Direction + 1)
-    ray.dz = r(at + Direction + 2)
     val a = if axis == 2 then 0 else axis + 1
     val b = if a == 2 then 0 else a + 1
     ray.kz = axis
@@ -355,10 +335,7 @@ private[candela] final class RayStreams private (
     ray.oAlongY = r(at + ray.ky)
     ray.oAlongZ = r(at + axis)
     ray.dAlongZ = r(at + Direction + axis)
-    scratchHit.primitive = if anyHit then -1 else primitive(at)
-    scratchHit.inner = java.lang.Float.floatToRawIntBits(r(at + Inner))
-    scratchHit.u = us(at / Record)
-    scratchHit.v = vs(at / Record)
+    read(at / Record, scratchHit)
 
 private[candela] object RayStreams:
   /** Rays below which they go on one by one. */
