@@ -101,6 +101,10 @@ object SceneFolder:
     val folder = Option(scene.getParent).getOrElse(Path.of(""))
     new SceneFolder(folder, FileGuard(folder, isConfined, allowance))
 
+  /** A name like that of a missing file or folder, beside where it was looked for. */
+  def near(path: Path): Option[String] =
+    Option(path.getFileName).flatMap(name => of(path).suggestion(name.toString))
+
   /** Of statements that name no files. */
   val Nowhere: SceneFolder = SceneFolder(Path.of(""))
 

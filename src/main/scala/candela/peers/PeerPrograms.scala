@@ -1,7 +1,7 @@
 package candela.peers
 
 import candela.base.WholeFile
-import candela.suite.{Absent, Edit, Installed, Present, Program}
+import candela.suite.{Absent, Commands, Edit, Installed, Present, Program}
 
 import java.nio.file.Path
 
@@ -51,7 +51,7 @@ final class PeerPrograms(environment: Map[String, String], folder: Path):
       "{out}")
 
   private def plain: Program =
-    program("candela", "Candela", Vector("{candela}") ++ arguments :+ "--quiet", "v4", 0, None)
+    program("candela", "Candela", Vector(Commands.Self) ++ arguments :+ "--quiet", "v4", 0, None)
 
   private def rgb: Program = plain.copy(
     name = "candela-rgb",

@@ -30,13 +30,13 @@ open class Commands(self: Vector[String], scratch: Path, isCancelled: () => Bool
     program.command.headOption match
       case _ if unset.nonEmpty => Some(Commands.notSet(unset))
       case None => Some("no command")
-      case Some("{candela}") => None
+      case Some(Commands.Self) => None
       case Some(word) => Option.unless(Commands.isExecutable(word))(s"`$word` is not installed")
 
   /** A command's words with its placeholders substituted. */
   def words(program: Program, values: Map[String, String]): Vector[String] =
     program.command.flatMap:
-      case "{candela}" => self
+      case Commands.Self => self
       case word => Vector(Commands.filled(word, values))
 
   /** Runs a command to its end and measures its wall-clock time and peak memory. It must write
@@ -81,11 +81,14 @@ open class Commands(self: Vector[String], scratch: Path, isCancelled: () => Bool
     named.orElse(lines.lastOption).fold("no output")(_.trim.take(200))
 
 object Commands:
+  /** The program itself, which may be several words. */
+  val Self = "{candela}"
+
   /** Placeholders of edits. */
   val EditPlaceholders: Vector[String] = Vector("{spp}", "{seed}", "{threads}")
 
   /** Placeholders of commands. */
-  val Placeholders: Vector[String] = Vector("{candela}", "{scene}", "{out}") ++ EditPlaceholders
+  val Placeholders: Vector[String] = Vector(Self, "{scene}", "{out}") ++ EditPlaceholders
 
   /** As in `error[E0001]: …`, `ValueError: …`, `… FATAL …`. */
   private val NamesError =

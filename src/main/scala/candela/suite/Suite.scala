@@ -45,7 +45,7 @@ final case class Program(
   def family: String = ownFamily.orElse(command.headOption).getOrElse(name)
 
   /** This program itself, which can denoise. */
-  def isSelf: Boolean = command.headOption.contains("{candela}")
+  def isSelf: Boolean = command.headOption.contains(Commands.Self)
 
   /** The same with denoised images. */
   def denoised: Program = copy(

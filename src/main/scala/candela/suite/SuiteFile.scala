@@ -80,11 +80,14 @@ object SuiteFile:
   private def program(name: String, c: Config, index: Int): Program =
     known(c, programKeys, s"program $name")
     val command = if c.hasPath("command") then c.getString("command") else ""
+    val words = command.split(' ').toVector.filter(_.nonEmpty)
     filled(c, "command", s"program $name", Commands.Placeholders)
+    for w <- words if w.contains(Commands.Self) && w != Commands.Self do
+      throw wrong(s"`${Commands.Self}` must be a word of its own in program $name, found `$w`")
     Program(
       name,
       text(c, "title", name),
-      command.split(' ').toVector.filter(_.nonEmpty),
+      words,
       texts(c, "reads"),
       positive(c, "threads", Runtime.getRuntime.availableProcessors),
       if c.hasPath("edits") then c.getConfigList("edits").asScala.toVector.map(edit(_, name))

@@ -105,7 +105,7 @@ object SuiteResults:
       program.title,
       program.color,
       program.isThin,
-      names.of(program.command.mkString(" "), program.needs).replace("{candela}", "candela") +
+      names.of(program.command.mkString(" "), program.needs).replace(Commands.Self, "candela") +
         program.edits.map(e => s"; /${e.find}/ → ${e.replacement}").mkString,
       MeasuredCurve(kept, times),
       runner.picture(entry),

@@ -64,6 +64,11 @@ class SuiteFileSuite extends AnyFunSuite:
       "command = \"b {scen}\"",
       "unknown placeholder `{scen}`"
     ),
+    (
+      "command = \"b \"${_flags}\" {scene}\"",
+      "command = \"./{candela} {scene}\"",
+      "`{candela}` must be a word of its own in program b, found `./{candela}`"
+    ),
     ("replace = \"spp {spp}\"", "replace = \"spp {sp}\"", "unknown placeholder `{sp}`"),
     ("programs = [b]", "programs = [bb]", "unknown program `bb` in `programs` of scene y"),
     ("thin = true", "counterpart = aa", "unknown program `aa` in `counterpart` of program b"),

@@ -107,8 +107,8 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     path
 
   private def missing(what: String, path: Path): SceneError =
-    val near = Option(path.getFileName).flatMap(n => SceneFolder.of(path).suggestion(n.toString))
-    SceneError(Problem.general(Code.SuiteFile, s"no such $what: `$path`", near))
+    val message = s"no such $what: `$path`"
+    SceneError(Problem.general(Code.SuiteFile, message, SceneFolder.near(path)))
 
   private def notSuite(file: Path): Option[String] =
     if SceneFormat.named(file).isDefined then Some("a scene")

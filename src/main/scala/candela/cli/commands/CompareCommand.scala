@@ -112,8 +112,8 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
 object CompareCommand:
   /** @throws SceneError if there is no such file */
   private def check(file: Path): Unit = if !Files.exists(file) then
-    val near = Option(file.getFileName).flatMap(n => SceneFolder.of(file).suggestion(n.toString))
-    throw SceneError(Problem.general(Code.NoSuchFile, s"$file: there is no such file", near))
+    val message = s"$file: there is no such file"
+    throw SceneError(Problem.general(Code.NoSuchFile, message, SceneFolder.near(file)))
 
 /** An image with its reference, and their error metrics.
   *
