@@ -56,6 +56,22 @@ object CheckedFile:
     if buffer.limit() < Trailer || buffer.getLong() != end || buffer.getLong() != sum.getValue then
       throw IOException("it is damaged: its checksum is wrong")
 
+  /** Moves numbers of four bytes, as many at once as the buffer has room for or holds.
+    *
+    * @param ready the buffer, once there is at least one number's room or one number
+    * @param move  those from a number on, so many
+    */
+  private[base] def each(count: Int, ready: => ByteBuffer)(
+      move: (ByteBuffer, Int, Int) => Any
+  ): Unit =
+    var i = 0
+    while i < count do
+      val buffer = ready
+      val some = Math.min(count - i, buffer.remaining / 4)
+      move(buffer, i, some): Unit
+      buffer.position(buffer.position() + 4 * some)
+      i += some
+
   /** Bytes of length and checksum. */
   private[base] val Trailer = 16
 
@@ -77,24 +93,13 @@ final class CheckedOutput private[base] (channel: FileChannel):
 
   /** The count, and all. */
   def floats(values: Array[Float]): Unit =
-    together(values.length)(buffer.asFloatBuffer.put(values, _, _))
+    int(values.length)
+    CheckedFile.each(values.length, room(4))(_.asFloatBuffer.put(values, _, _))
 
   /** Likewise. */
   def ints(values: Array[Int]): Unit =
-    together(values.length)(buffer.asIntBuffer.put(values, _, _))
-
-  /** Writes how many numbers of four bytes there are, and as many at once as have room.
-    *
-    * @param write those from a number on, so many
-    */
-  private def together(count: Int)(write: (Int, Int) => Any): Unit =
-    int(count)
-    var i = 0
-    while i < count do
-      val some = Math.min(count - i, room(4).remaining / 4)
-      write(i, some): Unit
-      buffer.position(buffer.position() + 4 * some)
-      i += some
+    int(values.length)
+    CheckedFile.each(values.length, room(4))(_.asIntBuffer.put(values, _, _))
 
   private def room(bytes: Int): ByteBuffer =
     if buffer.remaining < bytes then flush()
@@ -135,26 +140,14 @@ final class CheckedInput private[base] (channel: FileChannel):
   /** Numbers that were written together. */
   def floats(): Array[Float] =
     val values = new Array[Float](count(bytes = 4))
-    together(values.length)(buffer.asFloatBuffer.get(values, _, _))
+    CheckedFile.each(values.length, take(4))(_.asFloatBuffer.get(values, _, _))
     values
 
   /** Likewise. */
   def ints(): Array[Int] =
     val values = new Array[Int](count(bytes = 4))
-    together(values.length)(buffer.asIntBuffer.get(values, _, _))
+    CheckedFile.each(values.length, take(4))(_.asIntBuffer.get(values, _, _))
     values
-
-  /** Reads numbers of four bytes, as many at once as are in the buffer.
-    *
-    * @param read those from a number on, so many
-    */
-  private def together(count: Int)(read: (Int, Int) => Any): Unit =
-    var i = 0
-    while i < count do
-      val some = Math.min(count - i, take(4).remaining / 4)
-      read(i, some): Unit
-      buffer.position(buffer.position() + 4 * some)
-      i += some
 
   def isAtEnd: Boolean = left <= 0 && !buffer.hasRemaining
 

@@ -11,7 +11,8 @@ import candela.color.{ColorSpace, Encoding}
 /** A PNG file of 8 or 16 bits, neither interlaced nor with a palette or a transparent colour: the
   * pixels that [[StbReader]] reads, in bands.
   *
-  * Source: "Portable Network Graphics (PNG) Specification", W3C, 2003.
+  * Source: "Portable Network Graphics (PNG) Specification (Second Edition)", W3C, 2003: §5.3 and
+  * §5.4 on chunks, §9 on filters, §10 on compression, §11.2.2 on IHDR.
   */
 private[image] final class PngBands private (
     file: InputFile,
@@ -55,6 +56,7 @@ private[image] final class PngBands private (
       y += 1
       if inBand == ImageBands.Rows - 1 || y == h then
         goesOn = band(y - 1 - inBand, image(bytes, floats, inBand + 1))
+    if goesOn then data.end()
 
   private def image(bytes: Array[Byte], floats: Array[Float], rows: Int): StoredImage =
     val count = rows * values
@@ -119,7 +121,8 @@ private[image] object PngBands:
     6 -> (Image.RgbNames :+ "A")
   )
 
-  private val Beginning = 33
+  /** Bytes of the signature and the chunk IHDR. */
+  private[image] val Beginning = 33
 
   def of(file: InputFile): Option[PngBands] =
     try
@@ -135,38 +138,25 @@ private[image] object PngBands:
         if row * ImageBands.Rows < Int.MaxValue && row * height <= file.size * StbReader.MostPacked
         if !isKeyed(file)
       yield PngBands(file, width, height, names, bits / 8)
-    catch case _: IOException => None
+    catch case _: IOException | _: DataFormatException => None
 
   /** Whether a chunk before the pixels says more than how to show them. */
   private def isKeyed(file: InputFile): Boolean =
-    Using.resource(file.again()): stream =>
-      val in = DataInputStream(stream)
-      in.skipNBytes(Beginning)
-      var length = in.readInt()
-      var kind = in.readInt()
-      // An upper-case first letter: without this chunk the pixels are others
-      def isPlain = (kind & 0x20000000) != 0 && kind != Transparency
-      while isPlain && length >= 0 do
-        in.skipNBytes(length + 4L)
-        length = in.readInt()
-        kind = in.readInt()
-      kind != Data || length < 0
-
-  private[image] val Data = 0x49444154 // IDAT
-  private val Transparency = 0x74524e53 // tRNS
+    !Using.resource(file.again())(stream => Using.resource(PngData(stream))(_.next()))
 
   private def number(bytes: Array[Byte], at: Int): Int =
     (0 until 4).foldLeft(0)((n, i) => n << 8 | bytes(at + i) & 0xff)
 
 /** The unpacked bytes of a PNG file's pixels. */
 private final class PngData(stream: InputStream) extends AutoCloseable:
+  import PngData.*
   private val in = DataInputStream(stream)
   private val inflater = Inflater()
   private val packed = new Array[Byte](1 << 16)
   private val one = new Array[Byte](1)
   private var left = 0
   private var isInData = false
-  in.skipNBytes(8)
+  in.skipNBytes(PngBands.Beginning)
 
   def close(): Unit = inflater.end()
 
@@ -177,24 +167,53 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
   def read(bytes: Array[Byte]): Unit =
     var at = 0
     while at < bytes.length do
-      val count = inflater.inflate(bytes, at, bytes.length - at)
-      at += count
-      if count == 0 then
-        if inflater.needsInput then feed() else throw EOFException()
+      if inflater.finished then throw EOFException()
+      at += unpack(bytes, at)
+
+  /** Reads on to the end of the file, where faults may be, too. */
+  def end(): Unit =
+    val rest = new Array[Byte](1 << 12)
+    while !inflater.finished do unpack(rest, 0): Unit
+    while next() do ()
+
+  /** Goes on to the next chunk of pixels, past those that only say how to show them.
+    *
+    * @return whether there is one before the end of the image
+    */
+  def next(): Boolean =
+    if isInData then in.skipNBytes(left + Checksum)
+    left = in.readInt()
+    var kind = in.readInt()
+    while isPlain(kind) do
+      in.skipNBytes((left & 0xffffffffL) + Checksum)
+      left = in.readInt()
+      kind = in.readInt()
+    isInData = kind == Data && left >= 0
+    if !isInData && kind != End then
+      throw DataFormatException("it has a chunk that is damaged, unknown, or in the wrong place")
+    isInData
+
+  /** The number of bytes that are there at once, which may be 0. */
+  private def unpack(into: Array[Byte], at: Int): Int =
+    val count = inflater.inflate(into, at, into.length - at)
+    if count == 0 && !inflater.finished then
+      if inflater.needsInput then feed() else throw EOFException()
+    count
 
   private def feed(): Unit =
-    while left == 0 do
-      if isInData then in.skipNBytes(4)
-      left = in.readInt()
-      val kind = in.readInt()
-      isInData = kind == PngBands.Data && left >= 0
-      if !isInData then
-        if kind == End then throw EOFException()
-        in.skipNBytes((left & 0xffffffffL) + 4)
-        left = 0
+    while left == 0 do if !next() then throw EOFException()
     val count = in.read(packed, 0, Math.min(left, packed.length))
     if count < 0 then throw EOFException()
     left -= count
     inflater.setInput(packed, 0, count)
 
+private object PngData:
+  private val Data = 0x49444154 // IDAT
   private val End = 0x49454e44 // IEND
+  private val Transparency = 0x74524e53 // tRNS
+
+  /** Bytes of a chunk's checksum, which is not looked at, as by [[StbReader]]. */
+  private val Checksum = 4L
+
+  /** Whether the pixels are the same without this chunk: its first letter is small then. */
+  private def isPlain(kind: Int): Boolean = (kind & 0x20000000) != 0 && kind != Transparency

@@ -20,7 +20,7 @@ final class FileLevels(file: ExrLevels, picked: Vector[Int]):
     */
   def texels(level: Int): Texels =
     val (w, h) = file.sizes(level)
-    val values = new Array[Float](candela.image.Image.valueCount(w, h, channels))
+    val values = new Array[Float](Image.valueCount(w, h, channels))
     region(0, 0, w, h)(file.tile(level, _, _)): (x, y, c, value) =>
       values((y * w + x) * channels + c) = value
     FloatTexels(w, h, channels, values)

@@ -1,7 +1,7 @@
 package candela.textures
 
 import candela.base.loop
-import candela.image.{ImageBands, StoredImage}
+import candela.image.{Image, ImageBands, StoredImage}
 
 /** Texels of an image in bands of rows, from the top, which are made whenever they are visited.
   *
@@ -21,11 +21,15 @@ abstract class TexelBands(
     */
   def visit(from: Int)(band: (Int, Texels) => Unit): Unit
 
-  /** All of them, in memory. */
+  /** All of them, in memory.
+    *
+    * @throws candela.image.ImageError if there are too many
+    */
   final def whole: Texels =
     var only: Option[Texels] = None
-    lazy val values = new Array[Float](width * height * channels)
-    lazy val codes = new Array[Byte](width * height * channels)
+    val count = Image.valueCount(width, height, channels)
+    lazy val values = new Array[Float](count)
+    lazy val codes = new Array[Byte](count)
     visit(0): (y, band) =>
       val start = y * width * channels
       if band.height == height then only = Some(band)

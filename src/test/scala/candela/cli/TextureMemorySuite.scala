@@ -124,6 +124,34 @@ class TextureMemorySuite extends AnyFunSuite:
         else assert(said.contains(s"the levels in the file are not used: $why"), said)
         assert(image == render(scene, "--texture-memory", "1G")._1)
 
+  test("each use of a file whose levels can't be used is warned of"):
+    TempFolder.use: folder =>
+      val scene = ownLevels(folder, TiledExr(300, 200, 32, 32)((_, x, y, _) => x / (1f + y)))
+      val text = Files.readString(scene)
+      val other = text.substring(text.indexOf("Texture \"c\"")).replace("\"c\"", "\"d\"")
+        .replace("\"trilinear\"", "\"ewa\"")
+      Files.writeString(scene, text + other): Unit
+      val (_, said) = render(scene, "--texture-memory", "1G")
+      assert(said.contains("are not used: 300×200 texels"), said)
+      assert(said.contains("and at 1 more position"), said)
+
+  test("levels in a file keep to the limit of pixels"):
+    TempFolder.use: folder =>
+      val scene = ownLevels(folder, TiledExr(512, 512, 64, 64)((_, _, _, _) => 0.5f))
+      for memory <- Seq("1M", "1G") do
+        val words =
+          Vector(
+            s"$scene",
+            "--dialect",
+            "v4",
+            "--texture-memory",
+            memory,
+            "--limit",
+            "pixels=20000"
+          )
+        val (code, captured) = Captured.run(words*)
+        assert(code == 1 && captured.err.contains("`a.exr` has 512×512 pixels"), captured.err)
+
   test("a damaged tile of such a file ends the rendering with an error that names it"):
     TempFolder.use: folder =>
       val draws = Draws(7)

@@ -95,9 +95,27 @@ class PngBandsSuite extends AnyFunSuite:
       number(1 << 20).copyToArray(large, 20)
       assert(ImageBands.ofFile(written(folder, large)).isEmpty)
 
-  test("a file that is cut or damaged is an ImageError at the latest when it is read"):
+  test("a file that the whole decode refuses is an ImageError at the latest when it is read"):
     TempFolder.use: folder =>
       val whole = png(30, 100, 2, 8)
-      for changed <- Seq(whole.take(5000), whole.patch(3000, Array.fill(900)(77.toByte), 900)) do
-        for bands <- ImageBands.ofFile(written(folder, changed)) do
-          intercept[ImageError](bands.visit((_, _) => true)): Unit
+      val data = whole.indexOfSlice("IDAT".getBytes("US-ASCII")) - 4
+      val second = data + 1012
+      val end = whole.length - 12
+      def inserted(at: Int, kind: String) = whole.patch(at, chunk(kind, new Array[Byte](6)), 0)
+      val begun = Seq(
+        "cut in its pixels" -> whole.take(5000),
+        "damaged pixels" -> whole.patch(3000, Array.fill(900)(77.toByte), 900),
+        "cut before its end" -> whole.take(end),
+        "cut in its end" -> whole.take(end + 4),
+        "an unknown chunk between pixels" -> inserted(second, "ABCD"),
+        "an unknown chunk after the pixels" -> inserted(end, "ABCD"),
+        "a transparent colour between pixels" -> inserted(second, "tRNS")
+      )
+      for (what, changed) <- begun do
+        val file = written(folder, changed)
+        intercept[ImageError](ImageFiles.load(file)): Unit
+        val bands = ImageBands.ofFile(file).getOrElse(fail(what))
+        withClue(s"$what: ")(intercept[ImageError](bands.visit((_, _) => true))): Unit
+      val unknown = written(folder, inserted(data, "ABCD"))
+      intercept[ImageError](ImageFiles.load(unknown)): Unit
+      assert(ImageBands.ofFile(unknown).isEmpty)

@@ -78,6 +78,7 @@ final class SharedResources(
   private val files = ConcurrentHashMap[(SceneFolder, String), InputFile]()
   private val loaded = ConcurrentHashMap[Path, Either[ImageError, StoredImage]]()
   private val remarks = ConcurrentHashMap[Path, Option[String]]()
+  private val opened = ConcurrentHashMap[Path, Option[Either[String, ExrLevels]]]()
   private val inFiles = ConcurrentHashMap[(Path, String), Option[CachedImage]]()
 
   private val contents = ConcurrentHashMap[Path, String]()
@@ -165,8 +166,8 @@ final class SharedResources(
         isAgain = true
         convert(bands)
       def whole() = make(ImageBands.of(decoded(file, p.valuesAt)))
-      // What is wrong with a file, and what may be overlooked, its decoder knows
-      def inBands() = ImageBands.ofFile(file) match
+      lazy val inBands = ImageBands.ofFile(file)
+      def first() = inBands match
         case Some(bands) =>
           admit(file, p.valuesAt)(bands.width, bands.height)
           make(bands)
@@ -176,8 +177,10 @@ final class SharedResources(
           val digest = Refusal.placed(p.valuesAt)(textures.digest(file))
           def made(make: () => MadeTexels) =
             clock.during(CostKind.Textures)(tiles.image(s"$digest $ways", wrap)(make))
-          try Right(made(() => inBands()))
-          catch case _: ImageError => Right(made(() => whole()))
+          try Right(made(() => first()))
+          catch
+            // What is wrong with a file, and what may be overlooked, its decoder knows
+            case _: ImageError if inBands.nonEmpty => Right(made(() => whole()))
         catch
           case e: ImageError => Left(e)
           case e: IOException =>
@@ -195,17 +198,17 @@ final class SharedResources(
       accept: ExrLevels => Either[String, Vector[Int]]
   )(colors: Texels => Vector[Rgb]): Option[CachedImage] =
     file(p, site.declaration, site.problems, standIn).flatMap: file =>
-      inFiles.computeIfAbsent(
-        (file.path, ways),
-        _ =>
-          ExrLevels.of(file).flatMap: found =>
-            found.flatMap(levels => accept(levels).map(FileLevels(levels, _))) match
-              case Right(levels) => inLevels(file, levels, ways, wrap, colors)
-              case Left(why) =>
-                val what = s"$file: the levels in the file are not used: $why"
-                site.problems.warn(Code.ImageContents, p.valuesAt, what)
-                None
-      )
+      opened.computeIfAbsent(file.path, _ => ExrLevels.of(file)).flatMap: found =>
+        // Each use has a warning of its own
+        found.flatMap(levels => accept(levels).map(levels -> _)) match
+          case Right((levels, channels)) =>
+            admit(file, p.valuesAt)(levels.width, levels.height)
+            def image = inLevels(file, FileLevels(levels, channels), ways, wrap, colors)
+            inFiles.computeIfAbsent((file.path, ways), _ => image)
+          case Left(why) =>
+            val what = s"$file: the levels in the file are not used: $why"
+            site.problems.warn(Code.ImageContents, p.valuesAt, what)
+            None
 
   /** None if the file is damaged: reading it as a whole tells. */
   private def inLevels(
