@@ -3,6 +3,10 @@ package candela.report
 /** Figures of the table of robustness, as texts. */
 object RobustnessText:
 
+  /** With the number of trials to which its bounds are converted: `Leaks, per 10⁹`. */
+  def title(g: RobustGroup): String =
+    g.title + (if g.per > 0 then s", per ${Numbers.tick(g.per)}" else "")
+
   /** As in `0 of 10⁶ (≤ 3000)`, `25 of 100 (25 %)` or `0.4998`.
     *
     * @param per number of trials to which the bound is converted; 0 for a share
@@ -42,8 +46,7 @@ object RobustnessText:
   private def group(r: RobustnessReport, g: RobustGroup): Vector[String] =
     val programs = r.programsOf(g)
     val hasValues = g.rows.exists(expected(_).isDefined)
-    val first = g.title + (if g.per > 0 then s", per ${Numbers.tick(g.per)}" else "")
-    val titles = Vector(first) ++ Option.when(hasValues)("expected") ++ programs.map(_.title)
+    val titles = Vector(title(g)) ++ Option.when(hasValues)("expected") ++ programs.map(_.title)
     val rows = g.rows.map: row =>
       val cells = programs.map: p =>
         row.cells.get(p.key).fold(""): c =>

@@ -15,6 +15,7 @@ import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.job.SceneFormat
+import candela.measure.SeedNoise
 import candela.peers.PeerSuite
 import candela.render.Cancellation
 import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
@@ -48,7 +49,9 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
         write(paths, results)
         for path <- paths do terminal.out.println(s"wrote $path")
         terminal.out.flush()
-      else if !cancellation.isRequested then
+      else if cancellation.isRequested then
+        if !options.quiet then terminal.err.println(BenchCommand.nothing(shown))
+      else
         // Else they are told already
         val reasons = Option.when(options.quiet):
           results.leftOut.map((what, why) => s"$what: $why").mkString("; ")
@@ -161,3 +164,11 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
 
   private def inScratch[A](body: Path => A): A =
     Using.resource(Scratch.make())(scratch => body(scratch.folder))
+
+object BenchCommand:
+  /** Where the runs so far tell no error. */
+  private def nothing(suite: Suite): String =
+    val why =
+      if suite.scenes.forall(_.reference.isDefined) then ""
+      else s"; without a reference, errors are known from ${SeedNoise.Fewest} seeds on"
+    s"nothing written: no scene has results yet$why"

@@ -55,7 +55,7 @@ final class RobustnessCommand(options: Options, terminal: Terminal, report: Repo
     if !options.quiet then
       if !begun.contains(group.key) then
         begun = Some(group.key)
-        terminal.out.println(s"${group.title} (${group.key})")
+        terminal.out.println(s"${RobustnessText.title(group)} (${group.key})")
       val cells = row.cells.toVector.sortBy(_._1).map: (key, cell) =>
         val mark = if cell.isFaulty then "FAULT " else ""
         s"$key $mark${RobustnessText.cell(cell, group.per)}"

@@ -89,6 +89,25 @@ class BenchCommandSuite extends AnyFunSuite:
       assert(Files.readString(files(0)).contains("partly rendered when this report was written"))
       assert(!Files.list(folder).anyMatch(_.toString.endsWith(".tmp")))
 
+  test("what is interrupted before any error is known says so, and writes nothing"):
+    inSuite: (folder, suite) =>
+      val text = Files.readString(Path.of(suite)).replace(", reference = \"truth.exr\"", "")
+      val _ = Files.writeString(Path.of(suite), text)
+      val page = folder.resolve("out.html")
+      for isQuiet <- Vector(false, true) do
+        val stop = StopAfterFirst()
+        val captured = Captured()
+        val heard = stop.heard(captured.terminal.err)
+        val terminal = Terminal(captured.terminal.out, heard, false, stop)
+        val words = Vector("--samples", "1,2", "--seeds", "3", "--report", page.toString)
+        val quiet = Option.when(isQuiet)("--quiet")
+        if isQuiet then stop.press()
+        val code = Main.run(Vector("bench", suite) ++ words ++ quiet, terminal)
+        assert(code == 130 && captured.out.isEmpty && !Files.exists(page), captured.err)
+        val said = "nothing written: no scene has results yet; without a reference, errors are " +
+          "known from 3 seeds on"
+        assert(captured.err.contains(said) != isQuiet, captured.err)
+
   test("a report that the file system refuses is told before anything runs"):
     assume(Files.isWritable(Path.of("/proc"))) // by its permissions, for the superuser
     inSuite: (_, suite) =>
@@ -144,9 +163,14 @@ class BenchCommandSuite extends AnyFunSuite:
 /** Ctrl-C after the first image that counts. */
 private final class StopAfterFirst extends Interrupts:
   private var asked = Option.empty[Cancellation]
+  private var isPressed = false
+
+  /** At once. */
+  def press(): Unit = isPressed = true
 
   def during[A](cancellation: Cancellation)(body: => A): A =
     asked = Some(cancellation)
+    if isPressed then cancellation.request()
     body
 
   def heard(to: PrintStream): PrintStream = new PrintStream(to, true):

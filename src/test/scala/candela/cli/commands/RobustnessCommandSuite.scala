@@ -22,6 +22,7 @@ class RobustnessCommandSuite extends AnyFunSuite:
       val (code, said) = run(short ++ Vector("--report", files.mkString(","))*)
       assert(code == 0, said.err)
       assert(said.out.contains("triangles in planes close to zero: candela"))
+      assert(said.out.contains("Wrong distances of hits, per 10⁹ (distances)"))
       assert(said.out.contains("1 row: Candela is as promised in all"))
       assert(said.err.contains("skipped: Embree: `no-such-python` is not installed"))
       val made = Files.readString(page)
