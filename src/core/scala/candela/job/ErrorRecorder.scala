@@ -48,11 +48,18 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
   /** Whether few pixels have nearly all of the estimated error. */
   def isOfFew: Boolean = reference.isEmpty && estimate.isOfFew
 
-  /** Samples per pixel at which the relative error falls to this, by its trend. */
-  def samplesUntil(error: Double): Option[Double] =
+  /** Samples per pixel with which the relative error is at most this, by its trend, and with which
+    * it will be seen to be, with 95 %: at doublings where it is measured, and at eighths of them
+    * where it is estimated.
+    */
+  def samplesUntil(error: Double): Option[Interval] =
     val relativeMse = error * error
     if reference.isEmpty then estimate.samplesUntil(relativeMse)
-    else points.lastOption.map(p => p.samples * p.errors.relativeMse / relativeMse)
+    else
+      points.lastOption.map: p =>
+        val doublings = Math.log(p.errors.relativeMse / relativeMse) / Math.log(2)
+        val end = p.samples * Math.pow(2, Math.ceil(Math.max(0, doublings)))
+        Interval(end, Math.max(Math.min(end, p.samples), end / 2), end * 2)
 
   override def passed(pass: Pass, film: Film): Unit =
     val started = System.nanoTime

@@ -2,7 +2,7 @@ package candela.job
 
 import candela.build.RenderGoal
 import candela.film.Film
-import candela.render.{ExpectedEnd, Looks, Pass, RenderListener, Rendering}
+import candela.render.{ExpectedEnd, Looks, Pass, RenderListener, Rendering, SampleRange}
 
 /** Ends a rendering at a time, or at an error, whichever comes first, with a whole number of
   * samples in every pixel.
@@ -15,6 +15,10 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
   private var isReached = false
   private var seen, step, parts = 0
   private var now, perSample = 0.0
+
+  /** Samples per pixel with which the error is low enough, by all looks so far. */
+  private var end = Option.empty[Int]
+  private var expected = Option.empty[SampleRange]
 
   override def isEnough: Boolean = isReached
   override def looks: Looks = Looks.Waves
@@ -29,11 +33,14 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     def clock = pass.clock + (System.nanoTime - began) * 1e-9
     def isLate = options.time.exists(clock > _ + Goal.Late)
     val watched = pass.copy(isStopped = () => pass.isStopped() || isLate)
-    // Where an error is looked at must not depend on the time
+    // Where an error is looked at, and so where it ends, must not depend on the time
     if pass.isWhole then
       recorder.passed(watched, film)
-      val error = errorAt(pass.samples).filter(_ => pass.samples >= Goal.Fewest)
-      if options.error.exists(most => error.exists(_ <= most)) then isReached = true
+      val found = options.error.flatMap(recorder.samplesUntil)
+      end = found.map(f => Goal.whole(f.estimate))
+      expected = found.filter(_.isKnown).map: f =>
+        SampleRange(Goal.whole(f.estimate), Goal.whole(f.low), Goal.whole(f.high))
+    if end.exists(_ <= pass.samples) then isReached = true
     val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - seen)
     // The first ones are slow: the JVM compiles meanwhile
     perSample = measured * Goal.Warm(Math.min(parts, Goal.Warm.size - 1))
@@ -48,12 +55,13 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
   private def isWorthMore(left: Double): Boolean =
     left > step * perSample / 2 && step * perSample - left <= Goal.Late
 
-  /** As many samples as end in time. */
+  /** As many samples as the error needs, or end in time. */
   override def most: Int =
-    options.time.filter(_ => perSample > 0).fold(Int.MaxValue): t =>
+    val inTime = options.time.filter(_ => perSample > 0).fold(Int.MaxValue): t =>
       val left = t - now
       val fits = Math.min(left / perSample + 0.5, (left + Goal.Late) / perSample)
       Math.max(1, Math.min(fits, Int.MaxValue)).toInt
+    end.fold(inTime)(samples => Math.min(inTime, Math.max(1, samples - seen)))
 
   /** At the time, if the rendering may end anywhere, or no sample ends any more; or else soon
     * after, if the samples take longer than expected.
@@ -64,7 +72,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     isReached
 
   override def goal: Option[ExpectedEnd] =
-    Some(ExpectedEnd(options.time, options.error.flatMap(recorder.samplesUntil)))
+    Some(ExpectedEnd(options.time, expected))
 
   override def errorAt(samples: Double): Option[Double] = recorder.errorAt(samples)
 
@@ -90,3 +98,6 @@ object Goal:
 
   /** Fewer samples per pixel say little about an error. */
   val Fewest = 4
+
+  private def whole(samples: Double): Int =
+    Math.max(Fewest, Math.min(Math.ceil(samples), Int.MaxValue).toInt)

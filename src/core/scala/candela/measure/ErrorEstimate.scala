@@ -11,9 +11,10 @@ import candela.image.Image
   * errors divide by [[QuietMeans]]. What no path has found is unknown.
   */
 final class ErrorEstimate:
-  import ErrorEstimate.{Known, State}
+  import ErrorEstimate.{Known, Scatter, State, Weighed}
   private var base, middle = Option.empty[State]
-  private var whole, halves = Option.empty[Array[Float]] // scatter D(n) and D(n/2) of the last
+  private var latest, earlier = Option.empty[Weighed] // the last state, and the base before
+  private var whole, halves = Option.empty[Scatter] // D(n) and D(n/2) of the last
   private var last = Option.empty[Known]
 
   /** The squared error of each value of the image after so many samples per pixel; none before the
@@ -25,7 +26,7 @@ final class ErrorEstimate:
       scatter <- whole
     yield
       val factor = known.trend.factor * known.since(samples)
-      scatter.map(s => (s * factor).toFloat)
+      scatter.values.map(s => (s * factor).toFloat)
 
   /** Adds the state of the image after so many samples per pixel, more than before. Uses those
     * after 2ᵏ and 3 · 2ᵏ, and of a continued rendering the first.
@@ -42,6 +43,7 @@ final class ErrorEstimate:
       isStopped: () => Boolean = GivenUp.Never
   ): Option[Errors] =
     val state = State(samples, image, weights)
+    latest = Some(state.weighed)
     base match
       case None =>
         base = Some(state)
@@ -49,6 +51,7 @@ final class ErrorEstimate:
       case Some(half) if Integer.bitCount(samples) == 1 || (isLast && last.isEmpty) =>
         val known = estimate(half, state, isStopped)
         last = Some(known)
+        earlier = Some(half.weighed)
         base = Some(state)
         middle = None
         Some(known.errors)
@@ -82,9 +85,37 @@ final class ErrorEstimate:
         if isOfFew then Double.PositiveInfinity else estimate * far(ErrorEstimate.TrendUp)
       Interval(estimate, estimate / far(ErrorEstimate.TrendDown), high)
 
-  /** Samples per pixel at which the relative MSE is this. */
-  def samplesUntil(relativeMse: Double): Option[Double] = last.map: known =>
-    known.samples * known.trend.times(Math.max(relativeMse, 1e-30) / known.errors.relativeMse)
+  /** Samples per pixel with which the relative MSE is at most this: a power of two, or eighths of
+    * one beyond. Up to the next power of two, where the error is estimated anew, that is what
+    * [[at]] says. The 95 % interval is that of the number with which it will say so. There is none
+    * after two samples only, and no upper limit where few pixels have the error.
+    */
+  def samplesUntil(relativeMse: Double): Option[Interval] =
+    for
+      known <- last if !known.errors.relativeMse.isNaN
+      now <- latest
+    yield
+      val times = known.trend.times(relativeMse / Math.max(known.errors.relativeMse, 1e-30))
+      val isSoon = times < 2
+      val found =
+        if isSoon then known.samples * times
+        else
+          val byWeight = now.samples + (times * known.weight - now.weight) / sampleWeight
+          Math.max(2.0 * known.samples, byWeight)
+      val far = Math.exp(1.959964 * ErrorEstimate.deviation(now.samples, isSoon))
+      if now.samples < ErrorEstimate.FewSamples then Interval(found, Double.NaN, Double.NaN)
+      else
+        val low = Math.max(Math.min(found, now.samples), found / far)
+        Interval(found, low, if isOfFew then Double.PositiveInfinity else found * far)
+
+  /** Of one of the latest samples. Those of guided passes may count more than those before. */
+  private def sampleWeight: Double =
+    val some =
+      for
+        now <- latest
+        from <- (base.map(_.weighed) ++ earlier).find(_.samples < now.samples)
+      yield (now.weight - from.weight) / (now.samples - from.samples)
+    some.filter(_ > 0).orElse(latest.map(now => now.weight / now.samples)).getOrElse(1.0)
 
   /** Whether so few pixels have nearly all of the error that it is known to 15 % in fewer than nine
     * of ten cases.
@@ -97,45 +128,76 @@ final class ErrorEstimate:
     val second = middle.map(ErrorEstimate.scatter(Some(half), _, now, isStopped))
     val inner = whole.filter(_ => doubled).map: first =>
       second.fold(first)(ErrorEstimate.mean(first, _))
-    val variance = inner.fold(all)(ErrorEstimate.pooled(all, _))
+    val variance = inner.fold(all.values)(ErrorEstimate.pooled(all, _))
     val means = QuietMeans(now.image, variance, isStopped)
     val scatters = Vector(Some(all), inner, halves.filter(_ => doubled))
     val trend =
       if scatters.forall(_.isDefined) then
-        def inParts(scatter: Array[Float]) =
-          ErrorEstimate.inParts(scatter, now.image, means, isStopped)
-        ScatterTrend.of(scatters.flatten.map(inParts))
+        // As if all samples had the same weight
+        val parts =
+          for (scatter, i) <- scatters.flatten.zipWithIndex yield
+            val scale = Math.scalb(all.unit, i) / scatter.unit
+            ErrorEstimate.inParts(scatter.values, now.image, means, isStopped).map(_ * scale)
+        ScatterTrend.of(parts)
       else ScatterTrend.Independent
     var squares, relatives, spread = 0.0
-    loop(all.length): i =>
+    loop(all.values.length): i =>
       GivenUp.check(isStopped, i)
-      val relative = all(i).toDouble * means.weight(i)
-      squares += all(i)
+      val relative = all.values(i).toDouble * means.weight(i)
+      squares += all.values(i)
       relatives += relative
       spread += relative * relative
-    val scale = trend.factor / all.length
+    val scale = trend.factor / all.values.length
     val errors = Errors(squares * scale, relatives * scale, None, None, None, Vector.empty)
     whole = Some(all)
     halves = inner
-    val values = if spread > 0 then relatives * relatives / spread else all.length.toDouble
-    Known(now.samples, errors, trend, values / now.image.channels)
+    val values = if spread > 0 then relatives * relatives / spread else all.values.length.toDouble
+    Known(now.samples, now.weighed.weight, errors, trend, values / now.image.channels)
 
 object ErrorEstimate:
-  private final case class State(samples: Int, image: Image, weights: Array[Float])
+  private final case class State(samples: Int, image: Image, weights: Array[Float]):
+    val weighed: Weighed =
+      var sum = 0.0
+      loop(weights.length)(i => sum += weights(i))
+      Weighed(samples, sum / Math.max(1, weights.length))
 
-  /** What is known after so many samples.
+  /** Samples per pixel, and their weight, on average over the pixels. */
+  private final case class Weighed(samples: Int, weight: Double)
+
+  /** Fewer samples say nothing about how many more it takes. */
+  private val FewSamples = 3
+
+  /** Standard deviation of the logarithm of the samples at which an error is seen to be reached, by
+    * docs/journal/NOISE.md, "Time left".
     *
+    * @param isSoon whether that is expected before the next power of two
+    */
+  private def deviation(samples: Int, isSoon: Boolean): Double =
+    if isSoon then 0.08 else 0.15 * Math.sqrt(1 + 20.0 / samples)
+
+  /** Scatter between two parts of the samples.
+    *
+    * @param values of each value of the image
+    * @param unit   what it is expected to be for independent samples with the variance 1 / weight
+    */
+  private final case class Scatter(values: Array[Float], unit: Double)
+
+  /** What is known after some samples.
+    *
+    * @param weight of a pixel's samples
     * @param pixels that have the error, about: if all had as much, as many as there are over 3
     */
   private final case class Known(
       samples: Int,
+      weight: Double,
       errors: Errors,
       trend: ScatterTrend,
       pixels: Double
   ):
-    /** The relative MSE after other samples, relative to that now. */
-    def since(others: Double): Double =
-      Math.pow(others / samples, Math.log(trend.ratio) / Math.log(2))
+    /** The relative MSE after other samples, relative to that now. Those that count more are not
+      * more evenly spread before they are twice as many.
+      */
+    def since(others: Double): Double = trend.after(others / samples)
 
   /** The squared difference of two halves of a pixel has the relative variance 2, and a mean square
     * of 3: the root of a sum is then uncertain by the root of 1 / 6 over these pixels, here 0.075.
@@ -159,7 +221,7 @@ object ErrorEstimate:
       middle: State,
       end: State,
       isStopped: () => Boolean
-  ): Array[Float] =
+  ): Scatter =
     val values = new Array[Float](end.image.data.length)
     val channels = end.image.channels
     loop(end.weights.length): pixel =>
@@ -175,14 +237,17 @@ object ErrorEstimate:
           val s1 = middle.image.data(i) * w1
           val difference = (s1 - s0) / (w1 - w0) - (end.image.data(i) * w2 - s1) / (w2 - w1)
           values(i) = (difference * difference * Math.max(share, 0)).toFloat
-    values
+    val weight = end.weighed.weight - begin.fold(0.0)(_.weighed.weight)
+    Scatter(values, 1 / Math.max(weight, 1e-30))
 
-  private def mean(a: Array[Float], b: Array[Float]): Array[Float] =
-    Array.tabulate(a.length)(i => (a(i) + b(i)) / 2)
+  private def mean(a: Scatter, b: Scatter): Scatter =
+    val values = Array.tabulate(a.values.length)(i => (a.values(i) + b.values(i)) / 2)
+    Scatter(values, (a.unit + b.unit) / 2)
 
   /** The variance of the mean of all samples, were they independent, from four quarters. */
-  private def pooled(all: Array[Float], halves: Array[Float]): Array[Float] =
-    Array.tabulate(all.length)(i => (all(i) + halves(i)) / 3)
+  private def pooled(all: Scatter, halves: Scatter): Array[Float] =
+    val scale = (2 * all.unit / halves.unit).toFloat
+    Array.tabulate(all.values.length)(i => (all.values(i) + scale * halves.values(i)) / 3)
 
   /** Relative scatter, added up over squares of 8 × 8 pixels. */
   private def inParts(

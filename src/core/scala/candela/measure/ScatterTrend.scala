@@ -31,18 +31,72 @@ final class ScatterTrend private (gap: Double, shrinkage: Double):
 
   private def doubled = ScatterTrend(gap * shrinkage, shrinkage)
 
-  /** How many times N samples have V(N) times `part`. */
+  /** How many times N samples have at most V(N) times `part`: a doubling, or eighths of it. */
   def times(part: Double): Double =
-    var (trend, left, doublings) = (this, part, 0)
-    while left < trend.ratio && doublings < ScatterTrend.MostDoublings do
-      left /= trend.ratio
+    if part >= 1 then 1
+    else
+      var (trend, left, doublings) = (this, part, 0)
+      while left < trend.ratio && doublings < ScatterTrend.MostDoublings do
+        left /= trend.ratio
+        trend = trend.doubled
+        doublings += 1
+      val eighth = (1 to 8).find(k => trend.within(1 + k / 8.0) <= left)
+      Math.scalb(1 + eighth.getOrElse(8) / 8.0, doublings)
+
+  /** V(N times `times`) / V(N). */
+  def after(times: Double): Double =
+    var (trend, rest, product) = (this, times, 1.0)
+    while rest > 2 do
+      product *= trend.ratio
       trend = trend.doubled
-      doublings += 1
-    Math.scalb(Math.pow(left, Math.log(2) / Math.log(trend.ratio)), doublings)
+      rest /= 2
+    product * trend.within(rest)
+
+  /** V(N times `times`) / V(N), up to two times. */
+  private def within(times: Double): Double = sum(times) / (times * times)
+
+  /** The variance of the sum of so many times N samples, relative to that of N.
+    *
+    * Points whose number is no power of two are blocks of falling sizes, which are such powers.
+    * Later points of a sequence that is scrambled by digits (Owen) are alike to those before: a
+    * part r of the block of size B that follows as many has as large a part of their covariance,
+    * which the variances of B and 2 B samples tell. So the sum of B + r samples has the variance
+    * S(B) + S(r) + r / B (S(2 B) − 2 S(B)), where S(n) = n² V(n). Independent ones have S(n) ~ n.
+    */
+  private def sum(times: Double): Double =
+    val smallest = ScatterTrend.Depth
+    var size = -1
+    while size < smallest && Math.scalb(1.0, -size) > times do size += 1
+    val block = Math.scalb(1.0, -size)
+    if block > times then times / block * sums(size + 1)
+    else
+      val rest = times - block
+      if size < 0 || rest == 0 then sums(size + 1)
+      else
+        val share = rest / block
+        (1 - 2 * share) * sums(size + 1) + sum(rest) + share * sums(size)
+
+  /** S of 2 N, N, N/2, N/4 and N/8, relative to S(N). */
+  private lazy val sums: Array[Double] =
+    val found = new Array[Double](ScatterTrend.Depth + 2)
+    found(0) = 4 * ratio
+    found(1) = 1
+    var (variance, scatter, earlier) = (1.0, 1 / factor, gap)
+    for i <- 2 until found.length do
+      // V(n/2) = V(n) + D(n)
+      variance += scatter
+      found(i) = Math.scalb(variance, -2 * (i - 1))
+      scatter /= 0.5 - earlier
+      earlier = Math.min(ScatterTrend.MostGap, earlier / shrinkage)
+    found
 
 object ScatterTrend:
   private val Terms = 24
   private val MostDoublings = 60
+  private val MostGap = 0.25
+
+  /** Halvings of a block of samples; smaller ones are as if samples were independent. */
+  private val Depth = 3
 
   /** Of independent samples. */
   val Independent: ScatterTrend = new ScatterTrend(0, 1)
@@ -70,7 +124,7 @@ object ScatterTrend:
           shrinkage * shrinkage * old.variance + old.square * found.variance
         )
         val gap = last.and(expected).mean
-        ScatterTrend(Math.max(0, Math.min(0.25, gap)), shrinkage)
+        ScatterTrend(Math.max(0, Math.min(MostGap, gap)), shrinkage)
       case _ => Independent
 
   /** ½ − ΣD(n) / ΣD(n/2). */

@@ -119,6 +119,16 @@ object RenderListener:
 /** What is expected to end a rendering, whichever comes first.
   *
   * @param seconds since the start of rendering, with the listeners' time
-  * @param samples samples per pixel, by the trend so far
+  * @param samples by the trend of the error so far; none if it can't be known yet
   */
-final case class ExpectedEnd(seconds: Option[Double], samples: Option[Double])
+final case class ExpectedEnd(seconds: Option[Double], samples: Option[SampleRange])
+
+/** Samples per pixel at which a rendering is expected to end.
+  *
+  * @param low  with `high`, the 95 % interval; `Int.MaxValue`: there is no upper limit
+  */
+final case class SampleRange(expected: Int, low: Int, high: Int):
+  def map(f: Int => Int): SampleRange = SampleRange(f(expected), f(low), f(high))
+
+  /** Not beyond this. */
+  def atMost(samples: Int): SampleRange = map(Math.min(_, samples))

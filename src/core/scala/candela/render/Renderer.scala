@@ -43,7 +43,8 @@ object Renderer:
     val canKeepOn = plan.method.canKeepOn && shard.isWhole && checkpointer.isEmpty &&
       samplesPerPixel < RenderPlan.Endless
     val live = Live(plan, job, queue, workers, state, total, canKeepOn, () => seconds)
-    val forecast = Forecast(schedule, pixels.toDouble / shard.count, earlier, listener)
+    val forecast =
+      Forecast(schedule, pixels.toDouble / shard.count, earlier, workers.size, listener)
     def progress() =
       val now = live.progress
       live.expect(forecast.outlook(now.done, live.samplesPerPixel, now.seconds, clock))

@@ -59,24 +59,46 @@ private[render] final class TimeLeft:
         hasSwept = true
       time = seconds
 
-  /** Seconds until there are so many samples per pixel; none in the first seconds. */
-  def until(samples: Double, seconds: Double): Option[Double] =
+  /** Seconds until there are so many samples per pixel; none in the first seconds.
+    *
+    * @param warm processor time that each worker has had, if known, in seconds: a young JVM gets
+    *   faster as it compiles, by as much as was measured
+    */
+  def until(samples: SampleRange, seconds: Double, warm: Option[Double]): Option[TimeRange] =
+    val young = warm.getOrElse(seconds - begun)
     val part = sweep.part(this.samples)
     val isEnough = hasSwept || part >= FirstPart
-    Option.when(isBegun && isEnough && seconds - begun >= FirstSeconds):
-      val usual = mean
-      val drift = this.drift(usual)
-      val at = Math.min((part * Slots).toInt, Slots - 1)
-      var rest, all = 0.0
-      loop(Slots): i =>
-        val known = if paces(i).isNaN then usual else paces(i)
-        val pace = if i >= at then known * drift else known
-        all += pace
-        if i > at then rest += pace
-        else if i == at then rest += pace * (at + 1 - part * Slots)
-      val inSweep = Math.min(sweep.size, Math.max(0, samples - sweep.begin)) * rest / Slots
-      val later = Math.max(0, samples - sweep.end) * all / Slots
-      Math.max(0, inSweep + later - (seconds - time))
+    Option.when(isBegun && isEnough && Math.min(seconds - begun, young) >= FirstSeconds):
+      val square = young * young
+      def sooner(left: Double) =
+        // Of a long rest of the rendering, most is as fast as it gets
+        Iterator.iterate(left)(l => left * Math.exp(-Slow / square * l / (seconds + l)))
+          .drop(Steps).next()
+      val expected = sooner(paced(samples.expected, seconds))
+      val noise = Confidence * (PaceNoise + YoungNoise / square)
+      def far(end: Int, sign: Int) =
+        if end == Int.MaxValue then Double.PositiveInfinity
+        else
+          val far = Math.log(Math.max(1e-9, sooner(paced(end, seconds))) / Math.max(1e-9, expected))
+          expected * Math.exp(sign * Math.hypot(far, noise))
+      TimeRange(expected, far(samples.low, -1), far(samples.high, 1))
+
+  /** Seconds until there are so many samples per pixel, at the present paces. */
+  private def paced(samples: Double, seconds: Double): Double =
+    val part = sweep.part(this.samples)
+    val usual = mean
+    val drift = this.drift(usual)
+    val at = Math.min((part * Slots).toInt, Slots - 1)
+    var rest, all = 0.0
+    loop(Slots): i =>
+      val known = if paces(i).isNaN then usual else paces(i)
+      val pace = if i >= at then known * drift else known
+      all += pace
+      if i > at then rest += pace
+      else if i == at then rest += pace * (at + 1 - part * Slots)
+    val inSweep = Math.min(sweep.size, Math.max(0, samples - sweep.begin)) * rest / Slots
+    val later = Math.max(0, samples - sweep.end) * all / Slots
+    Math.max(0, inSweep + later - (seconds - time))
 
   /** Samples per pixel and second, recently. */
   def rate: Option[Double] = Option(1 / mean).filter(r => isBegun && r > 0 && !r.isInfinite)
@@ -132,6 +154,31 @@ private[render] final class TimeLeft:
         count += 1
     if count > 0 then sum / count else if taken > 0 then spent / taken else Double.NaN
 
+/** Seconds that a rendering is expected to take.
+  *
+  * @param low with `high`, the 95 % interval
+  */
+final case class TimeRange(expected: Double, low: Double, high: Double):
+  /** Not beyond this. */
+  def atMost(seconds: Double): TimeRange =
+    TimeRange(Math.min(expected, seconds), Math.min(low, seconds), Math.min(high, seconds))
+
+  /** Whether the whole time is known to a fourth, with 95 %: mostly, then, to an eighth.
+    *
+    * @param seconds so far
+    */
+  private[render] def isKnown(seconds: Double): Boolean =
+    val all = seconds + expected
+    seconds + high <= all * TimeRange.Known && (seconds + low) * TimeRange.Known >= all
+
+  /** Whether its interval says something. */
+  private[render] def says(seconds: Double): Boolean =
+    seconds + high <= (seconds + low) * TimeRange.Vague
+
+object TimeRange:
+  private val Known = 1.25
+  private val Vague = 6.0
+
 private[render] object TimeLeft:
 
   /** Samples `begin` until `end` of each pixel, taken in one sweep over the image. */
@@ -141,8 +188,19 @@ private[render] object TimeLeft:
 
   private val Slots = 64
 
-  /** In seconds: JVMs compile the hot loops meanwhile, on busy machines for longer. */
-  private val FirstSeconds = 5.0
+  /** In seconds: JVMs compile the hot loops meanwhile. */
+  private val FirstSeconds = 2.0
+
+  /** The logarithm of the time left is too large by this over the square of the seconds so far, if
+    * the rendering is long in comparison: by docs/journal/NOISE.md, "Time left", as are the
+    * standard deviations of the logarithm.
+    */
+  private val Slow = 5.0
+  private val YoungNoise = 2.4
+  private val PaceNoise = 0.05
+
+  private val Confidence = 1.959964
+  private val Steps = 4
 
   /** Of the first sweep; what follows may be anything if less is known. */
   private val FirstPart = 0.1

@@ -63,7 +63,47 @@ class ErrorEstimateSuite extends AnyFunSuite:
     val known = estimate.at(32).get.relativeMse
     // Each error is known to 3 %, as above, and two of them tell how it goes on
     assert(Math.abs(estimate.at(64).get.relativeMse / known - 0.5) < 0.04)
-    assert(Math.abs(estimate.samplesUntil(known / 4).get - 128) < 12)
+    val end = estimate.samplesUntil(known / 4).get
+    assert(Math.abs(end.estimate - 128) < 12 && end.low < 105 && end.high > 150)
+    // What is reached before the next look is known well, and what is reached already, at once
+    val soon = estimate.samplesUntil(known / 1.5).get
+    assert(Math.abs(soon.estimate - 48) < 5 && soon.high < 1.2 * soon.estimate)
+    assert(estimate.samplesUntil(known * 2).contains(Interval(
+      32,
+      32,
+      32 * Math.exp(0.08 * 1.959964)
+    )))
+
+  test("after two samples only, nothing is said of how many more it takes"):
+    val estimate = ErrorEstimate()
+    val random = scala.util.Random(3)
+    for n <- 1 to 3 do
+      val image = Image.rgb(side, side)
+      for i <- image.data.indices do image.data(i) = random.nextFloat()
+      val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), isLast = false)
+      val isTold = estimate.samplesUntil(1e-4).exists(_.isKnown)
+      assert(isTold == (n == 3), n)
+
+  test("samples that count more bring more, and do not pass for better points"):
+    // From the ninth on four times the weight, and a fourth of the variance
+    val random = scala.util.Random(7)
+    val estimate = ErrorEstimate()
+    val sums = new Array[Double](side * side * 3)
+    var weight = 0.0
+    for n <- 1 to 32 do
+      val w = if n <= 8 then 1.0 else 4.0
+      weight += w
+      for i <- sums.indices do sums(i) += w * (1 + random.nextGaussian() / Math.sqrt(w))
+      val image = Image.rgb(side, side)
+      for i <- sums.indices do image.data(i) = (sums(i) / weight).toFloat
+      val _ = estimate.add(n, image, Array.fill(side * side)(weight.toFloat), isLast = false)
+      // Relative to (1 + 0.01)²; each is known to 3 %
+      val expected = 1 / weight / 1.0201
+      if n == 16 || n == 32 then
+        val _ = assert(Math.abs(estimate.at(n).get.relativeMse / expected - 1) < 0.12, n)
+    // 264 = 8 + 4 · 64
+    val end = estimate.samplesUntil(1 / 264.0 / 1.0201).get.estimate
+    assert(Math.abs(end - 72) < 8)
 
   test("an error that few pixels have is known to be uncertain"):
     def isOfFew(noisy: Int) =
@@ -109,6 +149,30 @@ class ErrorEstimateSuite extends AnyFunSuite:
     // Later doublings bring less
     assert(trend.times(trend.ratio * trend.ratio * trend.ratio) > 8.2)
     assert(Math.abs(ScatterTrend.Independent.times(0.25) - 4) < 1e-9)
+
+  test("between powers of two, the error is that of blocks of points"):
+    val (pixels, parts) = (40_000, 20)
+    // Squared errors of n points, added up over parts of the pixels
+    val squares = Array.ofDim[Double](33, parts)
+    for i <- 0 until pixels do
+      val sampler = OwenSobolSampler(64, i)
+      var sum = 0.0
+      for n <- 1 to 32 do
+        sampler.start(i % 200, i / 200, n - 1)
+        val light = smooth(sampler)
+        sum += light + (0 until 6).map(_ => 0.5 + sampler.next1D()).product
+        val error = sum / n - smoothMean - 1
+        squares(n)(i * parts / pixels) += error * error
+    def variance(n: Int) = squares(n).sum
+    def scatter(n: Int) = Array.tabulate(parts)(i => squares(n / 2)(i) - squares(n)(i))
+    val trend = ScatterTrend.of(Vector(16, 8, 4).map(scatter))
+    for n <- Vector(18, 20, 24, 28, 32) do
+      val found = trend.after(n / 16.0) / (variance(n) / variance(16))
+      assert(Math.abs(found - 1) < 0.1, s"$n: $found")
+    // No better than the power of two before
+    assert(trend.after(18 / 16.0) > 0.95)
+    for x <- Vector(0.3, 1.0, 1.3, 3.7) do
+      assert(Math.abs(ScatterTrend.Independent.after(x) * x - 1) < 1e-9)
 
   test("an estimate that is given up changes nothing"):
     val random = scala.util.Random(4)

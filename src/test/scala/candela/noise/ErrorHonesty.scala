@@ -6,6 +6,7 @@ import candela.cli.rendering.RenderRecorder
 import candela.measure.{Interval, Metrics}
 import candela.render.{Looks, Pass, Renderer, RenderListener}
 import candela.film.Film
+import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
 
 import java.nio.file.{Files, Path}
@@ -13,8 +14,9 @@ import java.nio.file.{Files, Path}
 /** Compares the error that a rendering estimates of itself with the true one, for docs/NOISE.md.
   *
   * Options: `--scenes A.pbrt,B.pbrt` `--samples 16,64` `--seeds N` `--width N` (of the image, in
-  * pixels) `--truth N` (samples of the reference) `--folder F` (keeps references) `--values F` (a
-  * file of all figures: scene, samples, true relative MSE, its estimate, and the limits of that).
+  * pixels) `--truth N` (samples of the reference) `--guiding progressive` `--folder F` (keeps
+  * references) `--values F` (a file of all figures: scene, samples, true
+  * relative MSE, its estimate, and the limits of that).
   */
 object ErrorHonesty:
   def main(args: Array[String]): Unit =
@@ -34,7 +36,8 @@ object ErrorHonesty:
         scene.plan(RenderSettings(
           samples = Some(spp),
           seed = seed,
-          points = Some(PointChoice.Progressive)
+          points = Some(PointChoice.Progressive),
+          guiding = options.get("guiding").map(g => GuidingMode.valueOf(g.capitalize))
         ))
       def rendered(): Image =
         val most = plan(number("truth", 4096), 12345)

@@ -12,7 +12,7 @@ class TimeLeftSuite extends AnyFunSuite:
     val course = Course(spp = 64, (_, _) => 1.0)
     // Looks are 0.1 s apart, which is 1.6 % of the first 6.4 s
     assert(Math.abs(course.total - 64) <= 0.1)
-    assert(course.foretold(4.5).isEmpty)
+    assert(course.foretold(1.5).isEmpty && course.foretold(2.5).isDefined)
     for part <- Vector(0.1, 0.25, 0.5, 0.9) do course.assertNear(part, 0.02)
 
   test("a slow start is forgotten"):
@@ -20,6 +20,23 @@ class TimeLeftSuite extends AnyFunSuite:
     val course = Course(spp = 512, (_, seconds) => 0.2 * (1 + 5 * Math.exp(-seconds / 1.5)))
     course.assertNear(0.1, 0.1)
     for part <- Vector(0.25, 0.5) do course.assertNear(part, 0.03)
+
+  test("a JVM that still compiles gets faster, and the interval says how uncertain that is"):
+    val course = Course(spp = 64, (_, _) => 1.0)
+    def range(seconds: Double, warm: Double) = course.range(seconds, Some(warm)).get
+    def width(r: TimeRange) = r.high / r.low
+    // On a busy machine 20 s may be 3 s of a processor
+    assert(range(20, 3).expected < 0.75 * range(20, Warm).expected)
+    assert(width(range(20, 3)) > 2 && width(range(20, Warm)) < 1.3)
+    assert(!range(3, 3).isKnown(3) && range(20, Warm).isKnown(20))
+    assert(course.range(20, Some(1.5)).isEmpty)
+
+  test("an interval of samples is one of the time"):
+    val course = Course(spp = 200, (_, _) => 1.0)
+    val found = course.until(SampleRange(100, 80, Int.MaxValue), 50)
+    assert(Math.abs(found.expected - 50) < 2 && found.low < 31 && found.high.isInfinite)
+    assert(!found.isKnown(50) && !found.says(50))
+    assert(course.until(SampleRange(100, 80, 130), 50).says(50))
 
   test("pixels of unequal cost are compared with themselves"):
     // An empty sky at the top, glass at the bottom
@@ -55,6 +72,8 @@ class TimeLeftSuite extends AnyFunSuite:
     assert(Math.abs(course.rate(50).get - 10) < 0.5)
 
 private object TimeLeftSuite:
+  /** Seconds after which nothing is compiled any more. */
+  val Warm = 1e6
 
   /** A rendering.
     *
@@ -89,7 +108,17 @@ private object TimeLeftSuite:
       left
 
     /** Seconds left, as expected at some time. */
-    def foretold(seconds: Double): Option[Double] = after(seconds).until(spp, seconds)
+    def foretold(seconds: Double): Option[Double] = range(seconds, Some(Warm)).map(_.expected)
+
+    /** With its interval.
+      *
+      * @param warm seconds that the JVM had to compile, if it is not done
+      */
+    def range(seconds: Double, warm: Option[Double]): Option[TimeRange] =
+      after(seconds).until(SampleRange(spp, spp, spp), seconds, warm)
+
+    def until(samples: SampleRange, seconds: Double): TimeRange =
+      after(seconds).until(samples, seconds, Some(Warm)).get
 
     def rate(seconds: Double): Option[Double] = after(seconds).rate
 

@@ -56,21 +56,31 @@ object ProgressLine:
   private val BarWidth = 28
   private val NarrowWidth = 12
 
-  /** `render  42%  12.0 s, 1.31 M samples/s, 0:17 left` */
+  /** Of bar and speed, in lines narrower than 80 columns. */
+  private val BarRoom = 64
+
+  /** In seconds; more is shown as this. */
+  private val LongestLeft = 359_999.0
+
+  /** `render  42%  12.0 s, 1.31 M samples/s, 0:17 left`; or, of an error that is to be reached,
+    * `… 0:14 to 0:24 left, until 96 to 141 spp`.
+    */
   def line(progress: Progress): String =
-    s"render ${percent(progress)}  ${Figures.duration(progress.seconds)}, ${speed(progress)}"
+    val seconds = Figures.duration(progress.seconds)
+    s"render ${percent(progress)}  $seconds, ${speed(progress)}${end(progress)}"
 
   /** With hundredths of a percent, for programs: `render 42.17%  12.0 s, …`. */
   private def fineLine(p: Progress): String =
     val part = "%5.2f%%".formatLocal(Locale.ROOT, p.part * 100)
-    s"render $part  ${Figures.duration(p.seconds)}, ${speed(p)}"
+    s"render $part  ${Figures.duration(p.seconds)}, ${speed(p)}${end(p)}"
 
   /** Narrower than 80 columns: `render  42% [========>          ] 1.31 M samples/s, 0:17 left`, or
     * `… 1.31 M samples/s, error 1.23 %, 0:17 left`.
     */
   def bar(progress: Progress): String =
     val isLong = progress.outlook.hasGoal || progress.outlook.error.isDefined
-    val width = if isLong then NarrowWidth else BarWidth
+    val room = BarRoom - speed(progress).length
+    val width = Math.max(1, Math.min(room, if isLong then NarrowWidth else BarWidth))
     val full = (progress.part * width).toInt
     val drawn = if full < width then "=" * full + ">" else "=" * full
     s"render ${percent(progress)} [${drawn.padTo(width, ' ')}] ${speed(progress)}"
@@ -83,5 +93,18 @@ object ProgressLine:
     else
       val rate = p.outlook.rate.getOrElse(p.done / Math.max(p.seconds, 1e-9))
       val error = p.outlook.error.fold("")(e => s", error ${Figures.percentage(e)}")
-      val left = p.outlook.left.fold("")(l => s", ${Figures.clock(l)} left")
-      s"${Figures.metric(rate)} samples/s$error$left"
+      s"${Figures.metric(rate)} samples/s$error${left(p)}"
+
+  /** At how many samples per pixel a goal ends it, if that is known. */
+  private def end(p: Progress): String = p.outlook.samples.fold(""): s =>
+    if s.high == Int.MaxValue then s", until ${s.low} spp or more"
+    else if s.low == s.high then s", until ${s.expected} spp"
+    else s", until ${s.low} to ${s.high} spp"
+
+  /** The time left, or its interval where it is not known well. */
+  private def left(p: Progress): String =
+    def clock(seconds: Double) = Figures.clock(Math.min(seconds, LongestLeft))
+    (p.outlook.left, p.outlook.between) match
+      case (Some(left), _) => s", ${clock(left)} left"
+      case (None, Some(r)) => s", ${clock(r.low)} to ${clock(r.high)} left"
+      case (None, None) => if p.outlook.hasGoal then ", time left unknown" else ""
