@@ -32,7 +32,12 @@ val lwjglNatives = Seq(
   * generation is collected rarely; a large one would only be filled before it is. Classes take more
   * than the 21 MB at which the whole heap would be collected, in the midst of building a scene.
   */
-val memory = Seq("-XX:MaxRAMPercentage=70", "-XX:MaxNewSize=64m", "-XX:MetaspaceSize=64m")
+val memory = Seq(
+  "-XX:MaxRAMPercentage=70",
+  "-XX:MaxNewSize=64m",
+  "-XX:MaxTenuringThreshold=0", // what lives through one collection is mostly the scene
+  "-XX:MetaspaceSize=64m"
+)
 
 /** Options of every JVM of this build: the renderer's and the tests'. */
 val jvmOptions = Seq(

@@ -1,9 +1,8 @@
 package candela.accel
 
 import scala.collection.IndexedSeqView
-import scala.collection.mutable.ArrayBuffer
 
-import candela.base.{Parallel, loop}
+import candela.base.{IntBuffer, Parallel, loop}
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 
@@ -118,8 +117,12 @@ object Instances:
       close: Float = 1f,
       parallel: Parallel = Parallel.Alone
   ): Instances =
-    val moving = ArrayBuffer.empty[Int]
-    loop(places.length)(i => if places(i)._2.moves then moving += i)
+    val isMoving = new Array[Boolean](places.length)
+    parallel.ranges(places.length): (from, until) =>
+      loop(from, until)(i => isMoving(i) = places(i)._2.moves)
+    val found = IntBuffer()
+    loop(places.length)(i => if isMoving(i) then found += i)
+    val moving = found.take()
     val still = places.length - moving.length
     val objectOf = new Array[Int](places.length)
     val matrices = new Array[Double](Math.multiplyExact(Motion.Doubles, still))

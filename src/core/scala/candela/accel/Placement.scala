@@ -1,6 +1,5 @@
 package candela.accel
 
-import candela.base.loop
 import candela.geometry.{Bounds3, Frame, Ray, ShadingPoint}
 import candela.math.*
 
@@ -49,26 +48,10 @@ object Placement:
   def bounds(m: Array[Double], at: Int, box: Bounds3): Bounds3 =
     if box.isEmpty then Bounds3.Empty
     else
-      val far = Vec3(
-        Math.max(Math.abs(box.min.x), Math.abs(box.max.x)),
-        Math.max(Math.abs(box.min.y), Math.abs(box.max.y)),
-        Math.max(Math.abs(box.min.z), Math.abs(box.max.z))
-      )
-      val slack = stretched(m, at, far) * gamma(2)
-      val corners = cornersOf(m, at, box)
-      val pad = slack + Vec3(
-        Math.max(Math.abs(corners.min.x), Math.abs(corners.max.x)),
-        Math.max(Math.abs(corners.min.y), Math.abs(corners.max.y)),
-        Math.max(Math.abs(corners.min.z), Math.abs(corners.max.z))
-      ) * gamma(2)
+      val slack = stretched(m, at, box.reach) * gamma(2)
+      val corners = box.mapped(point(m, at, _))
+      val pad = slack + corners.reach * gamma(2)
       Bounds3(corners.min - pad, corners.max + pad)
-
-  /** Bounds of the transformed corners. */
-  private def cornersOf(m: Array[Double], at: Int, box: Bounds3): Bounds3 =
-    // Without collections: there may be millions
-    var all = Bounds3.Empty
-    loop(8)(k => all = all.union(point(m, at, box.corner(k))))
-    all
 
   /** Bounds of the object's box over the shutter interval.
     *

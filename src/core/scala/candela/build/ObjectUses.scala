@@ -37,10 +37,13 @@ private[build] final class ObjectUses(
     problems: Findings
 ):
   private val motions = Motions(description, origin)
-  private val own = ArrayBuffer.empty[ShapeDescription]
+  private val own = Vector.newBuilder[ShapeDescription]
   private val objects = ArrayBuffer.empty[PlacedObject]
 
-  for s <- description.shapes do
+  // Those of most scenes are taken as they are: there may be millions
+  private val isStill = !description.shapes.exists(_.objectToWorld.isAnimated)
+  if isStill then own ++= description.shapes
+  for s <- description.shapes if !isStill do
     if Motions.moves(s.objectToWorld) then
       val dark = withoutLight(s, "animated shapes can't be area lights; emission is ignored")
       objects += placed(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)).view)
@@ -69,7 +72,7 @@ private[build] final class ObjectUses(
         place(name, shapes.map(ofObject), uses)
 
   /** Shapes of the world, including copied objects. */
-  def world: Vector[ShapeDescription] = own.toVector
+  val world: Vector[ShapeDescription] = own.result()
 
   /** Objects with several or animated instances. */
   def shared: Vector[PlacedObject] = objects.toVector
@@ -79,7 +82,9 @@ private[build] final class ObjectUses(
       shapes: Vector[ShapeDescription],
       uses: Vector[InstanceDescription]
   ): Unit =
-    val (affine, seen) = uses.partition(u => Motions.isAffine(u.instanceToWorld))
+    val (affine, seen) =
+      if uses.forall(u => Motions.isAffine(u.instanceToWorld)) then (uses, Vector.empty)
+      else uses.partition(u => Motions.isAffine(u.instanceToWorld))
     for u <- seen do
       if u.instanceToWorld.isAnimated || shapes.exists(s => Motions.moves(s.objectToWorld)) then
         problems.warn(

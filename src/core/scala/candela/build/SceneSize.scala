@@ -48,24 +48,32 @@ private[build] final class SceneSize(
     surfaces.spheres * Sphere + others * Solid + surfaces.segments * Segment +
       surfaces.patches * Patch
 
-  private def statements: Long =
-    var listed = description.media.iterator.map(m => arrays(m.medium)).sum
-    var lamps = description.lights.size
+  /** Bytes of the shapes' statements, and the number of those that emit. */
+  private val (listed, emitting) =
+    var listed, emitting = 0L
     for shapes <- description.shapes +: description.objects.values.toVector; s <- shapes do
       listed += Statement + arrays(s.shape)
-      if s.areaLight.isDefined then lamps += 1
-    listed + description.instances.size * Placed + lamps * LampStatement
+      if s.areaLight.isDefined then emitting += 1
+    (listed, emitting)
+
+  private def statements: Long =
+    listed + description.media.iterator.map(m => arrays(m.medium)).sum +
+      description.instances.size * Placed + (emitting + description.lights.size) * LampStatement
 
   private def materials: Long =
-    // Shapes of one statement share it
+    // Shapes of one statement share it, most of them one after another
     val worn = java.util.IdentityHashMap[MaterialRef, Unit]()
-    for s <- description.shapes do worn.put(s.material, ())
+    var last: MaterialRef | Null = null
+    for s <- description.shapes if s.material ne last do
+      last = s.material
+      worn.put(s.material, ())
     description.namedMaterials.size + worn.size
 
   private def lights: Long =
     val images = description.lights.map(_.light).flatMap(l => ImageNames.flatMap(file(l, _)))
-    val lamps =
-      SurfaceCount.of(uses.world.filter(_.areaLight.isDefined), description.dialect.base)
+    val emitters =
+      if emitting == 0 then Vector.empty else uses.world.filter(_.areaLight.isDefined)
+    val lamps = SurfaceCount.of(emitters, description.dialect.base)
     lamps.triangles * TriangleLamp + (lamps.solids + description.lights.size) * Lamp +
       images.map(i => ImageSize.guess(i).fold(0L)(s => s.width.toLong * s.height * LightPixel)).sum
 

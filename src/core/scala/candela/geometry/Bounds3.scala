@@ -1,5 +1,6 @@
 package candela.geometry
 
+import candela.base.loop
 import candela.math.*
 
 /** An axis-aligned bounding box; `Bounds3.Empty` contains no point. */
@@ -20,6 +21,19 @@ final case class Bounds3(min: Vec3, max: Vec3):
     if (i & 1) == 0 then min.x else max.x,
     if (i & 2) == 0 then min.y else max.y,
     if (i & 4) == 0 then min.z else max.z
+  )
+
+  /** Bounds of what a map makes of the corners. Without collections: there may be millions. */
+  inline def mapped(inline map: Vec3 => Vec3): Bounds3 =
+    var all = Bounds3.Empty
+    loop(8)(i => all = all.union(map(corner(i))))
+    all
+
+  /** Largest absolute coordinates. */
+  def reach: Vec3 = Vec3(
+    Math.max(Math.abs(min.x), Math.abs(max.x)),
+    Math.max(Math.abs(min.y), Math.abs(max.y)),
+    Math.max(Math.abs(min.z), Math.abs(max.z))
   )
 
 object Bounds3:

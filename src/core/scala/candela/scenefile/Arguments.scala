@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Code, Problem, SceneError, SourcePos, loop}
+import candela.base.{Code, Problem, SceneError, SourcePos}
 
 /** The arguments of a directive; each method takes some, or throws a located error.
   *
@@ -71,12 +71,10 @@ private[scenefile] final class WrittenArguments(
 
   def numbers(count: Int): Array[Double] =
     val values = new Array[Double](count)
-    loop(count): i =>
-      if !in.isNumber then
-        val found = if in.current == Token.End then "missing: the file ends here" else in.shown
-        wrongNumber(in.at, count, i, found)
-      values(i) = in.asDouble
-      in.advance()
+    val read = in.readDoubles(values)
+    if read < count then
+      val found = if in.current == Token.End then "missing: the file ends here" else in.shown
+      wrongNumber(in.at, count, read, found)
     values
 
   /** With or without brackets. */

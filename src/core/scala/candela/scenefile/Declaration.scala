@@ -172,16 +172,30 @@ final case class Declaration(
     * have equal numbers and no names.
     */
   def isAlike(d: Declaration): Boolean =
-    (this eq d) || isOfType(d) && params.corresponds(d.params)(_.isAlike(_))
+    (this eq d) || isOfType(d) && corresponds(d)(_.isAlike(_))
 
   /** Likewise, but for the numbers of one parameter. */
   def isAlikeBut(parameter: String, d: Declaration): Boolean =
-    isOfType(d) && params.corresponds(d.params): (p, q) =>
+    isOfType(d) && corresponds(d): (p, q) =>
       if p.name == parameter then p.isOfKind(q) else p.isAlike(q)
+
+  private inline def corresponds(d: Declaration)(inline isAlike: (Param, Param) => Boolean) =
+    var i = 0
+    while i < params.size && isAlike(params(i), d.params(i)) do i += 1
+    i == params.size
 
   private def isOfType(d: Declaration): Boolean =
     name == d.name && category == d.category && colorSpace == d.colorSpace &&
       dialect == d.dialect && (folder eq d.folder) && params.size == d.params.size
+
+  /** Of what tells statements apart; there may be as many materials as shapes. */
+  override def hashCode: Int =
+    var hash = at.hashCode
+    var i = 0
+    while i < params.size do
+      hash = 31 * hash + params(i).hashCode
+      i += 1
+    hash
 
   /** Name of the colour space of a parameter. */
   def colorSpaceOf(p: Param): String = p.colorSpace.getOrElse(colorSpace)

@@ -29,6 +29,7 @@ private[scenefile] final class ParserRun(
   import ParserRun.*
 
   private val evidence = DialectGuess()
+  private val directives = mutable.HashSet.empty[Directive]
   private val problems = Problems()
   private val doubts = DoubtfulFiles(problems.add)
   private val parameters = Parameters(evidence, doubts.add, continuation, () => isV4)
@@ -146,7 +147,8 @@ private[scenefile] final class ParserRun(
       if !isDone then in.advanceToName()
     else
       if scene.worldEnd.nonEmpty then beginNext()
-      evidence.uses("directive", directive.name, at)
+      // The first of each: there are millions
+      if directives.add(directive) then evidence.uses("directive", directive.name, at)
       in.advance()
       if isMisplaced(directive, at) then skipToDirective(in)
       else run(directive, at, in)

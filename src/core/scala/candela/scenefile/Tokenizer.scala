@@ -2,6 +2,7 @@ package candela.scenefile
 
 import java.io.{ByteArrayOutputStream, IOException}
 import java.nio.charset.StandardCharsets.UTF_8
+import java.util.Arrays
 
 import candela.base.{
   Code, FloatBuffer, IntBuffer, IoReason, Problem, Refusal, RestBuffer, SceneError, SourcePos
@@ -93,11 +94,8 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
         searching = kind != Token.End && !isName
       catch case _: SceneError => ()
 
-  /** Whether the current token is a number; if so, `number` holds it. */
+  /** Whether the current token is a number. */
   def isNumber: Boolean = kind == Token.Word && number.scan(start) == next
-
-  /** The number that [[isNumber]] has just found. */
-  def asDouble: Double = number.toDouble
 
   /** Appends the current token as a number; false if it isn't one. */
   def readFloat(into: FloatBuffer): Boolean =
@@ -113,6 +111,23 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     val found = isNumber && number.fitsInt
     if found then addInt(into)
     found
+
+  /** Reads numbers from the current token on, as many as fit; returns how many there are. The token
+    * after them becomes current.
+    */
+  def readDoubles(into: Array[Double]): Int =
+    var count = 0
+    if into.length > 0 && isNumber then
+      into(0) = number.toDouble
+      count = 1
+      var end = if into.length > 1 then scanNext() else -1
+      while end >= 0 do
+        into(count) = number.toDouble
+        count += 1
+        next = end
+        end = if count < into.length then scanNext() else -1
+      advance()
+    count
 
   /** Appends all numbers after the current token; the token after them becomes current.
     *
@@ -289,9 +304,10 @@ private object Escapes:
       if isKnown then i += 1
     if isKnown then Right(out.toString(UTF_8)) else Left(i)
 
-/** Converts words to Strings; caches the few names that recur, with their hash. */
+/** Converts words to Strings; caches the few names that recur, with their bytes. */
 private final class NameCache:
-  private val known = new Array[String | Null](NameCache.Slots)
+  private val known = new Array[String](NameCache.Slots)
+  private val written = Array.fill(NameCache.Slots)(Array.emptyByteArray)
 
   /** The text of a range of the window of `source`. */
   def of(source: Source, from: Int, until: Int): String =
@@ -302,16 +318,11 @@ private final class NameCache:
       hash = hash * 31 + bytes(i)
       i += 1
     val slot = (hash ^ (hash >>> 16)) & (NameCache.Slots - 1)
-    if !isSame(known(slot), bytes, from, until) then known(slot) = source.text(from, until)
+    val last = written(slot)
+    if known(slot) == null || !Arrays.equals(last, 0, last.length, bytes, from, until) then
+      known(slot) = source.text(from, until)
+      written(slot) = Arrays.copyOfRange(bytes, from, until)
     known(slot)
-
-  /** False for non-ASCII bytes, which don't occur in names. */
-  private def isSame(name: String | Null, bytes: Array[Byte], from: Int, until: Int): Boolean =
-    name != null && name.length == until - from && {
-      var i = 0
-      while i < name.length && name.charAt(i) == bytes(from + i) do i += 1
-      i == name.length
-    }
 
 private object NameCache:
   private val Slots = 256

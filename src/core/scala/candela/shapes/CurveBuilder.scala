@@ -49,30 +49,25 @@ final class CurveBuilder(form: CurveForm, space: Option[Transform], flipped: Boo
     val points = new Array[Float](Math.multiplyExact(12, count))
     val params, widths = new Array[Float](2 * count)
     val normals = new Array[Float](if form.kind == CurveKind.Ribbon then 6 * count else 0)
-    val pieces = (placed.length + CurveBuilder.Piece - 1) / CurveBuilder.Piece
-    parallel.each(pieces): piece =>
+    parallel.ranges(count): (from, until) =>
       val part = new Array[Double](12)
-      val from = piece * CurveBuilder.Piece
-      loop(from, Math.min(placed.length, from + CurveBuilder.Piece)): k =>
-        val curve = placed(k).curve
-        loop(split): i =>
-          val segment = k * split + i
-          val u0 = i.toFloat / split
-          val u1 = (i + 1).toFloat / split
-          placed(k).putPoints(BezierCurve.part(curve.points, u0, u1, part), points, 12 * segment)
-          params(2 * segment) = u0
-          params(2 * segment + 1) = u1
-          widths(2 * segment) = lerp(u0, curve.width0, curve.width1) * placed(k).scale
-          widths(2 * segment + 1) = lerp(u1, curve.width0, curve.width1) * placed(k).scale
-          for (n0, n1) <- curve.normals do
-            placed(k).putNormal(n0, normals, 6 * segment)
-            placed(k).putNormal(n1, normals, 6 * segment + 3)
+      loop(from, until): segment =>
+        val source = placed(segment / split)
+        val curve = source.curve
+        val i = segment % split
+        val u0 = i.toFloat / split
+        val u1 = (i + 1).toFloat / split
+        source.putPoints(BezierCurve.part(curve.points, u0, u1, part), points, 12 * segment)
+        params(2 * segment) = u0
+        params(2 * segment + 1) = u1
+        widths(2 * segment) = lerp(u0, curve.width0, curve.width1) * source.scale
+        widths(2 * segment + 1) = lerp(u1, curve.width0, curve.width1) * source.scale
+        for (n0, n1) <- curve.normals do
+          source.putNormal(n0, normals, 6 * segment)
+          source.putNormal(n1, normals, 6 * segment + 3)
     CurveSegments(points, params, widths, normals, form.kind, space, flipped, form.errorWidths)
 
 object CurveBuilder:
-  /** Curves that a thread splits at a time. */
-  private inline val Piece = 256
-
   /** A builder of transformed curves: in world space if the transform is a similarity (rotation,
     * translation, uniform scale); else in object space, where widths are measured.
     */

@@ -41,14 +41,8 @@ final class CurveSegments(
     val box = control(segment, 0).union(control(segment, 1))
       .union(control(segment, 2)).union(control(segment, 3))
     val wide = Bounds3(box.min - Vec3(half, half, half), box.max + Vec3(half, half, half))
-    val placed = space.fold(wide)(t => Bounds3.of((0 until 8).map(i => t.point(wide.corner(i)))))
-    val pad = TriangleSoup.roundingError(
-      Vec3(
-        Math.max(Math.abs(placed.min.x), Math.abs(placed.max.x)),
-        Math.max(Math.abs(placed.min.y), Math.abs(placed.max.y)),
-        Math.max(Math.abs(placed.min.z), Math.abs(placed.max.z))
-      )
-    )
+    val placed = space.fold(wide)(t => wide.mapped(t.point(_)))
+    val pad = TriangleSoup.roundingError(placed.reach)
     Bounds3(placed.min - pad, placed.max + pad)
 
   private def control(segment: Int, k: Int): Bounds3 =

@@ -1,6 +1,5 @@
 package candela.shapes
 
-import candela.base.loop
 import candela.geometry.{Bounds3, Ray, ShadingPoint}
 import candela.math.*
 
@@ -101,10 +100,8 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, like: Transform) ex
   /** World bounds of the cylinder |x|, |y| ≤ radius, zMin ≤ z ≤ zMax. */
   protected final def worldBounds(radius: Float, zMin: Float, zMax: Float): Bounds3 =
     val box = Bounds3(Vec3(-radius, -radius, zMin), Vec3(radius, radius, zMax))
-    var world = Bounds3.Empty
-    loop(8)(i => world = world.union(worldPoint(box.corner(i))))
-    def reach(axis: Int) = Math.max(Math.abs(world.min(axis)), Math.abs(world.max(axis)))
-    val pad = TriangleSoup.roundingError(Vec3(reach(0), reach(1), reach(2)))
+    val world = box.mapped(worldPoint(_))
+    val pad = TriangleSoup.roundingError(world.reach)
     Bounds3(world.min - pad, world.max + pad)
 
 object SurfaceOfRevolution:

@@ -133,13 +133,16 @@ class InstancedSuite extends AnyFunSuite:
     assert(instances.count == places.length)
 
   test("instances are the same, however their places are divided; moving ones are last"):
-    val soup = Soups.icosphere(1, Transform.Identity)
-    val objects = Array[Accelerator](Bvh(Primitives(soup, Array.empty)))
+    val objects = Array[Accelerator](
+      Bvh(Primitives(Soups.icosphere(1, Transform.Identity), Array.empty)),
+      Bvh(Primitives(Soups.icosphere(1, Transform.scale(2, 3, 1).get), Array.empty))
+    )
     val draws = Draws(6)
     val places = Vector.tabulate(20_000): i =>
       val there = draws.translation(9)
       val away = there * Transform.translate(1, 0, 0)
-      (0, if i % 7 < 3 then Interpolation(there, away, 0f, 1f, shortest = true) else Still(there))
+      val moves = i % 7 < 3
+      (i % 2, if moves then Interpolation(there, away, 0f, 1f, shortest = true) else Still(there))
     val divided = new Parallel:
       def threads = 3
       def worksAside = false

@@ -18,9 +18,11 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val floats = FloatBuffer()
     def step(): String =
       try
-        if in.current == Token.Open then in.readFloats(floats, RestBuffer()) else in.advance()
-        val number = Option.when(in.isNumber)(in.asDouble)
-        s"${in.at} ${in.current} ${in.text} $number ${floats.take().mkString(",")}"
+        val doubles = new Array[Double](3)
+        if in.current == Token.Open then in.readFloats(floats, RestBuffer())
+        else if in.readDoubles(doubles) == 0 then in.advance()
+        val numbers = doubles.mkString(",") + floats.take().mkString(" ", ",", "")
+        s"${in.at} ${in.current} ${in.text} ${in.isNumber} $numbers"
       catch case e: SceneError => e.problems.mkString
     Iterator.continually(step()).takeWhile(_ => in.current != Token.End).toVector
 

@@ -36,7 +36,7 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
         val ends = ribbonNormals(count)
         if kind() == "ribbon" && ends.isEmpty then None
         else
-          for strand <- strand(spline, count, ends)
+          for strand <- strand(spline, p.length, count, ends)
           yield ShapeGeometry.Curves(strand, strand.drawn(p))
 
   /** Normals at the ends of segments. Reports a wrong count and returns None. */
@@ -59,9 +59,12 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       )
       None
 
-  private def strand(spline: Spline, curves: Int, ends: Option[Vector[Vec3]])(using
-      site: Site
-  ): Option[Strand] =
+  private def strand(
+      spline: Spline,
+      numbers: Int,
+      curves: Int,
+      ends: Option[Vector[Vec3]]
+  )(using site: Site): Option[Strand] =
     val (w0, w1) = (width0.given_().getOrElse(width()), width1.given_().getOrElse(width()))
     val depth = splitdepth().toInt
     if !(w0 >= 0f && w1 >= 0f && w0 + w1 > 0f) then
@@ -80,4 +83,4 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
         case _ => CurveKind.Flat
       // pbrt-v4's ray offset at curves is half of pbrt-v3's
       val errorWidths = if site.dialect == Dialect.V4 then 1f else 2f
-      Some(Strand(spline, curves, w0, w1, ends, CurveForm(drawn, depth, errorWidths)))
+      Some(Strand(spline, numbers, curves, w0, w1, ends, CurveForm(drawn, depth, errorWidths)))

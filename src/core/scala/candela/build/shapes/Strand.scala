@@ -8,20 +8,22 @@ import candela.shapes.{BezierCurve, CurveForm}
 /** All of a statement of curves but its points: hair has a million strands that differ in these
   * alone.
   *
-  * @param count of its curves
-  * @param ends  normals of a ribbon, at the ends of its curves
+  * @param numbers of its points
+  * @param count   of its curves
+  * @param ends    normals of a ribbon, at the ends of its curves
   */
 final class Strand(
     spline: Spline,
+    numbers: Int,
     count: Int,
     width0: Float,
     width1: Float,
     ends: Option[Vector[Vec3]],
     val form: CurveForm
 ):
-  /** The curves through these points, if they make as many. */
+  /** The curves through these points, if they are as many as those of the statement. */
   def through(p: Array[Float]): Option[IndexedSeq[BezierCurve]] =
-    Option.when(spline.wrong(p).isEmpty && spline.count(p) == count)(drawn(p))
+    Option.when(p.length == numbers && MeshArrays.isFinite(p))(drawn(p))
 
   /** Likewise; the points have been checked. */
   def drawn(p: Array[Float]): IndexedSeq[BezierCurve] =
