@@ -38,15 +38,24 @@ class SparkSuite extends AnyFunSuite with BeforeAndAfterAll:
   /** Renders on Spark, with `during`, and here: image and film must be equal. */
   private def same(folder: Path, spp: Int, conf: (String, String)*)(
       during: spark.Submission => Unit
-  ): String =
-    val scene = folder.resolve("scenes/s.pbrt").toString
+  ): String = sameBy(folder, "s.pbrt", spp, conf.toMap)(during)
+
+  private def sameBy(
+      folder: Path,
+      name: String,
+      spp: Int,
+      conf: Map[String, String] = Map.empty,
+      how: Vector[String] = Vector.empty
+  )(during: spark.Submission => Unit): String =
+    val scene = folder.resolve(s"scenes/$name").toString
     val files = Vector("exr", "film").map(suffix => folder.resolve(s"a.$suffix"))
-    val words = Vector(scene, "--spp", spp.toString, "--shards", "12", "--verbose")
-    val run = spark.submit(words ++ Vector("--outfile", files.mkString(",")), conf.toMap)
+    val words = Vector(scene, "--spp", spp.toString, "--shards", "12", "--verbose") ++ how
+    val run = spark.submit(words ++ Vector("--outfile", files.mkString(",")), conf)
     during(run)
     val (code, text) = run.result
     assert(code == 0, text)
-    local(scene, "--spp", spp.toString, "--outfile", folder.resolve("b.exr").toString)
+    val here = Vector("--spp", spp.toString, "--outfile", folder.resolve("b.exr").toString)
+    local((scene +: how) ++ here*)
     assert(Files.mismatch(files.head, folder.resolve("b.exr")) == -1, text)
     local("merge", files(1).toString, "--outfile", folder.resolve("c.exr").toString)
     assert(Files.mismatch(files.head, folder.resolve("c.exr")) == -1, text)
@@ -55,6 +64,14 @@ class SparkSuite extends AnyFunSuite with BeforeAndAfterAll:
   sparkTest("two workers render the image of this machine, file for file"): folder =>
     val text = same(folder, spp = 24)(_ => ())
     assert(text.contains("Spark: 2 executors, 15 tasks (0 failed)"), text)
+
+  for how <- Vector("auto", "on", "photons") do
+    sparkTest(s"light paths and photons bring the same on two workers: --caustics $how"): folder =>
+      val text =
+        sameBy(folder, "glass.pbrt", spp = 24, how = Vector("--caustics", how, "--explain"))(_ =>
+          ()
+        )
+      assert(text.contains("caustics"), text)
 
   sparkTest("an executor that is killed while it renders changes nothing"): folder =>
     val text = same(folder, spp = 2000): run =>
@@ -116,12 +133,34 @@ class SparkSuite extends AnyFunSuite with BeforeAndAfterAll:
 
 private object SparkSuite:
 
+  /** A glass ball on a table, under a small lamp. */
+  private val glass =
+    """LookAt 0 -5 3  0 0 .5  0 0 1
+      |Camera "perspective" "float fov" 40
+      |Film "rgb" "integer xresolution" 64 "integer yresolution" 48
+      |Sampler "sobol" "integer pixelsamples" 4
+      |Integrator "path" "integer maxdepth" 6
+      |WorldBegin
+      |LightSource "infinite" "rgb L" [ 0.02 0.03 0.04 ]
+      |AttributeBegin
+      |AreaLightSource "diffuse" "rgb L" [ 300 300 300 ]
+      |Translate 2 1 4
+      |Shape "sphere" "float radius" .1
+      |AttributeEnd
+      |Material "diffuse"
+      |Shape "disk" "float radius" 5
+      |Translate 0 0 .8
+      |Material "dielectric"
+      |Shape "sphere" "float radius" .7
+      |""".stripMargin
+
   /** A scene with a file in a folder beside it. */
   def write(folder: Path): Unit =
     val _ = Files.createDirectories(folder.resolve("scenes"))
     val _ = Files.createDirectories(folder.resolve("parts"))
     val _ =
       Files.writeString(folder.resolve("parts/disk.pbrt"), "Shape \"disk\" \"float radius\" 3\n")
+    Files.writeString(folder.resolve("scenes/glass.pbrt"), glass): Unit
     val _ = Files.writeString(
       folder.resolve("scenes/s.pbrt"),
       """LookAt 0 0 -4  0 0 0  0 1 0
