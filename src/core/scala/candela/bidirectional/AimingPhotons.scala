@@ -33,7 +33,7 @@ private final class AimingPhotons(scene: Scene, view: View, light: CausticLight,
 
   /** @param aside distance by which neighbours of paths are moved */
   private final class Tracer(light: CausticLight, aside: Float):
-    private val paths = light.photonPaths(scene)
+    private val paths = light.photonPaths(scene, within = null)
     private val sampler = IndependentSampler(1, Seed)
     private val p1, w1, p2, w2 = MutableVec3()
 

@@ -164,7 +164,8 @@ private[bidirectional] final class CausticPaths(
   private def isRecorded(vertex: PathVertex): Boolean =
     if onlyToFirst then PhotonLight.receives(scene, vertex) else !vertex.bsdf.isSpecular
 
-  private def goesOn(vertex: PathVertex): Boolean = !onlyToFirst || scene.isCaster(vertex.at)
+  private def goesOn(vertex: PathVertex): Boolean =
+    !onlyToFirst || !vertex.isInMedium && scene.isCaster(vertex.at)
 
   private def evaluate(vertex: PathVertex, edges: Int): Unit =
     if !vertex.isInMedium then vertex.evaluate()

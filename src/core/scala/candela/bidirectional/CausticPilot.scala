@@ -1,7 +1,6 @@
 package candela.bidirectional
 
 import candela.base.{Parallel, loop}
-import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.{Splats, View}
 import candela.guiding.PhotonField
@@ -14,12 +13,14 @@ import candela.scene.{CasterLearning, Casters, Scene}
   * @param casters   where they begin, more often where caustics come from
   * @param perSample light paths per camera sample, on average
   * @param radius    within which photons are gathered at first, if paths leave them caustics
+  * @param bringsAll do photons then bring all that media scatter to the camera?
   * @param aim       photons that guide the camera's paths, if they do
   */
 final case class CausticChoice(
     casters: Casters,
     perSample: Float,
     radius: Float = 0f,
+    bringsAll: Boolean = false,
     aim: Option[PhotonField] = None
 )
 
@@ -50,8 +51,7 @@ private[candela] final class CausticPilot(
 
   /** @return the choice, if light paths pay; and why, or why not */
   def run(): (Option[CausticChoice], String) =
-    if !isCameraWhereItSays then
-      (None, "none: the first border of media before the camera says that it is in another medium")
+    if !light.isCameraWhereItSays(scene, view) then (None, CausticPilot.CameraElsewhere)
     else
       val learnt = traced(light, 0, LearningPaths, Seed, isLearning = true)
       if learnt.splats == 0 then withoutSplats else look(light.casters.aimed(learnt.learning.aim))
@@ -78,18 +78,6 @@ private[candela] final class CausticPilot(
     if light.findsAll || expected.pays then
       (Some(CausticChoice(aimed, expected.perSample.toFloat)), expected.toString)
     else (None, s"none: $expected")
-
-  private def isCameraWhereItSays: Boolean =
-    val within = light.within(scene)
-    within == null || {
-      val pairs = CameraPairs(view, Seed + 2)
-      val rays = CameraRays(view.camera, view.shutter, 0f)
-      val sampler = IndependentSampler(1, Seed)
-      (0 until CameraRaysLooked).forall: k =>
-        CameraPairs.start(view, sampler, k)
-        val weight = rays.next(pairs.pixelX(k) + 0.5f, pairs.pixelY(k) + 0.5f, sampler)
-        weight == 0f || !within.contradicts(rays.ray)
-    }
 
   /** What light paths and the camera's paths of some rounds find. */
   private def looked(aimed: Casters, from: Int, until: Int): Found =
@@ -205,8 +193,11 @@ private[candela] object CausticPilot:
 
   /** Times as many paths, before light paths are taken. */
   inline val Rounds = 4
-  inline val CameraRaysLooked = 64
   inline val Seed = 0x5eed
+
+  /** What is said if [[CausticLight.isCameraWhereItSays]] doesn't hold. */
+  val CameraElsewhere: String =
+    "none: the first border of media before the camera says that it is in another medium"
 
   /** Light paths per camera sample. */
   inline val Least = 0.125

@@ -1,12 +1,13 @@
 package candela.bidirectional
 
+import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.View
 import candela.geometry.Ray
 import candela.integrators.Integrator
 import candela.layers.LightParts
 import candela.media.SceneMedia
-import candela.sampling.Sampler
+import candela.sampling.{IndependentSampler, Sampler}
 import candela.scene.{Casters, Scene}
 
 /** Light paths that look for caustics, and their way to the camera: all that is said of them.
@@ -29,11 +30,30 @@ final case class CausticLight(
   private[bidirectional] def within(scene: Scene): PathMedia | Null =
     media.map(PathMedia(scene, _)).orNull
 
-  private[bidirectional] def photonPaths(scene: Scene): CausticPaths =
-    CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, onlyToFirst = true)
+  /** Is the camera in the medium that the first border before it says? Else light paths, which come
+    * through borders, and the camera's find different images.
+    */
+  private[bidirectional] def isCameraWhereItSays(scene: Scene, view: View): Boolean =
+    val through = within(scene)
+    through == null || {
+      val pairs = CameraPairs(view, CausticPilot.Seed + 2)
+      val rays = CameraRays(view.camera, view.shutter, 0f)
+      val sampler = IndependentSampler(1, CausticPilot.Seed)
+      (0 until CausticLight.CameraRaysLooked).forall: k =>
+        CameraPairs.start(view, sampler, k)
+        val weight = rays.next(pairs.pixelX(k) + 0.5f, pairs.pixelY(k) + 0.5f, sampler)
+        weight == 0f || !through.contradicts(rays.ray)
+    }
+
+  private[bidirectional] def photonPaths(scene: Scene, within: PathMedia | Null): CausticPaths =
+    val onlyToFirst = true
+    CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, within, onlyToFirst)
 
   private[bidirectional] def paths(scene: Scene, within: PathMedia | Null): CausticPaths =
     CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, within)
+
+object CausticLight:
+  private inline val CameraRaysLooked = 64
 
 /** Path tracing, with light paths for caustics, and for what these light: light that casters
   * scatter, and that a surface or a medium before the camera sends on. Where both find the same

@@ -5,7 +5,7 @@ import candela.geometry.{Hit, Ray}
 import candela.lights.EmittedRay
 import candela.math.*
 import candela.sampling.{Discrete, Sampler}
-import candela.scene.Scene
+import candela.scene.{Casters, Scene}
 
 /** Traces light subpaths, and records the vertices that can be connected to a camera subpath.
   * Mutable, one per worker.
@@ -17,6 +17,7 @@ import candela.scene.Scene
   * @param media       what the paths go through, if anything
   * @param startsAlone whether the hero wavelength alone is of interest from the start
   * @param countsPassed whether passing an interface counts as an edge
+  * @param casters     tell [[PathVertex.isCaustic]], if it is of interest
   */
 private[bidirectional] final class LightPaths(
     scene: Scene,
@@ -27,7 +28,8 @@ private[bidirectional] final class LightPaths(
     regularizes: Boolean = false,
     startsAlone: Boolean = false,
     media: PathMedia | Null = null,
-    countsPassed: Boolean = false
+    countsPassed: Boolean = false,
+    casters: Casters | Null = null
 ) extends LightVertices(scene):
   private val powers = scene.lights.map: light =>
     if weighsAll && light.isContrary then 0f else Discrete.weight(light.power(scene.ball))
@@ -74,6 +76,7 @@ private[bidirectional] final class LightPaths(
     val within = media
     var edges = 0
     var alive = true
+    var isByCasters = casters != null && scene.lights(light).isCausticSource
     lastP.set(ray.origin)
     while alive do
       raysTraced += 1
@@ -103,11 +106,19 @@ private[bidirectional] final class LightPaths(
           else path.weights.arrive(distance, cosine)
           alive = cosine > 0f
           if within != null then within.mark(vertex)
+          vertex.isCaustic = isByCasters && edges > 1
+          isByCasters &&= casts(vertex, isFirst = edges == 1)
           if alive then
             if !vertex.bsdf.isSpecular then keep(vertex, path, within)
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
             lastP.set(vertex.at.p)
             if within != null then within.medium = within.towards(vertex, ray.direction)
+
+  /** May the vertex, which the ray has met, be one of a path of [[CausticPaths]]? */
+  private def casts(vertex: PathVertex, isFirst: Boolean): Boolean =
+    val all = casters
+    all != null && !vertex.isInMedium && scene.isCaster(vertex.at) &&
+    (!isFirst || all.density(ray, hit, vertex.at) > 0f)
 
   /** Initial MIS weights at the first surface: next-event estimation samples this light from there,
     * too, with a position-dependent pdf.

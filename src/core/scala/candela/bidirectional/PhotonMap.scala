@@ -7,14 +7,24 @@ import candela.math.*
 import candela.sampling.SampleHash
 
 /** Photons in order of storage: position, incident direction (a unit vector away from the surface),
-  * power, and the number of edges of its path; below 0: it carries its hero wavelength only.
+  * power, the number of edges of its path (below 0: it carries its hero wavelength only), and where
+  * it has arrived: [[PhotonMap.Surface]], or the index of a medium.
   */
 private[bidirectional] final class Photons:
   import PhotonMap.Numbers
   var data: Array[Float] = new Array[Float](64 * Numbers)
   var count: Int = 0
 
-  def add(p: Vec3, from: Vec3, light: Rgb, edges: Int = 1): Unit =
+  /** How many of them have arrived in media. */
+  var inMedia: Int = 0
+
+  def add(
+      p: Vec3,
+      from: Vec3,
+      light: Rgb,
+      edges: Int = 1,
+      place: Int = PhotonMap.Surface
+  ): Unit =
     val at = count * Numbers
     if at == data.length then data = java.util.Arrays.copyOf(data, 2 * data.length)
     data(at) = p.x
@@ -26,13 +36,15 @@ private[bidirectional] final class Photons:
     data(at + 6) = light.r
     data(at + 7) = light.g
     data(at + 8) = light.b
-    data(at + 9) = edges.toFloat
+    data(at + PhotonMap.Edges) = edges.toFloat
+    data(at + PhotonMap.Place) = place.toFloat
     count += 1
+    if place >= 0 then inMedia += 1
 
 /** The photon map of one pass. Immutable.
   *
-  * A hash grid with cells of twice the radius, so that a query touches eight cells. Photons are
-  * sorted by hash.
+  * Those at surfaces are in a hash grid with cells of twice the radius, so that a query touches
+  * eight cells. Photons are sorted by hash.
   *
   * @param parts  photons in accumulation order
   * @param paths  number of light paths traced for them
@@ -47,7 +59,14 @@ private[bidirectional] final class PhotonMap(
 ):
   import PhotonMap.*
 
-  val count: Int = parts.foldLeft(0)((n, p) => Math.addExact(n, p.count))
+  /** Number of photons at surfaces. */
+  val count: Int = parts.foldLeft(0)((n, p) => Math.addExact(n, p.count - p.inMedia))
+
+  /** Those in media, for what the camera sees, and a few for what lights that: most of the time
+    * would go there.
+    */
+  val inMedia: PhotonTree = PhotonTree(parts, paths, radius, isStopped = isStopped)
+  val fewInMedia: PhotonTree = PhotonTree(parts, paths, Wider * radius, OneIn, isStopped)
   private val perCell = 1f / (2f * radius)
   private val radius2 = radius * radius
   private val mask = Math.max(1, Integer.highestOneBit(Math.max(1, count)) * 2) - 1
@@ -62,7 +81,8 @@ private[bidirectional] final class PhotonMap(
         loop(part.count): i =>
           val at = i * Numbers
           val d = part.data
-          use(d, at, bucket(cell(d(at)), cell(d(at + 1)), cell(d(at + 2))))
+          if d(at + Place) == Surface then
+            use(d, at, bucket(cell(d(at)), cell(d(at + 1)), cell(d(at + 2))))
     each((_, _, b) => starts(b + 1) += 1)
     loop(mask + 1)(b => starts(b + 1) += starts(b))
     val next = starts.clone()
@@ -123,13 +143,13 @@ private[bidirectional] final class PhotonMap(
       val distance2 = square(px - p.x) + square(py - p.y) + square(pz - p.z)
       // Other cells may have the same hash; they are visited separately
       if distance2 < radius2 && cell(px) == x && cell(py) == y && cell(pz) == z &&
-        Math.abs(data(at + 9)) <= most
+        Math.abs(data(at + Edges)) <= most
       then
         val wi = Vec3(data(at + 3), data(at + 4), data(at + 5))
         val f = vertex.received(wi)
         if !f.isBlack && (takesAll || vertex.pdf(wi) <= limit) then
           // If both paths carry their hero alone, each stands for all three wavelengths
-          val share = if isAlone && data(at + 9) < 0f then 1f / 3f else 1f
+          val share = if isAlone && data(at + Edges) < 0f then 1f / 3f else 1f
           r += f.r * data(at + 6) * share
           g += f.g * data(at + 7) * share
           blue += f.b * data(at + 8) * share
@@ -138,4 +158,15 @@ private[bidirectional] final class PhotonMap(
 
 private[bidirectional] object PhotonMap:
   /** Floats per photon. */
-  inline val Numbers = 10
+  inline val Numbers = 11
+
+  /** Where a photon has the number of its edges, and its place. */
+  inline val Edges = 9
+  inline val Place = 10
+
+  /** It has arrived at a surface. */
+  inline val Surface = -1
+
+  /** Photons in media for what the camera does not see, and their radius. */
+  private inline val OneIn = 16
+  private inline val Wider = 2f

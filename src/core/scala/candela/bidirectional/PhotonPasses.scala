@@ -37,14 +37,10 @@ private[bidirectional] abstract class PhotonTracer(seed: Int):
 
   def raysTraced: Long
 
-  /** The vertices of the last path. */
-  protected def paths: LightVertices
-
-  /** Traces a light path. */
-  protected def trace(time: Float, sampler: Sampler): Unit
-
-  /** Stores the photon that has arrived at a vertex of it, if it is of the kind. */
-  protected def store(vertex: PathVertex, photons: Photons): Unit
+  /** Traces a light path, and stores the photons that have arrived at its vertices, if they are of
+    * the kind.
+    */
+  protected def trace(time: Float, sampler: Sampler, photons: Photons): Unit
 
   /** Traces one part of a pass, deterministic for any worker, unless it is stopped on the way. */
   final def trace(
@@ -58,15 +54,14 @@ private[bidirectional] abstract class PhotonTracer(seed: Int):
     var i = 0
     while i < count && !isStopped() do
       sampler.start(part * PhotonMaps.PartSize + i, -1, pass)
-      trace(shutter.at(sampler.next1D()), sampler)
-      loop(paths.count)(k => store(paths(k), photons))
+      trace(shutter.at(sampler.next1D()), sampler, photons)
       i += 1
     photons
 
 /** Traces all photons but those of direct light. */
 private[bidirectional] final class WholePhotons(scene: Scene, settings: PhotonSettings)
     extends PhotonTracer(settings.seed):
-  protected val paths: LightPaths =
+  private val paths =
     LightPaths(
       scene,
       settings.maxEdges,
@@ -78,9 +73,11 @@ private[bidirectional] final class WholePhotons(scene: Scene, settings: PhotonSe
 
   def raysTraced: Long = paths.raysTraced
 
-  protected def trace(time: Float, sampler: Sampler): Unit = paths.trace(time, sampler)
+  protected def trace(time: Float, sampler: Sampler, photons: Photons): Unit =
+    paths.trace(time, sampler)
+    loop(paths.count)(k => store(paths(k), photons))
 
-  protected def store(vertex: PathVertex, photons: Photons): Unit =
+  private def store(vertex: PathVertex, photons: Photons): Unit =
     val isKept = if vertex.isSpecularSoFar then settings.caustics else settings.indirect
     if vertex.edges > 1 && isKept then photons.add(vertex.at.p, vertex.wo, vertex.throughput)
 

@@ -17,18 +17,33 @@ private[candela] final class PhotonPilot(
 
   /** @return the choice, if there are such photons; and what is done, or why nothing is */
   def run(): (Option[CausticChoice], String) =
+    if light.isCameraWhereItSays(scene, view) then look()
+    else (None, CausticPilot.CameraElsewhere)
+
+  private def look(): (Option[CausticChoice], String) =
     val places = SeenPlaces(scene, view, light, pool, Looks, onlyBehind = false)
-    if places.isEmpty then (None, "none: the camera sees no surface that receives photons")
+    if places.isEmpty then (None, s"none: the camera sees no $receivers that receives photons")
     else
       val learning = places.learn()
       if learning.isEmpty then (None, "none: no photons arrive where the camera sees them")
       else
         val radius = Pixels * places.footprint
         val aimed = light.casters.aimed(learning.aim)
+        val all = mayBringAll && places.othersOfPath() > LeastOthers
+        val which = if all then "all light that media scatter and that" else "light that"
         val told =
-          f"photons of light that casters scatter, gathered within a radius of $radius%.3g " +
-            "in the first pass, and less in each that follows; the image is biased"
-        (Some(CausticChoice(aimed, 1f, radius)), told)
+          f"photons of $which casters scatter$through, gathered within a radius of " +
+            f"$radius%.3g in the first pass, and less in each that follows; the image is biased"
+        (Some(CausticChoice(aimed, 1f, radius, bringsAll = all)), told)
+
+  /** May photons bring all that media scatter? They leave out what media emit, and what is sent
+    * from beneath surfaces.
+    */
+  private def mayBringAll: Boolean =
+    !light.beneath && light.media.exists(!_.media.exists(_.isEmissive))
+
+  private def receivers = if light.media.isDefined then "surface or medium" else "surface"
+  private def through = if light.media.isDefined then ", at surfaces and in media" else ""
 
 private[candela] object PhotonPilot:
   /** Paths of the camera. */
@@ -36,3 +51,8 @@ private[candela] object PhotonPilot:
 
   /** The first radius, in pixels: each gathers some ten photons where they are evenly spread. */
   inline val Pixels = 2f
+
+  /** Photons that a light path leaves in media where the camera looks, from which on they bring all
+    * that media scatter: then a ray passes a few in each pass.
+    */
+  inline val LeastOthers = 0.5

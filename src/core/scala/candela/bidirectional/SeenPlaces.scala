@@ -4,18 +4,19 @@ import candela.base.Parallel
 import candela.cameras.CameraRays
 import candela.film.View
 import candela.geometry.Ray
-import candela.integrators.{PhotonLight, SurfaceWalk}
+import candela.integrators.{PathLimits, PhotonLight, SurfaceWalk, VolumeWalk, Walk, WalkOptions}
 import candela.math.*
 import candela.sampling.IndependentSampler
 import candela.scene.{CasterLearning, Scene}
 
 import scala.collection.mutable.ArrayBuffer
 
-/** Where paths from the camera come to surfaces that receive photons. Mutable.
+/** Where paths from the camera come to surfaces that receive photons, or are scattered in media.
+  * Mutable.
   *
   * @param looks      paths from the camera
-  * @param onlyBehind only places that the camera sees by way of specular surfaces, and what paths
-  *                   meet from there on; else the first such surface of each path
+  * @param onlyBehind only surfaces that the camera sees by way of specular ones, and what paths
+  *                   meet from there on; else the first such place of each path
   */
 private[bidirectional] final class SeenPlaces(
     scene: Scene,
@@ -54,9 +55,27 @@ private[bidirectional] final class SeenPlaces(
     pool.map(Parts)(i => learn(i * each, (i + 1) * each)).foreach(learning.addAll)
     learning
 
+  /** How many photons of other light than [[CausticPaths]] bring a path leaves here, in media. */
+  def othersOfPath(): Double =
+    val each = OtherPaths / Parts
+    val counts = pool.map(Parts): part =>
+      val within = light.within(scene)
+      val paths = CausticPhotons.others(scene, light, within)
+      val sampler = IndependentSampler(1, CausticPilot.Seed + 3)
+      var found = 0
+      for k <- part * each until (part + 1) * each do
+        sampler.start(k, 0, 0)
+        val time = view.shutter.fold(0f)(_.at(sampler.next1D()))
+        paths.trace(time, sampler, hero = (sampler.next1D() * 3f).toInt)
+        for i <- 0 until paths.count do
+          val vertex = paths(i)
+          if vertex.isInMedium && !vertex.isCaustic && contains(vertex.at.p) then found += 1
+      found
+    counts.sum.toDouble / OtherPaths
+
   private def learn(from: Int, until: Int): CasterLearning =
     val learning = CasterLearning()
-    val paths = light.photonPaths(scene)
+    val paths = light.photonPaths(scene, if onlyBehind then null else light.within(scene))
     val sampler = IndependentSampler(1, CausticPilot.Seed + 1)
     for k <- from until until do
       sampler.start(k, 0, 0)
@@ -76,10 +95,15 @@ private[bidirectional] final class SeenPlaces(
     val found = ArrayBuffer[Vec3]()
     val sizes = ArrayBuffer[Float]()
     private val sampler = IndependentSampler(1, CausticPilot.Seed)
-    private val walk = SurfaceWalk(scene)
+    private val limits = PathLimits(light.maxDepth)
+    private val walk: Walk = light.media match
+      case Some(media) if !onlyBehind =>
+        VolumeWalk(scene, media, WalkOptions(samplesLights = false))
+      case _ => SurfaceWalk(scene)
     private val rays = CameraRays(view.camera, view.shutter, 0f)
     private val beside = CameraRays(view.camera, view.shutter, 0f)
     private val spread = SpreadPlaces(view)
+    private var isWanted = false
 
     for k <- from until until do
       val x = spread.x(k).toFloat
@@ -93,26 +117,34 @@ private[bidirectional] final class SeenPlaces(
       // Walking moves the ray
       val (eye, direction) = (ray.origin, ray.direction.normalized)
       var isFirst = true
-      var isWanted = !onlyBehind
+      isWanted = !onlyBehind
+      def see(p: Vec3): Unit =
+        if isFirst then sizes += size(eye, direction, (p - eye).length)
+        found += p
+        isFirst = false
       walk.begin(ray, sampler)
       while walk.goesOn do
-        if !walk.intersect() then walk.addEnvironment()
-        else if walk.isAtInterface then walk.passThrough()
-        else if walk.hasHad(light.maxDepth) then walk.end()
+        val isHit = walk.trace()
+        if !walk.travel(limits, sampler) then
+          if walk.goesOn then see(walk.path.lastP.toVec3)
+          walk.end()
+        else if !isHit then walk.addEnvironment()
         else
-          walk.evaluate()
-          val receives = PhotonLight.receives(scene, walk.vertex)
-          if receives && isWanted then
-            val p = walk.vertex.at.p.toVec3
-            if isFirst then sizes += size(eye, direction, (p - eye).length)
-            found += p
-            isFirst = false
-          if receives && !onlyBehind then walk.end()
-          else
-            walk.scatter(sampler)
-            if onlyBehind && walk.depth == 1 then isWanted = walk.vertex.bounce.isSpecular
-            walk.leave()
-            if onlyBehind && !isWanted then walk.end()
+          walk.meetSurface()
+          if walk.isAtInterface then walk.passThrough()
+          else if walk.hasHad(light.maxDepth) then walk.end()
+          else scatter(see)
+
+    private def scatter(see: Vec3 => Unit): Unit =
+      walk.evaluate()
+      val receives = PhotonLight.receives(scene, walk.vertex)
+      if receives && isWanted then see(walk.vertex.at.p.toVec3)
+      if receives && !onlyBehind then walk.end()
+      else
+        walk.scatter(sampler)
+        if onlyBehind && walk.depth == 1 then isWanted = walk.vertex.bounce.isSpecular
+        walk.leave()
+        if onlyBehind && !isWanted then walk.end()
 
     /** Of a pixel, so far away. */
     private def size(eye: Vec3, direction: Vec3, distance: Float): Float =
@@ -122,3 +154,4 @@ private[bidirectional] final class SeenPlaces(
 private object SeenPlaces:
   /** In which paths are traced. */
   inline val Parts = 16
+  inline val OtherPaths = 4096

@@ -85,6 +85,9 @@ private[bidirectional] final class PathVertex(scene: Scene) extends SurfaceVerte
   /** Whether all earlier vertices are specular. */
   var isSpecularSoFar: Boolean = true
 
+  /** Do paths that begin at casters arrive here, too, as this one does? */
+  var isCaustic: Boolean = false
+
   /** As [[Subpath.isAlone]]. */
   var isAlone: Boolean = false
 

@@ -4,17 +4,19 @@ import candela.color.Rgb
 import candela.geometry.{Hit, Ray}
 import candela.scene.{Casters, Scene}
 
-/** Light that photons bring in place of a path: what lamps send, by casters alone, to a surface
-  * that receives it. Of each worker, as the photons are those of a pass.
+/** Light that photons bring in place of a path: what lamps send, by casters alone, to a surface or
+  * a medium that receives it. Of each worker, as the photons are those of a pass.
   *
-  * It is gathered at every vertex that is no caster, and at one that is (a rough one) if none has
-  * gathered since the last of these. So a light's way to the camera is cut at one place: the path
-  * leaves out what it meets behind casters only, and what light sampling finds there.
+  * It is gathered along every part of the path in a medium, at every vertex that is no caster, and
+  * at one that is (a rough one) if none has gathered since the last of these. So a light's way to
+  * the camera is cut at one place: the path leaves out what it meets behind casters only, and what
+  * light sampling finds there.
   *
-  * @param casters  where photons begin
-  * @param maxDepth scattering events of a path, at most
+  * @param casters   where photons begin
+  * @param maxDepth  scattering events of a path, at most
+  * @param bringsAll do they bring all light that media scatter? Then paths are not scattered there
   */
-abstract class PhotonLight(scene: Scene, casters: Casters, maxDepth: Int):
+abstract class PhotonLight(scene: Scene, casters: Casters, maxDepth: Int, bringsAll: Boolean):
   import PhotonLight.*
   private val isBrought: Array[Boolean] = scene.lights.map(_.isCausticSource).toArray
 
@@ -24,6 +26,30 @@ abstract class PhotonLight(scene: Scene, casters: Casters, maxDepth: Int):
     * @param isAlone does the path carry its hero wavelength only?
     */
   protected def around(vertex: SurfaceVertex, most: Int, isAlone: Boolean): Rgb
+
+  /** Adds light of photons around the segment that the medium scatters to its begin.
+    *
+    * @param most         scattering events that a photon may have, the last one included
+    * @param isAlone      as for [[around]]
+    * @param isSeen       does the camera see the segment, if by way of casters?
+    */
+  protected def along(
+      segment: MediumSegment,
+      most: Int,
+      isAlone: Boolean,
+      isSeen: Boolean
+  ): Unit
+
+  /** Adds what the medium scatters to the path; true if that is all, and the path goes on to the
+    * end of the segment.
+    */
+  private[integrators] final def scattered(segment: MediumSegment, path: PathState): Boolean =
+    val most = maxDepth - path.depth
+    if most > 0 then along(segment, most, path.isAlone, isSeen = path.chain < Started)
+    bringsAll
+
+  /** The path leaves a place in a medium. */
+  private[integrators] final def leaveMedium(path: PathState): Unit = path.chain = Started
 
   /** What the vertex reflects towards the path. */
   private[integrators] final def reflected(vertex: SurfaceVertex, path: PathState): Rgb =
@@ -78,5 +104,5 @@ private[candela] object PhotonLight:
     */
   def receives(scene: Scene, vertex: SurfaceVertex): Boolean =
     val bsdf = vertex.bsdf
-    !bsdf.isSpecular && (bsdf.isDiffuse || !bsdf.isNarrow) &&
+    vertex.isInMedium || !bsdf.isSpecular && (bsdf.isDiffuse || !bsdf.isNarrow) &&
     !scene.isSubsurface(vertex.at.material)

@@ -25,6 +25,9 @@ final class VolumeWalk private (
   private val visibility = MediumVisibility(scene, media, work, crossesPanes)
   private val samplesInMedia = options.samplesLights && scene.lights.length > 0
 
+  /** Photons light it. */
+  private val segment = MediumSegment(media, work)
+
   /** Phase functions as the BSDFs of guided vertices. */
   private val lobes =
     if guide == null then Array.empty[PhaseLobe]
@@ -44,6 +47,25 @@ final class VolumeWalk private (
     volumePath.medium = media.camera
 
   def travel(limits: PathLimits, sampler: Sampler): Boolean =
+    if gathersAll() then passStraight() else travelOrScatter(limits, sampler)
+
+  /** Adds what photons bring along the ray; is that all that the medium scatters? */
+  private def gathersAll(): Boolean =
+    val map = photons
+    map != null && volumePath.medium >= 0 && {
+      segment.begin(ray, volumePath.medium)
+      val isAll = map.scattered(segment, path)
+      path.addTo(found, segment.found.toRgb, 1f)
+      isAll
+    }
+
+  private def passStraight(): Boolean =
+    segment.goTo(ray.tMax): Unit
+    segment.attenuate()
+    if path.isDead then end()
+    goesOn
+
+  private def travelOrScatter(limits: PathLimits, sampler: Sampler): Boolean =
     // The last event may be in a medium that shines, if paths find light only where they meet it
     val t = collide(emits = depth < limits.maxDepth || !samplesLights, sampler)
     if path.isDead then
@@ -118,6 +140,8 @@ final class VolumeWalk private (
     ray.set(p, wi, Float.PositiveInfinity)
     ray.differential.isKnown = false
     path.isSpread = regularizes
+    val map = photons
+    if map != null then map.leaveMedium(path)
     goOn()
 
   override def isAtPane: Boolean = crossesPanes && scene.isPane(vertex.at)

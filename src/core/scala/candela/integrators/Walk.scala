@@ -60,7 +60,7 @@ abstract class Walk(
   private val manifolds: Manifolds | Null = options.manifolds.orNull
   private val chains: ManifoldLighting | Null =
     if manifolds == null then null else ManifoldLighting(scene, manifolds)
-  private val photons: PhotonLight | Null = options.photons.orNull
+  protected final val photons: PhotonLight | Null = options.photons.orNull
   private val disperses = scene.isDispersive
   private val hasLights = scene.lights.length > 0
   private val probe: SubsurfaceProbe | Null =

@@ -12,14 +12,16 @@ class CausticFilmsSuite extends AnyFunSuite:
 
   private def withScene[A](film: String = "rgb")(body: FilmFilesSuite.Folder => A): A =
     TempFolder.use: folder =>
-      val scene = Files.writeString(folder.resolve("s.pbrt"), text(film))
+      val made = if film == mist then inMist else text(film)
+      val scene = Files.writeString(folder.resolve("s.pbrt"), made)
       body(FilmFilesSuite.Folder(folder, scene))
 
   private val ways = Vector(
     ("rgb", "--caustics auto --light-groups type --aov direct,indirect"),
     ("rgb", "--caustics on --fireflies clamp:2"),
     ("spectral\" \"integer nbuckets\" 3 \"string sensor\" \"cie1931", "--caustics on"),
-    ("rgb", "--caustics photons")
+    ("rgb", "--caustics photons"),
+    (mist, "--caustics photons")
   )
 
   for (film, options) <- ways do
@@ -46,6 +48,15 @@ class CausticFilmsSuite extends AnyFunSuite:
       assert(f.bytes("a.exr") == f.bytes("b.exr"))
 
 private object CausticFilmsSuite:
+  private val mist = "mist"
+
+  /** The ball in thick mist. */
+  private def inMist: String =
+    val fog = """MakeNamedMedium "m" "string type" "homogeneous" "rgb sigma_s" [.6 .5 .4]"""
+    text("rgb")
+      .replace("LookAt", s"$fog\nMediumInterface \"\" \"m\"\nLookAt")
+      .replace("\"path\"", "\"volpath\"")
+
   /** A ball of glass under a small lamp. */
   def text(film: String): String =
     s"""LookAt 0 2 -4  0 .4 0  0 1 0

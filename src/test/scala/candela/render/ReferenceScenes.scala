@@ -19,12 +19,12 @@ final case class ReferenceScene(name: String, noise: Double, allowance: Double):
     if isMitsubas then ReferenceScenes.OfMitsuba.resolve(s"$name.xml")
     else ReferenceScenes.Scenes.resolve(s"$name.pbrt")
 
-  /** Scenes of caustics show how these are looked for. Under water, few samples of paths lack what
-    * rare ones bring.
+  /** Scenes of caustics show how these are looked for. Under water, and in mist behind glass, few
+    * samples of paths lack what rare ones bring.
     */
   def caustics: CausticsMode =
     if !name.startsWith("v4-caustics-") then CausticsMode.Off
-    else if name.endsWith("-pool") then CausticsMode.Photons
+    else if name.endsWith("-pool") || name.endsWith("-mist") then CausticsMode.Photons
     else CausticsMode.Auto
 
   def image: Image = ImageFiles.read(ReferenceScenes.References.resolve(s"$name.exr"))

@@ -36,8 +36,6 @@ private object CausticMethod:
         case None if mode == CausticsMode.Photons && scene.lightGroups.isDefined =>
           val why = "photons do not divide light, as --fireflies clamp and AOVs of light need"
           refuse(why, "write --caustics on: light paths do", alone)
-        case None if mode == CausticsMode.Photons && media.isDefined =>
-          refuse("photons do not light media", "write --caustics on: light paths do", alone)
         case Some(why) => without(why, alone)
         case None =>
           val light = CausticLight(
@@ -142,6 +140,7 @@ private object CausticMethod:
           scene,
           chosen,
           choice.radius,
+          choice.bringsAll,
           site.resources.seed,
           _,
           (over, map) => tracer(over, options.copy(photons = Some(map)), null, null)
