@@ -1,6 +1,8 @@
 package candela.image
 
-import candela.base.{Code, FileName, ForeignFile, InputFile, IoReason, WholeFile, WriteError}
+import candela.base.{
+  ByteCount, Code, FileName, ForeignFile, InputFile, IoReason, JavaHeap, WholeFile, WriteError
+}
 
 import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
@@ -47,7 +49,9 @@ object ImageFiles:
     catch
       case e: ImageError => throw ImageError(e.code, s"$file: ${e.getMessage}")
       case _: OutOfMemoryError =>
-        throw ImageError(Code.TooLarge, s"$file: not enough memory for its pixels")
+        val limit = ByteCount.show(JavaHeap.limit)
+        val message = s"$file: not enough memory for its pixels: Java's heap is limited to $limit"
+        throw ImageError(Code.OutOfMemory, message)
 
   /** The image of a file, which must have colours.
     *

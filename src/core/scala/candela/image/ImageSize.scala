@@ -1,6 +1,7 @@
 package candela.image
 
 import java.io.IOException
+import java.nio.charset.StandardCharsets
 
 import candela.base.{FileName, InputFile}
 
@@ -25,7 +26,8 @@ object ImageSize:
   def guess(file: InputFile): Option[ImageSize] =
     try
       val start = file.beginning(1 << 16)
-      png(start).orElse(jpeg(start)).orElse(Some(ofLength(file)))
+      png(start).orElse(jpeg(start)).orElse(exr(start)).orElse(radiance(start))
+        .orElse(Some(ofLength(file)))
     catch case _: IOException => None
 
   private def png(bytes: Array[Byte]): Option[ImageSize] =
@@ -49,12 +51,29 @@ object ImageSize:
         else next(at + 2 + word(bytes, at + 2))
     if bytes.length > 4 && word(bytes, 0) == 0xffd8 then next(2) else None
 
-  /** Of other formats: EXR and Radiance files have about half the size of their pixels in memory;
-    * the others are taken as not packed.
-    */
+  /** None if the beginning of the file isn't its whole header. */
+  private def exr(bytes: Array[Byte]): Option[ImageSize] =
+    if !bytes.startsWith(ImageFiles.ExrMark) then None
+    else
+      try
+        val part = ExrHeader.ofBeginning(bytes)._1.head
+        val colors = StoredImage.colors(part.channels.map(_.name)).fold(1)(_.distinct.size)
+        Some(ImageSize(part.width, part.height, colors, isBytes = false))
+      catch case _: ImageError => None
+
+  private val RadianceSize = """\n[-+]([XY]) (\d{1,9}) [-+][XY] (\d{1,9})\n""".r
+
+  private def radiance(bytes: Array[Byte]): Option[ImageSize] =
+    val text = String(bytes.take(1 << 12), StandardCharsets.ISO_8859_1)
+    Option.when(text.startsWith("#?"))(RadianceSize.findFirstMatchIn(text)).flatten.map: size =>
+      val (first, second) = (size.group(2).toInt, size.group(3).toInt)
+      val (width, height) = if size.group(1) == "Y" then (second, first) else (first, second)
+      ImageSize(Math.max(1, width), Math.max(1, height), 3, isBytes = false)
+
+  /** Of other formats, which are taken as not packed. */
   private def ofLength(file: InputFile): ImageSize =
     val isFloat = Set("exr", "hdr", "pic", "pfm")(FileName.suffix(file.path))
-    val pixels = Math.min(file.size / (if isFloat then 6 else 3), 1L << 30)
+    val pixels = Math.min(file.size / (if isFloat then 12 else 3), 1L << 30)
     ImageSize(Math.max(1, pixels.toInt), 1, 3, !isFloat)
 
   private def word(bytes: Array[Byte], at: Int): Int =

@@ -7,7 +7,7 @@ import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-/** A window of a film that no array could hold costs what the window costs. */
+/** A window of a film of more than 2³¹ pixels, which no array could hold, costs what it costs. */
 class HugeFilmSuite extends AnyFunSuite:
 
   private def run(args: String*): Captured =
@@ -20,8 +20,8 @@ class HugeFilmSuite extends AnyFunSuite:
   private def scene(film: String, integrator: String): String =
     s"""LookAt 0 0 5 0 0 0 0 1 0
        |Camera "perspective" "float fov" 40
-       |Film "$film" "integer xresolution" 15000 "integer yresolution" 16500
-       |  "integer pixelbounds" [ 7000 7012 8000 8008 ] "string filename" "a.exr"
+       |Film "$film" "integer xresolution" 60000 "integer yresolution" 66000
+       |  "integer pixelbounds" [ 28000 28012 32000 32008 ] "string filename" "a.exr"
        |Sampler "sobol" "integer pixelsamples" 4
        |Integrator "$integrator"
        |WorldBegin
@@ -35,7 +35,7 @@ class HugeFilmSuite extends AnyFunSuite:
       val text = scene(film, integrator)
       body(folder, Files.writeString(folder.resolve("s.pbrt"), text).toString)
 
-  /** The whole film would be 250 times as large. */
+  /** The whole film would be 4,000 times as large. */
   private val MostBytes = 1_000_000L
 
   private def read(file: Path): Image =
@@ -75,10 +75,16 @@ class HugeFilmSuite extends AnyFunSuite:
       assert(whole.sameElements(read(folder.resolve("merged.exr")).data))
       assert(whole.sameElements(read(folder.resolve("a.exr")).data))
 
+  test("without a window, one error says so"):
+    withScene("rgb"): (_, file) =>
+      val (code, captured) = Captured.run(file, "--cropwindow", "0,1,0,1")
+      assert(code == 1 && captured.err.contains("can't render 60000×66000 pixels at once"))
+      assert("error".r.findAllIn(captured.err).size == 1, captured.err)
+
   test("commands on images count pixels as the whole film does, or from the window"):
     withScene("rgb"): (folder, file) =>
       run(file, "--outfile", s"$folder/a.exr")
-      run(file, "--pixelbounds", "7000,7012,8000,8008", "--outfile", s"$folder/b.exr")
+      run(file, "--pixelbounds", "28000,28012,32000,32008", "--outfile", s"$folder/b.exr")
       assert(read(folder.resolve("a.exr")).data.sameElements(read(folder.resolve("b.exr")).data))
       val part = "0.4667,0.4674,0.4849,0.4852"
       run(file, "--cropwindow", part, "--outfile", s"$folder/c.exr")

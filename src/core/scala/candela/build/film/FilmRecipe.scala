@@ -73,7 +73,8 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
       site: Site
   ): FilmSettings =
     val (w, h) = (x(), y())
-    if w < 1 || h < 1 || w.toLong * h > Int.MaxValue then
+    // How many may be rendered at once is asked of the crop window
+    if w < 1 || h < 1 then
       site.error(Code.TooLarge, s"can't render an image of $w×$h pixels")
     // v4 prefers the fractional window if both are given
     val inPixels = crop().isEmpty && pixels().length == 4
