@@ -56,10 +56,13 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
     val relativeMse = error * error
     if reference.isEmpty then estimate.samplesUntil(relativeMse)
     else
-      points.lastOption.map: p =>
+      // Of an image without a number in common with the reference, no error is known
+      points.lastOption.filterNot(_.errors.relativeMse.isNaN).map: p =>
         val doublings = Math.log(p.errors.relativeMse / relativeMse) / Math.log(2)
-        val end = p.samples * Math.pow(2, Math.ceil(Math.max(0, doublings)))
-        Interval(end, Math.max(Math.min(end, p.samples), end / 2), end * 2)
+        if doublings <= 0 then Interval(p.samples, p.samples, p.samples)
+        else
+          val end = p.samples * Math.pow(2, Math.ceil(doublings))
+          Interval(end, Math.max(p.samples, end / 2), end * 2)
 
   override def passed(pass: Pass, film: Film): Unit =
     val started = System.nanoTime

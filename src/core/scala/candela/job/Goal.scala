@@ -40,7 +40,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
       end = found.map(f => Goal.whole(f.estimate))
       expected = found.filter(_.isKnown).map: f =>
         SampleRange(Goal.whole(f.estimate), Goal.whole(f.low), Goal.whole(f.high))
-    if end.exists(_ <= pass.samples) then isReached = true
+    if end.exists(_ <= pass.samples) || pass.isLast && isLow(pass.samples) then isReached = true
     val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - seen)
     // The first ones are slow: the JVM compiles meanwhile
     perSample = measured * Goal.Warm(Math.min(parts, Goal.Warm.size - 1))
@@ -50,6 +50,11 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     now = clock
     if options.time.exists(t => !isWorthMore(t - now)) then isReached = true
     if isReached && !pass.isWhole then recorder.passed(watched.copy(isLast = true), film)
+
+  /** Whether the error is low enough, though all samples are taken before the next eighth. */
+  private def isLow(samples: Int): Boolean =
+    samples >= Goal.Fewest &&
+      options.error.exists(most => recorder.errorAt(samples).exists(_ <= most))
 
   /** Whether the shortest part that there is ends nearer to the time than now, and not late. */
   private def isWorthMore(left: Double): Boolean =
@@ -72,7 +77,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     isReached
 
   override def goal: Option[ExpectedEnd] =
-    Some(ExpectedEnd(options.time, expected))
+    Some(ExpectedEnd(options.time, options.error.isDefined, expected))
 
   override def errorAt(samples: Double): Option[Double] = recorder.errorAt(samples)
 

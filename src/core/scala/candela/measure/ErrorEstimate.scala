@@ -95,7 +95,8 @@ final class ErrorEstimate:
       known <- last if !known.errors.relativeMse.isNaN
       now <- latest
     yield
-      val times = known.trend.times(relativeMse / Math.max(known.errors.relativeMse, 1e-30))
+      val part = relativeMse / Math.max(known.errors.relativeMse, 1e-30)
+      val times = known.trend.times(part, ErrorEstimate.MostApart / known.samples.toDouble)
       val isSoon = times < 2
       val found =
         if isSoon then known.samples * times
@@ -155,6 +156,9 @@ final class ErrorEstimate:
     Known(now.samples, now.weighed.weight, errors, trend, values / now.image.channels)
 
 object ErrorEstimate:
+  /** Samples between two numbers at which a rendering may end by its error. */
+  private val MostApart = 64
+
   private final case class State(samples: Int, image: Image, weights: Array[Float]):
     val weighed: Weighed =
       var sum = 0.0

@@ -31,8 +31,10 @@ final class ScatterTrend private (gap: Double, shrinkage: Double):
 
   private def doubled = ScatterTrend(gap * shrinkage, shrinkage)
 
-  /** How many times N samples have at most V(N) times `part`: a doubling, or eighths of it. */
-  def times(part: Double): Double =
+  /** How many times N samples have at most V(N) times `part`: a doubling, or eighths of it, or
+    * up to the first one smaller parts of it, `most` times N apart.
+    */
+  def times(part: Double, most: Double = 1): Double =
     if part >= 1 then 1
     else
       var (trend, left, doublings) = (this, part, 0)
@@ -40,8 +42,10 @@ final class ScatterTrend private (gap: Double, shrinkage: Double):
         left /= trend.ratio
         trend = trend.doubled
         doublings += 1
-      val eighth = (1 to 8).find(k => trend.within(1 + k / 8.0) <= left)
-      Math.scalb(1 + eighth.getOrElse(8) / 8.0, doublings)
+      // Past the next doubling, which will be measured, eighths tell enough
+      val parts = if doublings > 0 then 8 else Math.max(8, Math.min(1 / most, 1024).toInt)
+      val first = (1 to parts).find(k => trend.within(1 + k.toDouble / parts) <= left)
+      Math.scalb(1 + first.getOrElse(parts).toDouble / parts, doublings)
 
   /** V(N times `times`) / V(N). */
   def after(times: Double): Double =

@@ -27,9 +27,10 @@ private[render] final class Forecast(
     val samples = earlier + done / Math.max(1, pixels)
     timeLeft.add(samples, sweep(samples), seconds)
     val goal = listener.goal
-    val end = goal.flatMap(_.samples) match
-      case Some(range) => Some(range.map(atEnd).atMost(planned))
-      case None => Option.when(planned < RenderPlan.Endless)(SampleRange(planned, planned, planned))
+    val isByError = goal.exists(_.isByError)
+    val end =
+      if isByError then goal.flatMap(_.samples).map(_.map(atEnd).atMost(planned))
+      else Option.when(planned < RenderPlan.Endless)(SampleRange(planned, planned, planned))
     val left = end.filter(_.expected < RenderPlan.Endless).flatMap(timeLeft.until(_, seconds, warm))
     val byTime = goal.flatMap(_.seconds).map(t => Math.max(0, t - clock))
     val both = byTime.fold(left)(t => Some(left.fold(TimeRange(t, t, t))(_.atMost(t))))
@@ -39,7 +40,7 @@ private[render] final class Forecast(
       listener.errorAt(samples),
       goal.isDefined,
       both.filter(r => !r.isKnown(seconds) && r.says(seconds)),
-      end.filter(_ => goal.isDefined)
+      end.filter(_ => isByError)
     )
 
   /** Where a rendering ends whose goal is reached with so many samples per pixel. */

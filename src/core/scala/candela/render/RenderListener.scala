@@ -118,10 +118,15 @@ object RenderListener:
 
 /** What is expected to end a rendering, whichever comes first.
   *
-  * @param seconds since the start of rendering, with the listeners' time
-  * @param samples by the trend of the error so far; none if it can't be known yet
+  * @param seconds   since the start of rendering, with the listeners' time
+  * @param isByError whether an error ends it, too
+  * @param samples   for that, by the trend of the error so far; none if it can't be known yet
   */
-final case class ExpectedEnd(seconds: Option[Double], samples: Option[SampleRange])
+final case class ExpectedEnd(
+    seconds: Option[Double],
+    isByError: Boolean,
+    samples: Option[SampleRange]
+)
 
 /** Samples per pixel at which a rendering is expected to end.
   *

@@ -67,7 +67,9 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
   private def fraction(reversed: Int): Float = SampleHash.toUnit(Integer.reverse(reversed))
 
 object ZSobolSampler:
-  /** Maximum samples per pixel: with them, places along the curve of any film fit a `Long`. */
+  /** Maximum samples per pixel: with them, places along the curve fit a `Long` for films of up to
+    * 2¹⁹ pixels across.
+    */
   val Most: Int = 1 << 24
 
   /** The 24 permutations of 0, 1, 2, 3 in 8 bits each: the image of digit d is in bits 2d and 2d +

@@ -10,13 +10,14 @@ import org.scalatest.funsuite.AnyFunSuite
 
 class GoalSuite extends AnyFunSuite:
   /** Uniform numbers around 1: their relative error is the root of 1/12 over the samples. */
-  private val plan = TinyPlan(width = 40, height = 30, spp = 1000): (_, sampler) =>
+  private def plan(spp: Int) = TinyPlan(width = 40, height = 30, spp = spp): (_, sampler) =>
     Rgb.gray(0.5f + sampler.next1D())
 
   private def goal(options: RenderGoal) =
     Goal(options, 1000, ErrorRecorder(Development(), None))
 
-  private def rendered(goal: Goal): Rendering = Renderer.render(plan, 2, listener = goal)
+  private def rendered(goal: Goal, spp: Int = 1000): Rendering =
+    Renderer.render(plan(spp), 2, listener = goal)
 
   test("a rendering ends at the first eighth of a doubling whose error is low enough"):
     // The root of 0.0833 / 41: past 32 and 40, in steps of 4
@@ -117,9 +118,25 @@ class GoalSuite extends AnyFunSuite:
     // An end that the time cuts short is not the error's
     val error = Some(0.045)
     val alone = rendered(goal(RenderGoal(error = error))).samplesDone
-    for time <- Vector(1e-3, 2e-3, 5e-3, 0.01, 0.02, 100) do
+    for time <- Vector(1e-3, 2e-3, 5e-3, 0.01, 0.02) do
       val timed = goal(RenderGoal(error = error, time = Some(time)))
       assert(rendered(timed).samplesDone <= alone)
+    val late = goal(RenderGoal(error = error, time = Some(100)))
+    assert(rendered(late).samplesDone == alone)
+
+  test("an error that is low enough with the last sample is no goal that was missed"):
+    val ends =
+      for planned <- Vector(9, 17, 18, 34, 70, 131) yield
+        val trend = ErrorRecorder(Development(), None)
+        rendered(Goal(RenderGoal(error = Some(1e-9)), planned, trend), planned): Unit
+        val most = trend.errorAt(planned).get * 1.0001
+        val reached =
+          Goal(RenderGoal(error = Some(most)), planned, ErrorRecorder(Development(), None))
+        val rendering = rendered(reached, planned)
+        assert(!reached.isMissed(rendering), planned)
+        planned - rendering.samplesDone
+    // Earlier looks may have expected less
+    assert(ends.contains(0), ends)
 
   test("a time ends a rendering with whole passes"):
     val rendering = rendered(goal(RenderGoal(time = Some(1e-6))))

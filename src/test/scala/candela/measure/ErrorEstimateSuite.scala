@@ -149,6 +149,11 @@ class ErrorEstimateSuite extends AnyFunSuite:
     // Later doublings bring less
     assert(trend.times(trend.ratio * trend.ratio * trend.ratio) > 8.2)
     assert(Math.abs(ScatterTrend.Independent.times(0.25) - 4) < 1e-9)
+    // Ends are at most 64 samples apart
+    assert(ScatterTrend.Independent.times(1 / 1.06) == 1.125)
+    assert(ScatterTrend.Independent.times(1 / 1.06, 64 / 1024.0) == 1.0625)
+    assert(ScatterTrend.Independent.times(1 / 2.02, 64 / 1024.0) == 2.25)
+    assert(ScatterTrend.Independent.times(1e-18, 64 / 1024.0) > 1e17)
 
   test("between powers of two, the error is that of blocks of points"):
     val (pixels, parts) = (40_000, 20)

@@ -74,7 +74,7 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
   ): FilmSettings =
     val (w, h) = (x(), y())
     // How many may be rendered at once is asked of the crop window
-    if w < 1 || h < 1 then
+    if w < 1 || h < 1 || Math.max(w, h) > FilmRecipe.MostAcross then
       site.error(Code.TooLarge, s"can't render an image of $w×$h pixels")
     // v4 prefers the fractional window if both are given
     val inPixels = crop().isEmpty && pixels().length == 4
@@ -104,3 +104,6 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
 object FilmRecipe:
   /** The image file of scenes that name none. */
   val DefaultFile = "pbrt.exr"
+
+  /** Pixels: as far as Floats count all of them. */
+  private val MostAcross = 1 << 24
