@@ -10,6 +10,14 @@ final case class Costs(all: Vector[Cost] = Vector.empty):
     val kinds = (all ++ more).groupBy(_.kind).toVector.sortBy(_._1.ordinal)
     Costs(kinds.map((kind, same) => Cost(kind, same.map(_.bytes).sum, same.map(_.seconds).sum)))
 
+  /** What there is to tell: surfaces are built together, and a scene may have no triangles. */
+  def told: Vector[Cost] =
+    val isOther = all.exists(_.kind == CostKind.Shapes) &&
+      all.forall(c => c.kind != CostKind.Triangles || c.bytes == 0)
+    val named =
+      all.map(c => if isOther && c.kind == CostKind.Triangles then c.copy(CostKind.Shapes) else c)
+    (Costs() ++ named).all.filter(c => c.bytes > 0 || c.seconds >= Costs.Least)
+
   /** The greatest parts, those that matter. */
   def greatest: Vector[Cost] =
     all.filter(_.bytes * Costs.Matters >= bytes).sortBy(-_.bytes).take(Costs.Told)
@@ -36,6 +44,9 @@ object Costs:
   private val Matters = 20
 
   private val Told = 4
+
+  /** Seconds; less is not told. */
+  val Least = 0.005
 
   /** A heap that is a little larger than a scene makes it slow. */
   private val Room = 1.5

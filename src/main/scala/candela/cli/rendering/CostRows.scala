@@ -11,7 +11,7 @@ private[cli] object CostRows:
   /** The memory of all, then of each part, with the time that it has taken: (what, value). */
   def of(costs: Costs): Vector[(String, String)] =
     val all = s"about ${ByteCount.show(costs.bytes)} of ${ByteCount.show(JavaHeap.limit)}"
-    ("memory" -> all) +: costs.all.map(c => s"  ${c.kind.word}" -> text(c))
+    ("memory" -> all) +: costs.told.map(c => s"  ${c.kind.word}" -> text(c))
 
   /** The parts, with the time of the rendering, too.
     *
@@ -20,12 +20,9 @@ private[cli] object CostRows:
   def figures(costs: Costs, rendering: Rendering, film: Double): Vector[CostFigure] =
     val more = Vector(CostKind.Guiding -> rendering.learning, CostKind.Film -> film)
     val all = costs ++ more.filter(_._2 > 0).map((kind, seconds) => Cost(kind, 0, seconds))
-    all.all.map(c => CostFigure(c.kind.word, c.bytes, c.seconds, text(c)))
+    all.told.map(c => CostFigure(c.kind.word, c.bytes, c.seconds, text(c)))
 
   private def text(cost: Cost): String =
     val bytes = Option.when(cost.bytes > 0)(ByteCount.show(cost.bytes))
-    val seconds = Option.when(cost.seconds >= Least)(Figures.duration(cost.seconds))
+    val seconds = Option.when(cost.seconds >= Costs.Least)(Figures.duration(cost.seconds))
     (bytes ++ seconds).mkString(", ")
-
-  /** Less is not told. */
-  private val Least = 0.005
