@@ -48,7 +48,9 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
   private[integrators] def attenuate(): Unit =
     val s = work.shadow
     work.weights.scale(s.throughput)
+    // Light samples pass with the same density
     work.weights.scaleDensity(s.lr, s.lg, s.lb)
+    work.weights.scaleLight(s.lr, s.lg, s.lb)
     work.weights.balance()
 
   /** Adds light that is scattered here.
@@ -59,6 +61,7 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
   def add(wx: Float, wy: Float, wz: Float, r: Float, g: Float, b: Float): Unit =
     val w = work.weights
     val s = work.shadow
+    if s.isLost then w.lose()
     val density = (w.ur * s.lr + w.ug * s.lg + w.ub * s.lb) * (1f / 3f)
     if density > 0f then
       val toPath = -(wx * along.dx + wy * along.dy + wz * along.dz)

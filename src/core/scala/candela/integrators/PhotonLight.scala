@@ -16,7 +16,12 @@ import candela.scene.{Casters, Scene}
   * @param maxDepth  scattering events of a path, at most
   * @param bringsAll do they bring all light that media scatter? Then paths are not scattered there
   */
-abstract class PhotonLight(scene: Scene, casters: Casters, maxDepth: Int, bringsAll: Boolean):
+abstract class PhotonLight(
+    scene: Scene,
+    casters: Casters,
+    maxDepth: Int,
+    private[integrators] val bringsAll: Boolean
+):
   import PhotonLight.*
   private val isBrought: Array[Boolean] = scene.lights.map(_.isCausticSource).toArray
 
@@ -40,13 +45,10 @@ abstract class PhotonLight(scene: Scene, casters: Casters, maxDepth: Int, brings
       isSeen: Boolean
   ): Unit
 
-  /** Adds what the medium scatters to the path; true if that is all, and the path goes on to the
-    * end of the segment.
-    */
-  private[integrators] final def scattered(segment: MediumSegment, path: PathState): Boolean =
+  /** Adds what the medium scatters to the path. */
+  private[integrators] final def scatter(segment: MediumSegment, path: PathState): Unit =
     val most = maxDepth - path.depth
     if most > 0 then along(segment, most, path.isAlone, isSeen = path.chain < Started)
-    bringsAll
 
   /** The path leaves a place in a medium. */
   private[integrators] final def leaveMedium(path: PathState): Unit = path.chain = Started

@@ -28,6 +28,9 @@ final class VolumeWalk private (
   /** Photons light it. */
   private val segment = MediumSegment(media, work)
 
+  /** Do photons bring all that media scatter, so that paths go straight through them? */
+  private val goesStraight = photons != null && photons.bringsAll
+
   /** Phase functions as the BSDFs of guided vertices. */
   private val lobes =
     if guide == null then Array.empty[PhaseLobe]
@@ -47,17 +50,13 @@ final class VolumeWalk private (
     volumePath.medium = media.camera
 
   def travel(limits: PathLimits, sampler: Sampler): Boolean =
-    if gathersAll() then passStraight() else travelOrScatter(limits, sampler)
-
-  /** Adds what photons bring along the ray; is that all that the medium scatters? */
-  private def gathersAll(): Boolean =
     val map = photons
-    map != null && volumePath.medium >= 0 && {
+    if map == null || volumePath.medium < 0 then travelOrScatter(limits, sampler)
+    else
       segment.begin(ray, volumePath.medium)
-      val isAll = map.scattered(segment, path)
+      map.scatter(segment, path)
       path.addTo(found, segment.found.toRgb, 1f)
-      isAll
-    }
+      if goesStraight then passStraight() else travelOrScatter(limits, sampler)
 
   private def passStraight(): Boolean =
     segment.goTo(ray.tMax): Unit
@@ -185,10 +184,14 @@ final class VolumeWalk private (
   private def arriving(pdf: Float): Rgb =
     val w = volumePath.weights
     val s = work.shadow
-    val byLight = connection.pdf * (w.ur * s.lr + w.ug * s.lg + w.ub * s.lb) * (1f / 3f)
+    val passing = w.ur * s.lr + w.ug * s.lg + w.ub * s.lb
+    val byLight = connection.pdf * passing * (1f / 3f)
     val byPath =
       if connection.isDelta then 0f
-      else pdf * (w.ur * s.ur + w.ug * s.ug + w.ub * s.ub) * (1f / 3f)
+      else
+        // A path that goes straight passes media as a light sample does
+        val unscattered = if goesStraight then passing else w.ur * s.ur + w.ug * s.ug + w.ub * s.ub
+        pdf * unscattered * (1f / 3f)
     if !(byLight > 0f) then Rgb.Black
     else
       val weight = LightTransport.powerHeuristic(byLight, byPath) / byLight
