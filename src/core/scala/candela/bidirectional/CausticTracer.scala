@@ -30,6 +30,13 @@ final case class CausticLight(
   private[bidirectional] def within(scene: Scene): PathMedia | Null =
     media.map(PathMedia(scene, _)).orNull
 
+  /** May photons bring all that media scatter? They leave out what media emit in the colours of the
+    * scene, which differ between the bases of spectral rendering, and what is sent from beneath
+    * surfaces.
+    */
+  private[candela] def suitsPhotons: Boolean =
+    !beneath && media.exists(!_.media.exists(_.isEmissive))
+
   /** Is the camera in the medium that the first border before it says? Else light paths, which come
     * through borders, and the camera's find different images.
     */

@@ -49,12 +49,14 @@ private[bidirectional] final class Photons:
   * @param parts  photons in accumulation order
   * @param paths  number of light paths traced for them
   * @param radius query radius
+  * @param draw   random: which photons are among the few
   * @param isStopped whether nobody waits for it any more, which is a GivenUp
   */
 private[bidirectional] final class PhotonMap(
     parts: Array[Photons],
     paths: Int,
     radius: Float,
+    draw: Long = 0L,
     isStopped: () => Boolean = GivenUp.Never
 ):
   import PhotonMap.*
@@ -66,7 +68,8 @@ private[bidirectional] final class PhotonMap(
     * would go there.
     */
   val inMedia: PhotonTree = PhotonTree(parts, paths, radius, isStopped = isStopped)
-  val fewInMedia: PhotonTree = PhotonTree(parts, paths, Wider * radius, OneIn, isStopped)
+  val fewInMedia: PhotonTree =
+    PhotonTree(parts, paths, Wider * radius, OneIn, Math.floorMod(draw, OneIn), isStopped)
   private val perCell = 1f / (2f * radius)
   private val radius2 = radius * radius
   private val mask = Math.max(1, Integer.highestOneBit(Math.max(1, count)) * 2) - 1

@@ -4,7 +4,7 @@ import candela.base.{GivenUp, loop}
 import candela.cameras.Shutter
 import candela.film.View
 import candela.integrators.{Interfaces, PassIntegrator, SharedPasses}
-import candela.sampling.{IndependentSampler, Sampler}
+import candela.sampling.{IndependentSampler, SampleHash, Sampler}
 import candela.scene.{PathReport, Scene}
 
 import java.util.concurrent.atomic.AtomicInteger
@@ -36,6 +36,9 @@ private[bidirectional] abstract class PhotonTracer(seed: Int):
   private val sampler = IndependentSampler(1, seed)
 
   def raysTraced: Long
+
+  /** A random number of the pass, deterministic for any worker. */
+  final def draw(pass: Int): Long = SampleHash.pixel(pass, -1, seed)
 
   /** Traces a light path, and stores the photons that have arrived at its vertices, if they are of
     * the kind.
@@ -159,7 +162,7 @@ private[bidirectional] object PhotonMaps:
         parts(part) = tracer.trace(number, part, count, shutter, isStopped)
         // Else it has a part of its paths
         if !isStopped() && done.incrementAndGet() == parts.length then
-          try map = Some(PhotonMap(parts, paths, radius, isStopped))
+          try map = Some(PhotonMap(parts, paths, radius, tracer.draw(number), isStopped))
           catch case _: GivenUp => () // as the parts of the others
         part = next.getAndIncrement()
 

@@ -36,11 +36,17 @@ private[candela] final class PhotonPilot(
             f"$radius%.3g in the first pass, and less in each that follows; the image is biased"
         (Some(CausticChoice(aimed, 1f, radius, bringsAll = all)), told)
 
-  /** May photons bring all that media scatter? They leave out what media emit, and what is sent
-    * from beneath surfaces.
+  /** May photons bring all that media scatter? Of skies light samples may leave dim parts, or all,
+    * to the camera's paths, and photons have none of these. In fog without end, light paths from
+    * infinity would begin closer than where light samples do.
     */
   private def mayBringAll: Boolean =
-    !light.beneath && light.media.exists(!_.media.exists(_.isEmissive))
+    light.suitsPhotons && light.media.exists: media =>
+      lazy val isEndless = PathMedia.beyondAll(scene, media) >= 0
+      !scene.lights.indices.exists: i =>
+        val source = scene.lights(i)
+        source.asEnvironment != null ||
+        source.isInfinite && (media.lights(i) >= 0 || isEndless)
 
   private def receivers = if light.media.isDefined then "surface or medium" else "surface"
   private def through = if light.media.isDefined then ", at surfaces and in media" else ""

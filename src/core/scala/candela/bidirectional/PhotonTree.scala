@@ -13,6 +13,8 @@ import candela.math.*
   * @param paths     number of light paths traced for them
   * @param radius    within which a ray finds photons
   * @param every     one in how many of them is taken
+  * @param first     the first of these: below `every`, and each equally often, lest few have the
+  *   wrong mean
   * @param isStopped whether nobody waits for it any more, which is a GivenUp
   */
 private[bidirectional] final class PhotonTree(
@@ -20,6 +22,7 @@ private[bidirectional] final class PhotonTree(
     paths: Int,
     radius: Float,
     every: Int = 1,
+    first: Int = 0,
     isStopped: () => Boolean = GivenUp.Never
 ):
   import PhotonMap.Numbers
@@ -27,7 +30,7 @@ private[bidirectional] final class PhotonTree(
 
   val count: Int =
     val all = parts.foldLeft(0)((n, p) => Math.addExact(n, p.inMedia))
-    (all + every - 1) / every
+    (all - first + every - 1) / every
 
   /** Power of a photon to that per area across a ray that finds it. */
   val perArea: Float = every / (Pi * square(radius) * paths)
@@ -50,7 +53,7 @@ private[bidirectional] final class PhotonTree(
   private def sort(): Unit =
     val all = new Array[Float](data.length)
     var at = 0
-    var skipped = every - 1
+    var skipped = every - 1 - first
     for part <- parts do
       GivenUp.check(isStopped)
       loop(part.count): i =>
@@ -129,8 +132,8 @@ private[bidirectional] final class PhotonTree(
             top += 2
       out.sort()
 
-  /** Does the ray come within the radius of the box? */
-  private def passes(ray: Ray, node: Int): Boolean =
+  /** Does the ray come within the radius of the box, if the node has photons? */
+  private[bidirectional] def passes(ray: Ray, node: Int): Boolean =
     val box = node * 6
     val x1 = (boxes(box) - radius - ray.ox) * ray.invX
     val x2 = (boxes(box + 3) + radius - ray.ox) * ray.invX
@@ -141,7 +144,7 @@ private[bidirectional] final class PhotonTree(
     val near = Math.max(Math.max(Math.min(x1, x2), Math.min(y1, y2)), Math.min(z1, z2))
     val far = Math.min(Math.min(Math.max(x1, x2), Math.max(y1, y2)), Math.max(z1, z2))
     // Comparisons with NaN, of a ray along a side, are false
-    !(near > far || far < 0f || near > ray.tMax)
+    boxes(box) <= boxes(box + 3) && !(near > far || far < 0f || near > ray.tMax)
 
   private def look(ray: Ray, node: Int, medium: Float, most: Float, out: PassedPhotons): Unit =
     val perSquare = 1f / (square(ray.dx) + square(ray.dy) + square(ray.dz))

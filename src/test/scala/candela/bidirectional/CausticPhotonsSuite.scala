@@ -198,14 +198,57 @@ final class CausticPhotonsSuite extends AnyFunSuite:
         // Noise of a percent in either: few paths scatter all colours alike
         assert(Math.abs(f / e - 1) < 0.04, s"$found, expected $expected")
 
+  /** A floor in a ball of mist, with a small ball of glass on it. */
+  private def hazy(lamps: String): String =
+    s"""LookAt 0 -5 .6  0 0 .3  0 0 1
+       |Camera "perspective" "float fov" 46
+       |Film "rgb" "integer xresolution" 64 "integer yresolution" 64
+       |Sampler "independent"
+       |PixelFilter "box"
+       |Integrator "volpath" "integer maxdepth" 5
+       |WorldBegin
+       |MakeNamedMedium "m" "string type" "homogeneous" "rgb sigma_s" [1.2 1.2 1.2]
+       |  "rgb sigma_a" [.05 .05 .05]
+       |AttributeBegin
+       |MediumInterface "m" ""
+       |Material "interface"
+       |Shape "sphere" "float radius" 2
+       |AttributeEnd
+       |$lamps
+       |MediumInterface "" "m"
+       |Material "diffuse" "rgb reflectance" [.9 .9 .9]
+       |Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
+       |  "point3 P" [-1.2 -1.2 0  1.2 -1.2 0  1.2 1.2 0  -1.2 1.2 0]
+       |$glass
+       |Translate 0 .4 .3
+       |Shape "sphere" "float radius" .3
+       |""".stripMargin
+
+  private val near = """AttributeBegin
+    MediumInterface "" "m"
+    AreaLightSource "diffuse" "rgb L" [1 1 1]
+    Shape "trianglemesh" "integer indices" [0 2 1 0 3 2]
+      "point3 P" [-1.2 -1.2 1  1.2 -1.2 1  1.2 1.2 1  -1.2 1.2 1]
+    AttributeEnd"""
+
+  private def told(plan: RenderPlan) = plan.features.toMap.apply("caustics")
+  private val all = "of all light that media scatter"
+
   test("in media photons bring all light only where enough of them are seen"):
-    def told(fog: String) =
-      plan(smoke(fog, within, ""), CausticsMode.Photons, 1).features.toMap.apply("caustics")
-    val all = "of all light that media scatter"
-    assert(told(thick).contains(all))
-    assert(told(thick).contains("at surfaces and in media"))
-    assert(!told(mist.replace(".5", ".02")).contains(all))
-    assert(!told(s"$thick \"rgb Le\" [.2 .1 .1]").contains(all))
+    def of(fog: String) = told(plan(smoke(fog, within, ""), CausticsMode.Photons, 1))
+    assert(of(thick).contains(all))
+    assert(of(thick).contains("at surfaces and in media"))
+    assert(!of(mist.replace(".5", ".02")).contains(all))
+    assert(!of(s"$thick \"rgb Le\" [.2 .1 .1]").contains(all))
+
+  test("nor where skies shine, or light from infinity begins in fog"):
+    def of(text: String) = told(plan(text, CausticsMode.Photons, 1))
+    val sun =
+      """LightSource "distant" "rgb L" [.1 .1 .1] "point3 from" [0 -1 1] "point3 to" [0 0 0]"""
+    val sky = """LightSource "infinite" "rgb L" [.1 .1 .1]"""
+    assert(of(hazy(s"$near\n$sun")).contains(all))
+    assert(!of(hazy(s"$near\n$sky")).contains(all))
+    assert(!of(hazy(s"$near\nMediumInterface \"\" \"m\"\n$sun")).contains(all))
 
   test("in media, too, the image has the same bits for any number of threads"):
     val made = plan(smoke(cloudy, within, ""), CausticsMode.Photons, 3)

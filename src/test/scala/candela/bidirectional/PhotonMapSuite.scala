@@ -74,5 +74,5 @@ final class PhotonMapSuite extends AnyFunSuite:
       def isStopped() =
         asked += 1
         asked > last
-      intercept[GivenUp](PhotonMap(parts, 1, 1f, () => isStopped()))
+      intercept[GivenUp](PhotonMap(parts, 1, 1f, isStopped = () => isStopped()))
       assert(asked == last + 1)

@@ -4,6 +4,7 @@ import candela.base.GivenUp
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.math.*
+import candela.sampling.Sampler
 import candela.testing.Draws
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -51,6 +52,29 @@ final class PhotonTreeSuite extends AnyFunSuite:
         assert(Vector.tabulate(passed.count)(passed.at).distinct.size == passed.count)
         found += passed.count
       assert(n < 1000 || found > 300)
+
+  test("no ray looks into nodes without photons"):
+    // Nine leaves of sixteen have some
+    val made = tree(photons(Draws(3), 65).map(_.copy(_2 = 0)), 0.2f)
+    val ray = Ray()
+    ray.set(Vec3(0, 0, -9), Vec3.Z, Float.PositiveInfinity)
+    assert(made.passes(ray, 1))
+    assert((Seq(7, 13, 14, 15) ++ (25 to 31)).forall(!made.passes(ray, _)))
+
+  test("a few photons of many are the right number on average"):
+    val tracer = new PhotonTracer(seed = 7):
+      def raysTraced: Long = 0L
+      protected def trace(time: Float, sampler: Sampler, photons: Photons): Unit = ()
+    for n <- Vector(1, 5, 15, 16, 40) do
+      val all = Photons()
+      for i <- 1 to n do all.add(Vec3(i.toFloat, 0, 0), Vec3.Z, Rgb.White, place = 0)
+      val passes = 20000
+      val found = Array.fill(n)(0)
+      for pass <- 0 until passes do
+        val few = PhotonMap(Array(all), paths = 1, 1f, tracer.draw(pass)).fewInMedia
+        for i <- 0 until few.count do found(few.data(i * PhotonMap.Numbers).toInt - 1) += 1
+      // Each photon in one pass of sixteen, 1250, with a deviation of 34
+      assert(found.forall(f => Math.abs(f - passes / 16) < 150), found.toVector)
 
   test("photons at one place, or in one plane, are found"):
     for places <- Vector(Vec3.Zero, Vec3(1, 0, 0)) do

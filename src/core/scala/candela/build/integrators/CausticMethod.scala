@@ -140,7 +140,8 @@ private object CausticMethod:
           scene,
           chosen,
           choice.radius,
-          choice.bringsAll,
+          // The choice is that of another basis, in which a medium may not shine
+          choice.bringsAll && light.suitsPhotons,
           site.resources.seed,
           _,
           (over, map) => tracer(over, options.copy(photons = Some(map)), null, null)
