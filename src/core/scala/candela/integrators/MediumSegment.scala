@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.color.MutableRgb
+import candela.color.{MutableRgb, Rgb}
 import candela.geometry.Ray
 import candela.media.{MediumWork, SceneMedia}
 
@@ -27,9 +27,7 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
     this.along = along
     this.medium = medium
     reached = 0f
-    found.r = 0f
-    found.g = 0f
-    found.b = 0f
+    found.set(Rgb.Black)
     work.shadow.start(work.weights.hero, 1f)
 
   /** Goes on to the parameter `t` of the ray, which is at least that of the last step; false if no

@@ -2,31 +2,19 @@ package candela.bidirectional
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.accel.Instances
-import candela.accel.tracing.Bvh
 import candela.base.GivenUp
-import candela.bsdf.{ConstantMaterial, Lambert}
 import candela.color.Rgb
-import candela.lights.{LightSelection, PointLight}
+import candela.lights.PointLight
 import candela.math.*
-import candela.scene.{Instanced, Scene, SceneMaterials, ShapeTable, Surfaces}
-import candela.testing.{Draws, Soups}
+import candela.scene.Scene
+import candela.testing.{Draws, PlainScene}
 
 final class PhotonMapSuite extends AnyFunSuite:
   private val albedo = 0.6f
 
   private def scene: Scene =
     val light = PointLight(Vec3.Zero, Rgb.White)
-    val surfaces = Surfaces(Soups.Empty, ShapeTable.Empty)
-    Scene(
-      surfaces,
-      Instanced(Array.empty, Instances.Empty),
-      Bvh(surfaces.primitives(Instances.Empty)),
-      SceneMaterials(Array(ConstantMaterial(Lambert(Rgb.gray(albedo))))),
-      Array(light),
-      LightSelection.of(Array(light)),
-      sidesByGeometry = false
-    )
+    PlainScene(Rgb.gray(albedo), light)
 
   test("all photons within the radius count, each once, and no other"):
     val draws = Draws(3)

@@ -1,16 +1,12 @@
 package candela.integrators
 
-import candela.accel.Instances
-import candela.accel.tracing.Bvh
-import candela.bsdf.{ConstantMaterial, Lambert}
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.lights.{ConstantEnvironment, LightSelection}
+import candela.lights.ConstantEnvironment
 import candela.math.*
 import candela.media.{GridMedium, MediumBorder, SampledGrid, SceneMedia}
 import candela.sampling.{HenyeyGreenstein, IndependentSampler}
-import candela.scene.{Instanced, Scene, SceneMaterials, ShapeTable, Surfaces}
-import candela.testing.Soups
+import candela.testing.PlainScene
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -20,16 +16,7 @@ final class StraightWalkSuite extends AnyFunSuite:
   private val scene =
     val sky = ConstantEnvironment(Rgb.White, complete = true)
     val triangle = (Vec3(-90f, -50f, 0f), Vec3(90f, -50f, 0f), Vec3(0f, 90f, 0f))
-    val surfaces = Surfaces(Soups.of(Seq(triangle)), ShapeTable.Empty)
-    Scene(
-      surfaces,
-      Instanced(Array.empty, Instances.Empty),
-      Bvh(surfaces.primitives(Instances.Empty)),
-      SceneMaterials(Array(ConstantMaterial(Lambert(Rgb.gray(0.8f))))),
-      Array(sky),
-      LightSelection.of(Array(sky)),
-      sidesByGeometry = false
-    )
+    PlainScene(Rgb.gray(0.8f), sky, triangle)
 
   private def media(absorption: Rgb, scattering: Rgb) =
     val toUnit = Transform.scale(0.01, 0.01, 1).get * Transform.translate(50, 50, 0)

@@ -1,31 +1,19 @@
 package candela.integrators
 
-import candela.accel.Instances
-import candela.accel.tracing.Bvh
-import candela.bsdf.{ConstantMaterial, Lambert, PhaseLobe}
+import candela.bsdf.PhaseLobe
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.lights.{LightSelection, PointLight}
+import candela.lights.PointLight
 import candela.math.Vec3
 import candela.sampling.{HenyeyGreenstein, IndependentSampler}
-import candela.scene.{Instanced, Scene, SceneMaterials, ShapeTable, Surfaces}
-import candela.testing.Soups
+import candela.testing.PlainScene
 
 import org.scalatest.funsuite.AnyFunSuite
 
 final class SurfaceVertexSuite extends AnyFunSuite:
   private val scene =
     val light = PointLight(Vec3.Zero, Rgb.White)
-    val surfaces = Surfaces(Soups.Empty, ShapeTable.Empty)
-    Scene(
-      surfaces,
-      Instanced(Array.empty, Instances.Empty),
-      Bvh(surfaces.primitives(Instances.Empty)),
-      SceneMaterials(Array(ConstantMaterial(Lambert(Rgb.White)))),
-      Array(light),
-      LightSelection.of(Array(light)),
-      sidesByGeometry = false
-    )
+    PlainScene(Rgb.White, light)
 
   for g <- Seq(-0.99f, -0.9f, 0f, 0.5f, 0.99f) do
     test(s"directions keep their length over ten thousand events in a medium of g $g"):

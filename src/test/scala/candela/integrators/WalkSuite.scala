@@ -1,17 +1,13 @@
 package candela.integrators
 
-import candela.accel.Instances
-import candela.accel.tracing.Bvh
 import candela.base.Assertions
-import candela.bsdf.{ConstantMaterial, Lambert}
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.lights.{LightSelection, PointLight}
+import candela.lights.PointLight
 import candela.math.Vec3
 import candela.media.{MediumBorder, SceneMedia}
 import candela.sampling.IndependentSampler
-import candela.scene.{Instanced, Scene, SceneMaterials, ShapeTable, Surfaces}
-import candela.testing.Soups
+import candela.testing.PlainScene
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -22,16 +18,7 @@ final class WalkSuite extends AnyFunSuite:
   private val scene =
     val light = PointLight(Vec3(0f, 0f, 1f), Rgb.White)
     val triangle = (Vec3(-2f, -1f, 0f), Vec3(2f, -1f, 0f), Vec3(0f, 2f, 0f))
-    val surfaces = Surfaces(Soups.of(Seq(triangle)), ShapeTable.Empty)
-    Scene(
-      surfaces,
-      Instanced(Array.empty, Instances.Empty),
-      Bvh(surfaces.primitives(Instances.Empty)),
-      SceneMaterials(Array(ConstantMaterial(Lambert(Rgb.White)))),
-      Array(light),
-      LightSelection.of(Array(light)),
-      sidesByGeometry = false
-    )
+    PlainScene(Rgb.White, light, triangle)
   private val media =
     val borders = Array(MediumBorder(-1, -1))
     SceneMedia(Array.empty, borders, camera = -1, lights = Array(-1), eye = Vec3.Zero, reach = 9f)
