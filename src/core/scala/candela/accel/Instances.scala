@@ -18,27 +18,28 @@ import candela.math.*
   *
   * @param objects  accelerators of the objects
   * @param objectOf index into `objects` of each instance
-  * @param matrices matrices of the static instances, which come first: 24 Doubles each, as written
-  *   by [[candela.math.Motion]]
+  * @param matrices of the static instances, which come first; see [[candela.math.MotionRows]]
+  * @param rowOf    number of the matrix of each; null: its own
   * @param motions  motions of the animated instances, which follow
   * @param open     shutter opening time; `close` is its closing time
   */
 final class Instances private (
     objects: Array[Accelerator],
     val objectOf: Array[Int],
-    matrices: Array[Double],
+    matrices: Array[Array[Double]],
+    rowOf: Array[Int] | Null,
     motions: Array[Motion],
     open: Float,
     close: Float
 ):
-  private val still = matrices.length / Motion.Doubles
+  private val still = objectOf.length - motions.length
 
   def count: Int = objectOf.length
   def moving: Int = motions.length
 
   def bounds(i: Int): Bounds3 =
     val box = objects(objectOf(i)).bounds
-    if i < still then Placement.bounds(matrices, i * Motion.Doubles, box)
+    if i < still then Placement.bounds(numbers(i), start(i), box)
     else Placement.bounds(motions(i - still), open, close, box)
 
   /** Finds the closest hit of instance `i` in (0, `ray.tMax`): shortens the ray and writes the
@@ -59,7 +60,7 @@ final class Instances private (
 
   /** Transforms the ray to object space; the result is `ray.nested`. */
   def enter(i: Int, ray: Ray): Ray =
-    if i < still then Placement.enter(matrices, i * Motion.Doubles, ray)
+    if i < still then Placement.enter(numbers(i), start(i), ray)
     else
       val space = ray.nested.space
       motions(i - still).write(ray.time, space, 0)
@@ -69,7 +70,7 @@ final class Instances private (
     * to [[enter]] for it.
     */
   def locate(i: Int, ray: Ray, at: ShadingPoint): Unit =
-    if i < still then Placement.locate(matrices, i * Motion.Doubles, at)
+    if i < still then Placement.locate(numbers(i), start(i), at)
     else Placement.locate(ray.nested.space, 0, at)
 
   /** The object's point `p`, in world space at the ray's time. */
@@ -87,17 +88,24 @@ final class Instances private (
   /** Mean scale of lengths, of the moving ones when the shutter opens. */
   def stretch(i: Int): Double =
     val m =
-      if i < still then matrices.slice(start(i), start(i) + Motion.Doubles)
+      if i < still then numbers(i).slice(start(i), start(i) + Motion.Doubles)
       else
         val work = new Array[Double](Motion.Work)
         motions(i - still).write(open, work, 0)
         work
     Math.cbrt(Math.abs(Placement.determinant(m, 0)))
 
-  private def start(i: Int): Int = if i < still then i * Motion.Doubles else 0
+  private def row(i: Int): Int =
+    val rows = rowOf
+    if rows == null then i else rows(i)
+
+  /** Of a static instance. */
+  private def numbers(i: Int): Array[Double] = matrices(MotionRows.chunk(row(i)))
+
+  private def start(i: Int): Int = if i < still then MotionRows.start(row(i)) else 0
 
   private def rows(i: Int, ray: Ray): Array[Double] =
-    if i < still then matrices
+    if i < still then numbers(i)
     else
       val space = ray.nested.space
       motions(i - still).write(ray.time, space, 0)
@@ -107,7 +115,8 @@ object Instances:
   val Empty: Instances = of(Array.empty, IndexedSeqView.Id(Vector.empty))
 
   /** @param places      (index into `objects`, object to world), which are made when asked for, as
-    *   there may be millions; animated instances are numbered last
+    *   there may be millions; animated instances are numbered last. The numbers of [[MotionRow]]s
+    *   are used where they are, if all static instances are of the same [[MotionRows]]
     * @param open, close shutter times
     */
   def of(
@@ -125,19 +134,50 @@ object Instances:
     val moving = found.take()
     val still = places.length - moving.length
     val objectOf = new Array[Int](places.length)
-    val matrices = new Array[Double](Math.multiplyExact(Motion.Doubles, still))
     val motions = new Array[Motion](moving.length)
     loop(moving.length): k =>
       val (which, motion) = places(moving(k))
       objectOf(still + k) = which
       motions(k) = motion
-    parallel.ranges(places.length): (from, until) =>
-      // Moving ones before `from`
-      var passed = moving.search(from).insertionPoint
-      loop(from, until): i =>
-        if passed < moving.length && moving(passed) == i then passed += 1
-        else
-          val place = places(i)
-          objectOf(i - passed) = place._1
-          place._2.write(0f, matrices, (i - passed) * Motion.Doubles)
-    new Instances(objects, objectOf, matrices, motions, open, close)
+
+    /** Visits the number among the static instances, and the place, of each. */
+    inline def eachStill(inline visit: (Int, (Int, Motion)) => Unit): Unit =
+      parallel.ranges(places.length): (from, until) =>
+        // Moving ones before `from`
+        var passed = moving.search(from).insertionPoint
+        loop(from, until): i =>
+          if passed < moving.length && moving(passed) == i then passed += 1
+          else visit(i - passed, places(i))
+
+    common(places, isMoving) match
+      case Some(rows) =>
+        val rowOf = new Array[Int](still)
+        eachStill: (i, place) =>
+          objectOf(i) = place._1
+          place._2 match
+            case at: MotionRow => rowOf(i) = at.row
+            case _ => ()
+        new Instances(objects, objectOf, rows.all, rowOf, motions, open, close)
+      case None =>
+        val rows = MotionRows()
+        loop(still)(_ => rows.grow(): Unit)
+        val matrices = rows.all
+        eachStill: (i, place) =>
+          objectOf(i) = place._1
+          place._2.write(0f, matrices(MotionRows.chunk(i)), MotionRows.start(i))
+        new Instances(objects, objectOf, matrices, null, motions, open, close)
+
+  /** The matrices that all static instances have, if they have the same: they are not copied. */
+  private def common(
+      places: IndexedSeqView[(Int, Motion)],
+      isMoving: Array[Boolean]
+  ): Option[MotionRows] =
+    var rows: MotionRows | Null = null
+    def isOfThem(motion: Motion) = motion match
+      case at: MotionRow =>
+        if rows == null then rows = at.rows
+        at.rows eq rows
+      case _ => false
+    var i = 0
+    while i < places.length && (isMoving(i) || isOfThem(places(i)._2)) do i += 1
+    if i < places.length then None else Option(rows)

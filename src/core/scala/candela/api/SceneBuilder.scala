@@ -1,7 +1,7 @@
 package candela.api
 
 import candela.base.{SceneFolder, SourcePos}
-import candela.scenefile.{GivenStatement, Param, StatementRunner}
+import candela.scenefile.{GivenStatement, InstanceList, Param, StatementRunner}
 
 import java.util.function.UnaryOperator
 
@@ -218,7 +218,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   /** Removes all shapes, objects and instances. */
   def removeShapes(): SceneBuilder =
     edited("remove shapes", "", Parameters())(_ =>
-      _.copy(shapes = Vector.empty, objects = Map.empty, instances = Vector.empty)
+      _.copy(shapes = Vector.empty, objects = Map.empty, instances = InstanceList.Empty)
     )
 
   /** What the scene is called, in image files and messages. */

@@ -8,7 +8,7 @@ import candela.build.recipe.*
 import candela.build.settings.OptionRecipe
 import candela.color.ColorBasis
 import candela.math.Transform
-import candela.scenefile.{AnimatedTransform, Declaration, Dialect, SceneDescription}
+import candela.scenefile.{AnimatedTransform, Declaration, Dialect, InstanceList, SceneDescription}
 
 /** State shared by all stages of building: the description, around its render origin, its named
   * resources, and the problems found so far.
@@ -109,8 +109,17 @@ private[build] object BuildContext:
           origin = origin.at
         )
       val allowance = description.folder.allowance
-      val resources =
-        new Resources(basis, pool, settings.seed, mayBeSpectral, switches, allowance, store, keep)
+      val resources = new Resources(
+        basis,
+        pool,
+        settings.seed,
+        mayBeSpectral,
+        switches,
+        allowance,
+        store,
+        keep,
+        isReadable = description.errors.isEmpty
+      )
       new BuildContext(there, origin, resources, problems)
     val plain = context(Switches(), TextureStore.InMemory)
     val statement = plain.unwritten("Option", "")
@@ -128,7 +137,7 @@ private[build] object BuildContext:
       worldToCamera = AnimatedTransform(Transform.Identity, Transform.Identity),
       cameraMedium = "",
       shapes = Vector.empty,
-      instances = Vector.empty
+      instances = InstanceList.Empty
     )
 
 /** Default types of each dialect. */

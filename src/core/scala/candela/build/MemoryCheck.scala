@@ -15,16 +15,15 @@ private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: 
   /** What the scene takes, with the seconds until now. */
   def costs: Vector[Cost] =
     val clock = context.resources.clock
-    val bytes = known.map(c => c.kind -> c.bytes).toMap
-    CostKind.values.toVector.map(k => Cost(k, bytes.getOrElse(k, 0L), clock.seconds(k)))
-      .filter(c => c.bytes > 0 || c.seconds > 0)
+    val timed = CostKind.values.toVector.map(k => Cost(k, 0, clock.seconds(k)))
+    (Costs(known) ++ timed).all.filter(c => c.bytes > 0 || c.seconds > 0)
 
   /** Estimates what the scene takes.
     *
     * @throws SceneError if that is too much
     */
   def estimate(uses: ObjectUses): Unit =
-    val size = SceneSize(context.description, uses, context.resources.textures.bytes)
+    val size = SceneSize(context.description, uses, context.resources.textures)
     known = size.costs
     val all = Costs(known ++ film)
     val least = (all.bytes * MemoryCheck.Sure).toLong + size.building

@@ -56,7 +56,7 @@ private[build] final class ObjectUses(
         )
       own += s
 
-  for (name, uses) <- description.instances.groupBy(_.name).toVector.sortBy(_._1) do
+  for (name, uses) <- description.instances.ofEach do
     description.objects.get(name) match
       case None =>
         for use <- uses do
@@ -80,10 +80,11 @@ private[build] final class ObjectUses(
   private def place(
       name: String,
       shapes: Vector[ShapeDescription],
-      uses: Vector[InstanceDescription]
+      uses: InstanceList
   ): Unit =
-    val (affine, seen) =
-      if uses.forall(u => Motions.isAffine(u.instanceToWorld)) then (uses, Vector.empty)
+    val arePlain = uses.arePlain
+    val (affine, seen): (IndexedSeq[InstanceDescription], IndexedSeq[InstanceDescription]) =
+      if arePlain then (uses, Vector.empty)
       else uses.partition(u => Motions.isAffine(u.instanceToWorld))
     for u <- seen do
       if u.instanceToWorld.isAnimated || shapes.exists(s => Motions.moves(s.objectToWorld)) then
@@ -95,9 +96,11 @@ private[build] final class ObjectUses(
       own ++= shapes.map(copied(_, u))
     val (moving, still) = shapes.partition(s => Motions.moves(s.objectToWorld))
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated
-    val placing = affine.view.map(u => motions.ofInstance(u.instanceToWorld))
+    def placing = affine.view.map(u => motions.ofInstance(u.instanceToWorld))
     val places =
-      if affine.exists(_.instanceToWorld.isAnimated) then placing.toVector.view else placing
+      if arePlain then uses.motions
+      else if affine.exists(_.instanceToWorld.isAnimated) then placing.toVector.view
+      else placing
     if isAlone then own ++= affine.flatMap(u => still.map(copied(_, u)))
     else if still.nonEmpty && places.nonEmpty then objects += placed(still, places, name)
     if places.nonEmpty then

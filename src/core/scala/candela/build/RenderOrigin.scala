@@ -28,7 +28,7 @@ private[build] final class RenderOrigin(val at: Position, val why: String = ""):
         textures = d.textures.map(t => t.copy(textureToWorld = moved(t.textureToWorld))),
         lights = d.lights.map(l => l.copy(lightToWorld = moved(l.lightToWorld))),
         shapes = d.shapes.map(s => s.copy(objectToWorld = moved(s.objectToWorld))),
-        instances = d.instances.map(i => i.copy(instanceToWorld = moved(i.instanceToWorld))),
+        instances = d.instances.changed(i => i.copy(instanceToWorld = moved(i.instanceToWorld))),
         media = d.media.map(m => m.copy(mediumToWorld = moved(m.mediumToWorld))),
         volumes = d.volumes.map(v => v.copy(lightToWorld = moved(v.lightToWorld)))
       )

@@ -291,7 +291,7 @@ object SceneBuilder:
         "dialect" -> dialect(context.description),
         "integrator" -> integrator.describe
       ) ++ context.origin.describe.map("origin" -> _) ++ world.features ++
-        context.resources.textures.describe.map("images" -> _) ++ Vector(
+        context.resources.imagesInWords.map("images" -> _) ++ Vector(
           "motion" -> moving(camera, world),
           "layers" -> described(image.layers, film.development.bands),
           "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),

@@ -1,6 +1,7 @@
 package candela.build
 
 import candela.base.InputFile
+import candela.build.recipe.TextureStore
 import candela.build.shapes.PlySize
 import candela.image.ImageSize
 import candela.render.{Cost, CostKind}
@@ -10,12 +11,12 @@ import candela.scenefile.{Declaration, Dialect, MaterialRef, SceneDescription, S
   * and from the beginnings of its files. Parts that only building finds out, such as displaced
   * triangles, are not in it.
   *
-  * @param textures bytes of image textures in memory
+  * @param textures how images are kept
   */
 private[build] final class SceneSize(
     description: SceneDescription,
     uses: ObjectUses,
-    textures: Long
+    textures: TextureStore
 ):
   import SceneSize.*
 
@@ -34,7 +35,7 @@ private[build] final class SceneSize(
       Cost(CostKind.Shapes, shapes),
       Cost(CostKind.Instances, places * Instance),
       Cost(CostKind.Hierarchies, hierarchies),
-      Cost(CostKind.Textures, textures),
+      Cost(CostKind.Textures, textures.bytes, isMost = textures.tiles.nonEmpty),
       Cost(CostKind.Materials, materials * Material),
       Cost(CostKind.Lights, lights),
       Cost(CostKind.Media, media)
@@ -74,8 +75,9 @@ private[build] final class SceneSize(
     val emitters =
       if emitting == 0 then Vector.empty else uses.world.filter(_.areaLight.isDefined)
     val lamps = SurfaceCount.of(emitters, description.dialect.base)
+    val pixel = if textures.lightTiles.isEmpty then LightPixel else TablePixel
     lamps.triangles * TriangleLamp + (lamps.solids + description.lights.size) * Lamp +
-      images.map(i => ImageSize.guess(i).fold(0L)(s => s.width.toLong * s.height * LightPixel)).sum
+      images.map(i => ImageSize.guess(i).fold(0L)(s => s.width.toLong * s.height * pixel)).sum
 
   private def media: Long =
     description.media.iterator.map: m =>
@@ -87,7 +89,9 @@ private[build] object SceneSize:
   // Bytes in memory of one of each, as objects of Java lie there on 64 bits
   private val Statement = 330L
   private val LampStatement = 280L
-  private val Placed = 400L
+
+  // Its matrices are those of the instance
+  private val Placed = 16L
   private val Sphere = 80L
   private val Solid = 500L
   private val Segment = 98L
@@ -109,6 +113,9 @@ private[build] object SceneSize:
 
   /** Pixels of environment maps, with their table of directions. */
   private val LightPixel = 20L
+
+  /** Of the table alone. */
+  private val TablePixel = 5L
 
   private val ImageNames = Vector("filename", "mapname")
 

@@ -16,7 +16,7 @@ private[build] final class SceneSurvey(d: SceneDescription):
 
   def extents(): Vector[Extent] =
     val shapes = d.shapes.flatMap(extent(_, looks = true))
-    val instances = d.instances.take(Most).flatMap: i =>
+    val instances = d.instances.take(Most).toVector.flatMap: i =>
       d.objects.getOrElse(i.name, Vector.empty).take(FewShapes)
         .flatMap(extent(_, looks = true, i.instanceToWorld.start))
     val volumes = d.volumes.flatMap(v => box(v.light, v.lightToWorld.start))

@@ -58,21 +58,32 @@ private[image] final case class ExrTiling(
   /** Whether there are smaller levels. */
   def hasLevels: Boolean = levelMode != 0
 
+  private def levels(size: Int): Int =
+    val floor = 31 - Integer.numberOfLeadingZeros(size)
+    1 + floor + (if roundsUp && (size & (size - 1)) != 0 then 1 else 0)
+
+  /** An edge of a level. */
+  private def edge(size: Int, level: Int): Int =
+    val carry = if roundsUp then (1L << level) - 1 else 0L
+    Math.max(1L, (size + carry) >> level).toInt
+
+  /** Width and height of the levels of the MIP map of a part of `w` × `h` pixels. */
+  def sizes(w: Int, h: Int): Vector[(Int, Int)] =
+    Vector.tabulate(levels(Math.max(w, h)))(l => (edge(w, l), edge(h, l)))
+
+  /** Number of tiles in a level of `w` × `h` pixels. */
+  def inLevel(w: Int, h: Int): Long = count(w, 0, width) * count(h, 0, height)
+
+  private def count(size: Int, level: Int, tile: Int): Long =
+    (edge(size, level) + tile - 1L) / tile
+
   /** Number of tiles in all levels of a part of `w` × `h` pixels. */
-  def tiles(w: Int, h: Int): Long =
-    def levels(size: Int) =
-      val floor = 31 - Integer.numberOfLeadingZeros(size)
-      1 + floor + (if roundsUp && (size & (size - 1)) != 0 then 1 else 0)
-    def count(size: Int, level: Int, tile: Int): Long =
-      val carry = if roundsUp then (1L << level) - 1 else 0L
-      (Math.max(1L, (size + carry) >> level) + tile - 1) / tile
-    levelMode match
-      case 0 => count(w, 0, width) * count(h, 0, height)
-      case 1 =>
-        (0 until levels(Math.max(w, h))).map(l => count(w, l, width) * count(h, l, height)).sum
-      case _ =>
-        val across = (0 until levels(w)).map(count(w, _, width)).sum
-        across * (0 until levels(h)).map(count(h, _, height)).sum
+  def tiles(w: Int, h: Int): Long = levelMode match
+    case 0 => inLevel(w, h)
+    case 1 => sizes(w, h).map(inLevel(_, _)).sum
+    case _ =>
+      val across = (0 until levels(w)).map(count(w, _, width)).sum
+      across * (0 until levels(h)).map(count(h, _, height)).sum
 
 /** Reads and validates EXR headers: only files that decode correctly reach the native decoder.
   *

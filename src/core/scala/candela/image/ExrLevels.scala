@@ -29,9 +29,10 @@ final class ExrLevels private (
   val tileHeight: Int = tiling.height
 
   /** Width and height of each level, the largest first. */
-  val sizes: Vector[(Int, Int)] = ExrLevels.sizes(part)
+  val sizes: Vector[(Int, Int)] = tiling.sizes(part.width, part.height)
 
-  private val firstTiles = sizes.scanLeft(0)((sum, size) => sum + ExrLevels.tiles(size, tiling))
+  private val firstTiles =
+    sizes.scanLeft(0)((sum, size) => sum + tiling.inLevel(size._1, size._2).toInt)
 
   /** A tile of a level.
     *
@@ -118,15 +119,6 @@ object ExrLevels:
       case e: Throwable =>
         channel.close()
         throw e
-
-  private def sizes(part: ExrPart): Vector[(Int, Int)] =
-    val count = Integer.numberOfTrailingZeros(Math.max(part.width, part.height)) + 1
-    Vector.iterate((part.width, part.height), count)((w, h) =>
-      (Math.max(1, w / 2), Math.max(1, h / 2))
-    )
-
-  private def tiles(size: (Int, Int), t: ExrTiling): Int =
-    ((size._1 + t.width - 1) / t.width) * ((size._2 + t.height - 1) / t.height)
 
   private def read(channel: FileChannel, at: Long, length: Int): ByteBuffer =
     val bytes = ByteBuffer.allocate(length).order(ByteOrder.LITTLE_ENDIAN)

@@ -114,12 +114,8 @@ private[image] object PngBands:
   private val Signature = Vector[Int](0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a).map(_.toByte)
 
   /** Channels by colour type. */
-  private val Names = Map(
-    0 -> Vector("Y"),
-    2 -> Image.RgbNames,
-    4 -> Vector("Y", "A"),
-    6 -> (Image.RgbNames :+ "A")
-  )
+  private val Names = (StbReader.PngChannels - StbReader.Palette).map: (kind, count) =>
+    kind -> StbReader.Names(count - 1)
 
   /** Bytes of the signature and the chunk IHDR. */
   private[image] val Beginning = 33

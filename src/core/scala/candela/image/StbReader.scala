@@ -13,7 +13,9 @@ import java.nio.{ByteBuffer, IntBuffer}
   */
 private[image] object StbReader:
 
-  private val Names = Vector(Vector("Y"), Vector("Y", "A"), Image.RgbNames, Image.RgbNames :+ "A")
+  /** Channels by their number, less one. */
+  val Names: Vector[Vector[String]] =
+    Vector(Vector("Y"), Vector("Y", "A"), Image.RgbNames, Image.RgbNames :+ "A")
 
   /** @param admit receives width and height before the pixels are decoded */
   def read(file: Array[Byte], admit: (Int, Int) => Unit = (_, _) => ()): StoredImage =
@@ -72,7 +74,8 @@ private[image] object StbReader:
     if isPng then height * ((width.toLong * channels * file.get(24) + 7) / 8) else values
 
   /** Channels by PNG colour type: grey, colour, palette, and the first two with alpha. */
-  private val PngChannels = Map(0 -> 1, 2 -> 3, 3 -> 1, 4 -> 2, 6 -> 4)
+  val Palette = 3
+  val PngChannels: Map[Int, Int] = Map(0 -> 1, 2 -> 3, Palette -> 1, 4 -> 2, 6 -> 4)
 
   /** Upper bound of compression ratios: deflate reaches 1032, JPEG with one bit per block 1365.
     * Limits the memory that a damaged size can request; the decoder would fill it.

@@ -73,8 +73,7 @@ object ImageEnvironment:
     val height = image.height
     val shares = Array.tabulate(height)(image.layout.share(_, height))
     // Of a hundred million pixels closures would make boxes
-    val bright = new Array[Float](Math.multiplyExact(width, height))
-    loop(height)(y => loop(width)(x => bright(y * width + x) = image.brightness(x, y)))
+    val bright = image.brightness
     var sum = 0.0
     loop(bright.length)(i => sum += Math.max(0f, bright(i)) * shares(i / width))
     val mean = (sum / (shares.foldLeft(0.0)(_ + _) * width)).toFloat

@@ -115,6 +115,15 @@ object Transform:
   def flat(rows: IndexedSeq[Double]): Transform =
     Transform(IArray.from(rows), IArray.fill(16)(Double.NaN))
 
+  /** The affine map of which 24 numbers are given from `at` on, as a [[Motion]] writes them. */
+  def affine(numbers: Array[Double], at: Int): Transform =
+    def rows(from: Int) =
+      val made = new Array[Double](16)
+      System.arraycopy(numbers, from, made, 0, 12)
+      made(15) = 1
+      IArray.unsafeFromArray(made)
+    Transform(rows(at), rows(at + 12))
+
   /** Maps everything to one point: nothing that it places is visible. */
   val nowhere: Transform = flat(Vector.fill(15)(0.0) :+ 1.0)
 

@@ -1,7 +1,7 @@
 package candela.mitsuba
 
 import candela.base.{Code, SceneError, SceneFolder, Severity, SourcePos}
-import candela.scenefile.{Declaration, Dialect, Excerpts, SceneDescription}
+import candela.scenefile.{Declaration, Dialect, Excerpts, InstanceList, SceneDescription}
 
 import java.nio.file.Path
 
@@ -104,7 +104,7 @@ private final class Translation(session: Session, file: Path):
         lights = Vector.empty,
         shapes = Vector.empty,
         objects = Map.empty,
-        instances = Vector.empty
+        instances = InstanceList.Empty
       )
 
   /** Paths from lights find no coverage. */

@@ -11,14 +11,14 @@ import scala.collection.mutable
 final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, media: Media):
   private val world = Vector.newBuilder[ShapeDescription]
   private val groups = mutable.LinkedHashMap.empty[Plugin, (String, Vector[ShapeDescription])]
-  private val placed = Vector.newBuilder[InstanceDescription]
+  private val placed = InstanceList.newBuilder
 
   private var depth = 0
 
   def shapes: Vector[ShapeDescription] = world.result()
   def objects: Map[String, Vector[ShapeDescription]] =
     scala.collection.immutable.VectorMap.from(groups.values)
-  def instances: Vector[InstanceDescription] = placed.result()
+  def instances: InstanceList = placed.result()
 
   def add(p: Plugin): Unit =
     session.attempt(parts(p)).foreach(world ++= _)

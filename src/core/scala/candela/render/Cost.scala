@@ -25,5 +25,11 @@ enum CostKind(val word: String):
 
 /** @param bytes   in memory, estimated
   * @param seconds of the time that it has taken so far
+  * @param isMost  whether the bytes are a limit, which few renderings reach
   */
-final case class Cost(kind: CostKind, bytes: Long, seconds: Double = 0)
+final case class Cost(
+    kind: CostKind,
+    bytes: Long,
+    seconds: Double = 0,
+    isMost: Boolean = false
+)

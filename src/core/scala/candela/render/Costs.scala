@@ -8,7 +8,8 @@ final case class Costs(all: Vector[Cost] = Vector.empty):
 
   def ++(more: Vector[Cost]): Costs =
     val kinds = (all ++ more).groupBy(_.kind).toVector.sortBy(_._1.ordinal)
-    Costs(kinds.map((kind, same) => Cost(kind, same.map(_.bytes).sum, same.map(_.seconds).sum)))
+    Costs(kinds.map: (kind, same) =>
+      Cost(kind, same.map(_.bytes).sum, same.map(_.seconds).sum, same.exists(_.isMost)))
 
   /** What there is to tell: surfaces are built together, and a scene may have no triangles. */
   def told: Vector[Cost] =

@@ -116,7 +116,7 @@ final case class SceneDescription(
     lights: Vector[LightDescription] = Vector.empty,
     shapes: Vector[ShapeDescription] = Vector.empty,
     objects: Map[String, Vector[ShapeDescription]] = Map.empty,
-    instances: Vector[InstanceDescription] = Vector.empty,
+    instances: InstanceList = InstanceList.Empty,
     media: Vector[MediumDescription] = Vector.empty,
     volumes: Vector[LightDescription] = Vector.empty,
     transformTimes: (Float, Float) = (0f, 1f),

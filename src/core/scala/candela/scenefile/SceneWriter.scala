@@ -25,7 +25,7 @@ final class SceneWriter(
   private val lights = Vector.newBuilder[LightDescription]
   private val shapes = Vector.newBuilder[ShapeDescription]
   private val objects = mutable.LinkedHashMap.empty[String, Vector[ShapeDescription]]
-  private val instances = Vector.newBuilder[InstanceDescription]
+  private val instances = InstanceList.newBuilder
   private val coordinateSystems = mutable.HashMap.empty[String, AnimatedTransform]
   private val texturesByName = mutable.HashMap.empty[(String, String), TextureDescription]
   private val media = mutable.LinkedHashMap.empty[String, MediumDescription]

@@ -16,7 +16,11 @@ final class CachedImage(
     val levels: Array[MipLevel],
     val encoding: Encoding,
     val colors: Vector[Rgb]
-)
+):
+  /** Whether the smallest level of several is, so the texels of which it is the mean are. */
+  def isFinite: Boolean =
+    val top = levels.last
+    levels.length == 1 || top.nearest(0f, 0f).isFinite
 
 /** Images that are read in tiles from files of a folder, which are made once. An image whose file
   * can't be written is kept in memory as it is. Safe for threads.

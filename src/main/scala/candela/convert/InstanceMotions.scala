@@ -33,7 +33,7 @@ private[convert] object InstanceMotions:
       objects = scene.objects.map: (name, shapes) =>
         if !moved(name) then name -> shapes
         else name -> shapes.map(s => s.copy(objectToWorld = all(s.objectToWorld, there * _))),
-      instances = scene.instances.map: i =>
+      instances = scene.instances.changed: i =>
         if !moved(i.name) then i
         else i.copy(instanceToWorld = all(i.instanceToWorld, _ * back))
     )

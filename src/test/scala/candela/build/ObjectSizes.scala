@@ -61,7 +61,7 @@ final class ObjectSizes:
       layout.references.foreach(f => meet(f.get(other)))
       layout.bytes
 
-private object ObjectSizes:
+object ObjectSizes:
   final case class Layout(bytes: Long, references: Vector[Field])
 
   def aligned(bytes: Long): Long = (bytes + 7) & ~7L

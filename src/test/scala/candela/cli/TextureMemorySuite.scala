@@ -79,7 +79,7 @@ class TextureMemorySuite extends AnyFunSuite:
         assert(TempFolder.names(cache).nonEmpty)
         val (second, said) = render(scene, tiles ++ Vector("3", "--explain")*)
         assert(first == whole && second == whole, scene)
-        assert(said.contains("in tiles: at most 1 MB in memory"), said)
+        assert(said.contains("in tiles: at most 1.0 MB in memory"), said)
 
   /** A square whose texture is `a.exr`. */
   private def ownLevels(folder: Path, made: TiledExr, use: String = ""): Path =
@@ -104,7 +104,9 @@ class TextureMemorySuite extends AnyFunSuite:
       val tiles = Vector("--texture-memory", "1M", "--texture-cache", s"$cache", "--nthreads")
       val (whole, said) = render(scene, "--texture-memory", "1G")
       assert(!said.contains("warning"), said)
-      for threads <- Seq("1", "3") do assert(render(scene, tiles :+ threads*)._1 == whole)
+      for threads <- Seq("1", "3") do
+        val (image, told) = render(scene, tiles ++ Vector(threads, "--explain")*)
+        assert(image == whole && told.contains("in memory, in their own files"), told)
       assert(!Files.exists(cache))
       val other = ownLevels(folder, TiledExr(512, 512, 64, 64, mode = 0)((_, _, _, _) => 0.5f))
       assert(render(other, "--texture-memory", "1G")._1 != whole)
@@ -134,6 +136,42 @@ class TextureMemorySuite extends AnyFunSuite:
       val (_, said) = render(scene, "--texture-memory", "1G")
       assert(said.contains("are not used: 300×200 texels"), said)
       assert(said.contains("and at 1 more position"), said)
+
+  test("a file that has no colours is told of once"):
+    TempFolder.use: folder =>
+      val names = Vector("P", "Q")
+      val scene = ownLevels(folder, TiledExr(64, 64, 32, 32, names)((_, x, y, _) => x / (1f + y)))
+      val (_, said) = render(scene, "--keep-going")
+      assert(said.contains("E0703") && said.split("warning").length == 2, said)
+
+  test("images are not decoded where a statement can't be read"):
+    TempFolder.use: folder =>
+      val scene = scenes(folder).head
+      Files.write(folder.resolve("a.png"), Array[Byte](1, 2, 3)): Unit
+      Files.writeString(scene, Files.readString(scene) + "\nShape \"sphere\" \"float\" 1"): Unit
+      for memory <- Seq("1M", "1G") do
+        val cache = folder.resolve("cache")
+        val words =
+          Vector(s"$scene", "--texture-memory", memory, "--texture-cache", s"$cache")
+        val (code, captured) = Captured.run(words*)
+        assert(code == 1 && !captured.err.contains("a.png"), captured.err)
+        assert(!Files.exists(cache))
+
+  test("an image with texels that are no numbers is named, in tiles and in memory, and once more"):
+    TempFolder.use: folder =>
+      val scene = scenes(folder).head
+      val image = Image.rgb(300, 200)
+      image.data(50_000) = Float.NaN
+      ImageFiles.write(folder.resolve("b.exr"), image)
+      val tiles = Vector("--texture-memory", "1M", "--texture-cache", s"${folder.resolve("cache")}")
+      for words <- Vector(Vector.empty, tiles, tiles) do
+        val (_, said) = render(scene, words*)
+        assert(said.contains("b.exr: texels are NaN or infinite"), said)
+        assert(!said.contains("a.png"), said)
+      val draws = Draws(1)
+      val own = ownLevels(folder, TiledExr(64, 64, 32, 32)((_, _, _, _) => 1 / 0f * draws.unit()))
+      for words <- Vector(Vector.empty, tiles) do
+        assert(render(own, words*)._2.contains("a.exr: texels are NaN or infinite"))
 
   test("levels in a file keep to the limit of pixels"):
     TempFolder.use: folder =>

@@ -5,6 +5,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import candela.accel.*
 import candela.accel.tracing.Bvh
 import candela.base.Parallel
+import candela.build.ObjectSizes
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.shapes.{Disk, Shape}
@@ -123,14 +124,35 @@ class InstancedSuite extends AnyFunSuite:
     val objects = Array[Accelerator](Bvh(Primitives(mesh.soup, Array.empty)))
     val draws = Draws(5)
     val places = Vector.fill(10000)((0, Still(placement(draws))))
-    val thread =
-      java.lang.management.ManagementFactory.getThreadMXBean match
-        case bean: com.sun.management.ThreadMXBean => bean
-    val before = thread.getCurrentThreadAllocatedBytes
     val instances = Instances.of(objects, places.view)
-    val bytes = thread.getCurrentThreadAllocatedBytes - before
+    val sizes = ObjectSizes()
+    sizes.add(objects): Unit
+    val bytes = sizes.add(Vector(instances))
     assert(bytes < 200L * places.length + 10000, s"$bytes bytes")
     assert(instances.count == places.length)
+
+  test("instances whose matrices are in rows already take less than 10 bytes each"):
+    val mesh = Surfaces(Soups.icosphere(1, Transform.Identity), ShapeTable.Empty)
+    val objects = Array[Accelerator](Bvh(Primitives(mesh.soup, Array.empty)))
+    val draws = Draws(5)
+    val rows = MotionRows()
+    val places = Vector.fill(10000)((0, MotionRow(rows, rows.add(placement(draws)))))
+    val instances = Instances.of(objects, places.view)
+    val sizes = ObjectSizes()
+    sizes.add(rows +: objects): Unit
+    val bytes = sizes.add(Vector(instances))
+    assert(bytes < 10L * places.length + 10000, s"$bytes bytes")
+    // In another order, and written for themselves
+    val picked = Vector.tabulate(300)(i => places(33 * i + 7))
+    val shared = Instances.of(objects, picked.view)
+    val copied = Instances.of(objects, picked.map((o, m) => (o, Still(m.transform(0f)))).view)
+    val mixed = Instances.of(objects, picked.updated(9, (0, Still(Transform.Identity))).view)
+    for i <- picked.indices do
+      assert(shared.bounds(i) == instances.bounds(33 * i + 7))
+      assert(i == 9 || mixed.bounds(i) == shared.bounds(i))
+      // The inverse of `copied` is not that of the row to the last bit
+      assert((shared.bounds(i).min - copied.bounds(i).min).length < 1e-4f)
+    assert((mixed.bounds(9).min - objects(0).bounds.min).length < 1e-5f)
 
   test("instances are the same, however their places are divided; moving ones are last"):
     val objects = Array[Accelerator](

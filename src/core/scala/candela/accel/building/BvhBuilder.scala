@@ -34,12 +34,26 @@ private[accel] object BvhBuilder:
   def of(primitives: Primitives, size: LeafSize, parallel: Parallel): BinaryTree =
     ofRecords(BoxRecord.all(primitives, parallel), size, parallel)
 
-  /** Builds the tree and sorts `records`. */
+  /** Builds the tree of records, which are garbage before its parts are joined. */
   private[building] def ofRecords(
-      records: Array[Int],
+      records: => Array[Int],
       size: LeafSize,
       parallel: Parallel
   ): BinaryTree =
+    val pieces = split(records, size, parallel)
+    val whole = Subtree.join(pieces.top, pieces.parts, parallel)
+    BinaryTree(pieces.order, whole.nodes, whole.root, whole.leafSize, pieces.bounds)
+
+  /** The parts of a tree. */
+  private final class Pieces(
+      val order: Array[Int],
+      val top: Subtree,
+      val parts: Array[Subtree],
+      val bounds: Bounds3
+  )
+
+  /** Builds the parts and sorts `records`. */
+  private def split(records: Array[Int], size: LeafSize, parallel: Parallel): Pieces =
     val count = records.length / BoxRecord.Ints
     val levels = Levels()
     levels.open(0)
@@ -65,8 +79,7 @@ private[accel] object BvhBuilder:
       while i < until do
         order(i) = records(i * BoxRecord.Ints + BoxRecord.Number)
         i += 1
-    val whole = Subtree.join(Subtree(topRoot, topSize, top.trimmedNodes), parts, parallel)
-    BinaryTree(order, whole.nodes, whole.root, whole.leafSize, bounds)
+    Pieces(order, Subtree(topRoot, topSize, top.trimmedNodes), parts, bounds)
 
   private def union(records: Array[Int], parallel: Parallel, to: Array[Int]): Unit =
     BoxRecord.clear(to, 0)

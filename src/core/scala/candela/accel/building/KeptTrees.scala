@@ -46,7 +46,7 @@ private[accel] final class KeptTrees(
   private def key(parts: TreeParts, chosen: Int => Boolean): String =
     s"$width $lanes $maxLeaf ${parts.form} ${parts.digest(chosen)}"
 
-  private def built(primitives: Primitives, records: Array[Int]): WideLayout =
+  private def built(primitives: Primitives, records: => Array[Int]): WideLayout =
     WideBuilder.layout(primitives, records, width, lanes, maxLeaf, parallel)
 
   private def some(primitives: Primitives, parts: TreeParts, chosen: Int => Boolean) =

@@ -2,6 +2,7 @@ package candela.accel.building
 
 import candela.accel.{BinaryTree, Primitives, Relocation, WideLayout, WideTree}
 import candela.base.{loop, FloatBuffer, IntBuffer, Parallel}
+import candela.geometry.Bounds3
 import candela.shapes.TriangleSoup
 
 /** Collapses the binary BVH of [[BvhBuilder]] into the nodes and leaves of a [[WideTree]],
@@ -81,32 +82,62 @@ private[accel] object WideBuilder:
       maxLeaf: Int,
       parallel: Parallel
   ): WideTree =
-    val records = BoxRecord.all(primitives, parallel)
+    def records = BoxRecord.all(primitives, parallel)
     layout(primitives, records, width, lanes, maxLeaf, parallel).of(primitives, parallel)
 
   /** The layout of some of the primitives.
     *
-    * @param records of these, which are sorted
+    * @param records of these, which are made when they are needed, and sorted
     */
   def layout(
       primitives: Primitives,
-      records: Array[Int],
+      records: => Array[Int],
       width: Int,
       lanes: Int,
       maxLeaf: Int,
       parallel: Parallel
   ): WideLayout =
-    val size = LeafSize(maxLeaf, lanes, primitives.isSolidTriangle)
-    val built = BvhBuilder.ofRecords(records, size, parallel)
-    val wide = WideBuilder(width, lanes, built, primitives.isSolidTriangle, parallel)
+    val found = collapsed(primitives, records, width, lanes, maxLeaf, parallel)
     WideLayout(
       width,
       lanes,
+      found.count,
+      found.bounds,
+      found.nodes,
+      found.rootCode,
+      blocks(primitives.soup, found.owners, lanes, parallel),
+      found.others
+    )
+
+  /** What is left of a binary tree and its [[WideBuilder]]: the rest, twice as much, is garbage
+    * before blocks are made.
+    */
+  private final class Collapsed(
+      val count: Int,
+      val bounds: Bounds3,
+      val nodes: Array[Float],
+      val rootCode: Int,
+      val owners: Array[Int],
+      val others: Array[Int]
+  )
+
+  private def collapsed(
+      primitives: Primitives,
+      records: => Array[Int],
+      width: Int,
+      lanes: Int,
+      maxLeaf: Int,
+      parallel: Parallel
+  ): Collapsed =
+    val size = LeafSize(maxLeaf, lanes, primitives.isSolidTriangle)
+    val built = BvhBuilder.ofRecords(records, size, parallel)
+    val wide = WideBuilder(width, lanes, built, primitives.isSolidTriangle, parallel)
+    Collapsed(
       built.order.length,
       built.bounds,
       wide.nodes,
       wide.rootCode,
-      blocks(primitives.soup, wide.owners, lanes, parallel),
+      wide.owners,
       wide.others
     )
 

@@ -53,7 +53,7 @@ object GoniometricLightRecipe
     if site.dialect == Dialect.V4 then
       if filename().isEmpty then
         site.error(Code.MissingParameter, "a goniometric light needs `filename`")
-      LightImages.read("filename").filter(LightImages.isSquare) match
+      LightImages.read("filename").filter(i => LightImages.isSquare(i.width, i.height)) match
         case None => LightPlan.nothing
         case Some(image) =>
           val gray = grays(LightImages.gray(image))

@@ -1,6 +1,6 @@
 package candela.build.lights
 
-import candela.base.Code
+import candela.base.{loop, Code}
 
 import candela.build.recipe.*
 import candela.color.Rgb
@@ -45,39 +45,49 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
         "`L` and `filename` of an infinite light are mutually exclusive"
       )
     if given_.nonEmpty then
-      LightImages.read(named).filter(i => !octahedral || LightImages.isSquare(i)) match
+      val found = LightImages.environment(named)
+      found.filter(i => !octahedral || LightImages.isSquare(i.width, i.height)) match
         case None => LightPlan.nothing
         case Some(read) =>
           val isPolar = !octahedral && site.rules.flatMaps
-          val image = if isPolar then LightImages.withEquator(read) else read
+          val image = if isPolar then read.withEquator else read
           val unit = if octahedral then Spectra.white else radiance()
-          val perUnit =
+          def perUnit =
             if octahedral then irradiances(onThePlane(image))
             else 1f
           val l = scaled(unit, illuminance(), perUnit)
-          val layout =
-            if octahedral then EqualAreaMap
-            else if isPolar then PolarLatLongMap(image.height)
-            else LatLongMap
-          around(l, SphereImage(image, layout, l, smooth = !octahedral, LightImages.conversion))
+          val (layout, name) =
+            if octahedral then (EqualAreaMap, "octahedral")
+            else if isPolar then (PolarLatLongMap(image.height), "polar")
+            else (LatLongMap, "even")
+          val sphere = image.on(layout, l, smooth = !octahedral)
+          val basis = site.resources.basis
+          val colors =
+            if basis.isSpectral then "as stored" else s"${basis.isSrgb} ${l.r} ${l.g} ${l.b}"
+          around(l, sphere): complete =>
+            image.distribution(sphere, s"$name $colors", complete)
     else
       val l = scaled(radiance(), illuminance(), Pi)
       if portal().nonEmpty then
         val one = Image(1, 1, Image.RgbNames, Array(1f, 1f, 1f))
-        around(l, SphereImage(one, EqualAreaMap, l, smooth = false))
+        val sphere = SphereImage(one, EqualAreaMap, l, smooth = false)
+        around(l, sphere)(ImageEnvironment.distribution(sphere, _))
       else if !shines(l) then LightPlan.leftOut(LightPlan.Black)
       else LightPlan((_, complete) => Some(ConstantEnvironment(l, complete)), sampleCount())
 
-  private def around(l: Rgb, image: SphereImage)(using site: Site): LightPlan =
+  /** @param table its sampling table; see [[ImageEnvironment.distribution]] */
+  private def around(l: Rgb, image: SphereImage)(table: Boolean => Distribution2D)(using
+      site: Site
+  ): LightPlan =
     val resources = site.resources
-    val isLit = resources.basis.isSpectral || image.meanOfMax > 0f
+    val isLit = resources.basis.isSpectral || image.isLit
     if !shines(l) || !isLit then LightPlan.leftOut(LightPlan.Black)
     else
       val p = corners()
       if p.isEmpty then
         def light(toWorld: Transform, complete: Boolean) =
           val kept = if complete then all else compensated
-          val distribution = kept(ImageEnvironment.distribution(image, complete))
+          val distribution = kept(table(complete))
           Some(new ImageEnvironment(LightFrame(toWorld), image, distribution))
         LightPlan(light, sampleCount())
       else
@@ -130,16 +140,17 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     * value, because it gives each pixel 2π over their count instead of 4π. For EXR files, whose
     * channel order is B, G, R, pbrt-v4 also swaps red and blue.
     */
-  private def onThePlane(image: Image)(using site: Site): Float =
+  private def onThePlane(image: EnvironmentImage)(using site: Site): Float =
     var sum = 0.0
     val size = image.width
+    val basis = site.resources.basis
     val isSwapped = filename().toLowerCase.endsWith(".exr")
-    for y <- 0 until size; x <- 0 until size do
-      val d = EqualAreaMap.toDirection((x + 0.5f) / size, (y + 0.5f) / size)
-      if d.z > 0f then
-        val i = 3 * (y * size + x)
-        val c = Rgb(image.data(i), image.data(i + 1), image.data(i + 2))
-        val srgb = site.resources.basis.toSrgb(c)
-        val weighed = if isSwapped then Rgb(srgb.b, srgb.g, srgb.r) else srgb
-        sum += weighed.luminance * d.z
+    val luminances = image.on(EqualAreaMap, Rgb.White, smooth = false).ofPixels: (r, g, b) =>
+      val srgb = basis.toSrgb(Rgb(r, g, b))
+      val weighed = if isSwapped then Rgb(srgb.b, srgb.g, srgb.r) else srgb
+      weighed.luminance
+    loop(size): y =>
+      loop(size): x =>
+        val d = EqualAreaMap.toDirection((x + 0.5f) / size, (y + 0.5f) / size)
+        if d.z > 0f then sum += luminances(y * size + x) * d.z
     (sum * 2 * Math.PI / (size.toDouble * size)).toFloat

@@ -3,10 +3,11 @@ package candela.build.lights
 import candela.base.Code
 
 import candela.build.recipe.*
-import candela.color.{ColorBasis, Rgb}
-import candela.image.{Image, ImageError}
+import candela.color.{ColorBasis, Encoding, Rgb}
+import candela.image.{Image, ImageBands, ImageError}
 import candela.lights.{IesError, IesFile}
 import candela.scenefile.Dialect
+import candela.textures.{FloatTexels, MadeTexels, TexelBands, TileCache, Wrap}
 
 /** Loads the images of lights. */
 private[build] object LightImages:
@@ -25,6 +26,40 @@ private[build] object LightImages:
     val basis = site.resources.basis
     if basis.isSpectral then images(loaded(name))
     else loaded(name)
+
+  /** The image of an environment that the string parameter `name` names, as [[read]]; in tiles, if
+    * images of lights are kept so.
+    */
+  def environment(name: String)(using site: Site): Option[EnvironmentImage] =
+    def inMemory = read(name).map(EnvironmentImage.InMemory(_, contents(name)))
+    site.resources.textures.lightTiles match
+      case Some(tiles) if !isFromBelow(name) => tiled(tiles, name).orElse(inMemory)
+      case _ => inMemory
+
+  /** What tells the image from others, if it is kept for other scenes. */
+  private def contents(name: String)(using site: Site): Option[String] =
+    for
+      p <- site.declaration.param(name)
+      content <- site.resources.keyOf(p, site.declaration)
+    yield s"$content ${site.rules.decodesLights} ${isFromBelow(name)}"
+
+  /** None with a problem, and of images that have too few rows. */
+  private def tiled(tiles: TileCache, name: String)(using site: Site): Option[EnvironmentImage] =
+    val ways = s"pixels of lights ${site.rules.decodesLights}"
+    def texels(bands: ImageBands) = TexelBands(bands, 3, Array.emptyFloatArray): band =>
+      usable(band.toImage) match
+        case Right(rgb) => FloatTexels(rgb.width, rgb.height, 3, rgb.data)
+        case Left(e) => throw e
+    for
+      p <- site.declaration.param(name)
+      image <- site.resources.tiled(tiles, p, site, StandIns.Magentas, ways, Wrap.Clamp): bands =>
+        val choice = ColorCensus.choiceOf(bands.width.toLong * bands.height)
+        MadeTexels(texels(bands), None, Encoding.Linear, Some(choice))
+      if image.levels.head.height > FewRows
+      key <- site.resources.keyInTiles(p, site.declaration, ways)
+    yield
+      site.resources.counting.foreach(_.addColors(image.colors, SpectrumRole.Emission))
+      EnvironmentImage.InTiles(image.levels.head, rebasing(site.resources.basis), key)
 
   /** Returns the lamp of the photometric file that the string parameter `name` names, as an
     * equirectangular image. Reports files that can't be used.
@@ -49,40 +84,42 @@ private[build] object LightImages:
     for
       p <- site.declaration.param(name)
       stored = site.resources.image(p, site.declaration, site.problems).getOrElse(StandIns.picture)
-      image <- usable(stored.toImage, m => site.problems.error(Code.ImageContents, p.valuesAt, m))
     yield
-      val isFromBelow = site.dialect == Dialect.V2 && isTga(p.strings.headOption.getOrElse(""))
+      val image = usable(stored.toImage) match
+        case Right(image) => image
+        case Left(e) =>
+          site.problems.missing(e.code, p.valuesAt, e.getMessage, StandIns.Magentas)
+          StandIns.picture.toImage.toRgb
       site.resources.counting.foreach:
         _.addImage(image.data.length / 3, SpectrumRole.Emission): i =>
           Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2))
-      rebased(if isFromBelow then image.upsideDown else image, site.resources.basis)
+      val upright = if isFromBelow(name) then image.upsideDown else image
+      rebasing(site.resources.basis).fold(upright)(change => upright.mapped(change(_)))
 
-  private def isTga(file: String): Boolean = file.toLowerCase.endsWith(".tga")
+  private def isFromBelow(name: String)(using site: Site): Boolean =
+    def isTga = site.declaration.param(name).exists: p =>
+      p.strings.headOption.exists(_.toLowerCase.endsWith(".tga"))
+    site.dialect == Dialect.V2 && isTga
 
   /** Rows at the poles alone have no area: those between are added. */
   def withEquator(image: Image): Image =
-    if image.height > 2 then image
+    if image.height > FewRows then image
     else
       val row = 3 * image.width
       val (top, bottom) = (image.data.take(row), image.data.takeRight(row))
       val middle = top.lazyZip(bottom).map((a, b) => 0.5f * (a + b))
       Image(image.width, 3, image.channelNames, top ++ middle ++ bottom)
 
-  private def usable(image: Image, fail: String => Unit)(using site: Site): Option[Image] =
+  private def usable(image: Image)(using site: Site): Either[ImageError, Image] =
     val linear =
       if site.rules.decodesLights then image.linear
       else Image(image.width, image.height, image.channelNames, image.data)
     try
       val rgb = linear.toRgb
       // Sums of brighter pixels overflow
-      if areUsable(rgb.data) then Some(rgb)
-      else
-        fail("the image of a light has pixels that are NaN, infinite, or above 1e30")
-        None
-    catch
-      case e: ImageError =>
-        fail(e.getMessage)
-        None
+      def why = "the image of a light has pixels that are NaN, infinite, or above 1e30"
+      Either.cond(areUsable(rgb.data), rgb, ImageError(Code.ImageContents, why))
+    catch case e: ImageError => Left(e)
 
   private def areUsable(values: Array[Float]): Boolean =
     var i = 0
@@ -90,12 +127,12 @@ private[build] object LightImages:
     i == values.length
 
   /** Checks that an equal-area map is square. Reports an error otherwise. */
-  def isSquare(image: Image)(using site: Site): Boolean =
-    val isSquare = image.width == image.height
+  def isSquare(width: Int, height: Int)(using site: Site): Boolean =
+    val isSquare = width == height
     if !isSquare then
       site.error(
         Code.ImageContents,
-        s"an equal-area map must be square, found ${image.width}×${image.height} pixels",
+        s"an equal-area map must be square, found $width×$height pixels",
         Some("`candela image IN OUT --environment equalarea` converts an equirectangular image")
       )
     isSquare
@@ -106,8 +143,9 @@ private[build] object LightImages:
     val isAsInFile = basis.isSrgb || basis.isSpectral
     image.mapped(c => Rgb.gray((if isAsInFile then c else basis.toSrgb(c)).average))
 
-  private def rebased(image: Image, basis: ColorBasis): Image =
-    if basis.isSrgb || basis.isSpectral then image else image.mapped(basis.fromSrgb)
+  /** Makes the components of a basis, if they are not those of the image. */
+  private def rebasing(basis: ColorBasis): Option[Rgb => Rgb] =
+    Option.when(!basis.isSrgb && !basis.isSpectral)(basis.fromSrgb(_))
 
   /** Conversion of the colours that lookups return, if it can't be done once for the image. */
   def conversion(using site: Site): Option[Rgb => Rgb] =
@@ -115,3 +153,6 @@ private[build] object LightImages:
     Option.when(basis.isSpectral)(basis.lookUpLight)
 
   private val Brightest = 1e30f
+
+  /** Of which none is between the poles. */
+  private val FewRows = 2

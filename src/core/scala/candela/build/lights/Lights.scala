@@ -52,7 +52,7 @@ abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect]
   protected def scaled(c: Rgb)(using Site): Rgb = c * colored() * scale()
 
   /** As `scaled`, with v4's total power: `perUnit` is the power at an emission of 1. */
-  protected def scaled(c: Rgb, total: Float, perUnit: Float)(using Site): Rgb =
+  protected def scaled(c: Rgb, total: Float, perUnit: => Float)(using Site): Rgb =
     scaled(c) * (if total > 0f then total / perUnit else 1f)
 
   /** At three wavelengths, a light may be black. */

@@ -32,12 +32,13 @@ final class Resources private (
       switches: Switches = Switches(),
       allowance: Allowance = Allowance(),
       textures: TextureStore = TextureStore.InMemory,
-      keep: Keep = Keep.Nothing
+      keep: Keep = Keep.Nothing,
+      isReadable: Boolean = true
   ) = this(
     basis,
     pool,
     seed,
-    SharedResources(basis, mayBeSpectral, switches, allowance, textures, keep),
+    SharedResources(basis, mayBeSpectral, switches, allowance, textures, keep, isReadable),
     basis,
     NamedMaterials.Statements()
   )

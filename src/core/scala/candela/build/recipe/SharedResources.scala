@@ -5,6 +5,7 @@ import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
 
 import scala.collection.mutable
+import scala.jdk.CollectionConverters.*
 
 import candela.accel.tracing.WarmUps
 import candela.base.{
@@ -26,6 +27,7 @@ import candela.textures.{CachedImage, FileLevels, MadeTexels, MipLevel, Texels, 
   * @param allowance     how much the scene may use
   * @param textures      how image textures are kept
   * @param keep          has what other scenes have made
+  * @param isReadable    whether all statements could be read
   */
 final class SharedResources(
     basis: ColorBasis,
@@ -33,7 +35,8 @@ final class SharedResources(
     val switches: Switches,
     val allowance: Allowance,
     val textures: TextureStore,
-    val keep: Keep = Keep.Nothing
+    val keep: Keep = Keep.Nothing,
+    isReadable: Boolean = true
 ):
   /** The spectra read so far. */
   val census = ColorCensus(basis)
@@ -81,6 +84,20 @@ final class SharedResources(
   private val opened = ConcurrentHashMap[Path, Option[Either[String, ExrLevels]]]()
   private val inFiles = ConcurrentHashMap[(Path, String), Option[CachedImage]]()
 
+  private val finite = ConcurrentHashMap[Path, Boolean]()
+
+  /** Warns of the image of a texture that a parameter names, if texels are no numbers. */
+  def checkTexels(p: Param, site: Site)(isFinite: => Boolean): Unit =
+    for file <- Option(files.get((site.declaration.folder, p.strings.headOption.getOrElse("")))) do
+      if !finite.computeIfAbsent(file.path, _ => isFinite) then
+        val what = s"$file: texels are NaN or infinite; samples that see them are discarded"
+        site.problems.warn(Code.ImageContents, p.valuesAt, what)
+
+  /** How images of textures are kept, if there are any. */
+  def imagesInWords: Option[String] =
+    val prepared = inFiles.entrySet.asScala.filter(_.getValue.nonEmpty).map(_.getKey._1)
+    textures.describe(prepared.size)
+
   private val contents = ConcurrentHashMap[Path, String]()
   private val images = mutable.Map.empty[Path, Either[ImageError, StoredImage]]
   private val made = java.util.IdentityHashMap[Declaration, mutable.Map[Once[?], Any]]()
@@ -108,6 +125,10 @@ final class SharedResources(
           val (message, help) = from.folder.absence(name, Some(at), s"no file `$name`")
           problems.missing(Code.NoSuchFile, at, message, standIn, help)
       found
+
+  /** The file of an image, unless the scene can't be rendered anyway: images take seconds. */
+  private def toRead(p: Param, from: Declaration, problems: Findings, standIn: String) =
+    file(p, from, problems, standIn).filter(_ => isReadable)
 
   private def load(file: InputFile, at: SourcePos): Either[ImageError, StoredImage] = synchronized:
     images.getOrElseUpdate(
@@ -141,7 +162,7 @@ final class SharedResources(
       problems: Findings,
       standIn: String = StandIns.Magentas
   ): Option[StoredImage] =
-    file(p, from, problems, standIn).flatMap: file =>
+    toRead(p, from, problems, standIn).flatMap: file =>
       val image = loaded.computeIfAbsent(file.path, _ => load(file, p.valuesAt))
       told(image, file, p, problems, standIn)
 
@@ -158,7 +179,7 @@ final class SharedResources(
       ways: String,
       wrap: Wrap
   )(convert: ImageBands => MadeTexels): Option[CachedImage] =
-    file(p, site.declaration, site.problems, standIn).flatMap: file =>
+    toRead(p, site.declaration, site.problems, standIn).flatMap: file =>
       var isAgain = false
       def make(bands: => ImageBands) =
         if isAgain && !textures.isSame(file) then
@@ -188,26 +209,33 @@ final class SharedResources(
       textures.warn(site.problems)
       told(image, file, p, site.problems, standIn)
 
+  /** The key of an image in tiles. */
+  def keyInTiles(p: Param, from: Declaration, ways: String): Option[String] =
+    val name = p.strings.headOption.getOrElse("")
+    Option(files.get((from.folder, name))).map(file => s"${textures.digest(file)} $ways")
+
   /** The image that a parameter names with the levels that its file has, if these can be used.
     *
     * @param ways   what its texels depend on, beside the file
-    * @param accept tells the channels of colours, or why the levels can't be used
+    * @param accept tells the channels of colours, or why the levels can't be used; None: the image
+    *   can't be used either, which reading it as a whole tells
     * @param colors of a small level, which stand for all
     */
   def prepared(p: Param, site: Site, standIn: String, ways: String, wrap: Wrap)(
-      accept: ExrLevels => Either[String, Vector[Int]]
+      accept: ExrLevels => Either[Option[String], Vector[Int]]
   )(colors: Texels => Vector[Rgb]): Option[CachedImage] =
-    file(p, site.declaration, site.problems, standIn).flatMap: file =>
+    toRead(p, site.declaration, site.problems, standIn).flatMap: file =>
       opened.computeIfAbsent(file.path, _ => ExrLevels.of(file)).flatMap: found =>
         // Each use has a warning of its own
-        found.flatMap(levels => accept(levels).map(levels -> _)) match
+        found.left.map(Some(_)).flatMap(levels => accept(levels).map(levels -> _)) match
           case Right((levels, channels)) =>
             admit(file, p.valuesAt)(levels.width, levels.height)
             def image = inLevels(file, FileLevels(levels, channels), ways, wrap, colors)
             inFiles.computeIfAbsent((file.path, ways), _ => image)
-          case Left(why) =>
-            val what = s"$file: the levels in the file are not used: $why"
-            site.problems.warn(Code.ImageContents, p.valuesAt, what)
+          case Left(known) =>
+            for why <- known do
+              val what = s"$file: the levels in the file are not used: $why"
+              site.problems.warn(Code.ImageContents, p.valuesAt, what)
             None
 
   /** None if the file is damaged: reading it as a whole tells. */

@@ -4,9 +4,12 @@ import java.io.IOException
 import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
 
-import candela.base.{CacheFolder, Code, InputFile, Keep, Parallel, Refusal, Sha256, Version}
+import candela.base.{
+  ByteCount, CacheFolder, Code, InputFile, Keep, Parallel, PartFiles, PartForm, Refusal, Sha256,
+  Version
+}
 import candela.image.ImageSize
-import candela.scenefile.SceneDescription
+import candela.scenefile.{Declaration, SceneDescription}
 import candela.textures.{TileCache, TileMemory}
 
 /** How image textures are kept; the image is the same.
@@ -25,20 +28,38 @@ final case class TextureControl(
   /** The folder of files, if there is one. */
   def cache: Option[Path] = folder.orElse(if isShared then CacheFolder.usual() else None)
 
-/** Keeps the image textures of a scene: in memory, or in tiles if they may not fit.
+/** Keeps the images of a scene: in memory, or in tiles if they may not fit.
   *
-  * @param tiles    none: in memory
-  * @param bytes    that the images take in memory, estimated
-  * @param describe for people, if there are any
+  * @param tiles      of textures; none: in memory
+  * @param lightTiles of environment maps; none: in memory
+  * @param images     in words; empty if there are none
+  * @param folder     of files of tiles
+  * @param bytes      that the images take in memory, estimated
+  * @param tables     files of what is made of images in tiles
   */
 final class TextureStore private (
     val tiles: Option[TileCache],
-    val describe: Option[String],
+    val lightTiles: Option[TileCache],
+    images: String,
+    folder: Option[Path],
     val bytes: Long,
     files: Vector[InputFile],
     pool: Parallel,
-    keep: Keep
+    keep: Keep,
+    tables: Option[PartFiles]
 ):
+  /** For people, if there are images.
+    *
+    * @param prepared images whose files have levels that are used as they are
+    */
+  def describe(prepared: Int): Option[String] =
+    val whose =
+      if prepared == 0 then "all in"
+      else if prepared < files.size then s"$prepared of them in their own files, the others in"
+      else "in their own files"
+    val where = folder.map(f => if prepared < files.size then s", $whose $f" else s", $whose")
+    Option.when(images.nonEmpty)(images + where.getOrElse(""))
+
   private val digests = ConcurrentHashMap[Path, String]()
 
   private lazy val digested: Unit = pool.each(files.size): i =>
@@ -66,6 +87,17 @@ final class TextureStore private (
     try TextureStore.versioned(TextureStore.digest(file)) == digest(file)
     catch case _: IOException => false
 
+  /** What is made of an image in tiles, of which there is a file, too.
+    *
+    * @param key tells all that it is made from
+    */
+  def table[A](form: PartForm[A], key: String)(make: => A): A =
+    def written(files: PartFiles) =
+      val made = make
+      files.write(form, key, made)
+      made
+    tables.fold(make)(files => files.read(form, key).getOrElse(written(files)))
+
   /** Says, once, that files of tiles can't be written. */
   def warn(problems: Findings): Unit =
     for why <- tiles.flatMap(_.trouble) do
@@ -77,11 +109,16 @@ final class TextureStore private (
 
 object TextureStore:
   val InMemory: TextureStore =
-    new TextureStore(None, None, 0, Vector.empty, Parallel.Alone, Keep.Nothing)
+    new TextureStore(None, None, "", None, 0, Vector.empty, Parallel.Alone, Keep.Nothing, None)
 
   /** In memory up to this share of the heap, and this size. */
   private val ShareOfHeap = 8
   private val MostInMemory = 1_000_000_000L
+
+  private val Environments = Set("infinite", "exinfinite")
+
+  /** Bytes of a pixel of an environment map: as it is read, and in the colours of the scene. */
+  private val Pixel = 24L
 
   def of(
       scene: SceneDescription,
@@ -89,38 +126,48 @@ object TextureStore:
       pool: Parallel,
       keep: Keep = Keep.Nothing
   ): TextureStore =
-    val files = filesOf(scene)
+    val textures = filesOf(scene.textures.map(_.texture).filter(_.name == "imagemap"))
+    // Environment maps are looked up at random: in tiles where that is asked for
+    val maps = if control.memory.isEmpty then Vector.empty else filesOf(environments(scene))
+    val files = (textures ++ maps).distinctBy(_.path)
     if files.isEmpty then InMemory
     else
-      val size = files.map(f => ImageSize.guess(f).fold(0L)(_.asTexture)).sum
+      val size =
+        sizeOf(textures)(_.asTexture) + sizeOf(maps)(s => s.width.toLong * s.height * Pixel)
       val usual = Math.min(Runtime.getRuntime.maxMemory / ShareOfHeap, MostInMemory)
       val most = control.memory.getOrElse(usual)
-      val folder = control.cache
       val images = if files.size == 1 then "1 image" else s"${files.size} images"
-      if size <= most then
-        val say = s"$images in memory, about ${megabytes(size)} of ${megabytes(most)}"
-        new TextureStore(None, Some(say), size, files, pool, keep)
+      val about = s"about ${ByteCount.show(size)}"
+      def inMemory(why: String) =
+        val bytes = sizeOf(textures)(_.asTexture)
+        val say = s"$images in memory, $about$why"
+        new TextureStore(None, None, say, None, bytes, files, pool, keep, None)
+      if size <= most then inMemory(s" of ${ByteCount.show(most)}")
       else
-        folder match
-          case None =>
-            val say = s"$images in memory, about ${megabytes(size)}: there is no folder for tiles"
-            new TextureStore(None, Some(say), size, files, pool, keep)
+        control.cache match
+          case None => inMemory(": there is no folder for tiles")
           case Some(path) =>
-            val memory = new TileMemory(most)
-            val cache = new TileCache(memory, CacheFolder(path, control.folderSize), pool)
-            val say = s"$images, about ${megabytes(size)}, in tiles: at most ${megabytes(most)} " +
-              s"in memory, all in $path"
-            new TextureStore(Some(cache), Some(say), most, files, pool, keep)
+            val folder = CacheFolder(path, control.folderSize)
+            val cache = Some(new TileCache(new TileMemory(most), folder, pool))
+            val say = s"$images, $about, in tiles: at most ${ByteCount.show(most)} in memory"
+            val lights = if maps.isEmpty then None else cache
+            val tables = lights.map(_ => PartFiles(folder))
+            new TextureStore(cache, lights, say, Some(path), most, files, pool, keep, tables)
 
-  private def megabytes(bytes: Long): String = s"${(bytes + 500_000) / 1_000_000} MB"
+  private def sizeOf(files: Vector[InputFile])(bytes: ImageSize => Long): Long =
+    files.map(f => ImageSize.guess(f).fold(0L)(bytes)).sum
 
-  private def filesOf(scene: SceneDescription): Vector[InputFile] =
+  private def environments(scene: SceneDescription): Vector[Declaration] =
+    scene.lights.map(_.light).filter(l => Environments(l.name))
+
+  /** The images that statements name. */
+  private def filesOf(statements: Vector[Declaration]): Vector[InputFile] =
     val names =
       for
-        t <- scene.textures.map(_.texture) if t.name == "imagemap"
-        p <- t.param("filename")
-        name <- p.strings.headOption
-      yield (t.folder, name) -> p.valuesAt
+        d <- statements
+        p <- Vector("filename", "mapname").flatMap(d.param(_))
+        name <- p.strings.headOption if name.nonEmpty
+      yield (d.folder, name) -> p.valuesAt
     names.distinctBy(_._1).flatMap:
       case ((folder, name), at) => Refusal.placed(at)(folder.glance(name))
 

@@ -4,7 +4,7 @@ import candela.base.Code
 
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
-import candela.image.{ExrLevels, ImageBands, StoredImage}
+import candela.image.{ExrLevels, Image, ImageBands, StoredImage}
 import candela.math.*
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.*
@@ -73,20 +73,24 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
       else
         site.resources.prepared(p, site, standIn, s"$ways in the file", wrapping)(usable): texels =>
           colors(TexelBands.of(texels)).fold(Vector.empty)(_.of(texels))
-    for found <- image do note(found.colors)
+    for found <- image do
+      note(found.colors)
+      site.resources.checkTexels(p, site)(found.isFinite)
     image
 
   /** The channels of the colours of levels in a file, if textures may use these as they are. */
-  private def usable(levels: ExrLevels)(using site: Site): Either[String, Vector[Int]] =
+  private def usable(levels: ExrLevels)(using site: Site): Either[Option[String], Vector[Int]] =
     val decode = decoding(Encoding.Linear)
     val names = levels.channelNames
     if !ImageMapRecipe.Probes.forall(x => decode(x) == x) then
-      Left("the texture changes texels, which is done before they are reduced")
+      Left(Some("the texture changes texels, which is done before they are reduced"))
     else if site.dialect == Dialect.V4 && !levels.colorSpace.isSrgb then
-      Left("their primaries are not those of sRGB")
+      Left(Some("their primaries are not those of sRGB"))
     else
-      StoredImage.colors(names).filter(isPicked).toRight:
-        s"the texture is not made of the channels ${names.mkString(", ")} as they are"
+      StoredImage.colors(names).toRight(None).filterOrElse(
+        isPicked,
+        Some(s"the texture is not made of the channels ${names.mkString(", ")} as they are")
+      )
 
   /** Whether texels are these channels as they are. */
   protected def isPicked(channels: Vector[Int]): Boolean
@@ -102,19 +106,24 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
         for image <- made yield
           val _ = decoding(image.encoding) // reports what is wrong
           note(image.colors)
+          site.resources.checkTexels(p, site)(image.isFinite)
           pyramid(filtered(MipMap.of(image.levels)))
       case None =>
-        for stored <- site.resources.image(p, site.declaration, site.problems, standIn)
-        yield pyramid:
-          val texels = whenSeen(stored, decoding(stored.encoding))
-          filtered:
-            if isPlain then MipMap.plain(wrapping)(texels)
-            else
-              val (width, height) = (stored.width, stored.height)
-              val limit = most(ImageBands.of(stored).isBytes)
-              val (pool, keep) = (site.resources.pool, site.resources.keep)
-              val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
-              MipMap.ofImage(width, height, wrapping, limit, pool, keep, key)(texels)
+        for stored <- site.resources.image(p, site.declaration, site.problems, standIn) yield
+          site.resources.checkTexels(p, site):
+            stored match
+              case image: Image => image.isFinite
+              case _ => true
+          pyramid:
+            val texels = whenSeen(stored, decoding(stored.encoding))
+            filtered:
+              if isPlain then MipMap.plain(wrapping)(texels)
+              else
+                val (width, height) = (stored.width, stored.height)
+                val limit = most(ImageBands.of(stored).isBytes)
+                val (pool, keep) = (site.resources.pool, site.resources.keep)
+                val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
+                MipMap.ofImage(width, height, wrapping, limit, pool, keep, key)(texels)
 
   /** What the texels of an image file depend on. */
   private def ways(using site: Site): String =

@@ -23,6 +23,7 @@ private[cli] object CostRows:
     all.told.map(c => CostFigure(c.kind.word, c.bytes, c.seconds, text(c)))
 
   private def text(cost: Cost): String =
-    val bytes = Option.when(cost.bytes > 0)(ByteCount.show(cost.bytes))
+    val most = if cost.isMost then "at most " else ""
+    val bytes = Option.when(cost.bytes > 0)(most + ByteCount.show(cost.bytes))
     val seconds = Option.when(cost.seconds >= Costs.Least)(Figures.duration(cost.seconds))
     (bytes ++ seconds).mkString(", ")

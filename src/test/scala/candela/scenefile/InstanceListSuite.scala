@@ -1,0 +1,91 @@
+package candela.scenefile
+
+import candela.base.SourcePos
+import candela.build.ObjectSizes
+import candela.math.{Still, Transform}
+import candela.testing.Draws
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class InstanceListSuite extends AnyFunSuite:
+  private val draws = Draws(3)
+
+  private def placement: Transform =
+    draws.translation(30) * draws.rotation() * draws.stretch()
+
+  private val main = SourcePos("main.pbrt", 7, 3)
+  private def still(name: String, line: Int) =
+    InstanceDescription(
+      name,
+      SourcePos("a.pbrt", line, 2, Some(main)),
+      GraphicsState.still(placement)
+    )
+
+  private val moving = InstanceDescription("b", main, AnimatedTransform(placement, placement))
+  private val flat =
+    InstanceDescription("b", main, GraphicsState.still(Transform.flat(Vector.fill(16)(0.5))))
+  private val view = InstanceDescription(
+    "c",
+    main,
+    GraphicsState.still(
+      Transform.fromRows(Vector[Double](1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1, 1)).get
+    )
+  )
+
+  private def listed(all: Seq[InstanceDescription]): InstanceList =
+    (InstanceList.newBuilder ++= all).result()
+
+  private def bits(t: Transform) =
+    (t.m ++ t.inverseM).map(java.lang.Double.doubleToRawLongBits).toVector
+
+  private def facts(i: InstanceDescription) =
+    (i.name, i.at, bits(i.instanceToWorld.start), bits(i.instanceToWorld.end))
+
+  private val many = Vector.tabulate(1000)(i => still(if i % 3 == 0 then "a" else "b", i))
+
+  test("instances are as they were added, to the last bit"):
+    val all = many ++ Vector(moving, flat, view) ++ many.reverse
+    val list = listed(all)
+    assert(list.length == all.length && list.map(facts) == all.map(facts))
+    assert(!list.arePlain)
+
+  test("the motion of an instance writes its two matrices"):
+    val list = listed(many)
+    assert(list.arePlain)
+    val (found, expected) = (new Array[Double](24), new Array[Double](24))
+    for i <- many.indices do
+      list.motions(i).write(0f, found, 0)
+      Still(many(i).instanceToWorld.start).write(0f, expected, 0)
+      assert(found.sameElements(expected) && !list.motions(i).moves)
+
+  test("instances of each object, by name, are in their order"):
+    val all = view +: many :+ moving
+    val each = listed(all).ofEach
+    assert(each.map(_._1) == Vector("a", "b", "c"))
+    for (name, list) <- each do
+      assert(list.map(facts) == all.filter(_.name == name).map(facts))
+    assert(each.map(_._2.arePlain) == Vector(true, false, false))
+    assert(listed(Vector.empty).ofEach.isEmpty)
+
+  test("lists that go on from one do not share what is added"):
+    val one = listed(many)
+    val (first, second) = (InstanceList.newBuilder ++= one, InstanceList.newBuilder ++= one)
+    first += view
+    second += moving
+    second += flat
+    first += many(0)
+    assert(first.result().map(facts) == (many :+ view :+ many(0)).map(facts))
+    assert(second.result().map(facts) == (many :+ moving :+ flat).map(facts))
+    assert(one.map(facts) == many.map(facts))
+
+  test("all instances can be changed"):
+    val moved = listed(many :+ moving).changed(_.copy(name = "z"))
+    assert(moved.map(facts) == (many :+ moving).map(i => facts(i.copy(name = "z"))))
+
+  test("an instance takes at most 212 bytes, of which 192 are its matrices"):
+    val count = 100_000
+    val one = InstanceDescription("a", main, GraphicsState.still(placement))
+    val builder = InstanceList.newBuilder
+    for _ <- 0 until count do builder += one
+    val bytes = ObjectSizes().add(Vector(builder.result()))
+    assert(bytes > 208L * count && bytes < 212L * count, s"$bytes")
