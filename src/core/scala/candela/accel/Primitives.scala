@@ -1,7 +1,6 @@
 package candela.accel
 
 import candela.base.{loop, Parallel}
-import candela.geometry.Bounds3
 import candela.shapes.{Shape, TriangleSoup}
 
 /** All primitives that rays can hit, in order: the triangles of the soup, the other shapes, the
@@ -28,18 +27,9 @@ final class Primitives(
 
   /** Writes the bounds of primitive `i` as six Floats. */
   private[accel] def writeBounds(to: Array[Float], at: Int, i: Int): Unit =
-    val b = boundsOf(i)
-    to(at) = b.min.x
-    to(at + 1) = b.min.y
-    to(at + 2) = b.min.z
-    to(at + 3) = b.max.x
-    to(at + 4) = b.max.y
-    to(at + 5) = b.max.z
-
-  private[accel] def boundsOf(i: Int): Bounds3 =
-    if i < soup.count then soup.bounds(i)
-    else if i < firstInstance then shapes(i - soup.count).bounds
-    else instances.bounds(i - firstInstance)
+    if i < soup.count then soup.bounds(i).write(to, at)
+    else if i < firstInstance then shapes(i - soup.count).writeBounds(to, at)
+    else instances.bounds(i - firstInstance).write(to, at)
 
   /** Primitives packed in the given order for sequential tests. */
   def packed(order: Array[Int], parallel: Parallel = Parallel.Alone): PackedPrimitives =

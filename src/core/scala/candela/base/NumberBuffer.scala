@@ -54,6 +54,16 @@ final class FloatBuffer extends NumberBuffer[Array[Float]](new Array[Float](_)):
     last(at) = x
     size += 1
 
+  def ++=(some: Array[Float]): Unit =
+    var from = 0
+    while from < some.length do
+      val at = size & NumberBuffer.Within
+      last = pieceOf(size)
+      val count = Math.min(some.length - from, NumberBuffer.Piece - at)
+      System.arraycopy(some, from, last, at, count)
+      from += count
+      size += count
+
   def apply(i: Int): Float = pieceOf(i)(i & NumberBuffer.Within)
   def update(i: Int, x: Float): Unit = pieceOf(i)(i & NumberBuffer.Within) = x
 

@@ -121,19 +121,24 @@ private[build] object MaterialTable:
     // Indices of a material, one for each pair of media and side
     val refs, sharing = mutable.HashSet.empty[MaterialRef]
     for (finish, _) <- worn if !refs.add(finish.ref) do sharing += finish.ref
-    def maker(context: BuildContext, integrator: IntegratorPlan): Int => Material =
+    val families = MaterialFamilies(worn.size)
+    def maker(
+        context: BuildContext,
+        integrator: IntegratorPlan,
+        inPlace: (Int, Declaration) => Material
+    ): Int => Material =
       val made = mutable.HashMap.empty[MaterialRef, Material]
       index =>
         val finish = worn(index)._1
-        def make = finished(context, integrator, finish.ref)
+        def make = finished(context, integrator, finish.ref, inPlace(index, _))
         finish.of(if sharing.isEmpty || !sharing(finish.ref) then make
         else made.getOrElseUpdate(finish.ref, make))
     new MaterialTable(
-      worn.indices.map(maker(context, integrator)).toArray,
+      worn.indices.map(maker(context, integrator, families.found(context))).toArray,
       worn.map(_._2).toArray,
       touchesMedia,
       worn.map((finish, _) => name(finish.ref)).toVector,
-      maker,
+      (context, integrator) => maker(context, integrator, families.known(context)),
       ofShape,
       split(_)._1
     )
@@ -152,19 +157,25 @@ private[build] object MaterialTable:
     case MaterialRef.Inline(d) => StatementName(d)
     case MaterialRef.Named(name, _) => name
 
+  /** @param inPlace builds a material that is written in place */
   private def finished(
       context: BuildContext,
       integrator: IntegratorPlan,
-      ref: MaterialRef
+      ref: MaterialRef,
+      inPlace: Declaration => Material
   ): Material =
-    material(context, ref) match
+    material(context, ref, inPlace) match
       case made if made.isInterface => made
       case made if context.resources.switches.diffuse =>
         integrator.finish(DiffuseEquivalent(made, transmits = true))
       case made => integrator.finish(made)
 
-  private def material(context: BuildContext, ref: MaterialRef): Material = ref match
+  private def material(
+      context: BuildContext,
+      ref: MaterialRef,
+      inPlace: Declaration => Material
+  ): Material = ref match
     case MaterialRef.Default => Materials.default
-    case MaterialRef.Inline(d) => Materials.build(context.site(d))
+    case MaterialRef.Inline(d) => inPlace(d)
     case MaterialRef.Named(name, at) =>
       context.resources.materials(name, at, context.resources, context.problems)

@@ -33,7 +33,10 @@ final class Rgb(val r: Float, val g: Float, val b: Float):
   override def equals(other: Any): Boolean = other match
     case c: Rgb => r == c.r && g == c.g && b == c.b
     case _ => false
-  override def hashCode: Int = (r, g, b).hashCode
+  override def hashCode: Int =
+    // Adding 0 makes 0 of −0, which equals it
+    def bits(x: Float) = java.lang.Float.floatToIntBits(x + 0f)
+    (31 * bits(r) + bits(g)) * 31 + bits(b)
   override def toString: String = s"rgb($r, $g, $b)"
 
 object Rgb:

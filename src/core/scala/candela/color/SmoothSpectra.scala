@@ -1,5 +1,6 @@
 package candela.color
 
+import java.util.concurrent.ConcurrentHashMap
 import java.util.concurrent.atomic.AtomicReferenceArray
 
 import candela.math.*
@@ -8,11 +9,17 @@ import candela.math.*
   * Safe for threads.
   */
 final class SmoothSpectra:
-  private val fitted = scala.collection.mutable.HashMap.empty[Rgb, Float => Float]
+  private val fitted = ConcurrentHashMap[Rgb, Float => Float]()
 
-  /** The spectrum of one colour, fitted exactly: for the few colours of a scene file. */
+  /** The spectrum of one colour, fitted exactly: for the colours of a scene file. */
   def exact(color: Rgb): Float => Float =
-    fitted.synchronized(fitted.getOrElseUpdate(color, SmoothSpectra.spectrum(color)))
+    val known = fitted.get(color)
+    if known != null then known
+    else
+      // Threads that meet here fit the same
+      val fresh = SmoothSpectra.spectrum(color)
+      fitted.put(color, fresh): Unit
+      fresh
 
   /** For colours that are known while rendering only. */
   val table: SpectrumTable = SpectrumTable()

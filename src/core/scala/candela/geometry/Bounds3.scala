@@ -17,6 +17,15 @@ final case class Bounds3(min: Vec3, max: Vec3):
   /** Radius of the sphere around `center` through the corners. */
   def radius: Float = if isEmpty then 0f else (max - center).length
 
+  /** Writes six Floats: the lower corner, then the upper one. */
+  def write(to: Array[Float], at: Int): Unit =
+    to(at) = min.x
+    to(at + 1) = min.y
+    to(at + 2) = min.z
+    to(at + 3) = max.x
+    to(at + 4) = max.y
+    to(at + 5) = max.z
+
   def corner(i: Int): Vec3 = Vec3(
     if (i & 1) == 0 then min.x else max.x,
     if (i & 2) == 0 then min.y else max.y,
@@ -40,6 +49,12 @@ object Bounds3:
   val Empty: Bounds3 =
     val inf = Float.PositiveInfinity
     Bounds3(Vec3(inf, inf, inf), Vec3(-inf, -inf, -inf))
+
+  /** What was written there. */
+  def read(from: Array[Float], at: Int): Bounds3 = Bounds3(
+    Vec3(from(at), from(at + 1), from(at + 2)),
+    Vec3(from(at + 3), from(at + 4), from(at + 5))
+  )
   def of(points: Iterable[Vec3]): Bounds3 = points.foldLeft(Empty)((b, p) => b.union(p))
 
 /** A bounding sphere: the target of light from infinity. */

@@ -1,5 +1,6 @@
 package candela.shapes
 
+import candela.base.loop
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 
@@ -37,18 +38,26 @@ final class CurveSegments(
   def count: Int = points.length / 12
 
   def bounds(segment: Int): Bounds3 =
-    val half = 0.5f * Math.max(widths(2 * segment), widths(2 * segment + 1))
-    val box = control(segment, 0).union(control(segment, 1))
-      .union(control(segment, 2)).union(control(segment, 3))
-    val wide = Bounds3(box.min - Vec3(half, half, half), box.max + Vec3(half, half, half))
-    val placed = space.fold(wide)(t => wide.mapped(t.point(_)))
-    val pad = TriangleSoup.roundingError(placed.reach)
-    Bounds3(placed.min - pad, placed.max + pad)
+    val box = new Array[Float](6)
+    writeBounds(segment, box, 0)
+    Bounds3.read(box, 0)
 
-  private def control(segment: Int, k: Int): Bounds3 =
-    val i = 12 * segment + 3 * k
-    val p = Vec3(points(i), points(i + 1), points(i + 2))
-    Bounds3(p, p)
+  /** Without objects in world space, as there may be millions. */
+  def writeBounds(segment: Int, to: Array[Float], at: Int): Unit =
+    val half = 0.5f * Math.max(widths(2 * segment), widths(2 * segment + 1))
+    val p = points
+    loop(3): axis =>
+      val i = 12 * segment + axis
+      val low = Math.min(Math.min(Math.min(p(i), p(i + 3)), p(i + 6)), p(i + 9))
+      val high = Math.max(Math.max(Math.max(p(i), p(i + 3)), p(i + 6)), p(i + 9))
+      to(at + axis) = low - half
+      to(at + 3 + axis) = high + half
+    if !inWorld then space.foreach(t => Bounds3.read(to, at).mapped(t.point(_)).write(to, at))
+    loop(3): axis =>
+      val reach = Math.max(Math.abs(to(at + axis)), Math.abs(to(at + 3 + axis)))
+      val pad = TriangleSoup.roundingError(reach)
+      to(at + axis) -= pad
+      to(at + 3 + axis) += pad
 
   /** Finds the closest hit in (0, `ray.tMax`) and shortens the ray; `hit` receives u along the
     * curve and v across it.
@@ -180,6 +189,7 @@ object CurveSegments:
   */
 final class CurveSegment(segments: CurveSegments, index: Int) extends Shape:
   def bounds: Bounds3 = segments.bounds(index)
+  override def writeBounds(to: Array[Float], at: Int): Unit = segments.writeBounds(index, to, at)
   def intersect(ray: Ray, hit: Hit): Boolean = segments.intersect(index, ray, hit)
   def isHit(ray: Ray): Boolean = segments.isHit(index, ray)
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit = segments.surface(index, ray, hit, at)

@@ -9,6 +9,9 @@ abstract class Shape extends SurfaceSampler:
   /** Bounds of the whole surface. */
   def bounds: Bounds3
 
+  /** Writes them; see [[Bounds3.write]]. */
+  def writeBounds(to: Array[Float], at: Int): Unit = bounds.write(to, at)
+
   /** Finds the closest hit in (0, `ray.tMax`) and sets `ray.tMax` to its distance; `hit.u` and
     * `hit.v` may store values for `surface`, `hit.primitive` is set by the caller.
     */

@@ -227,7 +227,10 @@ final class TriangleSoup(
 object TriangleSoup:
   /** Rounding a Double point to Float costs half an ulp; one more for its use. */
   def roundingError(p: Vec3): Vec3 =
-    Vec3(Math.abs(p.x) * gamma(2), Math.abs(p.y) * gamma(2), Math.abs(p.z) * gamma(2))
+    Vec3(roundingError(p.x), roundingError(p.y), roundingError(p.z))
+
+  /** Of one coordinate. */
+  private[shapes] def roundingError(x: Float): Float = Math.abs(x) * gamma(2)
 
   /** Rounding error of Double coordinates: it matters for points of a large triangle close to the
     * origin.

@@ -2,12 +2,22 @@ package candela.build
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.render.Renderer
+import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
 final class MaterialTableSuite extends AnyFunSuite:
   private val names = Vector("diffuse", "coateddiffuse", "conductor", "coatedconductor")
+
+  private val head =
+    """Film "rgb" "integer xresolution" 24 "integer yresolution" 16
+      |Sampler "independent" "integer pixelsamples" 4
+      |Integrator "path" "integer maxdepth" 3
+      |LookAt 0 0 -6  0 0 0  0 1 0
+      |Camera "perspective" "float fov" 50
+      |WorldBegin
+      |LightSource "infinite" "rgb L" [.9 .7 .3]
+      |""".stripMargin
 
   /** Spheres whose materials are written in place, named, mixed, and textured. */
   private val text =
@@ -24,15 +34,7 @@ final class MaterialTableSuite extends AnyFunSuite:
              |Material "diffuse" "texture reflectance" "t$i"""".stripMargin
       s"AttributeBegin\n$worn\nTranslate ${i % 6 - 2.5} ${i / 6 - 1.5} 0\n" +
         "Shape \"sphere\" \"float radius\" .4\nAttributeEnd"
-    s"""Film "rgb" "integer xresolution" 24 "integer yresolution" 16
-       |Sampler "independent" "integer pixelsamples" 4
-       |Integrator "path" "integer maxdepth" 3
-       |LookAt 0 0 -6  0 0 0  0 1 0
-       |Camera "perspective" "float fov" 50
-       |WorldBegin
-       |LightSource "infinite" "rgb L" [.9 .7 .3]
-       |${spheres.mkString("\n")}
-       |""".stripMargin
+    head + spheres.mkString("\n")
 
   private def image(mode: ColorMode, threads: Int): Vector[Float] =
     val plan = SceneTexts.plan(text, Dialect.V4, RenderSettings(color = mode))
@@ -43,3 +45,28 @@ final class MaterialTableSuite extends AnyFunSuite:
       val alone = image(mode, 1)
       assert(alone.exists(_ > 0f))
       for threads <- Vector(2, 5) do assert(image(mode, threads) == alone)
+
+  /** Spheres of materials of one kind, each with a colour of its own; the last is the purest. */
+  private def coloured(kind: String)(more: Int => String) =
+    val spheres =
+      for i <- 0 until 5
+      yield s"AttributeBegin Material \"$kind\" \"rgb reflectance\" [ .9 ${0.8 - 0.2 * i} .1 ] " +
+        s"${more(i)} Translate ${i - 2} 0 0 Shape \"sphere\" \"float radius\" .4 AttributeEnd\n"
+    head + spheres.mkString
+
+  for kind <- Vector("diffuse", "coateddiffuse"); mode <- ColorMode.values do
+    test(s"materials of a colour each are as those that say more, $kind, $mode"):
+      def planned(more: Int => String) =
+        SceneTexts.plan(coloured(kind)(more), Dialect.V4, RenderSettings(color = mode))
+      def image(plan: RenderPlan) = Renderer.render(plan, 2).image(plan.development).data.toVector
+      val alike = planned(_ => "")
+      // What changes nothing, but makes another statement of each
+      val each = planned(i => if i % 2 == 0 then "" else "\"float displacement\" 0")
+      assert(alike.features.toMap.apply("color") == each.features.toMap.apply("color"))
+      assert(image(alike) == image(each))
+      assert(image(alike).distinct.sizeIs > 200)
+
+  test("each material of a colour gets its own message"):
+    val lines = SceneTexts.problems(coloured("diffuse")(_ => "\"float sheen\" 1"), Dialect.V4)
+      .flatMap(_.at).map(_.line)
+    assert(lines.distinct.size == 5)

@@ -146,14 +146,15 @@ private[building] object BoxRecord:
     val soup = primitives.soup
     val records = new Array[Int](Math.multiplyExact(Ints, count))
     parallel.ranges(count): (from, until) =>
+      val b = new Array[Float](6)
       var slot = from
       while slot < until do
         val at = Ints * slot
         val i = which(slot)
         if i < soup.count then writeTriangle(records, at, soup, i)
         else
-          val b = primitives.boundsOf(i)
-          write(records, at, i, b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z)
+          primitives.writeBounds(b, 0, i)
+          write(records, at, i, b(0), b(1), b(2), b(3), b(4), b(5))
         slot += 1
     records
 

@@ -183,6 +183,7 @@ private[building] final class WideWriter(
   val others = IntBuffer()
 
   private val padded = new Array[Float](6)
+  private val whole = new Array[Float](WideTree.floats(width))
 
   /** Deferred subtrees, with the offsets of their codes. */
   val later = scala.collection.mutable.ArrayBuffer.empty[WideWriter.Later]
@@ -214,26 +215,25 @@ private[building] final class WideWriter(
   /** Writes the wide node that replaces this binary node, and all below it. */
   private def node(binary: Int): Int =
     val at = nodes.length
-    loop(WideTree.floats(width))(_ => nodes += 0f)
     val boxes = new Array[Int](width) // offsets of the children's boxes in the binary tree
     val count = gather(binary, plan.choice(binary, 1), width, boxes, 0)
-    var k = 0
-    while k < width do
+    loop(width): k =>
       if k < count then
-        val parent = boxes(k) & -BinaryTree.NodeFloats
-        val side = if boxes(k) == parent then 0 else 1
         System.arraycopy(tree.nodes, boxes(k), padded, 0, 6)
         WideTree.pad(padded, 0)
-        WideTree.writeBox(nodes.update)(at, k, width, padded)
-        val child = tree.child(parent, side)
-        val codeAt = at + 6 * width + k
-        if child >= 0 && partSize > 0 && tree.count(child) <= partSize then
-          later += WideWriter.Later(child, codeAt)
-        else
-          val code = write(child, tree.leafSize(parent, side))
-          nodes(codeAt) = java.lang.Float.intBitsToFloat(code)
-      else WideTree.writeEmpty(nodes.update)(at, k, width)
-      k += 1
+        WideTree.writeBox(whole.update)(0, k, width, padded)
+      else WideTree.writeEmpty(whole.update)(0, k, width)
+    nodes ++= whole
+    loop(count): k =>
+      val parent = boxes(k) & -BinaryTree.NodeFloats
+      val side = if boxes(k) == parent then 0 else 1
+      val child = tree.child(parent, side)
+      val codeAt = at + 6 * width + k
+      if child >= 0 && partSize > 0 && tree.count(child) <= partSize then
+        later += WideWriter.Later(child, codeAt)
+      else
+        val code = write(child, tree.leafSize(parent, side))
+        nodes(codeAt) = java.lang.Float.intBitsToFloat(code)
     at
 
   /** Appends the children of `binary`, with `left` of `k` in its left subtree. */

@@ -36,22 +36,26 @@ private[build] trait LayerFields extends Fields:
 
 object CoatedDiffuseRecipe
     extends RoughRecipe("coateddiffuse", "diffuse base under a dielectric coating", onlyV4, 0f)
-    with LayerFields:
-  private val reflectance =
+    with LayerFields
+    with TintedRecipe:
+  protected val tint: Field[RgbTexture] =
     rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
   private val layers = layerParameters()
   private val eta = spectrum("eta", "index of refraction of the coating")(Indices.glass)
-  protected def make()(using site: Site): Material =
+  protected def tinted()(using site: Site): RgbTexture => Material =
     val coats = site.resources.coats
     val basis = site.resources.basis
-    // The spectral reflectance of a constant colour is precomputed
-    val bySpectrum = reflectance().constant.map: color =>
-      lazy val base = basis.reflectance(color)
-      (f: Float => Float) => basis.ofReflectance(nm => f(base(nm)))
-    val index = Indices.one(eta())
+    val coating = eta()
+    val index = Indices.one(coating)
     val medium = layers.medium
-    Indices.disperse(eta()):
-      CoatedDiffuseMaterial(reflectance(), roughness(), index, medium, coats, bySpectrum)
+    val rough = roughness()
+    reflectance =>
+      // The spectral reflectance of a constant colour is precomputed
+      val bySpectrum = reflectance.constant.map: color =>
+        lazy val base = basis.reflectance(color)
+        (f: Float => Float) => basis.ofReflectance(nm => f(base(nm)))
+      Indices.disperse(coating):
+        CoatedDiffuseMaterial(reflectance, rough, index, medium, coats, bySpectrum)
 
 object RoughPlasticRecipe
     extends RoughRecipe("roughplastic", "plastic, smooth or rough", onlyMitsuba, 0f):

@@ -4,6 +4,7 @@ import candela.bsdf.{DiffuseMaterial, DiffuseTransmissionMaterial, Material, Mat
 import candela.bsdf.composite.TranslucentMaterial
 import candela.build.recipe.*
 import candela.color.Rgb
+import candela.textures.RgbTexture
 
 object MatteRecipe
     extends MaterialRecipe("matte", "diffuse reflection by the Oren–Nayar model", untilV3):
@@ -11,10 +12,14 @@ object MatteRecipe
   private val sigma = floatTexture("sigma", "standard deviation of facet angles, degrees")(0f)
   protected def make()(using Site): Material = MatteMaterial(kd(), sigma())
 
-object DiffuseRecipe extends MaterialRecipe("diffuse", "Lambertian reflection", onlyV4):
-  private val reflectance = rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.5f))
-  protected def make()(using site: Site): Material =
-    DiffuseMaterial(reflectance(), gains = site.rules.gains)
+object DiffuseRecipe
+    extends MaterialRecipe("diffuse", "Lambertian reflection", onlyV4)
+    with TintedRecipe:
+  protected val tint: Field[RgbTexture] =
+    rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.5f))
+  protected def tinted()(using site: Site): RgbTexture => Material =
+    val gains = site.rules.gains
+    DiffuseMaterial(_, gains = gains)
 
 object DiffuseTransmissionRecipe
     extends MaterialRecipe("diffusetransmission", "Lambertian reflection and transmission", onlyV4):

@@ -1,0 +1,53 @@
+package candela.build
+
+import scala.collection.mutable
+
+import candela.bsdf.Material
+import candela.build.materials.{Materials, TintedRecipe}
+import candela.scenefile.Declaration
+
+/** Materials whose statements differ in a colour alone: the first of a family is built from its
+  * statement, the others from what is read of it and their colours.
+  *
+  * Only what was built without a word has a family, so that each statement gets its own message.
+  *
+  * @param count of materials
+  */
+private[build] final class MaterialFamilies(count: Int):
+  import MaterialFamilies.*
+
+  private val ofMaterial = new Array[Family | Null](count)
+
+  /** Builds materials by index in the plain basis, and finds their families. */
+  def found(context: BuildContext): (Int, Declaration) => Material =
+    val latest = mutable.HashMap.empty[String, Family]
+    val known = this.known(context)
+    (index, d) =>
+      latest.get(d.name) match
+        case Some(family) if family.has(d) =>
+          context.resources.allowance.checkTime(Some(d.at))
+          ofMaterial(index) = family
+          known(index, d)
+        case _ =>
+          val before = context.problems.reported
+          val made = Materials.build(context.site(d))
+          if context.problems.reported == before then
+            for case recipe: TintedRecipe <- Materials.all.find(d.name, context.site(d).dialect) do
+              latest(d.name) = Family(recipe, d)
+          made
+
+  /** As above, in any basis, once the families are known. */
+  def known(context: BuildContext): (Int, Declaration) => Material =
+    val makers = mutable.HashMap.empty[Family, Declaration => Material]
+    (index, d) =>
+      val family = ofMaterial(index)
+      if family == null then Materials.build(context.site(d))
+      else makers.getOrElseUpdate(family, family.in(context))(d)
+
+private[build] object MaterialFamilies:
+  private final class Family(recipe: TintedRecipe, first: Declaration):
+    def has(d: Declaration): Boolean = recipe.isAlike(first, d)
+
+    def in(context: BuildContext): Declaration => Material =
+      val make = recipe.family(context.site(first))
+      d => make(context.site(d))

@@ -1,0 +1,33 @@
+package candela.build.materials
+
+import candela.bsdf.Material
+import candela.build.recipe.{Field, Site}
+import candela.scenefile.{Declaration, ParamType}
+import candela.textures.RgbTexture
+
+/** A material of a colour, without which all else of it is made: of thousands that differ in this
+  * colour alone, one is read.
+  */
+private[build] trait TintedRecipe extends MaterialRecipe:
+
+  /** The colour. */
+  protected def tint: Field[RgbTexture]
+
+  /** Makes materials by the colour, on whose value no message depends. */
+  protected def tinted()(using Site): RgbTexture => Material
+
+  protected final def make()(using Site): Material =
+    val color = tint() // what is wrong with it is said first
+    tinted()(color)
+
+  /** As [[build]], of statements that are [[isAlike]]: `apply` makes each by its site. */
+  final def family(first: Site): Site => Material =
+    val made = tinted()(using first)
+    site => made(tint()(using site)).folded
+
+  /** Whether two statements of this material differ in nothing but the numbers of its colour. */
+  final def isAlike(a: Declaration, b: Declaration): Boolean =
+    a.isAlikeBut(tint.name, b) && isColor(a) && isColor(b)
+
+  private def isColor(d: Declaration): Boolean =
+    d.param(tint.name).exists(p => p.paramType == ParamType.Rgb && p.floats.length == 3)
