@@ -88,7 +88,24 @@ private[build] object MaterialTable:
 
     // Each has its material looked up once: there may be millions
     val worn = mutable.ArrayBuffer.empty[(Finish, MediumBorder)]
-    val numbers = mutable.HashMap.empty[(Finish, MediumBorder), Int]
+    // The first index of each, and others of those that have several
+    val firsts = java.util.HashMap[MaterialRef, Int]()
+    val others = mutable.HashMap.empty[(Finish, MediumBorder), Int]
+    // Materials with several indices, one for each pair of media and side
+    val sharing = mutable.HashSet.empty[MaterialRef]
+    def number(wear: (Finish, MediumBorder)): Int =
+      def added =
+        worn += wear
+        worn.size - 1
+      val ref = wear._1.ref
+      val first = firsts.getOrDefault(ref, -1)
+      if first < 0 then
+        firsts.put(ref, worn.size): Unit
+        added
+      else if worn(first) == wear then first
+      else
+        sharing += ref
+        others.getOrElseUpdate(wear, added)
     val ofShape = new Array[Int](shapes.size)
     var touchesMedia = false
     var place = 0
@@ -102,14 +119,8 @@ private[build] object MaterialTable:
         else
           val border = media.border(s)
           touchesMedia |= border.inside >= 0 || border.outside >= 0
-          val wear = (Finish(ref, s.oneSided), media.seen(border))
           last = (s, ref)
-          numbers.getOrElseUpdate(
-            wear, {
-              worn += wear
-              worn.size - 1
-            }
-          )
+          number((Finish(ref, s.oneSided), media.seen(border)))
       place += 1
     for (name, d) <- named do
       context.resources.materials.define(
@@ -118,9 +129,6 @@ private[build] object MaterialTable:
         Materials.parts(d),
         other => Materials.build(context.in(other).site(d))
       )
-    // Indices of a material, one for each pair of media and side
-    val refs, sharing = mutable.HashSet.empty[MaterialRef]
-    for (finish, _) <- worn if !refs.add(finish.ref) do sharing += finish.ref
     val families = MaterialFamilies(worn.size)
     def maker(
         context: BuildContext,

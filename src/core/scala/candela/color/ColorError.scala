@@ -6,7 +6,19 @@ import candela.base.loop
   *
   * @param values at the wavelengths of [[ColorError.wavelengths]]; light relative to D65
   */
-final class ColoredSpectrum(val values: Array[Double], val components: Rgb)
+final class ColoredSpectrum(val values: Array[Double], val components: Rgb):
+
+  /** The values, relative to the largest. */
+  def shape: Array[Double] =
+    val most = values.max
+    values.map(_ / most)
+
+object ColoredSpectrum:
+  /** The sum of all differences. */
+  def distance(a: Array[Double], b: Array[Double]): Double =
+    var sum = 0.0
+    loop(a.length)(i => sum += Math.abs(a(i) - b(i)))
+    sum
 
 /** Error of three-number colour: light and surfaces are multiplied as spectra, and as the
   * components of a basis.

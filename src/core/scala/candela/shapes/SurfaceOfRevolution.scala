@@ -1,5 +1,6 @@
 package candela.shapes
 
+import candela.base.loop
 import candela.geometry.{Bounds3, Ray, ShadingPoint}
 import candela.math.*
 
@@ -99,8 +100,25 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, like: Transform) ex
 
   /** World bounds of the cylinder |x|, |y| ≤ radius, zMin ≤ z ≤ zMax. */
   protected final def worldBounds(radius: Float, zMin: Float, zMax: Float): Bounds3 =
-    val box = Bounds3(Vec3(-radius, -radius, zMin), Vec3(radius, radius, zMax))
-    val world = box.mapped(worldPoint(_))
+    // As `Bounds3.mapped` of the corners, without objects: there may be millions
+    val m = toWorld
+    var lowX, lowY, lowZ = Float.PositiveInfinity
+    var highX, highY, highZ = Float.NegativeInfinity
+    loop(8): i =>
+      val x = (if (i & 1) == 0 then -radius else radius).toDouble
+      val y = (if (i & 2) == 0 then -radius else radius).toDouble
+      val z = (if (i & 4) == 0 then zMin else zMax).toDouble
+      val w = m(12) * x + m(13) * y + m(14) * z + m(15)
+      val px = ((m(0) * x + m(1) * y + m(2) * z + worldX) / w).toFloat
+      val py = ((m(4) * x + m(5) * y + m(6) * z + worldY) / w).toFloat
+      val pz = ((m(8) * x + m(9) * y + m(10) * z + worldZ) / w).toFloat
+      lowX = Math.min(lowX, px)
+      lowY = Math.min(lowY, py)
+      lowZ = Math.min(lowZ, pz)
+      highX = Math.max(highX, px)
+      highY = Math.max(highY, py)
+      highZ = Math.max(highZ, pz)
+    val world = Bounds3(Vec3(lowX, lowY, lowZ), Vec3(highX, highY, highZ))
     val pad = TriangleSoup.roundingError(world.reach)
     Bounds3(world.min - pad, world.max + pad)
 

@@ -171,12 +171,26 @@ final class Coats:
   private val families = ConcurrentHashMap[(Float, Float), IArray[Coat]]
 
   private type TrowbridgeReitzKey = (Float, Float)
+  private type Key = (TrowbridgeReitzKey, Float, Float)
+
+  // Of thousands of materials most have the coat of the one before
+  @volatile private var last: (TrowbridgeReitz, Coat, Float) | Null = null
 
   /** The cached coat with the outer roughness `top` and a thickness in mean free paths. */
   def of(top: TrowbridgeReitz, eta: Float, thickness: Float): Coat =
+    val known = last
+    if known != null && (known._1 eq top) && known._2.eta == eta && known._3 == thickness then
+      known._2
+    else
+      val coat = found(((top.alphaX, top.alphaY), eta, thickness), top)
+      last = (top, coat, thickness)
+      coat
+
+  private def found(key: Key, top: TrowbridgeReitz): Coat =
     coats.computeIfAbsent(
-      ((top.alphaX, top.alphaY), eta, thickness),
+      key,
       _ =>
+        val (_, eta, thickness) = key
         if top.isSmooth || eta == 1f then SmoothCoat(eta, thickness)
         else RoughCoat(top, eta, thickness)
     )

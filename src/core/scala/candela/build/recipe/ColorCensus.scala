@@ -2,19 +2,21 @@ package candela.build.recipe
 
 import scala.collection.mutable
 
-import candela.base.loop
+import candela.base.{loop, Parallel}
 import candela.color.{ColorBasis, ColorError, ColoredSpectrum, Rgb, SmoothSpectra}
 import candela.textures.ColorChoice
 
 /** The spectra that a scene is built from, collected as recipes read them, to decide whether three
   * numbers render its colours.
   *
+  * Spectra are fitted when they are asked for, by all threads.
+  *
   * @param basis the three numbers
   */
-final class ColorCensus(basis: ColorBasis):
+final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
   import ColorCensus.*
 
-  private val emitted, reflected = mutable.LinkedHashMap.empty[Any, ColoredSpectrum]
+  private val emitted, reflected = mutable.LinkedHashMap.empty[Any, () => ColoredSpectrum]
   private val cells = mutable.HashSet.empty[(Boolean, Rgb)]
   private val remarks = mutable.ArrayBuffer.empty[() => Unit]
   private var disperses = false
@@ -22,8 +24,8 @@ final class ColorCensus(basis: ColorBasis):
   private var bandCount: Option[Int] = None
 
   /** Some that are far apart, of all that were noted: to be asked for after that. */
-  lazy val lights: Vector[ColoredSpectrum] = farApart(emitted.values.toVector)
-  lazy val surfaces: Vector[ColoredSpectrum] = farApart(reflected.values.toVector)
+  lazy val lights: Vector[ColoredSpectrum] = farApart(emitted.values.toVector, pool)
+  lazy val surfaces: Vector[ColoredSpectrum] = farApart(reflected.values.toVector, pool)
 
   /** Spectrum of the scene's light: of all lamps alike, since what each lights is not known, and of
     * some daylight, for what surfaces make of it.
@@ -98,14 +100,15 @@ final class ColorCensus(basis: ColorBasis):
   /** Of very many spectra, no two whose colours are in the same cell of a grid are noted: they
     * would not be far apart.
     */
-  private def note(noted: mutable.Map[Any, ColoredSpectrum], key: Any, c: Rgb)(
+  private def note(noted: mutable.Map[Any, () => ColoredSpectrum], key: Any, c: Rgb)(
       s: => Float => Float,
       components: => Rgb
   ): Unit =
     def cell = c.map(x => Math.floor(x * Cells).toFloat)
     if !noted.contains(key) && (noted.size < Many || cells.add((noted eq emitted, cell))) then
-      val smooth = s
-      noted(key) = ColoredSpectrum(ColorError.wavelengths.map(smooth(_).toDouble), components)
+      noted(key) = () =>
+        val smooth = s
+        ColoredSpectrum(ColorError.wavelengths.map(smooth(_).toDouble), components)
 
   private def add(key: Any, role: SpectrumRole, s: Float => Float, components: Rgb): Unit =
     role match
@@ -117,7 +120,7 @@ final class ColorCensus(basis: ColorBasis):
         val scale = if luminance > 0 then basis.toSrgb(components).luminance / luminance else 0.0
         val _ = emitted.getOrElseUpdate(
           key,
-          ColoredSpectrum(values.map(_ * scale), components)
+          () => ColoredSpectrum(values.map(_ * scale), components)
         )
       case SpectrumRole.Unbounded => addCoefficient(key, s, components)
       case SpectrumRole.Reflectance =>
@@ -131,7 +134,7 @@ final class ColorCensus(basis: ColorBasis):
       val through = components.map(c => Math.exp(-c / mean).toFloat)
       val _ = reflected.getOrElseUpdate(
         ("coefficient", key),
-        ColoredSpectrum(values.map(v => Math.exp(-v / mean)), through)
+        () => ColoredSpectrum(values.map(v => Math.exp(-v / mean)), through)
       )
 
 object ColorCensus:
@@ -157,16 +160,15 @@ object ColorCensus:
   def choiceOf(pixels: Long): ColorChoice =
     ColorChoice(Math.max(1L, pixels / PixelsOfImage).toInt, Most, farApartColors)
 
-  private def farApart(all: Vector[ColoredSpectrum]): Vector[ColoredSpectrum] =
+  private def farApart(
+      all: Vector[() => ColoredSpectrum],
+      pool: Parallel
+  ): Vector[ColoredSpectrum] =
     // Scenes have thousands of colours
-    val shapes = all.map: s =>
-      val most = s.values.max
-      s -> s.values.map(_ / most)
-    def distance(a: Array[Double], b: Array[Double]) =
-      var sum = 0.0
-      loop(a.length)(i => sum += Math.abs(a(i) - b(i)))
-      sum
-    spread(shapes)((a, b) => distance(a._2, b._2)).map(_._1)
+    val shapes = pool.map(all.size): i =>
+      val s = all(i)()
+      s -> s.shape
+    spread(shapes.toVector)((a, b) => ColoredSpectrum.distance(a._2, b._2)).map(_._1)
 
   private def farApartColors(all: Vector[Rgb]): Vector[Rgb] =
     spread(all.distinct)((a, b) => (a - b).largest.toDouble)

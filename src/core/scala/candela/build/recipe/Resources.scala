@@ -38,7 +38,7 @@ final class Resources private (
     basis,
     pool,
     seed,
-    SharedResources(basis, mayBeSpectral, switches, allowance, textures, keep, isReadable),
+    SharedResources(basis, mayBeSpectral, switches, allowance, textures, keep, isReadable, pool),
     basis,
     NamedMaterials.Statements()
   )

@@ -9,7 +9,8 @@ import scala.jdk.CollectionConverters.*
 
 import candela.accel.tracing.WarmUps
 import candela.base.{
-  Allowance, Code, InputFile, IoReason, Keep, Limit, Refusal, SceneFolder, SourcePos
+  Allowance, Code, InputFile, IoReason, Keep, Limit, Parallel, Refusal, SceneFolder,
+  SourcePos
 }
 import candela.color.{ColorBasis, Encoding, Rgb}
 import candela.bsdf.layered.Coats
@@ -28,6 +29,7 @@ import candela.textures.{CachedImage, FileLevels, MadeTexels, MipLevel, Texels, 
   * @param textures      how image textures are kept
   * @param keep          has what other scenes have made
   * @param isReadable    whether all statements could be read
+  * @param pool          executes divisible work
   */
 final class SharedResources(
     basis: ColorBasis,
@@ -36,10 +38,11 @@ final class SharedResources(
     val allowance: Allowance,
     val textures: TextureStore,
     val keep: Keep = Keep.Nothing,
-    isReadable: Boolean = true
+    isReadable: Boolean = true,
+    pool: Parallel = Parallel.Alone
 ):
   /** The spectra read so far. */
-  val census = ColorCensus(basis)
+  val census = ColorCensus(basis, pool)
 
   /** Tells how long parts take to build. */
   val clock = BuildClock()
