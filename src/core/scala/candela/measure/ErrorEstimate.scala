@@ -43,8 +43,8 @@ final class ErrorEstimate:
       isStopped: () => Boolean = GivenUp.Never
   ): Option[Errors] =
     val state = State(samples, image, weights)
-    latest = Some(state.weighed)
-    base match
+    // Nothing changes if the estimate is given up
+    val found = base match
       case None =>
         base = Some(state)
         None
@@ -58,6 +58,8 @@ final class ErrorEstimate:
       case Some(half) =>
         if 2 * samples == 3 * half.samples then middle = Some(state)
         None
+    latest = Some(state.weighed)
+    found
 
   /** The error after so many samples per pixel; none before the first estimate. */
   def at(samples: Double): Option[Errors] = last.map: known =>

@@ -16,7 +16,7 @@ private[render] final class Forecast(
     listener: RenderListener
 ):
   private val timeLeft = TimeLeft()
-  private val begun = Forecast.processor
+  private val begun = Forecast.begun
 
   /** @param done    samples taken
     * @param planned samples per pixel at which it ends in any case
@@ -47,8 +47,10 @@ private[render] final class Forecast(
   private def atEnd(samples: Int): Int =
     if schedule.step > 0 || samples == Int.MaxValue then samples else schedule.wholeWaves(samples)
 
-  /** Seconds of processor time that each worker could have had so far, if the system tells. */
-  private def warm: Option[Double] =
+  /** Seconds of processor time that each worker could have had in this JVM so far, if the system
+    * tells.
+    */
+  private[render] def warm: Option[Double] =
     for
       now <- Forecast.processor
       before <- begun
@@ -60,6 +62,11 @@ private[render] final class Forecast(
     TimeLeft.Sweep(schedule.firstSample(wave), schedule.endSample(wave))
 
 private object Forecast:
+  /** That of this process when it began to render: what was compiled since then is compiled for
+    * later renderings, too.
+    */
+  private lazy val begun: Option[Double] = processor
+
   /** Seconds of processor time of this process. */
   private def processor: Option[Double] =
     ProcessHandle.current.info.totalCpuDuration.toScala.map(_.toNanos * 1e-9)

@@ -181,15 +181,16 @@ class ErrorEstimateSuite extends AnyFunSuite:
 
   test("an estimate that is given up changes nothing"):
     val random = scala.util.Random(4)
-    val images = Vector.fill(3)(Image.rgb(side, side))
+    val images = Vector.fill(4)(Image.rgb(side, side))
     for image <- images; i <- image.data.indices do image.data(i) = random.nextFloat()
     def add(to: ErrorEstimate, n: Int, isStopped: () => Boolean = GivenUp.Never) =
       val weights = Array.fill(side * side)(n.toFloat)
       to.add(n, images(Integer.numberOfTrailingZeros(n)), weights, isLast = false, isStopped)
     val (plain, stopped) = (ErrorEstimate(), ErrorEstimate())
-    for n <- Vector(1, 2, 4) do
+    for n <- Vector(1, 2, 4, 8) do
       // At the first, and at each of the next steps that ask
       if n > 1 then
+        val end = stopped.samplesUntil(1e-4)
         for steps <- 0 to 40 by 20 do
           var left = steps
           val _ = intercept[GivenUp]:
@@ -199,4 +200,6 @@ class ErrorEstimateSuite extends AnyFunSuite:
               () =>
                 left -= 1; left < 0
             )
+        // The look after two samples has no interval: NaN is not equal to itself
+        val _ = assert(stopped.samplesUntil(1e-4).map(_.toString) == end.map(_.toString))
       assert(add(plain, n).map(_.relativeMse) == add(stopped, n).map(_.relativeMse))

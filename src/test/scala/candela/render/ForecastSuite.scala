@@ -9,11 +9,14 @@ class ForecastSuite extends AnyFunSuite:
 
   /** After twenty seconds of ten samples each. */
   private def outlook(ends: Option[ExpectedEnd]): Outlook =
+    val forecast = this.forecast(ends)
+    (1 to 20).map(s => forecast.outlook(10L * s * 64 * 64, planned, s, s)).last
+
+  private def forecast(ends: Option[ExpectedEnd]) =
     val listener = new RenderListener:
       override def goal: Option[ExpectedEnd] = ends
     val schedule = TileSchedule(PixelBounds(0, 0, 64, 64), planned)
-    val forecast = Forecast(schedule, 64 * 64, 0, 1, listener)
-    (1 to 20).map(s => forecast.outlook(10L * s * 64 * 64, planned, s, s)).last
+    Forecast(schedule, 64 * 64, 0, 1, listener)
 
   private def byError(samples: Option[SampleRange], time: Option[Double] = None) =
     outlook(Some(ExpectedEnd(time, true, samples)))
@@ -34,3 +37,9 @@ class ForecastSuite extends AnyFunSuite:
     val timed = outlook(Some(ExpectedEnd(Some(60), false, None)))
     assert(timed.samples.isEmpty && timed.left.exists(_ <= 40))
     assert(outlook(None).samples.isEmpty)
+
+  test("a JVM that has rendered is as warm for the next rendering"):
+    val first = forecast(None)
+    // Not every system tells the processor time
+    while first.warm.exists(_ < 0.1) do ()
+    assert(first.warm.isEmpty || forecast(None).warm.exists(_ >= 0.1))

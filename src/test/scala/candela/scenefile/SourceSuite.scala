@@ -5,23 +5,48 @@ import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 import java.util.zip.GZIPOutputStream
 
-import candela.base.{FloatBuffer, Problem, RestBuffer, SceneError}
+import candela.base.{FloatBuffer, IntBuffer, Problem, RestBuffer, SceneError}
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatestplus.scalacheck.ScalaCheckPropertyChecks
 
+private enum Reading:
+  case Floats, Ints
+
 class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
-  /** Every token with its place, or what is wrong with it; lists of numbers as their values. */
-  private def tokens(source: Source): Vector[String] =
+  /** Every token with its place, or what is wrong with it; lists of numbers as their values.
+    *
+    * @param reading of lists
+    * @param atOnce  else number by number
+    */
+  private def tokens(
+      source: Source,
+      reading: Reading = Reading.Floats,
+      atOnce: Boolean = true
+  ): Vector[String] =
     val in = Tokenizer(source, None)
     val floats = FloatBuffer()
+    val ints = IntBuffer()
+    def readList(): Unit = reading match
+      case Reading.Floats if atOnce => in.readFloats(floats, RestBuffer())
+      case Reading.Ints if atOnce => in.readInts(ints)
+      case _ =>
+        in.advance()
+        while if reading == Reading.Ints then in.readInt(ints) else in.readFloat(floats) do
+          in.advance()
+    def readDoubles(into: Array[Double]): Int =
+      if atOnce then in.readDoubles(into)
+      else
+        val one = new Array[Double](1)
+        into.indices.takeWhile(i => in.readDoubles(one) == 1 && { into(i) = one(0); true }).size
     def step(): String =
       try
         val doubles = new Array[Double](3)
-        if in.current == Token.Open then in.readFloats(floats, RestBuffer())
-        else if in.readDoubles(doubles) == 0 then in.advance()
-        val numbers = doubles.mkString(",") + floats.take().mkString(" ", ",", "")
+        if in.current == Token.Open then readList()
+        else if readDoubles(doubles) == 0 then in.advance()
+        val lists = s"${floats.take().mkString(",")} ${ints.take().mkString(",")}"
+        val numbers = s"${doubles.mkString(",")} $lists ${in.sawFraction}"
         s"${in.at} ${in.current} ${in.text} ${in.isNumber} $numbers"
       catch case e: SceneError => e.problems.mkString
     Iterator.continually(step()).takeWhile(_ => in.current != Token.End).toVector
@@ -38,6 +63,14 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       val bytes = text.getBytes(UTF_8)
       val whole = tokens(Source("test", bytes))
       assert(tokens(Source.windowed("test", bytes, room)) == whole)
+
+  test("numbers of a list that are read at once are those that are read one by one"):
+    val list = Gen.oneOf(pieces, Gen.const("[ "), Gen.const("7 "), Gen.const("-3000000000 "))
+    forAll(Gen.listOf(list).map(_.mkString), Gen.choose(1, 90), Gen.oneOf(Reading.values.toSeq)):
+      (text, room, reading) =>
+        def found(atOnce: Boolean) =
+          tokens(Source.windowed("test", text.getBytes(UTF_8), room), reading, atOnce)
+        assert(found(atOnce = true) == found(atOnce = false))
 
   private def withFile[A](bytes: Array[Byte])(use: Path => A): A =
     val file = Files.createTempFile("scene", ".pbrt")
