@@ -206,7 +206,7 @@ class LauncherSuite extends AnyFunSuite:
       assert(p.run(env = Map("CANDELA_JAVA" -> older.toString)).code == 0)
       assert(p.starts.last.exists(_.startsWith("-XX:SharedArchiveFile=")))
 
-  test("commands that end soon use the archive's profiles, renderings do not"):
+  test("commands that end soon use the archive's profiles, renderings of many samples do not"):
     staged: p =>
       val (old, newest) = (p.jdk("17.0.1", in = "17"), p.jdk("99", in = "99"))
       def replays(jdk: Path, words: String*): Boolean =
@@ -216,6 +216,8 @@ class LauncherSuite extends AnyFunSuite:
       assert(!replays(newest, "x.pbrt") && !replays(newest, "render", "x.pbrt"))
       assert(!replays(newest, "--spp", "4", "x.pbrt") && !replays(newest, "resume", "x.film"))
       assert(replays(newest, "preview", "x.pbrt") && replays(newest, "check", "x.pbrt"))
+      assert(replays(newest, "--spp", "1", "x.pbrt") && replays(newest, "x.pbrt", "--spp=1"))
+      assert(!replays(newest, "x.pbrt", "--spp=16") && !replays(newest, "x.pbrt", "-o", "1"))
       assert(replays(old, "x.pbrt"))
 
   test("where the program's folder is read-only, the archive is in the user's cache"):
