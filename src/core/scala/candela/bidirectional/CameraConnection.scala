@@ -14,7 +14,6 @@ import candela.scene.Scene
   * @param imageCamera if it can't project points to the film, nothing is connected
   * @param splats receives what arrives
   * @param media  through which light goes to the camera, if any
-  * @param perSample light paths per camera sample
   * @param observer  told of all that arrives, if anybody
   */
 private[bidirectional] final class CameraConnection(
@@ -22,7 +21,6 @@ private[bidirectional] final class CameraConnection(
     imageCamera: Camera,
     splats: Splats,
     media: PathMedia | Null = null,
-    perSample: Float = 1f,
     observer: SplatObserver | Null = null
 ):
   private val camera: Camera | Null = if imageCamera.isTraceable then imageCamera else null
@@ -46,8 +44,14 @@ private[bidirectional] final class CameraConnection(
     *
     * @param isWeighted against the other strategies of [[BidirectionalPathTracer]]; else light
     *                   tracing is the only one
+    * @param perSample  such light paths per camera sample
     */
-  def connect(paths: LightVertices, isWeighted: Boolean, sampler: Sampler): Unit =
+  def connect(
+      paths: LightVertices,
+      isWeighted: Boolean,
+      sampler: Sampler,
+      perSample: Float = 1f
+  ): Unit =
     val sensor = camera
     if sensor != null && paths.count > 0 then
       sampler.next2D()

@@ -3,7 +3,6 @@ package candela.bidirectional
 import candela.color.Rgb
 import candela.geometry.{Frame, Hit, Ray}
 import candela.integrators.{LightConnection, LightTransport, PhotonLight}
-import candela.lights.LightGroups
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.{CasterPoint, Casters, Scene}
@@ -38,17 +37,12 @@ private[bidirectional] final class CausticPaths(
   private val path =
     Subpath(carriesLight = true, compresses, LightTransport.RouletteAfter, evaluates = true)
   private val point = CasterPoint()
-  private val groups: LightGroups | Null = scene.lightGroups.orNull
   private val ray = Ray()
   private val hit = Hit()
   private val origin = MutableVec3()
   private var rays = 0L
 
   def raysTraced: Long = rays
-
-  override def group: Int =
-    val all = groups
-    if all == null then 0 else all(connection.index)
 
   /** Where the path begins, among all places of casters, from 0 to 1. */
   def place: Double = point.place
@@ -66,10 +60,11 @@ private[bidirectional] final class CausticPaths(
     val choice = Casters.choice(sampler.x, sampler.y)
     sampler.next2D()
     val isSampled = casters.sample(choice, sampler.x, sampler.y, ray, point)
-    val lamp = sampler.next1D(matters = connection.isRandom)
+    val choiceOfLamp = sampler.next1D(matters = connection.isRandom)
     sampler.next2D()
-    if isSampled && connection.choose(point.p, Vec3.Zero, lamp) then
-      val light = scene.lights(connection.index)
+    if isSampled && connection.choose(point.p, Vec3.Zero, choiceOfLamp) then
+      lamp = connection.index
+      val light = scene.lights(lamp)
       if light.isCausticSource && connection.samplePoint(point.p, sampler.x, sampler.y) then
         val vertex = next()
         if arrive(vertex, aside, across, sampler) then follow(vertex, light.isDelta, sampler)

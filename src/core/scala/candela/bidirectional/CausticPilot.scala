@@ -5,13 +5,14 @@ import candela.color.Rgb
 import candela.film.{Splats, View}
 import candela.guiding.PhotonField
 import candela.integrators.{CausticWeights, Integrator}
-import candela.sampling.IndependentSampler
+import candela.sampling.{IndependentSampler, Sampler}
 import candela.scene.{CasterLearning, Casters, Scene}
 
 /** How light paths look for caustics.
   *
   * @param casters   where they begin, more often where caustics come from
   * @param perSample light paths per camera sample, on average
+  * @param ofLamps   the same of those that begin at lamps
   * @param radius    within which photons are gathered at first, if paths leave them caustics
   * @param bringsAll do photons then bring all that media scatter to the camera?
   * @param aim       photons that guide the camera's paths, if they do
@@ -19,10 +20,15 @@ import candela.scene.{CasterLearning, Casters, Scene}
 final case class CausticChoice(
     casters: Casters,
     perSample: Float,
+    ofLamps: Float = 0f,
     radius: Float = 0f,
     bringsAll: Boolean = false,
     aim: Option[PhotonField] = None
-)
+):
+  def hasLightPaths: Boolean = perSample > 0f || ofLamps > 0f
+
+  private[candela] def weights(scene: Scene, view: View): CausticWeights =
+    CausticWeights(scene, casters, view.camera, perSample, ofLamps)
 
 /** Finds out by few paths whether light paths pay: whether they reduce the variance of the image by
   * more than they cost. Depends on the scene and its camera alone, not on the samples to be taken,
@@ -53,7 +59,7 @@ private[candela] final class CausticPilot(
   def run(): (Option[CausticChoice], String) =
     if !light.isCameraWhereItSays(scene, view) then (None, CausticPilot.CameraElsewhere)
     else
-      val learnt = traced(light, 0, LearningPaths, Seed, isLearning = true)
+      val learnt = traced(light, LightKind.OfCasters, 0, LearningPaths, Seed, isLearning = true)
       if learnt.splats == 0 then withoutSplats else look(light.casters.aimed(learnt.learning.aim))
 
   private def withoutSplats: (Option[CausticChoice], String) =
@@ -68,23 +74,36 @@ private[candela] final class CausticPilot(
       )
 
   private def look(aimed: Casters): (Option[CausticChoice], String) =
-    val found = looked(aimed, 0, 1)
-    val first = Expected.of(found)
+    val kinds = ofKinds(aimed)
+    val found = looked(aimed, kinds, 0, 1)
+    val first = Expected.of(found, kinds)
     val expected =
       if light.findsAll || !first.pays then first
       else
-        found.add(looked(aimed, 1, Rounds))
-        Expected.of(found)
-    if light.findsAll || expected.pays then
-      (Some(CausticChoice(aimed, expected.perSample.toFloat)), expected.toString)
+        found.add(looked(aimed, kinds, 1, Rounds))
+        Expected.of(found, kinds)
+    if light.findsAll || expected.pays then (Some(expected.choice(aimed)), expected.toString)
     else (None, s"none: $expected")
 
+  /** Which light paths are taken, if any are: those from lamps, too, if that seems better. */
+  private def ofKinds(aimed: Casters): Vector[LightKind] =
+    val few = Vector(LightKind.OfCasters)
+    if !light.beginsAtLamps(scene) then few
+    else
+      val all = LightKind.values.toVector
+      def gain(kinds: Vector[LightKind]) = Expected.of(looked(aimed, kinds, 0, 1), kinds).gain
+      if gain(all) > LeastGainOfMore * gain(few) then all else few
+
   /** What light paths and the camera's paths of some rounds find. */
-  private def looked(aimed: Casters, from: Int, until: Int): Found =
+  private def looked(aimed: Casters, kinds: Vector[LightKind], from: Int, until: Int): Found =
     val by = light.copy(casters = aimed)
-    val found =
-      traced(by, from * LookingPaths, until * LookingPaths, Seed + 1, isLearning = false)
-    val weights = CausticWeights(scene, aimed, view.camera, 1f)
+    val found = Found()
+    for kind <- kinds do
+      found.add(
+        traced(by, kind, from * LookingPaths, until * LookingPaths, Seed + 1, isLearning = false)
+      )
+    val ofLamps = if kinds.contains(LightKind.OfLamps) then 1f else 0f
+    val weights = CausticWeights(scene, aimed, view.camera, 1f, ofLamps)
     found.blocks.add:
       CameraPairs.followed(view, Seed + 2, pool, from * Pairs, until * Pairs): _ =>
         (tracer(weights), (_, _) => ())
@@ -93,6 +112,7 @@ private[candela] final class CausticPilot(
   /** What the light paths `from` to `until` find. */
   private def traced(
       by: CausticLight,
+      kind: LightKind,
       from: Int,
       until: Int,
       seed: Int,
@@ -103,7 +123,7 @@ private[candela] final class CausticPilot(
     pool
       .map((until - from) / each): i =>
         val part = Found()
-        part.trace(by, from + i * each, from + (i + 1) * each, seed, isLearning)
+        part.trace(by, kind, from + i * each, from + (i + 1) * each, seed, isLearning)
         part
       .foreach(found.add)
     found
@@ -112,76 +132,108 @@ private[candela] final class CausticPilot(
   private final class Found:
     val blocks = PilotBlocks(view)
     val learning = CasterLearning()
-    var splats, lightRays = 0L
-    var lightPaths = 0
+    var splats = 0L
+
+    /** Of each kind of light paths. */
+    val lightRays = new Array[Long](LightKind.values.length)
+    val lightPaths = new Array[Int](lightRays.length)
 
     def add(other: Found): Unit =
       blocks.add(other.blocks)
       learning.addAll(other.learning)
       splats += other.splats
-      lightRays += other.lightRays
-      lightPaths += other.lightPaths
+      loop(lightRays.length): k =>
+        lightRays(k) += other.lightRays(k)
+        lightPaths(k) += other.lightPaths(k)
 
-    def trace(by: CausticLight, from: Int, until: Int, seed: Int, isLearning: Boolean): Unit =
+    def trace(
+        by: CausticLight,
+        kind: LightKind,
+        from: Int,
+        until: Int,
+        seed: Int,
+        isLearning: Boolean
+    ): Unit =
       val within = by.within(scene)
-      val paths = by.paths(scene, within)
-      val observer = Observer(paths, this, isLearning)
-      val camera = CameraConnection(scene, view.camera, Splats.Discarded, within, 1f, observer)
+      kind match
+        case LightKind.OfCasters =>
+          val paths = by.paths(scene, within)
+          val observer = Observer(kind, this, if isLearning then Some(paths) else None)
+          trace(paths, within, kind, observer, from, until, seed)(paths.trace(_, _))
+        case LightKind.OfLamps =>
+          val paths = by.lampPaths(scene, within)
+          trace(paths, within, kind, Observer(kind, this, None), from, until, seed):
+            (time, sampler) =>
+              paths.trace(time, sampler, hero = (sampler.next1D() * 3f).toInt)
+
+    private def trace(
+        paths: LightVertices,
+        within: PathMedia | Null,
+        kind: LightKind,
+        observer: Observer,
+        from: Int,
+        until: Int,
+        seed: Int
+    )(next: (Float, Sampler) => Unit): Unit =
+      val camera = CameraConnection(scene, view.camera, Splats.Discarded, within, observer)
       val sampler = IndependentSampler(1, seed)
       loop(from, until): k =>
         CameraPairs.start(view, sampler, k)
         val time = view.shutter.fold(0f)(_.at(sampler.next1D()))
         camera.begin(time)
-        paths.trace(time, sampler)
+        next(time, sampler)
         camera.connect(paths, isWeighted = true, sampler)
       val inMedia = if within == null then 0L else within.raysTraced
-      lightRays = paths.raysTraced + camera.raysTraced + inMedia
-      lightPaths = until - from
+      lightRays(kind.ordinal) += paths.raysTraced + camera.raysTraced + inMedia
+      lightPaths(kind.ordinal) += until - from
 
-  /** Adds what light paths find. */
-  private final class Observer(paths: CausticPaths, found: Found, isLearning: Boolean)
+  /** Adds what light paths find.
+    *
+    * @param learns from these paths where they begin, if at all
+    */
+  private final class Observer(kind: LightKind, found: Found, learns: Option[CausticPaths])
       extends SplatObserver:
     def see(x: Float, y: Float, light: Rgb, others: Double): Unit =
       val weighted = light.average.toDouble
       if weighted > 0.0 && weighted < Float.PositiveInfinity && found.blocks.contains(x, y) then
         found.splats += 1
-        if isLearning then found.learning.add(paths.place, weighted)
+        if learns.isDefined then for p <- learns do found.learning.add(p.place, weighted)
         else
           // The weight is 1 / (1 + others); q/p of the light path
           val ratio =
             Math.min(if others > 0.0 then 1.0 / Math.sqrt(others) else MostRatio, MostRatio)
-          val whole = weighted * (1.0 + others)
-          val rest = whole - weighted
-          found.blocks
-            .addSplat(
-              x,
-              y,
-              weighted,
-              whole * whole * ratio,
-              rest * rest * ratio,
-              weighted * weighted
-            )
+          found.blocks.addSplat(x, y, kind, weighted, weighted * (1.0 + others), ratio)
 
   /** What is expected of light paths.
     *
     * @param gain      factor of efficiency
-    * @param perSample light paths per camera sample, for the greatest
+    * @param perSample light paths of each kind per camera sample, for the greatest
     */
-  private final class Expected(gain: Double, val perSample: Double):
+  private final class Expected(val gain: Double, perSample: Vector[Double]):
     def pays: Boolean = gain > LeastGain
 
+    def choice(aimed: Casters): CausticChoice =
+      CausticChoice(aimed, perSample(0).toFloat, perSample(1).toFloat)
+
     override def toString: String =
-      f"the pilot expects ${times(gain)} times the efficiency, with $perSample%.3g light " +
-        "paths per camera sample"
+      val more = if perSample(1) > 0.0 then f", and ${perSample(1)}%.3g from lamps" else ""
+      f"the pilot expects ${times(gain)} times the efficiency, with ${perSample(0)}%.3g light " +
+        s"paths per camera sample$more"
 
   private object Expected:
-    def of(found: Found): Expected =
-      val cost = (found.lightRays.toDouble / found.lightPaths) / found.blocks.raysPerPath
-      val (byPaths, more, byLight) = found.blocks.variances(found.lightPaths)
-      val best = Math.sqrt(byLight / (byPaths * cost))
-      val perSample = Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
-      val after = (byPaths + byLight / perSample) * (1 + perSample * cost)
-      Expected(gainOf(byPaths + more, after), perSample)
+    def of(found: Found, kinds: Vector[LightKind]): Expected =
+      val cost = found.lightRays.indices.map: k =>
+        found.lightRays(k).toDouble / Math.max(1, found.lightPaths(k)) / found.blocks.raysPerPath
+      val variances = found.blocks.variances(found.lightPaths(0))
+      import variances.*
+      val perSample = LightKind.values.toVector.map: kind =>
+        val k = kind.ordinal
+        val best = Math.sqrt(byLight(k) / (byPaths * cost(k)))
+        if !kinds.contains(kind) then 0.0
+        else Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
+      val byAll = byLight.lazyZip(perSample).map((v, n) => if n > 0.0 then v / n else 0.0).sum
+      val costs = 1 + cost.lazyZip(perSample).map(_ * _).sum
+      Expected(gainOf(byPaths + without, (byPaths + byAll) * costs), perSample)
 
 private[candela] object CausticPilot:
   inline val LearningPaths = 16384
@@ -211,6 +263,9 @@ private[candela] object CausticPilot:
     * path finds may be missed.
     */
   inline val LeastGain = 3.0
+
+  /** Times the efficiency, from which on paths from lamps are taken beside those from casters. */
+  inline val LeastGainOfMore = 1.2
 
   /** The factor of efficiency, from variance times cost before and after; one where nothing is
     * noisy.

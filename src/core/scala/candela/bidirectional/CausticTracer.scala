@@ -4,7 +4,7 @@ import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.View
 import candela.geometry.Ray
-import candela.integrators.Integrator
+import candela.integrators.{CausticWeights, Integrator, LightTransport}
 import candela.layers.LightParts
 import candela.media.SceneMedia
 import candela.sampling.{IndependentSampler, Sampler}
@@ -59,6 +59,27 @@ final case class CausticLight(
   private[bidirectional] def paths(scene: Scene, within: PathMedia | Null): CausticPaths =
     CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, within)
 
+  /** May light paths begin at lamps, too? In fog without end, those from infinity would begin
+    * closer than where light samples do.
+    */
+  private[candela] def beginsAtLamps(scene: Scene): Boolean = !beneath && media.exists: all =>
+    lazy val isEndless = PathMedia.beyondAll(scene, all) >= 0
+    !scene.lights.indices.exists: i =>
+      scene.lights(i).isInfinite && (all.lights(i) >= 0 || isEndless)
+
+  /** Paths of all light that does not meet a caster first. */
+  private[bidirectional] def lampPaths(scene: Scene, within: PathMedia | Null): LightPaths =
+    LightPaths(
+      scene,
+      maxDepth,
+      LightTransport.RouletteAfter,
+      compresses,
+      weighsAll = false,
+      media = within,
+      casters = casters,
+      beside = LightPaths.Beside(CausticWeights.lamps(scene), findsAll)
+    )
+
 object CausticLight:
   private inline val CameraRaysLooked = 64
 
@@ -67,7 +88,8 @@ object CausticLight:
   * light, both are weighted by multiple importance sampling.
   *
   * @param tracer    weighs what it finds by [[candela.integrators.CausticWeights]]
-  * @param perSample light paths per camera sample, on average
+  * @param perSample light paths from casters per camera sample, on average
+  * @param ofLamps   the same of those from lamps
   *
   * Source: Veach 1997, §10: light tracing is his strategy t = 1, of which only caustics are taken.
   */
@@ -76,13 +98,16 @@ final class CausticTracer(
     tracer: Integrator,
     view: View,
     light: CausticLight,
-    perSample: Float
+    perSample: Float,
+    ofLamps: Float
 ) extends Integrator:
   private val within = light.within(scene)
   private val paths = light.paths(scene, within)
-  private val camera = CameraConnection(scene, view.camera, view.splats, within, perSample)
+  private val lampPaths = if ofLamps > 0f then light.lampPaths(scene, within) else null
+  private val camera = CameraConnection(scene, view.camera, view.splats, within)
 
   def raysTraced: Long = tracer.raysTraced + paths.raysTraced + camera.raysTraced +
+    (if lampPaths == null then 0L else lampPaths.raysTraced) +
     (if within == null then 0L else within.raysTraced)
 
   override def lastMaterial: Int = tracer.lastMaterial
@@ -94,8 +119,18 @@ final class CausticTracer(
     camera.begin(time)
     sampler.skipTo(BidirectionalPaths.LightRequests)
     var left = perSample
-    while left > 0f && (left >= 1f || sampler.next1D() < left) do
+    while isNext(left, sampler) do
       paths.trace(time, sampler)
-      camera.connect(paths, isWeighted = true, sampler)
+      camera.connect(paths, isWeighted = true, sampler, perSample)
+      left -= 1f
+    val more = lampPaths
+    left = if more == null then 0f else ofLamps
+    while more != null && isNext(left, sampler) do
+      more.trace(time, sampler, hero = (sampler.next1D() * 3f).toInt)
+      camera.connect(more, isWeighted = true, sampler, ofLamps)
       left -= 1f
     found
+
+  /** Is another path traced, of as many as are left on average? */
+  private def isNext(left: Float, sampler: Sampler): Boolean =
+    left > 0f && (left >= 1f || sampler.next1D() < left)

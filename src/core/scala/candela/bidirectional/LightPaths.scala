@@ -2,9 +2,10 @@ package candela.bidirectional
 
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray}
-import candela.lights.EmittedRay
+import candela.integrators.LampChoice
+import candela.lights.{EmittedRay, LightGroups}
 import candela.math.*
-import candela.sampling.{Discrete, Sampler}
+import candela.sampling.Sampler
 import candela.scene.{Casters, Scene}
 
 /** Traces light subpaths, and records the vertices that can be connected to a camera subpath.
@@ -18,6 +19,8 @@ import candela.scene.{Casters, Scene}
   * @param startsAlone whether the hero wavelength alone is of interest from the start
   * @param countsPassed whether passing an interface counts as an edge
   * @param casters     tell [[PathVertex.isCaustic]], if it is of interest
+  * @param beside      if they are traced beside paths from the camera, and [[CausticPaths]]: their
+  *   weights are then as for these, and what the others bring is left out
   */
 private[bidirectional] final class LightPaths(
     scene: Scene,
@@ -29,23 +32,21 @@ private[bidirectional] final class LightPaths(
     startsAlone: Boolean = false,
     media: PathMedia | Null = null,
     countsPassed: Boolean = false,
-    casters: Casters | Null = null
+    casters: Casters | Null = null,
+    beside: LightPaths.Beside | Null = null
 ) extends LightVertices(scene):
-  private val powers = scene.lights.map: light =>
-    if weighsAll && light.isContrary then 0f else Discrete.weight(light.power(scene.ball))
-  private val choice: Discrete | Null = if powers.exists(_ > 0f) then Discrete(powers) else null
+  private val choice =
+    if beside != null then beside.lamps else LampChoice(scene, l => !(weighsAll && l.isContrary))
   private val start = EmittedRay()
   private val ray = Ray()
   private val hit = Hit()
-  private val path = Subpath(carriesLight = true, compresses, rouletteAfter)
+  private val path = Subpath(carriesLight = true, compresses, rouletteAfter, beside != null)
   private val lastP = MutableVec3()
 
   var raysTraced: Long = 0L
 
   /** Probability of starting a path at the light. */
-  def chance(light: Int): Float =
-    val picks = choice
-    if picks == null then 0f else picks.probability(light)
+  def chance(light: Int): Float = choice.chance(light)
 
   /** Traces a new path, replacing the last.
     *
@@ -53,15 +54,15 @@ private[bidirectional] final class LightPaths(
     */
   def trace(time: Float, sampler: Sampler, hero: Int = 0): Unit =
     clear()
-    val picks = choice
-    if picks != null && maxEdges > 0 then
-      val light = picks.sample(sampler.next1D())
+    if maxEdges > 0 && !choice.isEmpty then
+      val light = choice.sample(sampler)
+      lamp = light
       sampler.next2D()
       val u1 = sampler.x
       val u2 = sampler.y
       sampler.next2D()
       scene.lights(light).emit(scene.ball, u1, u2, sampler.x, sampler.y, start)
-      path.throughput = start.power * (1f / picks.probability(light))
+      path.throughput = start.power * (1f / choice.chance(light))
       if !path.throughput.isBlack && path.throughput.isFinite then
         ray.time = time
         ray.differential.isKnown = false
@@ -109,10 +110,24 @@ private[bidirectional] final class LightPaths(
           vertex.isCaustic = isByCasters && edges > 1
           isByCasters &&= casts(vertex, isFirst = edges == 1)
           if alive then
-            if !vertex.bsdf.isSpecular then keep(vertex, path, within)
+            if !vertex.bsdf.isSpecular && !isLeft(vertex) then keep(vertex, path, within)
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
+            if beside != null then alive &&= !isByCasters && isOpen(light, vertex)
             lastP.set(vertex.at.p)
             if within != null then within.medium = within.towards(vertex, ray.direction)
+
+  /** Is the vertex left to others? Light samples find well what is lit directly, but for what a
+    * medium close to a lamp scatters.
+    */
+  private def isLeft(vertex: PathVertex): Boolean =
+    beside != null && vertex.edges == 1 && !vertex.isInMedium
+
+  /** May the path go on from the vertex beside the camera's? */
+  private def isOpen(light: Int, vertex: PathVertex): Boolean =
+    // None of the strategies that connect vertices
+    path.weights.near = 0.0
+    val isNew = vertex.edges == 1 && vertex.bounce.isSpecular && scene.lights(light).isDelta
+    !isNew || beside != null && beside.findsAll
 
   /** May the vertex, which the ray has met, be one of a path of [[CausticPaths]]? */
   private def casts(vertex: PathVertex, isFirst: Boolean): Boolean =
@@ -134,16 +149,32 @@ private[bidirectional] final class LightPaths(
       if source.isDelta then 0.0
       else PartialWeights.mis((if start.isInfinite then 1f else start.cosine) / emitted)
 
+private[bidirectional] object LightPaths:
+  /** What light paths are to be beside others.
+    *
+    * @param lamps    where they begin
+    * @param findsAll also trace light that paths from the camera cannot find
+    */
+  final case class Beside(lamps: LampChoice, findsAll: Boolean)
+
 /** The vertices of a light path that can be connected to a camera subpath. */
 private[bidirectional] abstract class LightVertices(scene: Scene):
+  private val groups: LightGroups | Null = scene.lightGroups.orNull
+
+  /** Index of the light where the path begins. */
+  protected final var lamp = -1
   private var kept = Array.fill(LightVertices.InitialSize)(PathVertex(scene))
   private var used = 0
+
+  def raysTraced: Long
 
   /** Number of recorded vertices. */
   final def count: Int = used
 
   /** The group of its light; 0: it is not told. */
-  def group: Int = 0
+  final def group: Int =
+    val all = groups
+    if all == null || lamp < 0 then 0 else all(lamp)
 
   /** Vertex `i`. Its throughput is power, not yet divided by solid angle. */
   final def apply(i: Int): PathVertex = kept(i)

@@ -30,26 +30,22 @@ private[candela] final class PhotonPilot(
         val radius = Pixels * places.footprint
         val aimed = light.casters.aimed(learning.aim)
         val all = mayBringAll && places.othersOfPath() > LeastOthers
-        val which = if all then "all light that media scatter and that" else "light that"
         val told =
-          f"photons of $which casters scatter$through, gathered within a radius of " +
-            f"$radius%.3g in the first pass, and less in each that follows; the image is biased"
-        (Some(CausticChoice(aimed, 1f, radius, bringsAll = all)), told)
+          f"photon maps bring ${brought(all)}, with a radius of $radius%.3g in the first pass, " +
+            "and less in each that follows; the image is biased"
+        (Some(CausticChoice(aimed, 1f, radius = radius, bringsAll = all)), told)
 
-  /** May photons bring all that media scatter? Of skies light samples may leave dim parts, or all,
-    * to the camera's paths, and photons have none of these. In fog without end, light paths from
-    * infinity would begin closer than where light samples do.
-    */
+  /** May photons bring all that media scatter? They can't begin at skies behind portals. */
   private def mayBringAll: Boolean =
-    light.suitsPhotons && light.media.exists: media =>
-      lazy val isEndless = PathMedia.beyondAll(scene, media) >= 0
-      !scene.lights.indices.exists: i =>
-        val source = scene.lights(i)
-        source.asEnvironment != null ||
-        source.isInfinite && (media.lights(i) >= 0 || isEndless)
+    light.suitsPhotons && light.beginsAtLamps(scene) &&
+      scene.environments.forall(_.power(scene.ball) > 0f)
 
   private def receivers = if light.media.isDefined then "surface or medium" else "surface"
-  private def through = if light.media.isDefined then ", at surfaces and in media" else ""
+
+  private def brought(all: Boolean) =
+    if all then "caustics, and all light that media scatter"
+    else if light.media.isDefined then "caustics at surfaces and in media"
+    else "caustics"
 
 private[candela] object PhotonPilot:
   /** Paths of the camera. */

@@ -21,7 +21,13 @@ private final class PilotBlocks(view: View):
   private val rows = Math.ceil(view.height / size).toInt
   private val count = columns * rows
   private val pairs = new Array[Int](count)
-  private val sum, spread, splat, alone, rest, own, saved = new Array[Double](count)
+  private val sum, spread, splat, saved = new Array[Double](count)
+
+  /** Second moments of each kind of light paths. */
+  private val own = Array.fill(LightKind.values.length)(new Array[Double](count))
+
+  // Of each block, by the magnitude of what a path from the camera finds
+  private val whole, more = new Array[Double](count * Magnitudes)
 
   /** Rays of all pairs. */
   var rays = 0L
@@ -49,59 +55,74 @@ private final class PilotBlocks(view: View):
   /** Adds what others found. */
   def add(other: PilotBlocks): Unit =
     rays += other.rays
-    loop(count): i =>
-      pairs(i) += other.pairs(i)
-      for (mine, their) <- all.zip(other.all) do mine(i) += their(i)
+    loop(count)(i => pairs(i) += other.pairs(i))
+    for (mine, their) <- all.zip(other.all) do loop(mine.length)(i => mine(i) += their(i))
 
-  private def all = Vector(sum, spread, splat, alone, rest, own, saved)
+  private def all = Vector(sum, spread, splat, saved, whole, more) ++ own
 
   /** Adds light of a light path.
     *
-    * @param light   of the whole image, if there is one light path for a pixel
-    * @param byPaths second moment that paths from the camera would have alone
-    * @param beside  that they have beside light paths
-    * @param byLight that the light path has
+    * @param light  weighted, if there is one light path for a pixel
+    * @param unweighted the same, if the camera's paths left it to light paths
+    * @param ratio  density of the light path to that of the same path from the camera
     */
   def addSplat(
       x: Float,
       y: Float,
+      kind: LightKind,
       light: Double,
-      byPaths: Double,
-      beside: Double,
-      byLight: Double
+      unweighted: Double,
+      ratio: Double
   ): Unit =
     val i = block(x, y)
     splat(i) += light
-    alone(i) += byPaths
-    rest(i) += beside
-    own(i) += byLight
+    own(kind.ordinal)(i) += square(light)
+    val magnitude = Math.getExponent(unweighted * ratio) - Dimmest
+    val at = i * Magnitudes + Math.max(0, Math.min(magnitude, Magnitudes - 1))
+    whole(at) += unweighted
+    // Second moment of paths from the camera alone, less that of these beside light paths
+    more(at) += (square(unweighted) - square(unweighted - light)) * ratio
 
   /** Relative variances of a sample, summed over blocks: of paths from the camera beside light
-    * paths, what they have more without them, and that of light paths.
+    * paths, and others.
     *
-    * @param lightPaths how many there were
+    * Light that the camera's paths find so seldom that it is brighter than [[Usual]] samples of the
+    * mean is a speck where it is found. Most images of as many samples have none: so its variance
+    * counts no more than if this light was missing there.
+    *
+    * @param lightPaths of each kind, how many there were
     */
-  def variances(lightPaths: Int): (Double, Double, Double) =
-    var byPaths, more, byLight = 0.0
-    each(lightPaths): (i, unit, pixels, scale) =>
+  def variances(lightPaths: Int): Variances =
+    var byPaths, without = 0.0
+    val byLight = new Array[Double](own.length)
+    each(lightPaths): (i, mean, unit, pixels, scale) =>
       if pairs(i) > 0 then byPaths += unit * pixels * spread(i) / pairs(i)
-      more += unit * scale * (alone(i) - rest(i))
-      byLight += unit * scale * own(i)
-    (byPaths, more, byLight)
+      val specks = Math.getExponent(Usual * mean) - Dimmest
+      var seldom, rest, light = 0.0
+      loop(Magnitudes): k =>
+        val at = i * Magnitudes + k
+        if k >= specks then
+          seldom += more(at)
+          light += whole(at)
+        else rest += more(at)
+      val missing = Usual * square(scale * light) / pixels
+      without += unit * (scale * rest + Math.min(scale * seldom, missing))
+      loop(own.length)(k => byLight(k) += unit * scale * own(k)(i))
+    Variances(byPaths, without, byLight.toVector)
 
   /** Likewise of guided paths, and what unguided ones have more. */
   def savings(): (Double, Double) =
-    var guided, more = 0.0
-    each(1): (i, unit, pixels, _) =>
+    var guided, unguided = 0.0
+    each(1): (i, _, unit, pixels, _) =>
       if pairs(i) > 0 then
         guided += unit * pixels * spread(i) / pairs(i)
-        more += unit * pixels * saved(i) / (2 * pairs(i))
-    (guided, more)
+        unguided += unit * pixels * saved(i) / (2 * pairs(i))
+    (guided, unguided)
 
-  /** Calls `use` with each block, the weight of its variance, its size in pixels, and what a light
-    * path stands for.
+  /** Calls `use` with each block, its mean, the weight of its variance, its size in pixels, and
+    * what a light path stands for.
     */
-  private def each(lightPaths: Int)(use: (Int, Double, Double, Double) => Unit): Unit =
+  private def each(lightPaths: Int)(use: (Int, Double, Double, Double, Double) => Unit): Unit =
     val scale = view.pixels.toDouble / lightPaths
     val pixels = Array.tabulate(count): i =>
       val (w, h) = (view.width - (i % columns) * size, view.height - (i / columns) * size)
@@ -109,13 +130,33 @@ private final class PilotBlocks(view: View):
     val means = Array.tabulate(count): i =>
       (if pairs(i) == 0 then 0.0 else sum(i) / pairs(i)) + scale * splat(i) / pixels(i)
     val mean = means.sum / count
-    loop(count)(i => use(i, 1.0 / (square(means(i)) + square(Floor * mean)), pixels(i), scale))
+    loop(count): i =>
+      use(i, means(i), 1.0 / (square(means(i)) + square(Floor * mean)), pixels(i), scale)
 
   private def square(x: Double): Double = x * x
 
+/** Light paths, by where they begin. */
+private enum LightKind:
+  case OfCasters, OfLamps
+
 private object PilotBlocks:
+  /** Relative variances.
+    *
+    * @param byPaths of paths from the camera beside light paths
+    * @param without what they have more without these
+    * @param byLight of each kind of light paths, one for a sample
+    */
+  final case class Variances(byPaths: Double, without: Double, byLight: Vector[Double])
+
   /** Along the longer side. */
   inline val Across = 12.0
 
   /** Part of the mean brightness below which blocks count no more. */
   inline val Floor = 0.1
+
+  /** Samples of a pixel, as images often have. */
+  inline val Usual = 1024.0
+
+  /** Powers of two, from this one on, that brightness is told apart by. */
+  inline val Dimmest = -32
+  inline val Magnitudes = 80

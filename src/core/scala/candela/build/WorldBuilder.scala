@@ -6,11 +6,12 @@ import candela.base.Code
 
 import candela.accel.{Accelerator, Instances, Primitives}
 import candela.build.integrators.IntegratorPlan
-import candela.build.lights.{LightPlan, Lights}
+import candela.build.lights.{LightPlan, Lights, SkySampling}
 import candela.build.settings.{Accelerators, BvhRecipe}
 import candela.build.textures.Textures
 import candela.cameras.Shutter
 import candela.color.{CameraSensor, ColorBasis}
+import candela.integrators.CausticsMode
 import candela.layers.Cryptomatte
 import candela.math.Motion
 import candela.lights.LightSelection
@@ -109,8 +110,9 @@ private[build] final class WorldBuilder(
       (world.result(), objects.map(_.result()))
     def areaLights(context: BuildContext) =
       lit.lights(context) ++ litObjects.flatMap(_.lights(context))
+    val skies = skySampling(materials)
     val (shining, lights) = clock.during(CostKind.Lights):
-      val shining = lightPlans.flatMap((l, plan) => light(l, plan).map(l -> _))
+      val shining = lightPlans.flatMap((l, plan) => light(l, plan, skies).map(l -> _))
       (shining, areaLights(context) ++ shining.map(_._2))
     val placed = clock.during(CostKind.Hierarchies):
       structure(lit.surfaces, litObjects.map(_.surfaces), uses.shared)
@@ -148,7 +150,7 @@ private[build] final class WorldBuilder(
     def recolored(basis: ColorBasis): RenderMethod =
       val other = inBasis(basis)
       val otherLights = areaLights(other) ++
-        shining.flatMap((l, _) => light(l, lightPlan(l, other)))
+        shining.flatMap((l, _) => light(l, lightPlan(l, other), skies))
       val plan = integratorIn(other)
       val otherMaterials = materials.in(color.bases.size, disperses, plan)(() => inBasis(basis))
       val otherScene = scene.recolored(otherMaterials, otherLights.map(_.light).toArray)
@@ -210,12 +212,26 @@ private[build] final class WorldBuilder(
   private def lightPlan(l: LightDescription, context: BuildContext): Option[LightPlan] =
     Lights.all.build(context.stillSite(l.light, l.lightToWorld, "a light"))
 
-  private def light(l: LightDescription, plan: Option[LightPlan]): Option[SampledLight] =
+  /** What light samples must find of skies. */
+  private def skySampling(materials: MaterialTable): SkySampling =
+    val leavesToPhotons = integrator.looksForCaustics && materials.ofScene.hasCasters &&
+      context.resources.switches.caustics == CausticsMode.Photons
     // If geometry decides the side, light sampling reaches directions that BSDF sampling misses
-    val complete = !integrator.samplesBsdf || !context.isV4
+    if !integrator.samplesBsdf || !context.isV4 then SkySampling.All
+    // Photons begin where light is sampled, and have no other technique beside them. What media
+    // scatter they may have to bring of uniform skies, too
+    else if leavesToPhotons then
+      if description.media.nonEmpty then SkySampling.All else SkySampling.Uneven
+    else SkySampling.Bright
+
+  private def light(
+      l: LightDescription,
+      plan: Option[LightPlan],
+      skies: SkySampling
+  ): Option[SampledLight] =
     for
       plan <- plan if !l.lightToWorld.start.isFlat
-      light <- plan.make(l.lightToWorld.start, complete)
+      light <- plan.make(l.lightToWorld.start, skies)
     yield SampledLight(light, plan.samples, l.light)
 
   private def structure(world: Surfaces, objects: Vector[Surfaces], uses: Vector[PlacedObject]) =

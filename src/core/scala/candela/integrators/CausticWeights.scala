@@ -17,12 +17,24 @@ import candela.scene.{Casters, Scene}
   * path's weight, (p₀² + p₁²) / (p₀² + p₁² + p²): p₀ is the density of the path itself, p₁ that of
   * a light sample at its last vertex, and p that of the light path.
   *
+  * Others begin at lamps, and bring what does not meet a caster first, and was scattered more than
+  * once or in a medium. Of each path, one kind of light paths competes.
+  *
   * @param camera    that light paths are connected to
-  * @param perSample light paths per camera sample
+  * @param perSample light paths from casters per camera sample
+  * @param ofLamps   those from lamps; 0: there are none
   *
   * Source: Veach 1997, §10.2; the recursion as in Georgiev 2012, for one competitor.
   */
-final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSample: Float):
+final class CausticWeights(
+    scene: Scene,
+    casters: Casters,
+    camera: Camera,
+    perSample: Float,
+    ofLamps: Float = 0f
+):
+  private val lamps: LampChoice | Null =
+    if ofLamps > 0f then CausticWeights.lamps(scene) else null
 
   /** The path has met a surface, and its BSDF is known. */
   def arrive(eye: Vec3, vertex: SurfaceVertex, path: PathState): Unit =
@@ -36,6 +48,7 @@ final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSa
     */
   def leave(vertex: SurfaceVertex, ray: Ray, hit: Hit, wi: Vec3, path: PathState): Unit =
     path.rivalAtLight = 0.0
+    path.rivalOfLamp = 0.0
     if path.rival > 0.0 then
       val bounce = vertex.bounce
       val pdf = if bounce.isSpecular then 0f else vertex.localPdf(bounce.wi)
@@ -46,39 +59,70 @@ final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSa
         val back =
           if bounce.isSpecular then 1.0
           else vertex.bsdf.pdf(bounce.wi, vertex.localWo).toDouble / pdf
-        if scene.isCaster(vertex.at) then
-          path.rivalAtLight = path.rival * back * casters.density(ray, hit, vertex.at)
+        val begins = startDensity(vertex, ray, hit)
+        path.rivalAtLight = path.rival * back * begins
         path.rival *= back * vertex.cosine(wi)
+        if begins == 0f then path.rivalOfLamp = path.rival
       if !(path.rival < Double.PositiveInfinity) then path.rival = 0.0
       if !(path.rivalAtLight < Double.PositiveInfinity) then path.rivalAtLight = 0.0
+      if !(path.rivalOfLamp < Double.PositiveInfinity) then path.rivalOfLamp = 0.0
 
-  /** The path is scattered at `p` in a medium.
+  /** Density with which light paths begin where the ray has met the vertex, per area. */
+  private def startDensity(vertex: SurfaceVertex, ray: Ray, hit: Hit): Float =
+    if scene.isCaster(vertex.at) then casters.density(ray, hit, vertex.at) else 0f
+
+  /** The path is about to be scattered at `p` in a medium. */
+  def arriveInMedium(eye: Vec3, p: Vec3, path: PathState): Unit =
+    if path.depth == 1 then path.rival = begun(eye, p, 1f)
+
+  /** The path is scattered in a medium.
     *
     * @param pdf of the phase function
     */
-  def scatterInMedium(eye: Vec3, p: Vec3, pdf: Float, path: PathState): Unit =
+  def scatterInMedium(pdf: Float, path: PathState): Unit =
     path.rivalAtLight = 0.0
+    path.ownPdf = pdf
     // Phase functions are symmetric: farther on, both densities are the same
-    if path.depth == 1 then path.rival = if pdf > 0f then begun(eye, p, 1f) / pdf else 0.0
+    if path.depth == 1 then path.rival = if pdf > 0f then path.rival / pdf else 0.0
+    path.rivalOfLamp = path.rival
 
   private def begun(eye: Vec3, p: Vec3, cosine: Float): Double =
     val density = camera.density(eye, p)
-    if density > 0f && cosine > 0f then perSample / (density.toDouble * cosine) else 0.0
+    if density > 0f && cosine > 0f then 1.0 / (density.toDouble * cosine) else 0.0
+
+  /** Does a light path compete with what the path meets of lamps? */
+  def competes(path: PathState): Boolean =
+    path.rivalAtLight > 0.0 || lamps != null && path.rivalOfLamp > 0.0
 
   /** Factor of what the camera's path finds where it has met a lamp.
     *
     * @param pdf solid-angle density of the point of the lamp, seen from the last vertex
+    * @param emitted density with which the lamp sends light along the path, over the cosine there
     */
-  def ofEmission(light: Int, pdf: Float, path: PathState): Float =
+  inline def ofEmission(light: Int, pdf: Float, inline emitted: Float, path: PathState): Float =
+    if path.rivalAtLight > 0.0 then ofEmissionFromCaster(light, pdf, path)
+    else ofEmissionFromLamp(light, pdf, emitted, path)
+
+  def ofEmissionFromLamp(light: Int, pdf: Float, emitted: Float, path: PathState): Float =
+    val begins = lamps
+    if begins == null || !(emitted > 0f) || !scene.lights(light).isCausticSource then 1f
+    else
+      val rival = path.rivalOfLamp * begins.chance(light) * emitted * ofLamps
+      rest(ofSampled(light, pdf, path), rival)
+
+  def ofEmissionFromCaster(light: Int, pdf: Float, path: PathState): Float =
     if !scene.lights(light).isCausticSource then 1f
     else
       val p = path.lastP
-      val rival = path.rivalAtLight * scene.selection.probability(p, Vec3.Zero, light) * pdf
-      val sampled =
-        if path.ownPdf > 0f then
-          scene.selection.probability(p, path.lastN, light).toDouble * pdf / path.ownPdf
-        else 0.0
-      rest(1.0 + square(sampled), rival)
+      val chosen = scene.selection.probability(p, Vec3.Zero, light)
+      rest(ofSampled(light, pdf, path), path.rivalAtLight * chosen * pdf * perSample)
+
+  /** Squared densities of the path itself and of a light sample, relative to its own. */
+  private def ofSampled(light: Int, pdf: Float, path: PathState): Double =
+    if path.ownPdf > 0f then
+      val chosen = scene.selection.probability(path.lastP, path.lastN, light)
+      1.0 + square(chosen.toDouble * pdf / path.ownPdf)
+    else 1.0
 
   /** Factor of a light sample at the vertex.
     *
@@ -92,15 +136,59 @@ final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSa
       hit: Hit,
       path: PathState
   ): Float =
-    if !scene.lights(connection.index).isCausticSource || !scene.isCaster(vertex.at) then 1f
+    if !scene.lights(connection.index).isCausticSource then 1f
     else
-      val chosen = scene.selection.probability(vertex.at.p, Vec3.Zero, connection.index)
-      val back = vertex.reversePdf(connection.wi).toDouble
-      val begun = casters.density(ray, hit, vertex.at) * chosen.toDouble / connection.probability
-      val met =
-        if connection.isDelta then 0.0 else vertex.localPdf(localWi).toDouble / connection.pdf
-      rest(1.0 + square(met), path.rival * back * begun)
+      val begins = startDensity(vertex, ray, hit)
+      if begins == 0f && lamps == null then 1f
+      else
+        val wi = connection.wi
+        val there =
+          if begins == 0f then fromLamp(connection, vertex.at.p) * vertex.cosine(wi)
+          else
+            val chosen = scene.selection.probability(vertex.at.p, Vec3.Zero, connection.index)
+            begins * chosen.toDouble * perSample / connection.probability
+        val rival = path.rival * vertex.reversePdf(wi) * there
+        rest(ofMet(connection, vertex.localPdf(localWi)), rival)
+
+  /** Factor of a light sample at a place in a medium.
+    *
+    * @param pdf of the phase function
+    */
+  def ofSampleInMedium(connection: LightConnection, p: Vec3, pdf: Float, path: PathState): Float =
+    if lamps == null || path.rival == 0.0 || !scene.lights(connection.index).isCausticSource then 1f
+    else
+      val reverse = if path.depth == 1 then 1f else pdf
+      rest(ofMet(connection, pdf), path.rival * reverse * fromLamp(connection, p))
+
+  /** Squared densities of a light sample and of the path itself, relative to the first.
+    *
+    * @param pdf of the direction in which it would meet the light
+    */
+  private def ofMet(connection: LightConnection, pdf: Float): Double =
+    1.0 + (if connection.isDelta then 0.0 else square(pdf.toDouble / connection.pdf))
+
+  /** Density with which paths from the lamp arrive at `p`, across their way, to that of the light
+    * sample.
+    */
+  private def fromLamp(connection: LightConnection, p: Vec3): Double =
+    val begins = lamps
+    if begins == null then 0.0
+    else
+      val sample = connection.sample
+      val target = sample.target
+      val meeting =
+        if sample.isInfinite then sample.pdf
+        else if target.n.isZero then (target.p - p).lengthSquared
+        else sample.pdf * (target.n absDot connection.wi)
+      val source = scene.lights(connection.index)
+      val emitted = source.emissionPdf(scene.ball, target.p, target.n, -connection.wi)
+      begins.chance(connection.index).toDouble * emitted * ofLamps /
+        (connection.probability.toDouble * meeting)
 
   private def rest(own: Double, rival: Double): Float = (own / (own + square(rival))).toFloat
 
   private def square(x: Double): Double = x * x
+
+object CausticWeights:
+  /** Where light paths begin that do so at lamps. */
+  def lamps(scene: Scene): LampChoice = LampChoice(scene, _.isCausticSource)

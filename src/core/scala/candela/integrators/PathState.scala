@@ -45,13 +45,14 @@ abstract class PathState:
   final var isSpread: Boolean = false
 
   /** As long as a light path may have made the path: the ratio of the density with which it would
-    * have come to the vertex to the path's own, and the same for a lamp that its ray meets; else 0.
-    * See [[CausticWeights]].
+    * have come to the vertex to the path's own, and what is known of it for a lamp that its ray
+    * meets; else 0. Light paths of the first kind begin at the last vertex, a caster, those of the
+    * second at the lamp. See [[CausticWeights]].
     */
-  final var rival, rivalAtLight: Double = 0.0
+  final var rival, rivalAtLight, rivalOfLamp: Double = 0.0
 
-  /** The BSDF's solid-angle density of the current direction where [[rivalAtLight]] is above 0; 0:
-    * it is specular.
+  /** The solid-angle density of the current direction, without guiding, where one of the last two
+    * is above 0; 0: it is specular.
     */
   final var ownPdf: Float = 0f
 
@@ -126,6 +127,7 @@ abstract class PathState:
     isSpread = false
     rival = 0.0
     rivalAtLight = 0.0
+    rivalOfLamp = 0.0
     chain = Manifolds.Seen
 
   /** A new one of the same kind. */
@@ -139,6 +141,7 @@ abstract class PathState:
     isSpread = from.isSpread
     rival = from.rival
     rivalAtLight = from.rivalAtLight
+    rivalOfLamp = from.rivalOfLamp
     ownPdf = from.ownPdf
     chain = from.chain
     lastP.set(from.lastP)

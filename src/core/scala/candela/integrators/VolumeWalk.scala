@@ -97,6 +97,7 @@ final class VolumeWalk private (
     if guiding != null then
       vertex.scatterAt(p, wo, lobes(volumePath.medium))
       guiding.arrive()
+    if caustics != null then caustics.arriveInMedium(eye, p, path)
     if samplesInMedia then addDirect(p, wo, phase, sampler)
     if guiding != null then
       scatter(sampler)
@@ -106,7 +107,7 @@ final class VolumeWalk private (
       sampler.next2D()
       val wi = phase.sample(wo, sampler.x, sampler.y)
       val pdf = phase.value(wo, wi)
-      if caustics != null then caustics.scatterInMedium(eye, p, pdf, path)
+      if caustics != null then caustics.scatterInMedium(pdf, path)
       leaveMedium(p, wi, pdf)
 
   /** Adds light of one light that the medium scatters at `p`. */
@@ -118,7 +119,12 @@ final class VolumeWalk private (
     then
       val value = phase.value(wo, connection.wi)
       if visibility.reaches(p, connection.sample, volumePath.medium) then
-        addSample(arriving(takenPdf(Vec3.Z, value)) * value)
+        val arrived = arriving(takenPdf(Vec3.Z, value)) * value
+        val rivals = caustics
+        addSample(
+          if rivals == null then arrived
+          else arrived * rivals.ofSampleInMedium(connection, p, value, path)
+        )
 
   override def leave(): Unit =
     if !vertex.isInMedium then super.leave()
@@ -127,7 +133,7 @@ final class VolumeWalk private (
       val bounce = vertex.bounce
       val p = vertex.at.p
       if caustics != null then
-        caustics.scatterInMedium(eye, p, vertex.localPdf(bounce.wi), path)
+        caustics.scatterInMedium(vertex.localPdf(bounce.wi), path)
       leaveMedium(p, vertex.at.frame.toWorld(bounce.wi), bounce.pdf)
 
   /** Leaves a place in the medium, or ends.

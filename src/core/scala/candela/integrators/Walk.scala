@@ -134,7 +134,15 @@ abstract class Walk(
         scene,
         ray,
         weight = (i, source) =>
-          if isLeft(i) then 0f else emissionWeight(i, source.pdf(path.lastP, ray.direction)),
+          if isLeft(i) then 0f
+          else
+            val d = ray.direction
+            emissionWeight(
+              i,
+              source.pdf(path.lastP, d),
+              source.emissionPdf(scene.ball, path.lastP, Vec3.Zero, -d)
+            )
+        ,
         found = (i, arriving) =>
           if parts != null then parts.addEnvironment(i, depth, path.carried(arriving, 1f))
       )
@@ -153,7 +161,13 @@ abstract class Walk(
         val weight =
           // Only the camera and specular scattering see it
           if source.isShownOnly then (if path.competes then 0f else 1f)
-          else emissionWeight(at.areaLight, source.pdf(path.lastP, at))
+          else
+            emissionWeight(
+              at.areaLight,
+              source.pdf(path.lastP, at),
+              source.emissionPdf(scene.ball, at.p, at.geometricNormal, vertex.wo) /
+                vertex.cosine(vertex.wo)
+            )
         path.addTo(found, emitted, weight)
         if guiding != null && !path.competes then
           guiding.meet(path.carried(emitted, weight).average)
@@ -165,16 +179,21 @@ abstract class Walk(
   /** Weight of light that the path meets against light sampling.
     *
     * @param pointPdf solid-angle density with which light sampling finds the point of the light
+    * @param emitted  as for [[CausticWeights.ofEmission]]
     */
-  private inline def emissionWeight(lightIndex: Int, inline pointPdf: Float): Float =
+  private inline def emissionWeight(
+      lightIndex: Int,
+      inline pointPdf: Float,
+      inline emitted: Float
+  ): Float =
     val weight =
       if path.competes then
         val choice = scene.selection.probability(path.lastP, path.lastN, lightIndex)
         path.emissionWeight(choice, pointPdf)
       else 1f
     val rivals = caustics
-    if rivals == null || path.rivalAtLight == 0.0 then weight
-    else weight * rivals.ofEmission(lightIndex, pointPdf, path)
+    if rivals == null || !rivals.competes(path) then weight
+    else weight * rivals.ofEmission(lightIndex, pointPdf, emitted, path)
 
   /** Does the path go on behind the surface as if it weren't there? */
   final def isPassed: Boolean = isAtInterface || isHidden

@@ -202,7 +202,7 @@ final class Scene(
   private val casterMaterials = materials.casters
 
   /** Whether any surface may cast caustics. */
-  def mayHaveCasters: Boolean = casterMaterials.contains(true)
+  def mayHaveCasters: Boolean = materials.hasCasters
 
   /** Whether this surface casts caustics. */
   def isCaster(at: ShadingPoint): Boolean = casterMaterials(at.material)

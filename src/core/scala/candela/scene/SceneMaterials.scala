@@ -84,6 +84,7 @@ final class SceneMaterials private (
     kinds.castersAmong(surfaces, instanced)
   def hasInterfaces: Boolean = kinds.hasInterfaces
   def hasPanes: Boolean = kinds.hasPanes
+  def hasCasters: Boolean = kinds.casters.contains(true)
   def isCaster(index: Int): Boolean = kinds.casters(index)
   def isSubsurface(index: Int): Boolean = kinds.all(index).isSubsurface
   def hasSubsurface: Boolean = kinds.hasSubsurface

@@ -3,6 +3,7 @@ package candela.bidirectional
 import candela.build.{ColorMode, RenderSettings}
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
+import candela.image.{Image, ImageFiles}
 import candela.integrators.CausticsMode
 import candela.render.{Cancellation, Renderer, RenderMethod, RenderPlan}
 import candela.scenefile.Dialect
@@ -43,8 +44,13 @@ final class CausticPhotonsSuite extends AnyFunSuite:
     AttributeEnd"""
   private val glass = """Material "dielectric" "float eta" 1.5"""
 
-  private def plan(text: String, mode: CausticsMode, spp: Int): RenderPlan =
-    val settings = RenderSettings(Some(spp), color = ColorMode.Rgb, caustics = Some(mode))
+  private def plan(
+      text: String,
+      mode: CausticsMode,
+      spp: Int,
+      color: ColorMode = ColorMode.Rgb
+  ): RenderPlan =
+    val settings = RenderSettings(Some(spp), color = color, caustics = Some(mode))
     SceneTexts.plan(text, Dialect.V4, settings)
 
   private def pixels(plan: RenderPlan, threads: Int = 1): Array[Float] =
@@ -71,6 +77,23 @@ final class CausticPhotonsSuite extends AnyFunSuite:
       val found = mean(plan(text, CausticsMode.Photons, 40))
       // Noise of some 0.5 % in either; a little light is lost beyond edges within the radius
       assert(Math.abs(found / expected - 1) < 0.02, s"$found, expected $expected")
+
+  /** A sky with a bright patch; the rest is darker than the mean: light samples leave it out. */
+  private def withSky[A](use: String => A): A = TempFolder.use: folder =>
+    val sky = Image.rgb(16, 16)
+    for y <- 0 until 16; x <- 0 until 16; c <- 0 until 3 do
+      sky.data(3 * (16 * y + x) + c) = if x > 7 && x < 11 && y > 5 && y < 9 then 12f else 0.6f
+    val file = folder.resolve("sky.pfm")
+    ImageFiles.write(file, sky)
+    use(s"""LightSource "infinite" "string filename" "$file"""")
+
+  test("photons bring the dim parts of a sky, too"):
+    withSky: sky =>
+      val text = room(glass, lamp = sky).replaceFirst("(?m)^LightSource \"infinite\" \"rgb.*$", "")
+      val expected = mean(plan(text, CausticsMode.Off, 200))
+      val found = mean(plan(text, CausticsMode.Photons, 40))
+      // 0.97 without them
+      assert(Math.abs(found / expected - 1) < 0.01, s"$found, expected $expected")
 
   test("light of a point within glass is seen in a mirror"):
     def text(ball: String) =
@@ -160,6 +183,18 @@ final class CausticPhotonsSuite extends AnyFunSuite:
   private val cloudy = s""""uniformgrid" "integer nx" 2 "integer ny" 2 "integer nz" 2
     "float density" [$cells] "rgb sigma_s" [.9 .8 .7] "rgb sigma_a" [.1 .2 .3]
     "point3 p0" [-2 -2 -1] "point3 p1" [2 2 2.2]"""
+  private val rough = """Material "dielectric" "float roughness" .02"""
+  private def behindPane(text: String) =
+    text.replace(
+      "AttributeBegin\nMediumInterface",
+      s"""AttributeBegin
+         |$glass
+         |Shape "bilinearmesh" "point3 P" [-2 -3 -.5  2 -3 -.5  -2 -3 3  2 -3 3]
+         |Shape "bilinearmesh" "point3 P" [-2 -2.9 -.5  -2 -2.9 3  2 -2.9 -.5  2 -2.9 3]
+         |AttributeEnd
+         |AttributeBegin
+         |MediumInterface""".stripMargin
+    )
   private lazy val above = """AttributeBegin
     AreaLightSource "diffuse" "rgb L" [8 6 4]
     Translate -.5 .5 3.2
@@ -186,17 +221,41 @@ final class CausticPhotonsSuite extends AnyFunSuite:
       ("thick mist", smoke(thick, within, "")),
       ("thick coloured mist, in the glass, too", smoke(thickColoured, within, "m")),
       ("a thick cloud of cells", smoke(cloudy.replace("[.9 .8 .7]", "[3 2.5 2]"), within, "")),
-      ("the camera in thick mist", smoke(thickColoured, within, "", inside = true))
+      ("the camera in thick mist", smoke(thickColoured, within, "", inside = true)),
+      ("rough glass in mist", smoke(mist, above, "").replace(glass, rough)),
+      ("rough glass in thick mist", smoke(thick, within, "").replace(glass, rough)),
+      ("mist behind a pane of glass", behindPane(smoke(mist, above, ""))),
+      ("thick mist behind a pane of glass", behindPane(smoke(thickColoured, within, "")))
     )
   do
     test(s"photons bring what paths leave out in media, once: $what"):
-      // With the pixels the radius is smaller, and so is the blur at borders
-      val finer = text.replace("resolution\" 16", "resolution\" 64")
-      val found = means(plan(finer, CausticsMode.Photons, 12))
-      val expected = means(plan(text, CausticsMode.Off, 1500))
-      for (f, e) <- found.lazyZip(expected) do
-        // Noise of a percent in either: few paths scatter all colours alike
-        assert(Math.abs(f / e - 1) < 0.04, s"$found, expected $expected")
+      compare(text)
+
+  private def compare(text: String, color: ColorMode = ColorMode.Rgb, side: Int = 64): Unit =
+    // With the pixels the radius is smaller, and so is the blur at borders
+    val finer = text.replace("resolution\" 16", s"resolution\" $side")
+    val found = means(plan(finer, CausticsMode.Photons, 12 * 64 / side, color))
+    val expected = means(plan(text, CausticsMode.Off, 1500, color))
+    for (f, e) <- found.lazyZip(expected) do
+      // Noise of a percent in either: few paths scatter all colours alike
+      assert(Math.abs(f / e - 1) < 0.04, s"$found, expected $expected")
+
+  test("photons bring what skies send through media and glass, once"):
+    withSky: image =>
+      for sky <- Seq(image, """LightSource "infinite" "rgb L" [.9 .8 .7]""") do
+        val text = hazy(s"$bright\n$sky").replace("resolution\" 64", "resolution\" 16")
+        assert(told(plan(text, CausticsMode.Photons, 1)).contains(all))
+        // All borders of this fog are bright
+        compare(text, side = 256)
+        compare(smoke(mist.replace(".5", ".08"), sky, ""))
+
+  private val dispersive = """Material "dielectric" "spectrum eta" "glass-F11""""
+
+  test("of each wavelength photons in media bring as much as paths"):
+    for fog <- Seq(coloured, thickColoured) do
+      val text = smoke(fog, within, "")
+      compare(text, ColorMode.Spectral)
+      compare(text.replace(glass, dispersive), ColorMode.Spectral)
 
   /** A floor in a ball of mist, with a small ball of glass on it. */
   private def hazy(lamps: String): String =
@@ -231,23 +290,29 @@ final class CausticPhotonsSuite extends AnyFunSuite:
       "point3 P" [-1.2 -1.2 1  1.2 -1.2 1  1.2 1.2 1  -1.2 1.2 1]
     AttributeEnd"""
 
+  private lazy val bright = near.replace("[1 1 1]", "[25 25 25]")
+
   private def told(plan: RenderPlan) = plan.features.toMap.apply("caustics")
-  private val all = "of all light that media scatter"
+  private val all = "and all light that media scatter"
 
   test("in media photons bring all light only where enough of them are seen"):
     def of(fog: String) = told(plan(smoke(fog, within, ""), CausticsMode.Photons, 1))
     assert(of(thick).contains(all))
-    assert(of(thick).contains("at surfaces and in media"))
-    assert(!of(mist.replace(".5", ".02")).contains(all))
+    assert(of(mist.replace(
+      ".5",
+      ".02"
+    )).contains("photon maps bring caustics at surfaces and in media"))
     assert(!of(s"$thick \"rgb Le\" [.2 .1 .1]").contains(all))
 
-  test("nor where skies shine, or light from infinity begins in fog"):
+  test("nor where a sky is behind a portal, or light from infinity begins in fog"):
     def of(text: String) = told(plan(text, CausticsMode.Photons, 1))
     val sun =
       """LightSource "distant" "rgb L" [.1 .1 .1] "point3 from" [0 -1 1] "point3 to" [0 0 0]"""
     val sky = """LightSource "infinite" "rgb L" [.1 .1 .1]"""
+    val behind = sky + """ "point3 portal" [-1 -1 3  1 -1 3  1 1 3  -1 1 3]"""
     assert(of(hazy(s"$near\n$sun")).contains(all))
-    assert(!of(hazy(s"$near\n$sky")).contains(all))
+    assert(of(hazy(s"$bright\n$sky")).contains(all))
+    assert(!of(hazy(s"$bright\n$behind")).contains(all))
     assert(!of(hazy(s"$near\nMediumInterface \"\" \"m\"\n$sun")).contains(all))
 
   test("in media, too, the image has the same bits for any number of threads"):

@@ -215,13 +215,14 @@ private[candela] object CausticTracerSuite:
     "fog, and a ball in it" -> inFog(scene(GlassBall))
   )
 
-  def inFog(text: String): String = text
-    .replace("LookAt", Fog + "LookAt")
+  /** @param scattering of the fog, per unit of length */
+  def inFog(text: String, scattering: String = "[.15 .1 .05]"): String = text
+    .replace("LookAt", fog(scattering) + "LookAt")
     .replace("WorldBegin", "WorldBegin MediumInterface \"\" \"fog\"")
     .replace("\"path\"", "\"volpath\"")
 
-  private def Fog = """
-    MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [.15 .1 .05]
+  private def fog(scattering: String) = s"""
+    MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" $scattering
     "rgb sigma_a" [.02 .02 .02] "float g" .4
     MediumInterface "" "fog"
     """

@@ -32,23 +32,39 @@ class PilotBlocksSuite extends AnyFunSuite:
       blocks.addPair(x, y, random.nextFloat(), random.nextFloat())
       blocks.addSaving(x, y, random.nextDouble())
       val light = random.nextDouble()
-      blocks.addSplat(x.toFloat, y.toFloat, light, 3 * light, light, light * light)
+      val kind = LightKind.values(random.nextInt(2))
+      blocks.addSplat(x.toFloat, y.toFloat, kind, light, 3 * light, 1 + random.nextInt(1 << 20))
     blocks
 
   test("parts that are put together are the whole"):
     val whole = found(0, 3000)
     val parts = PilotBlocks(view)
     for i <- 0 until 3 do parts.add(found(1000 * i, 1000 * (i + 1)))
-    val pairs =
-      whole.variances(3000).toList.zip(parts.variances(3000).toList) ++
-        whole.savings().toList.zip(parts.savings().toList)
-    for case (a: Double, b: Double) <- pairs do assert(Math.abs(a - b) < 1e-9 * Math.abs(a), (a, b))
+    def all(blocks: PilotBlocks) =
+      val found = blocks.variances(3000)
+      val (guided, unguided) = blocks.savings()
+      Vector(found.byPaths, found.without, guided, unguided) ++ found.byLight
+    for (a, b) <- all(whole).zip(all(parts)) do
+      assert(Math.abs(a - b) < 1e-9 * Math.abs(a), (a, b))
 
   test("twice as many light paths that find the same tell the same variance"):
     val once = found(0, 1000)
     val twice = PilotBlocks(view)
     for _ <- 0 until 2 do twice.add(found(0, 1000))
-    val (_, more, byLight) = once.variances(1000)
-    val (_, moreOfTwice, byLightOfTwice) = twice.variances(2000)
-    assert(Math.abs(more - moreOfTwice) < 1e-9 * more)
-    assert(Math.abs(byLight - byLightOfTwice) < 1e-9 * byLight)
+    val (of, ofTwice) = (once.variances(1000), twice.variances(2000))
+    assert(Math.abs(of.without - ofTwice.without) < 1e-9 * of.without)
+    for (a, b) <- of.byLight.zip(ofTwice.byLight) do assert(Math.abs(a - b) < 1e-9 * a)
+
+  test("light that is seldom found counts no more than if it was missing"):
+    /** Even light, and a hundredth of it that the camera's paths find once in `seldom` samples. */
+    def more(seldom: Double): Double =
+      val blocks = PilotBlocks(view)
+      for x <- 0 until width; y <- 0 until height do
+        blocks.addPair(x, y, 1f, 1f)
+        val light = 0.01
+        blocks.addSplat(x.toFloat, y.toFloat, LightKind.OfCasters, light, light, seldom)
+      blocks.variances(width * height).without / (width * height)
+    // Relative variance of a sample: the light times its brightness where it is found
+    assert(Math.abs(more(1e3) - 0.01 * 0.01 * 1e3) < 0.01)
+    assert(Math.abs(more(1e4) - 0.01 * 0.01 * 1e4) < 0.1)
+    for seldom <- Seq(1e6, 1e8) do assert(Math.abs(more(seldom) - 1024 * 0.01 * 0.01) < 0.01)

@@ -6,7 +6,7 @@ import candela.build.film.{FilmSettings, Films, Filters}
 import candela.build.integrators.{
   IntegratorPlan, Integrators, Renderers, VolumeIntegrators, VolumeMethod
 }
-import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights}
+import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights, SkySampling}
 import candela.build.materials.Materials
 import candela.build.media.{Media, Volumes}
 import candela.build.sampling.{SamplerPlan, SamplerRequest, Samplers}
@@ -58,7 +58,7 @@ final class LightRecipesSuite
       Lights.all,
       demanding = Set("goniometric", "projection"),
       demandingIn = Set(candela.scenefile.Dialect.V4),
-      use = plan => plan.make(Transform.Identity, true)
+      use = plan => plan.make(Transform.Identity, SkySampling.All)
     )
 
 final class AreaLightRecipesSuite extends RecipeLaws[Option[AreaLightPlan]](AreaLights.all)

@@ -93,7 +93,7 @@ private object CausticMethod:
         weights => tracer(scene, weighed(weights), null, null)
       ).run()
       val beside = found.fold(options): choice =>
-        weighed(CausticWeights(scene, choice.casters, view.camera, choice.perSample))
+        weighed(choice.weights(scene, view))
       val (aim, expected) = AimPilot(
         scene,
         view,
@@ -105,23 +105,25 @@ private object CausticMethod:
       aim match
         case None => (found, s"$told; $expected")
         case _ if found.isEmpty =>
-          (Some(CausticChoice(light.casters, 0f, aim = aim)), s"$guiding; light paths: $told")
+          (
+            Some(CausticChoice(light.casters, perSample = 0f, aim = aim)),
+            s"$guiding; light paths: $told"
+          )
         case _ => (found.map(_.copy(aim = aim)), s"light paths: $told; $guiding")
 
     def method(choice: CausticChoice): RenderMethod =
       def aimed(own: WalkOptions)(over: Scene, guide: Guide | Null, parts: LightParts | Null) =
         val learns = if guide == null && choice.aim.isDefined then Guide.unlearning else guide
         tracer(over, own.copy(manifolds = walked(over), aim = choice.aim), learns, parts)
-      if choice.perSample == 0f then GuidedMethod(scene)(aimed(options))
+      if !choice.hasLightPaths then GuidedMethod(scene)(aimed(options))
       else
         def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): over =>
           val chosen = light.copy(casters = choice.casters)
-          val weights = CausticWeights(over, choice.casters, view.camera, choice.perSample)
-          val own = aimed(weighed(weights))
+          val own = aimed(weighed(choice.weights(over, view)))
           val paths = guide match
             case None => own(over, null, null)
             case Some(by) => PartlyGuided(over, by, own(over, by, _), own(over, null, _))
-          CausticTracer(over, paths, view, chosen, choice.perSample)
+          CausticTracer(over, paths, view, chosen, choice.perSample, choice.ofLamps)
         RenderMethod.SplattedTiles(
           makers(_, None),
           beside = true,

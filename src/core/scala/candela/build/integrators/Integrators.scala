@@ -57,6 +57,7 @@ object Integrators:
   * @param crossesPanes whether panes do not scatter what they transmit, for `throughMedia`
   * @param interfaces   what interfaces of media are to light sampling
   * @param hasVeils     whether the openings of masks are interfaces, too
+  * @param looksForCaustics whether it does so if asked to
   * @param finish       what the integrator makes of each material
   * @param throughMedia   render method for scenes with participating media, if supported
   * @param throughVolumes the same for scenes with v2's volumes, through which each worker marches
@@ -75,6 +76,7 @@ final case class IntegratorPlan(
     crossesPanes: Boolean = false,
     interfaces: Interfaces = Interfaces.Open,
     hasVeils: Boolean = false,
+    looksForCaustics: Boolean = false,
     finish: Material => Material = identity,
     throughMedia: Option[(Scene, SceneMedia) => RenderMethod] = None,
     throughVolumes: Option[(Scene, Array[Int], () => VolumeMarch) => RenderMethod] = None

@@ -50,6 +50,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       crossesPanes = crossesPanes,
       interfaces = interfaces,
       hasVeils = countsPassed,
+      looksForCaustics = true,
       throughMedia = Option.when(name == "volpath"): (scene, media) =>
         val options = WalkOptions(
           regularizes,

@@ -73,7 +73,11 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
         val sphere = SphereImage(one, EqualAreaMap, l, smooth = false)
         around(l, sphere)(ImageEnvironment.distribution(sphere, _))
       else if !shines(l) then LightPlan.leftOut(LightPlan.Black)
-      else LightPlan((_, complete) => Some(ConstantEnvironment(l, complete)), sampleCount())
+      else
+        LightPlan(
+          (_, finds) => Some(ConstantEnvironment(l, complete = finds == SkySampling.All)),
+          sampleCount()
+        )
 
   /** @param table its sampling table; see [[ImageEnvironment.distribution]] */
   private def around(l: Rgb, image: SphereImage)(table: Boolean => Distribution2D)(using
@@ -85,7 +89,8 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     else
       val p = corners()
       if p.isEmpty then
-        def light(toWorld: Transform, complete: Boolean) =
+        def light(toWorld: Transform, finds: SkySampling) =
+          val complete = finds != SkySampling.Bright
           val kept = if complete then all else compensated
           val distribution = kept(table(complete))
           Some(new ImageEnvironment(LightFrame(toWorld), image, distribution))

@@ -24,12 +24,20 @@ object Lights:
     )
   )
 
-/** Plan of a light: `make` takes its transform and whether every direction must be sampled (needed
-  * only by integrators without BSDF sampling).
+/** Plan of a light: `make` takes its transform, and what must be sampled of it if it is a sky.
   *
   * @param samples light samples per point in v2's and v3's direct lighting
   */
-final case class LightPlan(make: (Transform, Boolean) => Option[Light], samples: Int)
+final case class LightPlan(make: (Transform, SkySampling) => Option[Light], samples: Int)
+
+/** What light samples must find of a sky; what they leave out, paths find as well by themselves. */
+enum SkySampling:
+  /** What is brighter than the mean. */
+  case Bright
+
+  /** All, but for uniform skies. */
+  case Uneven
+  case All
 
 object LightPlan:
   /** Plan of a light without effect, with a warning. */

@@ -49,7 +49,7 @@ object SunskyLightRecipe
       val elevation = Math.asin(Math.min(1.0, s.z.toDouble)).toFloat
       val model = SkyModel(turbidity(), ground, elevation)
       LightPlan(
-        (toWorld, complete) =>
+        (toWorld, finds) =>
           val frame = LightFrame(toWorld)
           val half = Math.toRadians(aperture() / 2.0).toFloat
           Some(
@@ -61,7 +61,7 @@ object SunskyLightRecipe
               skyScale(),
               sunScale(),
               c => convert(c) * all,
-              complete
+              complete = finds != SkySampling.Bright
             )
           )
         ,

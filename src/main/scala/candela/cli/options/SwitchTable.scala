@@ -51,9 +51,10 @@ private[cli] object SwitchTable extends OptionRows:
       .action(set((mode, s) => s.copy(guiding = Some(mode)))),
     opt[CausticsMode]("caustics").valueName("auto|on|off|photons")
       .text(OptionText(
-        "look for caustics, too: by light paths, and by paths that photons guide, where these " +
-          "reduce the noise (auto); also for those of lamps without extent (on); by photon maps, " +
-          "which blur caustics a little (photons); or not (off, default with a number of samples)",
+        "look for caustics, on surfaces and in media: by light paths, and by paths that photons " +
+          "guide, where these reduce the noise (auto); also for those of lamps without extent " +
+          "(on); by photon maps, which blur them and thick fog a little (photons); or not (off, " +
+          "default with a number of samples)",
         "`auto` is the default with `--error`, and with `--time` from 20 s on. " +
           "[What it brings](CAUSTICS.md)."
       ))
