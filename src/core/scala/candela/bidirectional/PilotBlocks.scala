@@ -155,7 +155,7 @@ private object PilotBlocks:
   inline val Floor = 0.1
 
   /** Samples of a pixel, as images often have. */
-  inline val Usual = 1024.0
+  inline val Usual = 16384.0
 
   /** Powers of two, from this one on, that brightness is told apart by. */
   inline val Dimmest = -32
