@@ -67,4 +67,5 @@ class PilotBlocksSuite extends AnyFunSuite:
     // Relative variance of a sample: the light times its brightness where it is found
     assert(Math.abs(more(1e3) - 0.01 * 0.01 * 1e3) < 0.01)
     assert(Math.abs(more(1e4) - 0.01 * 0.01 * 1e4) < 0.1)
-    for seldom <- Seq(1e7, 1e8) do assert(Math.abs(more(seldom) - PilotBlocks.Usual * 0.01 * 0.01) < 0.1)
+    for seldom <- Seq(1e7, 1e8) do
+      assert(Math.abs(more(seldom) - PilotBlocks.Usual * 0.01 * 0.01) < 0.1)
