@@ -116,7 +116,7 @@ object Instances:
 
   /** @param places      (index into `objects`, object to world), which are made when asked for, as
     *   there may be millions; animated instances are numbered last. The numbers of [[MotionRow]]s
-    *   are used where they are, if all static instances are of the same [[MotionRows]]
+    *   are used where they are, if they are of the same [[MotionRows]] as the first
     * @param open, close shutter times
     */
   def of(
@@ -126,11 +126,13 @@ object Instances:
       close: Float = 1f,
       parallel: Parallel = Parallel.Alone
   ): Instances =
-    val isMoving = new Array[Boolean](places.length)
+    val shared: MotionRows | Null =
+      places.iterator.map(_._2).collectFirst { case at: MotionRow => at.rows }.orNull
+    val kinds = new Array[Byte](places.length)
     parallel.ranges(places.length): (from, until) =>
-      loop(from, until)(i => isMoving(i) = places(i)._2.moves)
+      loop(from, until)(i => kinds(i) = kind(places(i)._2, shared).toByte)
     val found = IntBuffer()
-    loop(places.length)(i => if isMoving(i) then found += i)
+    loop(places.length)(i => if kinds(i) == Moving then found += i)
     val moving = found.take()
     val still = places.length - moving.length
     val objectOf = new Array[Int](places.length)
@@ -140,44 +142,37 @@ object Instances:
       objectOf(still + k) = which
       motions(k) = motion
 
-    /** Visits the number among the static instances, and the place, of each. */
-    inline def eachStill(inline visit: (Int, (Int, Motion)) => Unit): Unit =
-      parallel.ranges(places.length): (from, until) =>
-        // Moving ones before `from`
-        var passed = moving.search(from).insertionPoint
-        loop(from, until): i =>
-          if passed < moving.length && moving(passed) == i then passed += 1
-          else visit(i - passed, places(i))
+    // Others follow those that are shared
+    val hasOwn = kinds.exists(_ == Own)
+    val rows =
+      if shared == null then MotionRows() else if hasOwn then shared.continued else shared
+    val rowOf = new Array[Int](still)
+    var k = 0
+    loop(places.length): i =>
+      if kinds(i) == Own then rowOf(k) = rows.grow()
+      if kinds(i) != Moving then k += 1
+    val matrices = rows.all
+    parallel.ranges(places.length): (from, until) =>
+      // Moving ones before `from`
+      var passed = moving.search(from).insertionPoint
+      loop(from, until): i =>
+        val kind = kinds(i)
+        if kind == Moving then passed += 1
+        else
+          val (which, motion) = places(i)
+          val k = i - passed
+          objectOf(k) = which
+          motion match
+            case at: MotionRow if kind == Shared => rowOf(k) = at.row
+            case _ =>
+              motion.write(0f, matrices(MotionRows.chunk(rowOf(k))), MotionRows.start(rowOf(k)))
+    val numbers = if shared == null then null else rowOf
+    new Instances(objects, objectOf, matrices, numbers, motions, open, close)
 
-    common(places, isMoving) match
-      case Some(rows) =>
-        val rowOf = new Array[Int](still)
-        eachStill: (i, place) =>
-          objectOf(i) = place._1
-          place._2 match
-            case at: MotionRow => rowOf(i) = at.row
-            case _ => ()
-        new Instances(objects, objectOf, rows.all, rowOf, motions, open, close)
-      case None =>
-        val rows = MotionRows()
-        loop(still)(_ => rows.grow(): Unit)
-        val matrices = rows.all
-        eachStill: (i, place) =>
-          objectOf(i) = place._1
-          place._2.write(0f, matrices(MotionRows.chunk(i)), MotionRows.start(i))
-        new Instances(objects, objectOf, matrices, null, motions, open, close)
+  private inline val Own = 0
+  private inline val Shared = 1
+  private inline val Moving = 2
 
-  /** The matrices that all static instances have, if they have the same: they are not copied. */
-  private def common(
-      places: IndexedSeqView[(Int, Motion)],
-      isMoving: Array[Boolean]
-  ): Option[MotionRows] =
-    var rows: MotionRows | Null = null
-    def isOfThem(motion: Motion) = motion match
-      case at: MotionRow =>
-        if rows == null then rows = at.rows
-        at.rows eq rows
-      case _ => false
-    var i = 0
-    while i < places.length && (isMoving(i) || isOfThem(places(i)._2)) do i += 1
-    if i < places.length then None else Option(rows)
+  private def kind(motion: Motion, shared: MotionRows | Null): Int = motion match
+    case at: MotionRow if at.rows eq shared => Shared
+    case _ => if motion.moves then Moving else Own

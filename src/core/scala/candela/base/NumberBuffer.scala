@@ -28,6 +28,18 @@ abstract class NumberBuffer[A](newArray: Int => A):
       val count = Math.min(size - start, NumberBuffer.Piece)
       if count > 0 then System.arraycopy(pieces(k), 0, to, at + start, count)
 
+  /** Begins with the numbers of another, whose full chunks are then of both: neither may change
+    * them, nor be emptied.
+    */
+  protected def share(other: NumberBuffer[A]): Unit =
+    val full = other.size >>> NumberBuffer.Bits
+    pieces ++= other.pieces.take(full)
+    size = full << NumberBuffer.Bits
+    val rest = other.size - size
+    if rest > 0 then
+      System.arraycopy(other.pieces(full), 0, pieceOf(size), 0, rest)
+      size = other.size
+
   /** Empties the buffer, but keeps its memory. */
   def clear(): Unit = size = 0
 
@@ -75,6 +87,13 @@ final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
     if at == 0 then last = pieceOf(size)
     last(at) = x
     size += 1
+
+  /** The same numbers, to which others can be added, while none is changed: see [[share]]. */
+  def continued: IntBuffer =
+    val next = IntBuffer()
+    next.share(this)
+    if (size & NumberBuffer.Within) > 0 then next.last = next.pieceOf(size)
+    next
 
   def apply(i: Int): Int = pieceOf(i)(i & NumberBuffer.Within)
   def update(i: Int, x: Int): Unit = pieceOf(i)(i & NumberBuffer.Within) = x

@@ -13,11 +13,13 @@ import candela.scenefile.*
   * @param places are made when they are asked for, as there may be millions, unless they are
   *   animated
   * @param name   of the object; empty for an animated shape, which is one
+  * @param plain  how many of the places are rows of the description, which instances share
   */
 final case class PlacedObject(
     shapes: Vector[ShapeDescription],
     places: IndexedSeqView[Motion],
-    name: String = ""
+    name: String = "",
+    plain: Int = 0
 )
 
 /** Splits shapes into those of the world and objects that are instanced:
@@ -82,9 +84,9 @@ private[build] final class ObjectUses(
       shapes: Vector[ShapeDescription],
       uses: InstanceList
   ): Unit =
-    val arePlain = uses.arePlain
-    val (affine, seen): (IndexedSeq[InstanceDescription], IndexedSeq[InstanceDescription]) =
-      if arePlain then (uses, Vector.empty)
+    val plain = uses.plain
+    val (affine, seen) =
+      if plain == uses.length then (uses, InstanceList.Empty)
       else uses.partition(u => Motions.isAffine(u.instanceToWorld))
     for u <- seen do
       if u.instanceToWorld.isAnimated || shapes.exists(s => Motions.moves(s.objectToWorld)) then
@@ -96,13 +98,9 @@ private[build] final class ObjectUses(
       own ++= shapes.map(copied(_, u))
     val (moving, still) = shapes.partition(s => Motions.moves(s.objectToWorld))
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated
-    def placing = affine.view.map(u => motions.ofInstance(u.instanceToWorld))
-    val places =
-      if arePlain then uses.motions
-      else if affine.exists(_.instanceToWorld.isAnimated) then placing.toVector.view
-      else placing
+    val places = affine.motions(motions.ofInstance)
     if isAlone then own ++= affine.flatMap(u => still.map(copied(_, u)))
-    else if still.nonEmpty && places.nonEmpty then objects += placed(still, places, name)
+    else if still.nonEmpty && places.nonEmpty then objects += placed(still, places, name, plain)
     if places.nonEmpty then
       for s <- moving do
         val within = motions.within(s.objectToWorld)
@@ -112,10 +110,11 @@ private[build] final class ObjectUses(
   private def placed(
       shapes: Vector[ShapeDescription],
       places: IndexedSeqView[Motion],
-      name: String = ""
+      name: String = "",
+      plain: Int = 0
   ): PlacedObject =
     val middle = RenderOrigin.ofObject(shapes, looks = !origin.isOrigin)
-    if middle.isOrigin then PlacedObject(shapes, places, name)
+    if middle.isOrigin then PlacedObject(shapes, places, name, plain)
     else
       def moved(s: ShapeDescription) =
         s.copy(objectToWorld = GraphicsState.still(middle.toOrigin * s.objectToWorld.start))

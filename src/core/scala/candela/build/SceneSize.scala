@@ -59,7 +59,12 @@ private[build] final class SceneSize(
 
   private def statements: Long =
     listed + description.media.iterator.map(m => arrays(m.medium)).sum +
-      description.instances.size * Placed + (emitting + description.lights.size) * LampStatement
+      description.instances.size * Placed + unshared * Rows +
+      (emitting + description.lights.size) * LampStatement
+
+  /** Instances whose matrices are copied, or are not those of a row. */
+  private def unshared: Long =
+    description.instances.size - uses.shared.map(_.plain.toLong).sum
 
   private def materials: Long =
     // Shapes of one statement share it, most of them one after another
@@ -90,8 +95,9 @@ private[build] object SceneSize:
   private val Statement = 330L
   private val LampStatement = 280L
 
-  // Its matrices are those of the instance
-  private val Placed = 16L
+  /** Of an instance: without its matrices, which may be those of [[Instance]]. */
+  private val Placed = 20L
+  private val Rows = 192L
   private val Sphere = 80L
   private val Solid = 500L
   private val Segment = 98L

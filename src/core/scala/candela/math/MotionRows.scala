@@ -1,8 +1,7 @@
 package candela.math
 
 /** Static affine maps with their inverses, as a [[Motion]] writes them: [[Motion.Doubles]] numbers
-  * each, in chunks. There may be millions; each is written once, and none is removed, so that what
-  * was read stays as it is while others are added.
+  * each, in chunks. There may be millions.
   */
 final class MotionRows:
   import MotionRows.*
@@ -25,6 +24,15 @@ final class MotionRows:
     val i = grow()
     Motion.put(map, chunks(i >> Bits), start(i))
     i
+
+  /** The same maps, behind which others can be added; all chunks that are full are shared. */
+  def continued: MotionRows =
+    val next = MotionRows()
+    next.chunks = chunks.clone
+    next.size = size
+    val last = chunk(size)
+    if start(size) > 0 then next.chunks(last) = chunks(last).clone
+    next
 
   /** All numbers so far: those of map `i` are in `all(chunk(i))`, from [[start]] on. */
   def all: Array[Array[Double]] = chunks

@@ -8,43 +8,76 @@ import candela.math.{Motion, MotionRow, MotionRows}
 
 /** Instances, of which there may be millions, in flat arrays: each is made when it is asked for.
   *
-  * @param which of the store; null: the first `length`
+  * @param store which is not added to
+  * @param which numbers in the store, those of this list from `from` on; null: all that there are
   */
 final class InstanceList private (
     private val store: InstanceStore,
     private val which: Array[Int] | Null,
+    from: Int,
     val length: Int
 ) extends scala.collection.immutable.AbstractSeq[InstanceDescription]
     with IndexedSeq[InstanceDescription]:
 
   private def number(i: Int): Int =
     val some = which
-    if some == null then i else some(i)
+    if some == null then i else some(from + i)
 
   def apply(i: Int): InstanceDescription =
     if i < 0 || i >= length then throw IndexOutOfBoundsException(i)
     store(number(i))
 
-  /** Whether no instance moves, and no transform is perspective or singular. */
-  def arePlain: Boolean =
-    var i = 0
-    while i < length && store.isPlain(number(i)) do i += 1
-    i == length
+  /** How many don't move, and have a transform that is neither perspective nor singular. */
+  def plain: Int =
+    var count = 0
+    loop(length)(i => if store.isPlain(number(i)) then count += 1)
+    count
 
-  /** Where they are, if [[arePlain]]. */
-  def motions: IndexedSeqView[Motion] =
-    (0 until length).view.map(i => MotionRow(store.rows, store.row(number(i))))
+  /** Where they are. The motions of those that are not [[plain]] are made at once.
+    *
+    * @param make makes these
+    */
+  def motions(make: AnimatedTransform => Motion): IndexedSeqView[Motion] =
+    val found = IntBuffer()
+    loop(length)(i => if !store.isPlain(number(i)) then found += i)
+    val others = found.take()
+    val made = others.map(i => make(store.other(number(i))))
+    (0 until length).view.map: i =>
+      val row = store.row(number(i))
+      if row >= 0 then MotionRow(store.rows, row)
+      else made(java.util.Arrays.binarySearch(others, i))
 
   /** The instances of each object, by its name. */
   def ofEach: Vector[(String, InstanceList)] =
-    val names = mutable.LinkedHashMap.empty[String, IntBuffer]
+    val names = store.names
+    val sorted = names.distinct.sorted
+    val ranks = sorted.zipWithIndex.toMap
+    val rankOf = names.map(ranks).toArray
+    // Where those of each begin in one array, which all lists have
+    val starts = new Array[Int](sorted.size + 1)
+    loop(length)(i => starts(rankOf(store.origin(number(i))) + 1) += 1)
+    loop(sorted.size)(k => starts(k + 1) += starts(k))
+    val next = starts.clone
+    val numbers = new Array[Int](length)
     loop(length): i =>
-      names.getOrElseUpdate(store.name(number(i)), IntBuffer()) += number(i)
-    if names.size == 1 then Vector(names.head._1 -> this)
-    else
-      names.toVector.sortBy(_._1).map: (name, found) =>
-        val those = found.take()
-        name -> new InstanceList(store, those, those.length)
+      val k = rankOf(store.origin(number(i)))
+      numbers(next(k)) = number(i)
+      next(k) += 1
+    sorted.indices.toVector.collect:
+      case k if starts(k) < starts(k + 1) =>
+        val count = starts(k + 1) - starts(k)
+        sorted(k) ->
+          (if count == length then this else new InstanceList(store, numbers, starts(k), count))
+
+  override def partition(
+      holds: InstanceDescription => Boolean
+  ): (InstanceList, InstanceList) =
+    val (in, out) = (IntBuffer(), IntBuffer())
+    loop(length)(i => (if holds(this(i)) then in else out) += number(i))
+    (some(in.take()), some(out.take()))
+
+  private def some(numbers: Array[Int]): InstanceList =
+    new InstanceList(store, numbers, 0, numbers.length)
 
   /** All of them, changed. */
   def changed(f: InstanceDescription => InstanceDescription): InstanceList =
@@ -60,85 +93,101 @@ object InstanceList:
   /** Adds instances to those of a list, which itself stays as it is. */
   final class Builder private[InstanceList] ()
       extends mutable.Builder[InstanceDescription, InstanceList]:
-    private var store = InstanceStore()
-    private var length = 0
+    private var store = InstanceStore.empty
+
+    /** Whether a list has the store, too. */
+    private var isGiven = false
 
     def addOne(one: InstanceDescription): this.type =
-      if !store.add(one, length) then
-        // Another list has added to it
-        val before = result()
-        store = InstanceStore()
-        loop(before.length)(i => store.add(before(i), i): Unit)
-        store.add(one, length): Unit
-      length += 1
+      if isGiven then
+        store = store.continued
+        isGiven = false
+      store.add(one)
       this
 
     override def addAll(more: IterableOnce[InstanceDescription]): this.type = more match
-      case list: InstanceList if length == 0 && list.which == null =>
+      case list: InstanceList if store.length == 0 && list.which == null =>
         store = list.store
-        length = list.length
+        isGiven = true
         this
       case _ => super.addAll(more)
 
     def clear(): Unit =
-      store = InstanceStore()
-      length = 0
+      store = InstanceStore.empty
+      isGiven = false
 
-    def result(): InstanceList = new InstanceList(store, null, length)
+    def result(): InstanceList =
+      isGiven = true
+      new InstanceList(store, null, 0, store.length)
 
-/** What is known of instances: numbers that are added, and never changed. */
-private final class InstanceStore:
+/** What is known of instances. It is added to until a list has it: lists are read by any thread.
+  *
+  * @param numbers of each: its origin, line, column, and the number of its row; −1 − that of its
+  *   transform
+  */
+private final class InstanceStore private (
+    val rows: MotionRows,
+    numbers: IntBuffer,
+    private var origins: Vector[InstanceStore.Origin],
+    private var others: Vector[AnimatedTransform]
+):
   import InstanceStore.*
 
-  val rows: MotionRows = MotionRows()
-
-  /** Of each: its origin, line, column, and the number of its row; −1 − that of its transform. */
-  private val numbers = IntBuffer()
-  private val origins = mutable.ArrayBuffer.empty[Origin]
   private val numberOf = mutable.HashMap.empty[Origin, Int]
-  private val others = mutable.ArrayBuffer.empty[AnimatedTransform]
   private var last = Origin("", "", None)
   private var lastNumber = -1
 
   private inline val Each = 4
 
-  /** Adds the instance `i`, unless there is one already. */
-  def add(one: InstanceDescription, i: Int): Boolean = synchronized:
-    val isNext = numbers.length == Each * i
-    if isNext then
-      numbers += origin(one)
-      numbers += one.at.line
-      numbers += one.at.column
-      numbers += place(one.instanceToWorld)
-    isNext
+  def length: Int = numbers.length / Each
 
-  private def origin(one: InstanceDescription): Int =
+  /** The same instances, to which others can be added; most memory is shared. */
+  def continued: InstanceStore =
+    new InstanceStore(rows.continued, numbers.continued, origins, others)
+
+  def add(one: InstanceDescription): Unit =
+    numbers += originOf(one)
+    numbers += one.at.line
+    numbers += one.at.column
+    numbers += place(one.instanceToWorld)
+
+  private def originOf(one: InstanceDescription): Int =
     val at = one.at
     val isLast = lastNumber >= 0 && (last.name == one.name) && (last.file eq at.file) &&
       (last.includedFrom eq at.includedFrom)
     if !isLast then
       last = Origin(one.name, at.file, at.includedFrom)
-      lastNumber = numberOf.getOrElseUpdate(last, { origins += last; origins.size - 1 })
+      lastNumber = numberOf.getOrElseUpdate(last, { origins :+= last; origins.size - 1 })
     lastNumber
 
   private def place(t: AnimatedTransform): Int =
     val map = t.start
     if (map eq t.end) && !map.isFlat && MotionRows.canHold(map) then rows.add(map)
     else
-      others += t
+      others :+= t
       -others.size
+
+  /** The names of all origins. */
+  def names: Vector[String] = origins.map(_.name)
+
+  /** The number of the origin of an instance. */
+  def origin(i: Int): Int = numbers(Each * i)
 
   def isPlain(i: Int): Boolean = row(i) >= 0
   def row(i: Int): Int = numbers(Each * i + 3)
-  def name(i: Int): String = origins(numbers(Each * i)).name
+
+  /** The transform of an instance that is not plain. */
+  def other(i: Int): AnimatedTransform = others(-1 - row(i))
 
   def apply(i: Int): InstanceDescription =
-    val Origin(name, file, includedFrom) = origins(numbers(Each * i))
+    val Origin(name, file, includedFrom) = origins(origin(i))
     val at = SourcePos(file, numbers(Each * i + 1), numbers(Each * i + 2), includedFrom)
-    val place = row(i)
     val toWorld =
-      if place < 0 then others(-1 - place) else GraphicsState.still(rows.transform(place))
+      if isPlain(i) then GraphicsState.still(rows.transform(row(i))) else other(i)
     InstanceDescription(name, at, toWorld)
 
 private object InstanceStore:
   final case class Origin(name: String, file: String, includedFrom: Option[SourcePos])
+
+  def empty: InstanceStore =
+    new InstanceStore(MotionRows(), IntBuffer(), Vector.empty, Vector.empty)

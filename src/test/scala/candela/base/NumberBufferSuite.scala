@@ -23,6 +23,20 @@ class NumberBufferSuite extends AnyFunSuite:
     for i <- 0 until 7000 do ints += -i
     assert(ints.take().sameElements(Array.tabulate(7000)(-_)))
 
+  test("buffers that go on from one have its numbers, and it has none of theirs"):
+    for count <- Seq(0, 5, 4096, 10_000) do
+      val ints = IntBuffer()
+      for i <- 0 until count do ints += i
+      val (first, second) = (ints.continued, ints.continued)
+      for i <- 0 until 5000 do
+        first += -i
+        second += 7
+      for _ <- 0 until 3 do ints += 1
+      val known = Array.range(0, count)
+      assert(first.take().sameElements(known ++ Array.tabulate(5000)(-_)))
+      assert(second.take().sameElements(known ++ Array.fill(5000)(7)))
+      assert(ints.take().sameElements(known ++ Array.fill(3)(1)))
+
   test("numbers can be replaced, and copied to a place of a larger array"):
     val floats = FloatBuffer()
     for _ <- 0 until 10000 do floats += 1f

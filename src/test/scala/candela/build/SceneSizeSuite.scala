@@ -119,6 +119,29 @@ class SceneSizeSuite extends AnyFunSuite:
       sizes(instances, CostKind.Instances, "Instances")()
     assertNear(placed, all, 0.5)
 
+  test("statements of instances and what is made of them, within a fifth"):
+    def placed(inObject: String, first: String) =
+      parsed(Sky + s"ObjectBegin \"o\"\n${inObject}Shape \"sphere\"\nObjectEnd\n$first" +
+        Vector.fill(5000)(
+          s"AttributeBegin Translate $somewhere ObjectInstance \"o\" AttributeEnd\n"
+        ).mkString)
+    val moving = "AttributeBegin ActiveTransform EndTime Translate 1 0 0 ActiveTransform All " +
+      "ObjectInstance \"o\" AttributeEnd\n"
+    // As they are; around another origin, which copies their matrices; and with one that moves
+    val shared = placed("", "")
+    val copied = placed("Translate 1e6 0 0\n", "")
+    val mixed = placed("", moving)
+    val measured = for scene <- Vector(shared, copied, mixed) yield
+      val plan = SceneBuilder.build(scene, RenderSettings())._1
+      val kinds = Seq(CostKind.Statements, CostKind.Instances)
+      val estimated = plan.costs.all.filter(c => kinds.contains(c.kind)).map(_.bytes).sum
+      val sizes = ObjectSizes()
+      val instances = sizes.find(plan)(_.getClass.getSimpleName == "Instances")
+      val found = sizes.add(scene.instances +: instances)
+      assertNear(estimated, found, 0.2)
+      found
+    assert(measured(1) > 1.7 * measured(0) && measured(2) < 1.1 * measured(0), measured)
+
   test("lamps, within a half"):
     val emission = "AreaLightSource \"diffuse\" \"rgb L\" [ 1 2 3 ]\n"
     val balls = parsed(Vector.fill(2000)(

@@ -146,7 +146,10 @@ class InstancedSuite extends AnyFunSuite:
     val picked = Vector.tabulate(300)(i => places(33 * i + 7))
     val shared = Instances.of(objects, picked.view)
     val copied = Instances.of(objects, picked.map((o, m) => (o, Still(m.transform(0f)))).view)
-    val mixed = Instances.of(objects, picked.updated(9, (0, Still(Transform.Identity))).view)
+    val stranger = (0, Still(Transform.Identity))
+    val mixed = Instances.of(objects, picked.updated(9, stranger).view)
+    val others = sizes.add(Vector(Instances.of(objects, places.updated(9, stranger).view)))
+    assert(others < 10L * places.length + 60000, s"$others bytes")
     for i <- picked.indices do
       assert(shared.bounds(i) == instances.bounds(33 * i + 7))
       assert(i == 9 || mixed.bounds(i) == shared.bounds(i))
@@ -160,11 +163,17 @@ class InstancedSuite extends AnyFunSuite:
       Bvh(Primitives(Soups.icosphere(1, Transform.scale(2, 3, 1).get), Array.empty))
     )
     val draws = Draws(6)
+    val (rows, others) = (MotionRows(), MotionRows())
     val places = Vector.tabulate(20_000): i =>
       val there = draws.translation(9)
       val away = there * Transform.translate(1, 0, 0)
-      val moves = i % 7 < 3
-      (i % 2, if moves then Interpolation(there, away, 0f, 1f, shortest = true) else Still(there))
+      val motion =
+        if i % 7 < 3 then Interpolation(there, away, 0f, 1f, shortest = true)
+        else if i % 3 == 0 then Still(there)
+        else
+          val those = if i % 3 == 1 then rows else others
+          MotionRow(those, those.add(there))
+      (i % 2, motion)
     val divided = new Parallel:
       def threads = 3
       def worksAside = false

@@ -47,16 +47,22 @@ class InstanceListSuite extends AnyFunSuite:
     val all = many ++ Vector(moving, flat, view) ++ many.reverse
     val list = listed(all)
     assert(list.length == all.length && list.map(facts) == all.map(facts))
-    assert(!list.arePlain)
+    assert(list.plain == 2 * many.length)
 
   test("the motion of an instance writes its two matrices"):
-    val list = listed(many)
-    assert(list.arePlain)
+    val all = view +: many.take(500) :+ moving :++ many.drop(500) :+ flat
+    val list = listed(all)
+    assert(list.plain == many.length)
     val (found, expected) = (new Array[Double](24), new Array[Double](24))
-    for i <- many.indices do
-      list.motions(i).write(0f, found, 0)
-      Still(many(i).instanceToWorld.start).write(0f, expected, 0)
-      assert(found.sameElements(expected) && !list.motions(i).moves)
+    val made = Vector(view, moving, flat).map(_.instanceToWorld -> Still(Transform.Identity))
+    val motions = list.motions(t => made.find(_._1 eq t).get._2)
+    for i <- all.indices do
+      made.find(_._1 eq all(i).instanceToWorld) match
+        case Some((_, motion)) => assert(motions(i) eq motion)
+        case None =>
+          motions(i).write(0f, found, 0)
+          Still(all(i).instanceToWorld.start).write(0f, expected, 0)
+          assert(found.sameElements(expected) && !motions(i).moves)
 
   test("instances of each object, by name, are in their order"):
     val all = view +: many :+ moving
@@ -64,7 +70,7 @@ class InstanceListSuite extends AnyFunSuite:
     assert(each.map(_._1) == Vector("a", "b", "c"))
     for (name, list) <- each do
       assert(list.map(facts) == all.filter(_.name == name).map(facts))
-    assert(each.map(_._2.arePlain) == Vector(true, false, false))
+    assert(each.map((_, list) => list.plain == list.length) == Vector(true, false, false))
     assert(listed(Vector.empty).ofEach.isEmpty)
 
   test("lists that go on from one do not share what is added"):
@@ -77,6 +83,46 @@ class InstanceListSuite extends AnyFunSuite:
     assert(first.result().map(facts) == (many :+ view :+ many(0)).map(facts))
     assert(second.result().map(facts) == (many :+ moving :+ flat).map(facts))
     assert(one.map(facts) == many.map(facts))
+
+  test("instances are parted in their order, also those of one object"):
+    val all = view +: many :+ moving
+    for list <- listed(all) +: listed(all).ofEach.map(_._2) do
+      val (first, second) = list.partition(_.at.line % 2 == 0)
+      val (expected, others) = list.toVector.partition(_.at.line % 2 == 0)
+      assert(first.map(facts) == expected.map(facts) && second.map(facts) == others.map(facts))
+
+  test("lists of ten thousand objects take few bytes each"):
+    val list = listed(Vector.tabulate(10_000)(i => many(0).copy(name = s"o$i")))
+    val sizes = ObjectSizes()
+    sizes.add(Vector(list)): Unit
+    val bytes = sizes.add(list.ofEach.map(_._2))
+    assert(bytes < 100L * list.length, s"$bytes")
+
+  test("lists that go on from one have most of its memory, and add nothing to it"):
+    val one = (InstanceList.newBuilder ++= Vector.fill(20)(many).flatten).result()
+    val bytes = ObjectSizes().add(Vector(one))
+    val frames = Vector.fill(50)((InstanceList.newBuilder ++= one += moving).result())
+    assert(ObjectSizes().add(Vector(one)) == bytes)
+    val all = ObjectSizes().add(one +: frames)
+    assert(all < 2 * bytes, s"$all of 51 lists, $bytes of one")
+    val last = frames.foldLeft(one)((before, _) =>
+      (InstanceList.newBuilder ++= before += view).result()
+    )
+    assert(last.length == one.length + 50 && last.map(facts).endsWith(Vector.fill(50)(facts(view))))
+
+  test("nothing is kept of what follows the empty list"):
+    val before = ObjectSizes().add(Vector(InstanceList.Empty))
+    val list = (InstanceList.newBuilder ++= InstanceList.Empty ++= many).result()
+    assert(list.map(facts) == many.map(facts))
+    assert(ObjectSizes().add(Vector(InstanceList.Empty)) == before)
+
+  test("a builder that goes on leaves its earlier lists as they are"):
+    val builder = InstanceList.newBuilder ++= many
+    val one = builder.result()
+    val bytes = ObjectSizes().add(Vector(one))
+    builder ++= Vector.fill(5)(many).flatten += view
+    assert(ObjectSizes().add(Vector(one)) == bytes)
+    assert(builder.result().map(facts) == (Vector.fill(6)(many).flatten :+ view).map(facts))
 
   test("all instances can be changed"):
     val moved = listed(many :+ moving).changed(_.copy(name = "z"))
