@@ -83,6 +83,11 @@ final class InputFile private[base] (
     */
   private[base] def stamp: Option[FileStamp] = FileStamp.of(place)
 
+  /** Tells whether the file is surely as it is now. */
+  def watch(): () => Boolean =
+    val now = stamp
+    () => now.nonEmpty && stamp == now
+
   /** In memory as the system sees fit. Its whole size is counted. */
   def map(): ByteBuffer = Using.resource(channel()): channel =>
     if channel.size > Int.MaxValue then throw IOException("larger than 2 GB")

@@ -76,13 +76,19 @@ private[build] final class SceneSize(
     description.namedMaterials.size + worn.size
 
   private def lights: Long =
-    val images = description.lights.map(_.light).flatMap(l => ImageNames.flatMap(file(l, _)))
     val emitters =
       if emitting == 0 then Vector.empty else uses.world.filter(_.areaLight.isDefined)
     val lamps = SurfaceCount.of(emitters, description.dialect.base)
-    val pixel = if textures.lightTiles.isEmpty then LightPixel else TablePixel
     lamps.triangles * TriangleLamp + (lamps.solids + description.lights.size) * Lamp +
-      images.map(i => ImageSize.guess(i).fold(0L)(s => s.width.toLong * s.height * pixel)).sum
+      description.lights.map(l => image(l.light)).sum
+
+  /** Bytes of the image of a light. What portals make of theirs is in memory. */
+  private def image(light: Declaration): Long =
+    val isTiled = textures.lightTiles.nonEmpty && light.param("portal").isEmpty &&
+      TextureStore.mayBeTiled(light, light.dialect.getOrElse(description.dialect.base))
+    val pixel = if isTiled then TablePixel else LightPixel
+    TextureStore.ImageNames.flatMap(file(light, _)).flatMap(ImageSize.guess(_))
+      .map(s => s.width.toLong * s.height * pixel).sum
 
   private def media: Long =
     description.media.iterator.map: m =>
@@ -122,8 +128,6 @@ private[build] object SceneSize:
 
   /** Of the table alone. */
   private val TablePixel = 5L
-
-  private val ImageNames = Vector("filename", "mapname")
 
   /** A file to look at in passing. */
   private[build] def file(d: Declaration, name: String): Option[InputFile] =

@@ -68,16 +68,6 @@ final class Image(
 
   def toImage: Image = this
 
-  /** Whether the colours of all pixels are finite. */
-  def isFinite: Boolean =
-    val sources = StoredImage.colors(channelNames).fold(Array.emptyIntArray)(_.distinct.toArray)
-    var i = 0
-    var all = true
-    while all && i < data.length do
-      loop(sources.length)(k => all &= java.lang.Float.isFinite(data(i + sources(k))))
-      i += channels
-    all
-
   /** The same image, decoded to linear values; alpha is never encoded. */
   def linear: Image =
     if encoding == Encoding.Linear then this

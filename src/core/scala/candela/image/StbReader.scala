@@ -73,8 +73,10 @@ private[image] object StbReader:
     val channels = if isPng then PngChannels.getOrElse(file.get(25).toInt, 1) else 0
     if isPng then height * ((width.toLong * channels * file.get(24) + 7) / 8) else values
 
-  /** Channels by PNG colour type: grey, colour, palette, and the first two with alpha. */
+  /** The PNG colour type of images with a palette. */
   val Palette = 3
+
+  /** Channels by PNG colour type: grey, colour, palette, and the first two with alpha. */
   val PngChannels: Map[Int, Int] = Map(0 -> 1, 2 -> 3, Palette -> 1, 4 -> 2, 6 -> 4)
 
   /** Upper bound of compression ratios: deflate reaches 1032, JPEG with one bit per block 1365.

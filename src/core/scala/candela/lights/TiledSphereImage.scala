@@ -21,8 +21,7 @@ final class TiledSphereImage(
   private val isScaled = colors.isEmpty && factor != Rgb.White
 
   protected def pixel(x: Int, y: Int): Rgb =
-    val i = pixels.index(x, y)
-    made(Rgb(pixels(i, 0), pixels(i, 1), pixels(i, 2)))
+    made(pixels.texel(pixels.index(x, y)))
 
   private def made(c: Rgb): Rgb =
     val change = rebase
@@ -60,23 +59,19 @@ final class TiledSphereImage(
     */
   private inline def everyPixel(inline holds: (Int, Int, Rgb) => Boolean): Boolean =
     val texels = pixels.reader
-    val (across, down) = (blocks(width), blocks(height))
+    val (wide, high) = pixels.tile
+    val (across, down) = ((width + wide - 1) / wide, (height + high - 1) / high)
     var all = true
-    var block = 0
-    while all && block < across * down do
-      val (x0, y0) = (block % across * Block, block / across * Block)
+    var tile = 0
+    while all && tile < across * down do
+      val (x0, y0) = (tile % across * wide, tile / across * high)
       var y = y0
-      while all && y < Math.min(height, y0 + Block) do
+      while all && y < Math.min(height, y0 + high) do
         var x = x0
-        while all && x < Math.min(width, x0 + Block) do
+        while all && x < Math.min(width, x0 + wide) do
           val i = pixels.index(x, y)
           all = holds(x, y, made(Rgb(texels(i, 0), texels(i, 1), texels(i, 2))))
           x += 1
         y += 1
-      block += 1
+      tile += 1
     all
-
-  private def blocks(pixels: Int): Int = (pixels + Block - 1) / Block
-
-  /** Edge of a tile of Floats. */
-  private inline def Block = 32

@@ -26,12 +26,15 @@ final case class ColorChoice(step: Int, most: Int, choose: Vector[Rgb] => Vector
   * @param most     upper limit of the texels of enlarged images; None: neither enlarged nor reduced
   * @param encoding of the file
   * @param colors   which stand for all of them, if they are colours
+  * @param confirm  throws an [[candela.image.ImageError]] if the file has changed since its key was
+  *   made: what is made of it then has another
   */
 final case class MadeTexels(
     bands: TexelBands,
     most: Option[Float],
     encoding: Encoding,
-    colors: Option[ColorChoice]
+    colors: Option[ColorChoice],
+    confirm: () => Unit = () => ()
 ):
   /** Width and height of each level, the largest first, and whether it has bytes. */
   def sizes: Vector[(Int, Int, Boolean)] =
@@ -40,8 +43,16 @@ final case class MadeTexels(
       Pyramid.sizes(bands.width, bands.height).map: (w, h) =>
         (w, h, bands.isBytes && w == bands.width && h == bands.height)
 
-  /** All levels in memory, and the colours that stand for all. */
-  def whole(wrap: Wrap, parallel: Parallel): (Array[Texels], Vector[Rgb]) =
+  /** All levels in memory, and what is said of them. */
+  def whole(wrap: Wrap, parallel: Parallel): (Array[Texels], TexelFacts) =
     val texels = bands.whole
+    confirm()
     val levels = most.fold(Array(texels))(Pyramid.levels(texels, wrap, _, parallel))
-    (levels, colors.fold(Vector.empty)(_.of(texels)))
+    (levels, TexelFacts(colors.fold(Vector.empty)(_.of(texels)), texels.odd))
+
+/** What is known of the texels of an image file once all are seen.
+  *
+  * @param colors some that stand for all
+  * @param odd    the first that is no number
+  */
+final case class TexelFacts(colors: Vector[Rgb], odd: Option[OddTexel])

@@ -16,13 +16,20 @@ abstract class MipLevel(final val width: Int, final val height: Int, final val i
   /** Where the texel (`x`, `y`) is for `apply`, after wrapping; negative for black. */
   def index(x: Int, y: Int): Int
 
+  /** Width and height of the parts that are best read one after the other. */
+  def tile: (Int, Int) = (width, height)
+
   /** For many texels that are near each other; not safe for threads. */
   def reader: TexelReader = this
 
+  /** All of a texel, by its index. */
+  def texel(index: Int): Rgb =
+    if isGray then Rgb.gray(apply(index, 0))
+    else Rgb(apply(index, 0), apply(index, 1), apply(index, 2))
+
   /** The texel that contains the point. */
-  def nearest(s: Float, row: Float): Rgb =
-    val i = index(MipLevel.floor(s * width), MipLevel.floor(row * height))
-    if isGray then Rgb.gray(apply(i, 0)) else Rgb(apply(i, 0), apply(i, 1), apply(i, 2))
+  final def nearest(s: Float, row: Float): Rgb =
+    texel(index(MipLevel.floor(s * width), MipLevel.floor(row * height)))
 
   /** Bilinear interpolation of the four nearest texels. */
   def bilinear(s: Float, row: Float): Rgb =

@@ -17,8 +17,28 @@ abstract class Texels(val width: Int, val height: Int, val channels: Int):
   /** The values of 256 codes, if the texels are bytes; else empty. */
   def meaning: Array[Float] = Array.emptyFloatArray
 
+  /** The first texel that is no number, in row order. */
+  def odd: Option[OddTexel] =
+    if !mayBeOdd then None
+    else
+      val values = new Array[Float](width * channels)
+      var found: Option[OddTexel] = None
+      var y = 0
+      while found.isEmpty && y < height do
+        row(y, values)
+        var k = 0
+        while k < values.length && java.lang.Float.isFinite(values(k)) do k += 1
+        if k < values.length then found = Some(OddTexel(k / channels, y, values(k)))
+        y += 1
+      found
+
+  protected def mayBeOdd: Boolean = true
+
   /** The `i`th number as it is kept: a byte, or the bits of a Float. */
   private[textures] def code(i: Int): Int
+
+/** A texel whose value is NaN or infinite. */
+final case class OddTexel(x: Int, y: Int, value: Float)
 
 /** Bytes, decoded by a table of 256 values. */
 final class ByteTexels(
@@ -29,6 +49,7 @@ final class ByteTexels(
     override val meaning: Array[Float]
 ) extends Texels(w, h, channels):
   private[textures] def code(i: Int): Int = bytes(i) & 0xff
+  override protected def mayBeOdd: Boolean = !meaning.forall(java.lang.Float.isFinite(_))
   def apply(texel: Int, channel: Int): Float = meaning(bytes(texel * channels + channel) & 0xff)
   def row(y: Int, out: Array[Float]): Unit =
     val start = y * w * channels

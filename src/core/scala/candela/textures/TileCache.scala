@@ -4,23 +4,19 @@ import java.io.IOException
 import java.util.concurrent.ConcurrentHashMap
 
 import candela.base.{CacheFolder, IoReason, Parallel, Problem, SceneError, WriteError}
-import candela.color.{Encoding, Rgb}
+import candela.color.Encoding
 import candela.image.ImageError
 
 /** An image of a cache.
   *
   * @param encoding of the file
-  * @param colors   some that stand for all
+  * @param facts    of its texels
   */
 final class CachedImage(
     val levels: Array[MipLevel],
     val encoding: Encoding,
-    val colors: Vector[Rgb]
-):
-  /** Whether the smallest level of several is, so the texels of which it is the mean are. */
-  def isFinite: Boolean =
-    val top = levels.last
-    levels.length == 1 || top.nearest(0f, 0f).isFinite
+    val facts: TexelFacts
+)
 
 /** Images that are read in tiles from files of a folder, which are made once. An image whose file
   * can't be written is kept in memory as it is. Safe for threads.
@@ -59,8 +55,8 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
         written(key, made, wrap) match
           case Some(file) => tiled(file, wrap, make)
           case None =>
-            val (levels, colors) = made.whole(wrap, pool)
-            CachedImage(levels.map(MipLevel(_, wrap)), made.encoding, colors)
+            val (levels, facts) = made.whole(wrap, pool)
+            CachedImage(levels.map(MipLevel(_, wrap)), made.encoding, facts)
 
   private def place(key: String) = folder.file(key, CacheFolder.Tiles)
 
@@ -91,7 +87,7 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
     val image = TiledImage(memory, MendedSource(file, wrap, make), header.count)
     val levels = header.places.map: place =>
       TiledLevel(image, place, wrap, header.channels, if place.isBytes then meaning else none)
-    CachedImage(levels.toArray, header.encoding, header.colors)
+    CachedImage(levels.toArray, header.encoding, header.facts)
 
   /** A file; if a tile of it is damaged, one that is made again, or memory. */
   private final class MendedSource(file: TileFile, wrap: Wrap, make: () => MadeTexels)

@@ -14,7 +14,7 @@ import candela.color.{Encoding, Rgb}
   *
   * @param key      what it was made from, and how
   * @param encoding of the image file
-  * @param colors   some that stand for all of it
+  * @param facts    of its texels
   * @param channels of each texel
   * @param sizes    width and height of each level, and whether it has bytes
   * @param meaning  of bytes
@@ -22,7 +22,7 @@ import candela.color.{Encoding, Rgb}
 private[textures] final case class TileHeader(
     key: String,
     encoding: Encoding,
-    colors: Vector[Rgb],
+    facts: TexelFacts,
     channels: Int,
     sizes: Vector[(Int, Int, Boolean)],
     meaning: Vector[Float]
@@ -99,7 +99,7 @@ private[textures] final class TileFile private (
     }
 
 private[textures] object TileFile:
-  private val Mark = 0x43544c31 // CTL1
+  private val Mark = 0x43544c32 // CTL2
   private val MostHeader = 1 << 20
 
   /** Opens a file of this key; None if it is missing, damaged or another. */
@@ -141,15 +141,16 @@ private[textures] object TileFile:
     val header = TileHeader(
       key,
       made.encoding,
-      Vector.empty,
+      TexelFacts(Vector.empty, None),
       bands.channels,
       made.sizes,
       bands.meaning.toVector
     )
-    // The colours are known at the end: there is room for as many as there may be
+    // The facts are known at the end: there is room for as many colours as there may be
     val room = encoded(header).length + made.colors.fold(0)(_.most * 12)
-    val colors = TileWriter(channel, 12L + room, header.places, made, wrap).write()
-    val about = encoded(header.copy(colors = colors)).padTo(room, 0.toByte)
+    val facts = TileWriter(channel, 12L + room, header.places, made, wrap).write()
+    made.confirm()
+    val about = encoded(header.copy(facts = facts)).padTo(room, 0.toByte)
     val out = ByteBuffer.allocate(12 + room)
     out.putInt(Mark).putInt(room).putInt(checksum(about)).put(about).flip()
     while out.hasRemaining do channel.write(out, out.position()): Unit
@@ -168,8 +169,12 @@ private[textures] object TileFile:
       out.writeInt(width)
       out.writeInt(height)
       out.writeBoolean(isBytes)
-    out.writeInt(h.colors.size)
-    for c <- h.colors; x <- Vector(c.r, c.g, c.b) do out.writeFloat(x)
+    val odd = h.facts.odd.getOrElse(OddTexel(-1, -1, 0f))
+    out.writeInt(odd.x)
+    out.writeInt(odd.y)
+    out.writeFloat(odd.value)
+    out.writeInt(h.facts.colors.size)
+    for c <- h.facts.colors; x <- Vector(c.r, c.g, c.b) do out.writeFloat(x)
     out.writeInt(h.meaning.size)
     h.meaning.foreach(out.writeFloat)
     bytes.toByteArray
@@ -184,5 +189,7 @@ private[textures] object TileFile:
       case exponent => Encoding.Gamma(exponent)
     val channels = in.readInt()
     val sizes = many((in.readInt(), in.readInt(), in.readBoolean()))
+    val odd = Some(OddTexel(in.readInt(), in.readInt(), in.readFloat())).filter(_.x >= 0)
     val colors = many(Rgb(in.readFloat(), in.readFloat(), in.readFloat()))
-    TileHeader(key, encoding, colors, channels, sizes, many(in.readFloat()))
+    val facts = TexelFacts(colors, odd)
+    TileHeader(key, encoding, facts, channels, sizes, many(in.readFloat()))

@@ -27,15 +27,17 @@ private[textures] final class TileWriter(
 
   private val levels = Array.tabulate(places.size)(LevelRows(_))
 
-  /** Writes them, and returns colours that stand for all. */
-  def write(): Vector[Rgb] =
+  /** Writes them. */
+  def write(): TexelFacts =
     val seen = Vector.newBuilder[Rgb]
+    var odd: Option[OddTexel] = None
     val bands =
       // Rows across whose edges the octahedral square goes on are far away
       if isEnlarged && wrap == Wrap.OctahedralSphere then TexelBands.of(made.bands.whole)
       else made.bands
     def note(y: Int, band: Texels): Unit =
       for c <- made.colors do seen ++= c.seen(band, y.toLong * band.width)
+      if odd.isEmpty then odd = band.odd.map(o => o.copy(y = y + o.y))
     if isEnlarged then enlarge(bands, note)
     else
       bands.visit(0): (y, band) =>
@@ -43,7 +45,7 @@ private[textures] final class TileWriter(
         store(y, band)
     if isShared.last then out.put(tail, shared)
     out.end()
-    made.colors.fold(Vector.empty)(_.choose(seen.result()))
+    TexelFacts(made.colors.fold(Vector.empty)(_.choose(seen.result())), odd)
 
   private def isEnlarged =
     places(0).width != made.bands.width || places(0).height != made.bands.height

@@ -67,6 +67,7 @@ private[textures] final class TiledLevel(
       if isBytes then meaning(value >>> ((k & 3) << 3) & 0xff)
       else java.lang.Float.intBitsToFloat(value)
 
+  override def tile: (Int, Int) = (1 << across, 1 << down)
   override def reader: TexelReader = TileReader()
 
   /** Keeps the tile of the latest texel at hand. */
@@ -98,6 +99,20 @@ private[textures] final class TiledLevel(
     private def missing(index: Int, channel: Int): Float =
       tile = -1
       TiledLevel.this(index, channel)
+
+  /** As of any level, at once if its tile is there. */
+  override def texel(index: Int): Rgb =
+    if isGray || index < 0 then super.texel(index)
+    else
+      val tile = start + (index >>> bits)
+      val slot = image.slot(tile)
+      val stamp = if slot < 0 then 0L else memory.stamp(slot)
+      if TileMemory.holder(stamp) != image.number(tile) then super.texel(index)
+      else
+        val ints = memory.ints(slot)
+        val k = base + (index & inTile) * channels
+        val color = Rgb(value(ints, k), value(ints, k + 1), value(ints, k + 2))
+        if memory.isStill(slot, stamp) then color else super.texel(index)
 
   /** As of any level, at once if the four texels are in one tile that is there. */
   override def bilinear(s: Float, row: Float): Rgb =

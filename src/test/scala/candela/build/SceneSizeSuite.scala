@@ -1,6 +1,9 @@
 package candela.build
 
-import candela.base.{Code, SceneError}
+import candela.base.{Code, Parallel, SceneError}
+import candela.build.recipe.{Findings, TextureControl, TextureStore}
+import candela.image.{Image, ImageFiles}
+import candela.math.Position
 import candela.render.{CostKind, Renderer}
 import candela.scenefile.{Dialect, SceneDescription}
 import candela.testing.{SceneTexts, TempFolder}
@@ -131,15 +134,16 @@ class SceneSizeSuite extends AnyFunSuite:
     val shared = placed("", "")
     val copied = placed("Translate 1e6 0 0\n", "")
     val mixed = placed("", moving)
-    val measured = for scene <- Vector(shared, copied, mixed) yield
-      val plan = SceneBuilder.build(scene, RenderSettings())._1
-      val kinds = Seq(CostKind.Statements, CostKind.Instances)
-      val estimated = plan.costs.all.filter(c => kinds.contains(c.kind)).map(_.bytes).sum
-      val sizes = ObjectSizes()
-      val instances = sizes.find(plan)(_.getClass.getSimpleName == "Instances")
-      val found = sizes.add(scene.instances +: instances)
-      assertNear(estimated, found, 0.2)
-      found
+    val measured =
+      for scene <- Vector(shared, copied, mixed) yield
+        val plan = SceneBuilder.build(scene, RenderSettings())._1
+        val kinds = Seq(CostKind.Statements, CostKind.Instances)
+        val estimated = plan.costs.all.filter(c => kinds.contains(c.kind)).map(_.bytes).sum
+        val sizes = ObjectSizes()
+        val instances = sizes.find(plan)(_.getClass.getSimpleName == "Instances")
+        val found = sizes.add(scene.instances +: instances)
+        assertNear(estimated, found, 0.2)
+        found
     assert(measured(1) > 1.7 * measured(0) && measured(2) < 1.1 * measured(0), measured)
 
   test("lamps, within a half"):
@@ -157,6 +161,24 @@ class SceneSizeSuite extends AnyFunSuite:
       ("TriangleSoup" +: "SceneMaterials" +: Hierarchies)*
     )
     assertNear(mesh, triangles, 0.5)
+
+  test("images of lights are counted as they are kept"):
+    TempFolder.use: folder =>
+      ImageFiles.write(folder.resolve("a.exr"), Image.rgb(256, 256))
+      val control = TextureControl(memory = Some(1), folder = Some(folder.resolve("cache")))
+      val pixels = 256L * 256
+      def bytes(light: String, control: TextureControl): Long =
+        val scene = parsed(s"LightSource $light \"string filename\" \"a.exr\"\n", folder)
+        val uses = ObjectUses(scene, Position.Origin, Findings())
+        val textures = TextureStore.of(scene, control, Parallel.Alone)
+        val costs = SceneSize(scene, uses, textures).costs
+        costs.find(_.kind == CostKind.Lights).get.bytes / pixels
+      val portal = "\"infinite\" \"point3 portal\" [0 0 0  0 1 0  1 1 0  1 0 0]"
+      for light <- Vector("\"infinite\"", "\"goniometric\"", "\"projection\"", portal) do
+        assert(bytes(light, TextureControl()) == 20)
+      assert(bytes("\"infinite\"", control) == 5 && bytes(portal, control) == 20)
+      val both = "\"infinite\" \"string filename\" \"a.exr\"\nLightSource \"goniometric\""
+      assert(bytes(both, control) == 25)
 
   test("films, with bands, within a fifth"):
     def film(statement: String) =

@@ -1,11 +1,14 @@
 package candela.cli
 
+import java.nio.{ByteBuffer, ByteOrder}
+import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.loop
+import candela.base.{CheckedFile, loop}
 import candela.image.{Image, ImageFiles}
+import candela.sampling.Distribution2D
 import candela.testing.{Draws, TempFolder}
 
 /** Renderings whose environment maps don't fit into the memory that images may take. */
@@ -93,6 +96,59 @@ class EnvironmentTilesSuite extends AnyFunSuite:
       assert(render(scene, tiles(cache)*)._1 == image)
       assert(Files.readAllBytes(table).sameElements(bytes))
 
+  /** What a file of a table begins with, which tells what the table is of. */
+  private def mark(table: Path): String =
+    val bytes = Files.readAllBytes(table)
+    val length = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).getInt
+    String(bytes, 4, length, UTF_8)
+
+  test("the table in a file is that by which the map is sampled"):
+    TempFolder.use: folder =>
+      val scene = scenes(folder).head
+      val cache = folder.resolve("cache")
+      val (image, _) = render(scene, tiles(cache)*)
+      val table = files(cache, ".part").head
+      val sizes = Seq(256, 256)
+      val other = Distribution2D(Array.tabulate(sizes.product)(i => (i % 7 + 1).toFloat), 256, 256)
+      CheckedFile.write(table, mark(table))(Distribution2D.Form.write(other, _))
+      assert(render(scene, tiles(cache)*)._1 != image)
+      assert(files(cache, ".part") == Vector(table))
+
+  test("maps of other scales have tables of their own"):
+    TempFolder.use: folder =>
+      scenes(folder): Unit
+      val cache = folder.resolve("cache")
+      for (l, i) <- Vector("[.3 2 1]", "[2 .3 1]").zipWithIndex do
+        val light = s"\"string mapname\" \"wide.exr\" \"rgb L\" $l"
+        val other = scene(folder, s"v3 $i", light)
+        assert(render(other, tiles(cache)*)._1 == render(other)._1)
+        assert(files(cache, ".part").size == i + 1)
+
+  test("a map in tiles has one table, with the scene cache, too"):
+    TempFolder.use: folder =>
+      val scene = scenes(folder).head
+      val (cache, parts) = (folder.resolve("cache"), folder.resolve("parts"))
+      val words = Vector("--scene-cache", s"$parts")
+      val (whole, _) = render(scene, words*)
+      val before = files(parts, ".part")
+      assert(before.size == 1)
+      for table <- before do Files.delete(table)
+      assert(render(scene, tiles(cache) ++ words*)._1 == whole)
+      assert(files(cache, ".part").size == 1)
+      assert(!Files.exists(parts) || files(parts, ".part").isEmpty)
+
+  test("where a table can't be written, a warning says so, and the image is the same"):
+    TempFolder.use: folder =>
+      val scene = scenes(folder).head
+      val cache = folder.resolve("cache")
+      val (image, _) = render(scene, tiles(cache)*)
+      val table = files(cache, ".part").head
+      Files.delete(table)
+      Files.createDirectories(table.resolve("full")): Unit
+      val (again, said) = render(scene, tiles(cache)*)
+      assert(again == image)
+      assert(said.contains("tables of environment maps are made again"), said)
+
   test("an environment map that has changed has another table"):
     TempFolder.use: folder =>
       val scene = scenes(folder).head
@@ -114,6 +170,8 @@ class EnvironmentTilesSuite extends AnyFunSuite:
       for words <- Vector(Vector.empty, tiles(folder.resolve("cache"))) do
         val (code, captured) = Captured.run(s"$scene" +: words*)
         assert(code == 1 && captured.err.contains("pixels that are NaN"), captured.err)
+        assert(captured.err.contains("square.exr: "), captured.err)
+        assert(captured.err.contains("the first, at (37, 91), is NaN"), captured.err)
       ImageFiles.write(folder.resolve("square.exr"), Image.rgb(256, 256))
       for words <- Vector(Vector.empty, tiles(folder.resolve("cache"))) do
         assert(render(scene, words*)._2.contains("this light emits nothing"))

@@ -173,6 +173,38 @@ class TextureMemorySuite extends AnyFunSuite:
       for words <- Vector(Vector.empty, tiles) do
         assert(render(own, words*)._2.contains("a.exr: texels are NaN or infinite"))
 
+  test("texels are numbers or not as they are read, in tiles and in memory"):
+    TempFolder.use: folder =>
+      val tiles = Vector("--texture-memory", "1M", "--texture-cache", s"${folder.resolve("cache")}")
+      def said(name: String, text: String) =
+        val scene = folder.resolve(s"$name.pbrt")
+        Files.writeString(scene, text): Unit
+        val found =
+          for words <- Vector(Vector.empty, tiles, tiles)
+          yield render(scene, words*)._2.linesIterator.filter(_.contains("texels are NaN")).toVector
+        assert(found.distinct.size == 1, found)
+        found.head
+      val image = Image(600, 200, Image.RgbNames :+ "A", Array.fill(480_000)(0.5f))
+      ImageFiles.write(folder.resolve("b.exr"), image)
+      def use(name: String, kind: String, words: String = "") =
+        s"Texture \"$name\" \"$kind\" \"imagemap\" \"string filename\" \"b.exr\" $words\n"
+      val v4 = head.replace("\"image\"", "\"rgb\"")
+      assert(said("v4", v4 + use("a", "float")).isEmpty && Files.exists(folder.resolve("cache")))
+      // Alpha, which numbers are made of, not colours
+      image.data(4 * 610 + 3) = Float.PositiveInfinity
+      ImageFiles.write(folder.resolve("b.exr"), image)
+      assert(said("v4", v4 + use("a", "spectrum")).isEmpty)
+      assert(said("v4", v4 + use("a", "spectrum") + use("b", "float"))
+        .exists(_.contains("the first, at (10, 1), is Infinity")))
+      // Zero, of which one texture alone makes what is no number
+      image.data(4 * 610 + 3) = 1f
+      for c <- 0 until 3 do image.data(4 * 1205 + c) = 0f
+      ImageFiles.write(folder.resolve("b.exr"), image)
+      val v2 = head.replace("point3", "point")
+      assert(said("v2", v2 + use("a", "color")).isEmpty)
+      assert(said("v2", v2 + use("a", "color") + use("b", "color", "\"float gamma\" -1"))
+        .exists(_.contains("the first, at (5, 2), is Infinity")))
+
   test("levels in a file keep to the limit of pixels"):
     TempFolder.use: folder =>
       val scene = ownLevels(folder, TiledExr(512, 512, 64, 64)((_, _, _, _) => 0.5f))

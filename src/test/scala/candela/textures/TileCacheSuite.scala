@@ -103,7 +103,37 @@ class TileCacheSuite extends AnyFunSuite:
             val second = cache(folder).image(key, wrap)(() => never())
             assertSame(second.levels, levels, wrap)
             assert(second.encoding == Encoding.Srgb)
-            assert(second.colors == (if channels == 3 then colors else Vector.empty))
+            assert(second.facts.colors == (if channels == 3 then colors else Vector.empty))
+
+  test("the first texel that is no number is known, in tiles and in memory, and once more"):
+    TempFolder.use: folder =>
+      val values = Array.fill(130 * 200 * 3)(0.5f)
+      values(3 * (150 * 130 + 7) + 1) = Float.NegativeInfinity
+      values(3 * (170 * 130 + 2)) = Float.PositiveInfinity
+      val texels = FloatTexels(130, 200, 3, values)
+      val odd = Some(OddTexel(7, 150, Float.NegativeInfinity))
+      for (levels, i) <- Seq(pyramid(texels, Wrap.Repeat), Array[Texels](texels)).zipWithIndex do
+        val way = made(levels, Some(texels)).copy(bands = inBands(texels))
+        assert(cache(folder).image(s"$i", Wrap.Repeat)(() => way).facts.odd == odd)
+        assert(cache(folder).image(s"$i", Wrap.Repeat)(() => never()).facts.odd == odd)
+        assert(way.whole(Wrap.Repeat, Parallel.Alone)._2.odd == odd)
+      // Of bytes, a meaning that none of them has does not count
+      val meaning = Array.tabulate(256)(i => if i == 9 then Float.PositiveInfinity else i / 255f)
+      val codes = Array.fill[Byte](12)(8)
+      assert(ByteTexels(4, 3, 1, codes, meaning).odd.isEmpty)
+      codes(6) = 9
+      assert(ByteTexels(4, 3, 1, codes, meaning).odd.contains(
+        OddTexel(2, 1, Float.PositiveInfinity)
+      ))
+
+  test("nothing is left of an image whose file changes while it is read"):
+    TempFolder.use: folder =>
+      val texels = floats(70, 70, 3, 1)
+      val way = made(Array(texels)).copy(confirm =
+        () => throw ImageError(Code.Unreadable, "it has changed")
+      )
+      val error = intercept[ImageError](cache(folder).image("a", Wrap.Repeat)(() => way))
+      assert(error.getMessage.contains("it has changed") && files(folder).isEmpty)
 
   test("an image that is read in bands is in the same file as one in memory"):
     TempFolder.use: folder =>

@@ -33,14 +33,17 @@ private[build] abstract class EnvironmentImage(
       site: Site
   ): Distribution2D =
     def made = ImageEnvironment.distribution(image, complete)
-    content.fold(made): content =>
-      val key = s"$content $way ${image.smooth} $complete"
-      val resources = site.resources
-      resources.keep(EnvironmentImage.Tables, key):
-        resources.textures.table(Distribution2D.Form, key)(made)
+    content.fold(made)(content => kept(s"$content $way ${image.smooth} $complete")(made))
+
+  /** The table of this key, which `made` makes. */
+  protected def kept(key: String)(made: => Distribution2D)(using site: Site): Distribution2D =
+    site.resources.keep(EnvironmentImage.Tables, key)(made)
 
 private[build] object EnvironmentImage:
   private val Tables = Keep.Shelf[Distribution2D](Some(Distribution2D.Form))
+
+  /** Of images in tiles: their files are those of the texture cache. */
+  private val TablesOfTiles = Keep.Shelf[Distribution2D]()
 
   final class InMemory(image: Image, content: Option[String])
       extends EnvironmentImage(image.width, image.height, content):
@@ -55,3 +58,12 @@ private[build] object EnvironmentImage:
       extends EnvironmentImage(pixels.width, pixels.height, Some(content)):
     def on(layout: SphereMap, factor: Rgb, smooth: Boolean)(using Site): SphereImage =
       TiledSphereImage(pixels, stored, layout, factor, smooth, LightImages.conversion)
+
+    override protected def kept(key: String)(made: => Distribution2D)(using
+        site: Site
+    ): Distribution2D =
+      val textures = site.resources.textures
+      val table = site.resources.keep(TablesOfTiles, key):
+        textures.table(Distribution2D.Form, key)(made)
+      textures.warn(site.problems)
+      table

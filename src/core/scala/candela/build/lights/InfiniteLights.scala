@@ -56,7 +56,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
             if octahedral then irradiances(onThePlane(image))
             else 1f
           val l = scaled(unit, illuminance(), perUnit)
-          val (layout, name) =
+          val (layout, mapping) =
             if octahedral then (EqualAreaMap, "octahedral")
             else if isPolar then (PolarLatLongMap(image.height), "polar")
             else (LatLongMap, "even")
@@ -65,7 +65,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
           val colors =
             if basis.isSpectral then "as stored" else s"${basis.isSrgb} ${l.r} ${l.g} ${l.b}"
           around(l, sphere): complete =>
-            image.distribution(sphere, s"$name $colors", complete)
+            image.distribution(sphere, s"$mapping $colors", complete)
     else
       val l = scaled(radiance(), illuminance(), Pi)
       if portal().nonEmpty then

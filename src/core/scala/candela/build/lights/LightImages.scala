@@ -6,7 +6,6 @@ import candela.build.recipe.*
 import candela.color.{ColorBasis, Encoding, Rgb}
 import candela.image.{Image, ImageBands, ImageError}
 import candela.lights.{IesError, IesFile}
-import candela.scenefile.Dialect
 import candela.textures.{FloatTexels, MadeTexels, TexelBands, TileCache, Wrap}
 
 /** Loads the images of lights. */
@@ -33,7 +32,8 @@ private[build] object LightImages:
   def environment(name: String)(using site: Site): Option[EnvironmentImage] =
     def inMemory = read(name).map(EnvironmentImage.InMemory(_, contents(name)))
     site.resources.textures.lightTiles match
-      case Some(tiles) if !isFromBelow(name) => tiled(tiles, name).orElse(inMemory)
+      case Some(tiles) if TextureStore.mayBeTiled(site.declaration, site.dialect) =>
+        tiled(tiles, name).orElse(inMemory)
       case _ => inMemory
 
   /** What tells the image from others, if it is kept for other scenes. */
@@ -41,13 +41,13 @@ private[build] object LightImages:
     for
       p <- site.declaration.param(name)
       content <- site.resources.keyOf(p, site.declaration)
-    yield s"$content ${site.rules.decodesLights} ${isFromBelow(name)}"
+    yield s"$content ${site.rules.decodesLights} $isFromBelow"
 
   /** None with a problem, and of images that have too few rows. */
   private def tiled(tiles: TileCache, name: String)(using site: Site): Option[EnvironmentImage] =
     val ways = s"pixels of lights ${site.rules.decodesLights}"
     def texels(bands: ImageBands) = TexelBands(bands, 3, Array.emptyFloatArray): band =>
-      usable(band.toImage) match
+      usable(band.toImage, name) match
         case Right(rgb) => FloatTexels(rgb.width, rgb.height, 3, rgb.data)
         case Left(e) => throw e
     for
@@ -58,7 +58,7 @@ private[build] object LightImages:
       if image.levels.head.height > FewRows
       key <- site.resources.keyInTiles(p, site.declaration, ways)
     yield
-      site.resources.counting.foreach(_.addColors(image.colors, SpectrumRole.Emission))
+      site.resources.counting.foreach(_.addColors(image.facts.colors, SpectrumRole.Emission))
       EnvironmentImage.InTiles(image.levels.head, rebasing(site.resources.basis), key)
 
   /** Returns the lamp of the photometric file that the string parameter `name` names, as an
@@ -85,7 +85,7 @@ private[build] object LightImages:
       p <- site.declaration.param(name)
       stored = site.resources.image(p, site.declaration, site.problems).getOrElse(StandIns.picture)
     yield
-      val image = usable(stored.toImage) match
+      val image = usable(stored.toImage, name) match
         case Right(image) => image
         case Left(e) =>
           site.problems.missing(e.code, p.valuesAt, e.getMessage, StandIns.Magentas)
@@ -93,13 +93,11 @@ private[build] object LightImages:
       site.resources.counting.foreach:
         _.addImage(image.data.length / 3, SpectrumRole.Emission): i =>
           Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2))
-      val upright = if isFromBelow(name) then image.upsideDown else image
+      val upright = if isFromBelow then image.upsideDown else image
       rebasing(site.resources.basis).fold(upright)(change => upright.mapped(change(_)))
 
-  private def isFromBelow(name: String)(using site: Site): Boolean =
-    def isTga = site.declaration.param(name).exists: p =>
-      p.strings.headOption.exists(_.toLowerCase.endsWith(".tga"))
-    site.dialect == Dialect.V2 && isTga
+  private def isFromBelow(using site: Site): Boolean =
+    TextureStore.isFromBelow(site.declaration, site.dialect)
 
   /** Rows at the poles alone have no area: those between are added. */
   def withEquator(image: Image): Image =
@@ -110,21 +108,25 @@ private[build] object LightImages:
       val middle = top.lazyZip(bottom).map((a, b) => 0.5f * (a + b))
       Image(image.width, 3, image.channelNames, top ++ middle ++ bottom)
 
-  private def usable(image: Image)(using site: Site): Either[ImageError, Image] =
+  private def usable(image: Image, name: String)(using site: Site): Either[ImageError, Image] =
     val linear =
       if site.rules.decodesLights then image.linear
       else Image(image.width, image.height, image.channelNames, image.data)
     try
       val rgb = linear.toRgb
       // Sums of brighter pixels overflow
-      def why = "the image of a light has pixels that are NaN, infinite, or above 1e30"
-      Either.cond(areUsable(rgb.data), rgb, ImageError(Code.ImageContents, why))
+      val i = firstUnusable(rgb.data)
+      def file = site.declaration.param(name).flatMap(_.strings.headOption).getOrElse("")
+      def place = s"(${i / 3 % rgb.width}, ${i / 3 / rgb.width})"
+      def why = s"$file: the image of a light has pixels that are NaN, infinite, or above 1e30: " +
+        s"the first, at $place, is ${rgb.data(i)}"
+      Either.cond(i == rgb.data.length, rgb, ImageError(Code.ImageContents, why))
     catch case e: ImageError => Left(e)
 
-  private def areUsable(values: Array[Float]): Boolean =
+  private def firstUnusable(values: Array[Float]): Int =
     var i = 0
     while i < values.length && Math.abs(values(i)) < Brightest do i += 1
-    i == values.length
+    i
 
   /** Checks that an equal-area map is square. Reports an error otherwise. */
   def isSquare(width: Int, height: Int)(using site: Site): Boolean =

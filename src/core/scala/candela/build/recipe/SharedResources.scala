@@ -18,7 +18,9 @@ import candela.bsdf.subsurface.ProfileTables
 import candela.image.{ExrLevels, ImageBands, ImageError, ImageFiles, StoredImage}
 import candela.render.CostKind
 import candela.scenefile.{Declaration, Param}
-import candela.textures.{CachedImage, FileLevels, MadeTexels, MipLevel, Texels, TileCache, Wrap}
+import candela.textures.{
+  CachedImage, FileLevels, MadeTexels, MipLevel, OddTexel, TexelFacts, Texels, TileCache, Wrap
+}
 
 /** Resources that do not depend on the colour basis: files, and tables computed from them. Safe for
   * threads: bases are made in parallel.
@@ -87,14 +89,21 @@ final class SharedResources(
   private val opened = ConcurrentHashMap[Path, Option[Either[String, ExrLevels]]]()
   private val inFiles = ConcurrentHashMap[(Path, String), Option[CachedImage]]()
 
-  private val finite = ConcurrentHashMap[Path, Boolean]()
+  private val odd = ConcurrentHashMap[(Path, String), Option[OddTexel]]()
 
-  /** Warns of the image of a texture that a parameter names, if texels are no numbers. */
-  def checkTexels(p: Param, site: Site)(isFinite: => Boolean): Unit =
-    for file <- Option(files.get((site.declaration.folder, p.strings.headOption.getOrElse("")))) do
-      if !finite.computeIfAbsent(file.path, _ => isFinite) then
-        val what = s"$file: texels are NaN or infinite; samples that see them are discarded"
-        site.problems.warn(Code.ImageContents, p.valuesAt, what)
+  /** Warns of the image of a texture that a parameter names, if texels are no numbers.
+    *
+    * @param ways  what its texels depend on, beside the file
+    * @param first that is no number
+    */
+  def checkTexels(p: Param, site: Site, ways: String)(first: => Option[OddTexel]): Unit =
+    for
+      file <- Option(files.get((site.declaration.folder, p.strings.headOption.getOrElse(""))))
+      OddTexel(x, y, value) <- odd.computeIfAbsent((file.path, ways), _ => first)
+    do
+      val what = s"$file: texels are NaN or infinite: the first, at ($x, $y), is $value; samples " +
+        "that see them are discarded"
+      site.problems.warn(Code.ImageContents, p.valuesAt, what)
 
   /** How images of textures are kept, if there are any. */
   def imagesInWords: Option[String] =
@@ -184,11 +193,13 @@ final class SharedResources(
   )(convert: ImageBands => MadeTexels): Option[CachedImage] =
     toRead(p, site.declaration, site.problems, standIn).flatMap: file =>
       var isAgain = false
-      def make(bands: => ImageBands) =
-        if isAgain && !textures.isSame(file) then
+      def confirm() =
+        if !textures.isSame(file) then
           throw ImageError(Code.Unreadable, s"$file: it has changed, or is gone")
+      def make(bands: => ImageBands) =
+        if isAgain then confirm()
         isAgain = true
-        convert(bands)
+        convert(bands).copy(confirm = () => confirm())
       def whole() = make(ImageBands.of(decoded(file, p.valuesAt)))
       lazy val inBands = ImageBands.ofFile(file)
       def first() = inBands match
@@ -252,14 +263,19 @@ final class SharedResources(
     clock.during(CostKind.Textures):
       try
         val small = found.sizes.indexWhere((w, h, _) => w.toLong * h <= SharedResources.Small)
-        val some = colors(found.texels(small))
+        val texels = found.texels(small)
+        // A small level is the mean of the others: what is no number in these is none in it
+        val (w, h, _) = found.sizes.head
+        val odd = texels.odd.map: o =>
+          o.copy(x = o.x * (w / texels.width), y = o.y * (h / texels.height))
+        val facts = TexelFacts(colors(texels), odd)
         val levels = textures.tiles match
           case Some(tiles) => tiles.levels(found, wrap)
           case None =>
             val (all, _) = keep.ofFile(SharedResources.Levels, file, ways):
               found.sizes.indices.map(found.texels).toArray
             all.map(MipLevel(_, wrap))
-        Some(CachedImage(levels, Encoding.Linear, some))
+        Some(CachedImage(levels, Encoding.Linear, facts))
       catch case _: ImageError => None
 
   /** Reports what is to be said of an image. */

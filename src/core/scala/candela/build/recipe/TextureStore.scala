@@ -9,7 +9,7 @@ import candela.base.{
   Version
 }
 import candela.image.ImageSize
-import candela.scenefile.{Declaration, SceneDescription}
+import candela.scenefile.{Declaration, Dialect, SceneDescription}
 import candela.textures.{TileCache, TileMemory}
 
 /** How image textures are kept; the image is the same.
@@ -60,18 +60,20 @@ final class TextureStore private (
     val where = folder.map(f => if prepared < files.size then s", $whose $f" else s", $whose")
     Option.when(images.nonEmpty)(images + where.getOrElse(""))
 
-  private val digests = ConcurrentHashMap[Path, String]()
+  /** Of each file, and whether it is surely as it was then. */
+  private val digests = ConcurrentHashMap[Path, (String, () => Boolean)]()
 
   private lazy val digested: Unit = pool.each(files.size): i =>
-    try note(files(i)): Unit
+    try noted(files(i)): Unit
     catch case _: IOException | _: Refusal => () // told when the image is asked for
 
-  private def note(file: InputFile): String =
+  private def noted(file: InputFile): (String, () => Boolean) =
     digests.computeIfAbsent(
       file.path,
       _ =>
-        TextureStore.versioned(if keep.isKeeping then keep.digest(file)
-        else TextureStore.digest(file))
+        val isSame = file.watch()
+        val made = if keep.isKeeping then keep.digest(file) else Sha256.ofAll(file.stream())
+        (TextureStore.versioned(made), isSame)
     )
 
   /** What tells the content of a file from others.
@@ -80,11 +82,13 @@ final class TextureStore private (
     */
   def digest(file: InputFile): String =
     digested
-    note(file)
+    noted(file)._1
 
   /** Whether the file is as it was. */
   def isSame(file: InputFile): Boolean =
-    try TextureStore.versioned(TextureStore.digest(file)) == digest(file)
+    try
+      val (digest, isSurely) = noted(file)
+      isSurely() || TextureStore.versioned(file.digest()) == digest
     catch case _: IOException => false
 
   /** What is made of an image in tiles, of which there is a file, too.
@@ -98,14 +102,16 @@ final class TextureStore private (
       made
     tables.fold(make)(files => files.read(form, key).getOrElse(written(files)))
 
-  /** Says, once, that files of tiles can't be written. */
+  /** Says, once, that files of tiles or tables can't be written. */
   def warn(problems: Findings): Unit =
-    for why <- tiles.flatMap(_.trouble) do
-      problems.warn(
-        Code.Unwritable,
-        None,
-        s"$why; images without a file in the texture cache are kept in memory"
-      )
+    def say(why: String, effect: String) =
+      problems.warn(Code.Unwritable, None, s"$why; $effect")
+    tiles.flatMap(_.trouble) match
+      case Some(why) =>
+        say(why, "images without a file in the texture cache are kept in memory")
+      case None =>
+        for why <- tables.flatMap(_.trouble()) do
+          say(why, "tables of environment maps are made again for each rendering")
 
 object TextureStore:
   val InMemory: TextureStore =
@@ -116,6 +122,21 @@ object TextureStore:
   private val MostInMemory = 1_000_000_000L
 
   private val Environments = Set("infinite", "exinfinite")
+
+  /** Parameters that name images. */
+  private[build] val ImageNames = Vector("filename", "mapname")
+
+  /** Whether the rows of the image of a light begin with the lowest.
+    *
+    * @param dialect of the statement
+    */
+  private[build] def isFromBelow(light: Declaration, dialect: Dialect): Boolean =
+    dialect == Dialect.V2 && ImageNames.flatMap(light.param(_)).exists:
+      _.strings.headOption.exists(_.toLowerCase.endsWith(".tga"))
+
+  /** Whether a light's image may be in tiles: maps of environments, with rows from the top. */
+  private[build] def mayBeTiled(light: Declaration, dialect: Dialect): Boolean =
+    Environments(light.name) && !isFromBelow(light, dialect)
 
   /** Bytes of a pixel of an environment map: as it is read, and in the colours of the scene. */
   private val Pixel = 24L
@@ -158,20 +179,19 @@ object TextureStore:
     files.map(f => ImageSize.guess(f).fold(0L)(bytes)).sum
 
   private def environments(scene: SceneDescription): Vector[Declaration] =
-    scene.lights.map(_.light).filter(l => Environments(l.name))
+    scene.lights.map(_.light).filter: l =>
+      mayBeTiled(l, l.dialect.getOrElse(scene.dialect.base))
 
   /** The images that statements name. */
   private def filesOf(statements: Vector[Declaration]): Vector[InputFile] =
     val names =
       for
         d <- statements
-        p <- Vector("filename", "mapname").flatMap(d.param(_))
+        p <- ImageNames.flatMap(d.param(_))
         name <- p.strings.headOption if name.nonEmpty
       yield (d.folder, name) -> p.valuesAt
     names.distinctBy(_._1).flatMap:
       case ((folder, name), at) => Refusal.placed(at)(folder.glance(name))
-
-  private def digest(file: InputFile): String = Sha256.ofAll(file.stream())
 
   /** Texels may differ from those of another version. */
   private def versioned(digest: String) = s"$digest ${Version.current}"

@@ -4,7 +4,7 @@ import candela.base.Code
 
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
-import candela.image.{ExrLevels, Image, ImageBands, StoredImage}
+import candela.image.{ExrLevels, ImageBands, StoredImage}
 import candela.math.*
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.*
@@ -68,14 +68,15 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
 
   /** The image with the levels of its file, if there are some that can be used. */
   private def inFile(p: Param)(using site: Site): Option[CachedImage] =
+    val ways = s"${this.ways} in the file"
     val image =
       if isPlain then None
       else
-        site.resources.prepared(p, site, standIn, s"$ways in the file", wrapping)(usable): texels =>
+        site.resources.prepared(p, site, standIn, ways, wrapping)(usable): texels =>
           colors(TexelBands.of(texels)).fold(Vector.empty)(_.of(texels))
     for found <- image do
-      note(found.colors)
-      site.resources.checkTexels(p, site)(found.isFinite)
+      note(found.facts.colors)
+      site.resources.checkTexels(p, site, ways)(found.facts.odd)
     image
 
   /** The channels of the colours of levels in a file, if textures may use these as they are. */
@@ -105,25 +106,26 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
           MadeTexels(texels, limit, image.encoding, colors(texels))
         for image <- made yield
           val _ = decoding(image.encoding) // reports what is wrong
-          note(image.colors)
-          site.resources.checkTexels(p, site)(image.isFinite)
+          note(image.facts.colors)
+          site.resources.checkTexels(p, site, ways)(image.facts.odd)
           pyramid(filtered(MipMap.of(image.levels)))
       case None =>
-        for stored <- site.resources.image(p, site.declaration, site.problems, standIn) yield
-          site.resources.checkTexels(p, site):
-            stored match
-              case image: Image => image.isFinite
-              case _ => true
-          pyramid:
-            val texels = whenSeen(stored, decoding(stored.encoding))
-            filtered:
-              if isPlain then MipMap.plain(wrapping)(texels)
-              else
-                val (width, height) = (stored.width, stored.height)
-                val limit = most(ImageBands.of(stored).isBytes)
-                val (pool, keep) = (site.resources.pool, site.resources.keep)
-                val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
-                MipMap.ofImage(width, height, wrapping, limit, pool, keep, key)(texels)
+        for stored <- site.resources.image(p, site.declaration, site.problems, standIn)
+        yield pyramid:
+          val decode = decoding(stored.encoding)
+          val texels = whenSeen(stored, decode)
+          val isBytes = ImageBands.of(stored).isBytes
+          site.resources.checkTexels(p, site, ways):
+            // Means of decoded bytes are numbers, too
+            if isBytes && ImageMapRecipe.decodesBytes(decode) then None else texels().odd
+          filtered:
+            if isPlain then MipMap.plain(wrapping)(texels)
+            else
+              val (width, height) = (stored.width, stored.height)
+              val limit = most(isBytes)
+              val (pool, keep) = (site.resources.pool, site.resources.keep)
+              val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
+              MipMap.ofImage(width, height, wrapping, limit, pool, keep, key)(texels)
 
   /** What the texels of an image file depend on. */
   private def ways(using site: Site): String =
@@ -258,6 +260,10 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "
 private object ImageMapRecipe:
   /** Numbers that only what changes nothing leaves as they are. */
   val Probes: Vector[Float] = Vector(0f, 0.1f, 0.5f, 1f, 3f)
+
+  /** Whether all bytes are numbers then. */
+  def decodesBytes(decode: Float => Float): Boolean =
+    (0 to 255).forall(code => java.lang.Float.isFinite(decode(code / 255f)))
 
   val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
   val FilterNames: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")

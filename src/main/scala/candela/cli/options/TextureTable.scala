@@ -38,8 +38,8 @@ private[cli] object TextureTable extends OptionRows:
   def scenes: Vector[Row] = Vector(
     opt[Option[Path]]("scene-cache").valueName("[FOLDER]")
       .text(OptionText(
-        "keep meshes and hierarchies for later renderings, in the folder of the texture cache or " +
-          "another one",
+        "keep meshes, hierarchies and tables of environment maps for later renderings, in the " +
+          "folder of the texture cache or another one",
         "The image is the same: [the scene cache](FILMS.md#the-scene-cache)."
       ))
       .action((folder, o) => o.copy(keepsScenes = true, sceneFolder = folder))
@@ -48,8 +48,8 @@ private[cli] object TextureTable extends OptionRows:
   def options: Vector[Row] = Vector(
     opt[Long]("texture-memory")(using reading(TextForm.size)).valueName("SIZE")
       .text(OptionText(
-        "memory for image textures, e.g. 500M or 2G: those that may take more are read in tiles, " +
-          "from a cache (default: an eighth of the heap, at most 1G)",
+        "memory for images of textures and environment maps, e.g. 500M or 2G: those that may " +
+          "take more are read in tiles, from a cache (default: an eighth of the heap, at most 1G)",
         "The image is the same: [textures](TEXTURES.md)."
       ))
       .validate: n =>
