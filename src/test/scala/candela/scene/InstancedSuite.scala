@@ -150,6 +150,7 @@ class InstancedSuite extends AnyFunSuite:
     val mixed = Instances.of(objects, picked.updated(9, stranger).view)
     val others = sizes.add(Vector(Instances.of(objects, places.updated(9, stranger).view)))
     assert(others < 10L * places.length + 60000, s"$others bytes")
+    assert(rows.count == places.length)
     for i <- picked.indices do
       assert(shared.bounds(i) == instances.bounds(33 * i + 7))
       assert(i == 9 || mixed.bounds(i) == shared.bounds(i))
