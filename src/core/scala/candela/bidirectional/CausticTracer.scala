@@ -60,12 +60,14 @@ final case class CausticLight(
     CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, within)
 
   /** May light paths begin at lamps, too? In fog without end, those from infinity would begin
-    * closer than where light samples do.
+    * closer than where light samples do. What they bring may be scattered once; where light is
+    * divided, or limited if it was scattered more often, what light paths bring is not told apart.
     */
-  private[candela] def beginsAtLamps(scene: Scene): Boolean = !beneath && media.exists: all =>
-    lazy val isEndless = PathMedia.beyondAll(scene, all) >= 0
-    !scene.lights.indices.exists: i =>
-      scene.lights(i).isInfinite && (all.lights(i) >= 0 || isEndless)
+  private[candela] def beginsAtLamps(scene: Scene): Boolean =
+    !beneath && scene.lightGroups.isEmpty && media.exists: all =>
+      lazy val isEndless = PathMedia.beyondAll(scene, all) >= 0
+      !scene.lights.indices.exists: i =>
+        scene.lights(i).isInfinite && (all.lights(i) >= 0 || isEndless)
 
   /** Paths of all light that does not meet a caster first. */
   private[bidirectional] def lampPaths(scene: Scene, within: PathMedia | Null): LightPaths =

@@ -86,18 +86,19 @@ private final class PilotBlocks(view: View):
   /** Relative variances of a sample, summed over blocks: of paths from the camera beside light
     * paths, and others.
     *
-    * Light that the camera's paths find so seldom that it is brighter than [[Usual]] samples of the
+    * Light that the camera's paths find so seldom that it is brighter than `usual` samples of the
     * mean is a speck where it is found. Most images of as many samples have none: so its variance
     * counts no more than if this light was missing there.
     *
     * @param lightPaths of each kind, how many there were
+    * @param usual      samples of a pixel
     */
-  def variances(lightPaths: Int): Variances =
+  def variances(lightPaths: Int, usual: Double): Variances =
     var byPaths, without = 0.0
     val byLight = new Array[Double](own.length)
     each(lightPaths): (i, mean, unit, pixels, scale) =>
       if pairs(i) > 0 then byPaths += unit * pixels * spread(i) / pairs(i)
-      val specks = Math.getExponent(Usual * mean) - Dimmest
+      val specks = Math.getExponent(usual * mean) - Dimmest
       var seldom, rest, light = 0.0
       loop(Magnitudes): k =>
         val at = i * Magnitudes + k
@@ -105,7 +106,7 @@ private final class PilotBlocks(view: View):
           seldom += more(at)
           light += whole(at)
         else rest += more(at)
-      val missing = Usual * square(scale * light) / pixels
+      val missing = usual * square(scale * light) / pixels
       without += unit * (scale * rest + Math.min(scale * seldom, missing))
       loop(own.length)(k => byLight(k) += unit * scale * own(k)(i))
     Variances(byPaths, without, byLight.toVector)
@@ -155,7 +156,10 @@ private object PilotBlocks:
   inline val Floor = 0.1
 
   /** Samples of a pixel, as images often have. */
-  inline val Usual = 16384.0
+  inline val Usual = 1024.0
+
+  /** More than any image has. */
+  inline val Endless = 1e30
 
   /** Powers of two, from this one on, that brightness is told apart by. */
   inline val Dimmest = -32

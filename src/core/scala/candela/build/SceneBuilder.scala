@@ -25,6 +25,7 @@ import candela.scenefile.SceneDescription
   * @param heap      bytes that the scene may take
   * @param isRendered whether it needs a film
   * @param pixels     at most, for a trial: the image is made as small
+  * @param expects    is told the number of camera samples before anything is built
   */
 final case class BuildControl(
     pool: Parallel = Parallel.Alone,
@@ -34,7 +35,8 @@ final case class BuildControl(
     keep: Keep = Keep.Nothing,
     heap: Long = JavaHeap.limit,
     isRendered: Boolean = true,
-    pixels: Option[Int] = None
+    pixels: Option[Int] = None,
+    expects: Long => Unit = _ => ()
 )
 
 /** Builds a render plan from a description. Connects scene files to rendering.
@@ -80,6 +82,7 @@ object SceneBuilder:
       FilmSize.least(crop.pixels, image.layers, image.film.development.bands)
     val memory = MemoryCheck(control.heap, film, context)
     val samples = crop.pixels * taken.getOrElse(sampling.sampler.samplesPerPixel)
+    control.expects(samples)
     Hierarchies.expect(samples, control.pool, context.resources.warmUps)
     val built =
       WorldBuilder(

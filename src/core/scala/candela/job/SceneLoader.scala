@@ -58,8 +58,15 @@ object SceneLoader:
       // What a limited scene may use is counted as it is made
       val keep = if how.limits.all.isEmpty then how.keep else Keep.Nothing
       keep.begin()
-      val control =
-        BuildControl(pool, how.taken, how.footprint, textures, keep, isRendered = how.isRendered)
+      val control = BuildControl(
+        pool,
+        how.taken,
+        how.footprint,
+        textures,
+        keep,
+        isRendered = how.isRendered,
+        expects = if description.isFollowed then _ => () else how.expects
+      )
       val (plan, warnings) = SceneBuilder.build(description, how.settings, control)
       val seconds = (System.nanoTime - started) * 1e-9
       val all = description.warnings ++ warnings

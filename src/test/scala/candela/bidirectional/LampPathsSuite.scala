@@ -1,6 +1,7 @@
 package candela.bidirectional
 
 import candela.build.{ColorMode, RenderSettings}
+import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
@@ -112,5 +113,17 @@ final class LampPathsSuite extends AnyFunSuite:
     assert(image(plan(text, CausticsMode.On), threads = 3).data.sameElements(one.data))
 
   test("none begin where light from infinity passes fog without end"):
-    assert(!told(plan(inFog(scene(GlassBall, s"${lamp(0.25f)}\n$sun"), thick), CausticsMode.On))
+    assert(!told(plan(inFog(scene(GlassBall, s"${lamp(0.03f)}\n$sun"), thick), CausticsMode.On))
       .contains("from lamps"))
+
+  test("none begin where light is limited that was scattered more than once"):
+    val text = scenes.head._2
+    def limited(limit: Option[Float]) =
+      val settings = RenderSettings(
+        Some(16),
+        color = ColorMode.Rgb,
+        caustics = Some(CausticsMode.On),
+        fireflies = limit.fold(Fireflies.Kept)(Fireflies.Clamped(_))
+      )
+      told(SceneTexts.plan(text, Dialect.V4, settings))
+    assert(limited(None).contains("from lamps") && !limited(Some(5f)).contains("from lamps"))

@@ -41,7 +41,7 @@ class PilotBlocksSuite extends AnyFunSuite:
     val parts = PilotBlocks(view)
     for i <- 0 until 3 do parts.add(found(1000 * i, 1000 * (i + 1)))
     def all(blocks: PilotBlocks) =
-      val found = blocks.variances(3000)
+      val found = blocks.variances(3000, PilotBlocks.Endless)
       val (guided, unguided) = blocks.savings()
       Vector(found.byPaths, found.without, guided, unguided) ++ found.byLight
     for (a, b) <- all(whole).zip(all(parts)) do
@@ -51,21 +51,25 @@ class PilotBlocksSuite extends AnyFunSuite:
     val once = found(0, 1000)
     val twice = PilotBlocks(view)
     for _ <- 0 until 2 do twice.add(found(0, 1000))
-    val (of, ofTwice) = (once.variances(1000), twice.variances(2000))
+    val (of, ofTwice) = (
+      once.variances(1000, PilotBlocks.Usual),
+      twice.variances(2000, PilotBlocks.Usual)
+    )
     assert(Math.abs(of.without - ofTwice.without) < 1e-9 * of.without)
     for (a, b) <- of.byLight.zip(ofTwice.byLight) do assert(Math.abs(a - b) < 1e-9 * a)
 
   test("light that is seldom found counts no more than if it was missing"):
     /** Even light, and a hundredth of it that the camera's paths find once in `seldom` samples. */
-    def more(seldom: Double): Double =
+    def more(seldom: Double, usual: Double = PilotBlocks.Usual): Double =
       val blocks = PilotBlocks(view)
       for x <- 0 until width; y <- 0 until height do
         blocks.addPair(x, y, 1f, 1f)
         val light = 0.01
         blocks.addSplat(x.toFloat, y.toFloat, LightKind.OfCasters, light, light, seldom)
-      blocks.variances(width * height).without / (width * height)
+      blocks.variances(width * height, usual).without / (width * height)
     // Relative variance of a sample: the light times its brightness where it is found
     assert(Math.abs(more(1e3) - 0.01 * 0.01 * 1e3) < 0.01)
     assert(Math.abs(more(1e4) - 0.01 * 0.01 * 1e4) < 0.1)
-    for seldom <- Seq(1e7, 1e8) do
+    assert(Math.abs(more(1e7, PilotBlocks.Endless) - 0.01 * 0.01 * 1e7) < 100)
+    for seldom <- Seq(1e6, 1e8) do
       assert(Math.abs(more(seldom) - PilotBlocks.Usual * 0.01 * 0.01) < 0.1)

@@ -218,6 +218,7 @@ class LauncherSuite extends AnyFunSuite:
       assert(replays(newest, "preview", "x.pbrt") && replays(newest, "check", "x.pbrt"))
       assert(replays(newest, "--spp", "1", "x.pbrt") && replays(newest, "x.pbrt", "--spp=1"))
       assert(!replays(newest, "x.pbrt", "--spp=16") && !replays(newest, "x.pbrt", "-o", "1"))
+      assert(!replays(newest, "yes.pbrt", "--spp", "16"))
       assert(replays(old, "x.pbrt"))
 
   test("where the program's folder is read-only, the archive is in the user's cache"):

@@ -4,7 +4,7 @@ import candela.base.{Code, InputFile, Keep, Problem, SceneError}
 import candela.build.RenderRegion
 import candela.cli.files.{FileRegister, FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.Options
-import candela.cli.rendering.{CostRows, ImageWriter, RenderOutputs, SceneRun, Summary}
+import candela.cli.rendering.{Compilers, CostRows, ImageWriter, RenderOutputs, SceneRun, Summary}
 import candela.cli.terminal.{ExitCode, Printer, Report, Terminal, Thumbnail}
 import candela.image.Oidn
 import candela.job.{Denoising, FilmKeeper, Prepared, SceneLoader}
@@ -30,6 +30,7 @@ final class RenderCommand(
     register: FileRegister = FileRegister()
 ):
   private val cancellation = Cancellation()
+  private val sequence = Sequence(options)
   private val files = RenderOutputs(options, report, register, resumed)
   private lazy val keep =
     val files = options.sceneCache
@@ -37,12 +38,14 @@ final class RenderCommand(
       val help = Some("name one: --scene-cache FOLDER")
       val message = "--scene-cache needs a folder, and this system names none for caches"
       throw SceneError(Problem.general(Code.OptionMisfit, message, help))
-    if files.nonEmpty || Sequence(options).frames.size > 1 then Keep(files) else Keep.Nothing
+    if files.nonEmpty || sequence.frames.size > 1 then Keep(files) else Keep.Nothing
   private lazy val denoising = Option.when(options.settings.output.denoise):
     Denoising(Oidn.load(terminal.environment), options.threadCount)
 
+  /** The JVM renders one scene, once. */
+  private val isOnly = terminal.endsJava && sequence.frames.size == 1 && !options.isWatched
+
   def run(): ExitCode =
-    val sequence = Sequence(options)
     val code = report.guarded:
       checkAll(sequence.frames)
       ExitCode.Done
@@ -82,7 +85,11 @@ final class RenderCommand(
     files.check(scene, outfiles)
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
-    val prepared = loader.load(scene, options.preparation.copy(world = world, keep = keep))
+    val prepared = loader.load(
+      scene,
+      options.preparation
+        .copy(world = world, keep = keep, expects = if isOnly then Compilers.expect else _ => ())
+    )
     // A first look ignores most of what warnings are about.
     val isBrief = options.settings.preview && !options.verbose
     val told = if isBrief then prepared.warnings.filter(_.standIn.nonEmpty) else prepared.warnings

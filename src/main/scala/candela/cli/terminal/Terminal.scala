@@ -18,6 +18,7 @@ import scala.util.Try
   * @param environment variables of the process
   * @param lost why output was lost, if it is known
   * @param isSeen whether results are shown by a terminal, instead of going to a file or program
+  * @param endsJava whether the JVM ends with this run
   */
 final class Terminal(
     stdout: PrintStream,
@@ -27,7 +28,8 @@ final class Terminal(
     val columns: Int = Terminal.UsualColumns,
     val environment: Map[String, String] = Map.empty,
     lost: () => Option[IOException] = () => None,
-    isSeen: Boolean = false
+    isSeen: Boolean = false,
+    val endsJava: Boolean = false
 ):
   val out: Printer = Printer(stdout)
   val err: Printer = Printer(stderr)
@@ -42,7 +44,16 @@ final class Terminal(
 
   /** The same streams with other interrupts. */
   private[cli] def interruptedBy(other: Interrupts): Terminal =
-    Terminal(out, err, isInteractive, other, columns, environment, lost)
+    Terminal(
+      out,
+      err,
+      isInteractive,
+      other,
+      columns,
+      environment,
+      lost,
+      endsJava = endsJava
+    )
 
   /** Whether `err` shows colours. Source: "NO_COLOR", no-color.org. */
   def hasColor: Boolean = isInteractive && environment.getOrElse("NO_COLOR", "").isEmpty
@@ -68,7 +79,8 @@ object Terminal:
       columns,
       sys.env,
       () => out.failure,
-      isAttached || isDevice(1, "/dev/pts/") || isDevice(1, "/dev/tty")
+      isAttached || isDevice(1, "/dev/pts/") || isDevice(1, "/dev/tty"),
+      endsJava = true
     )
 
   /** Standard output that remembers why it can't be written: a PrintStream tells only that. */

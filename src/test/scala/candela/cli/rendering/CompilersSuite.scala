@@ -1,0 +1,52 @@
+package candela.cli.rendering
+
+import candela.base.WholeFile
+
+import java.io.File
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Try
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class CompilersSuite extends AnyFunSuite:
+
+  /** What another JVM says of its compilers, after a rendering of so many samples began. */
+  private def told(samples: Long, options: String*): String =
+    val java = Seq(sys.props("java.home"), "bin", "java").mkString(File.separator)
+    val classes =
+      Seq(TellsCompilers.getClass, Compilers.getClass, WholeFile.getClass, classOf[Option[?]])
+        .map(c => File(c.getProtectionDomain.getCodeSource.getLocation.toURI).getPath) :+
+        File(classOf[scala.deriving.Mirror].getProtectionDomain.getCodeSource.getLocation.toURI)
+          .getPath
+    val command = (java +: options) ++
+      Seq(
+        "-cp",
+        classes.mkString(File.pathSeparator),
+        "candela.cli.rendering.TellsCompilers",
+        s"$samples"
+      )
+    val builder = ProcessBuilder(command.asJava).redirectErrorStream(true)
+    val _ = builder.environment.remove("JAVA_TOOL_OPTIONS") // with them the JVM says so
+    val process = builder.start()
+    val output = String(process.getInputStream.readAllBytes, "UTF-8")
+    assert(process.waitFor() == 0, output)
+    output
+
+  private val open = "--add-exports=java.base/jdk.internal.module=ALL-UNNAMED"
+
+  test("few samples are left to C1, without a word"):
+    assert(told(100, open) == "false")
+
+  test("many samples have C2"):
+    assert(told(100000000, open) == "true")
+
+  test("where the JVM can't be told, C2 stays, and nothing breaks"):
+    assert(told(100) == "true")
+
+/** Is started by [[CompilersSuite]]. Prints whether C2 may compile. */
+object TellsCompilers:
+  def main(words: Array[String]): Unit =
+    Compilers.expect(words.head.toLong)
+    val directives = Try(Compilers.tell("Compiler.directives_print"))
+    print(!directives.toOption.exists(_.contains("Exclude:true")))
