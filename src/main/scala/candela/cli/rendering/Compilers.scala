@@ -14,8 +14,8 @@ private[cli] object Compilers:
   /** Camera samples from which C2 may pay; in most scenes it takes two to four times as many. */
   private inline val Few = 131072L
 
-  /** Leaves all that is not compiled yet to C1, for the rest of the JVM's life, if it renders so
-    * few samples. Without effect if the JVM doesn't let its compilers be told, or exports no
+  /** Leaves what is not compiled yet to C1, but for [[Loops]], for the rest of the JVM's life, if it
+    * renders so few samples. Without effect if the JVM doesn't let its compilers be told, or exports no
     * `jdk.internal.module`.
     */
   def expect(samples: Long): Unit =
@@ -30,8 +30,16 @@ private[cli] object Compilers:
       catch
         case _: (IOException | WriteError | ReflectiveOperationException | LinkageError) => ()
 
+  /** Loops over many texels, primitives or bytes, which the JVM has to compile well in any case. */
+  private val Loops =
+    Vector("accel", "base", "image", "scenefile", "shapes", "textures").map("candela/" + _) ++
+      Vector("java", "sun", "com")
+
   /** Source: "Writing Directives", Java Platform, Standard Edition, Java Virtual Machine Guide. */
-  private val WithoutC2 = """[{ match: ["*.*"], c2: { Exclude: true } }]"""
+  private val WithoutC2 =
+    val loops = Loops.map(name => s"\"$name/*.*\"").mkString(", ")
+    s"""[{ match: [$loops], c2: { Exclude: false } },
+      { match: ["*.*"], c2: { Exclude: true } }]"""
 
   /** Runs a command as `jcmd` does from outside. The JDK's management bean for it has many more
     * classes to load than the one behind it.
