@@ -14,9 +14,9 @@ private[cli] object Compilers:
   /** Camera samples from which C2 may pay; in most scenes it takes two to four times as many. */
   private inline val Few = 131072L
 
-  /** Leaves what is not compiled yet to C1, but for [[Loops]], for the rest of the JVM's life, if it
-    * renders so few samples. Without effect if the JVM doesn't let its compilers be told, or exports no
-    * `jdk.internal.module`.
+  /** Leaves what is not compiled yet to C1, but for [[Loops]], for the rest of the JVM's life, if
+    * it renders so few samples. Without effect if the JVM doesn't let its compilers be told, or
+    * exports no `jdk.internal.module`.
     */
   def expect(samples: Long): Unit =
     if samples < Few then
