@@ -243,7 +243,6 @@ final class BidirectionalPathTracer(
     then
       Rgb.Black
     else
-      val source = scene.lights(connection.index)
       val sample = connection.sample
       val wi = connection.wi
       val f = vertex.received(wi)
@@ -255,16 +254,12 @@ final class BidirectionalPathTracer(
         else Rgb.White
       if passed.isBlack then Rgb.Black
       else
-        val target = sample.target
-        val meeting =
-          if sample.isInfinite then sample.pdf
-          else if target.n.isZero then (target.p - p).lengthSquared
-          else sample.pdf * (target.n absDot wi)
-        val emission = lightPaths.chance(connection.index) *
-          source.emissionPdf(scene.ball, target.p, target.n, -wi)
+        val emission = lightPaths.chance(connection.index) * connection.emissionPdf
         val byLight =
-          emission.toDouble * vertex.cosine(wi) / (connection.probability.toDouble * meeting)
-        val byBsdf = if source.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / connection.pdf)
+          emission.toDouble * vertex.cosine(wi) /
+            (connection.probability.toDouble * connection.spread(p))
+        val byBsdf =
+          if connection.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / connection.pdf)
         val others = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
         val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + others))
         f * sample.radiance.toRgb * weight.toFloat * passed

@@ -74,8 +74,7 @@ private[candela] final class CausticPilot(
       )
 
   private def look(aimed: Casters): (Option[CausticChoice], String) =
-    val kinds = ofKinds(aimed)
-    val found = looked(aimed, kinds, 0, 1)
+    val (kinds, found) = ofKinds(aimed)
     val first = Expected.of(found, kinds)
     val expected =
       if light.findsAll || !first.pays then first
@@ -85,14 +84,17 @@ private[candela] final class CausticPilot(
     if light.findsAll || expected.pays then (Some(expected.choice(aimed)), expected.toString)
     else (None, s"none: $expected")
 
-  /** Which light paths are taken, if any are: those from lamps, too, if that seems better. */
-  private def ofKinds(aimed: Casters): Vector[LightKind] =
-    val few = Vector(LightKind.OfCasters)
+  /** Which light paths are taken, if any are: those from lamps, too, if that seems better; and what
+    * the first round finds.
+    */
+  private def ofKinds(aimed: Casters): (Vector[LightKind], Found) =
+    def first(kinds: Vector[LightKind]) = (kinds, looked(aimed, kinds, 0, 1))
+    def gain(kinds: Vector[LightKind], found: Found) = Expected.of(found, kinds).gain
+    val few = first(Vector(LightKind.OfCasters))
     if !light.beginsAtLamps(scene) then few
     else
-      val all = LightKind.values.toVector
-      def gain(kinds: Vector[LightKind]) = Expected.of(looked(aimed, kinds, 0, 1), kinds).gain
-      if gain(all) > LeastGainOfMore * gain(few) then all else few
+      val all = first(LightKind.values.toVector)
+      if gain.tupled(all) > LeastGainOfMore * gain.tupled(few) then all else few
 
   /** What light paths and the camera's paths of some rounds find. */
   private def looked(aimed: Casters, kinds: Vector[LightKind], from: Int, until: Int): Found =

@@ -112,7 +112,11 @@ private[bidirectional] final class LightPaths(
           if alive then
             if !vertex.bsdf.isSpecular && !isLeft(vertex) then keep(vertex, path, within)
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
-            if beside != null then alive &&= !isByCasters && isOpen(light, vertex)
+            val others = beside
+            if others != null then
+              // None of the strategies that connect vertices
+              path.weights.near = 0.0
+              alive &&= !isByCasters && (others.findsAll || !isDeltaByMirror(light, vertex))
             lastP.set(vertex.at.p)
             if within != null then within.medium = within.towards(vertex, ray.direction)
 
@@ -122,12 +126,9 @@ private[bidirectional] final class LightPaths(
   private def isLeft(vertex: PathVertex): Boolean =
     beside != null && vertex.edges == 1 && !vertex.isInMedium
 
-  /** May the path go on from the vertex beside the camera's? */
-  private def isOpen(light: Int, vertex: PathVertex): Boolean =
-    // None of the strategies that connect vertices
-    path.weights.near = 0.0
-    val isNew = vertex.edges == 1 && vertex.bounce.isSpecular && scene.lights(light).isDelta
-    !isNew || beside != null && beside.findsAll
+  /** Is it light that no path from the camera finds? */
+  private def isDeltaByMirror(light: Int, vertex: PathVertex): Boolean =
+    vertex.edges == 1 && vertex.bounce.isSpecular && scene.lights(light).isDelta
 
   /** May the vertex, which the ray has met, be one of a path of [[CausticPaths]]? */
   private def casts(vertex: PathVertex, isFirst: Boolean): Boolean =

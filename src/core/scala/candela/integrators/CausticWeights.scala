@@ -174,16 +174,8 @@ final class CausticWeights(
     val begins = lamps
     if begins == null then 0.0
     else
-      val sample = connection.sample
-      val target = sample.target
-      val meeting =
-        if sample.isInfinite then sample.pdf
-        else if target.n.isZero then (target.p - p).lengthSquared
-        else sample.pdf * (target.n absDot connection.wi)
-      val source = scene.lights(connection.index)
-      val emitted = source.emissionPdf(scene.ball, target.p, target.n, -connection.wi)
-      begins.chance(connection.index).toDouble * emitted * ofLamps /
-        (connection.probability.toDouble * meeting)
+      begins.chance(connection.index).toDouble * connection.emissionPdf * ofLamps /
+        (connection.probability.toDouble * connection.spread(p))
 
   private def rest(own: Double, rival: Double): Float = (own / (own + square(rival))).toFloat
 

@@ -71,6 +71,20 @@ final class LightConnection(
   /** Density of the sample: probability of the light times solid-angle density of the point. */
   def pdf: Float = choice.probability * sample.pdf
 
+  /** Density with which a path from the light begins at the sample's point and comes from there. */
+  def emissionPdf: Float =
+    val target = sample.target
+    scene.lights(choice.light).emissionPdf(scene.ball, target.p, target.n, -wi)
+
+  /** What [[emissionPdf]] is divided by for the density with which such a path arrives at `p`,
+    * across its way, relative to that of the sample's point.
+    */
+  def spread(p: Vec3): Float =
+    val target = sample.target
+    if sample.isInfinite then sample.pdf
+    else if target.n.isZero then (target.p - p).lengthSquared
+    else sample.pdf * (target.n absDot wi)
+
   /** True if no direction sampled from a BSDF can meet the light. */
   def isDelta: Boolean = scene.lights(choice.light).isDelta
   def isShownOnly: Boolean = scene.lights(choice.light).isShownOnly

@@ -4,6 +4,7 @@ import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 
+import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{CheckedFile, loop}
@@ -81,12 +82,16 @@ class EnvironmentTilesSuite extends AnyFunSuite:
         assert(second == whole, scene)
         assert(files(cache, ".part").map(Files.readAllBytes(_).toVector) == before)
 
-  test("a sampling table has a file; one that is damaged is made again"):
+  /** A scene, its cache, its image, and the file of the sampling table that it left there. */
+  private def withTable(body: (Path, Path, Vector[Byte], Path) => Assertion): Assertion =
     TempFolder.use: folder =>
       val scene = scenes(folder).head
       val cache = folder.resolve("cache")
       val (image, _) = render(scene, tiles(cache)*)
-      val table = files(cache, ".part").head
+      body(scene, cache, image, files(cache, ".part").head)
+
+  test("a sampling table has a file; one that is damaged is made again"):
+    withTable: (scene, cache, image, table) =>
       val bytes = Files.readAllBytes(table)
       // Of its own content: another table makes another image
       assert(bytes.length > 256 * 257 * 4)
@@ -103,11 +108,7 @@ class EnvironmentTilesSuite extends AnyFunSuite:
     String(bytes, 4, length, UTF_8)
 
   test("the table in a file is that by which the map is sampled"):
-    TempFolder.use: folder =>
-      val scene = scenes(folder).head
-      val cache = folder.resolve("cache")
-      val (image, _) = render(scene, tiles(cache)*)
-      val table = files(cache, ".part").head
+    withTable: (scene, cache, image, table) =>
       val sizes = Seq(256, 256)
       val other = Distribution2D(Array.tabulate(sizes.product)(i => (i % 7 + 1).toFloat), 256, 256)
       CheckedFile.write(table, mark(table))(Distribution2D.Form.write(other, _))

@@ -1,32 +1,17 @@
 package candela.accel.tracing
 
-import java.io.File
-import java.lang.module.ModuleFinder
+import candela.testing.OtherJava
 
-import scala.jdk.CollectionConverters.*
+import java.lang.module.ModuleFinder
 
 import org.scalatest.funsuite.AnyFunSuite
 
 class VectorModuleSuite extends AnyFunSuite:
   private val isInThisJdk = ModuleFinder.ofSystem.find("jdk.incubator.vector").isPresent
 
-  /** What another JVM says that asks for vectors, on its output and its error stream alike. */
+  /** What another JVM says that asks for vectors. */
   private def said(options: String*): String =
-    val java = Seq(sys.props("java.home"), "bin", "java").mkString(File.separator)
-    val classes = Seq(
-      PrintsVectors.getClass,
-      VectorModule.getClass,
-      classOf[Option[?]],
-      classOf[scala.deriving.Mirror]
-    ).map(c => File(c.getProtectionDomain.getCodeSource.getLocation.toURI).getPath)
-    val command = (java +: options) ++
-      Seq("-cp", classes.mkString(File.pathSeparator), "candela.accel.tracing.PrintsVectors")
-    val builder = ProcessBuilder(command.asJava).redirectErrorStream(true)
-    val _ = builder.environment.remove("JAVA_TOOL_OPTIONS") // with them the JVM says so
-    val process = builder.start()
-    val output = String(process.getInputStream.readAllBytes, "UTF-8")
-    assert(process.waitFor() == 0, output)
-    output
+    OtherJava.output(PrintsVectors, VectorModule.getClass)(options*)()
 
   test("vectors are there if the JDK has them, and no JVM warns of them"):
     assert(VectorModule.isLoaded == isInThisJdk)

@@ -1,10 +1,8 @@
 package candela.cli.rendering
 
 import candela.base.WholeFile
+import candela.testing.OtherJava
 
-import java.io.File
-
-import scala.jdk.CollectionConverters.*
 import scala.util.Try
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -13,25 +11,7 @@ class CompilersSuite extends AnyFunSuite:
 
   /** What another JVM says of its compilers, after a rendering of so many samples began. */
   private def told(samples: Long, options: String*): String =
-    val java = Seq(sys.props("java.home"), "bin", "java").mkString(File.separator)
-    val classes =
-      Seq(TellsCompilers.getClass, Compilers.getClass, WholeFile.getClass, classOf[Option[?]])
-        .map(c => File(c.getProtectionDomain.getCodeSource.getLocation.toURI).getPath) :+
-        File(classOf[scala.deriving.Mirror].getProtectionDomain.getCodeSource.getLocation.toURI)
-          .getPath
-    val command = (java +: options) ++
-      Seq(
-        "-cp",
-        classes.mkString(File.pathSeparator),
-        "candela.cli.rendering.TellsCompilers",
-        s"$samples"
-      )
-    val builder = ProcessBuilder(command.asJava).redirectErrorStream(true)
-    val _ = builder.environment.remove("JAVA_TOOL_OPTIONS") // with them the JVM says so
-    val process = builder.start()
-    val output = String(process.getInputStream.readAllBytes, "UTF-8")
-    assert(process.waitFor() == 0, output)
-    output
+    OtherJava.output(TellsCompilers, Compilers.getClass, WholeFile.getClass)(options*)(s"$samples")
 
   private val open = "--add-exports=java.base/jdk.internal.module=ALL-UNNAMED"
 
