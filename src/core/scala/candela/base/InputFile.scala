@@ -6,6 +6,7 @@ import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.attribute.{BasicFileAttributes, FileTime}
 import java.nio.file.{Files, InvalidPathException, Path, StandardOpenOption}
+import java.util.concurrent.TimeUnit.NANOSECONDS
 
 import scala.util.{Try, Using}
 
@@ -83,6 +84,9 @@ final class InputFile private[base] (
     */
   private[base] def stamp: Option[FileStamp] = FileStamp.of(place)
 
+  /** Where it is, whatever the user's folder. */
+  private[base] def whole: Path = place.toAbsolutePath.normalize
+
   /** Tells whether the file is surely as it is now. */
   def watch(): () => Boolean =
     val now = stamp
@@ -150,15 +154,10 @@ object InputFile:
 
 /** What a file system says of a file: it differs if the file was changed or replaced.
   *
-  * @param changed when its content or its attributes were, which no program can set
+  * @param words size; when it was modified, and when its content or its attributes were changed,
+  *              which no program can set, in nanoseconds; device and number
   */
-private[base] final case class FileStamp(
-    size: Long,
-    modified: FileTime,
-    changed: FileTime,
-    device: Any,
-    number: Any
-)
+private[base] final case class FileStamp(words: String)
 
 private[base] object FileStamp:
   /** Clocks of file systems tick: two changes within a tick have one time. In milliseconds. */
@@ -167,15 +166,11 @@ private[base] object FileStamp:
   /** @param rest milliseconds since its last change, at least */
   def of(file: Path, rest: Long = Tick): Option[FileStamp] = Try:
     val all = Files.readAttributes(file, "unix:size,lastModifiedTime,ctime,dev,ino")
-    val changed = all.get("ctime").asInstanceOf[FileTime]
-    val stamp = FileStamp(
-      all.get("size").asInstanceOf[Long],
-      all.get("lastModifiedTime").asInstanceOf[FileTime],
-      changed,
-      all.get("dev"),
-      all.get("ino")
-    )
-    Option.when(System.currentTimeMillis - changed.toMillis >= rest)(stamp)
+    def time(name: String) = all.get(name).asInstanceOf[FileTime]
+    val times = Seq("lastModifiedTime", "ctime").map(time(_).to(NANOSECONDS))
+    val stamp =
+      FileStamp((all.get("size") +: times :+ all.get("dev") :+ all.get("ino")).mkString(" "))
+    Option.when(System.currentTimeMillis - time("ctime").toMillis >= rest)(stamp)
   .toOption.flatten
 
 /** Counts the bytes read. */

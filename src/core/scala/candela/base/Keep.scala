@@ -2,7 +2,6 @@ package candela.base
 
 import java.io.IOException
 import java.lang.ref.SoftReference
-import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
 import java.util.concurrent.atomic.AtomicInteger
 
@@ -18,7 +17,7 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles]):
   import Keep.*
 
   private val things = ConcurrentHashMap[(Shelf[?], String), Kept]()
-  private val digests = ConcurrentHashMap[Path, (FileStamp, String)]()
+  private val digests = FileDigests(files)
   private val scenes = AtomicInteger()
 
   /** Begins another scene. */
@@ -61,8 +60,13 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles]):
       remember(shelf, key, thing)
       for store <- files; form <- shelf.form do store.write(form, key, thing)
 
-  /** Why files can't be written, if that was not told before. */
-  def trouble(): Option[String] = files.flatMap(_.trouble())
+  /** Writes to files what is known of the scene's files.
+    *
+    * @return why files can't be written, if that was not told before
+    */
+  def save(): Option[String] =
+    digests.save()
+    files.flatMap(_.trouble())
 
   /** As `apply`, of what is made from a file, and in which way.
     *
@@ -85,22 +89,12 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles]):
     try Option.when(isKeeping)(digest(file))
     catch case _: IOException => None
 
-  /** The digest of a file, if it is remembered. */
-  private def known(file: InputFile): Option[String] =
-    for
-      stamp <- if isKeeping then file.stamp else None
-      (same, digest) <- Option(digests.get(file.path)) if same == stamp
-    yield digest
-
   /** The digest of a file, which is remembered while the file is not touched.
     *
     * @throws IOException if it can't be read
     */
-  def digest(file: InputFile): String = known(file).getOrElse:
-    val before = if isKeeping then file.stamp else None
-    val made = file.digest()
-    for stamp <- before if file.stamp.contains(stamp) do digests.put(file.path, (stamp, made)): Unit
-    made
+  def digest(file: InputFile): String =
+    if isKeeping then digests(file)(file.digest()) else file.digest()
 
 object Keep:
   /** @param files also keep large things */

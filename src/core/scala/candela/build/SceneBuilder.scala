@@ -109,7 +109,7 @@ object SceneBuilder:
     context.problems.stopAtErrors()
     val made = plan(context, settings, taken, image, crop, integrator, sampling, camera, world)
     checkSize(context, made)
-    for why <- control.keep.trouble() do
+    for why <- control.keep.save() do
       context.problems.warn(Code.Unwritable, None, s"$why; the scene cache gets no more files")
     (made, context.problems.result)
 

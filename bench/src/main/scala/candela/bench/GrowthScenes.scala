@@ -19,39 +19,53 @@ import scala.util.Using
 object GrowthScenes:
   def main(words: Array[String]): Unit =
     val options = words.grouped(2).collect { case Array(k, v) => k -> v }.toMap
-    val most = options.get("--most").fold(Double.PositiveInfinity)(_.toDouble)
-    if !sys.env.contains("CANDELA_GROWTH") then
-      System.err.println("CANDELA_GROWTH must name the folder of the scenes")
-    else
-      for
-        scene <- SuiteFile.read(Path.of("bench/suites/growth.conf")).scenes
-        growth <- scene.growth
-        if growth.size <= most && scene.name.startsWith(options.getOrElse("--only", ""))
-        file <- scene.files.get("v4") if !Files.exists(file)
-      do
-        Files.createDirectories(file.getParent): Unit
-        write(scene, growth.size.toInt, file)
-        println(s"wrote $file")
+    val most = options.get("--most").map(_.toDoubleOption).getOrElse(Some(Double.PositiveInfinity))
+    val isKnown = words.length % 2 == 0 && options.keySet.subsetOf(Set("--only", "--most"))
+    most.filter(_ => isKnown) match
+      case None =>
+        fail(s"expected `--only WORD` and `--most N`, found ${words.mkString("`", " ", "`")}")
+      case _ if !sys.env.contains("CANDELA_GROWTH") =>
+        fail("CANDELA_GROWTH must name the folder of the scenes")
+      case Some(most) => writeAll(options.getOrElse("--only", ""), most)
+
+  private def fail(why: String): Unit =
+    System.err.println(s"error: $why")
+    sys.exit(1)
+
+  private def writeAll(only: String, most: Double): Unit =
+    for
+      scene <- SuiteFile.read(Path.of("bench/suites/growth.conf")).scenes
+      growth <- scene.growth
+      if growth.size <= most && scene.name.startsWith(only)
+      file <- scene.files.get("v4") if !Files.exists(file)
+    do
+      Files.createDirectories(file.getParent): Unit
+      write(scene, growth.size.toInt, file)
+      println(s"wrote $file")
 
   private def write(scene: SuiteScene, size: Int, file: Path): Unit =
-    // Whole, or not at all: what is there is not written again
+    whole(file): part =>
+      Using.resource(PrintWriter(BufferedWriter(Files.newBufferedWriter(part), 1 << 16))): out =>
+        val growing = GrowingScene(out, file.getParent)
+        scene.name.takeWhile(_ != '-') match
+          case "triangles" => growing.triangles(size)
+          case "instances" => growing.instances(size)
+          case "objects" => growing.objects(size)
+          case "lamps" => growing.lamps(size)
+          case "spheres" => growing.spheres(size)
+          case "curves" => growing.curves(size)
+          case "materials" => growing.materials(size)
+          case "textures" => growing.textures(size)
+          case "texels" => growing.texels(size)
+          case "includes" => growing.includes(size)
+          case "depth" => growing.depth(size)
+          case "blocks" => growing.blocks(size)
+          case "film" => growing.film(size)
+
+  /** Writes a file whole, or not at all: what is there is not written again. */
+  private[bench] def whole(file: Path)(write: Path => Any): Unit =
     val part = file.resolveSibling(s"${file.getFileName}.part")
-    Using.resource(PrintWriter(BufferedWriter(Files.newBufferedWriter(part), 1 << 16))): out =>
-      val growing = GrowingScene(out, file.getParent)
-      scene.name.takeWhile(_ != '-') match
-        case "triangles" => growing.triangles(size)
-        case "instances" => growing.instances(size)
-        case "objects" => growing.objects(size)
-        case "lamps" => growing.lamps(size)
-        case "spheres" => growing.spheres(size)
-        case "curves" => growing.curves(size)
-        case "materials" => growing.materials(size)
-        case "textures" => growing.textures(size)
-        case "texels" => growing.texels(size)
-        case "includes" => growing.includes(size)
-        case "depth" => growing.depth(size)
-        case "blocks" => growing.blocks(size)
-        case "film" => growing.film(size)
+    write(part): Unit
     Files.move(part, file): Unit
 
 /** One scene, for pbrt-v4.
@@ -86,7 +100,7 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
   /** @return a shape statement of a mesh that is written beside the scene */
   private def mesh(triangles: Int): String =
     val file = folder.resolve(s"torus-$triangles.ply")
-    if !Files.exists(file) then Torus(triangles).write(file)
+    if !Files.exists(file) then GrowthScenes.whole(file)(Torus(triangles).write)
     s"Shape \"plymesh\" \"string filename\" \"${file.getFileName}\""
 
   def triangles(count: Int): Unit =
@@ -196,7 +210,7 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
         for x <- 0 until side; b <- 0 until bands do
           row(bands * x + b) = (118 + 110 * across(x + 90 * b) * down + noise.nextInt(16)).toInt
         raster.setPixels(0, y, side, 1, row)
-      ImageIO.write(image, "png", file.toFile): Unit
+      GrowthScenes.whole(file)(part => ImageIO.write(image, "png", part.toFile))
 
   def includes(count: Int): Unit =
     head()

@@ -5,7 +5,8 @@ import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
 
 import candela.base.{
-  ByteCount, CacheFolder, Code, InputFile, Keep, Parallel, PartFiles, PartForm, Refusal, Sha256,
+  ByteCount, CacheFolder, Code, FileDigests, InputFile, Keep, Parallel, PartFiles, PartForm,
+  Refusal, Sha256,
   Version
 }
 import candela.image.ImageSize
@@ -36,6 +37,7 @@ final case class TextureControl(
   * @param folder     of files of tiles
   * @param bytes      that the images take in memory, estimated
   * @param tables     files of what is made of images in tiles
+  * @param known      digests of files that have not changed since a rendering before
   */
 final class TextureStore private (
     val tiles: Option[TileCache],
@@ -46,7 +48,8 @@ final class TextureStore private (
     files: Vector[InputFile],
     pool: Parallel,
     keep: Keep,
-    tables: Option[PartFiles]
+    tables: Option[PartFiles],
+    known: FileDigests
 ):
   /** For people, if there are images.
     *
@@ -66,13 +69,15 @@ final class TextureStore private (
   private lazy val digested: Unit = pool.each(files.size): i =>
     try noted(files(i)): Unit
     catch case _: IOException | _: Refusal => () // told when the image is asked for
+    known.save()
 
   private def noted(file: InputFile): (String, () => Boolean) =
     digests.computeIfAbsent(
       file.path,
       _ =>
         val isSame = file.watch()
-        val made = if keep.isKeeping then keep.digest(file) else Sha256.ofAll(file.stream())
+        val made = known(file):
+          if keep.isKeeping then keep.digest(file) else Sha256.ofAll(file.stream())
         (TextureStore.versioned(made), isSame)
     )
 
@@ -115,7 +120,9 @@ final class TextureStore private (
 
 object TextureStore:
   val InMemory: TextureStore =
-    new TextureStore(None, None, "", None, 0, Vector.empty, Parallel.Alone, Keep.Nothing, None)
+    new TextureStore(
+      None, None, "", None, 0, Vector.empty, Parallel.Alone, Keep.Nothing, None, FileDigests(None)
+    )
 
   /** In memory up to this share of the heap, and this size. */
   private val ShareOfHeap = 8
@@ -162,7 +169,7 @@ object TextureStore:
       def inMemory(why: String) =
         val bytes = sizeOf(textures)(_.asTexture)
         val say = s"$images in memory, $about$why"
-        new TextureStore(None, None, say, None, bytes, files, pool, keep, None)
+        new TextureStore(None, None, say, None, bytes, files, pool, keep, None, FileDigests(None))
       if size <= most then inMemory(s" of ${ByteCount.show(most)}")
       else
         control.cache match
@@ -173,7 +180,8 @@ object TextureStore:
             val say = s"$images, $about, in tiles: at most ${ByteCount.show(most)} in memory"
             val lights = if maps.isEmpty then None else cache
             val tables = lights.map(_ => PartFiles(folder))
-            new TextureStore(cache, lights, say, Some(path), most, files, pool, keep, tables)
+            val known = FileDigests(Some(PartFiles(folder)))
+            new TextureStore(cache, lights, say, Some(path), most, files, pool, keep, tables, known)
 
   private def sizeOf(files: Vector[InputFile])(bytes: ImageSize => Long): Long =
     files.map(f => ImageSize.guess(f).fold(0L)(bytes)).sum

@@ -1,0 +1,75 @@
+package candela.base
+
+import java.nio.file.{Files, Path}
+import java.util.concurrent.ConcurrentHashMap
+
+import scala.jdk.CollectionConverters.*
+
+/** Digests of files, which are remembered while the files are not touched: by this process, and in
+  * cached files for later ones, a table for each folder. Safe for threads.
+  */
+final class FileDigests(files: Option[PartFiles]):
+  import FileDigests.*
+
+  private val folders = ConcurrentHashMap[Path, Table]()
+
+  /** The digest of a file, which `make` makes if it is not known.
+    *
+    * @throws java.io.IOException if the file can't be read
+    */
+  def apply(file: InputFile)(make: => String): String =
+    val place = file.whole
+    val name = place.getFileName.toString
+    val table = folders.computeIfAbsent(place.getParent, f => Table(written(f)))
+    val before = file.stamp
+    before.flatMap(table.find(name, _)).getOrElse:
+      val made = make
+      for stamp <- before if file.stamp.contains(stamp) do table.put(name, stamp, made)
+      made
+
+  /** Writes what is new for later processes. */
+  def save(): Unit =
+    for store <- files do
+      folders.forEach: (folder, table) =>
+        for rows <- table.taken() do
+          // Another may have written some since
+          val all = written(folder) ++ rows
+          val there = all.filter((name, _) => Files.exists(folder.resolve(name)))
+          store.write(TableForm, folder.toString, there)
+
+  private def written(folder: Path): Rows =
+    files.flatMap(_.read(TableForm, folder.toString)).getOrElse(Map.empty)
+
+object FileDigests:
+  /** Stamp and digest of each file, by its name. */
+  private type Rows = Map[String, (FileStamp, String)]
+
+  private final class Table(before: Rows):
+    private val rows = ConcurrentHashMap[String, (FileStamp, String)](before.asJava)
+    @volatile private var isNew = false
+
+    def find(name: String, stamp: FileStamp): Option[String] =
+      for (same, digest) <- Option(rows.get(name)) if same == stamp yield digest
+
+    def put(name: String, stamp: FileStamp, digest: String): Unit =
+      rows.put(name, (stamp, digest)): Unit
+      isNew = true
+
+    /** All rows, if any is new since they were taken last. */
+    def taken(): Option[Rows] = Option.when(isNew):
+      isNew = false
+      rows.asScala.toMap
+
+  private object TableForm extends PartForm[Rows]("digests 1"):
+    /** Written however small: it stands for reading all of the files. */
+    def size(rows: Rows): Long = PartFiles.Least
+
+    def write(rows: Rows, out: CheckedOutput): Unit =
+      out.int(rows.size)
+      for
+        (name, (stamp, digest)) <- rows.toVector.sortBy(_._1);
+        word <- Seq(name, stamp.words, digest)
+      do out.text(word)
+
+    def read(in: CheckedInput): Rows =
+      Vector.fill(in.count(bytes = 12))((in.text(), (FileStamp(in.text()), in.text()))).toMap
