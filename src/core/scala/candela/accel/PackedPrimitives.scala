@@ -1,7 +1,7 @@
 package candela.accel
 
 import candela.geometry.{Hit, Ray}
-import candela.shapes.{Shape, TriangleSoup, TriangleTest}
+import candela.shapes.{ShapeGroup, TriangleSoup, TriangleTest}
 
 /** Primitives in the leaf order of an accelerator.
   *
@@ -37,7 +37,7 @@ final class SolidPrimitives(
     order: Array[Int],
     corners: Array[Float],
     triangles: Int,
-    shapes: Array[Shape],
+    shapes: Array[? <: ShapeGroup],
     instances: Instances
 ) extends PackedPrimitives:
   private val firstInstance = triangles + shapes.length
@@ -70,11 +70,12 @@ final class SolidPrimitives(
 
   private def other(primitive: Int, ray: Ray, hit: Hit): Boolean =
     PackedPrimitives.withTies(primitive, ray, hit):
-      if primitive < firstInstance then shapes(primitive - triangles).intersect(ray, hit)
+      if primitive < firstInstance then
+        ShapeGroup.intersect(shapes, primitive - triangles, ray, hit)
       else instances.intersect(primitive - firstInstance, ray, hit)
 
   private def isOtherHit(primitive: Int, ray: Ray, hit: Hit): Boolean =
-    if primitive < firstInstance then shapes(primitive - triangles).isHit(ray)
+    if primitive < firstInstance then ShapeGroup.isHit(shapes, primitive - triangles, ray)
     else instances.isHit(primitive - firstInstance, ray, hit)
 
 /** Primitives of which some are alpha-masked: their hits pass the alpha test or are rejected.
@@ -85,7 +86,7 @@ final class MaskedPrimitives(
     order: Array[Int],
     corners: Array[Float],
     soup: TriangleSoup,
-    shapes: Array[Shape],
+    shapes: Array[? <: ShapeGroup],
     instances: Instances,
     masks: Masks
 ) extends PackedPrimitives:
@@ -125,8 +126,8 @@ final class MaskedPrimitives(
     if primitive < firstInstance then
       val i = primitive - triangles
       val mask = masks.ofShape(i)
-      if mask eq SolidMask then shapes(i).intersect(ray, hit)
-      else solid(shapes(i), primitive, mask, ray, hit, shadow)
+      if mask eq SolidMask then ShapeGroup.intersect(shapes, i, ray, hit)
+      else solid(shapes(i), i, primitive, mask, ray, hit, shadow)
     else if shadow then instances.isHit(primitive - firstInstance, ray, hit)
     else instances.intersect(primitive - firstInstance, ray, hit)
 
@@ -152,7 +153,8 @@ final class MaskedPrimitives(
 
   /** A shape may be hit again behind a cutout: the search continues with a ray spawned there. */
   private def solid(
-      shape: Shape,
+      shapes: ShapeGroup,
+      number: Int,
       primitive: Int,
       mask: Mask,
       ray: Ray,
@@ -167,13 +169,13 @@ final class MaskedPrimitives(
     rest.set(ray.origin, direction, ray.tMax)
     var passed = 0f
     var found = false
-    var going = shape.intersect(rest, hit)
+    var going = shapes.intersect(number, rest, hit)
     while going do
-      shape.surface(rest, hit, at)
+      shapes.surface(number, rest, hit, at)
       if mask.isHole(at, rest, primitive, shadow) then
         passed += rest.tMax
         rest.set(at.offsetOrigin(direction), direction, ray.tMax - passed)
-        going = shape.intersect(rest, hit)
+        going = shapes.intersect(number, rest, hit)
       else
         found = true
         going = false

@@ -1,14 +1,16 @@
 package candela.accel
 
 import candela.base.{loop, Parallel}
-import candela.shapes.{Shape, TriangleSoup}
+import candela.shapes.{ShapeGroup, TriangleSoup}
 
 /** All primitives that rays can hit, in order: the triangles of the soup, the other shapes, the
   * object instances.
+  *
+  * @param shapes each row has the group of its number
   */
 final class Primitives(
     val soup: TriangleSoup,
-    val shapes: Array[Shape],
+    val shapes: Array[? <: ShapeGroup],
     val instances: Instances = Instances.Empty,
     val masks: Masks = Masks.Empty
 ):
@@ -28,7 +30,7 @@ final class Primitives(
   /** Writes the bounds of primitive `i` as six Floats. */
   private[accel] def writeBounds(to: Array[Float], at: Int, i: Int): Unit =
     if i < soup.count then soup.bounds(i).write(to, at)
-    else if i < firstInstance then shapes(i - soup.count).writeBounds(to, at)
+    else if i < firstInstance then shapes(i - soup.count).writeBounds(i - soup.count, to, at)
     else instances.bounds(i - firstInstance).write(to, at)
 
   /** Primitives packed in the given order for sequential tests. */

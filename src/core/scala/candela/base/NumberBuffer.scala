@@ -88,6 +88,16 @@ final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
     last(at) = x
     size += 1
 
+  /** Adds a number so many times. */
+  def add(x: Int, count: Int): Unit =
+    val end = size + count
+    while size < end do
+      val at = size & NumberBuffer.Within
+      last = pieceOf(size)
+      val until = Math.min(at + end - size, NumberBuffer.Piece)
+      java.util.Arrays.fill(last, at, until, x)
+      size += until - at
+
   /** The same numbers, to which others can be added, while none is changed: see [[share]]. */
   def continued: IntBuffer =
     val next = IntBuffer()

@@ -21,19 +21,26 @@ private[build] final class MaterialFamilies(count: Int):
   /** Builds materials by index in the plain basis, and finds their families. */
   def found(context: BuildContext): (Int, Declaration) => Material =
     val latest = mutable.HashMap.empty[String, Family]
+    val byKind = mutable.HashMap.empty[Int, Family]
     val known = this.known(context)
+    // Most are of the family of the one before; others take turns
+    def familyOf(d: Declaration): Option[Family] = latest.get(d.name).flatMap: last =>
+      if last.has(d) then Some(last) else byKind.get(last.kindOf(d)).filter(_.has(d))
     (index, d) =>
-      latest.get(d.name) match
-        case Some(family) if family.has(d) =>
+      familyOf(d) match
+        case Some(family) =>
           context.resources.allowance.checkTime(Some(d.at))
           ofMaterial(index) = family
+          latest(d.name) = family
           known(index, d)
-        case _ =>
+        case None =>
           val before = context.problems.reported
           val made = Materials.build(context.site(d))
           if context.problems.reported == before then
             for case recipe: TintedRecipe <- Materials.all.find(d.name, context.site(d).dialect) do
-              latest(d.name) = Family(recipe, d)
+              val family = Family(recipe, d)
+              latest(d.name) = family
+              byKind(family.kindOf(d)) = family
           made
 
   /** As above, in any basis, once the families are known. */
@@ -47,6 +54,7 @@ private[build] final class MaterialFamilies(count: Int):
 private[build] object MaterialFamilies:
   private final class Family(recipe: TintedRecipe, first: Declaration):
     def has(d: Declaration): Boolean = recipe.isAlike(first, d)
+    def kindOf(d: Declaration): Int = recipe.kindOf(d)
 
     def in(context: BuildContext): Declaration => Material =
       val make = recipe.family(context.site(first))

@@ -106,7 +106,7 @@ private[build] object SceneSize:
   private val Rows = 192L
   private val Sphere = 80L
   private val Solid = 500L
-  private val Segment = 98L
+  private val Segment = 74L
   private val Patch = 172L
   private val Instance = 200L
   private val Material = 1000L

@@ -1,10 +1,10 @@
 package candela.scene
 
-import scala.collection.mutable.ArrayBuffer
+import java.util.Arrays
 
 import candela.base.{IntBuffer, Parallel, loop}
 import candela.math.Transform
-import candela.shapes.{BezierCurve, CurveBuilder, CurveForm, CurveSegment, Shape}
+import candela.shapes.{BezierCurve, CurveBuilder, CurveForm, CurveGroup, Shape, ShapeGroup}
 
 /** Collects the rows of a [[ShapeTable]], in the order of their numbers.
   *
@@ -12,28 +12,37 @@ import candela.shapes.{BezierCurve, CurveBuilder, CurveForm, CurveSegment, Shape
   * [[candela.shapes.CurveSegments]] while their space and form are the same.
   */
 final class ShapeRows(parallel: Parallel):
-  private val shapes = ArrayBuffer.empty[Shape | Null]
-  private val materials, lights = IntBuffer()
+  import ShapeRows.*
+
+  private var groups = new Array[ShapeGroup | Null](64)
+  private var size = 0
+  private val materials = IntBuffer()
+
+  /** Of all rows, once one emits. */
+  private val lights = IntBuffer()
   private val inverted = java.util.BitSet()
-  private var emit = false
 
   /** Curves whose segments are not made yet, and the number of their first one. */
   private var strands: CurveBuilder | Null = null
   private var firstOfStrands = 0
 
-  def count: Int = shapes.length
+  def count: Int = size
 
   /** Adds a surface; its parameters as those of [[ShapeTable]]. */
   def add(shape: Shape, material: Int, light: Int, isInverted: Boolean): Unit =
     endStrands()
-    addRow(shape, material, light)
-    if isInverted then inverted.set(count - 1)
+    addRows(1, material, light)
+    groups(size - 1) = shape
+    if isInverted then inverted.set(size - 1)
 
-  private def addRow(shape: Shape | Null, material: Int, light: Int): Unit =
-    shapes += shape
-    materials += material
-    lights += light
-    emit |= light != ShapeTable.Dark
+  /** Adds rows whose group is not known yet. */
+  private def addRows(more: Int, material: Int, light: Int): Unit =
+    if lights.length == 0 && light != ShapeTable.Dark then lights.add(ShapeTable.Dark, size)
+    size = Math.addExact(size, more)
+    if size > groups.length then
+      groups = Arrays.copyOf(groups, Math.max(size, (2L * groups.length).min(Most).toInt))
+    materials.add(material, more)
+    if lights.length > 0 || light != ShapeTable.Dark then lights.add(light, more)
 
   /** Adds the segments of curves, which do not emit; returns how many. */
   def addCurves(
@@ -47,8 +56,8 @@ final class ShapeRows(parallel: Parallel):
     val before = made.count
     made.add(curves, toWorld)
     val more = made.count - before
-    loop(more)(_ => addRow(null, material, ShapeTable.Dark))
-    if made.count >= ShapeRows.MostSegments then endStrands()
+    addRows(more, material, ShapeTable.Dark)
+    if made.count >= MostSegments then endStrands()
     more
 
   private def strandsOf(form: CurveForm, toWorld: Transform, isReversed: Boolean): CurveBuilder =
@@ -58,26 +67,28 @@ final class ShapeRows(parallel: Parallel):
       endStrands()
       val fresh = CurveBuilder(form, toWorld, isReversed)
       strands = fresh
-      firstOfStrands = count
+      firstOfStrands = size
       fresh
 
   private def endStrands(): Unit =
     val open = strands
     if open != null then
-      val segments = open.result(parallel)
-      loop(segments.count)(i => shapes(firstOfStrands + i) = CurveSegment(segments, i))
+      val group = CurveGroup(open.result(parallel), firstOfStrands)
+      Arrays.fill(groups.asInstanceOf[Array[Object]], firstOfStrands, size, group)
       strands = null
 
   def result(): ShapeTable =
     endStrands()
-    val all = new Array[Shape](count)
-    loop(count)(i => all(i) = shapes(i).nn)
-    val flags = new Array[Boolean](if inverted.isEmpty then 0 else count)
+    val flags = new Array[Boolean](if inverted.isEmpty then 0 else size)
     loop(flags.length)(i => flags(i) = inverted.get(i))
-    ShapeTable(all, materials.take(), if emit then lights.take() else Array.emptyIntArray, flags)
+    val all = Arrays.copyOf(groups, size).asInstanceOf[Array[ShapeGroup]]
+    ShapeTable(all, materials.take(), lights.take(), flags)
 
 object ShapeRows:
   /** From which on the segments of curves are made: so many keep all threads busy, and the curves
     * that they are made from do not live long.
     */
   private val MostSegments = 1 << 15
+
+  /** Elements of the largest arrays. */
+  private val Most = Int.MaxValue - 8L

@@ -35,14 +35,14 @@ final class Surfaces(
 
   /** The primitives to build an accelerator from: these surfaces, and `instances` of others. */
   def primitives(instances: Instances = Instances.Empty): Primitives =
-    Primitives(soup, solids.shapes, instances, masks)
+    Primitives(soup, solids.groups, instances, masks)
 
   /** Computes the geometry of the hit on `primitive`, in the space of these surfaces. */
   def fill(primitive: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     if primitive < soup.count then soup.surface(primitive, hit, at)
     else
       val i = primitive - soup.count
-      solids.shape(i).surface(ray, hit, at)
+      solids.groups(i).surface(i, ray, hit, at)
       at.material = solids.material(i)
       at.areaLight = solids.light(i)
       if solids.isInverted(i) then at.invert()
@@ -59,7 +59,7 @@ final class Surfaces(
 
   /** Does [[fillBent]] know the derivatives? */
   def isBent(primitive: Int): Boolean =
-    primitive < soup.count || solids.shape(primitive - soup.count).bendsAsSeen
+    primitive < soup.count || solids.groups(primitive - soup.count).bendsAsSeen
 
 /** The instances of a scene, with the surfaces of their objects.
   *

@@ -179,6 +179,18 @@ final case class Declaration(
     isOfType(d) && corresponds(d): (p, q) =>
       if p.name == parameter then p.isOfKind(q) else p.isAlike(q)
 
+  /** Equal for all statements that are [[isAlikeBut]] this one. */
+  def hashBut(parameter: String): Int =
+    var hash = name.hashCode
+    var i = 0
+    while i < params.size do
+      val p = params(i)
+      hash = 31 * hash + p.name.hashCode
+      if p.name != parameter then
+        hash = 31 * (31 * hash + Arrays.hashCode(p.floats)) + Arrays.hashCode(p.ints)
+      i += 1
+    hash
+
   private inline def corresponds(d: Declaration)(inline isAlike: (Param, Param) => Boolean) =
     var i = 0
     while i < params.size && isAlike(params(i), d.params(i)) do i += 1

@@ -18,32 +18,34 @@ final case class CurveForm(kind: CurveKind, splitDepth: Int, errorWidths: Float)
   * @param flipped see [[CurveSegments]]
   */
 final class CurveBuilder(form: CurveForm, space: Option[Transform], flipped: Boolean):
-  import CurveBuilder.Placed
+  import CurveBuilder.{Place, Placed}
 
   private val placed = ArrayBuffer.empty[Placed]
   private val split = 1 << form.splitDepth
+
+  /** Where the last curves were: hair has one transform for a million. */
+  private var last: Place | Null = null
 
   /** Number of segments. */
   def count: Int = Math.multiplyExact(placed.length, split)
 
   /** Whether curves with this transform can be added. */
   def takes(form: CurveForm, toWorld: Transform, reversed: Boolean): Boolean =
-    val scale = CurveBuilder.scaleOf(toWorld)
     form == this.form && flipped == (reversed != toWorld.swapsHandedness) &&
-    (if scale.isEmpty then space.exists(_ eq toWorld) else space.isEmpty)
+      (if placeOf(toWorld).isSimilar then space.isEmpty else space.exists(_ eq toWorld))
 
-  /** Adds curves that are transformed as `takes` was asked. */
+  /** Adds curves transformed as `takes` was asked. */
   def add(curves: Seq[BezierCurve], toWorld: Transform): Unit =
-    if space.isDefined then add(curves, None, 1f)
-    else
-      val move = Option.unless(toWorld.isIdentity)(toWorld)
-      add(curves, move, CurveBuilder.scaleOf(toWorld).getOrElse(1.0).toFloat)
+    val place = if space.isDefined then Place.InSpace else placeOf(toWorld)
+    for c <- curves do placed += Placed(c, place)
 
-  /** Adds curves with a transform that is not in `space`, if they need one. Lengths are scaled by
-    * `scale`.
-    */
-  def add(curves: Seq[BezierCurve], toWorld: Option[Transform], scale: Float): Unit =
-    for c <- curves do placed += Placed(c, toWorld, scale)
+  private def placeOf(toWorld: Transform): Place =
+    val known = last
+    if known != null && (known.toWorld eq toWorld) then known
+    else
+      val fresh = Place(toWorld)
+      last = fresh
+      fresh
 
   def result(parallel: Parallel = Parallel.Alone): CurveSegments =
     val points = new Array[Float](Math.multiplyExact(12, count))
@@ -57,14 +59,14 @@ final class CurveBuilder(form: CurveForm, space: Option[Transform], flipped: Boo
         val i = segment % split
         val u0 = i.toFloat / split
         val u1 = (i + 1).toFloat / split
-        source.putPoints(BezierCurve.part(curve.points, u0, u1, part), points, 12 * segment)
+        source.place.putPoints(BezierCurve.part(curve.points, u0, u1, part), points, 12 * segment)
         params(2 * segment) = u0
         params(2 * segment + 1) = u1
-        widths(2 * segment) = lerp(u0, curve.width0, curve.width1) * source.scale
-        widths(2 * segment + 1) = lerp(u1, curve.width0, curve.width1) * source.scale
+        widths(2 * segment) = lerp(u0, curve.width0, curve.width1) * source.place.scale
+        widths(2 * segment + 1) = lerp(u1, curve.width0, curve.width1) * source.place.scale
         for (n0, n1) <- curve.normals do
-          source.putNormal(n0, normals, 6 * segment)
-          source.putNormal(n1, normals, 6 * segment + 3)
+          source.place.putNormal(n0, normals, 6 * segment)
+          source.place.putNormal(n1, normals, 6 * segment + 3)
     CurveSegments(points, params, widths, normals, form.kind, space, flipped, form.errorWidths)
 
 object CurveBuilder:
@@ -90,14 +92,18 @@ object CurveBuilder:
     builder.add(curves, toWorld)
     builder.result()
 
-  /** A curve with its transform and scale. */
-  private final class Placed(val curve: BezierCurve, toWorld: Option[Transform], val scale: Float):
+  /** Where curves are: a transform, and the scale of lengths. */
+  private final class Place(val toWorld: Transform):
+    private val found = scaleOf(toWorld)
+    private val moves = !toWorld.isIdentity
+    def isSimilar: Boolean = found.isDefined
+    val scale: Float = found.getOrElse(1.0).toFloat
 
     /** Writes four points. */
-    def putPoints(p: Array[Double], to: Array[Float], at: Int): Unit = toWorld match
-      case None => loop(12)(k => to(at + k) = p(k).toFloat)
-      case Some(t) =>
-        val m = t.m
+    def putPoints(p: Array[Double], to: Array[Float], at: Int): Unit =
+      if !moves then loop(12)(k => to(at + k) = p(k).toFloat)
+      else
+        val m = toWorld.m
         loop(12): k =>
           val i = k - k % 3
           val c = 4 * (k - i)
@@ -105,7 +111,13 @@ object CurveBuilder:
             (m(c) * p(i) + m(c + 1) * p(i + 1) + m(c + 2) * p(i + 2) + m(c + 3)).toFloat
 
     def putNormal(n: Vec3, to: Array[Float], at: Int): Unit =
-      val unit = toWorld.fold(n)(_.normal(n)).normalized
+      val unit = (if moves then toWorld.normal(n) else n).normalized
       to(at) = unit.x
       to(at + 1) = unit.y
       to(at + 2) = unit.z
+
+  private object Place:
+    /** That of curves in their own space. */
+    val InSpace: Place = Place(Transform.Identity)
+
+  private final class Placed(val curve: BezierCurve, val place: Place)

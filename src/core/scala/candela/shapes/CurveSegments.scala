@@ -198,6 +198,17 @@ final class CurveSegment(segments: CurveSegments, index: Int) extends Shape:
   def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit = out.pdf = 0f
   def areaPdf(p: Vec3): Float = 0f
 
+/** All segments of [[CurveSegments]], from the number `first` on. */
+final class CurveGroup(segments: CurveSegments, first: Int) extends ShapeGroup:
+  def writeBounds(number: Int, to: Array[Float], at: Int): Unit =
+    segments.writeBounds(number - first, to, at)
+  def intersect(number: Int, ray: Ray, hit: Hit): Boolean =
+    segments.intersect(number - first, ray, hit)
+  def isHit(number: Int, ray: Ray): Boolean = segments.isHit(number - first, ray)
+  def surface(number: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    segments.surface(number - first, ray, hit, at)
+  def shape(number: Int): Shape = CurveSegment(segments, number - first)
+
 /** Cross-section of a curve. */
 enum CurveKind:
   /** A strip that faces every ray. */

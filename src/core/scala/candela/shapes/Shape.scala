@@ -3,8 +3,44 @@ package candela.shapes
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 
+/** Surfaces that rays can hit, other than mesh triangles, by their numbers in a table of all: one
+  * [[Shape]], or many that share their data. In world space, immutable.
+  */
+trait ShapeGroup:
+
+  /** Writes the bounds of a surface; see [[Bounds3.write]]. */
+  def writeBounds(number: Int, to: Array[Float], at: Int): Unit
+
+  /** As [[Shape.intersect]]. */
+  def intersect(number: Int, ray: Ray, hit: Hit): Boolean
+
+  /** As [[Shape.isHit]]. */
+  def isHit(number: Int, ray: Ray): Boolean
+
+  /** As [[Shape.surface]]. */
+  def surface(number: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit
+
+  /** The surface alone; where many share their data, made for the caller. */
+  def shape(number: Int): Shape
+
+  /** Are the normals' partial derivatives those of the unit normals that rays see? */
+  def bendsAsSeen: Boolean = false
+
+object ShapeGroup:
+  // Most groups are single shapes, which rays ask without a call in between
+
+  inline def intersect(all: Array[? <: ShapeGroup], i: Int, ray: Ray, hit: Hit): Boolean =
+    all(i) match
+      case one: Shape => one.intersect(ray, hit)
+      case many => many.intersect(i, ray, hit)
+
+  inline def isHit(all: Array[? <: ShapeGroup], i: Int, ray: Ray): Boolean =
+    all(i) match
+      case one: Shape => one.isHit(ray)
+      case many => many.isHit(i, ray)
+
 /** A surface that rays can hit, other than a mesh triangle; in world space, immutable. */
-abstract class Shape extends SurfaceSampler:
+abstract class Shape extends SurfaceSampler, ShapeGroup:
 
   /** Bounds of the whole surface. */
   def bounds: Bounds3
@@ -26,8 +62,12 @@ abstract class Shape extends SurfaceSampler:
   /** Computes the geometry of the hit that `intersect` found. */
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit
 
-  /** Are the normal's partial derivatives those of the unit normal that rays see? */
-  def bendsAsSeen: Boolean = false
+  final def writeBounds(number: Int, to: Array[Float], at: Int): Unit = writeBounds(to, at)
+  final def intersect(number: Int, ray: Ray, hit: Hit): Boolean = intersect(ray, hit)
+  final def isHit(number: Int, ray: Ray): Boolean = isHit(ray)
+  final def surface(number: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    surface(ray, hit, at)
+  final def shape(number: Int): Shape = this
 
   final def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
     val isMet = intersect(ray, hit)

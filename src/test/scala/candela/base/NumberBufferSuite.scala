@@ -14,6 +14,16 @@ class NumberBufferSuite extends AnyFunSuite:
       assert(floats.take().sameElements(Array.tabulate(count)(_ * 0.5f)))
       assert(ints.take().sameElements(Array.tabulate(count)(-_)))
 
+  test("one number so many times is as each added"):
+    val (some, each) = (IntBuffer(), IntBuffer())
+    for (count, i) <- Seq(1, 0, 4094, 1, 1, 8192, 5000, 3).zipWithIndex do
+      some.add(i, count)
+      for _ <- 0 until count do each += i
+      some += -i
+      each += -i
+      assert(some.length == each.length)
+    assert(some.take().sameElements(each.take()))
+
   test("a buffer that was cleared begins anew"):
     val ints = IntBuffer()
     for count <- Seq(4096, 10000, 5000) do

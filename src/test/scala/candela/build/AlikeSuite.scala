@@ -49,6 +49,16 @@ final class AlikeSuite extends AnyFunSuite:
     def textured(line: Int) = sphere(line, Param.texture("alpha", place(line), "t"))
     assert(made(textured(1), textured(2))(_ => ()) == 2)
 
+  test("statements that differ in the numbers of one parameter have one hash, others seldom"):
+    def both(r: Float, z: Float) =
+      sphere(1, Param.float("radius", place(1), r), Param.float("zmin", place(1), z))
+    def hash(d: Declaration) = d.hashBut("radius")
+    assert(hash(radius(1, 2f)) == hash(radius(2, 3f)))
+    assert(hash(both(1f, -1f)) == hash(both(2f, -1f)))
+    val others = Vector(both(1f, -1f), both(1f, -2f), radius(1, 1f), sphere(1)) :+
+      both(1f, -1f).copy(name = "disk")
+    assert(others.map(hash).distinct.size == others.size)
+
   test("each statement gets its own message"):
     def say(problems: Findings): Unit = problems.warn(Code.CorrectedValue, place(1), "odd")
     assert(made(radius(1, -2f), radius(2, -2f))(say) == 2)

@@ -54,7 +54,7 @@ final class MaterialTableSuite extends AnyFunSuite:
         s"${more(i)} Translate ${i - 2} 0 0 Shape \"sphere\" \"float radius\" .4 AttributeEnd\n"
     head + spheres.mkString
 
-  for kind <- Vector("diffuse", "coateddiffuse"); mode <- ColorMode.values do
+  for kind <- names; mode <- ColorMode.values do
     test(s"materials of a colour each are as those that say more, $kind, $mode"):
       def planned(more: Int => String) =
         SceneTexts.plan(coloured(kind)(more), Dialect.V4, RenderSettings(color = mode))
@@ -65,6 +65,17 @@ final class MaterialTableSuite extends AnyFunSuite:
       assert(alike.features.toMap.apply("color") == each.features.toMap.apply("color"))
       assert(image(alike) == image(each))
       assert(image(alike).distinct.sizeIs > 200)
+
+  for kind <- Vector("coateddiffuse", "conductor") do
+    test(s"materials of several families that take turns are as those that say more, $kind"):
+      def image(more: Int => String) =
+        val plan = SceneTexts.plan(coloured(kind)(more), Dialect.V4)
+        Renderer.render(plan, 2).image(plan.development).data.toVector
+      def rough(i: Int) = s"\"float roughness\" 0.${1 + i % 2}"
+      val turns = image(rough)
+      val flat = "\"float displacement\" 0"
+      assert(turns == image(i => if i < 3 then rough(i) else s"${rough(i)} $flat"))
+      assert(turns != image(_ => rough(0)))
 
   test("each material of a colour gets its own message"):
     val lines = SceneTexts.problems(coloured("diffuse")(_ => "\"float sheen\" 1"), Dialect.V4)

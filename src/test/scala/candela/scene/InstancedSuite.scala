@@ -18,7 +18,7 @@ class InstancedSuite extends AnyFunSuite:
   private val at = ShadingPoint()
 
   private def placed(surfaces: Surfaces, toWorld: Transform): Instanced =
-    val primitives = Primitives(surfaces.soup, surfaces.solids.shapes)
+    val primitives = Primitives(surfaces.soup, surfaces.solids.groups)
     Instanced(
       Array(surfaces),
       Instances.of(Array(Bvh(primitives)), Vector((0, Still(toWorld))).view)

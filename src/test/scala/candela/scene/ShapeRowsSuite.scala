@@ -48,7 +48,7 @@ class ShapeRowsSuite extends AnyFunSuite:
         expected ++= (0 until count).map(alone.bounds)
       assert(rows.count == expected.result().size)
     val table = rows.result()
-    assert(table.shapes.toVector.map(_.bounds) == expected.result())
+    assert(Vector.tabulate(table.count)(table.shape(_).bounds) == expected.result())
 
   test("rows keep their materials, lights and sides; curves do not emit"):
     val rows = ShapeRows(Parallel.Alone)

@@ -169,7 +169,7 @@ class CurveSuite extends AnyFunSuite:
       val curve = BezierCurve(c, 0.2f, 0.1f, normals)
       val moved = CurveBuilder.segments(Seq(curve), CurveForm(kind, 2, 2f), toWorld, false)
       val kept = new CurveBuilder(CurveForm(kind, 2, 2f), Some(toWorld), false)
-      kept.add(Seq(curve), None, 1f)
+      kept.add(Seq(curve), toWorld)
       val inSpace = kept.result()
       val target = toWorld.point(point(c, draws.unit()))
       for k <- 0 until moved.count do

@@ -10,19 +10,21 @@ import candela.math.Vec3
   * images.
   *
   * @param width, lanes, maxLeaf as in [[WideBuilder]]
+  * @param unsplit               likewise, of hierarchies that are not kept
   */
 private[accel] final class KeptTrees(
     keep: Keep,
     width: Int,
     lanes: Int,
     maxLeaf: Int,
-    parallel: Parallel
+    parallel: Parallel,
+    unsplit: Int = 1
 ):
   import KeptTrees.*
 
   def of(primitives: Primitives): WideTree =
     if !keep.isKeeping || primitives.count < Least then
-      WideBuilder.of(primitives, width, lanes, maxLeaf, parallel)
+      WideBuilder.of(primitives, width, lanes, maxLeaf, parallel, unsplit)
     else layout(primitives).of(primitives, parallel)
 
   private def layout(primitives: Primitives): WideLayout =

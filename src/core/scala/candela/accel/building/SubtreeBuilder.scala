@@ -42,7 +42,7 @@ private[building] final class SubtreeBuilder(
   def build(first: Int, end: Int, depth: Int): Int =
     val n = end - first
     if n <= deferred then leave(first, end, depth)
-    else if n <= 1 || size.isBlock(records, first, end) then leaf(first, end)
+    else if n <= 1 || size.isLeaf(records, first, end) then leaf(first, end)
     else
       val how = if n <= FewCut.Most then few else cut
       val isCut = depth < BvhBuilder.MaxSahDepth && how.find(first, end, levels, depth)
@@ -180,17 +180,30 @@ private[building] object Subtree:
   * @param most    maximum number of primitives of any kind, if a leaf is cheaper than a split
   * @param block   triangles per block, a power of two; 1 without blocks
   * @param isPlain whether a primitive may be in a block
+  * @param unsplit other primitives of which a range is not split, even if rays were faster then
   */
-private[accel] final class LeafSize(val most: Int, val block: Int, isPlain: Int => Boolean):
+private[accel] final class LeafSize(
+    val most: Int,
+    val block: Int,
+    isPlain: Int => Boolean,
+    unsplit: Int = 1
+):
   /** log2 of `block`, the granularity of the SAH cost in [[Sweep]]. */
   val shift: Int = Integer.numberOfTrailingZeros(block)
 
-  /** Whether these records fit into one block. */
-  def isBlock(records: Array[Int], first: Int, end: Int): Boolean =
-    var i = first
-    if end - first <= block then
-      while i < end && isPlain(records(i * BoxRecord.Ints + BoxRecord.Number)) do i += 1
-    i == end
+  /** Whether these records are a leaf in any case. */
+  def isLeaf(records: Array[Int], first: Int, end: Int): Boolean =
+    val n = end - first
+    n <= Math.max(block, unsplit) && {
+      val areBlock = isPlainAt(records, first)
+      var i = first + 1
+      if n <= (if areBlock then block else unsplit) then
+        while i < end && isPlainAt(records, i) == areBlock do i += 1
+      i == end
+    }
+
+  private def isPlainAt(records: Array[Int], i: Int): Boolean =
+    isPlain(records(i * BoxRecord.Ints + BoxRecord.Number))
 
 private[accel] object LeafSize:
   /** No blocks: primitives are tested one by one. */

@@ -74,16 +74,19 @@ private final class WideBuilder(
 
 private[accel] object WideBuilder:
 
-  /** @param maxLeaf maximum leaf size of the binary BVH, except for triangles */
+  /** @param maxLeaf maximum leaf size of the binary BVH, except for triangles
+    * @param unsplit see [[LeafSize]]
+    */
   def of(
       primitives: Primitives,
       width: Int,
       lanes: Int,
       maxLeaf: Int,
-      parallel: Parallel
+      parallel: Parallel,
+      unsplit: Int = 1
   ): WideTree =
     def records = BoxRecord.all(primitives, parallel)
-    layout(primitives, records, width, lanes, maxLeaf, parallel).of(primitives, parallel)
+    layout(primitives, records, width, lanes, maxLeaf, parallel, unsplit).of(primitives, parallel)
 
   /** The layout of some of the primitives.
     *
@@ -95,9 +98,10 @@ private[accel] object WideBuilder:
       width: Int,
       lanes: Int,
       maxLeaf: Int,
-      parallel: Parallel
+      parallel: Parallel,
+      unsplit: Int = 1
   ): WideLayout =
-    val found = collapsed(primitives, records, width, lanes, maxLeaf, parallel)
+    val found = collapsed(primitives, records, width, lanes, maxLeaf, parallel, unsplit)
     WideLayout(
       width,
       lanes,
@@ -127,9 +131,10 @@ private[accel] object WideBuilder:
       width: Int,
       lanes: Int,
       maxLeaf: Int,
-      parallel: Parallel
+      parallel: Parallel,
+      unsplit: Int
   ): Collapsed =
-    val size = LeafSize(maxLeaf, lanes, primitives.isSolidTriangle)
+    val size = LeafSize(maxLeaf, lanes, primitives.isSolidTriangle, unsplit)
     val built = BvhBuilder.ofRecords(records, size, parallel)
     val wide = WideBuilder(width, lanes, built, primitives.isSolidTriangle, parallel)
     Collapsed(

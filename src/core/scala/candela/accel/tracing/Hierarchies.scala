@@ -24,10 +24,15 @@ object Hierarchies:
       warmUps: WarmUps = WarmUps(),
       keep: Keep = Keep.Nothing
   ): Accelerator =
+    val unsplit = if isBrief(primitives.count, samples) then Unsplit else 1
     if primitives.count > Most then Bvh(primitives, parallel = parallel)
     else if isWorthIt(primitives.count, samples) && hasVectors then
-      vector(primitives, parallel = parallel, warmUps = warmUps, keep = keep)
-    else scalar(primitives, parallel = parallel, keep = keep)
+      vector(primitives, parallel = parallel, warmUps = warmUps, keep = keep, unsplit = unsplit)
+    else scalar(primitives, parallel = parallel, keep = keep, unsplit = unsplit)
+
+  /** Whether so many primitives take longer to sort to the last than so few samples to trace. */
+  private[tracing] def isBrief(primitives: Int, samples: Long): Boolean =
+    samples < primitives / BriefPrimitives
 
   /** Whether SIMD code repays its loading and compilation, of about a second of processor time. */
   private[tracing] def isWorthIt(primitives: Int, samples: Long): Boolean =
@@ -38,9 +43,10 @@ object Hierarchies:
       primitives: Primitives,
       width: Int = 4,
       parallel: Parallel = Parallel.Alone,
-      keep: Keep = Keep.Nothing
+      keep: Keep = Keep.Nothing,
+      unsplit: Int = 1
   ): Accelerator =
-    val tree = KeptTrees(keep, width, 4, MaxLeaf, parallel).of(primitives)
+    val tree = KeptTrees(keep, width, 4, MaxLeaf, parallel, unsplit).of(primitives)
     WideBvh(tree, ScalarKernel, atOnce = true)
 
   /** Wide BVH traversed by SIMD code, at once or as soon as another thread has had it compiled;
@@ -51,11 +57,12 @@ object Hierarchies:
       atOnce: Boolean = false,
       parallel: Parallel = Parallel.Alone,
       warmUps: WarmUps = WarmUps(),
-      keep: Keep = Keep.Nothing
+      keep: Keep = Keep.Nothing,
+      unsplit: Int = 1
   ): Accelerator =
     if !atOnce then warmUps.begin(parallel, true)
     val (width, lanes) = (VectorKernel.width, VectorKernel.lanes)
-    val tree = KeptTrees(keep, width, lanes, MaxLeaf, parallel).of(primitives)
+    val tree = KeptTrees(keep, width, lanes, MaxLeaf, parallel, unsplit).of(primitives)
     WideBvh(tree, VectorKernel, atOnce, warmUps)
 
   private[tracing] def careful(primitives: Primitives): Accelerator =
@@ -65,6 +72,12 @@ object Hierarchies:
   lazy val hasVectors: Boolean = VectorModule.isLoaded && VectorKernel.isWorthIt
 
   private inline val MaxLeaf = 4
+
+  /** Other primitives than triangles in leaves of hierarchies for few samples, at most. */
+  private[tracing] inline val Unsplit = 8
+
+  /** Primitives for each sample from which on samples are few. */
+  private inline val BriefPrimitives = 20
 
   /** Lanes of the SIMD kernel's vectors; requires [[hasVectors]]. */
   def lanes: Int = VectorKernel.lanes

@@ -7,7 +7,7 @@ import candela.bsdf.layered.{
   CoatedConductorMaterial, CoatedDiffuseMaterial, LayerMedium, Varnish,
   VarnishMaterial
 }
-import candela.bsdf.microfacet.{Roughness, RoughnessModel}
+import candela.bsdf.microfacet.{MetalTexture, Roughness, RoughnessModel}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.math.*
@@ -42,14 +42,14 @@ object CoatedDiffuseRecipe
     rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
   private val layers = layerParameters()
   private val eta = spectrum("eta", "index of refraction of the coating")(Indices.glass)
-  protected def tinted()(using site: Site): RgbTexture => Material =
+  protected def tinted()(using site: Site): (RgbTexture, Site) => Material =
     val coats = site.resources.coats
     val basis = site.resources.basis
     val coating = eta()
     val index = Indices.one(coating)
     val medium = layers.medium
     val rough = roughness()
-    reflectance =>
+    (reflectance, _) =>
       // The spectral reflectance of a constant colour is precomputed
       val bySpectrum = reflectance.constant.map: color =>
         lazy val base = basis.reflectance(color)
@@ -83,7 +83,8 @@ object RoughPlasticRecipe
 object CoatedConductorRecipe
     extends MaterialRecipe("coatedconductor", "conductor under a dielectric coating", onlyV4)
     with LayerFields
-    with MetalFields:
+    with MetalFields
+    with TintedRecipe:
 
   /** Roughness of one of the two interfaces. */
   private final class Side(name: String):
@@ -107,19 +108,42 @@ object CoatedConductorRecipe
   private val eta = spectrum("interface.eta", "index of refraction of the coating")(Indices.glass)
   private val index = metalIndex("conductor.", tint = true)
   private val layers = layerParameters()
+  protected val tint: Field[RgbTexture] = index.reflectance.get
 
-  protected def make()(using Site): Material =
+  override protected def make()(using Site): Material =
+    if tint.given_().isDefined then super.make()
+    else
+      val outside = Indices.one(eta())
+      coated(outside)(metal(index, outside), spectral(index, outside))
+
+  protected def tinted()(using Site): (RgbTexture, Site) => Material =
     val outside = Indices.one(eta())
+    val make = coated(outside)
+    val metal = tintedMetal(index, outside)
+    (reflectance, site) =>
+      val by = tintedSpectrum(reflectance, outside)
+      make(metal(reflectance, by, site), by)
+
+  /** By the metal, and its reflectance by cosine and wavelength, if there is one.
+    *
+    * @param outside index of the coating
+    */
+  private def coated(outside: Float)(using
+      Site
+  ): (MetalTexture, Option[Float => Float => Float]) => Material =
+    val coat = eta()
     val medium = layers.medium
-    Indices.disperse(eta()):
-      CoatedConductorMaterial(
-        metal(index, outside),
-        conductor(),
-        interface(),
-        outside,
-        medium,
-        spectral(index, outside).flatMap(mirrored(_, outside, medium)).map(Spectra.underWhite(_))
-      )
+    val (below, above) = (conductor(), interface())
+    (metal, spectrum) =>
+      Indices.disperse(coat):
+        CoatedConductorMaterial(
+          metal,
+          below,
+          above,
+          outside,
+          medium,
+          spectrum.flatMap(mirrored(_, outside, medium)).map(Spectra.underWhite(_))
+        )
 
   /** Reflectance of a smooth conductor under a smooth coating that at most absorbs: the geometric
     * series of internal reflections.

@@ -17,9 +17,9 @@ object DiffuseRecipe
     with TintedRecipe:
   protected val tint: Field[RgbTexture] =
     rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.5f))
-  protected def tinted()(using site: Site): RgbTexture => Material =
+  protected def tinted()(using site: Site): (RgbTexture, Site) => Material =
     val gains = site.rules.gains
-    DiffuseMaterial(_, gains = gains)
+    (reflectance, _) => DiffuseMaterial(reflectance, gains)
 
 object DiffuseTransmissionRecipe
     extends MaterialRecipe("diffusetransmission", "Lambertian reflection and transmission", onlyV4):

@@ -51,56 +51,67 @@ private[build] trait MetalFields extends SpectrumFields:
   protected final def metal(index: MetalIndex, outside: Float = 1f)(using
       site: Site
   ): MetalTexture =
-    val tint = index.reflectance.flatMap(_.given_())
-    if tint.isDefined && (index.eta.given_().isDefined || index.k.given_().isDefined) then
+    index.reflectance.flatMap(_.given_()) match
+      case Some(color) =>
+        tintedMetal(index, outside)(color, tintedSpectrum(color, outside), site)
+      case None if site.rules.plainMetals && !site.resources.basis.isSpectral =>
+        // Mitsuba multiplies three numbers here, too
+        def plain(source: SpectrumSource) = SpectrumSource.textured(source):
+          case SpectralValue.Color(c, _) => c
+          case other => site.resources.basis.ofReflectance(Indices.spectrum(other))
+        IndexedMetal(plain(index.eta()), plain(index.k()), outside)
+      case None =>
+        spectral(index, outside) match
+          case Some(reflected) => uniform(reflected, site)
+          case None =>
+            def varying(source: SpectrumSource) = SpectrumSource.textured(source): value =>
+              site.resources.basis.ofReflectance(Indices.spectrum(value))
+            IndexedMetal(varying(index.eta()), varying(index.k()), outside)
+
+  /** Makes conductors by their reflectance at normal incidence, its [[tintedSpectrum]], and their
+    * sites.
+    */
+  protected final def tintedMetal(index: MetalIndex, outside: Float = 1f)(using
+      site: Site
+  ): (RgbTexture, Option[Float => Float => Float], Site) => MetalTexture =
+    if index.eta.given_().isDefined || index.k.given_().isDefined then
       val names = s"`${index.eta.name}` and `${index.k.name}`"
       site.error(
         Code.ExclusiveParameters,
         s"`reflectance` and $names of \"${site.declaration.name}\" are mutually exclusive"
       )
-    if site.rules.plainMetals && !site.resources.basis.isSpectral && tint.isEmpty then
-      // Mitsuba multiplies three numbers here, too
-      def plain(source: SpectrumSource) = SpectrumSource.textured(source):
-        case SpectralValue.Color(c, _) => c
-        case other => site.resources.basis.ofReflectance(Indices.spectrum(other))
-      IndexedMetal(plain(index.eta()), plain(index.k()), outside)
-    else spectralOrTinted(index, outside, tint)
+    (reflectance, spectrum, site) =>
+      spectrum.fold(TintedMetal(reflectance, outside))(uniform(_, site))
 
-  private def spectralOrTinted(index: MetalIndex, outside: Float, tint: Option[RgbTexture])(using
-      site: Site
-  ): MetalTexture =
-    (spectral(index, outside), tint) match
-      case (Some(reflected), _) =>
-        site.resources.counting.foreach(_.addReflectance(site.declaration, reflected(1f)))
-        UniformMetal(TabulatedReflectance(128, Spectra.underWhite(reflected)))
-      case (None, Some(reflectance)) => TintedMetal(reflectance, outside)
-      case (None, None) =>
-        def varying(source: SpectrumSource) = SpectrumSource.textured(source): value =>
-          site.resources.basis.ofReflectance(Indices.spectrum(value))
-        IndexedMetal(varying(index.eta()), varying(index.k()), outside)
+  private def uniform(reflected: Float => Float => Float, site: Site): MetalTexture =
+    site.resources.counting.foreach(_.addReflectance(site.declaration, reflected(1f)))
+    UniformMetal(TabulatedReflectance(128, Spectra.underWhite(reflected)(using site)))
 
   /** Reflectance by cosine and wavelength; None if it is textured. */
   protected final def spectral(index: MetalIndex, outside: Float)(using
       site: Site
   ): Option[Float => Float => Float] =
     index.reflectance.flatMap(_.given_()) match
-      case Some(texture) =>
-        for c <- texture.constant yield
-          val basis = site.resources.basis
-          lazy val reflectance =
-            if basis.isSpectral then basis.reflectance(c) else Indices.reflectance(basis.toSrgb(c))
-          val absorption = kept: nm =>
-            val r = clamp(reflectance(nm), 0f, 0.9999f)
-            2f * sqrt(r) / sqrt(1f - r)
-          cosTheta =>
-            nm =>
-              Fresnel.conductor(cosTheta, 1f / outside, absorption(nm) / outside)
+      case Some(color) => tintedSpectrum(color, outside)
       case None =>
         (index.eta(), index.k()) match
           case (SpectrumSource.Uniform(eta), SpectrumSource.Uniform(k)) =>
             val (n, a) = (kept(Indices.spectrum(eta)), kept(Indices.spectrum(k)))
             Some(c => nm => Fresnel.conductor(c, n(nm) / outside, a(nm) / outside))
           case _ => None
+
+  /** Likewise, of a conductor of this reflectance at normal incidence. */
+  protected final def tintedSpectrum(color: RgbTexture, outside: Float)(using
+      site: Site
+  ): Option[Float => Float => Float] =
+    for c <- color.constant yield
+      val basis = site.resources.basis
+      lazy val reflectance =
+        if basis.isSpectral then basis.reflectance(c) else Indices.reflectance(basis.toSrgb(c))
+      val absorption = kept: nm =>
+        val r = clamp(reflectance(nm), 0f, 0.9999f)
+        2f * sqrt(r) / sqrt(1f - r)
+      cosTheta => nm => Fresnel.conductor(cosTheta, 1f / outside, absorption(nm) / outside)
 
   /** Evaluated once by wavelength where the reflectance has a colour at each of many cosines. */
   private def kept(s: Float => Float)(using site: Site): Float => Float =
@@ -128,11 +139,22 @@ object MetalRecipe
 
 object ConductorRecipe
     extends RoughRecipe("conductor", "conductor, smooth or rough", onlyV4, 0f)
-    with MetalFields:
+    with MetalFields
+    with TintedRecipe:
   private val index = metalIndex(tint = true)
   private val scale = rgbTexture("scale", "scale of the reflectance", onlyMitsuba)(Rgb.White)
-  protected def make()(using Site): Material =
-    ConductorMaterial(metal(index), roughness(), scale())
+  protected val tint: Field[RgbTexture] = index.reflectance.get
+
+  override protected def make()(using Site): Material =
+    if tint.given_().isDefined then super.make()
+    else ConductorMaterial(metal(index), roughness(), scale())
+
+  protected def tinted()(using Site): (RgbTexture, Site) => Material =
+    val (rough, scaled) = (roughness(), scale())
+    val metal = tintedMetal(index)
+    (reflectance, site) =>
+      val by = tintedSpectrum(reflectance, outside = 1f)
+      ConductorMaterial(metal(reflectance, by, site), rough, scaled)
 
 object ShinyMetalRecipe extends RoughRecipe(
       "shinymetal",

@@ -13,21 +13,24 @@ private[build] trait TintedRecipe extends MaterialRecipe:
   /** The colour. */
   protected def tint: Field[RgbTexture]
 
-  /** Makes materials by the colour, on whose value no message depends. */
-  protected def tinted()(using Site): RgbTexture => Material
+  /** Makes materials by the colour, on whose value no message depends, and the site of each. */
+  protected def tinted()(using Site): (RgbTexture, Site) => Material
 
-  protected final def make()(using Site): Material =
+  protected def make()(using site: Site): Material =
     val color = tint() // what is wrong with it is said first
-    tinted()(color)
+    tinted()(color, site)
 
   /** As [[build]], of statements that are [[isAlike]]: `apply` makes each by its site. */
   final def family(first: Site): Site => Material =
     val made = tinted()(using first)
-    site => made(tint()(using site)).folded
+    site => made(tint()(using site), site).folded
 
   /** Whether two statements of this material differ in nothing but the numbers of its colour. */
   final def isAlike(a: Declaration, b: Declaration): Boolean =
     a.isAlikeBut(tint.name, b) && isColor(a) && isColor(b)
+
+  /** Equal for statements that are [[isAlike]]. */
+  final def kindOf(d: Declaration): Int = d.hashBut(tint.name)
 
   private def isColor(d: Declaration): Boolean =
     d.param(tint.name).exists(p => p.paramType == ParamType.Rgb && p.floats.length == 3)

@@ -80,7 +80,8 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
 
   /** A reflectance by wavelength in nm. */
   def addReflectance(key: Any, s: Float => Float): Unit =
-    add(key, SpectrumRole.Reflectance, s, basis.ofReflectance(s))
+    lazy val components = basis.ofReflectance(s)
+    add(key, SpectrumRole.Reflectance, s, components)
 
   private def add(c: Rgb, role: SpectrumRole, components: Rgb): Unit =
     val isGrey = (c - Rgb.gray(c.g)).largest <= 1e-4f * c.g
@@ -100,7 +101,7 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
   /** Of very many spectra, no two whose colours are in the same cell of a grid are noted: they
     * would not be far apart.
     */
-  private def note(noted: mutable.Map[Any, () => ColoredSpectrum], key: Any, c: Rgb)(
+  private def note(noted: mutable.Map[Any, () => ColoredSpectrum], key: Any, c: => Rgb)(
       s: => Float => Float,
       components: => Rgb
   ): Unit =
@@ -110,7 +111,7 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
         val smooth = s
         ColoredSpectrum(ColorError.wavelengths.map(smooth(_).toDouble), components)
 
-  private def add(key: Any, role: SpectrumRole, s: Float => Float, components: Rgb): Unit =
+  private def add(key: Any, role: SpectrumRole, s: Float => Float, components: => Rgb): Unit =
     role match
       case SpectrumRole.Emission =>
         val values =

@@ -63,6 +63,30 @@ class WideBuilderSuite extends AnyFunSuite:
         yield bits(tree.blocks(block * WideTree.blockFloats(lanes) + 9 * lanes + lane))
       assert(owners.filter(_ >= 0).sorted == (0 until primitives.count), scene)
 
+  /** The numbers of primitives in the leaves below `code`, blocks or not. */
+  private def leaves(tree: WideTree, code: Int, blocks: Boolean): Vector[Int] =
+    if code == WideTree.NoChild then Vector.empty
+    else if code < 0 then
+      if WideTree.isBlock(code) == blocks then Vector(WideTree.size(code)) else Vector.empty
+    else
+      Vector.tabulate(tree.width)(k => bits(tree.nodes(code + 6 * tree.width + k)))
+        .flatMap(leaves(tree, _, blocks))
+
+  test("other primitives that are not to be split are in larger leaves, triangles in the same"):
+    val draws = Draws(11)
+    val spheres = Soups.shapes(draws, 3000, 1e-2f)(draws.vec(-1, 1)).toArray
+    val mesh = Soups.icosphere(3, Transform.translate(3f, 0f, 0f))
+    for soup <- Seq(Soups.Empty, mesh) do
+      val primitives = Primitives(soup, spheres)
+      def tree(unsplit: Int) = WideBuilder.of(primitives, 4, 4, 4, Parallel.Alone, unsplit)
+      val (fine, coarse) = (tree(1), tree(8))
+      val (few, many) =
+        (leaves(coarse, coarse.root, blocks = false), leaves(fine, fine.root, blocks = false))
+      assert(few.sum == spheres.length && many.sum == spheres.length)
+      assert(few.max == 8 && few.size * 3 < many.size && many.max <= 4)
+      assert(leaves(coarse, coarse.root, blocks = true).sum == soup.count)
+      assert(coarse.blockCount == fine.blockCount)
+
   test("blocks of a mesh's triangles are nearly full"):
     val mesh = Primitives(Soups.icosphere(4, Transform.translate(0f, 0f, 0f)), Array.empty)
     for lanes <- Seq(4, 8) do

@@ -160,6 +160,7 @@ class BvhSuite extends AcceleratorLaws(Bvh(_)):
         assert(tree.closest(ray, hit) == (expected >= 0) && hit.primitive == expected)
 
 class ScalarWideSuite extends AcceleratorLaws(Hierarchies.scalar(_))
+class UnsplitSuite extends AcceleratorLaws(Hierarchies.scalar(_, unsplit = Hierarchies.Unsplit))
 class CarefulSuite extends AcceleratorLaws(Hierarchies.careful(_))
 
 /** The best that this JVM has. */
@@ -178,6 +179,17 @@ class HierarchySuite
     )
     for (primitives, samples, expected) <- cases do
       assert(Hierarchies.isWorthIt(primitives, samples) == expected, s"$primitives, $samples")
+
+  test("many primitives for few samples are not sorted to the last"):
+    val cases = Seq(
+      (1_000_000, 49_152L, true),
+      (2_000_000, 100_000L, false),
+      (2_000_020, 100_000L, true),
+      (Int.MaxValue, Long.MaxValue, false),
+      (3, 0L, false)
+    )
+    for (primitives, samples, expected) <- cases do
+      assert(Hierarchies.isBrief(primitives, samples) == expected, s"$primitives, $samples")
 
 class GridSuite extends AcceleratorLaws(Grid(_)):
 
