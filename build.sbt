@@ -269,6 +269,7 @@ def program = Def.task {
   */
 def withArchive(folder: File, log: Logger): File = {
   val launcher = (folder / "bin" / "candela").getPath
+  log.info("making the class archive, which takes half a minute of processor time ...")
   val made = scala.util.Try(sys.process.Process(Seq(launcher), None, "CANDELA_ARCHIVE" -> "make").!)
   if (!made.toOption.contains(0)) log.info("no class-data archive yet: a later start creates it")
   folder

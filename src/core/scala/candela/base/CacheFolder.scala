@@ -25,20 +25,24 @@ final class CacheFolder(val path: Path, most: Long):
   def use(file: Path): Unit =
     Try(Files.setLastModifiedTime(file, FileTime.from(Instant.now))): Unit
 
+  /** The limit may be less than it was when the files were written. */
+  private lazy val isShrunk: Unit = shrink(None)
+
   /** Makes a file.
     *
     * @throws java.io.IOException if it can't be written
     */
   def write(file: Path)(body: FileChannel => Unit): Unit =
     Files.createDirectories(path): Unit
+    isShrunk
     WholeFile.write(file, isForced = false)(body)
-    shrink(file)
+    shrink(Some(file))
 
   /** Deletes files until the others take no more than they may.
     *
     * @param last the file that stays
     */
-  private def shrink(last: Path): Unit =
+  private def shrink(last: Option[Path]): Unit =
     val all = Try:
       Using.resource(Files.list(path)): files =>
         files.iterator.asScala.filter(f =>
@@ -47,7 +51,7 @@ final class CacheFolder(val path: Path, most: Long):
     val known = all.getOrElse(Vector.empty).flatMap: file =>
       Try((file, Files.size(file), Files.getLastModifiedTime(file))).toOption
     var sum = known.map(_._2).sum
-    for (file, size, _) <- known.sortBy(_._3) if sum > most && file != last do
+    for (file, size, _) <- known.sortBy(_._3) if sum > most && !last.contains(file) do
       if Try(Files.deleteIfExists(file)).isSuccess then sum -= size
 
 object CacheFolder:

@@ -335,6 +335,7 @@ object SceneBuilder:
           Guide(learning, samples, pixels).describe + why
         case RenderMethod.SplattedTiles(_, _, Some(guided), _) =>
           Guide(guided.settings, samples, pixels).describe + why
+        case RenderMethod.Passes(_, Some(_)) => s"none: ${IdleSettings.PhotonPaths}"
         case _ => "none: only path tracing without pbrt-v2's volumes is guided")
 
   private def layerPlan(

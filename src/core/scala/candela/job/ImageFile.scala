@@ -68,7 +68,8 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
       "crop" -> s"x $x0 to $x1, y $y0 to $y1 of ${plan.width}x${plan.height}"
     Vector(
       "software" -> s"Candela ${Version.current}",
-      "scene" -> name,
+      // Wherever it is: the image is the same
+      "scene" -> name.drop(name.lastIndexWhere(c => c == '/' || c == '\\') + 1),
       "dialect" -> prepared.description.dialect.toString.toLowerCase,
       "seed" -> settings.seed.toString
     ) ++ plan.features.filter(_._1 == "integrator") ++ crop ++

@@ -64,13 +64,20 @@ enum Layer(
       )
   case Uv extends Layer("uv", Vector("u", "v"), "surface parameters", Mean(numbers(_.at.u, _.at.v)))
   case Variance
-      extends Layer("variance", Layer.rgb("Variance"), "sample variance", SampleVariance)
+      extends Layer(
+        "variance",
+        Layer.rgb("Variance"),
+        "sample variance",
+        SampleVariance,
+        needsFloat = true
+      )
   case RelativeVariance
       extends Layer(
         "relativevariance",
         Layer.rgb("RelativeVariance"),
         "sample variance over the mean",
-        VarianceOverMean
+        VarianceOverMean,
+        needsFloat = true
       )
   case Depth extends Layer("depth", Vector("Z"), "distance along the ray", Mean(numbers(_.depth)))
   case Samples

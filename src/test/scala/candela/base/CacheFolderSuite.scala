@@ -1,8 +1,12 @@
 package candela.base
 
-import java.nio.file.Path
+import java.io.IOException
+import java.nio.ByteBuffer
+import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+
+import candela.testing.TempFolder
 
 class CacheFolderSuite extends AnyFunSuite:
 
@@ -14,3 +18,16 @@ class CacheFolderSuite extends AnyFunSuite:
     assert(usual("HOME" -> s"$root").contains(s"${root.resolve(".cache").resolve(tail)}"))
     assert(usual("LOCALAPPDATA" -> s"$root").contains(s"${root.resolve(tail)}"))
     assert(usual("XDG_CACHE_HOME" -> "relative").isEmpty && usual().isEmpty)
+
+  test("a limit that has become less makes room before the next file is written"):
+    TempFolder.use: folder =>
+      def file(name: String) = folder.resolve(name + CacheFolder.Parts)
+      val roomy = CacheFolder(folder, 1000)
+      for name <- Seq("a", "b") do
+        roomy.write(file(name))(_.write(ByteBuffer.allocate(100)): Unit)
+      assert(Seq("a", "b").forall(n => Files.exists(file(n))))
+      intercept[IOException]:
+        CacheFolder(folder, 150).write(file("c")): _ =>
+          assert(Seq("a", "b").count(n => Files.exists(file(n))) == 1)
+          throw IOException("no space left")
+      assert(!Files.exists(file("c")))

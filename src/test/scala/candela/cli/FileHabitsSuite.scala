@@ -87,3 +87,32 @@ class FileHabitsSuite extends AnyFunSuite:
       val captured = Captured()
       assert(Main.run(Seq("check", scene.toString), captured.terminal) == 1)
       assert(captured.err.contains("a.pbrt:2:1: error: AttributeBegin is never closed"))
+
+  test("an image has the same bytes wherever its scene is"):
+    TempFolder.use: folder =>
+      val text = "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 3\n" +
+        "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+      val images =
+        for place <- Vector("here", "there/below") yield
+          val within = Files.createDirectories(folder.resolve(place))
+          val scene = Files.writeString(within.resolve("a.pbrt"), text)
+          val image = within.resolve("a.exr")
+          assert(Captured.run(s"$scene", "-o", s"$image", "--spp", "1", "--quiet")._1 == 0)
+          assert(ImageFiles.facts(image).contains("scene" -> "a.pbrt"))
+          Files.readAllBytes(image)
+      assert(images(0).sameElements(images(1)))
+
+  test("variances beyond the range of halves are whole in images of halves"):
+    TempFolder.use: folder =>
+      val lamp = "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\n" +
+        "LookAt 0 0 -2  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 90\nWorldBegin\n" +
+        "Shape \"disk\" \"float radius\" 9\nTranslate 0 0 -3\n" +
+        "AreaLightSource \"diffuse\" \"rgb L\" [60000 60000 60000]\n" +
+        "Shape \"sphere\" \"float radius\" .9\n"
+      val scene = Files.writeString(folder.resolve("a.pbrt"), lamp)
+      val image = folder.resolve("a.exr")
+      val words = Seq("--aov", "variance", "--spp", "16", "--quiet", "-o", s"$image", s"$scene")
+      assert(Captured.run(words*)._1 == 0)
+      val written = ImageFiles.read(image)
+      val at = written.channelNames.indexOf("Variance.R")
+      assert((0 until 16).exists(i => written.data(i * written.channels + at) > 65504f))

@@ -269,7 +269,7 @@ class TextureMemorySuite extends AnyFunSuite:
     for
       (words, expected) <- Seq(
         Vector("--texture-memory", "much") -> "must be a size, e.g. 500MB, 2G or 1Gi",
-        Vector("--texture-memory", "10") -> "--texture-memory must be at least 1M, found `10`",
+        Vector("--texture-memory", "10") -> "--texture-memory must be at least 1M, found 10 bytes",
         Vector("--texture-cache-size", "-3") -> "must be a size",
         Vector("--texture-cache", "") -> "must be a folder"
       )

@@ -166,6 +166,13 @@ object Spectra:
       )
       None
     else
+      val isAscending = sorted.indices.forall(i => sorted(i)._1 == numbers(2 * i))
+      if site.dialect == Dialect.V4 && !isAscending then
+        site.problems.warn(
+          Code.ParameterValue,
+          p.valuesAt,
+          s"the wavelengths of `${p.name}` do not ascend, as pbrt-v4 asks for: they are sorted"
+        )
       val outside =
         if site.dialect == Dialect.V4 then Spectrum.Outside.Zero else Spectrum.Outside.Clamped
       Some(Spectrum(sorted.map(_._1), sorted.map(_._2), outside))

@@ -60,7 +60,10 @@ final class TextureStore private (
       if prepared == 0 then "all in"
       else if prepared < files.size then s"$prepared of them in their own files, the others in"
       else "in their own files"
-    val where = folder.map(f => if prepared < files.size then s", $whose $f" else s", $whose")
+    val but =
+      if tiles.exists(_.trouble.nonEmpty) then ", but for those that can't be written" else ""
+    val where = folder.map: f =>
+      if prepared < files.size then s", $whose $f$but" else s", $whose"
     Option.when(images.nonEmpty)(images + where.getOrElse(""))
 
   /** Of each file, and whether it is surely as it was then. */

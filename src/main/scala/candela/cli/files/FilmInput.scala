@@ -36,6 +36,8 @@ private[cli] object FilmInput:
       settings = FilmHeaders.settings(film.header).copy(goal = now.settings.goal),
       limits = now.limits,
       textures = now.textures,
+      keepsScenes = now.keepsScenes,
+      sceneFolder = now.sceneFolder,
       threads = now.threads,
       quiet = now.quiet,
       verbose = now.verbose,

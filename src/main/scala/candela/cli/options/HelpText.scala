@@ -151,7 +151,7 @@ private[cli] object UsageErrors:
           val words = others.map(r => s"`${r.command.word}`")
           s"; ${listed(words)} ${if words.size == 1 then "has" else "have"} it"
         else nearest.fold("")(k => s"; did you mean `--$k`?")
-      s"`candela ${row.command.word}` has no option `$option`$hint"
+      s"`candela ${row.command.word}` has no option `${option.stripSuffix("=")}`$hint"
 
   private def listed(words: Vector[String]): String =
     if words.size < 2 then words.mkString else s"${words.init.mkString(", ")} and ${words.last}"

@@ -219,7 +219,7 @@ private[cli] object OptionTable extends OptionRows:
   private val resumeOptions: Vector[Row] = Vector(
     threads,
     samples("samples per pixel; more than planned adds samples")
-  ) ++ FilmTable.resume ++ TextureTable.options ++
+  ) ++ FilmTable.resume ++ TextureTable.options ++ TextureTable.scenes ++
     Vector(quiet, verbose(", and the time of each phase"))
 
   private val mergeOptions: Vector[Row] = Vector(
@@ -314,18 +314,19 @@ private[cli] object OptionTable extends OptionRows:
 
   private val averageOptions: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.shown
 
-  private val referenceOptions: Vector[Row] = ReferenceTable.options ++ Vector(
-    threads,
-    crop,
-    parsedAs,
-    defines,
-    keepGoing,
-    color,
-    sampler,
-    FilmTable.every,
-    quiet,
-    verbose(", and what --explain prints")
-  ) ++ LimitTable.options
+  private val referenceOptions: Vector[Row] =
+    ReferenceTable.options ++ TextureTable.options ++ Vector(
+      threads,
+      crop,
+      parsedAs,
+      defines,
+      keepGoing,
+      color,
+      sampler,
+      FilmTable.every,
+      quiet,
+      verbose(", and what --explain prints")
+    ) ++ LimitTable.options
 
   /** Rows of a command. */
   def of(command: Command): Vector[Row] = command match

@@ -2,6 +2,7 @@ package candela.cli.options
 
 import java.nio.file.{Files, InvalidPathException, Path}
 
+import candela.base.ByteCount
 import candela.build.recipe.TextureControl
 import candela.job.{SceneFormat, TextForm}
 
@@ -54,7 +55,7 @@ private[cli] object TextureTable extends OptionRows:
       ))
       .validate: n =>
         if n >= Least then success
-        else failure(s"--texture-memory must be at least 1M, found `$n`")
+        else failure(s"--texture-memory must be at least 1M, found ${ByteCount.show(n)}")
       .action(kept((n, t) => t.copy(memory = Some(n)))),
     opt[Path]("texture-cache").valueName("FOLDER")
       .text(OptionText(

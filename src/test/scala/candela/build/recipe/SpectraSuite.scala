@@ -52,6 +52,22 @@ final class SpectraSuite extends AnyFunSuite:
     assert(Spectra.default(Rgb.White, SpectrumRole.Emission, site) == aces.light(Rgb.White))
     assert(Spectra.default(Rgb.White, SpectrumRole.Reflectance, site) == Rgb.White)
 
+  test("wavelengths that do not ascend are sorted, and told of in v4, which refuses them"):
+    def read(numbers: String, dialect: Dialect) =
+      val text = s"WorldBegin\nLightSource \"point\" \"spectrum I\" [$numbers]\n"
+      val light = SceneTexts.parse(text, dialect).lights.head.light
+      val findings = Findings()
+      val site = Site(light, dialect, Resources(ColorBasis.Srgb), findings)
+      val color = Spectra.rgb(light.params.head, SpectrumRole.Emission, site).get
+      (color, findings.result.map(_.message))
+    val (sorted, nothing) = read("400 1 500 3 600 2", Dialect.V4)
+    val (mixed, told) = read("500 3 400 1 600 2", Dialect.V4)
+    assert(nothing.isEmpty && mixed == sorted)
+    assert(
+      told == Vector("the wavelengths of `I` do not ascend, as pbrt-v4 asks for: they are sorted")
+    )
+    assert(read("500 3 400 1 600 2", Dialect.V3)._2.isEmpty)
+
   test("xyz is turned into sRGB: the white point of D65 is white"):
     // Four digits of the white point
     val white = emission("\"xyz I\" [0.9505 1 1.089]", Dialect.V3).get

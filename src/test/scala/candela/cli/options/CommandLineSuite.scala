@@ -153,6 +153,8 @@ class CommandLineSuite extends AnyFunSuite:
     "-outfle x.exr a.pbrt" -> "did you mean `--outfile`?",
     "--xyzzy a.pbrt" -> "`candela render` has no option `--xyzzy`",
     "check --spp 4 a.pbrt" -> "`candela check` has no option `--spp`",
+    "check --scene-cache a.pbrt" -> "`candela check` has no option `--scene-cache`",
+    "--texture-memory 100k a.pbrt" -> "--texture-memory must be at least 1M, found 100 kB",
     "--outfile x.exr a.pbrt b.pbrt" -> "--outfile needs a single scene",
     "--report x.html a.pbrt b.pbrt" -> "--report needs a single scene",
     "--reference x.exr a.pbrt" -> "--reference needs --report",
