@@ -85,6 +85,16 @@ val builtOnce = Seq(
   "candela.bsdf.layered.RoughCoat$*"
 ).map(code => s"-XX:CompileCommand=MaxNodeLimit,$code::*,1") // an option of JDK 22 and later
 
+/** Large steps of guided paths that several others call: C2 compiles each once, not for each caller
+  * again, which is a third of what `--guiding` adds to its work.
+  */
+val compiledApart = Seq(
+  "GuidedScattering::scatterOnce",
+  "Guidance::scatter",
+  "Guidance::drawBsdf",
+  "Guidance::drawField"
+).map(code => s"-XX:CompileCommand=dontinline,candela.integrators.$code")
+
 val compiled = Seq(
   scalacOptions ++= Seq("-encoding", "UTF-8"),
   scalacOptions ++= Seq("-deprecation", "-feature", "-Wunused:all", "-Wvalue-discard", "-Werror"),
@@ -248,7 +258,7 @@ lazy val site = (project in file("site")).settings(
 def program = Def.task {
   val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
   val folder = target.value / "program"
-  val options = jvmOptions ++ memory
+  val options = jvmOptions ++ compiledApart ++ memory
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))

@@ -125,23 +125,30 @@ final class Guide(
     val records = was.records.nn
     val all = records.counts.map(_.toFloat)
     val share = Math.min(1.0, lit)
-    GuideGrowth(was.field, events, settings, share, all, records.costs, records.pathCost)
+    val made =
+      GuideGrowth(was.field, events, settings, share, all, records.costs, records.pathCost)
+    if was.field.guides && settings.adapts && !progress.isCertain &&
+      after(was, made.judged(), sample).gaveUp
+    then made.giveUp()
+    made
+
+  /** What is known when a pass ends. */
+  private def after(was: Pass, verdict: GuideVerdict, sample: Int): GuideProgress =
+    val next =
+      if was.field.guides then progress.after(verdict) else progress.copy(cost = verdict.cost)
+    val most = if recordsFrom(sample) then GuideProgress.MostDoubts else 1
+    next.copy(gaveUp = settings.adapts && !next.pays && next.doubts >= most)
 
   private def take(growth: GuideGrowth, sample: Int): Unit =
     val was = current
     val found = perPath(was, sample, growth.events.count)
     val isSettled = settings.learnsOn && settings.adapts && was.field.guides &&
       sample >= SettledSamples && progress.isSettledBy(growth.verdict)
-    progress =
-      if was.field.guides then progress.after(growth.verdict)
-      else progress.copy(cost = growth.verdict.cost)
-    val following = newPass(growth.result(), sample, found, growth.lit, learnsMore = !isSettled)
-    val isLast = following.records == null
-    val ends =
-      settings.adapts && progress.doubts >= (if isLast then 1 else GuideProgress.MostDoubts)
-    if ends then progress = progress.copy(gaveUp = true)
+    progress = after(was, growth.verdict, sample)
+    current =
+      if progress.gaveUp then Pass(GuideField.Start, sample, part = 0f, null)
+      else newPass(growth.result(), sample, found, growth.lit, learnsMore = !isSettled)
     for l <- Option(learning) do learnt += l.seconds
-    current = if ends then Pass(GuideField.Start, sample, part = 0f, null) else following
     learning = null
     was.records.nn.release()
     if current.records == null then memory.forget()
@@ -151,6 +158,9 @@ final class Guide(
 
   /** Does a pass that ends then record? The first always ends before the samples do. */
   private def goesOn(end: Int): Boolean = end < samples && (end == 1 || 4L * end <= samples)
+
+  /** Does the pass that begins with this sample record, unless all is learnt? */
+  private def recordsFrom(begun: Int): Boolean = isLongEnough && goesOn(next(begun))
 
   /** @param found events per sample that found light
     * @param lit   part of all paths that has such events
@@ -163,12 +173,18 @@ final class Guide(
       learnsMore: Boolean = true
   ): Pass =
     val end = next(begun)
-    val learns = learnsMore && isLongEnough && goesOn(end)
+    val learns = learnsMore && recordsFrom(begun)
     val paths = pixels.toDouble * (end - begun)
     val part =
       if !learns && !field.guides then 0f
-      else if !learns || !settings.adapts || progress.pays then 1f
-      else Math.min(1.0, TrialPaths / (paths * Math.max(lit, 1e-3))).toFloat
+      else if !learns || !settings.adapts || progress.isCertain then 1f
+      else
+        val isTried = field.guides && goesOn(next(end))
+        val trial =
+          if progress.pays then Promising
+          else if isTried then TrialPaths
+          else LearningPaths
+        Math.min(1.0, trial / (paths * Math.max(lit, 1e-3))).toFloat
     val rate = Math.min(1.0, settings.records / (paths * part * Math.max(found, 1e-3))).toFloat
     Pass(field, begun, part, if learns then GuideRecords(rate, field.regions, memory) else null)
 
@@ -244,8 +260,16 @@ object Guide:
   /** Passes that end before are short: what they learn costs little, and brings much later. */
   private val SettledSamples = 32
 
-  /** Paths of a pass that learn and find light, about, until guiding was seen to pay. */
-  private val TrialPaths = 1 << 15
+  /** Paths of a pass that learn and find light, about, until it is certain that guiding pays: of
+    * the first pass, and of the last that learns, whose field is that of all later paths.
+    */
+  private val LearningPaths = 1 << 15
+
+  /** Likewise, of those in between. */
+  private val TrialPaths = 1 << 14
+
+  /** Likewise, where it has paid, but not clearly: of a short rendering nearly all. */
+  private val Promising = 1 << 17
 
   /** Events per sample that find light, before they were counted. */
   private val UsualEvents = 3.0

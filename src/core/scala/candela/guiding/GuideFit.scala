@@ -49,15 +49,10 @@ private[guiding] final class GuideFit(events: Array[Float]):
       normalise(lobes)
     finished(lobes)
 
-  def meanLight(of: Array[Int]): Float =
-    var sum = 0.0
-    loop(of.length)(j => sum += events(of(j) + GuideRecords.Light))
-    (sum / of.length).toFloat
-
   /** Takes events in proportion to their light, bright ones several times, at even steps. */
   private def choose(of: Array[Int], centre: Array[Float]): Unit =
     import GuideRecords.*
-    val most = Brightest * meanLight(of)
+    val most = Brightest * meanLight(events, of)
     var all = 0.0
     loop(of.length)(j => all += Math.min(events(of(j) + Light), most))
     val step = all / Math.min(Most, of.length)
@@ -229,6 +224,12 @@ private[guiding] object GuideFit:
   /** The part of old weights, beside the new ones, and of equal ones in the beginning. */
   private inline val Old = 0.25f
   private inline val Uniform = 0.02f
+
+  /** Of the events at these places. */
+  def meanLight(events: Array[Float], of: Array[Int]): Float =
+    var sum = 0.0
+    loop(of.length)(j => sum += events(of(j) + GuideRecords.Light))
+    (sum / of.length).toFloat
 
   /** The lobes of a region as seen from another centre. */
   def moved(field: GuideField, region: Int, centre: Array[Float]): Array[Float] =

@@ -32,10 +32,19 @@ private[guiding] final class GuideGrowth(
   private val split = FloatBuffer()
   private val largest = Math.max(Fewest, settings.perRegion * Math.sqrt(events.count))
   private val leaves = ArrayBuffer.empty[GuideLeaf]
+  private var isGivenUp = false
   divideAll()
 
-  /** Regions of the new field. */
-  def regions: Int = leaves.length
+  /** What the paths of the pass tell, before anything is fitted. */
+  def judged(): GuideVerdict =
+    leaves.foreach(_.judge())
+    verdict
+
+  /** Nothing is guided any more, so nothing need be fitted. */
+  def giveUp(): Unit = isGivenUp = true
+
+  /** Regions of the new field, which are to be fitted. */
+  def regions: Int = if isGivenUp then 0 else leaves.length
 
   /** Fits one of them, with memory for it. */
   def grow(region: Int, fit: GuideFit): Unit = leaves(region).grow(fit)

@@ -46,13 +46,22 @@ private[guiding] final class GuideLeaf(
   /** The sum of their relative variances, and what it would be without guiding. */
   var guidedNoise, unguidedNoise = 0.0
 
-  /** Learns from the events. */
-  def grow(fit: GuideFit): Unit =
-    if of.length >= GuideGrowth.Fewest then
-      val light = fit.meanLight(of)
+  private val isEnough = of.length >= GuideGrowth.Fewest
+  private var isJudged = false
+
+  /** Learns from the events all but the mixture, once. */
+  def judge(): Unit =
+    if isEnough && !isJudged then
+      val light = GuideFit.meanLight(events, of)
       share = bestShare(light)
       expect(light)
       compare()
+    isJudged = true
+
+  /** Learns from the events. */
+  def grow(fit: GuideFit): Unit =
+    judge()
+    if isEnough then
       val start = if old.isFitted(region) then GuideFit.moved(old, region, centre) else null
       lobes = fit(of, centre, start)
 

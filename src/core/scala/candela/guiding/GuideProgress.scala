@@ -4,8 +4,10 @@ import candela.base.{CheckedInput, CheckedOutput}
 
 /** What the passes so far tell of guiding.
   *
-  * @param left   what guiding left of the variance in the last pass of enough paths
-  * @param doubts passes one after the other, up to the last, in which it did not pay
+  * @param left   what guiding left of the variance in the last pass of enough paths; on average of
+  *   the last two, if the one before did not tell clearly
+  * @param doubts passes in which it did not pay, since it was certain that it does
+  * @param proofs passes one after the other, up to the last, in which it paid
   * @param gaveUp is nothing guided any more?
   * @param cost   rays of a path that isn't guided
   * @param effort of a guided one in the last pass of enough paths, in units of it, at least 1
@@ -16,6 +18,7 @@ import candela.base.{CheckedInput, CheckedOutput}
 private[guiding] final case class GuideProgress(
     left: Option[Double] = None,
     doubts: Int = 0,
+    proofs: Int = 0,
     gaveUp: Boolean = false,
     cost: Double = 1.0,
     effort: Double = 1.0,
@@ -25,19 +28,39 @@ private[guiding] final case class GuideProgress(
   import GuideProgress.*
 
   /** Did the last pass pay? */
-  def pays: Boolean = left.exists(part => part < WorthIt && part * effort < WorthRays)
+  def pays: Boolean = paysBy(1.0)
 
-  /** After another pass. One of few paths says nothing. */
+  /** Is it certain enough for all paths to be guided? Else few of them try it once more: the first
+    * field is coarse, and what few paths say of it is mostly too good.
+    */
+  def isCertain: Boolean = pays && (proofs > 1 || paysBy(Clear))
+
+  /** @param factor of what it may leave */
+  private def paysBy(factor: Double) =
+    left.exists(part => part < factor * WorthIt && part * effort < factor * WorthRays)
+
+  /** After another pass. One of few paths says nothing. As much as two doubts says one that leaves
+    * all of the variance, and one with which it doesn't pay on average after one that paid, but not
+    * clearly.
+    */
   def after(verdict: GuideVerdict): GuideProgress =
     if verdict.paths < Enough then this
     else
+      // Few paths tell it roughly: two tell it better
+      val wasDoubtful = proofs > 0 && !isCertain
+      val leaves = if wasDoubtful then (verdict.left + left.get) / 2 else verdict.left
       val next = copy(
-        left = Some(verdict.left),
+        left = Some(leaves),
         effort = Math.max(1.0, verdict.cost / cost),
         noise = verdict.noise
       )
-      if next.pays then next.copy(doubts = 0, plain = plain.orElse(Some(verdict.unguidedNoise)))
-      else next.copy(doubts = doubts + 1)
+      if next.pays then
+        val before = plain.orElse(Some(verdict.unguidedNoise))
+        val proved = next.copy(proofs = proofs + 1, plain = before)
+        if proved.isCertain then proved.copy(doubts = 0) else proved
+      else
+        val more = if wasDoubtful || verdict.left >= Hopeless then MostDoubts else 1
+        next.copy(doubts = doubts + more, proofs = 0)
 
   /** Has the field that was learnt from the pass before brought no more? What counts for equal time
     * is the variance of a path times its rays.
@@ -63,6 +86,7 @@ private[guiding] final case class GuideProgress(
   def save(to: CheckedOutput): Unit =
     to.double(left.getOrElse(Unknown))
     to.int(doubts)
+    to.int(proofs)
     to.int(if gaveUp then 1 else 0)
     to.double(cost)
     to.double(effort)
@@ -73,14 +97,20 @@ private[guiding] object GuideProgress:
   /** Paths by which a pass is judged. */
   val Enough = 10000
 
-  /** Guiding pays if it leaves less of the variance: guided rays take 1.4 times as long. */
-  val WorthIt = 0.7
+  /** Guiding pays if it leaves less of the variance: guided rays take 1.4 to 1.6 times as long. */
+  val WorthIt = 0.66
 
   /** It must also leave less than this of the variance times the effort. The product overstates
     * what branches cost, by up to a quarter: they share the path before them, and later fields are
     * finer.
     */
   val WorthRays = 1.1
+
+  /** It clearly pays if it leaves as much less than that. */
+  val Clear = 0.9
+
+  /** Where it leaves more than this, a finer field won't help. */
+  val Hopeless = 1.0
 
   /** Passes in which it does not pay, until it is given up: the next fields are finer. */
   val MostDoubts = 2
@@ -101,6 +131,7 @@ private[guiding] object GuideProgress:
     GuideProgress(
       left = Some(from.double()).filter(_ != Unknown),
       doubts = from.int(),
+      proofs = from.int(),
       gaveUp = from.int() == 1,
       cost = from.double(),
       effort = from.double(),

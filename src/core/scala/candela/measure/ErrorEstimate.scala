@@ -16,6 +16,7 @@ final class ErrorEstimate:
   private var latest, earlier = Option.empty[Weighed] // the last state, and the base before
   private var whole, halves = Option.empty[Scatter] // D(n) and D(n/2) of the last
   private var last = Option.empty[Known]
+  private var before = Vector.empty[Known] // the latest first
 
   /** The squared error of each value of the image after so many samples per pixel; none before the
     * first estimate.
@@ -50,6 +51,7 @@ final class ErrorEstimate:
         None
       case Some(half) if Integer.bitCount(samples) == 1 || (isLast && last.isEmpty) =>
         val known = estimate(half, state, isStopped)
+        before = last.filter(_.samples >= ErrorEstimate.FewToForetell).toVector ++ before
         last = Some(known)
         earlier = Some(half.weighed)
         base = Some(state)
@@ -89,22 +91,29 @@ final class ErrorEstimate:
 
   /** Samples per pixel with which the relative MSE is at most this: a power of two, or eighths of
     * one beyond. Up to the next power of two, where the error is estimated anew, that is what
-    * [[at]] says. The 95 % interval is that of the number with which it will say so. There is none
-    * after two samples only, and no upper limit where few pixels have the error.
+    * [[at]] says. Beyond, it is the geometric mean of what this and the earlier estimates say, the
+    * earlier the less, as noise changes from one power of two to the next. The 95 % interval is
+    * that of the number with which it will say so. There is none after two samples only, and no
+    * upper limit where few pixels have the error.
     */
   def samplesUntil(relativeMse: Double): Option[Interval] =
     for
       known <- last if !known.errors.relativeMse.isNaN
       now <- latest
     yield
-      val part = relativeMse / Math.max(known.errors.relativeMse, 1e-30)
-      val times = known.trend.times(part, ErrorEstimate.MostApart / known.samples.toDouble)
+      val times = known.times(relativeMse)
       val isSoon = times < 2
       val found =
         if isSoon then known.samples * times
         else
-          val byWeight = now.samples + (times * known.weight - now.weight) / sampleWeight
-          Math.max(2.0 * known.samples, byWeight)
+          val least = 2.0 * known.samples
+          var sum, weights = 0.0
+          for (k, i) <- (known +: before).zipWithIndex do
+            val weight = Math.scalb(1.0, -i)
+            val byWeight = (k.times(relativeMse) * k.weight - now.weight) / sampleWeight
+            sum += weight * Math.log(Math.max(least, now.samples + byWeight))
+            weights += weight
+          Math.max(least, Math.exp(sum / weights))
       val far = Math.exp(1.959964 * ErrorEstimate.deviation(now.samples, isSoon))
       if now.samples < ErrorEstimate.FewSamples then Interval(found, Double.NaN, Double.NaN)
       else
@@ -173,13 +182,16 @@ object ErrorEstimate:
   /** Fewer samples say nothing about how many more it takes. */
   private val FewSamples = 3
 
+  /** Estimates after fewer samples don't count beside later ones: noise still changes its trend. */
+  private val FewToForetell = 8
+
   /** Standard deviation of the logarithm of the samples at which an error is seen to be reached, by
     * docs/journal/NOISE.md, "Time left".
     *
     * @param isSoon whether that is expected before the next power of two
     */
   private def deviation(samples: Int, isSoon: Boolean): Double =
-    if isSoon then 0.08 else 0.15 * Math.sqrt(1 + 20.0 / samples)
+    if isSoon then 0.08 else 0.11 * Math.hypot(1, 20.0 / samples)
 
   /** Scatter between two parts of the samples.
     *
@@ -204,6 +216,11 @@ object ErrorEstimate:
       * more evenly spread before they are twice as many.
       */
     def since(others: Double): Double = trend.after(others / samples)
+
+    /** How many times these samples have at most this relative MSE ([[ScatterTrend.times]]). */
+    def times(relativeMse: Double): Double =
+      val part = relativeMse / Math.max(errors.relativeMse, 1e-30)
+      trend.times(part, MostApart / samples.toDouble)
 
   /** The squared difference of two halves of a pixel has the relative variance 2, and a mean square
     * of 3: the root of a sum is then uncertain by the root of 1 / 6 over these pixels, here 0.075.

@@ -139,9 +139,9 @@ private object GuideFieldSuite:
   /** Above the middle of a square floor. */
   val Light: Vec3 = Vec3(0.1f, 0f, 0.7f)
 
-  private val sampler = IndependentSampler(1 << 20, 7)
-
   private def random(i: Int, pass: Int = 0): (Float, Float) =
+    // Suites run at the same time
+    val sampler = IndependentSampler(1 << 20, 7)
     sampler.start(pass, 0, i)
     sampler.next2D()
     (sampler.x, sampler.y)
@@ -189,11 +189,19 @@ private object GuideFieldSuite:
       settings: GuideSettings,
       everything: Float = 1f
   ): GuideGrowth =
-    val all = Array.fill(old.regions)(everything)
-    val costs = Array.fill(old.regions)(EventCost)
-    val learning =
-      GuideLearning(GuideGrowth(old, events, settings, lit = 1.0, all, costs, PathCost))
+    val learning = GuideLearning(growth(old, events, settings, everything))
     assert(learning.help(() => (), () => false))
     learning.growth
+
+  /** Likewise, before anything has grown. */
+  def growth(
+      old: GuideField,
+      events: GuideEvents,
+      settings: GuideSettings,
+      everything: Float = 1f
+  ): GuideGrowth =
+    val all = Array.fill(old.regions)(everything)
+    val costs = Array.fill(old.regions)(EventCost)
+    GuideGrowth(old, events, settings, lit = 1.0, all, costs, PathCost)
 
   def region(p: Vec3, n: Vec3): Int = GuideMixture().region(learnt, p, GuideField.side(n))

@@ -22,8 +22,8 @@ class GuideProgressSuite extends AnyFunSuite:
     assert(weight() == 1f)
     // It does not pay
     assert(weight(0.9 -> 1.0) == 1f)
-    assert(weight(0.72 -> 1.0) == 1f)
-    assert(weight(0.68 -> 1.0) == 2f)
+    assert(weight(0.67 -> 1.0) == 1f)
+    assert(weight(0.65 -> 1.0) == 2f)
     assert(weight(0.5 -> 1.0) == 2f)
     assert(weight(3.0 -> 12.0) == 4f)
     // What the first pass that paid says of unguided paths holds: it is of the same light
@@ -33,11 +33,29 @@ class GuideProgressSuite extends AnyFunSuite:
   test("guiding pays by the variance that it leaves, and by what branches cost"):
     def pays(left: Double, effort: Double) = start.after(verdict(left, 1.0, cost = 3 * effort)).pays
     assert(!start.pays)
-    assert(pays(0.68, 1.0) && !pays(0.72, 1.0) && !pays(0.72, 0.5))
+    assert(pays(0.65, 1.0) && !pays(0.67, 1.0) && !pays(0.67, 0.5))
     assert(pays(0.5, 2.1) && !pays(0.5, 2.3))
-    // Doubts are forgotten when it pays
+    // Doubts are forgotten when it clearly pays, or twice
     val doubtful = start.after(verdict(0.9, 1.0)).after(verdict(0.9, 1.0))
     assert(doubtful.doubts == 2 && doubtful.after(verdict(0.3, 1.0)).doubts == 0)
+    val unclear = doubtful.after(verdict(0.61, 1.0))
+    assert(unclear.doubts == 2 && unclear.after(verdict(0.61, 1.0)).doubts == 0)
+    // What leaves all of the variance says as much as two passes
+    assert(start.after(verdict(1.01, 1.0)).doubts == 2)
+    // … and what does not pay on average with what paid before, but not clearly
+    assert(start.after(verdict(0.61, 1.0)).after(verdict(0.8, 1.0)).doubts == 2)
+    assert(start.after(verdict(0.61, 1.0)).after(verdict(0.68, 1.0)).isCertain)
+    assert(start.after(verdict(0.4, 1.0)).after(verdict(0.8, 1.0)).doubts == 1)
+
+  test("all paths are guided when guiding has clearly paid once, or twice one after the other"):
+    def certain(lefts: Double*) =
+      lefts.foldLeft(start)((p, l) => p.after(verdict(l, 1.0))).isCertain
+    assert(!certain() && !certain(0.61) && certain(0.58))
+    assert(certain(0.61, 0.61) && !certain(0.61, 0.8, 0.61) && !certain(0.4, 0.8))
+    // What branches cost counts, too
+    assert(!start.after(verdict(0.5, 1.0, cost = 3 * 2.15)).isCertain)
+    // A pass of few paths is no second one
+    assert(!start.after(verdict(0.61, 1.0)).after(verdict(0.61, 1.0, paths = 100L)).isCertain)
 
   test("learning has settled where a pass brings less than two percent for the time"):
     def isSettled(noise: Double, cost: Double, before: Double = 0.4, paths: Long = 20000L) =
@@ -58,7 +76,8 @@ class GuideProgressSuite extends AnyFunSuite:
 
   test("it is read as it was written"):
     val file = Files.createTempFile("candela-progress", "")
-    for progress <- Vector(start, start.after(verdict(0.5, 1.0)), start.after(verdict(2.0, 1.0))) do
+    val twice = start.after(verdict(0.5, 1.0)).after(verdict(0.5, 1.0))
+    for progress <- Vector(start, twice, start.after(verdict(2.0, 1.0))) do
       CheckedFile.write(file, "progress")(progress.save)
       assert(CheckedFile.read(file, "progress")(GuideProgress.load) == progress)
     Files.delete(file)

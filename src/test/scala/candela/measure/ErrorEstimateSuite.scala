@@ -74,6 +74,24 @@ class ErrorEstimateSuite extends AnyFunSuite:
       32 * Math.exp(0.08 * 1.959964)
     )))
 
+  test("an error is foretold by the mean of estimates, of which the latest counts twice"):
+    val random = scala.util.Random(11)
+    val estimate = ErrorEstimate()
+    val goal = 1e-6
+    // What each estimate says alone; the second half varies much less
+    val says =
+      for (n, spread) <- Vector(16 -> 1.0, 32 -> 1.0, 64 -> 0.2) yield
+        val image = Image.rgb(side, side)
+        for i <- image.data.indices do
+          image.data(i) = (1 + spread * random.nextGaussian() / n).toFloat
+        val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), isLast = false)
+        estimate.at(n).map(_.relativeMse * n / goal)
+    val (earlier, latest) = (says(1).get, says(2).get)
+    val found = estimate.samplesUntil(goal).get.estimate
+    // Samples are told in eighths of a power of two
+    assert(Math.abs(found / Math.cbrt(latest * latest * earlier) - 1) < 0.13)
+    assert(Math.abs(Math.log(earlier / latest)) > 0.6)
+
   test("after two samples only, nothing is said of how many more it takes"):
     val estimate = ErrorEstimate()
     val random = scala.util.Random(3)

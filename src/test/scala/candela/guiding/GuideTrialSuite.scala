@@ -1,0 +1,87 @@
+package candela.guiding
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class GuideTrialSuite extends AnyFunSuite:
+  import GuideTrialSuite.*
+
+  private def guide() =
+    val guide = Guide(GuideSettings(adapts = true), planned = 64, pixels = Pixels)
+    pass(guide, until = 1, left = 1.0)
+    guide
+
+  test("guiding is given up after one pass that leaves all of the variance"):
+    val trial = guide()
+    pass(trial, until = 2, left = 1.1)
+    assert(trial.outcome.gaveUp && !trial.pass.field.guides)
+
+  test("guiding is given up after two passes that leave most of it"):
+    val trial = guide()
+    pass(trial, until = 2, left = 0.8)
+    assert(!trial.outcome.gaveUp && trial.pass.part < 1f)
+    pass(trial, until = 4, left = 0.8)
+    assert(trial.outcome.gaveUp && trial.pass.part == 0f)
+
+  test("all paths are guided after one pass that leaves little, or two that leave enough less"):
+    val clear = guide()
+    pass(clear, until = 2, left = 0.4)
+    assert(clear.pass.part == 1f)
+    val close = guide()
+    pass(close, until = 2, left = 0.61)
+    assert(!close.outcome.gaveUp && close.pass.part < 1f)
+    pass(close, until = 4, left = 0.61)
+    assert(close.pass.part == 1f)
+
+  test("regions are judged before they are fitted as after"):
+    val settings = GuideSettings(adapts = true)
+    def growth() =
+      val records = GuideRecords(1f, GuideFieldSuite.learnt.regions)
+      record(records.newPart(), left = 0.7)
+      GuideFieldSuite.growth(GuideFieldSuite.learnt, records.sorted(), settings)
+    val (before, after) = (growth(), growth())
+    val judged = before.judged()
+    for made <- Vector(before, after) do assert(GuideLearning(made).help(() => (), () => false))
+    assert(judged == after.verdict && judged == before.verdict && judged.paths > 10000)
+    assert(before.result().lobes sameElements after.result().lobes)
+    assert(before.result().shares sameElements after.result().shares)
+
+  test("nothing is fitted where guiding is given up"):
+    val records = GuideRecords(1f, GuideField.Start.regions)
+    record(records.newPart(), left = 0.7)
+    val settings = GuideSettings(adapts = true)
+    val growth = GuideFieldSuite.growth(GuideField.Start, records.sorted(), settings)
+    assert(growth.regions > 0)
+    growth.giveUp()
+    assert(growth.regions == 0)
+
+private object GuideTrialSuite:
+  val Pixels = 300000
+
+  /** Light of each second path. */
+  private val Bright = 5f
+
+  /** Records a pass that ends before this sample.
+    *
+    * @param left part of the variance that guiding leaves
+    */
+  def pass(guide: Guide, until: Int, left: Double): Unit =
+    val now = guide.pass
+    val paths = (Pixels * (until - now.begun) * now.part).toInt
+    val part = now.newPart()
+    assert(part != null)
+    record(part.nn, left, paths)
+    assert(guide.begin(until))
+
+  /** Paths of one event, with the light 1 or [[Bright]], in places that do not depend on it. */
+  def record(part: GuideRecords.Part, left: Double, paths: Int = 40000): Unit =
+    val mean = (1f + Bright) / 2
+    val variance = (1f + Bright * Bright) / 2 - mean * mean
+    for i <- 0 until paths do
+      val event = GuideFieldSuite.event(i)
+      val light = if i % 4 < 2 then 1f else Bright
+      // The field would have been better in each region
+      event(GuideRecords.GuidePdf) = 2f
+      event(GuideRecords.Total) = light
+      event(GuideRecords.Unguided) = light * light + (variance * (1 / left - 1)).toFloat
+      part.countPath(3)
+      part.add(event)
