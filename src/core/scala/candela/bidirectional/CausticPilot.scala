@@ -25,6 +25,11 @@ final case class CausticChoice(
     bringsAll: Boolean = false,
     aim: Option[PhotonField] = None
 ):
+  /** How many light paths there are. */
+  def paths: String =
+    val more = if ofLamps > 0f then f", and $ofLamps%.3g from lamps" else ""
+    f"$perSample%.3g light paths per camera sample$more"
+
   def hasLightPaths: Boolean = perSample > 0f || ofLamps > 0f
 
   private[candela] def weights(scene: Scene, view: View): CausticWeights =
@@ -44,14 +49,15 @@ final case class CausticChoice(
   * with [[Rounds]] times as many paths.
   *
   * @param pool   for paths that are traced at once; what is found is the same for any
-  * @param tracer paths from the camera, weighted against light paths
+  * @param tracer paths from the camera, weighted against light paths, and guided by photons if
+  *               there are any
   */
 private[candela] final class CausticPilot(
     scene: Scene,
     view: View,
     light: CausticLight,
     pool: Parallel,
-    tracer: CausticWeights => Integrator
+    tracer: (CausticWeights, Option[PhotonField]) => Integrator
 ):
   import CausticPilot.*
 
@@ -61,6 +67,12 @@ private[candela] final class CausticPilot(
     else
       val learnt = traced(light, LightKind.OfCasters, 0, LearningPaths, Seed, isLearning = true)
       if learnt.splats == 0 then withoutSplats else look(light.casters.aimed(learnt.learning.aim))
+
+  /** The choice with as many light paths as suit camera paths that its photons guide. */
+  def balanced(choice: CausticChoice): CausticChoice =
+    val kinds = LightKind.values.toVector.take(if choice.ofLamps > 0f then 2 else 1)
+    val found = looked(choice.casters, kinds, 0, 1, choice.aim)
+    Expected.of(found, kinds, AimPilot.Overhead).choice(choice.casters).copy(aim = choice.aim)
 
   private def withoutSplats: (Option[CausticChoice], String) =
     val why = "no light path reaches the camera"
@@ -96,8 +108,14 @@ private[candela] final class CausticPilot(
       val all = first(LightKind.values.toVector)
       if gain.tupled(all) > LeastGainOfMore * gain.tupled(few) then all else few
 
-  /** What light paths and the camera's paths of some rounds find. */
-  private def looked(aimed: Casters, kinds: Vector[LightKind], from: Int, until: Int): Found =
+  /** What light paths and the camera's paths, perhaps guided, of some rounds find. */
+  private def looked(
+      aimed: Casters,
+      kinds: Vector[LightKind],
+      from: Int,
+      until: Int,
+      aim: Option[PhotonField] = None
+  ): Found =
     val by = light.copy(casters = aimed)
     val found = Found()
     for kind <- kinds do
@@ -108,7 +126,7 @@ private[candela] final class CausticPilot(
     val weights = CausticWeights(scene, aimed, view.camera, 1f, ofLamps)
     found.blocks.add:
       CameraPairs.followed(view, Seed + 2, pool, from * Pairs, until * Pairs): _ =>
-        (tracer(weights), (_, _) => ())
+        (tracer(weights, aim), (_, _) => ())
     found
 
   /** What the light paths `from` to `until` find. */
@@ -225,23 +243,23 @@ private[candela] final class CausticPilot(
       CausticChoice(aimed, perSample(0).toFloat, perSample(1).toFloat)
 
     override def toString: String =
-      val more = if perSample(1) > 0.0 then f", and ${perSample(1)}%.3g from lamps" else ""
-      f"the pilot expects ${times(gain)} times the efficiency, with ${perSample(0)}%.3g light " +
-        s"paths per camera sample$more"
+      s"the pilot expects ${times(gain)} times the efficiency, with ${choice(light.casters).paths}"
 
   private object Expected:
-    def of(found: Found, kinds: Vector[LightKind]): Expected =
+    /** @param overhead time of a ray of the camera's paths, relative to that of unguided ones */
+    def of(found: Found, kinds: Vector[LightKind], overhead: Double = 1.0): Expected =
       val cost = found.lightRays.indices.map: k =>
         found.lightRays(k).toDouble / Math.max(1, found.lightPaths(k)) / found.blocks.raysPerPath
       val variances = found.blocks.variances(found.lightPaths(0), usual)
       import variances.*
       val perSample = LightKind.values.toVector.map: kind =>
         val k = kind.ordinal
-        val best = Math.sqrt(byLight(k) / (byPaths * cost(k)))
+        val best = Math.sqrt(overhead * byLight(k) / (byPaths * cost(k)))
         if !kinds.contains(kind) then 0.0
-        else Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
+        else
+          Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
       val byAll = byLight.lazyZip(perSample).map((v, n) => if n > 0.0 then v / n else 0.0).sum
-      val costs = 1 + cost.lazyZip(perSample).map(_ * _).sum
+      val costs = overhead + cost.lazyZip(perSample).map(_ * _).sum
       Expected(gainOf(byPaths + without, (byPaths + byAll) * costs), perSample)
 
 private[candela] object CausticPilot:
@@ -261,8 +279,8 @@ private[candela] object CausticPilot:
     "none: the first border of media before the camera says that it is in another medium"
 
   /** Light paths per camera sample. */
-  inline val Least = 0.125
-  inline val Most = 2.0
+  inline val Least = 1.0 / 64
+  inline val Most = 16.0
 
   /** What one light path finds must not decide alone. */
   inline val MostRatio = 1e6

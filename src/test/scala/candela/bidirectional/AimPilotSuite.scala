@@ -10,6 +10,8 @@ import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import java.nio.file.{Files, Path}
+
 /** Light that only specular surfaces show to the camera. The lamp is wide, so that paths find it
   * without photons, too.
   */
@@ -60,6 +62,14 @@ final class AimPilotSuite extends AnyFunSuite:
   test("guided by photons, an image has the same bits for any number of threads"):
     val one = image(CausticsMode.Auto, threads = 1)
     assert(image(CausticsMode.Auto, threads = 3).data.sameElements(one.data))
+
+  test("beside paths that photons guide, there are as many light paths as suit these"):
+    val glass = Files.readString(Path.of("scenes/v4-caustics-glass.pbrt"))
+    val counts = raw"([\d.]+) light paths per camera sample".r
+    val all = counts.findAllMatchIn(told(glass)).map(_.group(1).toDouble).toVector
+    // Unguided paths leave more noise than light paths can take away; guided ones do not
+    val Vector(beforePhotons, withPhotons) = all: @unchecked
+    assert(withPhotons > beforePhotons, all)
 
   test("where no specular surface shows a caustic, there are no photons"):
     val above = Water.replace("LookAt 0 3 -6  0 .2 0", "LookAt 0 3 -6  0 6 9")

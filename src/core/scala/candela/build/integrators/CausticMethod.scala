@@ -85,13 +85,16 @@ private object CausticMethod:
   )(using site: Site):
     /** Light paths, and photons that guide the camera's, where they pay. */
     def pilot(view: View): (Option[CausticChoice], String) =
-      val (found, told) = CausticPilot(
+      val pilot = CausticPilot(
         scene,
         view,
         light,
         site.resources.pool,
-        weights => tracer(scene, weighed(weights), null, null)
-      ).run()
+        (weights, aim) =>
+          val guide = if aim.isDefined then Guide.unlearning else null
+          tracer(scene, weighed(weights).copy(aim = aim), guide, null)
+      )
+      val (found, told) = pilot.run()
       val beside = found.fold(options): choice =>
         weighed(choice.weights(scene, view))
       val (aim, expected) = AimPilot(
@@ -109,7 +112,9 @@ private object CausticMethod:
             Some(CausticChoice(light.casters, perSample = 0f, aim = aim)),
             s"$guiding; light paths: $told"
           )
-        case _ => (found.map(_.copy(aim = aim)), s"light paths: $told; $guiding")
+        case _ =>
+          val both = found.map(choice => pilot.balanced(choice.copy(aim = aim)))
+          (both, s"light paths: $told; $guiding, with ${both.fold("")(_.paths)}")
 
     def method(choice: CausticChoice): RenderMethod =
       def aimed(own: WalkOptions)(over: Scene, guide: Guide | Null, parts: LightParts | Null) =
