@@ -14,10 +14,17 @@ final class ColoredSpectrum(val values: Array[Double], val components: Rgb):
     values.map(_ / most)
 
 object ColoredSpectrum:
-  /** The sum of all differences. */
-  def distance(a: Array[Double], b: Array[Double]): Double =
+  /** The sum of all differences, or of some that are no less than `most` together. */
+  def distance(
+      a: Array[Double],
+      b: Array[Double],
+      most: Double = Double.PositiveInfinity
+  ): Double =
     var sum = 0.0
-    loop(a.length)(i => sum += Math.abs(a(i) - b(i)))
+    var i = 0
+    while i < a.length && sum < most do
+      sum += Math.abs(a(i) - b(i))
+      i += 1
     sum
 
 /** Error of three-number colour: light and surfaces are multiplied as spectra, and as the

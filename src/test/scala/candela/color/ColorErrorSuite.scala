@@ -108,6 +108,16 @@ class ColorErrorSuite extends AnyFunSuite:
     for (exact, ratio) <- found if exact > 1e-3 do assert(ratio >= 1, s"error $exact")
     assert(median <= 3)
 
+  test("distances are exact up to a bound, and no less than it beyond"):
+    val random = java.util.Random(1)
+    def values = Array.fill(95)(random.nextDouble)
+    for _ <- 0 until 100 do
+      val (a, b, most) = (values, values, 60 * random.nextDouble)
+      val exact = a.lazyZip(b).map((x, y) => Math.abs(x - y)).sum
+      assert(Math.abs(ColoredSpectrum.distance(a, b) - exact) < 1e-12 * exact)
+      val found = ColoredSpectrum.distance(a, b, most)
+      assert(if exact < most then found == ColoredSpectrum.distance(a, b) else found >= most)
+
   test("without colours there is no error"):
     // Digits of sRGB's and the basis' matrices
     assert(ColorError.bound(Seq(light(Colorimetry.D65(_))), Seq(grey), basis, depth) < 1e-4)

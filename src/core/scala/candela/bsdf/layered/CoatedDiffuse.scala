@@ -115,36 +115,24 @@ object CoatedDiffuse:
 
 /** [[CoatedDiffuse]]; `reflectance` is clamped to [0, 1].
   *
-  * @param thickness  in mean free paths of the coat's absorption
   * @param baseHits   maximum number of reflections at the base
   * @param bySpectrum applies a function to the reflectance spectrum, wavelength by wavelength, if
   *                   the spectrum is known: interreflection under the coat is not linear in colour.
   *                   Expensive; used for constant surfaces only
   */
-final class CoatedDiffuseMaterial(
+final class CoatedDiffuseMaterial private (
     reflectance: RgbTexture,
     roughness: Roughness,
-    eta: Float,
-    thickness: Float,
+    coating: CoatedDiffuseMaterial.Coating,
     baseHits: Int,
-    coats: Coats,
-    bySpectrum: Option[(Float => Float) => Rgb] = None
+    bySpectrum: Option[(Float => Float) => Rgb]
 ) extends Material,
       Textured(reflectance, roughness):
-  // Made when a ray needs it: a rough coat takes a hundred thousand samples
-  private lazy val coatAt: TrowbridgeReitz => Coat =
-    if roughness.isConstant then
-      val coat = coats.of(roughness.trowbridgeReitz(ShadingPoint()), eta, thickness)
-      _ => coat
-    else
-      val family = coats.family(eta, thickness)
-      Coats.between(family, _)
-
   private val spectrum = bySpectrum.filter(_ => isConstant)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val top = roughness.trowbridgeReitz(at)
-    val coat = coatAt(top)
+    val coat = coating.at(top)
     spectrum match
       case Some(colored) =>
         new CoatedDiffuse(c => colored(CoatedDiffuse.series(_, c, baseHits)), top, coat)
@@ -152,17 +140,29 @@ final class CoatedDiffuseMaterial(
 
 object CoatedDiffuseMaterial:
 
-  /** The material for the given medium between coat and base. Random walks are used only if the
-    * medium scatters or its thickness varies.
+  /** The coats of a roughness.
+    *
+    * @param thickness in mean free paths of the coat's absorption
     */
-  def apply(
-      reflectance: RgbTexture,
+  private final class Coating(roughness: Roughness, eta: Float, thickness: Float, coats: Coats):
+    // Made when a ray needs it: a rough coat takes a hundred thousand samples
+    lazy val at: TrowbridgeReitz => Coat =
+      if roughness.isConstant then
+        val coat = coats.of(roughness.trowbridgeReitz(ShadingPoint()), eta, thickness)
+        _ => coat
+      else
+        val family = coats.family(eta, thickness)
+        Coats.between(family, _)
+
+  /** Makes a material of a reflectance, with the given medium between coat and base. Random walks
+    * are used only if the medium scatters or its thickness varies.
+    */
+  def family(
       roughness: Roughness,
       eta: Float,
       medium: LayerMedium,
-      coats: Coats,
-      bySpectrum: Option[(Float => Float) => Rgb] = None
-  ): Material =
+      coats: Coats
+  ): (RgbTexture, Option[(Float => Float) => Rgb]) => Material =
     val summed =
       for
         thickness <- medium.thickness.constant
@@ -170,7 +170,18 @@ object CoatedDiffuseMaterial:
       yield
         // Events alternate, starting at the base
         val hits = (medium.maxDepth + 1) / 2
-        new CoatedDiffuseMaterial(
-          reflectance, roughness, eta, thickness, hits, coats, bySpectrum
-        )
-    summed.getOrElse(LayeredMaterial(DiffuseLayers(reflectance, roughness, eta, medium)))
+        val coating = Coating(roughness, eta, thickness, coats)
+        (reflectance: RgbTexture, bySpectrum: Option[(Float => Float) => Rgb]) =>
+          new CoatedDiffuseMaterial(reflectance, roughness, coating, hits, bySpectrum)
+    summed.getOrElse: (reflectance, _) =>
+      LayeredMaterial(DiffuseLayers(reflectance, roughness, eta, medium))
+
+  /** As above, of one. */
+  def apply(
+      reflectance: RgbTexture,
+      roughness: Roughness,
+      eta: Float,
+      medium: LayerMedium,
+      coats: Coats,
+      bySpectrum: Option[(Float => Float) => Rgb] = None
+  ): Material = family(roughness, eta, medium, coats)(reflectance, bySpectrum)

@@ -43,19 +43,16 @@ object CoatedDiffuseRecipe
   private val layers = layerParameters()
   private val eta = spectrum("eta", "index of refraction of the coating")(Indices.glass)
   protected def tinted()(using site: Site): (RgbTexture, Site) => Material =
-    val coats = site.resources.coats
     val basis = site.resources.basis
     val coating = eta()
-    val index = Indices.one(coating)
-    val medium = layers.medium
-    val rough = roughness()
+    val make = CoatedDiffuseMaterial
+      .family(roughness(), Indices.one(coating), layers.medium, site.resources.coats)
     (reflectance, _) =>
       // The spectral reflectance of a constant colour is precomputed
       val bySpectrum = reflectance.constant.map: color =>
         lazy val base = basis.reflectance(color)
         (f: Float => Float) => basis.ofReflectance(nm => f(base(nm)))
-      Indices.disperse(coating):
-        CoatedDiffuseMaterial(reflectance, rough, index, medium, coats, bySpectrum)
+      Indices.disperse(coating)(make(reflectance, bySpectrum))
 
 object RoughPlasticRecipe
     extends RoughRecipe("roughplastic", "plastic, smooth or rough", onlyMitsuba, 0f):

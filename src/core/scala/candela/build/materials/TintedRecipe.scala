@@ -23,7 +23,7 @@ private[build] trait TintedRecipe extends MaterialRecipe:
   /** As [[build]], of statements that are [[isAlike]]: `apply` makes each by its site. */
   final def family(first: Site): Site => Material =
     val made = tinted()(using first)
-    site => made(tint()(using site), site).folded
+    site => made(tint.again()(using site).getOrElse(tint()(using site)), site).folded
 
   /** Whether two statements of this material differ in nothing but the numbers of its colour. */
   final def isAlike(a: Declaration, b: Declaration): Boolean =

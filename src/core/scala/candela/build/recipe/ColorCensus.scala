@@ -17,7 +17,8 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
   import ColorCensus.*
 
   private val emitted, reflected = mutable.LinkedHashMap.empty[Any, () => ColoredSpectrum]
-  private val cells = mutable.HashSet.empty[(Boolean, Rgb)]
+  private val cells = java.util.BitSet()
+  private val outerCells = mutable.HashSet.empty[(Boolean, Rgb)]
   private val remarks = mutable.ArrayBuffer.empty[() => Unit]
   private var disperses = false
   private var detector: Option[String] = None
@@ -94,6 +95,7 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
           val full = c * (1f / c.max)
           note(emitted, full, full)(smooth, components)
         case SpectrumRole.Unbounded => addCoefficient(c, smooth, components)
+        case SpectrumRole.Reflectance if isCrowded(c) => ()
         case SpectrumRole.Reflectance =>
           def bounded = if !isGrey && c.max <= 1f then SmoothSpectra.spectrum(c) else smooth
           note(reflected, c, c)(bounded, components)
@@ -105,11 +107,35 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
       s: => Float => Float,
       components: => Rgb
   ): Unit =
-    def cell = c.map(x => Math.floor(x * Cells).toFloat)
-    if !noted.contains(key) && (noted.size < Many || cells.add((noted eq emitted, cell))) then
+    if !noted.contains(key) && (noted.size < Many || fillsCell(noted eq emitted, c)) then
       noted(key) = () =>
         val smooth = s
         ColoredSpectrum(ColorError.wavelengths.map(smooth(_).toDouble), components)
+
+  /** Whether a reflectance is like one of very many that are noted. */
+  private def isCrowded(c: Rgb): Boolean =
+    reflected.size >= Many && {
+      val cell = cellOf(c)
+      cell >= 0 && cells.get(2 * cell)
+    }
+
+  /** Whether the colour is the first in its cell, which then has one. */
+  private def fillsCell(isEmitted: Boolean, c: Rgb): Boolean =
+    val cell = cellOf(c)
+    if cell < 0 then outerCells.add((isEmitted, c.map(x => Math.floor(x * Cells).toFloat)))
+    else
+      val at = 2 * cell + (if isEmitted then 1 else 0)
+      val isFirst = !cells.get(at)
+      cells.set(at)
+      isFirst
+
+  /** Of a colour with components in [0, 1]; else −1. */
+  private def cellOf(c: Rgb): Int =
+    def isWithin(x: Float) = x >= 0f && x <= 1f
+    def along(x: Float) = (x * Cells).toInt
+    if isWithin(c.r) && isWithin(c.g) && isWithin(c.b) then
+      (along(c.r) * (Cells + 1) + along(c.g)) * (Cells + 1) + along(c.b)
+    else -1
 
   private def add(key: Any, role: SpectrumRole, s: Float => Float, components: => Rgb): Unit =
     role match
@@ -169,13 +195,18 @@ object ColorCensus:
     val shapes = pool.map(all.size): i =>
       val s = all(i)()
       s -> s.shape
-    spread(shapes.toVector)((a, b) => ColoredSpectrum.distance(a._2, b._2)).map(_._1)
+    spread(shapes.toVector)((a, b, most) => ColoredSpectrum.distance(a._2, b._2, most)).map(_._1)
 
   private def farApartColors(all: Vector[Rgb]): Vector[Rgb] =
-    spread(all.distinct)((a, b) => (a - b).largest.toDouble)
+    spread(all.distinct)((a, b, _) => (a - b).largest.toDouble)
 
-  /** A subset whose members are far from each other, greedily (Gonzalez 1985). */
-  private inline def spread[T](all: Vector[T])(inline distance: (T, T) => Double): Vector[T] =
+  /** A subset whose members are far from each other, greedily (Gonzalez 1985).
+    *
+    * @param distance need not be exact from the third argument on
+    */
+  private inline def spread[T](all: Vector[T])(
+      inline distance: (T, T, Double) => Double
+  ): Vector[T] =
     if all.size <= Most then all
     else
       val chosen = Vector.newBuilder[T]
@@ -188,6 +219,6 @@ object ColorCensus:
         val last = all(next)
         next = 0
         loop(nearest.length): i =>
-          nearest(i) = Math.min(nearest(i), distance(all(i), last))
+          nearest(i) = Math.min(nearest(i), distance(all(i), last, nearest(i)))
           if nearest(i) > nearest(next) then next = i
       chosen.result()

@@ -37,6 +37,11 @@ class Field[T](
     case Some(p) if site.speaks(dialects) && fits(p, site) => read(p, site)
     case _ => None
 
+  /** The value at a site whose statement has the parameter, of the type that was accepted of
+    * another, which it is alike.
+    */
+  def again()(using site: Site): Option[T] = site.declaration.param(name).flatMap(read(_, site))
+
   /** Whether pbrt finds the value, which it looks for by type. Mitsuba's reader knows the types of
     * recipes, not those of pbrt.
     */
