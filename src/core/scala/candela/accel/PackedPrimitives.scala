@@ -16,7 +16,7 @@ abstract class PackedPrimitives:
 object PackedPrimitives:
   /** Breaks ties: of two primitives at the same distance the lower number wins, so that the result
     * does not depend on traversal order. Triangle tests do this themselves; for other shapes the
-    * ray is extended to the next Float.
+    * ray is extended to the next Float. These compare distances as they are stored, in Float.
     */
   private[accel] inline def withTies(primitive: Int, ray: Ray, hit: Hit)(
       inline intersect: Boolean

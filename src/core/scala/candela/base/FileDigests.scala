@@ -4,6 +4,7 @@ import java.nio.file.{Files, Path}
 import java.util.concurrent.ConcurrentHashMap
 
 import scala.jdk.CollectionConverters.*
+import scala.util.Try
 
 /** Digests of files, which are remembered while the files are not touched: by this process, and in
   * cached files for later ones, a table for each folder. Safe for threads.
@@ -31,21 +32,35 @@ final class FileDigests(files: Option[PartFiles]):
   def save(): Unit =
     for store <- files do
       folders.forEach: (folder, table) =>
-        for rows <- table.taken() do
+        for rows <- table.taken() if isTimed(folder) do
           // Another may have written some since
           val all = written(folder) ++ rows
-          val there = all.filter((name, _) => Files.exists(folder.resolve(name)))
-          store.write(TableForm, folder.toString, there)
+          val there = all.filter((name, _) => isThere(folder, name))
+          store.write(TableForm, folder.toString, there, isNeeded = false)
 
   private def written(folder: Path): Rows =
     files.flatMap(_.read(TableForm, folder.toString)).getOrElse(Map.empty)
 
 object FileDigests:
+  /** File systems whose kernel sets the times of change by its own clock. On others, such as FAT,
+    * programs can set all times, or a server does, and a digest may outlive its file.
+    */
+  private val Timed = Set("ext2", "ext3", "ext4", "xfs", "btrfs", "bcachefs", "zfs", "f2fs") ++
+    Set("jfs", "tmpfs", "overlay", "apfs", "hfs", "ufs")
+
+  private[base] def isTimed(folder: Path): Boolean =
+    Try(Files.getFileStore(folder).`type`).toOption.exists(t => Timed(t.toLowerCase))
+
+  /** Names that another process wrote may be none here. */
+  private def isThere(folder: Path, name: String): Boolean =
+    Try(Files.exists(folder.resolve(name))).getOrElse(false)
+
   /** Stamp and digest of each file, by its name. */
-  private type Rows = Map[String, (FileStamp, String)]
+  private[base] type Rows = Map[String, (FileStamp, String)]
 
   private final class Table(before: Rows):
     private val rows = ConcurrentHashMap[String, (FileStamp, String)](before.asJava)
+    private val fresh = ConcurrentHashMap.newKeySet[String]()
     @volatile private var isNew = false
 
     def find(name: String, stamp: FileStamp): Option[String] =
@@ -53,14 +68,15 @@ object FileDigests:
 
     def put(name: String, stamp: FileStamp, digest: String): Unit =
       rows.put(name, (stamp, digest)): Unit
+      fresh.add(name): Unit
       isNew = true
 
-    /** All rows, if any is new since they were taken last. */
+    /** Rows that this process has made, if any was made since they were taken last. */
     def taken(): Option[Rows] = Option.when(isNew):
       isNew = false
-      rows.asScala.toMap
+      fresh.asScala.iterator.map(n => n -> rows.get(n)).toMap
 
-  private object TableForm extends PartForm[Rows]("digests 1"):
+  private[base] object TableForm extends PartForm[Rows]("digests 1"):
     /** Written however small: it stands for reading all of the files. */
     def size(rows: Rows): Long = PartFiles.Least
 

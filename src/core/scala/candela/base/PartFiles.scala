@@ -38,17 +38,20 @@ final class PartFiles(folder: CacheFolder):
       Some(found)
     catch case _: IOException => None
 
-  /** Writes the file of a key, if the thing is large enough. After a failure nothing is written. */
-  def write[A](form: PartForm[A], key: String, thing: A): Unit =
+  /** Writes the file of a key, if the thing is large enough. After a failure nothing is written.
+    *
+    * @param isNeeded whether a failure is to be told
+    */
+  def write[A](form: PartForm[A], key: String, thing: A, isNeeded: Boolean = true): Unit =
     if obstacle.isEmpty && form.size(thing) >= PartFiles.Least then
       val words = mark(form, key)
       try
         folder.write(folder.file(words, CacheFolder.Parts)): channel =>
           CheckedFile.writeTo(channel, words)(form.write(thing, _))
       catch
-        case e: WriteError => obstacle = Some(e.getMessage)
+        case e: WriteError => if isNeeded then obstacle = Some(e.getMessage)
         case e: IOException =>
-          obstacle = Some(s"can't write to `${folder.path}`: ${IoReason(e)}")
+          if isNeeded then obstacle = Some(s"can't write to `${folder.path}`: ${IoReason(e)}")
 
   /** What is made by another version may differ. */
   private def mark(form: PartForm[?], key: String) = s"${form.name} $key ${Version.current}"

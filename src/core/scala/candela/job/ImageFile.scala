@@ -69,7 +69,7 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
     Vector(
       "software" -> s"Candela ${Version.current}",
       // Wherever it is: the image is the same
-      "scene" -> name.drop(name.lastIndexWhere(c => c == '/' || c == '\\') + 1),
+      "scene" -> ImageFile.withoutFolder(name),
       "dialect" -> prepared.description.dialect.toString.toLowerCase,
       "seed" -> settings.seed.toString
     ) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
@@ -101,6 +101,9 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
     ImageWindow(plan.crop.x0, plan.crop.y0, plan.width, plan.height)
 
 object ImageFile:
+
+  private def withoutFolder(name: String): String =
+    name.drop(name.lastIndexWhere(c => c == '/' || c == java.io.File.separatorChar) + 1)
 
   /** The opacity of each pixel, if it is a layer. */
   private def alpha(plan: RenderPlan, image: Image): Option[Array[Float]] =

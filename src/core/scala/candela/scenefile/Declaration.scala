@@ -181,13 +181,14 @@ final case class Declaration(
 
   /** Equal for all statements that are [[isAlikeBut]] this one. */
   def hashBut(parameter: String): Int =
-    var hash = name.hashCode
+    var hash = 31 * name.hashCode + colorSpace.hashCode
     var i = 0
     while i < params.size do
       val p = params(i)
       hash = 31 * hash + p.name.hashCode
       if p.name != parameter then
         hash = 31 * (31 * hash + Arrays.hashCode(p.floats)) + Arrays.hashCode(p.ints)
+        hash = 31 * hash + p.bools.hashCode
       i += 1
     hash
 

@@ -103,10 +103,11 @@ final class BilinearMesh(
               bestU = u
               bestV = v
         k += 1
-      val found = bestU > -0.5
+      val stored = best.toFloat
+      val found = bestU > -0.5 && stored < ray.tMax
       if write then
         if found then
-          ray.tMax = best.toFloat
+          ray.tMax = stored
           hit.u = BilinearMesh.unit(bestU)
           hit.v = BilinearMesh.unit(bestV)
       found

@@ -100,10 +100,11 @@ private[shapes] final class CurveWalk(
         else
           val z = b0 * z0 + b1 * z1 + b2 * z2 + b3 * z3
           val t = z / length
-          if !(t > 0.0 && t < ray.tMax) then false
+          val stored = t.toFloat
+          if !(t > 0.0 && stored < ray.tMax) then false
           else
             if write then
-              ray.tMax = t.toFloat
+              ray.tMax = stored
               hit.u = curveU(segment, s).toFloat
               // The side of the curve is the sign of its tangent × (vector to the ray)
               val tx = m * m * (x1 - x0) + 2.0 * m * w * (x2 - x1) + w * w * (x3 - x2)

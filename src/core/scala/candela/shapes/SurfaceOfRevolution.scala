@@ -73,7 +73,8 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, like: Transform) ex
     if isOne then ray.tMax = t.toFloat
     isOne
 
-  protected final def isWithin(ray: Ray, t: Double): Boolean = t > 0.0 && t < ray.tMax
+  /** Compared as it is stored: of two at one distance, neither is closer. */
+  protected final def isWithin(ray: Ray, t: Double): Boolean = t > 0.0 && t.toFloat < ray.tMax
 
   /** Distance of the hit that shortened a ray to `t`, recomputed in Double; `t` itself if `found`
     * is another hit, as behind an alpha cutout.

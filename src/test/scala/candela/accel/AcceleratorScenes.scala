@@ -5,6 +5,8 @@ import candela.math.*
 import candela.shapes.Shape
 import candela.testing.{Draws, Soups}
 
+import scala.util.Random
+
 /** Sets of primitives that are hard for one accelerator or another. */
 object AcceleratorScenes:
 
@@ -62,6 +64,10 @@ object AcceleratorScenes:
         val triangle = Soups.around(draws, 1, 1)(Vec3.Zero).head
         Seq.fill(40)(triangle)
       ,
+      "spheres and disks, each several times" -> mixed(
+        Nil,
+        Random(3).shuffle(Seq.fill(4)(Soups.shapes(Draws(5), 30, 0.5f)(Vec3.Zero)).flatten)
+      ),
       "spheres and disks" -> mixed(Nil, Soups.shapes(draws, 60, 0.5f)(anywhere)),
       "triangles, spheres and disks" -> mixed(
         Soups.around(draws, 200, 0.3f)(anywhere),

@@ -99,6 +99,9 @@ abstract class AcceleratorLaws(make: Primitives => Accelerator) extends AnyFunSu
             s"$at: ${hit.primitive} at ${ray.tMax}, " +
               s"not ${expected.primitive} at ${expectedRay.tMax}"
           ): Unit
+        else
+          def both = s"${hit.primitive}, not ${expected.primitive}, at one distance"
+          assert(!found, s"$at: $both"): Unit
         ray.set(o, d, end)
         assert(accelerator.isOccluded(ray, hit) == found, at)
         assert(ray.tMax == end, "asking for occlusion leaves the ray as it is")
