@@ -17,7 +17,8 @@ class BenchSchemaSuite extends AnyFunSuite:
     assert(written("schemaVersion").num.toInt == SuiteData.SchemaVersion)
 
   test("the published results are as the schema says"):
-    assert(schema.problems(read("docs/bench/results.json")) == Vector.empty)
+    for name <- Seq("results", "growth") do
+      assert(schema.problems(read(s"docs/bench/$name.json")) == Vector.empty, name)
 
   test("the schema refuses fields that it does not name, and misses those that it requires"):
     val more = written
