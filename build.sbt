@@ -39,6 +39,16 @@ val memory = Seq(
   "-XX:MetaspaceSize=64m"
 )
 
+/** Large steps of guided paths that several others call: C2 compiles each once, not for each caller
+  * again, which is a third of what `--guiding` adds to its work.
+  */
+val compiledApart = Seq(
+  "GuidedScattering::scatterOnce",
+  "Guidance::scatter",
+  "Guidance::drawBsdf",
+  "Guidance::drawField"
+).map(code => s"-XX:CompileCommand=dontinline,candela.integrators.$code")
+
 /** Options of every JVM of this build: the renderer's and the tests'. */
 val jvmOptions = Seq(
   "-XX:+UseParallelGC", // throughput matters, pauses don't
@@ -56,7 +66,7 @@ val jvmOptions = Seq(
   "-XX:CompileCommand=quiet",
   "-XX:CompileCommand=CompileThresholdScaling,candela.accel.tracing.VectorKernel$::*,0.01",
   "-XX:CompileCommand=BackgroundCompilation,candela.accel.tracing.VectorKernel$::*,false"
-)
+) ++ compiledApart
 
 /** Code that a render runs once, as it reads and builds its scene: C2 gives it up at once, and C1's
   * code stays. Compiled by C2, which takes longer than the work, it would delay the first image.
@@ -84,16 +94,6 @@ val builtOnce = Seq(
   "candela.color.Matrix3*",
   "candela.bsdf.layered.RoughCoat$*"
 ).map(code => s"-XX:CompileCommand=MaxNodeLimit,$code::*,1") // an option of JDK 22 and later
-
-/** Large steps of guided paths that several others call: C2 compiles each once, not for each caller
-  * again, which is a third of what `--guiding` adds to its work.
-  */
-val compiledApart = Seq(
-  "GuidedScattering::scatterOnce",
-  "Guidance::scatter",
-  "Guidance::drawBsdf",
-  "Guidance::drawField"
-).map(code => s"-XX:CompileCommand=dontinline,candela.integrators.$code")
 
 val compiled = Seq(
   scalacOptions ++= Seq("-encoding", "UTF-8"),
@@ -258,7 +258,7 @@ lazy val site = (project in file("site")).settings(
 def program = Def.task {
   val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
   val folder = target.value / "program"
-  val options = jvmOptions ++ compiledApart ++ memory
+  val options = jvmOptions ++ memory
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))

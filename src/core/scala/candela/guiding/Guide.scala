@@ -182,9 +182,10 @@ final class Guide(
         val isTried = field.guides && goesOn(next(end))
         val trial =
           if progress.pays then Promising
-          else if isTried then TrialPaths
+          else if isTried && !progress.sure then TrialPaths
           else LearningPaths
-        Math.min(1.0, trial / (paths * Math.max(lit, 1e-3))).toFloat
+        val judged = if progress.sure then PathsPerRegion * field.regions else 0
+        Math.min(1.0, Math.max(trial, judged) / (paths * Math.max(lit, 1e-3))).toFloat
     val rate = Math.min(1.0, settings.records / (paths * part * Math.max(found, 1e-3))).toFloat
     Pass(field, begun, part, if learns then GuideRecords(rate, field.regions, memory) else null)
 
@@ -267,6 +268,11 @@ object Guide:
 
   /** Likewise, of those in between. */
   private val TrialPaths = 1 << 14
+
+  /** Likewise, for each region, since it is certain no more: all that was learnt has made regions
+    * many, and those of few events are not judged.
+    */
+  private val PathsPerRegion = 2 * GuideGrowth.Fewest
 
   /** Likewise, where it has paid, but not clearly: of a short rendering nearly all. */
   private val Promising = 1 << 17

@@ -8,11 +8,11 @@ package candela.guiding
   * @param lobes      of the guided regions
   * @param bounces    off surfaces that are not specular
   * @param guided     of these, those that were guided
-  * @param left       what guiding left of the variance, by the paths of the last pass that learnt,
-  *   if they were enough
+  * @param left       what guiding left of the variance, by the paths of the last pass that learnt
+  *   from enough of them; on average of the last two, if the one before paid, but not clearly
   * @param weight     of the last samples, relative to the first
   * @param gaveUp     was guiding given up because it did not pay?
-  * @param pays       did it in the last of these passes?
+  * @param pays       did it, by what guiding left in that pass, or on average of these two?
   */
 final case class GuideOutcome(
     samples: Int,

@@ -49,8 +49,8 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
   def isOfFew: Boolean = reference.isEmpty && estimate.isOfFew
 
   /** Samples per pixel with which the relative error is at most this, by its trend, and with which
-    * it will be seen to be, with 95 %: at doublings where it is measured, and at eighths of them
-    * where it is estimated.
+    * it will be seen to be, with 95 %: at doublings where it is measured; where it is estimated, at
+    * any number, beyond the next doubling as the geometric mean of several estimates.
     */
   def samplesUntil(error: Double): Option[Interval] =
     val relativeMse = error * error

@@ -89,12 +89,12 @@ final class ErrorEstimate:
         if isOfFew then Double.PositiveInfinity else estimate * far(ErrorEstimate.TrendUp)
       Interval(estimate, estimate / far(ErrorEstimate.TrendDown), high)
 
-  /** Samples per pixel with which the relative MSE is at most this: a power of two, or eighths of
-    * one beyond. Up to the next power of two, where the error is estimated anew, that is what
-    * [[at]] says. Beyond, it is the geometric mean of what this and the earlier estimates say, the
-    * earlier the less, as noise changes from one power of two to the next. The 95 % interval is
-    * that of the number with which it will say so. There is none after two samples only, and no
-    * upper limit where few pixels have the error.
+  /** Samples per pixel with which the relative MSE is at most this. Up to the next power of two,
+    * where the error is estimated anew, that is what [[at]] says, to an eighth of a power of two or
+    * a smaller part. Beyond, it is the geometric mean of what this and the earlier estimates say,
+    * the earlier the less, as noise changes from one power of two to the next; each says it to an
+    * eighth. The 95 % interval is that of the number with which it will say so. There is none after
+    * two samples only, and no upper limit where few pixels have the error.
     */
   def samplesUntil(relativeMse: Double): Option[Interval] =
     for

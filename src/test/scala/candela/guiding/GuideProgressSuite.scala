@@ -46,6 +46,13 @@ class GuideProgressSuite extends AnyFunSuite:
     assert(start.after(verdict(0.61, 1.0)).after(verdict(0.8, 1.0)).doubts == 2)
     assert(start.after(verdict(0.61, 1.0)).after(verdict(0.68, 1.0)).isCertain)
     assert(start.after(verdict(0.4, 1.0)).after(verdict(0.8, 1.0)).doubts == 1)
+    // … which is of what branches cost, too
+    def afterCostly(left: Double, effort: Double) =
+      start.after(verdict(0.3, 1.0, cost = 3 * 3.5)).after(verdict(left, 1.0, cost = 3 * effort))
+    assert(!afterCostly(0.9, 1.2).pays && afterCostly(0.3, 3.4).isCertain)
+    // After it was certain, no single pass says it for good
+    val certain = start.after(verdict(0.4, 1.0)).after(verdict(0.4, 1.0))
+    assert(certain.after(verdict(1.1, 1.0)).doubts == 1)
 
   test("all paths are guided when guiding has clearly paid once, or twice one after the other"):
     def certain(lefts: Double*) =
@@ -72,12 +79,27 @@ class GuideProgressSuite extends AnyFunSuite:
     assert(start.after(verdict(0.5, 1.0)).after(verdict(9.0, 20.0)).weight == 1f)
 
   test("a pass of few paths says nothing"):
-    assert(start.after(verdict(0.1, 1.0, paths = 100L)) == start)
+    val few = verdict(0.1, 1.0, paths = 100L)
+    assert(start.after(few).after(few) == start)
+    val certain = start.after(verdict(0.4, 1.0))
+    assert(certain.after(few).after(few) == certain)
+
+  test("two passes of few paths are a doubt where it was certain, but is no more"):
+    val few = verdict(0.1, 1.0, paths = 100L)
+    val doubtful = start.after(verdict(0.4, 1.0)).after(verdict(0.8, 1.0))
+    assert(doubtful.after(few).doubts == 1 && doubtful.after(few).after(few).doubts == 2)
+    // In a row
+    val between = doubtful.after(few).after(verdict(0.61, 1.0)).after(few)
+    assert(between.doubts == 1 && between.pays)
+    assert(between.after(few).doubts == 2 && !between.after(few).pays)
 
   test("it is read as it was written"):
     val file = Files.createTempFile("candela-progress", "")
     val twice = start.after(verdict(0.5, 1.0)).after(verdict(0.5, 1.0))
-    for progress <- Vector(start, twice, start.after(verdict(2.0, 1.0))) do
+    val silent = start.after(verdict(0.3, 1.0)).after(verdict(0.8, 1.0, cost = 4.0))
+      .after(verdict(0.1, 1.0, paths = 100L))
+    assert(silent.sure && silent.silent == 1)
+    for progress <- Vector(start, twice, start.after(verdict(2.0, 1.0)), silent) do
       CheckedFile.write(file, "progress")(progress.save)
       assert(CheckedFile.read(file, "progress")(GuideProgress.load) == progress)
     Files.delete(file)

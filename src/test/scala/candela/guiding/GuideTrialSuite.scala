@@ -5,31 +5,31 @@ import org.scalatest.funsuite.AnyFunSuite
 class GuideTrialSuite extends AnyFunSuite:
   import GuideTrialSuite.*
 
-  private def guide() =
-    val guide = Guide(GuideSettings(adapts = true), planned = 64, pixels = Pixels)
-    pass(guide, until = 1, left = 1.0)
+  private def guide(learnsOn: Boolean = false) =
+    val guide = Guide(GuideSettings(adapts = true, learnsOn), planned = 64, pixels = Pixels)
+    val _ = pass(guide, until = 1, left = 1.0)
     guide
 
   test("guiding is given up after one pass that leaves all of the variance"):
     val trial = guide()
-    pass(trial, until = 2, left = 1.1)
+    val _ = pass(trial, until = 2, left = 1.1)
     assert(trial.outcome.gaveUp && !trial.pass.field.guides)
 
   test("guiding is given up after two passes that leave most of it"):
     val trial = guide()
-    pass(trial, until = 2, left = 0.8)
+    val _ = pass(trial, until = 2, left = 0.8)
     assert(!trial.outcome.gaveUp && trial.pass.part < 1f)
-    pass(trial, until = 4, left = 0.8)
+    val _ = pass(trial, until = 4, left = 0.8)
     assert(trial.outcome.gaveUp && trial.pass.part == 0f)
 
   test("all paths are guided after one pass that leaves little, or two that leave enough less"):
     val clear = guide()
-    pass(clear, until = 2, left = 0.4)
+    val _ = pass(clear, until = 2, left = 0.4)
     assert(clear.pass.part == 1f)
     val close = guide()
-    pass(close, until = 2, left = 0.61)
+    val _ = pass(close, until = 2, left = 0.61)
     assert(!close.outcome.gaveUp && close.pass.part < 1f)
-    pass(close, until = 4, left = 0.61)
+    val _ = pass(close, until = 4, left = 0.61)
     assert(close.pass.part == 1f)
 
   test("regions are judged before they are fitted as after"):
@@ -46,13 +46,21 @@ class GuideTrialSuite extends AnyFunSuite:
     assert(before.result().shares sameElements after.result().shares)
 
   test("nothing is fitted where guiding is given up"):
-    val records = GuideRecords(1f, GuideField.Start.regions)
-    record(records.newPart(), left = 0.7)
-    val settings = GuideSettings(adapts = true)
-    val growth = GuideFieldSuite.growth(GuideField.Start, records.sorted(), settings)
-    assert(growth.regions > 0)
-    growth.giveUp()
-    assert(growth.regions == 0)
+    def fitted(left: Double) =
+      val trial = guide()
+      val regions = pass(trial, until = 2, left)
+      (regions, trial.outcome.gaveUp)
+    assert(fitted(left = 1.1) == (0, true))
+    val (regions, gaveUp) = fitted(left = 0.8)
+    assert(regions > 0 && !gaveUp)
+
+  test("guiding is given up after it was certain, too, however many regions there are"):
+    val trial = guide(learnsOn = true)
+    val _ = pass(trial, until = 2, left = 0.5)
+    val _ = pass(trial, until = 4, left = 0.82)
+    assert(trial.pass.field.regions > 400 && trial.pass.part < 1f && !trial.outcome.gaveUp)
+    val _ = pass(trial, until = 8, left = 0.82)
+    assert(trial.outcome.gaveUp && trial.pass.part == 0f)
 
 private object GuideTrialSuite:
   val Pixels = 300000
@@ -63,14 +71,17 @@ private object GuideTrialSuite:
   /** Records a pass that ends before this sample.
     *
     * @param left part of the variance that guiding leaves
+    * @return regions that are fitted then
     */
-  def pass(guide: Guide, until: Int, left: Double): Unit =
+  def pass(guide: Guide, until: Int, left: Double): Int =
     val now = guide.pass
     val paths = (Pixels * (until - now.begun) * now.part).toInt
     val part = now.newPart()
     assert(part != null)
     record(part.nn, left, paths)
-    assert(guide.begin(until))
+    var fitted = 0
+    assert(guide.begin(until, moves = () => fitted += 1))
+    fitted
 
   /** Paths of one event, with the light 1 or [[Bright]], in places that do not depend on it. */
   def record(part: GuideRecords.Part, left: Double, paths: Int = 40000): Unit =
