@@ -61,6 +61,9 @@ private[candela] final class CausticPilot(
 ):
   import CausticPilot.*
 
+  /** What [[run]] chose by, if light paths reach the camera. */
+  private var looked: Option[Found] = None
+
   /** @return the choice, if light paths pay; and why, or why not */
   def run(): (Option[CausticChoice], String) =
     if !light.isCameraWhereItSays(scene, view) then (None, CausticPilot.CameraElsewhere)
@@ -68,11 +71,13 @@ private[candela] final class CausticPilot(
       val learnt = traced(light, LightKind.OfCasters, 0, LearningPaths, Seed, isLearning = true)
       if learnt.splats == 0 then withoutSplats else look(light.casters.aimed(learnt.learning.aim))
 
-  /** The choice with as many light paths as suit camera paths that its photons guide. */
-  def balanced(choice: CausticChoice): CausticChoice =
+  /** The choice of [[run]] with as many light paths as suit camera paths that its photons guide.
+    * The first round of these decides: specks that few find would hide what light paths bring.
+    */
+  def balanced(choice: CausticChoice): CausticChoice = looked.fold(choice): found =>
     val kinds = LightKind.values.toVector.take(if choice.ofLamps > 0f then 2 else 1)
-    val found = looked(choice.casters, kinds, 0, 1, choice.aim)
-    Expected.of(found, kinds, AimPilot.Overhead).choice(choice.casters).copy(aim = choice.aim)
+    val beside = found.beside(followed(choice.casters, kinds, 0, 1, choice.aim))
+    Expected.of(beside, kinds, AimPilot.Overhead).choice(choice.casters).copy(aim = choice.aim)
 
   private def withoutSplats: (Option[CausticChoice], String) =
     val why = "no light path reaches the camera"
@@ -80,10 +85,8 @@ private[candela] final class CausticPilot(
     if !light.findsAll || light.media.isDefined || !scene.lights.exists(_.isDelta) then
       (None, s"none: $why")
     else
-      (
-        Some(CausticChoice(light.casters, Least.toFloat)),
-        s"$why: manifold walks alone look for the light"
-      )
+      val few = CausticChoice(light.casters, BesideWalks.toFloat)
+      (Some(few), s"$why: manifold walks look for the light, and ${few.paths}")
 
   private def look(aimed: Casters): (Option[CausticChoice], String) =
     val (kinds, found) = ofKinds(aimed)
@@ -91,8 +94,9 @@ private[candela] final class CausticPilot(
     val expected =
       if light.findsAll || !first.pays then first
       else
-        found.add(looked(aimed, kinds, 1, Rounds))
+        found.add(look(aimed, kinds, 1, Rounds))
         Expected.of(found, kinds)
+    looked = Some(found)
     if light.findsAll || expected.pays then (Some(expected.choice(aimed)), expected.toString)
     else (None, s"none: $expected")
 
@@ -100,7 +104,7 @@ private[candela] final class CausticPilot(
     * the first round finds.
     */
   private def ofKinds(aimed: Casters): (Vector[LightKind], Found) =
-    def first(kinds: Vector[LightKind]) = (kinds, looked(aimed, kinds, 0, 1))
+    def first(kinds: Vector[LightKind]) = (kinds, look(aimed, kinds, 0, 1))
     def gain(kinds: Vector[LightKind], found: Found) = Expected.of(found, kinds).gain
     val few = first(Vector(LightKind.OfCasters))
     if !light.beginsAtLamps(scene) then few
@@ -108,26 +112,29 @@ private[candela] final class CausticPilot(
       val all = first(LightKind.values.toVector)
       if gain.tupled(all) > LeastGainOfMore * gain.tupled(few) then all else few
 
-  /** What light paths and the camera's paths, perhaps guided, of some rounds find. */
-  private def looked(
-      aimed: Casters,
-      kinds: Vector[LightKind],
-      from: Int,
-      until: Int,
-      aim: Option[PhotonField] = None
-  ): Found =
+  /** What light paths and the camera's paths of some rounds find. */
+  private def look(aimed: Casters, kinds: Vector[LightKind], from: Int, until: Int): Found =
     val by = light.copy(casters = aimed)
     val found = Found()
     for kind <- kinds do
       found.add(
         traced(by, kind, from * LookingPaths, until * LookingPaths, Seed + 1, isLearning = false)
       )
+    found.pairs.add(followed(aimed, kinds, from, until, None))
+    found
+
+  /** What the camera's paths, perhaps guided, of some rounds find beside light paths. */
+  private def followed(
+      aimed: Casters,
+      kinds: Vector[LightKind],
+      from: Int,
+      until: Int,
+      aim: Option[PhotonField]
+  ): PilotBlocks =
     val ofLamps = if kinds.contains(LightKind.OfLamps) then 1f else 0f
     val weights = CausticWeights(scene, aimed, view.camera, 1f, ofLamps)
-    found.blocks.add:
-      CameraPairs.followed(view, Seed + 2, pool, from * Pairs, until * Pairs): _ =>
-        (tracer(weights, aim), (_, _) => ())
-    found
+    CameraPairs.followed(view, Seed + 2, pool, from * Pairs, until * Pairs): _ =>
+      (tracer(weights, aim), (_, _) => ())
 
   /** What the light paths `from` to `until` find. */
   private def traced(
@@ -150,7 +157,8 @@ private[candela] final class CausticPilot(
 
   /** What some of the paths found. Mutable. */
   private final class Found:
-    val blocks = PilotBlocks(view)
+    /** Of light paths, and of the camera's paths beside them. */
+    val splatted, pairs = PilotBlocks(view)
     val learning = CasterLearning()
     var splats = 0L
 
@@ -159,12 +167,29 @@ private[candela] final class CausticPilot(
     val lightPaths = new Array[Int](lightRays.length)
 
     def add(other: Found): Unit =
-      blocks.add(other.blocks)
+      pairs.add(other.pairs)
+      addLight(other)
+
+    private def addLight(other: Found): Unit =
+      splatted.add(other.splatted)
       learning.addAll(other.learning)
       splats += other.splats
       loop(lightRays.length): k =>
         lightRays(k) += other.lightRays(k)
         lightPaths(k) += other.lightPaths(k)
+
+    /** The same light paths, beside other paths from the camera. */
+    def beside(others: PilotBlocks): Found =
+      val found = Found()
+      found.addLight(this)
+      found.pairs.add(others)
+      found
+
+    def variances(usual: Double): PilotBlocks.Variances =
+      val all = PilotBlocks(view)
+      all.add(splatted)
+      all.add(pairs)
+      all.variances(lightPaths(0), usual)
 
     def trace(
         by: CausticLight,
@@ -215,14 +240,14 @@ private[candela] final class CausticPilot(
       extends SplatObserver:
     def see(x: Float, y: Float, light: Rgb, others: Double): Unit =
       val weighted = light.average.toDouble
-      if weighted > 0.0 && weighted < Float.PositiveInfinity && found.blocks.contains(x, y) then
+      if weighted > 0.0 && weighted < Float.PositiveInfinity && found.splatted.contains(x, y) then
         found.splats += 1
         if learns.isDefined then for p <- learns do found.learning.add(p.place, weighted)
         else
           // The weight is 1 / (1 + others); q/p of the light path
           val ratio =
             Math.min(if others > 0.0 then 1.0 / Math.sqrt(others) else MostRatio, MostRatio)
-          found.blocks.addSplat(x, y, kind, weighted, weighted * (1.0 + others), ratio)
+          found.splatted.addSplat(x, y, kind, weighted, weighted * (1.0 + others), ratio)
 
   /** Samples of an image for which light paths shall pay. Where they may begin at lamps, those of
     * casters alone seem to bring more than any can, by light that is found once in a million
@@ -249,15 +274,15 @@ private[candela] final class CausticPilot(
     /** @param overhead time of a ray of the camera's paths, relative to that of unguided ones */
     def of(found: Found, kinds: Vector[LightKind], overhead: Double = 1.0): Expected =
       val cost = found.lightRays.indices.map: k =>
-        found.lightRays(k).toDouble / Math.max(1, found.lightPaths(k)) / found.blocks.raysPerPath
-      val variances = found.blocks.variances(found.lightPaths(0), usual)
+        found.lightRays(k).toDouble / Math.max(1, found.lightPaths(k)) / found.pairs.raysPerPath
+      val variances = found.variances(usual)
       import variances.*
+      // To the nearest power of two in media; elsewhere down, as the ring of docs/CAUSTICS.md asks
+      val ample = if kinds.contains(LightKind.OfLamps) then Math.sqrt(2.0) else 1.0
       val perSample = LightKind.values.toVector.map: kind =>
         val k = kind.ordinal
-        val best = Math.sqrt(overhead * byLight(k) / (byPaths * cost(k)))
-        if !kinds.contains(kind) then 0.0
-        else
-          Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
+        val best = ample * Math.sqrt(overhead * byLight(k) / (byPaths * cost(k)))
+        if kinds.contains(kind) then amount(best) else 0.0
       val byAll = byLight.lazyZip(perSample).map((v, n) => if n > 0.0 then v / n else 0.0).sum
       val costs = overhead + cost.lazyZip(perSample).map(_ * _).sum
       Expected(gainOf(byPaths + without, (byPaths + byAll) * costs), perSample)
@@ -282,6 +307,11 @@ private[candela] object CausticPilot:
   inline val Least = 1.0 / 64
   inline val Most = 16.0
 
+  /** The same beside manifold walks, where the pilot's find nothing. What others then find counts
+    * as many times as they are few.
+    */
+  inline val BesideWalks = 1.0 / 8
+
   /** What one light path finds must not decide alone. */
   inline val MostRatio = 1e6
 
@@ -293,6 +323,14 @@ private[candela] object CausticPilot:
 
   /** Times the efficiency, from which on paths from lamps are taken beside those from casters. */
   inline val LeastGainOfMore = 1.2
+
+  /** A power of two, not above `best`, within bounds.
+    *
+    * @param best not a number where neither light paths nor the camera's find anything
+    */
+  def amount(best: Double): Double =
+    if best > 0.0 then Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
+    else Least
 
   /** The factor of efficiency, from variance times cost before and after; one where nothing is
     * noisy.

@@ -1,10 +1,10 @@
 package candela.bidirectional
 
-import candela.build.{ColorMode, RenderSettings}
+import candela.build.{BuildControl, ColorMode, RenderSettings, SceneBuilder}
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
-import candela.render.{Renderer, RenderPlan}
+import candela.render.{Renderer, RenderPlan, ThreadPool}
 import candela.scenefile.Dialect
 import candela.testing.{BlockMeans, SceneTexts}
 
@@ -18,7 +18,13 @@ import java.nio.file.{Files, Path}
 final class AimPilotSuite extends AnyFunSuite:
   import AimPilotSuite.*
 
-  private def plan(mode: CausticsMode, text: String, seed: Int, guiding: GuidingMode): RenderPlan =
+  private def plan(
+      mode: CausticsMode,
+      text: String,
+      seed: Int,
+      guiding: GuidingMode,
+      threads: Int = 1
+  ): RenderPlan =
     val settings = RenderSettings(
       Some(64),
       seed,
@@ -26,7 +32,8 @@ final class AimPilotSuite extends AnyFunSuite:
       caustics = Some(mode),
       guiding = Some(guiding)
     )
-    SceneTexts.plan(text, Dialect.V4, settings)
+    val control = BuildControl(pool = ThreadPool(threads))
+    SceneBuilder.build(SceneTexts.parse(text, Dialect.V4), settings, control)._1
 
   private def image(
       mode: CausticsMode,
@@ -35,12 +42,13 @@ final class AimPilotSuite extends AnyFunSuite:
       guiding: GuidingMode = GuidingMode.Off,
       threads: Int = 2
   ): Image =
-    val made = plan(mode, text, seed, guiding)
+    val made = plan(mode, text, seed, guiding, threads)
     Renderer.render(made, threads).image(made.development)
 
   private def told(text: String): String =
     plan(CausticsMode.Auto, text, 0, GuidingMode.Off).features.toMap.apply("caustics")
 
+  private lazy val glass = Files.readString(Path.of("scenes/v4-caustics-glass.pbrt"))
   private lazy val unguided = image(CausticsMode.Off, seed = 1)
 
   test("photons guide paths under water, and the mean of each block stays"):
@@ -60,11 +68,11 @@ final class AimPilotSuite extends AnyFunSuite:
     assert(ratio < 0.2, ratio)
 
   test("guided by photons, an image has the same bits for any number of threads"):
-    val one = image(CausticsMode.Auto, threads = 1)
-    assert(image(CausticsMode.Auto, threads = 3).data.sameElements(one.data))
+    for text <- Seq(Water, glass) do
+      val one = image(CausticsMode.Auto, text, threads = 1)
+      assert(image(CausticsMode.Auto, text, threads = 3).data.sameElements(one.data))
 
   test("beside paths that photons guide, there are as many light paths as suit these"):
-    val glass = Files.readString(Path.of("scenes/v4-caustics-glass.pbrt"))
     val counts = raw"([\d.]+) light paths per camera sample".r
     val all = counts.findAllMatchIn(told(glass)).map(_.group(1).toDouble).toVector
     // Unguided paths leave more noise than light paths can take away; guided ones do not
