@@ -55,10 +55,11 @@ final class CacheFolder(val path: Path, most: Long):
       if Try(Files.deleteIfExists(file)).isSuccess then sum -= size
 
 object CacheFolder:
-  /** Of files of tiles, and of parts of scenes. */
+  /** Of files of tiles, of parts of scenes, and of tables of digests. */
   val Tiles = ".tiles"
   val Parts = ".part"
-  private val Suffixes = Vector(Tiles, Parts)
+  val Digests = ".digests"
+  private val Suffixes = Vector(Tiles, Parts, Digests)
 
   /** Bytes that the files may take, if nobody says. */
   val UsualSize: Long = 20_000_000_000L

@@ -76,7 +76,7 @@ object FileDigests:
       isNew = false
       fresh.asScala.iterator.map(n => n -> rows.get(n)).toMap
 
-  private[base] object TableForm extends PartForm[Rows]("digests 1"):
+  private[base] object TableForm extends PartForm[Rows]("digests 1", CacheFolder.Digests):
     /** Written however small: it stands for reading all of the files. */
     def size(rows: Rows): Long = PartFiles.Least
 

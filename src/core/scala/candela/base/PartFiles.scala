@@ -4,9 +4,10 @@ import java.io.IOException
 
 /** How things of a kind are written to files, and read from them.
   *
-  * @param name tells the kind and the version of its form
+  * @param name   tells the kind and the version of its form
+  * @param suffix of the files' names
   */
-abstract class PartForm[A](val name: String):
+abstract class PartForm[A](val name: String, val suffix: String = CacheFolder.Parts):
   /** Bytes of the file, about. */
   def size(thing: A): Long
 
@@ -28,7 +29,7 @@ final class PartFiles(folder: CacheFolder):
 
   /** What is in the file of this key; None if there is none, or none that is whole. */
   def read[A](form: PartForm[A], key: String): Option[A] =
-    val file = folder.file(mark(form, key), CacheFolder.Parts)
+    val file = folder.file(mark(form, key), form.suffix)
     try
       val found = CheckedFile.read(file, mark(form, key)): in =>
         val made = form.read(in)
@@ -46,7 +47,7 @@ final class PartFiles(folder: CacheFolder):
     if obstacle.isEmpty && form.size(thing) >= PartFiles.Least then
       val words = mark(form, key)
       try
-        folder.write(folder.file(words, CacheFolder.Parts)): channel =>
+        folder.write(folder.file(words, form.suffix)): channel =>
           CheckedFile.writeTo(channel, words)(form.write(thing, _))
       catch
         case e: WriteError => if isNeeded then obstacle = Some(e.getMessage)

@@ -167,9 +167,9 @@ class KeptScenesSuite extends AnyFunSuite:
       def cached(threads: Int) =
         rendered(folder, "--nthreads", s"$threads", "--scene-cache", s"$cache")
       assert(cached(1) == (alone, ""))
-      val names = TempFolder.names(cache)
+      val names = TempFolder.names(cache).filter(_.endsWith(".part"))
       // Two meshes, the hierarchy of the world, and that of the object
-      assert(names.size == 4 && names.forall(_.endsWith(".part")), names)
+      assert(names.size == 4, names)
       val files = names.toVector.map(cache.resolve(_)).map(f => f -> Files.readAllBytes(f))
       assert(cached(2) == (alone, ""))
       val damages = Seq[Array[Byte] => Array[Byte]](
@@ -204,7 +204,7 @@ class KeptScenesSuite extends AnyFunSuite:
         "--outfile",
         s"$folder/y.pfm"
       )
-      assert(TempFolder.names(folder.resolve("d")).size == 4)
+      assert(TempFolder.names(folder.resolve("d")).count(_.endsWith(".part")) == 4)
 
   test("a scene cache that can't be written is told of once, and nothing is lost"):
     prepared: folder =>
