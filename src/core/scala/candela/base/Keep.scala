@@ -20,6 +20,9 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles]):
   private val digests = FileDigests(files)
   private val scenes = AtomicInteger()
 
+  /** Whether some is kept in files. */
+  def isFiled: Boolean = files.nonEmpty
+
   /** Begins another scene. */
   def begin(): Unit =
     val latest = scenes.incrementAndGet()

@@ -1,6 +1,6 @@
 package candela.bidirectional
 
-import candela.build.{BuildControl, ColorMode, RenderSettings, SceneBuilder}
+import candela.build.{BuildControl, ColorMode, RenderSettings}
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
@@ -33,7 +33,7 @@ final class AimPilotSuite extends AnyFunSuite:
       guiding = Some(guiding)
     )
     val control = BuildControl(pool = ThreadPool(threads))
-    SceneBuilder.build(SceneTexts.parse(text, Dialect.V4), settings, control)._1
+    SceneTexts.plan(text, Dialect.V4, settings, control)
 
   private def image(
       mode: CausticsMode,

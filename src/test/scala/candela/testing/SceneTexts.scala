@@ -3,7 +3,7 @@ package candela.testing
 import java.nio.file.Path
 
 import candela.base.{Problem, SceneError}
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.{BuildControl, RenderSettings, SceneBuilder}
 import candela.color.Rgb
 import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser, SceneDescription}
@@ -17,8 +17,9 @@ object SceneTexts:
   def plan(
       text: String,
       dialect: Dialect = Dialect.V3,
-      options: RenderSettings = RenderSettings()
-  ): RenderPlan = SceneBuilder.build(parse(text, dialect), options)._1
+      options: RenderSettings = RenderSettings(),
+      control: BuildControl = BuildControl()
+  ): RenderPlan = SceneBuilder.build(parse(text, dialect), options, control)._1
 
   /** All that building has to say, warnings or errors. */
   def problems(

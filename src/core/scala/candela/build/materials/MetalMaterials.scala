@@ -51,22 +51,19 @@ private[build] trait MetalFields extends SpectrumFields:
   protected final def metal(index: MetalIndex, outside: Float = 1f)(using
       site: Site
   ): MetalTexture =
-    index.reflectance.flatMap(_.given_()) match
-      case Some(color) =>
-        tintedMetal(index, outside)(color, tintedSpectrum(color, outside), site)
-      case None if site.rules.plainMetals && !site.resources.basis.isSpectral =>
-        // Mitsuba multiplies three numbers here, too
-        def plain(source: SpectrumSource) = SpectrumSource.textured(source):
-          case SpectralValue.Color(c, _) => c
-          case other => site.resources.basis.ofReflectance(Indices.spectrum(other))
-        IndexedMetal(plain(index.eta()), plain(index.k()), outside)
-      case None =>
-        spectral(index, outside) match
-          case Some(reflected) => uniform(reflected, site)
-          case None =>
-            def varying(source: SpectrumSource) = SpectrumSource.textured(source): value =>
-              site.resources.basis.ofReflectance(Indices.spectrum(value))
-            IndexedMetal(varying(index.eta()), varying(index.k()), outside)
+    if site.rules.plainMetals && !site.resources.basis.isSpectral then
+      // Mitsuba multiplies three numbers here, too
+      def plain(source: SpectrumSource) = SpectrumSource.textured(source):
+        case SpectralValue.Color(c, _) => c
+        case other => site.resources.basis.ofReflectance(Indices.spectrum(other))
+      IndexedMetal(plain(index.eta()), plain(index.k()), outside)
+    else
+      spectral(index, outside) match
+        case Some(reflected) => uniform(reflected, site)
+        case None =>
+          def varying(source: SpectrumSource) = SpectrumSource.textured(source): value =>
+            site.resources.basis.ofReflectance(Indices.spectrum(value))
+          IndexedMetal(varying(index.eta()), varying(index.k()), outside)
 
   /** Makes conductors by their reflectance at normal incidence, its [[tintedSpectrum]], and their
     * sites.
@@ -91,14 +88,11 @@ private[build] trait MetalFields extends SpectrumFields:
   protected final def spectral(index: MetalIndex, outside: Float)(using
       site: Site
   ): Option[Float => Float => Float] =
-    index.reflectance.flatMap(_.given_()) match
-      case Some(color) => tintedSpectrum(color, outside)
-      case None =>
-        (index.eta(), index.k()) match
-          case (SpectrumSource.Uniform(eta), SpectrumSource.Uniform(k)) =>
-            val (n, a) = (kept(Indices.spectrum(eta)), kept(Indices.spectrum(k)))
-            Some(c => nm => Fresnel.conductor(c, n(nm) / outside, a(nm) / outside))
-          case _ => None
+    (index.eta(), index.k()) match
+      case (SpectrumSource.Uniform(eta), SpectrumSource.Uniform(k)) =>
+        val (n, a) = (kept(Indices.spectrum(eta)), kept(Indices.spectrum(k)))
+        Some(c => nm => Fresnel.conductor(c, n(nm) / outside, a(nm) / outside))
+      case _ => None
 
   /** Likewise, of a conductor of this reflectance at normal incidence. */
   protected final def tintedSpectrum(color: RgbTexture, outside: Float)(using

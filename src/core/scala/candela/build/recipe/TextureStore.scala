@@ -6,8 +6,7 @@ import java.util.concurrent.ConcurrentHashMap
 
 import candela.base.{
   ByteCount, CacheFolder, Code, FileDigests, InputFile, Keep, Parallel, PartFiles, PartForm,
-  Refusal, Sha256,
-  Version
+  Refusal, Sha256, Version
 }
 import candela.image.ImageSize
 import candela.scenefile.{Declaration, Dialect, SceneDescription}
@@ -183,7 +182,8 @@ object TextureStore:
             val say = s"$images, $about, in tiles: at most ${ByteCount.show(most)} in memory"
             val lights = if maps.isEmpty then None else cache
             val tables = lights.map(_ => PartFiles(folder))
-            val known = FileDigests(Some(PartFiles(folder)))
+            // What is kept in files has a table of its own
+            val known = FileDigests(Option.unless(keep.isFiled)(PartFiles(folder)))
             new TextureStore(cache, lights, say, Some(path), most, files, pool, keep, tables, known)
 
   private def sizeOf(files: Vector[InputFile])(bytes: ImageSize => Long): Long =
