@@ -1,14 +1,15 @@
 package candela.bench
 
+import candela.base.WholeFile
 import candela.suite.{SuiteFile, SuiteScene}
 
 import java.awt.image.BufferedImage
-import java.io.{BufferedWriter, PrintWriter}
+import java.io.{BufferedWriter, IOException, PrintWriter}
+import java.nio.channels.Channels
+import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 import java.util.{Locale, SplittableRandom}
 import javax.imageio.ImageIO
-
-import scala.util.Using
 
 /** Writes the scenes of `bench/suites/growth.conf`, where the suite looks for them: in the folder
   * that `CANDELA_GROWTH` names.
@@ -44,29 +45,25 @@ object GrowthScenes:
       println(s"wrote $file")
 
   private def write(scene: SuiteScene, size: Int, file: Path): Unit =
-    whole(file): part =>
-      Using.resource(PrintWriter(BufferedWriter(Files.newBufferedWriter(part), 1 << 16))): out =>
-        val growing = GrowingScene(out, file.getParent)
-        scene.name.takeWhile(_ != '-') match
-          case "triangles" => growing.triangles(size)
-          case "instances" => growing.instances(size)
-          case "objects" => growing.objects(size)
-          case "lamps" => growing.lamps(size)
-          case "spheres" => growing.spheres(size)
-          case "curves" => growing.curves(size)
-          case "materials" => growing.materials(size)
-          case "textures" => growing.textures(size)
-          case "texels" => growing.texels(size)
-          case "includes" => growing.includes(size)
-          case "depth" => growing.depth(size)
-          case "blocks" => growing.blocks(size)
-          case "film" => growing.film(size)
-
-  /** Writes a file whole, or not at all: what is there is not written again. */
-  private[bench] def whole(file: Path)(write: Path => Any): Unit =
-    val part = file.resolveSibling(s"${file.getFileName}.part")
-    write(part): Unit
-    Files.move(part, file): Unit
+    WholeFile.write(file): channel =>
+      val out = PrintWriter(BufferedWriter(Channels.newWriter(channel, UTF_8), 1 << 16))
+      val growing = GrowingScene(out, file.getParent)
+      scene.name.takeWhile(_ != '-') match
+        case "triangles" => growing.triangles(size)
+        case "instances" => growing.instances(size)
+        case "objects" => growing.objects(size)
+        case "lamps" => growing.lamps(size)
+        case "spheres" => growing.spheres(size)
+        case "curves" => growing.curves(size)
+        case "materials" => growing.materials(size)
+        case "textures" => growing.textures(size)
+        case "texels" => growing.texels(size)
+        case "includes" => growing.includes(size)
+        case "depth" => growing.depth(size)
+        case "blocks" => growing.blocks(size)
+        case "film" => growing.film(size)
+      // All is written with this question
+      if out.checkError() then throw IOException("its device takes no more")
 
 /** One scene, for pbrt-v4.
   *
@@ -100,7 +97,7 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
   /** @return a shape statement of a mesh that is written beside the scene */
   private def mesh(triangles: Int): String =
     val file = folder.resolve(s"torus-$triangles.ply")
-    if !Files.exists(file) then GrowthScenes.whole(file)(Torus(triangles).write)
+    if !Files.exists(file) then Torus(triangles).write(file)
     s"Shape \"plymesh\" \"string filename\" \"${file.getFileName}\""
 
   def triangles(count: Int): Unit =
@@ -210,7 +207,8 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
         for x <- 0 until side; b <- 0 until bands do
           row(bands * x + b) = (118 + 110 * across(x + 90 * b) * down + noise.nextInt(16)).toInt
         raster.setPixels(0, y, side, 1, row)
-      GrowthScenes.whole(file)(part => ImageIO.write(image, "png", part.toFile))
+      WholeFile.write(file): channel =>
+        ImageIO.write(image, "png", Channels.newOutputStream(channel)): Unit
 
   def includes(count: Int): Unit =
     head()

@@ -1,10 +1,12 @@
 package candela.bench
 
 import candela.accel.Primitives
+import candela.base.WholeFile
 import candela.shapes.{Mesh, TriangleSoup}
 
 import java.io.BufferedOutputStream
-import java.nio.file.{Files, Path}
+import java.nio.channels.Channels
+import java.nio.file.Path
 import java.nio.{ByteBuffer, ByteOrder}
 import java.util.SplittableRandom
 
@@ -50,25 +52,24 @@ final class Torus(triangles: Int):
     Primitives(soup, Array.empty)
 
   /** As a binary PLY file. */
-  def write(path: Path): Unit =
-    val out = BufferedOutputStream(Files.newOutputStream(path), 1 << 20)
-    try
-      val header =
-        s"ply\nformat binary_little_endian 1.0\nelement vertex ${positions.length / 3}\n" +
-          "property float x\nproperty float y\nproperty float z\n" +
-          s"element face $count\nproperty list uchar int vertex_indices\nend_header\n"
-      out.write(header.getBytes("US-ASCII"))
-      val words = ByteBuffer.allocate(13).order(ByteOrder.LITTLE_ENDIAN)
-      def put(fill: => Unit): Unit =
-        words.clear()
-        fill
-        out.write(words.array, 0, words.position)
-      for i <- positions.indices do put(words.putFloat(positions(i)): Unit)
-      for f <- 0 until count do
-        put:
-          words.put(3.toByte)
-          for k <- 0 until 3 do words.putInt(indices(3 * f + k)): Unit
-    finally out.close()
+  def write(path: Path): Unit = WholeFile.write(path): channel =>
+    val out = BufferedOutputStream(Channels.newOutputStream(channel), 1 << 20)
+    val header =
+      s"ply\nformat binary_little_endian 1.0\nelement vertex ${positions.length / 3}\n" +
+        "property float x\nproperty float y\nproperty float z\n" +
+        s"element face $count\nproperty list uchar int vertex_indices\nend_header\n"
+    out.write(header.getBytes("US-ASCII"))
+    val words = ByteBuffer.allocate(13).order(ByteOrder.LITTLE_ENDIAN)
+    def put(fill: => Unit): Unit =
+      words.clear()
+      fill
+      out.write(words.array, 0, words.position)
+    for i <- positions.indices do put(words.putFloat(positions(i)): Unit)
+    for f <- 0 until count do
+      put:
+        words.put(3.toByte)
+        for k <- 0 until 3 do words.putInt(indices(3 * f + k)): Unit
+    out.flush()
 
 object Torus:
 
