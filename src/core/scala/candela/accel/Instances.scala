@@ -6,8 +6,9 @@ import candela.base.{IntBuffer, Parallel, loop}
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** Object instances: an instance is a pair of matrices, and a ray that enters it is transformed to
-  * object space and traced against the object's own accelerator.
+/** Object instances: an instance is a matrix, by which a ray that enters it is transformed to
+  * object space, and traced against the object's own accelerator. The matrix back is computed from
+  * it where a hit is looked at.
   *
   * The transformed direction is not normalised, so distances mean the same in both spaces. Matrices
   * are applied in Double: the only loss is the rounding of the object-space ray to Float, which
@@ -20,7 +21,8 @@ import candela.math.*
   * @param objectOf index into `objects` of each instance
   * @param matrices of the static instances, which come first; see [[candela.math.MotionRows]]
   * @param rowOf    number of the matrix of each; null: its own
-  * @param motions  motions of the animated instances, which follow
+  * @param motions  motions of the animated instances, which follow, and of those that have no row
+  * @param moving   how many are animated
   * @param open     shutter opening time; `close` is its closing time
   */
 final class Instances private (
@@ -29,17 +31,17 @@ final class Instances private (
     matrices: Array[Array[Double]],
     rowOf: Array[Int] | Null,
     motions: Array[Motion],
+    val moving: Int,
     open: Float,
     close: Float
 ):
   private val still = objectOf.length - motions.length
 
   def count: Int = objectOf.length
-  def moving: Int = motions.length
 
   def bounds(i: Int): Bounds3 =
     val box = objects(objectOf(i)).bounds
-    if i < still then Placement.bounds(numbers(i), start(i), box)
+    if i < still then Placement.bounds(written(i, new Array[Double](Motion.Doubles)), 0, box)
     else Placement.bounds(motions(i - still), open, close, box)
 
   /** Finds the closest hit of instance `i` in (0, `ray.tMax`): shortens the ray and writes the
@@ -64,35 +66,31 @@ final class Instances private (
     else
       val space = ray.nested.space
       motions(i - still).write(ray.time, space, 0)
-      Placement.enter(space, 0, ray)
+      Placement.enter(space, Placement.Inverse, ray)
 
   /** Transforms a shading point on instance `i` from object to world space, for the ray last passed
     * to [[enter]] for it.
     */
   def locate(i: Int, ray: Ray, at: ShadingPoint): Unit =
-    if i < still then Placement.locate(numbers(i), start(i), at)
-    else Placement.locate(ray.nested.space, 0, at)
+    val space = ray.nested.space
+    Placement.locate(if i < still then written(i, space) else space, 0, at)
 
   /** The object's point `p`, in world space at the ray's time. */
-  def place(i: Int, ray: Ray, p: Vec3): Vec3 = Placement.point(rows(i, ray), start(i), p)
+  def place(i: Int, ray: Ray, p: Vec3): Vec3 = Placement.point(rows(i, ray), 0, p)
 
   /** The point `p` of world space, in the object's at the ray's time. */
   def toObject(i: Int, ray: Ray, p: Vec3): Vec3 =
-    Placement.point(rows(i, ray), start(i) + Placement.Inverse, p)
+    Placement.point(rows(i, ray), Placement.Inverse, p)
 
   /** Area in the object's space per area in world space, at the ray's time, of a surface that has
     * the unit normal `n` in world space.
     */
-  def shrinkage(i: Int, ray: Ray, n: Vec3): Float = Placement.shrinkage(rows(i, ray), start(i), n)
+  def shrinkage(i: Int, ray: Ray, n: Vec3): Float = Placement.shrinkage(rows(i, ray), 0, n)
 
   /** Mean scale of lengths, of the moving ones when the shutter opens. */
   def stretch(i: Int): Double =
-    val m =
-      if i < still then numbers(i).slice(start(i), start(i) + Motion.Doubles)
-      else
-        val work = new Array[Double](Motion.Work)
-        motions(i - still).write(open, work, 0)
-        work
+    val m = new Array[Double](Motion.Work)
+    if i < still then written(i, m): Unit else motions(i - still).write(open, m, 0)
     Math.cbrt(Math.abs(Placement.determinant(m, 0)))
 
   private def row(i: Int): Int =
@@ -102,12 +100,17 @@ final class Instances private (
   /** Of a static instance. */
   private def numbers(i: Int): Array[Double] = matrices(MotionRows.chunk(row(i)))
 
-  private def start(i: Int): Int = if i < still then MotionRows.start(row(i)) else 0
+  private def start(i: Int): Int = MotionRows.start(row(i))
+
+  /** Both matrices of a static instance, written to `to`. */
+  private def written(i: Int, to: Array[Double]): Array[Double] =
+    MotionRows.write(numbers(i), start(i), to, 0)
+    to
 
   private def rows(i: Int, ray: Ray): Array[Double] =
-    if i < still then numbers(i)
+    val space = ray.nested.space
+    if i < still then written(i, space)
     else
-      val space = ray.nested.space
       motions(i - still).write(ray.time, space, 0)
       space
 
@@ -115,7 +118,8 @@ object Instances:
   val Empty: Instances = of(Array.empty, IndexedSeqView.Id(Vector.empty))
 
   /** @param places      (index into `objects`, object to world), which are made when asked for, as
-    *   there may be millions; animated instances are numbered last. The numbers of [[MotionRow]]s
+    *   there may be millions; animated instances are numbered last, with the few whose matrix is
+    *   nearly singular, and stays a pair. The numbers of [[MotionRow]]s
     *   are used where they are, if they are of the same [[MotionRows]] as the first
     * @param open, close shutter times
     */
@@ -132,13 +136,13 @@ object Instances:
     parallel.ranges(places.length): (from, until) =>
       loop(from, until)(i => kinds(i) = kind(places(i)._2, shared).toByte)
     val found = IntBuffer()
-    loop(places.length)(i => if kinds(i) == Moving then found += i)
-    val moving = found.take()
-    val still = places.length - moving.length
+    loop(places.length)(i => if kinds(i) == Apart then found += i)
+    val apart = found.take()
+    val still = places.length - apart.length
     val objectOf = new Array[Int](places.length)
-    val motions = new Array[Motion](moving.length)
-    loop(moving.length): k =>
-      val (which, motion) = places(moving(k))
+    val motions = new Array[Motion](apart.length)
+    loop(apart.length): k =>
+      val (which, motion) = places(apart(k))
       objectOf(still + k) = which
       motions(k) = motion
 
@@ -150,29 +154,36 @@ object Instances:
     var k = 0
     loop(places.length): i =>
       if kinds(i) == Own then rowOf(k) = rows.grow()
-      if kinds(i) != Moving then k += 1
-    val matrices = rows.all
+      if kinds(i) != Apart then k += 1
     parallel.ranges(places.length): (from, until) =>
-      // Moving ones before `from`
-      var passed = moving.search(from).insertionPoint
+      val work = new Array[Double](Motion.Work)
+      // Those apart before `from`
+      var passed = apart.search(from).insertionPoint
       loop(from, until): i =>
-        val kind = kinds(i)
-        if kind == Moving then passed += 1
+        if kinds(i) == Apart then passed += 1
         else
           val (which, motion) = places(i)
           val k = i - passed
           objectOf(k) = which
           motion match
-            case at: MotionRow if kind == Shared => rowOf(k) = at.row
+            case at: MotionRow if kinds(i) == Shared => rowOf(k) = at.row
             case _ =>
-              motion.write(0f, matrices(MotionRows.chunk(rowOf(k))), MotionRows.start(rowOf(k)))
-    val numbers = if shared == null then null else rowOf
-    new Instances(objects, objectOf, matrices, numbers, motions, open, close)
+              motion.write(0f, work, 0)
+              rows.put(rowOf(k), work)
+    // Most scenes have the rows of their instances in order
+    val numbers = if rowOf.indices.forall(k => rowOf(k) == k) then null else rowOf
+    val moving = motions.count(_.moves)
+    new Instances(objects, objectOf, rows.all, numbers, motions, moving, open, close)
 
   private inline val Own = 0
   private inline val Shared = 1
-  private inline val Moving = 2
+  private inline val Apart = 2
 
   private def kind(motion: Motion, shared: MotionRows | Null): Int = motion match
     case at: MotionRow if at.rows eq shared => Shared
-    case _ => if motion.moves then Moving else Own
+    case _ => if motion.moves || !canHold(motion) then Apart else Own
+
+  private def canHold(motion: Motion): Boolean =
+    val work = new Array[Double](Motion.Work)
+    motion.write(0f, work, 0)
+    MotionRows.canHold(work)

@@ -23,10 +23,12 @@ object Placement:
       m(at + 1) * (m(at + 4) * m(at + 10) - m(at + 6) * m(at + 8)) +
       m(at + 2) * (m(at + 4) * m(at + 9) - m(at + 5) * m(at + 8))
 
-  /** Transforms the ray to object space; the result is `ray.nested`, with the same distances. */
-  def enter(m: Array[Double], at: Int, ray: Ray): Ray =
+  /** Transforms the ray to object space; the result is `ray.nested`, with the same distances.
+    *
+    * @param i where the rows of world to object begin
+    */
+  def enter(m: Array[Double], i: Int, ray: Ray): Ray =
     val local = ray.nested
-    val i = at + Inverse
     val ox = ray.ox.toDouble
     val oy = ray.oy.toDouble
     val oz = ray.oz.toDouble

@@ -62,7 +62,7 @@ private[build] final class SceneSize(
       description.instances.size * Placed + unshared * Rows +
       (emitting + description.lights.size) * LampStatement
 
-  /** Instances whose matrices are copied, or are not those of a row. */
+  /** Instances whose matrix is copied, or is not that of a row. */
   private def unshared: Long =
     description.instances.size - uses.shared.map(_.plain.toLong).sum
 
@@ -101,14 +101,14 @@ private[build] object SceneSize:
   private val Statement = 330L
   private val LampStatement = 280L
 
-  /** Of an instance: without its matrices, which may be those of [[Instance]]. */
-  private val Placed = 20L
-  private val Rows = 192L
+  /** Of an instance: without its matrix, which may be that of [[Instance]]. */
+  private val Placed = 13L
+  private val Rows = 96L
   private val Sphere = 80L
   private val Solid = 500L
   private val Segment = 74L
   private val Patch = 172L
-  private val Instance = 200L
+  private val Instance = 104L
   private val Material = 1000L
   private val Lamp = 450L
   private val TriangleLamp = 550L

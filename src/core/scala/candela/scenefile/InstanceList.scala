@@ -27,10 +27,15 @@ final class InstanceList private (
     if i < 0 || i >= length then throw IndexOutOfBoundsException(i)
     store(number(i))
 
-  /** How many don't move, and have a transform that is neither perspective nor singular. */
+  /** Whether it doesn't move, and has a transform that is neither perspective nor (nearly)
+    * singular.
+    */
+  def isPlain(i: Int): Boolean = store.isPlain(number(i))
+
+  /** How many are plain. */
   def plain: Int =
     var count = 0
-    loop(length)(i => if store.isPlain(number(i)) then count += 1)
+    loop(length)(i => if isPlain(i) then count += 1)
     count
 
   /** Where they are. The motions of those that are not [[plain]] are made at once.
@@ -39,7 +44,7 @@ final class InstanceList private (
     */
   def motions(make: AnimatedTransform => Motion): IndexedSeqView[Motion] =
     val found = IntBuffer()
-    loop(length)(i => if !store.isPlain(number(i)) then found += i)
+    loop(length)(i => if !isPlain(i) then found += i)
     val others = found.take()
     val made = others.map(i => make(store.other(number(i))))
     (0 until length).view.map: i =>
@@ -122,14 +127,14 @@ object InstanceList:
 
 /** What is known of instances. It is added to until a list has it: lists are read by any thread.
   *
-  * @param numbers of each: its origin, line, column, and the number of its row; −1 − that of its
-  *   transform
+  * @param numbers of each: its origin, line, column
+  * @param others  those whose transform is not a row, in order; the rest have the rows in theirs
   */
 private final class InstanceStore private (
     val rows: MotionRows,
     numbers: IntBuffer,
     private var origins: Vector[InstanceStore.Origin],
-    private var others: Vector[AnimatedTransform]
+    private var others: Vector[InstanceStore.Other]
 ):
   import InstanceStore.*
 
@@ -137,7 +142,7 @@ private final class InstanceStore private (
   private var last = Origin("", "", None)
   private var lastNumber = -1
 
-  private inline val Each = 4
+  private inline val Each = 3
 
   def length: Int = numbers.length / Each
 
@@ -146,10 +151,10 @@ private final class InstanceStore private (
     new InstanceStore(rows.continued, numbers.continued, origins, others)
 
   def add(one: InstanceDescription): Unit =
+    place(one.instanceToWorld)
     numbers += originOf(one)
     numbers += one.at.line
     numbers += one.at.column
-    numbers += place(one.instanceToWorld)
 
   private def originOf(one: InstanceDescription): Int =
     val at = one.at
@@ -160,12 +165,10 @@ private final class InstanceStore private (
       lastNumber = numberOf.getOrElseUpdate(last, { origins :+= last; origins.size - 1 })
     lastNumber
 
-  private def place(t: AnimatedTransform): Int =
+  private def place(t: AnimatedTransform): Unit =
     val map = t.start
-    if (map eq t.end) && !map.isFlat && MotionRows.canHold(map) then rows.add(map)
-    else
-      others :+= t
-      -others.size
+    if (map eq t.end) && !map.isFlat && MotionRows.canHold(map) then rows.add(map): Unit
+    else others :+= Other(length, t)
 
   /** The names of all origins. */
   def names: Vector[String] = origins.map(_.name)
@@ -174,10 +177,22 @@ private final class InstanceStore private (
   def origin(i: Int): Int = numbers(Each * i)
 
   def isPlain(i: Int): Boolean = row(i) >= 0
-  def row(i: Int): Int = numbers(Each * i + 3)
+
+  /** The number of the row; −1 − that of another transform. */
+  def row(i: Int): Int =
+    val before = othersBefore(i)
+    if before < others.size && others(before).number == i then -1 - before else i - before
+
+  /** How many before `i` have no row. */
+  private def othersBefore(i: Int): Int =
+    var (low, high) = (0, others.size)
+    while low < high do
+      val middle = (low + high) >>> 1
+      if others(middle).number < i then low = middle + 1 else high = middle
+    low
 
   /** The transform of an instance that is not plain. */
-  def other(i: Int): AnimatedTransform = others(-1 - row(i))
+  def other(i: Int): AnimatedTransform = others(-1 - row(i)).toWorld
 
   def apply(i: Int): InstanceDescription =
     val Origin(name, file, includedFrom) = origins(origin(i))
@@ -188,6 +203,9 @@ private final class InstanceStore private (
 
 private object InstanceStore:
   final case class Origin(name: String, file: String, includedFrom: Option[SourcePos])
+
+  /** The transform of the instance of a number. */
+  final case class Other(number: Int, toWorld: AnimatedTransform)
 
   def empty: InstanceStore =
     new InstanceStore(MotionRows(), IntBuffer(), Vector.empty, Vector.empty)

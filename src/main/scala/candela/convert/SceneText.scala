@@ -166,8 +166,11 @@ final class SceneText private (out: Writer, scene: SceneDescription):
       val isPlain = scene.instances.forall(i => isStill(i.instanceToWorld))
       attributes(isPlain):
         var now = GraphicsState.Identity
-        for i <- scene.instances do
-          if i.instanceToWorld != now then text.transform(i.instanceToWorld)
+        for k <- scene.instances.indices do
+          val i = scene.instances(k)
+          if i.instanceToWorld != now then
+            if scene.instances.isPlain(k) then text.placement(i.instanceToWorld.start)
+            else text.transform(i.instanceToWorld)
           now = i.instanceToWorld
           line(s"ObjectInstance ${Statements.quoted(i.name)}")
 

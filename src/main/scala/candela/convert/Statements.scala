@@ -106,11 +106,18 @@ final class Statements(out: Writer, dialect: Dialect):
       line("ActiveTransform All")
     else transform(t.start)
 
+  /** Of an instance whose transform has the rounding errors of
+    * [[candela.math.MotionRows.transform]].
+    */
+  def placement(t: Transform): Unit = transform(t, Statements.rounded(t))
+
+  private def transform(t: Transform): Unit = transform(t, t.m.toVector)
+
   /** Matrices in scene files are in column order. */
-  private def transform(t: Transform): Unit =
+  private def transform(t: Transform, rows: Vector[Double]): Unit =
     if t.isIdentity then line("Identity")
     else
-      val columns = Vector.tabulate(16)(i => NumberText.of(t.m(i % 4 * 4 + i / 4)))
+      val columns = Vector.tabulate(16)(i => NumberText.of(rows(i % 4 * 4 + i / 4)))
       val whole = columns.mkString("Transform [ ", " ", " ]")
       if whole.length + 2 * indent <= Statements.Width then line(whole)
       else
@@ -122,6 +129,22 @@ final class Statements(out: Writer, dialect: Dialect):
 
 object Statements:
   private val Width = 100
+
+  /** Digits of the largest number in a row that rounding errors leave alone. */
+  private val Digits = 14
+
+  /** The numbers of an affine transform without the digits that rounding may change: what is
+    * written and read is written as the same again.
+    */
+  private[convert] def rounded(t: Transform): Vector[Double] =
+    def round(x: Double, largest: Double) =
+      val places = Digits - Math.ceil(Math.log10(largest)).toInt
+      java.math.BigDecimal(x).setScale(places, java.math.RoundingMode.HALF_EVEN).doubleValue
+    Vector.tabulate(16): i =>
+      val row = i & ~3
+      val linear = (row until row + 3).map(k => Math.abs(t.m(k))).max
+      if i >= 12 then t.m(i)
+      else round(t.m(i), if i == row + 3 then Math.max(linear, Math.abs(t.m(i))) else linear)
 
   def quoted(text: String): String =
     val escaped = text.flatMap:

@@ -41,7 +41,12 @@ object Descriptions:
       ) ++
       s.objects.toVector.flatMap((name, shapes) => s"object $name" +: shapes.map(fact)) ++
       s.shapes.map(fact) ++
-      s.instances.map(i => s"instance ${i.name} ${matrix(i.instanceToWorld)}")
+      s.instances.indices.map: k =>
+        val i = s.instances(k)
+        val toWorld =
+          if s.instances.isPlain(k) then Statements.rounded(i.instanceToWorld.start).mkString(" ")
+          else matrix(i.instanceToWorld)
+        s"instance ${i.name} $toWorld"
 
   private def fact(s: ShapeDescription): String =
     val material = s.material match

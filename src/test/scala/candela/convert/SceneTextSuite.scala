@@ -80,3 +80,14 @@ class SceneTextSuite extends AnyFunSuite:
       "Shape \"cone\"",
       "WorldEnd"
     ))
+
+  test("instances are where statements say, to 14 digits, without digits of rounding"):
+    val text = Descriptions.text(parse(
+      """WorldBegin ObjectBegin "o" Shape "sphere" ObjectEnd
+        |Translate .3 -1.2 2 Rotate 70 0 0 1 Scale .6 .6 .5 ObjectInstance "o"
+        |Translate 30000 .1 1e-7 ObjectInstance "o"""".stripMargin,
+      Dialect.V4
+    ))
+    val numbers = text.replaceAll("\\s+", " ")
+    assert(numbers.contains("[ 0.2052120859954 0.56381557247155 0 0 -0.56381557247155 "), text)
+    assert(numbers.contains(" 0 0 0.5 0 0.3 -1.2 2 1 ]"), text)
