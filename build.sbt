@@ -148,6 +148,7 @@ lazy val root: Project = (project in file("."))
     ) ++ lwjglModules.flatMap(module =>
       lwjglNatives.map(n => "org.lwjgl" % module % lwjgl % Runtime classifier n)
     ) ++ Seq(
+      "org.ow2.asm" % "asm" % "9.8" % Test,
       "org.scalatest" %% "scalatest" % "3.2.19" % Test,
       "org.scalacheck" %% "scalacheck" % "1.19.0" % Test,
       "org.scalatestplus" %% "scalacheck-1-18" % "3.2.19.0" % Test
@@ -172,7 +173,8 @@ lazy val root: Project = (project in file("."))
 
     // What makes the packages is tested, too.
     Test / unmanagedSources ++=
-      Seq("Facts", "JavaRuntime", "Manifests", "ProgramFiles", "Revision", "Wheel", "ZipWriter")
+      Seq("Facts", "JavaRuntime", "LambdaClasses", "Manifests", "PlainLambdas", "ProgramFiles",
+        "Revision", "Wheel", "ZipWriter")
         .map(name => (ThisBuild / baseDirectory).value / "project" / s"$name.scala"),
 
     // `sbt test`: a separate JVM, suites in parallel. The library's example is compiled, too.

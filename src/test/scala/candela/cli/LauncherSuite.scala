@@ -219,7 +219,45 @@ class LauncherSuite extends AnyFunSuite:
       assert(replays(newest, "--spp", "1", "x.pbrt") && replays(newest, "x.pbrt", "--spp=1"))
       assert(!replays(newest, "x.pbrt", "--spp=16") && !replays(newest, "x.pbrt", "-o", "1"))
       assert(!replays(newest, "yes.pbrt", "--spp", "16"))
+      assert(!replays(newest, "--spp", "1", "x.pbrt", "--spp", "64"))
       assert(replays(old, "x.pbrt"))
+
+  test("renderings of few samples are compiled by C1 alone, whatever tells how many they are"):
+    staged: p =>
+      val _ = p.jdk("99")
+      val folder = p.lib.getParent.getParent
+      val head = """Film "rgb" # "integer xresolution" 9999
+        |  "integer xresolution" 640 "integer xresolution" [ 64 ]
+        |  "integer yresolution" [64]
+        |Sampler "zsobol" "integer pixelsamples" 64
+        |WorldBegin
+        |Include "rest.pbrt"
+        |""".stripMargin
+      def isFew(words: String*): Boolean =
+        val ended = p.run(words, Map(None_))
+        assert((ended.code, ended.err) == (0, ""))
+        p.starts.last.contains("-XX:TieredStopAtLevel=1")
+      def isFewIn(scene: String, words: String*): Boolean =
+        Files.writeString(folder.resolve("a scene.pbrt"), scene): Unit
+        isFew("a scene.pbrt" +: words*)
+      assert(isFewIn(head) && isFew("render", folder.resolve("a scene.pbrt").toString))
+      assert(isFew("--spp", "8", "a scene.pbrt") && !isFew("--spp", "65", "a scene.pbrt"))
+      assert(!isFewIn(head.replace("64", "65")) && isFewIn(head.replace("64", "65"), "--quick"))
+      assert(!isFewIn(head, "--spp=65") && !isFewIn(head, "--spp", "many"))
+      for words <- Seq(Seq("--time", "10s"), Seq("--error=2%"), Seq("--frames", "1-3")) do
+        assert(!isFewIn(head, words*))
+      // What can't be known without more of the scene
+      assert(!isFewIn(head.replace("WorldBegin", "")))
+      assert(!isFewIn(head.replace("WorldBegin", "Include \"film.pbrt\"\nWorldBegin")))
+      assert(!isFewIn(head.replace("pixelsamples", "xsamples")))
+      assert(!isFewIn(head.replace("[64]", "")) && !isFewIn(head.replace("[64]", "064")))
+      assert(!isFewIn("#" * 9000) && !isFewIn("") && !isFew("none.pbrt") && !isFew())
+      // Other commands
+      for command <- Seq("check", "bench") do assert(!isFew(command, "a scene.pbrt"))
+      assert(isFewIn(head))
+      val textures = Files.createDirectories(folder.resolve("textures"))
+      Files.write(textures.resolve("large.png"), new Array[Byte](5 << 20)): Unit
+      assert(!isFewIn(head))
 
   test("where the program's folder is read-only, the archive is in the user's cache"):
     staged: p =>

@@ -1,5 +1,7 @@
 package candela.accel.tracing
 
+import candela.base.JavaCompilers
+
 /** The JDK's incubating Vector API, loaded when it is first needed. To ask for it on the command
   * line (`--add-modules`) costs every start time, and the JVM then prints a warning.
   *
@@ -10,7 +12,9 @@ package candela.accel.tracing
 private[tracing] object VectorModule:
   private val Name = "jdk.incubator.vector"
 
-  lazy val isLoaded: Boolean = ModuleLayer.boot.findModule(Name).isPresent || load()
+  /** False, too, where its operations would be calls, not instructions. */
+  lazy val isLoaded: Boolean =
+    JavaCompilers.hasC2 && (ModuleLayer.boot.findModule(Name).isPresent || load())
 
   private def load(): Boolean =
     try

@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.{WholeFile, WriteError}
+import candela.base.{JavaCompilers, WholeFile, WriteError}
 
 import java.io.IOException
 import java.nio.charset.StandardCharsets
@@ -19,7 +19,7 @@ private[cli] object Compilers:
     * exports no `jdk.internal.module`.
     */
   def expect(samples: Long): Unit =
-    if samples < Few then
+    if samples < Few && JavaCompilers.hasC2 then
       try
         val directives = Files.createTempFile("candela-", ".json")
         try
@@ -30,14 +30,24 @@ private[cli] object Compilers:
       catch
         case _: (IOException | WriteError | ReflectiveOperationException | LinkageError) => ()
 
-  /** Loops over many texels, primitives or bytes, which the JVM has to compile well in any case. */
+  /** Loops over many texels, primitives or bytes, which the JVM has to compile well in any case.
+    * What is done once for each hit or lookup is not among them.
+    */
   private val Loops =
-    Vector("accel", "base", "image", "scenefile", "shapes", "textures").map("candela/" + _) ++
-      Vector("java", "sun", "com")
+    def methods(folder: String, names: String*) = names.map(name => s"$folder/$name")
+    methods("candela", "accel/*.*", "base/*.*", "image/*.*") ++
+      methods("candela/scenefile", "Tokenizer*.*", "ValueReader*.*", "NumberReader*.*") ++
+      methods("candela/shapes", "CornerTable*.*", "LoopSubdivision*.*", "Nurbs*.*", "Curve*.*") ++
+      methods("candela/shapes", "BilinearMesh*.*", "DisplacedMesh*.*", "TriangleTest*.*") ++
+      methods("candela/shapes", "*.intersect", "*.worldBounds") ++
+      methods("candela/textures", "Enlargement*.*", "Pyramid*.*", "MadeTexels*.*", "Texel*.*") ++
+      methods("candela/textures", "ByteTexels*.*", "FloatTexels*.*", "Tile*.*") ++
+      methods("java", "lang/*.*", "nio/*.*", "util/zip/*.*", "util/Arrays.*") ++
+      Vector("sun/*.*", "com/*.*")
 
   /** Source: "Writing Directives", Java Platform, Standard Edition, Java Virtual Machine Guide. */
   private val WithoutC2 =
-    val loops = Loops.map(name => s"\"$name/*.*\"").mkString(", ")
+    val loops = Loops.map(name => s"\"$name\"").mkString(", ")
     s"""[{ match: [$loops], c2: { Exclude: false } },
       { match: ["*.*"], c2: { Exclude: true } }]"""
 

@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.WholeFile
+import candela.base.{JavaCompilers, WholeFile}
 import candela.testing.OtherJava
 
 import scala.util.Try
@@ -11,7 +11,12 @@ class CompilersSuite extends AnyFunSuite:
 
   /** What another JVM says of its compilers, after a rendering of so many samples began. */
   private def told(samples: Long, options: String*): String =
-    OtherJava.output(TellsCompilers, Compilers.getClass, WholeFile.getClass)(options*)(s"$samples")
+    OtherJava.output(
+      TellsCompilers,
+      Compilers.getClass,
+      WholeFile.getClass,
+      JavaCompilers.getClass
+    )(options*)(s"$samples")
 
   private val open = "--add-exports=java.base/jdk.internal.module=ALL-UNNAMED"
 
@@ -20,6 +25,9 @@ class CompilersSuite extends AnyFunSuite:
 
   test("many samples have C2"):
     assert(told(100000000, open) == "true")
+
+  test("where C1 compiles everything, nothing is told"):
+    assert(told(100, open, "-XX:TieredStopAtLevel=1") == "true")
 
   test("where the JVM can't be told, C2 stays, and nothing breaks"):
     assert(told(100) == "true")
