@@ -9,6 +9,7 @@ import java.nio.file.{Path, StandardOpenOption}
 import java.util.zip.CRC32C
 
 import scala.util.Using
+import scala.util.control.NonFatal
 
 /** A file of numbers and texts that ends with its length and checksum, so that a damaged file is
   * recognised before any of it is used.
@@ -31,14 +32,32 @@ object CheckedFile:
     * @throws IOException if it can't be read, is damaged, or of another kind
     */
   def read[A](path: Path, mark: String)(body: CheckedInput => A): A =
+    open(path, mark): (channel, in) =>
+      verify(channel)
+      body(in)
+
+  /** As `read`, of a body that makes something and does nothing else: the file is verified while it
+    * is read, and what is made of a damaged one is dropped.
+    */
+  def make[A](path: Path, mark: String)(body: CheckedInput => A): A =
+    open(path, mark): (channel, in) =>
+      val made =
+        try body(in)
+        catch
+          case NonFatal(e) =>
+            verify(channel)
+            throw e
+      in.verify()
+      made
+
+  private def open[A](path: Path, mark: String)(body: (FileChannel, CheckedInput) => A): A =
     Using.resource(FileChannel.open(path, StandardOpenOption.READ)): channel =>
       val in = CheckedInput(channel)
       val isMarked =
         try in.text() == mark
         catch case _: EOFException => false
       if !isMarked then throw IOException("it begins with other bytes")
-      verify(channel)
-      body(in)
+      body(channel, in)
 
   private def verify(channel: FileChannel): Unit =
     val end = channel.size - Trailer
@@ -50,7 +69,11 @@ object CheckedFile:
       if channel.read(buffer, at) < 0 then throw EOFException()
       at += buffer.position()
       sum.update(buffer.flip())
-    buffer.clear().limit(Trailer)
+    compare(channel, end, sum)
+
+  /** Compares length and checksum with those at the end of the file. */
+  private[base] def compare(channel: FileChannel, end: Long, sum: CRC32C): Unit =
+    val buffer = ByteBuffer.allocate(Trailer).order(LITTLE_ENDIAN)
     while buffer.hasRemaining && channel.read(buffer, end + buffer.position()) >= 0 do ()
     buffer.flip()
     if buffer.limit() < Trailer || buffer.getLong() != end || buffer.getLong() != sum.getValue then
@@ -120,7 +143,9 @@ final class CheckedOutput private[base] (channel: FileChannel):
 /** Reads the values of a [[CheckedFile]], in the order in which they were written. */
 final class CheckedInput private[base] (channel: FileChannel):
   private val buffer = ByteBuffer.allocateDirect(1 << 16).order(LITTLE_ENDIAN).flip()
-  private var left = channel.size - CheckedFile.Trailer
+  private val end = channel.size - CheckedFile.Trailer
+  private var left = end
+  private val sum = CRC32C()
 
   def int(): Int = take(4).getInt
   def long(): Long = take(8).getLong
@@ -167,6 +192,19 @@ final class CheckedInput private[base] (channel: FileChannel):
       val before = buffer.position()
       while buffer.hasRemaining && channel.read(buffer) >= 0 do ()
       left -= buffer.position() - before
+      sum.update(buffer.duplicate().flip().position(before))
       buffer.flip()
       if buffer.remaining < bytes then throw EOFException()
     buffer
+
+  /** Reads what is left.
+    *
+    * @throws IOException if the file is damaged
+    */
+  private[base] def verify(): Unit =
+    while left > 0 do
+      val before = left
+      buffer.position(buffer.limit())
+      take(1): Unit
+      if left == before then throw EOFException()
+    CheckedFile.compare(channel, end, sum)

@@ -31,7 +31,7 @@ final class PartFiles(folder: CacheFolder):
   def read[A](form: PartForm[A], key: String): Option[A] =
     val file = folder.file(mark(form, key), form.suffix)
     try
-      val found = CheckedFile.read(file, mark(form, key)): in =>
+      val found = CheckedFile.make(file, mark(form, key)): in =>
         val made = form.read(in)
         if !in.isAtEnd then throw IOException("it has more than it should")
         made

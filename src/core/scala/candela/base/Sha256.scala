@@ -10,7 +10,10 @@ import scala.util.Using
 
 /** What tells contents from others: SHA-256 (FIPS 180-4), in 64 hexadecimal digits. */
 object Sha256:
-  def of(text: String): String = hex(start().digest(text.getBytes(UTF_8)))
+  def of(text: String): String = hex(bytesOf(text))
+
+  /** As `of`, in 32 bytes. */
+  def bytesOf(text: String): Array[Byte] = start().digest(text.getBytes(UTF_8))
 
   def of(bytes: ByteBuffer): String =
     val sum = start()

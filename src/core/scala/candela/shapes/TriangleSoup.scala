@@ -29,7 +29,8 @@ final class Mesh(
     val bumps: BumpTangents = BumpTangents.Along,
     val paired: Boolean = false,
     val readsPartials: Boolean = true,
-    val turned: Boolean = false
+    val turned: Boolean = false,
+    val content: Option[String] = None
 )
 
 /** All triangles of a scene in world space.

@@ -3,6 +3,8 @@ package candela.base
 import java.io.{EOFException, IOException}
 import java.nio.file.{Files, Path}
 
+import scala.util.Try
+
 import org.scalatest.funsuite.AnyFunSuite
 
 class CheckedFileSuite extends AnyFunSuite:
@@ -20,9 +22,17 @@ class CheckedFileSuite extends AnyFunSuite:
       body(file)
     finally Files.delete(file)
 
-  private def read(file: Path, mark: String = "test 1"): (Int, String, Double, Long, Float) =
-    CheckedFile.read(file, mark): in =>
-      (in.int(), in.text(), (0 until 20000).map(_ => in.double()).last, in.long(), in.float())
+  private type Values = (Int, String, Double, Long, Float)
+
+  private def values(in: CheckedInput): Values =
+    (in.int(), in.text(), (0 until 20000).map(_ => in.double()).last, in.long(), in.float())
+
+  /** By both ways to read, which must agree. */
+  private def read(file: Path, mark: String = "test 1"): Values =
+    val made = Try(CheckedFile.make(file, mark)(values))
+    val read = Try(CheckedFile.read(file, mark)(values))
+    assert(made.fold(_.getMessage, identity) == read.fold(_.getMessage, identity))
+    read.get
 
   private def reason(file: Path, mark: String = "test 1"): String =
     intercept[IOException](read(file, mark)).getMessage
@@ -64,6 +74,18 @@ class CheckedFileSuite extends AnyFunSuite:
       for length <- Vector(30, 1000, whole.length - 1) do
         Files.write(file, whole.take(length))
         assert(reason(file) == "it is damaged: its checksum is wrong", length)
+
+  test("a damaged file is known while something is made of it, whatever is read"):
+    withFile: file =>
+      def made[A](body: CheckedInput => A) = CheckedFile.make(file, "test 1")(body)
+      assert(made(_.int()) == -3)
+      val failed = intercept[IllegalStateException](made(_ => throw IllegalStateException("odd")))
+      assert(failed.getMessage == "odd")
+      val bytes = Files.readAllBytes(file)
+      bytes(bytes.length / 2) = (bytes(bytes.length / 2) ^ 4).toByte
+      Files.write(file, bytes)
+      for body <- Seq[CheckedInput => Any](_.int(), _ => throw IllegalStateException("odd")) do
+        assert(intercept[IOException](made(body)).getMessage.startsWith("it is damaged"))
 
   test("reading past the end fails"):
     withFile: file =>

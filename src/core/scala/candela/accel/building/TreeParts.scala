@@ -65,12 +65,16 @@ private[building] object TreeParts:
     val sums = new Array[Byte](starts.length * Size)
     val solid = new Array[Int](starts.length)
     def note(i: Int, parallel: Parallel): Unit =
-      val vertices = if i + 1 < starts.length then 3 * starts(i + 1)._2 else soup.positions.length
-      val numbers = Seq(
-        Numbers(soup.positions, 3 * starts(i)._2, vertices),
-        Numbers(soup.indices, 3 * starts(i)._1, 3 * ends(i))
-      )
-      System.arraycopy(Sha256.ofNumbers(numbers, parallel), 0, sums, Size * i, Size)
+      def ofNumbers =
+        val vertices =
+          if i + 1 < starts.length then 3 * starts(i + 1)._2 else soup.positions.length
+        val numbers = Seq(
+          Numbers(soup.positions, 3 * starts(i)._2, vertices),
+          Numbers(soup.indices, 3 * starts(i)._1, 3 * ends(i))
+        )
+        Sha256.ofNumbers(numbers, parallel)
+      val sum = soup.meshes.lift(i).flatMap(_.content).fold(ofNumbers)(Sha256.bytesOf)
+      System.arraycopy(sum, 0, sums, Size * i, Size)
       if ends(i) > starts(i)._1 && primitives.isSolidTriangle(starts(i)._1) then solid(i) = 1
     // A few large meshes, or many small ones
     if starts.length < 4 * parallel.threads then starts.indices.foreach(note(_, parallel))

@@ -40,19 +40,24 @@ private[build] object MeshArrays:
       indices.dropRight(extra)
     else indices
 
-  /** A mesh with checked positions and indices. */
+  /** A mesh with checked positions and indices.
+    *
+    * @param content as in [[ShapeGeometry.Triangles]]
+    */
   def triangles(
       positions: Array[Float],
       normals: Array[Float],
       uvs: Array[Float],
-      indices: Array[Int]
+      indices: Array[Int],
+      content: Option[String] = None
   )(using Site): ShapeGeometry =
     val vertices = positions.length / 3
     ShapeGeometry.Triangles(
       positions,
       matching("N", normals, vertices, 3),
       matching("uv", uvs, vertices, 2),
-      indices
+      indices,
+      content
     )
 
   /** Bilinear patches; four indices each, in the order of [[BilinearMesh]]. */

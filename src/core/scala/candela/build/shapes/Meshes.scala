@@ -60,13 +60,15 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
         site.resources.file(p, site.declaration, site.problems, standIn).flatMap: file =>
           try
             val keepQuads = site.dialect == Dialect.V4
-            val (read, _) = site.resources.keep.ofFile(Meshes, file, s"$keepQuads"):
+            val (read, digest) = site.resources.keep.ofFile(Meshes, file, s"$keepQuads"):
               PlyFile.read(file, keepQuads = keepQuads)
             val near = read.near(site.toWorld)
             val (mesh, origin) = near.getOrElse((read, Position.Origin))
             val toWorld = if near.isEmpty then site.toWorld else site.toWorld * origin.fromOrigin
+            val content = digest.filter(_ => near.isEmpty).map(d => s"$d $keepQuads")
             val made =
-              if displacement.given_().isEmpty then Some(ofFile(mesh)) else displaced(mesh, toWorld)
+              if displacement.given_().isEmpty then Some(ofFile(mesh, content))
+              else displaced(mesh, toWorld)
             if near.isEmpty then made else made.map(ShapeGeometry.Around(origin, _))
           catch
             case e: SceneError =>
@@ -113,10 +115,10 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
           None
 
   /** Quads are bilinear patches in pbrt-v4, which are curved if the corners are not coplanar. */
-  private def ofFile(mesh: PlyMesh)(using Site): ShapeGeometry =
+  private def ofFile(mesh: PlyMesh, content: Option[String])(using Site): ShapeGeometry =
     val faces = Vector(
       Option.when(mesh.indices.nonEmpty)(
-        MeshArrays.triangles(mesh.positions, mesh.normals, mesh.uvs, mesh.indices)
+        MeshArrays.triangles(mesh.positions, mesh.normals, mesh.uvs, mesh.indices, content)
       ),
       Option.when(mesh.quads.nonEmpty)(
         MeshArrays.patches(mesh.positions, mesh.normals, mesh.uvs, mesh.quads)

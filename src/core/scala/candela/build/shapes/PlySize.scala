@@ -17,8 +17,12 @@ object PlySize:
 
   /** None if the file can't be read. */
   def guess(file: InputFile): Option[PlySize] =
+    guess(file, UsualHeader).orElse(guess(file, Beginning))
+
+  /** @param most bytes of the file that are read */
+  private def guess(file: InputFile, most: Int): Option[PlySize] =
     try
-      val start = file.beginning(Beginning)
+      val start = file.beginning(most)
       val isPacked = start.length > 1 && start(0) == 0x1f && start(1) == 0x8b.toByte
       val text =
         if isPacked then GZIPInputStream(ByteArrayInputStream(start)).readNBytes(Beginning / 4)
@@ -48,5 +52,6 @@ object PlySize:
   private def bytes(element: PlyElement): Int =
     element.properties.filter(_.countType.isEmpty).map(_.valueType.bytes).sum
 
+  private val UsualHeader = 1 << 11
   private val Beginning = 1 << 16
   private val MostCorners = 8.0

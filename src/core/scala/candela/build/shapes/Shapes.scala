@@ -100,12 +100,15 @@ abstract class MeshRecipe(name: String, meaning: String, dialects: Set[Dialect] 
 enum ShapeGeometry:
   /** Triangles in object space: x y z per vertex, three vertex indices per triangle; normals
     * (x y z) and uvs may be empty.
+    *
+    * @param content tells these positions and indices from others, if it is known
     */
   case Triangles(
       positions: Array[Float],
       normals: Array[Float],
       uvs: Array[Float],
-      indices: Array[Int]
+      indices: Array[Int],
+      content: Option[String] = None
   )
 
   /** A single surface, created from its transform and whether its orientation is reversed.

@@ -54,7 +54,8 @@ final class SoupBuilder:
       bumps = bumps,
       paired = paired,
       readsPartials = readsPartials,
-      turned = turned
+      turned = turned,
+      content = mesh.content.map(c => s"$c ${toWorld.m.mkString(" ")}")
     )
     vertices += mesh.positions.length / 3
     triangles += mesh.indices.length / 3

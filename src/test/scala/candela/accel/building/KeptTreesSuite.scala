@@ -18,13 +18,25 @@ class KeptTreesSuite extends AnyFunSuite:
       first: Float = 0f,
       second: Float = 0f,
       spheres: Float = 0f,
-      sides: Int = 40
+      sides: Int = 40,
+      content: Option[String] = None
   ): Primitives =
     val (a, b) = (AcceleratorScenes.torus(60).soup, AcceleratorScenes.torus(sides).soup)
     def at(soup: TriangleSoup, by: Float) = soup.positions.map(_ + by)
     val vertices = a.positions.length / 3
     def mesh(vertex: Int, triangle: Int, count: Int) =
-      Mesh(vertex, triangle, count, Array.empty, Array.empty, false, 0, -1)
+      val none = Array.empty[Float]
+      Mesh(
+        vertex,
+        triangle,
+        count,
+        none,
+        none,
+        false,
+        0,
+        -1,
+        content = content.filter(_ => vertex > 0)
+      )
     val soup = TriangleSoup(
       at(a, first) ++ at(b, second),
       a.indices ++ b.indices.map(_ + vertices),
@@ -91,6 +103,13 @@ class KeptTreesSuite extends AnyFunSuite:
     for other <- others do assert(tree(keep, other).nodes ne first.nodes)
     assert(KeptTrees(keep, 4, 8, 4, Parallel.Alone).of(scene()).lanes == 8)
     assert(KeptTrees(keep, 8, 4, 4, Parallel.Alone).of(scene()).width == 8)
+
+  test("a mesh whose content is known is told from others by that"):
+    val keep = Keep()
+    val first = tree(keep, scene(content = Some("a")))
+    assert(tree(keep, scene(content = Some("a"))).nodes eq first.nodes)
+    for other <- Seq(scene(content = Some("b")), scene(first = 1f, content = Some("a"))) do
+      assert(tree(keep, other).nodes ne first.nodes)
 
   test("if a part has moved, the tree of the rest is kept from the second scene on"):
     val keep = Keep()
