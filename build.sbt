@@ -29,12 +29,13 @@ val lwjglNatives = Seq(
 )
 
 /** Of rendering: the share of memory that a heap may take. Rays allocate nothing, so a small young
-  * generation is collected rarely; a large one would only be filled before it is. Classes take more
-  * than the 21 MB at which the whole heap would be collected, in the midst of building a scene.
+  * generation is collected rarely; a large one would only be filled before it is, and takes its part
+  * of a heap that is just large enough for a scene. Classes take more than the 21 MB at which the
+  * whole heap would be collected, in the midst of building a scene.
   */
 val memory = Seq(
   "-XX:MaxRAMPercentage=70",
-  "-XX:MaxNewSize=64m",
+  "-XX:MaxNewSize=32m",
   "-XX:MaxTenuringThreshold=0", // what lives through one collection is mostly the scene
   "-XX:MetaspaceSize=64m"
 )

@@ -1,5 +1,6 @@
 package candela.accel
 
+import candela.base.loop
 import candela.geometry.Bounds3
 
 /** Nodes and leaves of a wide BVH with a SIMD layout, in flat arrays.
@@ -31,6 +32,9 @@ private[accel] final class WideTree(
     val blocks: Array[Float],
     val others: PackedPrimitives
 ):
+  /** The most entries of a traversal's stack: of each level of nodes, all children but one wait. */
+  val stackSize: Int = WideTree.levels(nodes, width) * (width - 1) + 1
+
   def nodeCount: Int = nodes.length / WideTree.floats(width)
   def blockCount: Int = blocks.length / WideTree.blockFloats(lanes)
 
@@ -47,6 +51,18 @@ private[accel] object WideTree:
       boxes(axis) = Math.nextDown(low - more)
       boxes(axis + 3) = Math.nextUp(high + more)
       axis += 1
+
+  /** Levels of nodes, of which each is before its children. */
+  private def levels(nodes: Array[Float], width: Int): Int =
+    val above = new Array[Byte](nodes.length / floats(width))
+    var most = -1
+    loop(above.length): i =>
+      val children = i * floats(width) + 6 * width
+      if above(i) > most then most = above(i)
+      loop(width): k =>
+        val child = java.lang.Float.floatToRawIntBits(nodes(children + k))
+        if child > 0 then above(child / floats(width)) = (above(i) + 1).toByte
+    most + 1
 
   /** Writes the box of a node's child, six Floats, min and max.
     *

@@ -25,10 +25,14 @@ private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: 
   def estimate(uses: ObjectUses): Unit =
     val size = SceneSize(context.description, uses, context.resources.textures)
     known = size.costs
-    val all = Costs(known ++ film)
-    val least = (all.bytes * MemoryCheck.Sure).toLong + size.building
-    if least > heap && !context.problems.hasErrors then
-      val most = all ++ Vector(Cost(CostKind.Hierarchies, size.building))
+    val all = known ++ film
+    // What building the largest hierarchy takes is gone before that hierarchy is there
+    val others = all.filter(_.kind != CostKind.Hierarchies)
+    def least(costs: Vector[Cost]) = (costs.map(_.bytes).sum * MemoryCheck.Sure).toLong
+    if Math.max(least(all), least(others) + size.building) > heap && !context.problems.hasErrors
+    then
+      val building = others :+ Cost(CostKind.Hierarchies, size.building)
+      val most = Costs(Vector(all, building).maxBy(_.map(_.bytes).sum))
       throw SceneError(most.problem(heap, Some(most.bytes)))
 
   /** Builds the scene; says what takes the memory if there is not enough. */

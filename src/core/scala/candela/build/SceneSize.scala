@@ -31,7 +31,7 @@ private[build] final class SceneSize(
       (surfaces.others + places) * (OtherNode + corners)
     Vector(
       Cost(CostKind.Statements, statements),
-      Cost(CostKind.Triangles, worlds.map(_.soupBytes).sum),
+      Cost(CostKind.Triangles, worlds.map(_.meshBytes).sum),
       Cost(CostKind.Shapes, shapes),
       Cost(CostKind.Instances, places * Instance),
       Cost(CostKind.Hierarchies, hierarchies),
@@ -155,14 +155,10 @@ private[build] final case class SurfaceCount(
     solids: Long = 0,
     segments: Long = 0,
     patches: Long = 0,
-    meshes: Int = 0,
     spheres: Long = 0
 ):
   /** Primitives other than triangles. */
   def others: Long = solids + segments + patches
-
-  /** Bytes of all triangles, which know their meshes if there are several. */
-  def soupBytes: Long = meshBytes + (if meshes > 1 then 4 * triangles else 0)
 
   def +(more: SurfaceCount): SurfaceCount =
     SurfaceCount(
@@ -171,7 +167,6 @@ private[build] final case class SurfaceCount(
       solids + more.solids,
       segments + more.segments,
       patches + more.patches,
-      meshes + more.meshes,
       spheres + more.spheres
     )
 
@@ -196,7 +191,7 @@ private[build] object SurfaceCount:
         val levels = Vector("levels", "nlevels").flatMap(d.param(_)).flatMap(_.ints.headOption)
         val growth = 1L << (2 * Math.max(0, Math.min(levels.headOption.getOrElse(3), 12)))
         val triangles = count(d, "indices") / 3 * growth
-        SurfaceCount(triangles, triangles * (Corners + LoopVertex / 2), meshes = 1)
+        SurfaceCount(triangles, triangles * (Corners + LoopVertex / 2))
       case "bilinearmesh" => SurfaceCount(patches = count(d, "indices") / 4)
       case "plymesh" =>
         val size = SceneSize.file(d, "filename").flatMap(PlySize.guess)
@@ -214,7 +209,7 @@ private[build] object SurfaceCount:
   private def mesh(d: Declaration): SurfaceCount =
     val corners = if d.param("indices").isEmpty then 3L else count(d, "indices")
     val numbers = Vector("P", "N", "uv", "st").map(count(d, _)).sum
-    SurfaceCount(corners / 3, corners / 3 * Corners + numbers * 4, meshes = 1)
+    SurfaceCount(corners / 3, corners / 3 * Corners + numbers * 4)
 
   private def ofFile(size: PlySize, keepsQuads: Boolean): SurfaceCount =
     val numbers = size.vertices * size.numbers * 4
@@ -222,7 +217,7 @@ private[build] object SurfaceCount:
       SurfaceCount(0, numbers, patches = size.faces)
     else
       val triangles = (size.faces * (size.corners - 2)).toLong
-      SurfaceCount(triangles, triangles * Corners + numbers, meshes = 1)
+      SurfaceCount(triangles, triangles * Corners + numbers)
 
   private def count(d: Declaration, name: String): Long =
     d.param(name).fold(0L)(p => Math.max(p.floats.length, p.ints.length))

@@ -25,10 +25,14 @@ final class Ray:
   /** The origin along kx, ky and kz, and the direction along kz. */
   var oAlongX, oAlongY, oAlongZ, dAlongZ = 0f
 
-  /** Traversal stack. Deep enough for any BVH that the builder makes, binary or with branching
-    * factor sixteen.
+  private var entries = Array.emptyLongArray
+
+  /** Traversal stack, with room for so many entries at least. A rendering in wavelengths has
+    * thousands of rays, so none has more than trees need.
     */
-  val stack: Array[Long] = new Array[Long](Ray.StackSize)
+  def stack(size: Int): Array[Long] =
+    if entries.length < size then entries = new Array[Long](size)
+    entries
 
   /** Scratch memory of a traversal: results for the children of a node. */
   val lanes: Array[Int] = new Array[Int](16)
@@ -120,7 +124,3 @@ final class Ray:
     oAlongY = oy
     shearX = -dx / dz
     shearY = -dy / dz
-
-object Ray:
-  /** At most 91 levels, each with 15 pending children. */
-  inline val StackSize = 1400

@@ -1,5 +1,6 @@
 package candela.shapes
 
+import candela.base.loop
 import candela.geometry.{Bounds3, Frame, Hit, ShadingPoint}
 import candela.math.*
 
@@ -37,21 +38,38 @@ final class Mesh(
   *
   * @param positions x, y, z of every vertex of every mesh
   * @param indices   three vertices per triangle, numbered over all meshes
-  * @param owners    mesh of each triangle; may be empty if there is only one
+  * @param meshes    in the order of their triangles
   * @param tangents  whether any material needs the direction of u; it is not computed otherwise
   * @param relief    the same of the tangents to which displacements are added
   */
 final class TriangleSoup(
     val positions: Array[Float],
     val indices: Array[Int],
-    owners: Array[Int],
     val meshes: Array[Mesh],
     tangents: Boolean,
     relief: Boolean = true
 ):
   def count: Int = indices.length / 3
 
-  def meshOf(triangle: Int): Int = if owners.length == 0 then 0 else owners(triangle)
+  private val ends = meshes.map(m => m.firstTriangle + m.triangles)
+
+  /** The mesh of one triangle in [[TriangleSoup.Marked]]; empty if there is only one mesh. */
+  private val marks = if meshes.length < 2 then Array.emptyIntArray else marked
+
+  private def marked: Array[Int] =
+    val all = new Array[Int]((count + TriangleSoup.Marked - 1) / TriangleSoup.Marked)
+    var mesh = 0
+    loop(all.length): i =>
+      while i * TriangleSoup.Marked >= ends(mesh) do mesh += 1
+      all(i) = mesh
+    all
+
+  def meshOf(triangle: Int): Int =
+    if marks.length == 0 then 0
+    else
+      var mesh = marks(triangle / TriangleSoup.Marked)
+      while triangle >= ends(mesh) do mesh += 1
+      mesh
 
   def vertex(triangle: Int, corner: Int): Vec3 =
     val i = indices(3 * triangle + corner) * 3
@@ -226,6 +244,9 @@ final class TriangleSoup(
       else (e1 * v2 - e2 * v1) * Math.signum(determinant)
 
 object TriangleSoup:
+  /** Triangles from one whose mesh is noted to the next. */
+  private inline val Marked = 16
+
   /** Rounding a Double point to Float costs half an ulp; one more for its use. */
   def roundingError(p: Vec3): Vec3 =
     Vec3(roundingError(p.x), roundingError(p.y), roundingError(p.z))

@@ -8,7 +8,7 @@ object Solids:
   type Triangle = (Vec3, Vec3, Vec3)
 
   val Empty: TriangleSoup =
-    TriangleSoup(Array.empty, Array.empty, Array.empty, Array.empty, tangents = false)
+    TriangleSoup(Array.empty, Array.empty, Array.empty, tangents = false)
 
   def flat(points: Iterable[Vec3]): Array[Float] =
     points.flatMap(p => Seq(p.x, p.y, p.z)).toArray
@@ -28,7 +28,7 @@ object Solids:
   ): TriangleSoup =
     val count = indices.length / 3
     val mesh = Mesh(0, 0, count, Array.empty, Array.empty, flipped, material = 0, firstLight = -1)
-    TriangleSoup(positions, indices, new Array[Int](count), Array(mesh), tangents = true)
+    TriangleSoup(positions, indices, Array(mesh), tangents = true)
 
   /** A sphere of 8·4ˡᵉᵛᵉˡˢ facets with its corners on it; seen from outside it winds clockwise or
     * not as `toWorld` mirrors or not.

@@ -177,9 +177,8 @@ private object SpecularChainSuite:
     val known = if smooth || away then flat(normals) else Array.empty[Float]
     val indices = faces.flatten.toArray
     val mesh = Mesh(0, 0, indices.length / 3, known, Array.empty, flipped, 0, -1)
-    val owners = new Array[Int](indices.length / 3)
     of(
-      TriangleSoup(flat(points), indices, owners, Array(mesh), tangents = false),
+      TriangleSoup(flat(points), indices, Array(mesh), tangents = false),
       Array.empty,
       bsdf
     )

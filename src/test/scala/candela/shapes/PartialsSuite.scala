@@ -74,7 +74,7 @@ class PartialsSuite extends AnyFunSuite:
   ) =
     val mesh = Mesh(0, 0, 1, normals, uvs, false, 0, -1, bumps)
     val positions = corners.flatMap(p => Seq(p.x, p.y, p.z)).toArray
-    TriangleSoup(positions, Array(0, 1, 2), Array(0), Array(mesh), true)
+    TriangleSoup(positions, Array(0, 1, 2), Array(mesh), true)
 
   private def look(soup: TriangleSoup, b1: Float, b2: Float): ShadingPoint =
     val (hit, at) = (Hit(), ShadingPoint(wantsPartials = true))

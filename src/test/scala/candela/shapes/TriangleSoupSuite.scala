@@ -20,7 +20,7 @@ class TriangleSoupSuite extends AnyFunSuite:
     val positions = Seq(p0, p1, p2, p0, p1, p2).flatMap(p => Seq(p.x, p.y, p.z)).toArray
     val first = Mesh(0, 0, 1, Array.empty, Array.empty, false, material = 5, firstLight = -1)
     val second = Mesh(3, 1, 1, normals, uvs, flipped, material = 9, firstLight = 40)
-    TriangleSoup(positions, Array.range(0, 6), Array(0, 1), Array(first, second), tangents)
+    TriangleSoup(positions, Array.range(0, 6), Array(first, second), tangents)
 
   private def look(soup: TriangleSoup, u: Float, v: Float, triangle: Int = 1): ShadingPoint =
     val hit = Hit()
@@ -103,7 +103,7 @@ class TriangleSoupSuite extends AnyFunSuite:
         val positions =
           Seq(corner(0), corner(1), corner(2)).flatMap(p => Seq(p.x, p.y, p.z)).toArray
         val mesh = Mesh(0, 0, 1, Array.empty, uvs, draws.coin(), 0, -1)
-        look(TriangleSoup(positions, Array(0, 1, 2), Array(0), Array(mesh), true), 0.3f, 0.3f, 0)
+        look(TriangleSoup(positions, Array(0, 1, 2), Array(mesh), true), 0.3f, 0.3f, 0)
         // round-offs of corners of size 2, over areas down to 0.1 · 0.1
         assert((at.frame.s - a).length < 1e-4f)
         assert(abs(at.frame.s dot at.frame.n) < 1e-6f): Unit
@@ -124,5 +124,14 @@ class TriangleSoupSuite extends AnyFunSuite:
     assert(at.material == 5 && at.areaLight == -1)
     val two = Soups.of(Seq((p0, p1, p2), (p0, p2, p1)))
     val lit = Mesh(0, 0, 2, Array.empty, Array.empty, false, 0, firstLight = 7)
-    look(TriangleSoup(two.positions, two.indices, Array.empty, Array(lit), true), 0f, 0f)
+    look(TriangleSoup(two.positions, two.indices, Array(lit), true), 0f, 0f)
     assert(at.areaLight == 8)
+
+  test("each triangle knows its mesh, of meshes of any size, some empty"):
+    val sizes = Vector(0, 1, 40, 0, 0, 3, 16, 1, 1, 200, 15, 0)
+    val firsts = sizes.scanLeft(0)(_ + _)
+    val meshes = sizes.indices.map: i =>
+      Mesh(0, firsts(i), sizes(i), Array.empty, Array.empty, false, material = i, firstLight = -1)
+    val all = TriangleSoup(new Array(9), new Array(3 * firsts.last), meshes.toArray, false)
+    val expected = sizes.indices.flatMap(i => Vector.fill(sizes(i))(i))
+    assert((0 until all.count).map(all.meshOf) == expected)

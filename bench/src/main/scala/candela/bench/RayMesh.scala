@@ -58,4 +58,4 @@ final class RayMesh private ():
     val count = all.length / 3
     val mesh =
       Mesh(0, 0, count, Array.empty, Array.empty, false, 0, -1, BumpTangents.Along)
-    TriangleSoup(positions.result(), all, new Array[Int](count), Array(mesh), tangents = false)
+    TriangleSoup(positions.result(), all, Array(mesh), tangents = false)

@@ -48,7 +48,7 @@ final class Torus(triangles: Int):
 
   def primitives: Primitives =
     val mesh = Mesh(0, 0, count, Array.empty, Array.empty, false, material = 0, firstLight = -1)
-    val soup = TriangleSoup(positions, indices, Array.empty, Array(mesh), tangents = false)
+    val soup = TriangleSoup(positions, indices, Array(mesh), tangents = false)
     Primitives(soup, Array.empty)
 
   /** As a binary PLY file. */

@@ -23,6 +23,9 @@ private[accel] object BvhBuilder:
     */
   inline val MaxSahDepth = 64
 
+  /** Of any tree. */
+  inline val MaxDepth = MaxSahDepth + 32
+
   /** Largest subtree built by a single thread, in records, and as a fraction of the whole tree:
     * small enough that all threads finish at about the same time.
     */

@@ -39,7 +39,7 @@ final class Bvh(
 
   private inline def traverse(ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
     val b = nodes
-    val stack = ray.stack
+    val stack = ray.stack(Bvh.StackSize)
     val ox = ray.ox
     val oy = ray.oy
     val oz = ray.oz
@@ -139,6 +139,9 @@ object Bvh:
     * JCGT 2(2), 2013).
     */
   private inline val FarSlack = 1.000001f
+
+  /** A level has one child that waits. */
+  private val StackSize = BvhBuilder.MaxDepth
 
   /** Node code for "pop the stack": no leaf can start at that slot. */
   private inline val Pop = Int.MinValue

@@ -90,7 +90,7 @@ private[tracing] object WarmUp:
       for _ <- 0 until 3; x <- center do
         positions += (x + random.nextInt(3) - 1).toFloat / Steps
     val indices = Array.tabulate(3 * Triangles)(i => i)
-    val soup = TriangleSoup(positions.result, indices, Array.empty, Array.empty, false)
+    val soup = TriangleSoup(positions.result, indices, Array.empty, false)
     val spheres = Array.fill[Shape](Spheres):
       def next() = random.nextDouble()
       Sphere(Transform.translate(next(), next(), next()), Radius, -Radius, Radius, TwoPi, false)

@@ -60,7 +60,7 @@ private[tracing] object WideWalk:
       inline inside: (Int, Int) => Boolean
   ): Boolean =
     val nodes = tree.nodes
-    val stack = ray.stack
+    val stack = ray.stack(tree.stackSize)
     val begins = ray.lanes
     var limit = limitOf(ray.tMax)
     var found = false
@@ -151,7 +151,7 @@ private[tracing] object WideWalk:
       inline inside: (Int, Int) => Boolean
   ): Boolean =
     val nodes = tree.nodes
-    val stack = ray.stack
+    val stack = ray.stack(tree.stackSize)
     val limit = limitOf(ray.tMax)
     var found = false
     var top = 0

@@ -66,16 +66,12 @@ final class SoupBuilder:
     * @param tangents, relief as in [[TriangleSoup]]
     */
   def result(tangents: Boolean, relief: Boolean): TriangleSoup =
-    val owners = new Array[Int](if meshes.length == 1 then 0 else triangles)
-    if meshes.length > 1 then
-      for (mesh, i) <- meshes.zipWithIndex do
-        java.util.Arrays.fill(owners, mesh.firstTriangle, mesh.firstTriangle + mesh.triangles, i)
     def joined[A: ClassTag](pieces: ArrayBuffer[Array[A]]): Array[A] =
       val all = if pieces.length == 1 then pieces.head else Array.concat(pieces.toSeq*)
       pieces.clear()
       all
     val points = joined(positions)
-    TriangleSoup(points, joined(indices), owners, meshes.toArray, tangents, relief)
+    TriangleSoup(points, joined(indices), meshes.toArray, tangents, relief)
 
 object SoupBuilder:
   private def shifted(indices: Array[Int], by: Int): Array[Int] =

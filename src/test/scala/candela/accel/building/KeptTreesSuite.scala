@@ -40,7 +40,6 @@ class KeptTreesSuite extends AnyFunSuite:
     val soup = TriangleSoup(
       at(a, first) ++ at(b, second),
       a.indices ++ b.indices.map(_ + vertices),
-      Array.fill(a.count)(0) ++ Array.fill(b.count)(1),
       Array(mesh(0, 0, a.count), mesh(vertices, a.count, b.count)),
       false
     )

@@ -34,7 +34,7 @@ private[candela] final class RayStreams private (
 
   // Lists of nodes that wait
   private var lists = new Array[Int](64 * most)
-  private val codes, starts, counts = new Array[Int](Ray.StackSize)
+  private val codes, starts, counts = new Array[Int](91 * width)
   private val found = new Array[Int](width)
   private val sure = ((most + Lanes - 1) / Lanes) * lanes
   private val may = new Array[Long](2 * sure)
