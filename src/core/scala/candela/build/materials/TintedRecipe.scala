@@ -13,7 +13,9 @@ private[build] trait TintedRecipe extends MaterialRecipe:
   /** The colour. */
   protected def tint: Field[RgbTexture]
 
-  /** Makes materials by the colour, on whose value no message depends, and the site of each. */
+  /** Makes materials by the colour, on whose value no message depends if it is within [0, 1], and
+    * the site of each.
+    */
   protected def tinted()(using Site): (RgbTexture, Site) => Material
 
   protected def make()(using site: Site): Material =
@@ -33,4 +35,7 @@ private[build] trait TintedRecipe extends MaterialRecipe:
   final def kindOf(d: Declaration): Int = d.hashBut(tint.name)
 
   private def isColor(d: Declaration): Boolean =
-    d.param(tint.name).exists(p => p.paramType == ParamType.Rgb && p.floats.length == 3)
+    d.param(tint.name).exists: p =>
+      p.paramType == ParamType.Rgb && p.floats.length == 3 && p.floats.forall(x =>
+        x >= 0f && x <= 1f
+      )

@@ -29,7 +29,21 @@ object Spectra:
       case ParamType.Spectrum if p.strings.nonEmpty =>
         val found = named(p, site, StandIns.Magentas).map(SpectralValue.Wavelengths(_))
         Some(inBasis(found.getOrElse(SpectralValue.Color(StandIns.Magenta)), role, site))
-      case _ => value(p, site).map(inBasis(_, role, site))
+      case _ =>
+        val found = value(p, site)
+        if site.dialect == Dialect.V4 && p.paramType == ParamType.Rgb then
+          warnOf(found, p, role, site)
+        found.map(inBasis(_, role, site))
+
+  /** Of colours that pbrt-v4 refuses. */
+  private def warnOf(found: Option[SpectralValue], p: Param, role: SpectrumRole, site: Site): Unit =
+    def refused(what: String) =
+      val shown = p.floats.mkString(" ")
+      val message = s"`${p.name}` has a component $what, which pbrt-v4 refuses: found $shown"
+      site.problems.warn(Code.ParameterValue, p.valuesAt, message)
+    for case SpectralValue.Color(c, _) <- found do
+      if c.r < 0f || c.g < 0f || c.b < 0f then refused("below 0")
+      else if role == SpectrumRole.Reflectance && c.max > 1f then refused("above 1")
 
   /** The value in the scene's basis. */
   def inBasis(value: SpectralValue, role: SpectrumRole, site: Site): Rgb =

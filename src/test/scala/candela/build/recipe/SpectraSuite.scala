@@ -52,19 +52,38 @@ final class SpectraSuite extends AnyFunSuite:
     assert(Spectra.default(Rgb.White, SpectrumRole.Emission, site) == aces.light(Rgb.White))
     assert(Spectra.default(Rgb.White, SpectrumRole.Reflectance, site) == Rgb.White)
 
+  /** The colour of a parameter, and what is told of it. */
+  private def told(parameter: String, dialect: Dialect, role: SpectrumRole) =
+    val text = s"WorldBegin\nLightSource \"point\" $parameter\n"
+    val light = SceneTexts.parse(text, dialect).lights.head.light
+    val findings = Findings()
+    val site = Site(light, dialect, Resources(ColorBasis.Srgb), findings)
+    (Spectra.rgb(light.params.head, role, site).get, findings.result.map(_.message))
+
+  test("colours that v4 refuses are told of, and taken"):
+    def messages(numbers: String, role: SpectrumRole, dialect: Dialect = Dialect.V4) =
+      told(s"\"rgb I\" [$numbers]", dialect, role)._2
+    import SpectrumRole.*
+    for role <- SpectrumRole.values do
+      assert(messages("0 0.5 1", role).isEmpty)
+      val refused = "`I` has a component below 0, which pbrt-v4 refuses: found 1.0 -0.5 0.0"
+      assert(messages("1 -0.5 0", role) == Vector(refused))
+      for dialect <- Seq(Dialect.V2, Dialect.V3) do
+        assert(messages("1 -0.5 2", role, dialect).isEmpty)
+    for role <- Seq(Unbounded, Emission) do assert(messages("1 2 3", role).isEmpty)
+    val refused = "`I` has a component above 1, which pbrt-v4 refuses: found 1.0 2.0 3.0"
+    assert(messages("1 2 3", Reflectance) == Vector(refused))
+
   test("wavelengths that do not ascend are sorted, and told of in v4, which refuses them"):
     def read(numbers: String, dialect: Dialect) =
-      val text = s"WorldBegin\nLightSource \"point\" \"spectrum I\" [$numbers]\n"
-      val light = SceneTexts.parse(text, dialect).lights.head.light
-      val findings = Findings()
-      val site = Site(light, dialect, Resources(ColorBasis.Srgb), findings)
-      val color = Spectra.rgb(light.params.head, SpectrumRole.Emission, site).get
-      (color, findings.result.map(_.message))
+      told(s"\"spectrum I\" [$numbers]", dialect, SpectrumRole.Emission)
     val (sorted, nothing) = read("400 1 500 3 600 2", Dialect.V4)
-    val (mixed, told) = read("500 3 400 1 600 2", Dialect.V4)
+    val (mixed, messages) = read("500 3 400 1 600 2", Dialect.V4)
     assert(nothing.isEmpty && mixed == sorted)
     assert(
-      told == Vector("the wavelengths of `I` do not ascend, as pbrt-v4 asks for: they are sorted")
+      messages == Vector(
+        "the wavelengths of `I` do not ascend, as pbrt-v4 asks for: they are sorted"
+      )
     )
     assert(read("500 3 400 1 600 2", Dialect.V3)._2.isEmpty)
 
