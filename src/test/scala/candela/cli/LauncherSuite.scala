@@ -116,6 +116,18 @@ class LauncherSuite extends AnyFunSuite:
       for options <- Seq("-Xmx128m", "-Xmx8g", "-Xmx64m -Xmx8589934592", "-Xmx1t", "-Xmxlots") do
         assert(usesArchive(options), options)
 
+  test("a small heap has a small young generation, unless another is asked for"):
+    staged: p =>
+      val _ = p.jdk("99")
+      def young(options: String): Seq[String] =
+        assert(p.run(env = Map(None_, "JAVA_OPTS" -> options)).code == 0)
+        p.starts.last.filter(_.startsWith("-XX:MaxNewSize=")).toSeq
+      assert(young("-Xmx160m") == Seq("-XX:MaxNewSize=10m"))
+      assert(young("-Xmx100m") == Seq("-XX:MaxNewSize=8m"))
+      assert(young("-Xmx511m") == Seq("-XX:MaxNewSize=31m"))
+      for options <- Seq("-Xmx512m", "-Xmx8g", "-Xmx1t") do assert(young(options).isEmpty, options)
+      assert(young("-Xmx160m -XX:MaxNewSize=50m").last == "-XX:MaxNewSize=50m")
+
   test("names of files are UTF-8 where there is no locale; a locale stays as it is"):
     staged: p =>
       val _ = p.jdk("99", java = "printf %s \"${LC_ALL:-$LANG}\"")
