@@ -21,10 +21,11 @@ object CheckedFile:
 
   /** Writes the whole file to an empty one. */
   def writeTo(channel: FileChannel, mark: String)(body: CheckedOutput => Unit): Unit =
-    val out = CheckedOutput(channel)
-    out.text(mark)
-    body(out)
-    out.end()
+    Buffers.lend: buffer =>
+      val out = CheckedOutput(channel, buffer)
+      out.text(mark)
+      body(out)
+      out.end()
 
   /** Verifies the file, then reads it from its start.
     *
@@ -52,17 +53,17 @@ object CheckedFile:
 
   private def open[A](path: Path, mark: String)(body: (FileChannel, CheckedInput) => A): A =
     Using.resource(FileChannel.open(path, StandardOpenOption.READ)): channel =>
-      val in = CheckedInput(channel)
-      val isMarked =
-        try in.text() == mark
-        catch case _: EOFException => false
-      if !isMarked then throw IOException("it begins with other bytes")
-      body(channel, in)
+      Buffers.lend: buffer =>
+        val in = CheckedInput(channel, buffer)
+        val isMarked =
+          try in.text() == mark
+          catch case _: EOFException => false
+        if !isMarked then throw IOException("it begins with other bytes")
+        body(channel, in)
 
-  private def verify(channel: FileChannel): Unit =
+  private def verify(channel: FileChannel): Unit = Buffers.lend: buffer =>
     val end = channel.size - Trailer
     val sum = CRC32C()
-    val buffer = ByteBuffer.allocateDirect(1 << 16).order(LITTLE_ENDIAN)
     var at = 0L
     while at < end do
       buffer.clear().limit(Math.min(buffer.capacity.toLong, end - at).toInt)
@@ -95,12 +96,13 @@ object CheckedFile:
       buffer.position(buffer.position() + 4 * some)
       i += some
 
+  private val Buffers = DirectBuffers(1 << 16)
+
   /** Bytes of length and checksum. */
   private[base] val Trailer = 16
 
 /** Writes values to a [[CheckedFile]], in little-endian order. */
-final class CheckedOutput private[base] (channel: FileChannel):
-  private val buffer = ByteBuffer.allocateDirect(1 << 16).order(LITTLE_ENDIAN)
+final class CheckedOutput private[base] (channel: FileChannel, buffer: ByteBuffer):
   private val sum = CRC32C()
   private var length = 0L
 
@@ -141,8 +143,8 @@ final class CheckedOutput private[base] (channel: FileChannel):
     while buffer.hasRemaining do channel.write(buffer): Unit
 
 /** Reads the values of a [[CheckedFile]], in the order in which they were written. */
-final class CheckedInput private[base] (channel: FileChannel):
-  private val buffer = ByteBuffer.allocateDirect(1 << 16).order(LITTLE_ENDIAN).flip()
+final class CheckedInput private[base] (channel: FileChannel, buffer: ByteBuffer):
+  buffer.flip() // nothing is read yet
   private val end = channel.size - CheckedFile.Trailer
   private var left = end
   private val sum = CRC32C()

@@ -148,7 +148,7 @@ private[textures] object TileFile:
     )
     // The facts are known at the end: there is room for as many colours as there may be
     val room = encoded(header).length + made.colors.fold(0)(_.most * 12)
-    val facts = TileWriter(channel, 12L + room, header.places, made, wrap).write()
+    val facts = TileWriter.write(channel, 12L + room, header.places, made, wrap)
     made.confirm()
     val about = encoded(header.copy(facts = facts)).padTo(room, 0.toByte)
     val out = ByteBuffer.allocate(12 + room)

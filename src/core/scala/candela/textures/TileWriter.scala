@@ -1,23 +1,21 @@
 package candela.textures
 
-import java.nio.{ByteBuffer, ByteOrder}
+import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
 
-import candela.base.loop
+import candela.base.{DirectBuffers, loop}
 import candela.color.Rgb
 
 /** Writes all levels of an image in tiles, while few rows of each are in memory: the numbers of
   * [[Pyramid.levels]].
   */
-private[textures] final class TileWriter(
-    channel: FileChannel,
-    start: Long,
+private[textures] final class TileWriter private (
+    out: TileStream,
     places: Vector[TilePlace],
     made: MadeTexels,
     wrap: Wrap
 ):
   private val channels = made.bands.channels
-  private val out = TileStream(channel, start)
 
   // The smallest levels are in one tile together
   private val tail = places.last.start
@@ -27,8 +25,7 @@ private[textures] final class TileWriter(
 
   private val levels = Array.tabulate(places.size)(LevelRows(_))
 
-  /** Writes them. */
-  def write(): TexelFacts =
+  private def write(): TexelFacts =
     val seen = Vector.newBuilder[Rgb]
     var odd: Option[OddTexel] = None
     val bands =
@@ -124,6 +121,19 @@ private[textures] final class TileWriter(
           Pyramid.halve(above, row, place.width, channels, half, 0)
           levels(level + 1).add(y / 2, half)
 
+private[textures] object TileWriter:
+
+  /** Writes tiles from a place in the file on. */
+  def write(
+      channel: FileChannel,
+      start: Long,
+      places: Vector[TilePlace],
+      made: MadeTexels,
+      wrap: Wrap
+  ): TexelFacts =
+    TileStream.Buffers.lend: buffer =>
+      new TileWriter(TileStream(channel, start, buffer), places, made, wrap).write()
+
 /** The latest rows of an image, and those at its upper and lower edge. */
 private final class EdgedRows(height: Int, length: Int):
   import EdgedRows.*
@@ -144,9 +154,7 @@ private object EdgedRows:
   private val Edge = 2
 
 /** Writes tiles with their checksums, several at once where they follow each other. */
-private final class TileStream(channel: FileChannel, start: Long):
-  private val some =
-    ByteBuffer.allocateDirect(TileStream.Together * TileRecord.Bytes).order(ByteOrder.LITTLE_ENDIAN)
+private final class TileStream(channel: FileChannel, start: Long, some: ByteBuffer):
   private var first = 0
   private var count = 0
 
@@ -169,3 +177,4 @@ private final class TileStream(channel: FileChannel, start: Long):
 
 private object TileStream:
   private val Together = 64
+  val Buffers: DirectBuffers = DirectBuffers(Together * TileRecord.Bytes)
