@@ -264,6 +264,19 @@ class LauncherSuite extends AnyFunSuite:
       assert(!isFewIn(head.replace("pixelsamples", "xsamples")))
       assert(!isFewIn(head.replace("[64]", "")) && !isFewIn(head.replace("[64]", "064")))
       assert(!isFewIn("#" * 9000) && !isFewIn("") && !isFew("none.pbrt") && !isFew())
+      // Mitsuba's scenes
+      val xml = """<scene><default name="n" value="64"/><sensor type="perspective">
+        |<film type="hdrfilm"><integer name="width" value="64"/>
+        |<integer name="height" value="64"/></film>
+        |<sampler type="independent"><integer name="sample_count" value="64"/></sampler>
+        |</sensor><include filename="rest.xml"/></scene>""".stripMargin
+      def isFewXml(scene: String, words: String*): Boolean =
+        Files.writeString(folder.resolve("scene.xml"), scene): Unit
+        isFew("scene.xml" +: words*)
+      assert(isFewXml(xml) && !isFewXml(xml, "--spp=65"))
+      assert(!isFewXml(xml.replace("value=\"64\"", "value=\"65\"")))
+      assert(!isFewXml(xml.replace("value=\"64\"", "value=\"$n\"")))
+      assert(!isFewXml(xml.replace("<sensor", "<include filename=\"film.xml\"/><sensor")))
       // Other commands
       for command <- Seq("check", "bench") do assert(!isFew(command, "a scene.pbrt"))
       assert(isFewIn(head))
