@@ -45,26 +45,54 @@ private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.sh
 
   private def distance: Double = Math.abs(off(0)) + Math.abs(off(1)) + Math.abs(off(2))
 
+  /** Sums stay in variables: stores to arrays take most of the time where C1 compiles. */
   private def evaluate(target: Array[Double]): Unit =
-    for i <- 0 until 3 do off(i) = -target(i)
-    java.util.Arrays.fill(jacobian, 0.0)
+    var off0 = -target(0)
+    var off1 = -target(1)
+    var off2 = -target(2)
+    var m0, m1, m2, m3, m4, m5, m6, m7, m8 = 0.0
+    val c0 = c(0)
+    val c1 = c(1)
+    val c2 = c(2)
     var w = 0
     while w < count do
       val x = w.toDouble / (count - 1)
-      val t = (c(0) * x + c(1)) * x + c(2)
+      val t = (c0 * x + c1) * x + c2
       val root = 1 / Math.sqrt(1 + t * t)
       val s = 0.5 + 0.5 * t * root
       val slope = 0.5 * root * root * root
-      var i = 0
-      while i < 3 do
-        val response = responses(3 * w + i)
-        off(i) += response * s
-        val d = response * slope
-        jacobian(3 * i) += d * x * x
-        jacobian(3 * i + 1) += d * x
-        jacobian(3 * i + 2) += d
-        i += 1
+      val r0 = responses(3 * w)
+      val r1 = responses(3 * w + 1)
+      val r2 = responses(3 * w + 2)
+      off0 += r0 * s
+      off1 += r1 * s
+      off2 += r2 * s
+      val d0 = r0 * slope
+      val d1 = r1 * slope
+      val d2 = r2 * slope
+      m0 += d0 * x * x
+      m1 += d0 * x
+      m2 += d0
+      m3 += d1 * x * x
+      m4 += d1 * x
+      m5 += d1
+      m6 += d2 * x * x
+      m7 += d2 * x
+      m8 += d2
       w += 1
+    off(0) = off0
+    off(1) = off1
+    off(2) = off2
+    val m = jacobian
+    m(0) = m0
+    m(1) = m1
+    m(2) = m2
+    m(3) = m3
+    m(4) = m4
+    m(5) = m5
+    m(6) = m6
+    m(7) = m7
+    m(8) = m8
 
   /** A damped step: the system is nearly singular for the deepest colours. */
   private def step(longest: Double): Unit =
