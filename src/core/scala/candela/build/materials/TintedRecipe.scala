@@ -36,6 +36,9 @@ private[build] trait TintedRecipe extends MaterialRecipe:
 
   private def isColor(d: Declaration): Boolean =
     d.param(tint.name).exists: p =>
-      p.paramType == ParamType.Rgb && p.floats.length == 3 && p.floats.forall(x =>
-        x >= 0f && x <= 1f
+      val c = p.floats
+      p.paramType == ParamType.Rgb && c.length == 3 && isShare(c(0)) && isShare(c(1)) && isShare(
+        c(2)
       )
+
+  private def isShare(x: Float) = x >= 0f && x <= 1f
