@@ -280,6 +280,8 @@ class LauncherSuite extends AnyFunSuite:
       // Other commands
       for command <- Seq("check", "bench") do assert(!isFew(command, "a scene.pbrt"))
       assert(isFewIn(head))
+      assert(isFewIn(head + " " * (31 << 20)) && !isFewIn(head + " " * (33 << 20)))
+      assert(isFewIn(head))
       val textures = Files.createDirectories(folder.resolve("textures"))
       Files.write(textures.resolve("large.png"), new Array[Byte](5 << 20)): Unit
       assert(!isFewIn(head))
