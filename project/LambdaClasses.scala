@@ -88,13 +88,15 @@ final class LambdaClasses(reader: ClassReader) {
 
   private def isPrivate(body: Handle): Boolean = flags(body).exists(f => (f & ACC_PRIVATE) != 0)
 
-  /** Nests exist from Java 11 on. What the class can call elsewhere in its package, its lambdas can;
-    * elsewhere it may be protected.
+  /** Nests exist from Java 11 on. Bodies elsewhere in the package are those that Scala has moved to
+    * an object about the class; other methods there may be inherited and protected.
     */
   private def canCall(body: Handle): Boolean =
     flags(body) match {
-      case Some(f) => (f & ACC_PRIVATE) == 0 || version >= V11 && !isNested
-      case None => !isNested && folder(body.getOwner) == folder(owner)
+      case Some(f) if (f & ACC_PRIVATE) != 0 => version >= V11 && !isNested
+      case Some(_) => body.getTag != H_INVOKESPECIAL // which no override replaces
+      case None =>
+        !isNested && folder(body.getOwner) == folder(owner) && body.getName.contains("$anonfun")
     }
 
   private def folder(name: String) = name.take(name.lastIndexOf('/'))

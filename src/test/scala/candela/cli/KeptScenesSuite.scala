@@ -43,12 +43,14 @@ class KeptScenesSuite extends AnyFunSuite:
     * @param at       of the object that moves
     * @param mesh     of the ground
     * @param material of the object
+    * @param ground   where a second mesh of a file is
     */
   private def scene(
       eye: String = "0 -4 3",
       at: String = "0 0 1",
       mesh: String = "sheet.ply",
-      material: String = "\"conductor\" \"float roughness\" .2"
+      material: String = "\"conductor\" \"float roughness\" .2",
+      ground: String = "0 0 -1"
   ): String =
     s"""Film "rgb" "integer xresolution" 16 "integer yresolution" 12
        |Sampler "zsobol" "integer pixelsamples" 4
@@ -60,8 +62,11 @@ class KeptScenesSuite extends AnyFunSuite:
        |Texture "h" "float" "imagemap" "string filename" "c.png" "string filter" "bilinear"
        |Material "diffuse" "texture reflectance" "c"
        |Shape "plymesh" "string filename" "$mesh" "texture alpha" "h"
-       |Translate 0 0 -1
+       |AttributeBegin
+       |Translate $ground
        |Shape "plymesh" "string filename" "sheet.ply"
+       |AttributeEnd
+       |Translate 0 0 -1
        |AttributeBegin
        |Material $material
        |Translate $at
@@ -119,6 +124,9 @@ class KeptScenesSuite extends AnyFunSuite:
 
   test("frames in which an object moves are as each alone"):
     assertSame((0 to 3).map(i => scene(at = s"${0.2 * i} 0 1"))*)
+
+  test("frames in which a mesh of a file moves are as each alone"):
+    assertSame((0 to 2).map(i => scene(ground = s"0 ${0.3 * i} -0.5"))*)
 
   test("frames that differ in meshes and materials are as each alone, and in any order"):
     val (glass, dull) = ("\"dielectric\"", "\"coateddiffuse\"")

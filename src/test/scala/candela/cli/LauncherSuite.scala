@@ -256,12 +256,18 @@ class LauncherSuite extends AnyFunSuite:
       assert(isFew("--spp", "8", "a scene.pbrt") && !isFew("--spp", "65", "a scene.pbrt"))
       assert(!isFewIn(head.replace("64", "65")) && isFewIn(head.replace("64", "65"), "--quick"))
       assert(!isFewIn(head, "--spp=65") && !isFewIn(head, "--spp", "many"))
-      for words <- Seq(Seq("--time", "10s"), Seq("--error=2%"), Seq("--frames", "1-3")) do
-        assert(!isFewIn(head, words*))
+      for
+        words <- Seq("--time 10s", "--error=2%", "--frames 1-3", "--watch", "b.pbrt", "-spp 4") ++
+          Seq("--SPP=4", "--pixel_bounds=1,2,3,4")
+      do assert(!isFewIn(head, words.split(' ')*), words)
+      for words <- Seq("-j 2", "-Da=b", "--outfile=A_B.exr", "-o x.exr") do
+        assert(isFewIn(head, words.split(' ')*), words)
       // What can't be known without more of the scene
       assert(!isFewIn(head.replace("WorldBegin", "")))
       assert(!isFewIn(head.replace("WorldBegin", "Include \"film.pbrt\"\nWorldBegin")))
       assert(!isFewIn(head.replace("pixelsamples", "xsamples")))
+      for integrator <- Seq("mlt", "metropolis", "sppm") do
+        assert(!isFewIn(s"Integrator \"$integrator\"\n$head"))
       assert(!isFewIn(head.replace("[64]", "")) && !isFewIn(head.replace("[64]", "064")))
       assert(!isFewIn("#" * 9000) && !isFewIn("") && !isFew("none.pbrt") && !isFew())
       // Mitsuba's scenes
@@ -282,8 +288,14 @@ class LauncherSuite extends AnyFunSuite:
       assert(isFewIn(head))
       assert(isFewIn(head + " " * (31 << 20)) && !isFewIn(head + " " * (33 << 20)))
       assert(isFewIn(head))
+      // What it may include
+      val rest = folder.resolve("rest.pbrt")
+      Files.writeString(rest, " " * (33 << 20)): Unit
+      assert(!isFewIn(head) && isFewIn(head.replace("Include", "")))
+      Files.delete(rest)
       val textures = Files.createDirectories(folder.resolve("textures"))
-      Files.write(textures.resolve("large.png"), new Array[Byte](5 << 20)): Unit
+      val large = Files.write(folder.resolve("large"), new Array[Byte](5 << 20))
+      Files.createSymbolicLink(textures.resolve("a.png"), large): Unit
       assert(!isFewIn(head))
 
   test("where the program's folder is read-only, the archive is in the user's cache"):

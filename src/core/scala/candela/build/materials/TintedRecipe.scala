@@ -36,9 +36,8 @@ private[build] trait TintedRecipe extends MaterialRecipe:
 
   private def isColor(d: Declaration): Boolean =
     d.param(tint.name).exists: p =>
-      val c = p.floats
-      p.paramType == ParamType.Rgb && c.length == 3 && isShare(c(0)) && isShare(c(1)) && isShare(
-        c(2)
-      )
+      p.paramType == ParamType.Rgb && p.floats.length == 3 && isShare(p.floats)
 
-  private def isShare(x: Float) = x >= 0f && x <= 1f
+  /** Without boxes: there may be very many. */
+  private def isShare(c: Array[Float]): Boolean =
+    c(0) >= 0f && c(0) <= 1f && c(1) >= 0f && c(1) <= 1f && c(2) >= 0f && c(2) <= 1f
