@@ -72,9 +72,10 @@ final class LambdaClasses(reader: ClassReader) {
       case Seq(erased: Type, body: Handle, typed: Type) if canCall(body) =>
         val name = s"$owner$$Lambda${made.size}"
         val lambda = new LambdaClass(name, version, method, descriptor, erased, body, typed)
-        lambda.bytes(if (isPrivate(body)) Some(owner) else None) match {
+        val host = if (isPrivate(body)) Some(owner) else None
+        lambda.bytes(host) match {
           case Some(contents) =>
-            if (isPrivate(body)) mates += name
+            if (host.isDefined) mates += name
             made += name -> contents
             to.visitMethodInsn(INVOKESTATIC, name, LambdaClass.Make, descriptor, false)
             true

@@ -6,8 +6,8 @@ import org.objectweb.asm.{
 
 /** Lambdas that start fast. Scala makes every lambda serialisable, which class-data sharing can't
   * archive: a few hundred classes would be generated at every start. This program never serialises
-  * lambdas, so they need not be, and what would read them again goes; and those that capture something become classes
-  * ([[LambdaClasses]]).
+  * lambdas, so they need not be, and what would read them again goes. Those that capture something
+  * become classes ([[LambdaClasses]]).
   *
   * Also removes the bridges that Scala requests: the interfaces below declare only the erased
   * method.

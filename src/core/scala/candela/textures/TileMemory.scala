@@ -1,8 +1,9 @@
 package candela.textures
 
 import java.lang.invoke.VarHandle
-import java.util.concurrent.ConcurrentLinkedQueue
 import java.util.concurrent.atomic.AtomicLongArray
+
+import candela.base.Lending
 
 /** Memory for tiles of images. Tiles are read when a lookup needs them, and give way to others when
   * the memory is full. Safe for threads; a lookup of a tile that is there neither locks nor
@@ -26,7 +27,7 @@ final class TileMemory(limit: Long):
   private val slots = new Array[Array[Int]](most)
   private val stamps = AtomicLongArray(most)
   private val recent = new Array[Boolean](most)
-  private val buffers = ConcurrentLinkedQueue[TileBuffer]()
+  private val buffers = Lending(TileBuffer())
   private var filled = 0
   private var hand = 0
   private var loads = 0
@@ -61,9 +62,7 @@ final class TileMemory(limit: Long):
       number: Int,
       pages: Array[Int],
       at: Int
-  ): Int =
-    val found = buffers.poll
-    val buffer = if found == null then TileBuffer() else found
+  ): Int = buffers.lend: buffer =>
     from.fill(tile, buffer)
     val value = buffer.ints(at)
     synchronized:
@@ -71,7 +70,6 @@ final class TileMemory(limit: Long):
       val slot = pages(tile) - 1
       val isThere = slot >= 0 && holder(stamps.get(slot)) == number
       if !isThere then pages(tile) = put(buffer.ints, number) + 1
-    buffers.offer(buffer): Unit
     value
 
   private def put(tile: Array[Int], number: Int): Int =

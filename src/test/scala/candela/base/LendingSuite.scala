@@ -4,7 +4,7 @@ import java.nio.ByteBuffer
 
 import org.scalatest.funsuite.AnyFunSuite
 
-class DirectBuffersSuite extends AnyFunSuite:
+class LendingSuite extends AnyFunSuite:
   test("a buffer is used again, and no two at once are one"):
     val buffers = DirectBuffers(16)
     val first = buffers.lend: a =>
