@@ -32,9 +32,12 @@ private[suite] abstract class Judge:
       seconds: Double,
       memory: Option[Long],
       errors: Errors,
-      parts: ErrorParts
+      parts: Option[ErrorParts]
   ): Result =
-    Result(job, Measurement(job.samples, job.seed, seconds, errors, memory, Some(parts)))
+    Result(job, Measurement(job.samples, job.seed, seconds, errors, memory, parts))
+
+  /** Errors of scenes that grow are not shown, and the spectra of large films take minutes. */
+  protected final def hasParts(job: Job): Boolean = job.entry.scene.growth.isEmpty
 
 /** Compares with a reference. */
 private[suite] final class ReferenceJudge(truth: Image) extends Judge:
@@ -44,11 +47,10 @@ private[suite] final class ReferenceJudge(truth: Image) extends Judge:
   def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String =
     val errors = Errors.against(truth)(image)
     if job.step != Job.WarmUp then
-      val parts = ErrorParts.against(ImagePair(image, reference))
-      val made = result(job, seconds, memory, errors, parts)
-      // The parts include the reference's own error
-      val clean = made.copy(measurement = made.measurement.copy(parts = None))
-      all = all.filterNot(_.job.isInPlaceOf(job)) :+ (if errors.own.isEmpty then made else clean)
+      // They would include the reference's own error
+      val parts = Option.when(hasParts(job) && errors.own.isEmpty):
+        ErrorParts.against(ImagePair(image, reference))
+      all = all.filterNot(_.job.isInPlaceOf(job)) :+ result(job, seconds, memory, errors, parts)
     f"relative MSE ${errors.relativeMse}%.3g"
 
   def drop(entries: Set[Entry]): Unit = all = all.filterNot(r => entries(r.job.entry))
@@ -96,7 +98,10 @@ private[suite] final class SeedJudge(suite: Suite, scratch: Path) extends Judge:
       val scale = reference
       val errors = sets.flatMap: set =>
         val images = set.map(_.image)
-        set.map(_.job).zip(SeedNoise.of(images, scale).zip(SeedNoise.parts(images, scale)))
+        val parts =
+          if hasParts(set.head.job) then SeedNoise.parts(images, scale).map(Some(_))
+          else images.map(_ => None)
+        set.map(_.job).zip(SeedNoise.of(images, scale).zip(parts))
       val byJob = errors.toMap
       kept.flatMap: k =>
         byJob.get(k.job).map((e, parts) => result(k.job, k.seconds, k.memory, e, parts))

@@ -2,6 +2,7 @@ package candela.suite
 
 import candela.image.{Image, ImageError}
 import candela.measure.ErrorLayer
+import candela.report.Growth
 
 import java.nio.file.Files
 
@@ -34,6 +35,16 @@ class JudgeSuite extends AnyFunSuite:
     assert(judge.results.isEmpty)
     take(judge, 0, 3, gray(3f))
     assert(judge.results.size == 6)
+
+  test("errors of scenes that grow are not taken apart"):
+    val grows = entry.copy(scene = entry.scene.copy(growth = Some(Growth("things", 3))))
+    for
+      e <- Vector(entry, grows); judge <- Vector(SeedJudge(suite, folder), ReferenceJudge(gray(1)))
+    do
+      for seed <- 1 to 3 do
+        judge.take(Job(e, 0, 1, seed), 1.0, None, gray(seed.toFloat)): Unit
+      assert(judge.results.size == 3)
+      assert(judge.results.forall(_.measurement.parts.isDefined == (e == entry)))
 
   test("a reference's own error is subtracted"):
     val own = gray(0.01f)
