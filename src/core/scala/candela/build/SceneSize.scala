@@ -226,8 +226,8 @@ private[build] object SurfaceCount:
     d.param(name).fold(usual): p =>
       p.ints.headOption.orElse(p.floats.headOption.map(_.toInt)).getOrElse(usual)
 
-  /** Bytes of a triangle's indices. */
-  private val Corners = 12L
+  /** Bytes of a triangle's indices where those of a mesh are near each other. */
+  private val Corners = 7L
 
   /** Bytes of a subdivided vertex, its point and normal; there are half as many as triangles. */
   private val LoopVertex = 24L

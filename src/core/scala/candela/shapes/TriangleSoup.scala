@@ -44,7 +44,7 @@ final class Mesh(
   */
 final class TriangleSoup(
     val positions: Array[Float],
-    val indices: Array[Int],
+    val indices: VertexIndices,
     val meshes: Array[Mesh],
     tangents: Boolean,
     relief: Boolean = true
@@ -244,6 +244,15 @@ final class TriangleSoup(
       else (e1 * v2 - e2 * v1) * Math.signum(determinant)
 
 object TriangleSoup:
+  def apply(
+      positions: Array[Float],
+      indices: Array[Int],
+      meshes: Array[Mesh],
+      tangents: Boolean,
+      relief: Boolean = true
+  ): TriangleSoup =
+    new TriangleSoup(positions, VertexIndices(indices), meshes, tangents, relief)
+
   /** Triangles from one whose mesh is noted to the next. */
   private inline val Marked = 16
 

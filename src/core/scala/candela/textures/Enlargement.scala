@@ -56,7 +56,13 @@ private[textures] final class Enlargement(
             val weight = across.weight(Taps * x + k)
             loop(channels)(c => to(start + x * channels + c) += weight * texel(i, c))
 
-  /** The last of the old rows that the new row `y` needs, unless it is beyond the image. */
+  /** Whether the new row `y` needs rows beyond the image. */
+  def isBeyond(y: Int): Boolean = down.first(y) < 0 || down.first(y) + Taps > fromHeight
+
+  /** The first of the old rows that the new row `y` needs, unless it is beyond the image. */
+  def firstOf(y: Int): Int = Math.max(0, down.first(y))
+
+  /** The last of them. */
   def lastOf(y: Int): Int = Math.min(fromHeight, down.first(y) + Taps) - 1
 
   /** Resamples down, for contiguous access row by row.
@@ -77,6 +83,28 @@ private[textures] final class Enlargement(
             val from = at(i / width) + i % width * channels
             add(wide, from, weight, to, start + x * channels, channels)
     loop(length)(k => to(start + k) = clamp(to(start + k), 0f, most))
+
+/** The latest rows of an image, and those at its upper and lower edge. */
+private[textures] final class EdgedRows(height: Int, length: Int):
+  import EdgedRows.*
+  val values = new Array[Float]((Latest + 2 * Edge) * length)
+
+  /** Where a row begins. */
+  def at(y: Int): Int =
+    val place =
+      if y < Edge then Latest + y
+      else if isEdge(y, height) then Latest + Edge + y - (height - Edge)
+      else y % Latest
+    place * length
+
+  def clear(y: Int): Unit = java.util.Arrays.fill(values, at(y), at(y) + length, 0f)
+
+private[textures] object EdgedRows:
+  private val Latest = 8
+  private val Edge = 2
+
+  /** Whether a row is at the upper or lower edge. */
+  def isEdge(y: Int, height: Int): Boolean = y < Edge || y >= height - Edge
 
 private[textures] object Enlargement:
 

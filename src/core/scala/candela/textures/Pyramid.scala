@@ -81,15 +81,32 @@ object Pyramid:
     val way = Enlargement(from.width, from.height, from.channels, wrap, most)
     if way.isNone then from
     else
-      val length = way.length
-      val wide = new Array[Float](length * from.height)
-      rows(parallel, way.width, from.height)(() => Rows(from)): (y, source) =>
-        from.row(y, source.upper)
-        way.widen(y, source.upper, wide, y * length)((i, c) => from(i, c))
-      val values = new Array[Float](length * way.height)
-      rows(parallel, length, way.height)(() => ()): (y, _) =>
-        way.heighten(y, wide, values, y * length)(_ * length)
+      val values = new Array[Float](way.length * way.height)
+      strips(parallel, way.width, way.height)(enlarge(from, way, values, _, _))
       FloatTexels(way.width, way.height, from.channels, values)
+
+  /** Makes some of the new rows, while few of the old ones are there resampled across. */
+  private def enlarge(
+      from: Texels,
+      way: Enlargement,
+      to: Array[Float],
+      first: Int,
+      until: Int
+  ): Unit =
+    val kept = EdgedRows(from.height, way.length)
+    val source = new Array[Float](from.width * from.channels)
+    def widen(y: Int): Unit =
+      from.row(y, source)
+      kept.clear(y)
+      way.widen(y, source, kept.values, kept.at(y))((i, c) => from(i, c))
+    // Those beyond an edge are at that edge or the other
+    if way.isBeyond(first) || way.isBeyond(until - 1) then
+      loop(from.height)(y => if EdgedRows.isEdge(y, from.height) then widen(y))
+    var next = way.firstOf(first)
+    loop(first, until): y =>
+      loop(next, way.lastOf(y) + 1)(widen)
+      next = Math.max(next, way.lastOf(y) + 1)
+      way.heighten(y, kept.values, to, y * way.length)(kept.at)
 
   /** Executes rows of an image, in parallel unless it is small.
     *
@@ -98,12 +115,14 @@ object Pyramid:
   private def rows[A](parallel: Parallel, width: Int, height: Int)(scratch: () => A)(
       row: (Int, A) => Unit
   ): Unit =
-    def strip(from: Int, until: Int): Unit =
+    strips(parallel, width, height): (from, until) =>
       val own = scratch()
-      var y = from
-      while y < until do
-        row(y, own)
-        y += 1
+      loop(from, until)(row(_, own))
+
+  /** Executes strips of rows, from one until another. */
+  private def strips(parallel: Parallel, width: Int, height: Int)(
+      strip: (Int, Int) => Unit
+  ): Unit =
     if width.toLong * height < SmallPicture then strip(0, height)
     else
       val strips = Math.min(height, 4 * parallel.threads)

@@ -134,25 +134,6 @@ private[textures] object TileWriter:
     TileStream.Buffers.lend: buffer =>
       new TileWriter(TileStream(channel, start, buffer), places, made, wrap).write()
 
-/** The latest rows of an image, and those at its upper and lower edge. */
-private final class EdgedRows(height: Int, length: Int):
-  import EdgedRows.*
-  val values = new Array[Float]((Latest + 2 * Edge) * length)
-
-  /** Where a row begins. */
-  def at(y: Int): Int =
-    val place =
-      if y < Edge then Latest + y
-      else if y >= height - Edge then Latest + Edge + y - (height - Edge)
-      else y % Latest
-    place * length
-
-  def clear(y: Int): Unit = java.util.Arrays.fill(values, at(y), at(y) + length, 0f)
-
-private object EdgedRows:
-  private val Latest = 8
-  private val Edge = 2
-
 /** Writes tiles with their checksums, several at once where they follow each other. */
 private final class TileStream(channel: FileChannel, start: Long, some: ByteBuffer):
   private var first = 0

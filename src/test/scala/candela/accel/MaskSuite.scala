@@ -56,7 +56,7 @@ class MaskSuite extends AnyFunSuite:
       val far = Soups.of(square(0f) ++ square(-1f))
       val half = far.count / 2
       val meshes = Array(0, half).map(Mesh(0, _, half, Array.empty, Array.empty, false, 0, -1))
-      val soup = TriangleSoup(far.positions, far.indices, meshes, tangents = true)
+      val soup = new TriangleSoup(far.positions, far.indices, meshes, tangents = true)
       val masks = Masks(Array(HoleMask(LeftHalf, whole), SolidMask), Array.empty)
       for flip <- Seq(1f, -1f) do
         val world = make(Primitives(soup, Array.empty, Instances.Empty, masks))

@@ -207,7 +207,7 @@ class SceneSizeSuite extends AnyFunSuite:
       val problem = refused(100_000_000).problems.head
       assert(problem.code == Code.OutOfMemory)
       assert(problem.message.contains("limited to 100 MB: hierarchies 112 MB"), problem.message)
-      assert(problem.message.contains("triangles 36 MB"), problem.message)
+      assert(problem.message.contains("triangles 26 MB"), problem.message)
       assert(problem.help.exists(_.contains("-Xmx1g")), problem.help)
       assert(refused(1_000_000_000).problems.head.code == Code.DamagedMesh)
 

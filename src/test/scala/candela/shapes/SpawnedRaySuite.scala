@@ -65,7 +65,9 @@ class SpawnedRaySuite extends AnyFunSuite:
         Vec3(q(0), q(1), q(2))
       val soup = Soups.of(Soups.latticeQuads(draws, 20, 4)(axis).map: (a, b, c) =>
         (put(a), put(b), put(c)))
-      val corners = soup.indices.flatMap(i => soup.positions.slice(3 * i, 3 * i + 3))
+      val corners = soup.indices.slice(0, soup.indices.length).flatMap(i =>
+        soup.positions.slice(3 * i, 3 * i + 3)
+      )
       for _ <- 0 until Tries / 100 do
         hit.u = draws.between(0, 0.5f)
         hit.v = draws.between(0, 0.5f)

@@ -124,7 +124,7 @@ class TriangleSoupSuite extends AnyFunSuite:
     assert(at.material == 5 && at.areaLight == -1)
     val two = Soups.of(Seq((p0, p1, p2), (p0, p2, p1)))
     val lit = Mesh(0, 0, 2, Array.empty, Array.empty, false, 0, firstLight = 7)
-    look(TriangleSoup(two.positions, two.indices, Array(lit), true), 0f, 0f)
+    look(new TriangleSoup(two.positions, two.indices, Array(lit), true), 0f, 0f)
     assert(at.areaLight == 8)
 
   test("each triangle knows its mesh, of meshes of any size, some empty"):

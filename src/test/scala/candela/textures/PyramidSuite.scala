@@ -48,6 +48,13 @@ class PyramidSuite extends AnyFunSuite:
     val texels = FloatTexels(4, 2, 1, Array.fill(8)(2f))
     assert(Pyramid.enlarged(texels, Wrap.Repeat, 1f) eq texels)
 
+  test("a low picture is enlarged by many threads as by one"):
+    val draws = Draws(5)
+    for wrap <- Wrap.values; height <- Seq(1, 3, 5) do
+      val from = FloatTexels(9000, height, 1, Array.fill(9000 * height)(draws.unit()))
+      val alone = numbers(Pyramid.enlarged(from, wrap, 1f))
+      assert(numbers(Pyramid.enlarged(from, wrap, 1f, ThreadPool(3))) == alone, s"$height, $wrap")
+
   test("all wraps are the same with any number of threads"):
     val draws = Draws(8)
     for wrap <- Wrap.values; channels <- Seq(1, 3) do

@@ -70,7 +70,7 @@ private[building] object TreeParts:
           if i + 1 < starts.length then 3 * starts(i + 1)._2 else soup.positions.length
         val numbers = Seq(
           Numbers(soup.positions, 3 * starts(i)._2, vertices),
-          Numbers(soup.indices, 3 * starts(i)._1, 3 * ends(i))
+          Numbers(soup.indices.slice(3 * starts(i)._1, 3 * ends(i)))
         )
         Sha256.ofNumbers(numbers, parallel)
       val sum = soup.meshes.lift(i).flatMap(_.content).fold(ofNumbers)(Sha256.bytesOf)

@@ -1,16 +1,18 @@
 package candela.build.shapes
 
 import scala.collection.mutable.ArrayBuffer
-import scala.reflect.ClassTag
 
 import candela.base.loop
 import candela.math.Transform
-import candela.shapes.{BumpTangents, Mesh, TriangleSoup}
+import candela.shapes.{BumpTangents, Mesh, TriangleSoup, VertexIndices}
 
 /** Collects the meshes of a scene, in world space, for one [[TriangleSoup]]. */
 final class SoupBuilder:
   private val positions = ArrayBuffer.empty[Array[Float]]
-  private val indices = ArrayBuffer.empty[Array[Int]]
+
+  /** Of each mesh, with the number of its first vertex. */
+  private val indices = ArrayBuffer.empty[(Array[Int], Int)]
+
   private val meshes = ArrayBuffer.empty[Mesh]
   private var vertices = 0
   private var triangles = 0
@@ -41,7 +43,7 @@ final class SoupBuilder:
     val first = triangles
     val base = vertices
     positions += SoupBuilder.points(mesh.positions, toWorld)
-    indices += SoupBuilder.shifted(mesh.indices, base)
+    indices += ((mesh.indices, base))
     meshes += Mesh(
       firstVertex = base,
       firstTriangle = first,
@@ -66,21 +68,14 @@ final class SoupBuilder:
     * @param tangents, relief as in [[TriangleSoup]]
     */
   def result(tangents: Boolean, relief: Boolean): TriangleSoup =
-    def joined[A: ClassTag](pieces: ArrayBuffer[Array[A]]): Array[A] =
-      val all = if pieces.length == 1 then pieces.head else Array.concat(pieces.toSeq*)
-      pieces.clear()
-      all
-    val points = joined(positions)
-    TriangleSoup(points, joined(indices), meshes.toArray, tangents, relief)
+    val points =
+      if positions.length == 1 then positions.head else Array.concat(positions.toSeq*)
+    positions.clear()
+    val corners = VertexIndices.joined(indices.iterator, 3 * triangles)
+    indices.clear()
+    new TriangleSoup(points, corners, meshes.toArray, tangents, relief)
 
 object SoupBuilder:
-  private def shifted(indices: Array[Int], by: Int): Array[Int] =
-    if by == 0 then indices
-    else
-      val out = new Array[Int](indices.length)
-      loop(out.length)(i => out(i) = indices(i) + by)
-      out
-
   private[build] def points(p: Array[Float], toWorld: Transform): Array[Float] =
     if toWorld.isIdentity then p
     else

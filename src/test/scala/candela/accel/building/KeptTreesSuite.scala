@@ -23,6 +23,7 @@ class KeptTreesSuite extends AnyFunSuite:
   ): Primitives =
     val (a, b) = (AcceleratorScenes.torus(60).soup, AcceleratorScenes.torus(sides).soup)
     def at(soup: TriangleSoup, by: Float) = soup.positions.map(_ + by)
+    def all(soup: TriangleSoup) = soup.indices.slice(0, soup.indices.length)
     val vertices = a.positions.length / 3
     def mesh(vertex: Int, triangle: Int, count: Int) =
       val none = Array.empty[Float]
@@ -39,7 +40,7 @@ class KeptTreesSuite extends AnyFunSuite:
       )
     val soup = TriangleSoup(
       at(a, first) ++ at(b, second),
-      a.indices ++ b.indices.map(_ + vertices),
+      all(a) ++ all(b).map(_ + vertices),
       Array(mesh(0, 0, a.count), mesh(vertices, a.count, b.count)),
       false
     )
