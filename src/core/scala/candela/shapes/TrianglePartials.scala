@@ -30,10 +30,13 @@ private[shapes] object TrianglePartials:
     val t = mesh.uvs
     // Differences of the parameters along the two edges; the default uv are (0,0), (1,0), (1,1)
     val isPlain = t.length == 0
-    val u1 = if isPlain then 1f else t(2 * k1) - t(2 * k0)
-    val v1 = if isPlain then 0f else t(2 * k1 + 1) - t(2 * k0 + 1)
-    val u2 = if isPlain then 1f else t(2 * k2) - t(2 * k0)
-    val v2 = if isPlain then 1f else t(2 * k2 + 1) - t(2 * k0 + 1)
+    val j0 = mesh.uvAt(i0)
+    val j1 = mesh.uvAt(i1)
+    val j2 = mesh.uvAt(i2)
+    val u1 = if isPlain then 1f else t(j1) - t(j0)
+    val v1 = if isPlain then 0f else t(j1 + 1) - t(j0 + 1)
+    val u2 = if isPlain then 1f else t(j2) - t(j0)
+    val v2 = if isPlain then 1f else t(j2 + 1) - t(j0 + 1)
     val determinant = differenceOfProducts(u1, v2, u2, v1)
     val isDegenerate = Math.abs(determinant) < Degenerate
     val n = mesh.normals

@@ -9,7 +9,8 @@ import candela.math.*
   * @param firstVertex   index of its first vertex in [[TriangleSoup.positions]], in vertices
   * @param firstTriangle index of its first triangle
   * @param normals       three Floats per vertex, world space, any length; empty for flat shading
-  * @param uvs           two Floats per vertex; if empty, (0,0), (1,0), (1,1) in every triangle
+  * @param uvs           two Floats per vertex, or two that all vertices have; if empty, (0,0),
+  *   (1,0), (1,1) in every triangle
   * @param flipped       whether the geometric normal is −(p1−p0)×(p2−p0)
   * @param material      index into the scene's materials
   * @param firstLight    light of its first triangle, the others follow; −1 if it does not emit
@@ -32,7 +33,10 @@ final class Mesh(
     val readsPartials: Boolean = true,
     val turned: Boolean = false,
     val content: Option[String] = None
-)
+):
+  /** Where the u of a vertex of the soup is in `uvs`, unless these are empty. */
+  private[shapes] def uvAt(vertex: Int): Int =
+    if uvs.length == 2 then 0 else (vertex - firstVertex) * 2
 
 /** All triangles of a scene in world space.
   *
@@ -223,9 +227,9 @@ final class TriangleSoup(
       at.v = b2
     else
       val b0 = 1f - b1 - b2
-      val j0 = (i0 - mesh.firstVertex) * 2
-      val j1 = (i1 - mesh.firstVertex) * 2
-      val j2 = (i2 - mesh.firstVertex) * 2
+      val j0 = mesh.uvAt(i0)
+      val j1 = mesh.uvAt(i1)
+      val j2 = mesh.uvAt(i2)
       at.u = b0 * t(j0) + b1 * t(j1) + b2 * t(j2)
       at.v = b0 * t(j0 + 1) + b1 * t(j1 + 1) + b2 * t(j2 + 1)
 
@@ -234,9 +238,9 @@ final class TriangleSoup(
     val t = mesh.uvs
     if t.length == 0 then e1
     else
-      val j0 = (i0 - mesh.firstVertex) * 2
-      val j1 = (i1 - mesh.firstVertex) * 2
-      val j2 = (i2 - mesh.firstVertex) * 2
+      val j0 = mesh.uvAt(i0)
+      val j1 = mesh.uvAt(i1)
+      val j2 = mesh.uvAt(i2)
       val v1 = t(j1 + 1) - t(j0 + 1)
       val v2 = t(j2 + 1) - t(j0 + 1)
       val determinant = differenceOfProducts(t(j1) - t(j0), v2, t(j2) - t(j0), v1)

@@ -112,6 +112,12 @@ class PartialsSuite extends AnyFunSuite:
     assert(abs(at.dpdu.length - 1) < 1e-6f && abs(at.dpdv.length - 1) < 1e-6f)
     assert(abs(at.dpdu dot at.geometricNormal) < 1e-6f && abs(at.dpdu dot at.dpdv) < 1e-6f)
 
+  test("one pair of parameters is that of all vertices"):
+    def seen(uvs: Array[Float]) =
+      val at = look(triangle(smooth, uvs), 0.3f, 0.4f)
+      Seq(at.dpdu, at.dpdv, at.dndu, at.dndv, at.tangentU, at.tangentV).map(_.toVec3)
+    assert(seen(Array.fill(2)(0.5f)) == seen(Array.fill(6)(0.5f)))
+
   test("tangents for displacements are perpendicular to the shading normal"):
     val at = look(triangle(smooth, Array.empty), 0.3f, 0.4f)
     val ns = at.frame.n

@@ -112,6 +112,14 @@ class TriangleSoupSuite extends AnyFunSuite:
     look(soup(uvs = Array(0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f)), 0.2f, 0.2f)
     near(at.frame.s cross at.frame.t, Vec3.Z)
 
+  test("one pair of uv is that of all vertices"):
+    val one = Array(0.3f, -0.7f)
+    def seen(uvs: Array[Float]) =
+      val at = look(soup(uvs = uvs), 0.2f, 0.3f)
+      (at.u, at.v, at.frame.s.toVec3)
+    assert(seen(one) == seen(one ++ one ++ one))
+    assert(Math.abs(at.u - 0.3f) < 1e-6f && Math.abs(at.v + 0.7f) < 1e-6f)
+
   test("where no one asks for u, the frame is any around the normal"):
     look(soup(tangents = false), 0.2f, 0.2f)
     assert(at.frame.n == Vec3.Z)

@@ -49,7 +49,7 @@ final class SoupBuilder:
       firstTriangle = first,
       triangles = mesh.indices.length / 3,
       normals = SoupBuilder.normals(mesh.normals, toWorld, reversed && flipNormals),
-      uvs = mesh.uvs,
+      uvs = SoupBuilder.compact(mesh.uvs),
       flipped = reversed != toWorld.swapsHandedness,
       material = material,
       firstLight = firstLight,
@@ -76,6 +76,13 @@ final class SoupBuilder:
     new TriangleSoup(points, corners, meshes.toArray, tangents, relief)
 
 object SoupBuilder:
+  /** One pair alone if all are the same: many programs write uv of meshes that have none. */
+  private def compact(uvs: Array[Float]): Array[Float] =
+    def bits(i: Int) = java.lang.Float.floatToRawIntBits(uvs(i))
+    var i = 2
+    while i < uvs.length && bits(i) == bits(i & 1) do i += 1
+    if uvs.length > 2 && i == uvs.length then uvs.take(2) else uvs
+
   private[build] def points(p: Array[Float], toWorld: Transform): Array[Float] =
     if toWorld.isIdentity then p
     else
