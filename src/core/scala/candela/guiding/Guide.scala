@@ -127,9 +127,10 @@ final class Guide(
     val share = Math.min(1.0, lit)
     val made =
       GuideGrowth(was.field, events, settings, share, all, records.costs, records.pathCost)
-    if was.field.guides && settings.adapts && !progress.isCertain &&
-      after(was, made.judged(), sample).gaveUp
-    then made.giveUp()
+    if settings.adapts && !progress.isCertain then
+      val next = after(was, made.judged(), sample)
+      if next.gaveUp then made.giveUp()
+      else if !next.isCertain then made.fitRoughly()
     made
 
   /** What is known when a pass ends. */

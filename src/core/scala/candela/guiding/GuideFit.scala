@@ -9,19 +9,20 @@ import candela.sampling.SampleHash
   * light through a gap meets in the gap.
   *
   * @param events their numbers, sorted ([[GuideEvents]])
+  * @param most   events that one mixture is fitted to
   */
-private[guiding] final class GuideFit(events: Array[Float]):
+private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit.Most):
   import GuideField.{End, Factor, Kappa, Lobes, Nearness, Size, Weight}
   import GuideFit.*
 
   // Events in proportion to their light: points from the centre, and directions
-  private val px, py, pz, wx, wy, wz = new Array[Float](Most)
+  private val px, py, pz, wx, wy, wz = new Array[Float](most)
   private var count = 0
 
   private val nears = new Array[Float](Nears)
 
   // Of each event and nearness, the direction from the centre
-  private val directions = new Array[Float](Most * Nears * 3)
+  private val directions = new Array[Float](most * Nears * 3)
   private val parts, factors = new Array[Float](Lobes)
 
   // Of each lobe, the distances that it tries
@@ -52,16 +53,16 @@ private[guiding] final class GuideFit(events: Array[Float]):
   /** Takes events in proportion to their light, bright ones several times, at even steps. */
   private def choose(of: Array[Int], centre: Array[Float]): Unit =
     import GuideRecords.*
-    val most = Brightest * meanLight(events, of)
+    val brightest = Brightest * meanLight(events, of)
     var all = 0.0
-    loop(of.length)(j => all += Math.min(events(of(j) + Light), most))
-    val step = all / Math.min(Most, of.length)
+    loop(of.length)(j => all += Math.min(events(of(j) + Light), brightest))
+    val step = all / Math.min(most, of.length)
     var sum = 0.0
     count = 0
     loop(of.length): j =>
       val at = of(j)
-      sum += Math.min(events(at + Light), most)
-      while count < Most && sum > (count + 0.5) * step do
+      sum += Math.min(events(at + Light), brightest)
+      while count < most && sum > (count + 0.5) * step do
         px(count) = events(at) - centre(0)
         py(count) = events(at + 1) - centre(1)
         pz(count) = events(at + 2) - centre(2)
@@ -200,8 +201,9 @@ private[guiding] final class GuideFit(events: Array[Float]):
 private[guiding] object GuideFit:
   import GuideField.{Lobes, Nearness, Size}
 
-  /** Events that one mixture is fitted to. */
-  private inline val Most = 512
+  /** Events that one mixture is fitted to, and as many as do for few paths. */
+  inline val Most = 512
+  inline val Rough = 256
 
   /** Distances that each lobe tries. */
   private inline val Nears = 7

@@ -33,6 +33,7 @@ private[guiding] final class GuideGrowth(
   private val largest = Math.max(Fewest, settings.perRegion * Math.sqrt(events.count))
   private val leaves = ArrayBuffer.empty[GuideLeaf]
   private var isGivenUp = false
+  private var isRough = false
   divideAll()
 
   /** What the paths of the pass tell, before anything is fitted. */
@@ -43,13 +44,16 @@ private[guiding] final class GuideGrowth(
   /** Nothing is guided any more, so nothing need be fitted. */
   def giveUp(): Unit = isGivenUp = true
 
+  /** The field is for few paths only, which cost less than its fits do. */
+  def fitRoughly(): Unit = isRough = true
+
   /** Regions of the new field, which are to be fitted. */
   def regions: Int = if isGivenUp then 0 else leaves.length
 
   /** Fits one of them, with memory for it. */
   def grow(region: Int, fit: GuideFit): Unit = leaves(region).grow(fit)
 
-  def newFit(): GuideFit = GuideFit(numbers)
+  def newFit(): GuideFit = GuideFit(numbers, if isRough then GuideFit.Rough else GuideFit.Most)
 
   /** The field, when all regions have grown. */
   def result(): GuideField =
@@ -118,8 +122,7 @@ private[guiding] final class GuideGrowth(
     val a = (0 until 3).maxBy(variance(_))
     val middle = mean(a).toFloat
     val (low, high) =
-      if of.length > largest then of.partition(i => numbers(i + a) < middle)
-      else (of, Array.emptyIntArray)
+      if of.length > largest then parted(of, a, middle) else (of, Array.emptyIntArray)
     if low.length > 0 && high.length > 0 then
       val child = newChildren(to, a, middle)
       divide(region, low, child, found)
@@ -134,13 +137,30 @@ private[guiding] final class GuideGrowth(
   /** Mean and variance of the points, by axis. */
   private def spread(of: Array[Int]): (Array[Double], Array[Double]) =
     val mean, variance = new Array[Double](3)
-    for a <- 0 until 3 do
-      loop(of.length)(j => mean(a) += numbers(of(j) + a))
-      mean(a) /= Math.max(1, of.length)
-      loop(of.length): j =>
-        val d = numbers(of(j) + a) - mean(a)
+    loop(of.length): j =>
+      val at = of(j)
+      loop(3)(a => mean(a) += numbers(at + a))
+    loop(3)(a => mean(a) /= Math.max(1, of.length))
+    loop(of.length): j =>
+      val at = of(j)
+      loop(3): a =>
+        val d = numbers(at + a) - mean(a)
         variance(a) += d * d
     (mean, variance)
+
+  /** The events before the middle of the axis, and the others. */
+  private def parted(of: Array[Int], a: Int, middle: Float): (Array[Int], Array[Int]) =
+    var count = 0
+    loop(of.length)(j => if numbers(of(j) + a) < middle then count += 1)
+    val low = new Array[Int](count)
+    val high = new Array[Int](of.length - count)
+    count = 0
+    loop(of.length): j =>
+      if numbers(of(j) + a) < middle then
+        low(count) = of(j)
+        count += 1
+      else high(j - count) = of(j)
+    (low, high)
 
 private object GuideGrowth:
   /** Events from which a mixture is fitted, at least. */

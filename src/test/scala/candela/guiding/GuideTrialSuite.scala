@@ -5,8 +5,8 @@ import org.scalatest.funsuite.AnyFunSuite
 class GuideTrialSuite extends AnyFunSuite:
   import GuideTrialSuite.*
 
-  private def guide(learnsOn: Boolean = false) =
-    val guide = Guide(GuideSettings(adapts = true, learnsOn), planned = 64, pixels = Pixels)
+  private def guide(learnsOn: Boolean = false, settings: GuideSettings = Usual) =
+    val guide = Guide(settings.copy(learnsOn = learnsOn), planned = 64, pixels = Pixels)
     val _ = pass(guide, until = 1, left = 1.0)
     guide
 
@@ -33,17 +33,35 @@ class GuideTrialSuite extends AnyFunSuite:
     assert(close.pass.part == 1f)
 
   test("regions are judged before they are fitted as after"):
-    val settings = GuideSettings(adapts = true)
     def growth() =
       val records = GuideRecords(1f, GuideFieldSuite.learnt.regions)
       record(records.newPart(), left = 0.7)
-      GuideFieldSuite.growth(GuideFieldSuite.learnt, records.sorted(), settings)
+      GuideFieldSuite.growth(GuideFieldSuite.learnt, records.sorted(), Usual)
     val (before, after) = (growth(), growth())
     val judged = before.judged()
     for made <- Vector(before, after) do assert(GuideLearning(made).help(() => (), () => false))
     assert(judged == after.verdict && judged == before.verdict && judged.paths > 10000)
     assert(before.result().lobes sameElements after.result().lobes)
     assert(before.result().shares sameElements after.result().shares)
+
+  test("until it is certain that guiding pays, mixtures are fitted to fewer events"):
+    // Regions of many events
+    val settings = Usual.copy(perRegion = 8.0)
+    def check(left: Double, isRough: Boolean): Unit =
+      val trial = guide(settings = settings)
+      val before = trial.pass
+      val paths = (Pixels * before.part).toInt
+      val _ = pass(trial, until = 2, left)
+      for fitsRoughly <- Vector(false, true) do
+        val records = GuideRecords(1f, before.field.regions)
+        record(records.newPart(), left, paths)
+        val made = GuideFieldSuite.growth(before.field, records.sorted(), settings)
+        if fitsRoughly then made.fitRoughly()
+        assert(GuideLearning(made).help(() => (), () => false))
+        val isSame = made.result().lobes.sameElements(trial.pass.field.lobes)
+        assert(isSame == (fitsRoughly == isRough), s"$left of the variance, $fitsRoughly")
+    check(left = 0.8, isRough = true)
+    check(left = 0.4, isRough = false)
 
   test("nothing is fitted where guiding is given up"):
     def fitted(left: Double) =
@@ -64,6 +82,7 @@ class GuideTrialSuite extends AnyFunSuite:
 
 private object GuideTrialSuite:
   val Pixels = 300000
+  val Usual: GuideSettings = GuideSettings(adapts = true)
 
   /** Light of each second path. */
   private val Bright = 5f
