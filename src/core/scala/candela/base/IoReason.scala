@@ -14,6 +14,8 @@ object IoReason:
     case z: ZipException => packed(Option(z.getMessage).getOrElse(""))
     case _: CharacterCodingException => "it is not text in its encoding"
     case _: NoSuchFileException => "no such file"
+    case _: FileAlreadyExistsException => "there is a file of this name"
+    case _: NotDirectoryException => "it is a file, not a folder"
     case _: AccessDeniedException => "no read permission"
     case _: FileSystemLoopException => "its links are a circle"
     case f: FileSystemException =>

@@ -52,16 +52,24 @@ private object CameraPairs:
   def followed(view: View, seed: Int, pool: Parallel, from: Int, until: Int)(
       begin: PilotBlocks => (Integrator, (Int, Int) => Unit)
   ): PilotBlocks =
-    val all = PilotBlocks(view)
-    pool
-      .map((until - from) / OfPart): i =>
-        val part = PilotBlocks(view)
-        val (integrator, after) = begin(part)
-        val start = from + i * OfPart
-        CameraPairs(view, seed).follow(start, start + OfPart, integrator, part)(after)
-        part
-      .foreach(all.add)
+    val (all, _) = counted(view, seed, pool, from, until): part =>
+      val (integrator, after) = begin(part)
+      (integrator, after, ())
     all
+
+  /** Likewise, with what each part has counted, in their order. */
+  def counted[A](view: View, seed: Int, pool: Parallel, from: Int, until: Int)(
+      begin: PilotBlocks => (Integrator, (Int, Int) => Unit, A)
+  ): (PilotBlocks, Vector[A]) =
+    val all = PilotBlocks(view)
+    val parts = pool.map((until - from) / OfPart): i =>
+      val part = PilotBlocks(view)
+      val (integrator, after, count) = begin(part)
+      val start = from + i * OfPart
+      CameraPairs(view, seed).follow(start, start + OfPart, integrator, part)(after)
+      (part, count)
+    for (part, _) <- parts do all.add(part)
+    (all, parts.map(_._2).toVector)
 
   /** Starts the path `k` of a pilot. */
   def start(view: View, sampler: Sampler, k: Int): Unit =

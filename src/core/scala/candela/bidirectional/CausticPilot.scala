@@ -3,7 +3,6 @@ package candela.bidirectional
 import candela.base.{Parallel, loop}
 import candela.color.Rgb
 import candela.film.{Splats, View}
-import candela.guiding.PhotonField
 import candela.integrators.{CausticWeights, Integrator}
 import candela.sampling.{IndependentSampler, Sampler}
 import candela.scene.{CasterLearning, Casters, Scene}
@@ -15,7 +14,7 @@ import candela.scene.{CasterLearning, Casters, Scene}
   * @param ofLamps   the same of those that begin at lamps
   * @param radius    within which photons are gathered at first, if paths leave them caustics
   * @param bringsAll do photons then bring all that media scatter to the camera?
-  * @param aim       photons that guide the camera's paths, if they do
+  * @param aim       how light is found that specular surfaces show, if it is looked for
   */
 final case class CausticChoice(
     casters: Casters,
@@ -23,7 +22,7 @@ final case class CausticChoice(
     ofLamps: Float = 0f,
     radius: Float = 0f,
     bringsAll: Boolean = false,
-    aim: Option[PhotonField] = None
+    aim: Option[SeenLight] = None
 ):
   /** How many light paths there are. */
   def paths: String =
@@ -49,15 +48,15 @@ final case class CausticChoice(
   * with [[Rounds]] times as many paths.
   *
   * @param pool   for paths that are traced at once; what is found is the same for any
-  * @param tracer paths from the camera, weighted against light paths, and guided by photons if
-  *               there are any
+  * @param tracer paths from the camera, weighted against light paths, and those that look for light
+  *               which specular surfaces show
   */
 private[candela] final class CausticPilot(
     scene: Scene,
     view: View,
     light: CausticLight,
     pool: Parallel,
-    tracer: (CausticWeights, Option[PhotonField]) => Integrator
+    tracer: (CausticWeights, Option[SeenLight]) => Integrator
 ):
   import CausticPilot.*
 
@@ -71,13 +70,14 @@ private[candela] final class CausticPilot(
       val learnt = traced(light, LightKind.OfCasters, 0, LearningPaths, Seed, isLearning = true)
       if learnt.splats == 0 then withoutSplats else look(light.casters.aimed(learnt.learning.aim))
 
-  /** The choice of [[run]] with as many light paths as suit camera paths that its photons guide.
+  /** The choice of [[run]] with as many light paths as suit camera paths that look for light which
+    * specular surfaces show.
     * The first round of these decides: specks that few find would hide what light paths bring.
     */
   def balanced(choice: CausticChoice): CausticChoice = looked.fold(choice): found =>
     val kinds = LightKind.values.toVector.take(if choice.ofLamps > 0f then 2 else 1)
     val beside = found.beside(followed(choice.casters, kinds, 0, 1, choice.aim))
-    Expected.of(beside, kinds, AimPilot.Overhead).choice(choice.casters).copy(aim = choice.aim)
+    Expected.of(beside, kinds, choice.aim.fold(1.0)(_.overhead)).choice(choice.casters).copy(aim = choice.aim)
 
   private def withoutSplats: (Option[CausticChoice], String) =
     val why = "no light path reaches the camera"
@@ -129,7 +129,7 @@ private[candela] final class CausticPilot(
       kinds: Vector[LightKind],
       from: Int,
       until: Int,
-      aim: Option[PhotonField]
+      aim: Option[SeenLight]
   ): PilotBlocks =
     val ofLamps = if kinds.contains(LightKind.OfLamps) then 1f else 0f
     val weights = CausticWeights(scene, aimed, view.camera, 1f, ofLamps)

@@ -74,7 +74,7 @@ object SceneBuilder:
       context.problems.error(
         Code.TooLarge,
         context.placeOf(context.description.film),
-        s"can't render ${crop.width}×${crop.height} pixels at once",
+        s"can't render ${crop.width}×${crop.height} pixels at once, at most $MostPixels",
         Some("give the film a crop window, or render parts of it with --cropwindow")
       )
     checkLimits(context, image, crop, sampling)

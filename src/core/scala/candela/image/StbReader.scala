@@ -20,6 +20,7 @@ private[image] object StbReader:
   /** @param admit receives width and height before the pixels are decoded */
   def read(file: Array[Byte], admit: (Int, Int) => Unit = (_, _) => ()): StoredImage =
     Natives.need("stb")
+    PngChunks.check(file)
     val stack = MemoryStack.stackPush()
     val native = MemoryUtil.memAlloc(file.length)
     try

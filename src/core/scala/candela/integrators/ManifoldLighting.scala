@@ -1,26 +1,46 @@
 package candela.integrators
 
 import candela.color.{MutableRgb, Rgb}
+import candela.geometry.Hit
+import candela.guiding.{GuideField, PhotonMixture}
 import candela.lights.LightSample
-import candela.manifold.SpecularChain
+import candela.manifold.{Coverage, SpecularChain}
+import candela.math.*
 import candela.sampling.{Discrete, RandomStream, Sampler}
 import candela.scene.Scene
+import candela.shapes.SurfaceSample
 
 /** Light that comes to a surface by chains of specular surfaces: a manifold walk finds one chain,
   * and how often others find the same one estimates its probability. Mutable, one per worker.
+  *
+  * To lamps that are surfaces, walks begin in directions that photons came from: any direction has
+  * a probability, as lobes have tails.
   *
   * Source: Zeltner, Georgiev and Jakob 2020, §4.2; see [[candela.manifold.SpecularChain]].
   */
 private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manifolds):
   private val chain = SpecularChain(scene)
+  private val coverage = Coverage(scene)
   private val random = RandomStream()
+  private val lobes = PhotonMixture()
+  private val seed = MutableVec3()
+  private val place = SurfaceSample()
   private val sample = LightSample()
   private val met = scene.newPoint()
   private val passed = MutableRgb()
   private var light = -1
 
-  /** Probability of the lamp. */
-  private var chance = 0f
+  /** Are there lobes at the vertex? */
+  private var isSeeded = false
+
+  /** Is the lamp a surface? */
+  private var isSurface = false
+
+  /** Per area at the lamp, or 1 for those without extent, times the probability of the lamp. */
+  private var density = 0f
+
+  /** What a path finds that meets the lamp by chance, relative to what the chain brings. */
+  private var rarity = 0.0
 
   /** What [[finds]] has found, not yet weighted with the path's throughput. */
   val arrived: MutableRgb = MutableRgb()
@@ -30,29 +50,65 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
 
   def raysTraced: Long = chain.raysTraced
 
+  /** The path has come to a vertex, where nothing was looked for yet. */
+  def arrive(): Unit = isSeeded = false
+
   /** Looks for light that `vertex` scatters to its `wo`. The sampler stays where it is. */
   def finds(vertex: SurfaceVertex, path: PathState, time: Float, sampler: Sampler): Boolean =
     val position = sampler.position
     random.seed(sampler.next1D(), sampler.next1D())
     sampler.goTo(position)
+    locate(vertex)
+    val share = if path.chain == Manifolds.Seen then 1f else ManifoldLighting.Later
     val lamps = manifolds.lamps
-    lamps != null && chooseLamp(lamps, vertex) && {
+    lamps != null && (share == 1f || random.next() < share) && chooseLamp(lamps, vertex) && {
       chain.begin(vertex.at, time, manifolds.maxDepth - path.depth)
-      chain.find(random) && lights(vertex, path) && {
-        chain.keep()
-        arrived.scale(trials())
-        true
+      finds() && lights(vertex, path) && {
+        val alone = path.carried(arrived.toRgb, 1f).average
+        val chance = if isSurface then manifolds.chance(alone) else 1f
+        (chance == 1f || random.next() < chance) && {
+          chain.keep()
+          val walks = trials() / (share * chance)
+          arrived.scale(walks)
+          val tally = manifolds.tally
+          if tally != null && isSurface then tally.add(light, alone, walks, rarity)
+          true
+        }
       }
+    }
+
+  private def locate(vertex: SurfaceVertex): Unit =
+    val field = manifolds.seeds
+    isSeeded = field != null && {
+      val n = vertex.at.frame.n
+      val side = GuideField.side(if vertex.localWo.z < 0f then -n else n.toVec3)
+      lobes.locate(field, vertex.at.p, side)
     }
 
   private def chooseLamp(lamps: Discrete, vertex: SurfaceVertex): Boolean =
     light = lamps.sample(random.next())
+    val lamp = scene.lights(light)
+    val surface = lamp.asSurface
     val (u1, u2) = (random.next(), random.next())
-    scene.lights(light).sample(vertex.at.p, u1, u2, sample)
-    chance = lamps.probability(light)
-    chain.aim(if sample.isInfinite then sample.wi else sample.target.p, sample.isInfinite)
-    // Others are surfaces that rays do not meet
-    sample.pdf == 1f && (sample.isInfinite || sample.target.n.isZero)
+    isSurface = surface != null
+    if surface != null then
+      surface.samplePlace(u1, u2, place)
+      density = place.pdf * lamps.probability(light)
+      chain.aim(place.p, isDirection = false)
+      isSeeded && density > 0f
+    else
+      lamp.sample(vertex.at.p, u1, u2, sample)
+      density = lamps.probability(light)
+      chain.aim(if sample.isInfinite then sample.wi else sample.target.p, sample.isInfinite)
+      // Others are surfaces that rays do not meet
+      sample.pdf == 1f && (sample.isInfinite || sample.target.n.isZero)
+
+  /** Walks once. */
+  private def finds(): Boolean =
+    if isSurface then
+      lobes.sample(random.next(), random.next(), seed)
+      chain.findAlong(seed, random)
+    else chain.find(random)
 
   /** Computes what the chain brings: false if nothing. */
   private def lights(vertex: SurfaceVertex, path: PathState): Boolean =
@@ -62,20 +118,32 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     !f.isBlack && {
       chain.throughput(passed)
       val sent = if passed.isBlack then Rgb.Black else emitted
-      val factor = (chain.spread * Math.abs(localWi.z) / chance).toFloat
+      val factor = (chain.spread * Math.abs(localWi.z) / density).toFloat
       if scene.isDispersive && !path.isAlone && chain.isDispersive then
         passed.scale(LightTransport.Hero)
       passed.scale(f * sent)
       passed.scale(factor)
       arrived.set(passed.toRgb)
+      if manifolds.tally != null && isSurface then
+        val cosine = met.geometricNormal absDot chain.toLamp
+        val byChance = vertex.localPdf(localWi).toDouble * chain.probability * cosine * chain.spread
+        rarity = if byChance > 0.0 then density / byChance else 0.0
       !arrived.isBlack && factor < Float.PositiveInfinity
     }
 
-  /** Intensity of the lamp towards the chain, or irradiance. */
+  /** Radiance of the lamp towards the chain, times the cosine there; of others, their intensity or
+    * irradiance.
+    */
   private def emitted: Rgb =
-    if !chain.escapes(met) then Rgb.Black
+    val lamp = scene.lights(light)
+    val surface = lamp.asSurface
+    val to = chain.toLamp
+    if surface != null then
+      if !chain.reaches(light, met) then Rgb.Black
+      else surface.radiance(met, -to) * (met.geometricNormal absDot to)
+    else if !chain.escapes(met) then Rgb.Black
     else
-      scene.lights(light).sample(chain.end, 0f, 0f, sample)
+      lamp.sample(chain.end, 0f, 0f, sample)
       if sample.pdf != 1f then Rgb.Black
       else if sample.isInfinite then sample.radiance.toRgb
       else sample.radiance.toRgb * (sample.target.p - chain.end).lengthSquared
@@ -84,9 +152,15 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     */
   private def trials(): Float =
     var count = 1
-    while count < ManifoldLighting.Most && !(chain.find(random) && chain.isSame) do count += 1
+    while count < manifolds.most && !(finds() && chain.isSame) do count += 1
     count.toFloat
 
+  /** The path leaves the vertex by `vertex.bounce`. */
+  def leave(vertex: SurfaceVertex, hit: Hit, path: PathState): Unit =
+    manifolds.leave(vertex, hit, path, coverage, isSeeded)
+
 private object ManifoldLighting:
-  /** Chains that fewer than one walk in as many finds are too dark. */
-  private inline val Most = 100000
+  /** Probability of a walk at a vertex that the camera does not see by specular surfaces only: it
+    * matters less.
+    */
+  private inline val Later = 0.25f

@@ -1,20 +1,40 @@
 package candela.integrators
 
+import candela.geometry.Hit
+import candela.guiding.PhotonField
+import candela.manifold.Coverage
 import candela.sampling.Discrete
 import candela.scene.Scene
 
-/** Which light manifold walks find: that which lamps without extent send, by way of one or two
-  * surfaces that mirror or refract it, to a surface which the camera sees off or through specular
-  * surfaces only. Neither paths nor light paths find it. Immutable.
+/** Which light manifold walks find: that which lamps send, by way of one or two surfaces that
+  * mirror or refract it, to a path from the camera whose first event is specular too. No light path
+  * can be connected to such a path. Immutable.
   *
-  * Lamps with extent are left to paths: where solutions are many, as under waves, walks to these
-  * cost more than they bring.
+  * Of lamps without extent they find all such light, which paths can't. Of surfaces they find it
+  * where photons arrive, which say where walks are to begin; there paths leave it out. So both
+  * together find all of it once.
   *
   * @param maxDepth scattering events of a path, at most
+  * @param isWalked by number of the lamp: is its light looked for?
+  * @param seeds    photons that surfaces have sent; null: lamps have no extent
+  * @param most     walks for the probability of a chain, at most: what fewer find is too dark
+  * @param usual    light of a chain, before its probability is known: that of darker ones is found
+  *   by few walks, in proportion
+  * @param tally    counts what the walks save, if it is to be known
   */
-final class Manifolds(scene: Scene, private[integrators] val maxDepth: Int):
-  private val powers: Array[Float] = scene.lights.toArray.map: light =>
-    if light.isCausticSource && light.isDelta then Discrete.weight(light.power(scene.ball)) else 0f
+final class Manifolds(
+    scene: Scene,
+    private[integrators] val maxDepth: Int,
+    isWalked: Int => Boolean,
+    private[integrators] val seeds: PhotonField | Null = null,
+    private[integrators] val most: Int = Manifolds.MostWalks,
+    usual: Float = 0f,
+    private[integrators] val tally: WalkTally | Null = null
+):
+  private val powers: Array[Float] = Array.tabulate(scene.lights.length): i =>
+    if isWalked(i) && Manifolds.suits(scene, i) then
+      Discrete.weight(scene.lights(i).power(scene.ball))
+    else 0f
 
   /** Lamps by power: the chance does not depend on the place, as they may be seen in mirrors. */
   private[integrators] val lamps: Discrete | Null =
@@ -25,14 +45,97 @@ final class Manifolds(scene: Scene, private[integrators] val maxDepth: Int):
 
   /** Do the walks look for light at the vertex? */
   private[integrators] def suits(vertex: SurfaceVertex, path: PathState): Boolean =
-    path.chain == Manifolds.Seen && path.depth > 1 && path.depth < maxDepth &&
+    path.chain != Manifolds.Never && path.depth > 1 && path.depth < maxDepth &&
       !vertex.bsdf.isSpecular
 
-  /** The path leaves the vertex by `vertex.bounce`. */
-  private[integrators] def leave(vertex: SurfaceVertex, path: PathState): Unit =
-    if !vertex.bounce.isSpecular then path.chain = Manifolds.Other
+  /** Probability of walks for the probability of a chain of so much light. */
+  private[integrators] def chance(light: Float): Float =
+    if light < usual then light / usual else 1f
+
+  /** Do they find what the path meets of a lamp that is a surface? */
+  private[integrators] def finds(light: Int, path: PathState): Boolean =
+    path.chain > Manifolds.Started && path.chain <= Manifolds.Longest && powers(light) > 0f
+
+  /** The path leaves the vertex by `vertex.bounce`: what they find of what it meets from here on.
+    *
+    * @param isLooked do they look for light of surfaces at the vertex?
+    */
+  private[integrators] def leave(
+      vertex: SurfaceVertex,
+      hit: Hit,
+      path: PathState,
+      coverage: Coverage,
+      isLooked: Boolean
+  ): Unit =
+    val before = path.chain
+    if before != Manifolds.Never then
+      if !vertex.bounce.isSpecular then
+        path.chain =
+          if path.depth == 1 then Manifolds.Never
+          else if isLooked then Manifolds.Started
+          else Manifolds.Beyond
+      else if before >= Manifolds.Started && before != Manifolds.Beyond then
+        val goesOn = before < Manifolds.Longest &&
+          coverage.covers(hit, vertex.at, vertex.bsdf, vertex.localWo)
+        path.chain = if goesOn then before + 1 else Manifolds.Beyond
 
 private[candela] object Manifolds:
   /** The camera sees the path by specular surfaces only. */
   inline val Seen = 0
-  inline val Other = -1
+
+  /** The path has just left a surface where walks look for light; the next numbers: it has met one
+    * surface of chains since, or two.
+    */
+  inline val Started = 1
+  inline val Longest = 3
+
+  /** Walks find nothing of what the path meets, but may look for light at its next vertices. */
+  inline val Beyond = 4
+
+  /** They find nothing, and look for none: light paths may reach such a path. */
+  inline val Never = -1
+
+  inline val MostWalks = 100000
+
+  /** Is the lamp of a kind that walks can look for? */
+  def suits(scene: Scene, light: Int): Boolean =
+    val lamp = scene.lights(light)
+    lamp.isCausticSource && (lamp.isDelta || lamp.asSurface != null)
+
+/** Counts what manifold walks save. Mutable, one per worker.
+  *
+  * @param lamps of the scene
+  */
+final class WalkTally(lamps: Int):
+  /** Of each lamp, by how much second moments are below those of paths that meet it by chance. */
+  val saved: Array[Double] = new Array[Double](lamps)
+
+  private var latest = 0.0
+
+  /** Chains found, and their light before their probability is known. */
+  var count = 0L
+  var light = 0.0
+
+  /** A walk has found a chain.
+    *
+    * @param light of the chain, but for its probability
+    * @param walks the inverse of that
+    * @param ratio of what a path finds that meets the lamp by chance, to `light`
+    */
+  private[integrators] def add(lamp: Int, light: Double, walks: Double, ratio: Double): Unit =
+    this.light += light
+    count += 1
+    val found = light * walks
+    val saving = found * found * (Math.min(ratio / walks, WalkTally.MostRatio) - 1.0)
+    saved(lamp) += saving
+    latest += saving
+
+  /** What was saved since the last call. */
+  def take(): Double =
+    val saving = latest
+    latest = 0.0
+    saving
+
+object WalkTally:
+  /** What one walk finds must not decide alone. */
+  private inline val MostRatio = 1e6

@@ -99,7 +99,7 @@ private[candela] object PhotonLight:
     */
   inline val Started = 1
   inline val Behind = 2
-  inline val Other = Manifolds.Other
+  inline val Other = Manifolds.Never
 
   /** Are photons stored at such a vertex? Not where they would be found in a narrow lobe, or would
     * go on beneath the surface.

@@ -173,8 +173,10 @@ abstract class Walk(
           guiding.meet(path.carried(emitted, weight).average)
         if parts != null then parts.addLight(at.areaLight, depth, path.carried(emitted, weight))
 
-  /** Is what the path meets of the lamp left to photons? */
-  private def isLeft(light: Int): Boolean = photons != null && photons.brings(light, path)
+  /** Is what the path meets of the lamp left to manifold walks or photons? */
+  private def isLeft(light: Int): Boolean =
+    (manifolds != null && manifolds.finds(light, path)) ||
+      (photons != null && photons.brings(light, path))
 
   /** Weight of light that the path meets against light sampling.
     *
@@ -246,6 +248,7 @@ abstract class Walk(
     if disperses && !path.isAlone && vertex.bsdf.isDispersive then path.keepHero()
     val rivals = caustics
     if rivals != null then rivals.arrive(eye, vertex, path)
+    if chains != null then chains.arrive()
     if guiding != null then if isGuided then guiding.arrive() else guiding.leaveAlone()
 
   /** Chooses one light and samples a point on it; false if it contributes nothing. */
@@ -327,7 +330,7 @@ abstract class Walk(
         vertex.scatterBy(inside.entry, vertex.at.frame.n)
         path.isSpread = regularizes
         path.rival = 0.0
-        path.chain = Manifolds.Other
+        path.chain = Manifolds.Never
       emerges
 
   /** Leaves in the sampled direction, or ends. */
@@ -341,7 +344,8 @@ abstract class Walk(
     val rivals = caustics
     if rivals != null then
       rivals.leave(vertex, ray, hit, vertex.at.frame.toWorld(bounce.wi.toVec3), path)
-    if manifolds != null then manifolds.leave(vertex, path)
+    val finder = chains
+    if finder != null then finder.leave(vertex, hit, path)
     val map = photons
     if map != null then map.leave(vertex, ray, hit, path)
     val isOpen = vertex.leave(ray)

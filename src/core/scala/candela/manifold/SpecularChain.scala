@@ -90,6 +90,11 @@ final class SpecularChain(scene: Scene):
         isSampled
     isSeeded && plant(random) && walk()
 
+  /** Likewise, from what is seen in a direction. */
+  def findAlong(way: Vec3, random: RandomStream): Boolean =
+    start.set(x + way * (if isFar then 1f else (lamp - x).length))
+    plant(random) && walk()
+
   /** Starts in a direction near that of the lamp, at a distance of an even logarithm: the closer,
     * the more do waves send light to x.
     */
@@ -224,6 +229,11 @@ final class SpecularChain(scene: Scene):
       out.scale(bounce.pdf)
       i += 1
 
+  /** Probability with which a path that comes to the chain follows it. */
+  def probability: Double =
+    val first = vertices(0).bounce.pdf.toDouble
+    if length > 1 then first * vertices(1).bounce.pdf else first
+
   /** Has the throughput but a first component? */
   def isDispersive: Boolean =
     vertices(0).isDispersive || length > 1 && vertices(1).isDispersive
@@ -247,11 +257,18 @@ final class SpecularChain(scene: Scene):
   /** Direction from the chain to the lamp. */
   def toLamp: MutableVec3 = towards
 
-  /** Traces the ray from the chain to the lamp, which is none of the scene's surfaces: does it get
-    * there?
+  /** Traces the ray from the chain to the lamp: does it reach a surface lamp there?
     *
-    * @param at the surface that it has met
+    * @param light index of the lamp
+    * @param at    where it is met
     */
+  def reaches(light: Int, at: ShadingPoint): Boolean =
+    val last = vertices(length - 1)
+    val distance = (lamp - last.p).length
+    leave(at) && at.areaLight == light &&
+    (at.p - lamp).length < SpecularChain.Near * distance
+
+  /** Likewise of a lamp that is none of the scene's surfaces. */
   def escapes(at: ShadingPoint): Boolean =
     val last = vertices(length - 1)
     val distance = if isFar then Float.PositiveInfinity else (lamp - last.p).length
@@ -302,3 +319,6 @@ private[candela] object SpecularChain:
 
   /** Squared distance of the directions in which the same chain is found again. */
   private inline val Same = 1e-6f
+
+  /** Distance from the place of the lamp where it may be met, relative to that from the chain. */
+  private inline val Near = 1e-3f

@@ -181,7 +181,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
       val image = Renderer.render(plan, threads = 1).image(plan.development)
       assert(image.width == 5 && image.data.exists(_ > 0f), s"$method $sampler")
     val whole = SceneTexts.problems(s"${film("")}$nothing").map(_.message)
-    assert(whole == Vector("can't render 45000×46000 pixels at once"))
+    assert(whole == Vector("can't render 45000×46000 pixels at once, at most 134217727"))
 
   test("nor are layers, bands or groups of lights that would need more"):
     def refused(film: String, layers: Vector[Layer], lights: Int = 1) =

@@ -21,6 +21,21 @@ class PngSuite extends AnyFunSuite:
       // Half a code, and the roundings of 255·x in Float.
       assert(Math.abs(back.data(i) - wanted) <= 0.5f / 255f + 1e-6f, s"number $i")
 
+  test("a chunk whose checksum is wrong is damage, but for one that may be left out"):
+    val good = Png.write(Samples.random(20, 30, Image.RgbNames, seed = 5), Vector.empty)
+    def nameOf(i: Int) = String(good, i, 4, java.nio.charset.StandardCharsets.ISO_8859_1)
+    val data = good.indices.find(nameOf(_) == "IDAT").get
+    val bad = good.clone()
+    bad(data + 20) = (bad(data + 20) ^ 0xff).toByte
+    val error = intercept[ImageError](read(bad))
+    assert(error.getMessage.contains(s"the checksum of the chunk IDAT at byte ${data - 4} is wrong"))
+    // A text chunk before it, with a checksum of 0
+    val text = Array[Byte](0, 0, 0, 3) ++ "tEXtA\u0000b".getBytes ++ new Array[Byte](4)
+    val back = read(good.take(data - 4) ++ text ++ good.drop(data - 4)).toImage
+    assert(back.data.sameElements(read(good).toImage.data))
+    // One that is cut short is left to the decoder
+    assert(intercept[ImageError](read(good.take(data + 40))).getMessage.contains("can't be decoded"))
+
   test("NaN is black, infinity white"):
     val data = Array(Float.NaN, Float.PositiveInfinity, Float.NegativeInfinity)
     val back = read(Png.write(Image(1, 1, Image.RgbNames, data), Vector.empty)).toImage

@@ -2,19 +2,25 @@ package candela.integrators
 
 import candela.build.{ColorMode, RenderSettings}
 import candela.image.Image
-import candela.render.Renderer
+import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.Dialect
 import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-/** Manifold walks find the light of a point that paths find of a small ball in its place. */
+/** Manifold walks find the light of a point, or of a tiny ball, that paths find of a larger ball in
+  * its place.
+  */
 final class ManifoldLightingSuite extends AnyFunSuite:
   import ManifoldLightingSuite.*
 
-  private def image(text: String, mode: CausticsMode, spp: Int): Image =
+  private def plan(text: String, mode: CausticsMode, spp: Int): RenderPlan =
     val settings = RenderSettings(Some(spp), color = ColorMode.Rgb, caustics = Some(mode))
-    val plan = SceneTexts.plan(text, Dialect.V4, settings)
+    SceneTexts.plan(text, Dialect.V4, settings)
+
+  private def image(text: String, mode: CausticsMode, spp: Int): Image = image(plan(text, mode, spp))
+
+  private def image(plan: RenderPlan): Image =
     Renderer.render(plan, threads = 2).image(plan.development)
 
   for
@@ -26,8 +32,15 @@ final class ManifoldLightingSuite extends AnyFunSuite:
         ReverseOrientation Shape "disk" "float height" .3 "float radius" 9"""
     )
   do
+    test(s"walks find of a tiny lamp what paths find of a large one, on other surfaces, too: $what"):
+      val walked = plan(scene(s"$wall $surface", ball(0.003)), CausticsMode.Auto, 64)
+      val found = image(walked)
+      val expected = image(scene(s"$wall $surface", ball(Radius)), CausticsMode.Off, 256)
+      assert(walked.features.toMap.apply("caustics").contains("manifold walks find"))
+      BlockMeans.assertEqual(found, expected, allowance = 0.03)
+
     test(s"of two partitions of light, walks and paths, both have the same mean: $what"):
-      val expected = image(scene(surface, ball), CausticsMode.Off, 128)
+      val expected = image(scene(surface, ball(Radius)), CausticsMode.Off, 128)
       val found = image(scene(surface, point), CausticsMode.On, 32)
       assert(image(scene(surface, point), CausticsMode.Off, 1).data.sum < 0.2 * found.data.sum)
       // The ball's centre is as far as its parts but for the square of its size, 1 %
@@ -38,11 +51,17 @@ private object ManifoldLightingSuite:
 
   private val point = """LightSource "point" "rgb I" [9 9 9] "point3 from" [1.6 -.6 2.4]"""
 
-  private def ball: String =
-    val radiance = 9 / (Math.PI * Radius * Radius)
+  /** Sends as much light as the point. */
+  private def ball(radius: Double): String =
+    val radiance = 9 / (Math.PI * radius * radius)
     s"""AttributeBegin Translate 1.6 -.6 2.4
         AreaLightSource "diffuse" "rgb L" [$radiance $radiance $radiance]
-        Shape "sphere" "float radius" $Radius AttributeEnd"""
+        Shape "sphere" "float radius" $radius AttributeEnd"""
+
+  /** Beneath the surface: it is lit by the floor, too. */
+  private val wall = """AttributeBegin Translate 0 1.5 0 Rotate 90 1 0 0
+        Material "diffuse" "rgb reflectance" [.8 .8 .8]
+        Shape "disk" "float radius" .48 AttributeEnd"""
 
   /** A floor beneath the surface. The mirror image of the lamp is out of view. */
   private def scene(surface: String, lamp: String) =

@@ -2,7 +2,8 @@ package candela.build.integrators
 
 import candela.base.Code
 import candela.bidirectional.{
-  AimPilot, CausticChoice, CausticLight, CausticPasses, CausticPilot, CausticTracer, PhotonPilot
+  AimPilot, CausticChoice, CausticLight, CausticPasses, CausticPilot, CausticTracer, PhotonPilot,
+  SeenLight
 }
 import candela.build.recipe.*
 import candela.film.View
@@ -90,9 +91,7 @@ private object CausticMethod:
         view,
         light,
         site.resources.pool,
-        (weights, aim) =>
-          val guide = if aim.isDefined then Guide.unlearning else null
-          tracer(scene, weighed(weights).copy(aim = aim), guide, null)
+        (weights, aim) => sees(scene, weighed(weights), aim, null, null)
       )
       val (found, told) = pilot.run()
       val beside = found.fold(options): choice =>
@@ -102,9 +101,11 @@ private object CausticMethod:
         view,
         light,
         site.resources.pool,
-        (field, guide) => tracer(scene, beside.copy(aim = field), guide, null)
+        (field, guide) => tracer(scene, beside.copy(aim = field), guide, null),
+        walks => tracer(scene, beside.copy(manifolds = Some(walks)), null, null)
       ).run()
-      val guiding = s"photons guide paths to light seen by way of specular surfaces: $expected"
+      val how = if aim.exists(_.walked.isDefined) then "manifold walks find" else "photons guide paths to"
+      val guiding = s"$how light seen by way of specular surfaces: $expected"
       aim match
         case None => (found, s"$told; $expected")
         case _ if found.isEmpty =>
@@ -118,8 +119,7 @@ private object CausticMethod:
 
     def method(choice: CausticChoice): RenderMethod =
       def aimed(own: WalkOptions)(over: Scene, guide: Guide | Null, parts: LightParts | Null) =
-        val learns = if guide == null && choice.aim.isDefined then Guide.unlearning else guide
-        tracer(over, own.copy(manifolds = walked(over), aim = choice.aim), learns, parts)
+        sees(over, own, choice.aim, guide, parts)
       if !choice.hasLightPaths then GuidedMethod(scene)(aimed(options))
       else
         def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): over =>
@@ -156,11 +156,30 @@ private object CausticMethod:
         bias = Some("photon maps of shrinking radius (Knaus, Zwicker 2011)")
       )
 
+    /** Paths that look for light which specular surfaces show. */
+    private def sees(
+        over: Scene,
+        own: WalkOptions,
+        aim: Option[SeenLight],
+        guide: Guide | Null,
+        parts: LightParts | Null
+    ): Integrator =
+      val field = aim.flatMap(_.guiding)
+      val learns = if guide == null && field.isDefined then Guide.unlearning else guide
+      tracer(over, own.copy(manifolds = walked(over, aim), aim = field), learns, parts)
+
     /** Manifold walks between surfaces; media would attenuate the chains. */
-    private def walked(over: Scene): Option[Manifolds] =
-      if light.media.isDefined || !light.findsAll then None
+    private def walked(over: Scene, aim: Option[SeenLight]): Option[Manifolds] =
+      val asked = aim.flatMap(_.walked)
+      if light.media.isDefined || !light.findsAll && asked.isEmpty then None
       else
-        val walks = Manifolds(over, light.maxDepth)
+        val walks = Manifolds(
+          over,
+          light.maxDepth,
+          i => if over.lights(i).isDelta then light.findsAll else asked.exists(_.lamps(i)),
+          asked.flatMap(_ => aim).map(_.photons).orNull,
+          usual = asked.fold(0f)(_.usual)
+        )
         Option.unless(walks.isEmpty)(walks)
 
     private def weighed(weights: CausticWeights): WalkOptions =
