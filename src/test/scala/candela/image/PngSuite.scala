@@ -28,13 +28,17 @@ class PngSuite extends AnyFunSuite:
     val bad = good.clone()
     bad(data + 20) = (bad(data + 20) ^ 0xff).toByte
     val error = intercept[ImageError](read(bad))
-    assert(error.getMessage.contains(s"the checksum of the chunk IDAT at byte ${data - 4} is wrong"))
+    assert(
+      error.getMessage.contains(s"the checksum of the chunk IDAT at byte ${data - 4} is wrong")
+    )
     // A text chunk before it, with a checksum of 0
     val text = Array[Byte](0, 0, 0, 3) ++ "tEXtA\u0000b".getBytes ++ new Array[Byte](4)
     val back = read(good.take(data - 4) ++ text ++ good.drop(data - 4)).toImage
     assert(back.data.sameElements(read(good).toImage.data))
     // One that is cut short is left to the decoder
-    assert(intercept[ImageError](read(good.take(data + 40))).getMessage.contains("can't be decoded"))
+    assert(
+      intercept[ImageError](read(good.take(data + 40))).getMessage.contains("can't be decoded")
+    )
 
   test("NaN is black, infinity white"):
     val data = Array(Float.NaN, Float.PositiveInfinity, Float.NegativeInfinity)

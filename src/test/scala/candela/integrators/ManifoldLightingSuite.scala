@@ -18,7 +18,8 @@ final class ManifoldLightingSuite extends AnyFunSuite:
     val settings = RenderSettings(Some(spp), color = ColorMode.Rgb, caustics = Some(mode))
     SceneTexts.plan(text, Dialect.V4, settings)
 
-  private def image(text: String, mode: CausticsMode, spp: Int): Image = image(plan(text, mode, spp))
+  private def image(text: String, mode: CausticsMode, spp: Int): Image =
+    image(plan(text, mode, spp))
 
   private def image(plan: RenderPlan): Image =
     Renderer.render(plan, threads = 2).image(plan.development)
@@ -32,7 +33,9 @@ final class ManifoldLightingSuite extends AnyFunSuite:
         ReverseOrientation Shape "disk" "float height" .3 "float radius" 9"""
     )
   do
-    test(s"walks find of a tiny lamp what paths find of a large one, on other surfaces, too: $what"):
+    test(
+      s"walks find of a tiny lamp what paths find of a large one, on other surfaces, too: $what"
+    ):
       val walked = plan(scene(s"$wall $surface", ball(0.003)), CausticsMode.Auto, 64)
       val found = image(walked)
       val expected = image(scene(s"$wall $surface", ball(Radius)), CausticsMode.Off, 256)

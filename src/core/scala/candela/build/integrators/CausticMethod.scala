@@ -104,7 +104,8 @@ private object CausticMethod:
         (field, guide) => tracer(scene, beside.copy(aim = field), guide, null),
         walks => tracer(scene, beside.copy(manifolds = Some(walks)), null, null)
       ).run()
-      val how = if aim.exists(_.walked.isDefined) then "manifold walks find" else "photons guide paths to"
+      val how =
+        if aim.exists(_.walked.isDefined) then "manifold walks find" else "photons guide paths to"
       val guiding = s"$how light seen by way of specular surfaces: $expected"
       aim match
         case None => (found, s"$told; $expected")
