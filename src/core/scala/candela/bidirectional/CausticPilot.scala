@@ -77,11 +77,8 @@ private[candela] final class CausticPilot(
   def balanced(choice: CausticChoice): CausticChoice = looked.fold(choice): found =>
     val kinds = LightKind.values.toVector.take(if choice.ofLamps > 0f then 2 else 1)
     val beside = found.beside(followed(choice.casters, kinds, 0, 1, choice.aim))
-    Expected.of(
-      beside,
-      kinds,
-      choice.aim.fold(1.0)(_.overhead)
-    ).choice(choice.casters).copy(aim = choice.aim)
+    val expected = Expected.of(beside, kinds, choice.aim.fold(1.0)(_.overhead))
+    expected.choice(choice.casters).copy(aim = choice.aim)
 
   private def withoutSplats: (Option[CausticChoice], String) =
     val why = "no light path reaches the camera"

@@ -9,7 +9,7 @@ import java.util.zip.CRC32
 /** Checks what decoders that care for speed take as it is: the checksums of a PNG's chunks, without
   * which damaged pixels are pixels of other colours.
   *
-  * Source: PNG Specification, 3rd ed., §5.3 and §13.2: an error in a chunk that may be left out is
+  * Source: PNG Specification, 3rd ed., §5.3 and §13.2. An error in a chunk that may be left out is
   * none of the image.
   */
 private[image] object PngChunks:
