@@ -57,15 +57,16 @@ private[candela] final class AimPilot(
         val plain = followed(None, 0, RayPairs).raysPerPath
         val guided = ofGuided(few, plain)
         val (walks, walked) =
-          if light.media.isDefined then (None, 1.0) else ofWalks(few, plain)
-        val gain = Math.max(guided, walked)
+          if light.media.isDefined || !scene.isSolid then (None, 1.0) else ofWalks(few, plain)
+        val byWalks = walked > CausticPilot.LeastGain &&
+          (guided <= CausticPilot.LeastGain || walked > LeastGainOfWalks * guided)
+        val gain = if byWalks then walked else guided
         val figures = s"the pilot expects ${CausticPilot.times(gain)} times the efficiency"
         if gain > CausticPilot.LeastGain then
           val paths = Math.min(view.pixels * PerPixel, MostPaths).toInt
           val field = photons.trace(Math.max(paths, FewPaths))
-          val byWalks = walked > LeastGainOfWalks * guided
           (field.map(SeenLight(_, walks.filter(_ => byWalks))), figures)
-        else (None, s"photons don't pay: $figures")
+        else (None, s"photons and walks from them don't pay: $figures")
 
   /** @param plain rays of a path otherwise */
   private def ofGuided(field: PhotonField, plain: Double): Double =
@@ -83,15 +84,19 @@ private[candela] final class AimPilot(
       plain: Double
   ): (Option[SeenLight.Walked], Double) =
     val all = (i: Int) => !scene.lights(i).isDelta
-    val (_, first) = walked(field, all, 0f, FirstPairs)
+    val (_, first) = walked(field, all, 0f, 0, FirstPairs)
     val saved = new Array[Double](scene.lights.length)
     for tally <- first do loop(saved.length)(i => saved(i) += tally.saved(i))
     val lamps = saved.indices.filter(saved(_) > 0.0).toSet
     if lamps.isEmpty then (None, 1.0)
     else
       val usual = (first.map(_.light).sum / first.map(_.count).sum).toFloat
-      val (found, _) = walked(field, lamps, usual, CausticPilot.Pairs)
-      (Some(SeenLight.Walked(lamps, usual)), gainOf(found, plain, WalkedOverhead))
+      def of(from: Int, until: Int) = walked(field, lamps, usual, from, until)._1
+      def gain(found: PilotBlocks) = gainOf(found, plain, WalkedOverhead)
+      val found = of(FirstPairs, CausticPilot.Pairs)
+      if gain(found) > CausticPilot.LeastGain then
+        found.add(of(CausticPilot.Pairs, 2 * CausticPilot.Pairs))
+      (Some(SeenLight.Walked(lamps, usual)), gain(found))
 
   private def gainOf(found: PilotBlocks, plain: Double, overhead: Double): Double =
     val (variance, saved) = found.savings()
@@ -103,14 +108,15 @@ private[candela] final class AimPilot(
       val guide = Guide.unlearning
       (tracer(field, guide), (x, y) => part.addSaving(x, y, guide.takeSaving()))
 
-  /** Follows so many pairs, with walks to these lamps. */
+  /** Follows the pairs `from` to `until`, with walks to these lamps. */
   private def walked(
       field: PhotonField,
       lamps: Int => Boolean,
       usual: Float,
-      count: Int
+      from: Int,
+      until: Int
   ): (PilotBlocks, Vector[WalkTally]) =
-    CameraPairs.counted(view, Seed, pool, 0, count): part =>
+    CameraPairs.counted(view, Seed, pool, from, until): part =>
       val tally = WalkTally(scene.lights.length)
       val walks = Manifolds(scene, light.maxDepth, lamps, field, MostWalks, usual, tally)
       (walker(walks), (x, y) => part.addSaving(x, y, tally.take()), tally)
@@ -130,7 +136,7 @@ private[candela] object AimPilot:
   inline val FirstPairs = 512
 
   /** Walks for the probability of a chain, in the pilot. */
-  inline val MostWalks = 1000
+  inline val MostWalks = 20000
   inline val Seed = 0xa1f
 
   /** Time of guided paths, relative to unguided ones of as many rays; and of walks. */

@@ -1,7 +1,7 @@
 package candela.image
 
 import java.io.{DataInputStream, EOFException, InputStream, IOException}
-import java.util.zip.{DataFormatException, Inflater}
+import java.util.zip.{CRC32, DataFormatException, Inflater}
 
 import scala.util.Using
 
@@ -148,6 +148,7 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
   import PngData.*
   private val in = DataInputStream(stream)
   private val inflater = Inflater()
+  private val sum = CRC32()
   private val packed = new Array[Byte](1 << 16)
   private val one = new Array[Byte](1)
   private var left = 0
@@ -177,7 +178,7 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
     * @return whether there is one before the end of the image
     */
   def next(): Boolean =
-    if isInData then in.skipNBytes(left + Checksum)
+    if isInData then endData()
     left = in.readInt()
     var kind = in.readInt()
     while isPlain(kind) do
@@ -185,6 +186,8 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
       left = in.readInt()
       kind = in.readInt()
     isInData = kind == Data && left >= 0
+    sum.reset()
+    sum.update(DataName)
     if !isInData && kind != End then
       throw DataFormatException("it has a chunk that is damaged, unknown, or in the wrong place")
     isInData
@@ -201,14 +204,27 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
     val count = in.read(packed, 0, Math.min(left, packed.length))
     if count < 0 then throw EOFException()
     left -= count
+    sum.update(packed, 0, count)
     inflater.setInput(packed, 0, count)
+
+  /** Reads what is left of the chunk, and its checksum. */
+  private def endData(): Unit =
+    while left > 0 do
+      val count = in.read(packed, 0, Math.min(left, packed.length))
+      if count < 0 then throw EOFException()
+      left -= count
+      sum.update(packed, 0, count)
+    if in.readInt() != sum.getValue.toInt then
+      throw DataFormatException("it has a chunk IDAT whose checksum is wrong")
 
 private object PngData:
   private val Data = 0x49444154 // IDAT
   private val End = 0x49454e44 // IEND
   private val Transparency = 0x74524e53 // tRNS
 
-  /** Bytes of a chunk's checksum, which is not looked at, as by [[StbReader]]. */
+  private val DataName = "IDAT".getBytes
+
+  /** Bytes of a chunk's checksum. */
   private val Checksum = 4L
 
   /** Whether the pixels are the same without this chunk: its first letter is small then. */

@@ -13,6 +13,8 @@ import java.util.zip.CRC32
   * none of the image.
   */
 private[image] object PngChunks:
+  /** Decoders make alpha of it. */
+  private val Transparency = "tRNS"
   private val Mark = 0x89504e470d0a1a0aL
   private inline val Begin = 8
 
@@ -35,7 +37,7 @@ private[image] object PngChunks:
     if length < 0 || end + Behind > file.limit then -1
     else
       val name = String(file.array, at + 4, 4, ISO_8859_1)
-      if name.head.isUpper then
+      if name.head.isUpper || name == Transparency then
         val sum = CRC32()
         // That of the name, too
         sum.update(file.array, at + 4, length + 4)

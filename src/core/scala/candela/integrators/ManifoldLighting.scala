@@ -60,8 +60,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     sampler.goTo(position)
     locate(vertex)
     val share = if path.chain == Manifolds.Seen then 1f else ManifoldLighting.Later
-    val lamps = manifolds.lamps
-    lamps != null && (share == 1f || random.next() < share) && chooseLamp(lamps, vertex) && {
+    (share == 1f || random.next() < share) && chooseLamp(vertex) && {
       chain.begin(vertex.at, time, manifolds.maxDepth - path.depth)
       finds() && lights(vertex, path) && {
         val alone = path.carried(arrived.toRgb, 1f).average
@@ -85,23 +84,34 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
       lobes.locate(field, vertex.at.p, side)
     }
 
-  private def chooseLamp(lamps: Discrete, vertex: SurfaceVertex): Boolean =
+  private def chooseLamp(vertex: SurfaceVertex): Boolean =
+    val points = manifolds.points
+    val surfaces = if isSeeded then manifolds.surfaces else null
+    if points != null && surfaces != null then
+      if random.next() < 0.5f then choosePoint(points, 0.5f, vertex)
+      else chooseSurface(surfaces, 0.5f)
+    else if surfaces != null then chooseSurface(surfaces, 1f)
+    else points != null && choosePoint(points, 1f, vertex)
+
+  private def chooseSurface(lamps: Discrete, chance: Float): Boolean =
     light = lamps.sample(random.next())
-    val lamp = scene.lights(light)
-    val surface = lamp.asSurface
-    val (u1, u2) = (random.next(), random.next())
-    isSurface = surface != null
-    if surface != null then
-      surface.samplePlace(u1, u2, place)
-      density = place.pdf * lamps.probability(light)
+    isSurface = true
+    val lamp = scene.lights(light).asSurface
+    lamp != null && {
+      lamp.samplePlace(random.next(), random.next(), place)
+      density = place.pdf * chance * lamps.probability(light)
       chain.aim(place.p, isDirection = false)
-      isSeeded && density > 0f
-    else
-      lamp.sample(vertex.at.p, u1, u2, sample)
-      density = lamps.probability(light)
-      chain.aim(if sample.isInfinite then sample.wi else sample.target.p, sample.isInfinite)
-      // Others are surfaces that rays do not meet
-      sample.pdf == 1f && (sample.isInfinite || sample.target.n.isZero)
+      density > 0f
+    }
+
+  private def choosePoint(lamps: Discrete, chance: Float, vertex: SurfaceVertex): Boolean =
+    light = lamps.sample(random.next())
+    isSurface = false
+    scene.lights(light).sample(vertex.at.p, random.next(), random.next(), sample)
+    density = chance * lamps.probability(light)
+    chain.aim(if sample.isInfinite then sample.wi else sample.target.p, sample.isInfinite)
+    // Others are surfaces that rays do not meet
+    sample.pdf == 1f && (sample.isInfinite || sample.target.n.isZero)
 
   /** Walks once. */
   private def finds(): Boolean =
@@ -114,7 +124,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
   private def lights(vertex: SurfaceVertex, path: PathState): Boolean =
     val wi = chain.direction
     val localWi = vertex.at.frame.toLocal(wi)
-    val f = vertex.received(wi, localWi)
+    val f = if isTaken(vertex, localWi) then vertex.received(wi, localWi) else Rgb.Black
     !f.isBlack && {
       chain.throughput(passed)
       val sent = if passed.isBlack then Rgb.Black else emitted
@@ -131,6 +141,11 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
       !arrived.isBlack && factor < Float.PositiveInfinity
     }
 
+  /** May a path take the direction? Those that meet a surface leave to walks what they may find. */
+  private def isTaken(vertex: SurfaceVertex, localWi: Vec3): Boolean =
+    !isSurface || !vertex.crosses(localWi) ||
+      vertex.bsdf.isTransmissive && !scene.isSubsurface(vertex.at.material)
+
   /** Radiance of the lamp towards the chain, times the cosine there; of others, their intensity or
     * irradiance.
     */
@@ -139,7 +154,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     val surface = lamp.asSurface
     val to = chain.toLamp
     if surface != null then
-      if !chain.reaches(light, met) then Rgb.Black
+      if !chain.reaches(light, met) || !isSameSide(to) then Rgb.Black
       else surface.radiance(met, -to) * (met.geometricNormal absDot to)
     else if !chain.escapes(met) then Rgb.Black
     else
@@ -147,6 +162,12 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
       if sample.pdf != 1f then Rgb.Black
       else if sample.isInfinite then sample.radiance.toRgb
       else sample.radiance.toRgb * (sample.target.p - chain.end).lengthSquared
+
+  /** Has the ray met the side of the lamp where the place is? Both are near each other on a tiny
+    * lamp that is curved.
+    */
+  private def isSameSide(to: Vec3): Boolean =
+    (place.n dot to) * (met.geometricNormal dot to) > 0f
 
   /** How many walks it takes to find the chain again: the mean is the inverse of the probability.
     */

@@ -2,6 +2,7 @@ package candela.integrators
 
 import candela.geometry.Hit
 import candela.guiding.PhotonField
+import candela.lights.Light
 import candela.manifold.Coverage
 import candela.sampling.Discrete
 import candela.scene.Scene
@@ -31,17 +32,22 @@ final class Manifolds(
     usual: Float = 0f,
     private[integrators] val tally: WalkTally | Null = null
 ):
-  private val powers: Array[Float] = Array.tabulate(scene.lights.length): i =>
-    if isWalked(i) && Manifolds.suits(scene, i) then
-      Discrete.weight(scene.lights(i).power(scene.ball))
-    else 0f
+  /** Lamps by power: the chance does not depend on the place, as they may be seen in mirrors. Those
+    * without extent, and surfaces, whose powers can't be compared.
+    */
+  private[integrators] val points: Discrete | Null = chosen(_.isDelta)
+  private[integrators] val surfaces: Discrete | Null = chosen(_.asSurface != null)
 
-  /** Lamps by power: the chance does not depend on the place, as they may be seen in mirrors. */
-  private[integrators] val lamps: Discrete | Null =
+  private def chosen(isOfKind: Light => Boolean): Discrete | Null =
+    val powers = Array.tabulate(scene.lights.length): i =>
+      val lamp = scene.lights(i)
+      if isOfKind(lamp) && lamp.isCausticSource && isWalked(i) then
+        Discrete.weight(lamp.power(scene.ball))
+      else 0f
     if powers.exists(_ > 0f) then Discrete(powers) else null
 
   /** Are there lamps and surfaces of the kind? */
-  def isEmpty: Boolean = lamps == null || scene.casters.isEmpty
+  def isEmpty: Boolean = points == null && surfaces == null || scene.casters.isEmpty
 
   /** Do the walks look for light at the vertex? */
   private[integrators] def suits(vertex: SurfaceVertex, path: PathState): Boolean =
@@ -54,7 +60,10 @@ final class Manifolds(
 
   /** Do they find what the path meets of a lamp that is a surface? */
   private[integrators] def finds(light: Int, path: PathState): Boolean =
-    path.chain > Manifolds.Started && path.chain <= Manifolds.Longest && powers(light) > 0f
+    path.chain > Manifolds.Started && path.chain <= Manifolds.Longest && {
+      val lamps = surfaces
+      lamps != null && lamps.probability(light) > 0f
+    }
 
   /** The path leaves the vertex by `vertex.bounce`: what they find of what it meets from here on.
     *
@@ -97,11 +106,6 @@ private[candela] object Manifolds:
 
   inline val MostWalks = 100000
 
-  /** Is the lamp of a kind that walks can look for? */
-  def suits(scene: Scene, light: Int): Boolean =
-    val lamp = scene.lights(light)
-    lamp.isCausticSource && (lamp.isDelta || lamp.asSurface != null)
-
 /** Counts what manifold walks save. Mutable, one per worker.
   *
   * @param lamps of the scene
@@ -123,12 +127,13 @@ final class WalkTally(lamps: Int):
     * @param ratio of what a path finds that meets the lamp by chance, to `light`
     */
   private[integrators] def add(lamp: Int, light: Double, walks: Double, ratio: Double): Unit =
-    this.light += light
-    count += 1
     val found = light * walks
     val saving = found * found * (Math.min(ratio / walks, WalkTally.MostRatio) - 1.0)
-    saved(lamp) += saving
-    latest += saving
+    if saving.isFinite then
+      this.light += light
+      count += 1
+      saved(lamp) += saving
+      latest += saving
 
   /** What was saved since the last call. */
   def take(): Double =

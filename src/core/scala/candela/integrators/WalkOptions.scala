@@ -13,7 +13,7 @@ import candela.guiding.PhotonField
   * @param interfaces    what interfaces are to light sampling; in media they are open
   * @param countsPassed  is passing an interface one of the events that a path may have?
   * @param caustics      weights against light paths, if there are any
-  * @param manifolds     what manifold walks find beside paths, if anything
+  * @param manifolds     what manifold walks find beside paths, or in their place, if anything
   * @param photons       what photons bring in place of paths, if anything; not with manifold walks
   * @param aim           photons that guide paths, if any do; the walk then has a guide
   */

@@ -39,7 +39,7 @@ final class SpecularChain(scene: Scene):
   // Newton's method: where the first vertex was, and the step from there
   private val base, stepA, stepB = MutableVec3()
   private var a, b = 0f
-  private var error = 0f
+  private var error, tolerance = 0f
 
   // Differentials by the first vertex
   private val pA, pB, dA, dB, towards = MutableVec3()
@@ -132,10 +132,10 @@ final class SpecularChain(scene: Scene):
   private def walk(): Boolean =
     var scale = 1f
     var left = SpecularChain.Steps
-    while left > 0 && !(error < SpecularChain.Tolerance) && scale >= SpecularChain.Shortest do
+    while left > 0 && !(error < tolerance) && scale >= SpecularChain.Shortest do
       left -= 1
       scale = if step(scale) then Math.min(1f, 2f * scale) else 0.5f * scale
-    error < SpecularChain.Tolerance && arrives
+    error < tolerance && arrives
 
   /** Does light leave the last vertex on the side where the lamp is? */
   private def arrives: Boolean =
@@ -173,6 +173,10 @@ final class SpecularChain(scene: Scene):
       error = sqrt(length2)
       towards.set(to)
       val nearness = if isFar then 0f else 1f / distance
+      val p = last.p
+      val reach = Math.max(Math.abs(p.x), Math.max(Math.abs(p.y), Math.abs(p.z)))
+      val rounding = reach * nearness * SpecularChain.Rounding
+      tolerance = Math.max(SpecularChain.Tolerance, rounding)
       val along = frame.n dot rest
       def change(p: Vec3, d: Vec3): Vec3 =
         (to * (to dot p) - p) * nearness - d * k - last.bend(p) * along
@@ -309,8 +313,11 @@ private[candela] object SpecularChain:
   private inline val Steps = 20
   private inline val Shortest = 0.06f
 
-  /** Largest error of a chain, as a sine: above the rounding of traced rays. */
+  /** Largest error of a chain, as a sine: above the rounding of traced rays; and that of places,
+    * relative to the distance to the lamp.
+    */
   private inline val Tolerance = 1e-5f
+  private inline val Rounding = 2.5e-7f
 
   /** Cosine of the angle between the direction of departure and that to the lamp: others are on the
     * wrong side of the surface.
@@ -318,7 +325,7 @@ private[candela] object SpecularChain:
   private inline val Aligned = 0.9999f
 
   /** Squared distance of the directions in which the same chain is found again. */
-  private inline val Same = 1e-6f
+  private inline val Same = 1e-7f
 
   /** Distance from the place of the lamp where it may be met, relative to that from the chain. */
   private inline val Near = 1e-3f

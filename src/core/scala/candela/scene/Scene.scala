@@ -122,6 +122,9 @@ final class Scene(
 
   private val hasVeils = !surfaces.veils.isEmpty || instanced.hasVeils
 
+  /** Do all rays of the same path meet the same surfaces? */
+  def isSolid: Boolean = !hasVeils && !surfaces.masks.isRandom && !instanced.hasRandomMasks
+
   /** Whether paths pass the surface that `ray` just hit, at `at`, unscattered. */
   def isPassed(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
     isInterface(at) || hasVeils && isOpen(ray, hit, at)

@@ -83,6 +83,7 @@ final class Instanced(val objects: Array[Surfaces], val instances: Instances):
     hit.inner < objects(instances.objectOf(i)).soup.count
 
   val hasVeils: Boolean = objects.exists(!_.veils.isEmpty)
+  def hasRandomMasks: Boolean = objects.exists(_.masks.isRandom)
 
   /** Does the ray, which just hit instance `i`, meet an opening of a veil? */
   def isOpen(i: Int, ray: Ray, hit: Hit, at: ShadingPoint): Boolean =

@@ -105,6 +105,7 @@ class PngBandsSuite extends AnyFunSuite:
       val begun = Seq(
         "cut in its pixels" -> whole.take(5000),
         "damaged pixels" -> whole.patch(3000, Array.fill(900)(77.toByte), 900),
+        "a wrong checksum" -> whole.updated(second - 1, (whole(second - 1) ^ 1).toByte),
         "cut before its end" -> whole.take(end),
         "cut in its end" -> whole.take(end + 4),
         "an unknown chunk between pixels" -> inserted(second, "ABCD"),
