@@ -31,3 +31,12 @@ class CacheFolderSuite extends AnyFunSuite:
           assert(Seq("a", "b").count(n => Files.exists(file(n))) == 1)
           throw IOException("no space left")
       assert(!Files.exists(file("c")))
+
+  test("a folder that is a file is told as such"):
+    TempFolder.use: folder =>
+      val taken = Files.writeString(folder.resolve("cache"), "x")
+      def why(path: Path) =
+        val cache = CacheFolder(path, 1000)
+        IoReason(intercept[IOException](cache.write(path.resolve("a"))(_ => ())))
+      assert(why(taken) == "there is a file of this name")
+      assert(Files.readString(taken) == "x")
