@@ -53,8 +53,8 @@ private[cli] object SwitchTable extends OptionRows:
       .text(OptionText(
         "look for caustics, on surfaces and in media: by light paths, and by paths that photons " +
           "guide or walks complete, where these reduce the noise (auto); also for those of lamps " +
-          "without extent (on); by photon maps, which blur them and thick fog a little (photons); " +
-          "or not (off, default with a number of samples)",
+          "without extent (on); by photon maps, which blur them and thick fog a little " +
+          "(photons); or not (off, default with a number of samples)",
         "`auto` is the default with `--error`, and with `--time` from 20 s on. " +
           "[What it brings](CAUSTICS.md)."
       ))
