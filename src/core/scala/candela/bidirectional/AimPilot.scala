@@ -17,6 +17,9 @@ final case class SeenLight(photons: PhotonField, walked: Option[SeenLight.Walked
   /** Photons that guide paths. */
   private[candela] def guiding: Option[PhotonField] = Option.when(walked.isEmpty)(photons)
 
+  /** Photons that walks begin by. */
+  private[candela] def seeding: Option[PhotonField] = Option.when(walked.isDefined)(photons)
+
   /** Time of such paths, relative to others of as many rays. */
   private[bidirectional] def overhead: Double =
     if walked.isEmpty then AimPilot.GuidedOverhead else AimPilot.WalkedOverhead

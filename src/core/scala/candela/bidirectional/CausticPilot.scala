@@ -71,8 +71,8 @@ private[candela] final class CausticPilot(
       if learnt.splats == 0 then withoutSplats else look(light.casters.aimed(learnt.learning.aim))
 
   /** The choice of [[run]] with as many light paths as suit camera paths that look for light which
-    * specular surfaces show.
-    * The first round of these decides: specks that few find would hide what light paths bring.
+    * specular surfaces show. The first round of these decides: specks that few find would hide what
+    * light paths bring.
     */
   def balanced(choice: CausticChoice): CausticChoice = looked.fold(choice): found =>
     val kinds = LightKind.values.toVector.take(if choice.ofLamps > 0f then 2 else 1)

@@ -111,8 +111,6 @@ private[image] final class PngBands private (
   private def damaged(why: String) = ImageError(Code.DamagedImage, s"$file: $why")
 
 private[image] object PngBands:
-  private val Signature = Vector[Int](0x89, 'P', 'N', 'G', 0x0d, 0x0a, 0x1a, 0x0a).map(_.toByte)
-
   /** Channels by colour type. */
   private val Names = (StbReader.PngChannels - StbReader.Palette).map: (kind, count) =>
     kind -> StbReader.Names(count - 1)
@@ -123,7 +121,7 @@ private[image] object PngBands:
   def of(file: InputFile): Option[PngBands] =
     try
       val start = file.beginning(Beginning)
-      val isPng = start.length == Beginning && start.startsWith(Signature) &&
+      val isPng = start.length == Beginning && PngChunks.areIn(start) &&
         number(start, 8) == 13 && String(start, 12, 4, "US-ASCII") == "IHDR"
       val (width, height) = if isPng then (number(start, 16), number(start, 20)) else (0, 0)
       for
@@ -181,14 +179,14 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
     if isInData then endData()
     left = in.readInt()
     var kind = in.readInt()
-    while isPlain(kind) do
+    while PngChunks.isPlain(kind) do
       in.skipNBytes((left & 0xffffffffL) + Checksum)
       left = in.readInt()
       kind = in.readInt()
     isInData = kind == Data && left >= 0
     sum.reset()
     sum.update(DataName)
-    if !isInData && kind != End then
+    if !isInData && kind != PngChunks.End then
       throw DataFormatException("it has a chunk that is damaged, unknown, or in the wrong place")
     isInData
 
@@ -201,31 +199,26 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
 
   private def feed(): Unit =
     while left == 0 do if !next() then throw EOFException()
+    inflater.setInput(packed, 0, take())
+
+  /** Reads on in the chunk; the number of bytes. */
+  private def take(): Int =
     val count = in.read(packed, 0, Math.min(left, packed.length))
     if count < 0 then throw EOFException()
     left -= count
     sum.update(packed, 0, count)
-    inflater.setInput(packed, 0, count)
+    count
 
   /** Reads what is left of the chunk, and its checksum. */
   private def endData(): Unit =
-    while left > 0 do
-      val count = in.read(packed, 0, Math.min(left, packed.length))
-      if count < 0 then throw EOFException()
-      left -= count
-      sum.update(packed, 0, count)
+    while left > 0 do take(): Unit
     if in.readInt() != sum.getValue.toInt then
       throw DataFormatException("it has a chunk IDAT whose checksum is wrong")
 
 private object PngData:
   private val Data = 0x49444154 // IDAT
-  private val End = 0x49454e44 // IEND
-  private val Transparency = 0x74524e53 // tRNS
 
   private val DataName = "IDAT".getBytes
 
   /** Bytes of a chunk's checksum. */
   private val Checksum = 4L
-
-  /** Whether the pixels are the same without this chunk: its first letter is small then. */
-  private def isPlain(kind: Int): Boolean = (kind & 0x20000000) != 0 && kind != Transparency

@@ -13,8 +13,9 @@ import java.util.zip.CRC32
   * none of the image.
   */
 private[image] object PngChunks:
-  /** Decoders make alpha of it. */
-  private val Transparency = "tRNS"
+  /** The name of a chunk of alpha, or of a colour that is transparent. */
+  private val Transparency = 0x74524e53 // tRNS
+  val End = 0x49454e44 // IEND
   private val Mark = 0x89504e470d0a1a0aL
   private inline val Begin = 8
 
@@ -22,10 +23,18 @@ private[image] object PngChunks:
   private inline val Before = 8
   private inline val Behind = 4
 
+  /** Whether a file that begins like this is a PNG. */
+  def areIn(bytes: Array[Byte]): Boolean =
+    bytes.length >= Begin && ByteBuffer.wrap(bytes).getLong == Mark
+
+  /** Whether the pixels are the same without chunks of this name: its first letter is small then.
+    */
+  def isPlain(name: Int): Boolean = (name & 0x20000000) != 0 && name != Transparency
+
   /** @throws ImageError if the data of a chunk are not those that were written */
   def check(bytes: Array[Byte]): Unit =
-    val file = ByteBuffer.wrap(bytes)
-    if file.remaining >= Begin && file.getLong(0) == Mark then
+    if areIn(bytes) then
+      val file = ByteBuffer.wrap(bytes)
       var at = Begin
       // A chunk that is cut short is told by the decoder
       while at >= 0 && file.limit - at >= Before + Behind do at = checked(file, at)
@@ -36,14 +45,15 @@ private[image] object PngChunks:
     val end = at.toLong + Before + length
     if length < 0 || end + Behind > file.limit then -1
     else
-      val name = String(file.array, at + 4, 4, ISO_8859_1)
-      if name.head.isUpper || name == Transparency then
+      val name = file.getInt(at + 4)
+      if !isPlain(name) then
         val sum = CRC32()
         // That of the name, too
         sum.update(file.array, at + 4, length + 4)
         if sum.getValue.toInt != file.getInt(end.toInt) then
+          val word = String(file.array, at + 4, 4, ISO_8859_1)
           throw ImageError(
             Code.DamagedImage,
-            s"the checksum of the chunk $name at byte $at is wrong: the file is damaged"
+            s"the checksum of the chunk $word at byte $at is wrong: the file is damaged"
           )
-      if name == "IEND" then -1 else end.toInt + Behind
+      if name == End then -1 else end.toInt + Behind

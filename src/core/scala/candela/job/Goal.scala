@@ -2,6 +2,7 @@ package candela.job
 
 import candela.build.RenderGoal
 import candela.film.Film
+import candela.measure.Interval
 import candela.render.{ExpectedEnd, Looks, Pass, RenderListener, Rendering, SampleRange}
 
 /** Ends a rendering at a time, or at an error, whichever comes first, with a whole number of
@@ -38,8 +39,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
       recorder.passed(watched, film)
       val found = options.error.flatMap(recorder.samplesUntil)
       end = found.map(f => Goal.whole(f.estimate))
-      expected = found.filter(_.isKnown).map: f =>
-        SampleRange(Goal.whole(f.estimate), Goal.whole(f.low), Goal.whole(f.high))
+      expected = found.flatMap(Goal.range)
     if end.exists(_ <= pass.samples) || pass.isLast && isLow(pass.samples) then isReached = true
     val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - seen)
     // The first ones are slow: the JVM compiles meanwhile
@@ -104,5 +104,13 @@ object Goal:
   /** Fewer samples per pixel say little about an error. */
   val Fewest = 4
 
-  private def whole(samples: Double): Int =
+  /** The samples with which a goal may be reached, if they are known. */
+  private[candela] def range(found: Interval): Option[SampleRange] =
+    Option.when(found.isKnown)(SampleRange(
+      whole(found.estimate),
+      whole(found.low),
+      whole(found.high)
+    ))
+
+  private[candela] def whole(samples: Double): Int =
     Math.max(Fewest, Math.min(Math.ceil(samples), Int.MaxValue).toInt)

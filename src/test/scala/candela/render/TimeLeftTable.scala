@@ -27,7 +27,10 @@ object TimeLeftTable:
     val options = CommandLine.parse(words.toVector).fold(e => sys.error(e.toString), identity)
     val seconds = options.settings.goal.time.getOrElse(sys.error("--time is missing"))
     val plan = SceneLoader.FromFile.load(options.files.head, options.preparation).plan
-    val asked = Vector.tabulate(Errors)(k => Asked(plan, Math.pow(Finer, k), options.threadCount))
+    val schedule = Job(plan, Shard.Whole).schedule
+    val pixels = plan.sampled.pixels.toDouble
+    def forecast(by: RenderListener) = Forecast(schedule, pixels, 0, options.threadCount, by)
+    val asked = Vector.tabulate(Errors)(k => Asked(Math.pow(Finer, k), pixels, forecast))
     val course = Course(plan, seconds, asked)
     val _ = Renderer.render(plan, options.threadCount, listener = course)
     val found = asked.flatMap(_.outcome).distinctBy(_.samples)
@@ -67,35 +70,31 @@ object TimeLeftTable:
     def told(part: Double): Option[Told] = course.takeWhile(_.seconds <= part * seconds).lastOption
 
   /** An error that is asked for; the rendering goes on when it is reached. */
-  private final class Asked(plan: RenderPlan, error: Double, threads: Int):
-    private var expected, last = Option.empty[SampleRange]
-    private var end = Option.empty[Int]
+  private final class Asked(error: Double, pixels: Double, make: RenderListener => Forecast):
+    private var expected = Option.empty[SampleRange]
+
+    /** Samples at which it ends, by the last look; and where that is certain. */
+    private var last, end = Option.empty[Int]
     private var course = Vector.empty[Told]
     private var before = (0.0, 0.0)
     var outcome: Option[Outcome] = None
 
-    private val pixels = plan.sampled.pixels.toDouble
-    private val forecast =
-      val listener = new RenderListener:
+    private val forecast = make:
+      new RenderListener:
         override def goal: Option[ExpectedEnd] = Some(ExpectedEnd(None, true, expected))
-      Forecast(Job(plan, Shard.Whole).schedule, pixels, 0, threads, listener)
 
     /** As [[Goal]] does at each look: ends at the samples that were found, if those come before the
       * next look.
       */
     def looked(recorder: ErrorRecorder, samples: Int): Unit = if outcome.isEmpty && end.isEmpty then
       val found = recorder.samplesUntil(error)
-      expected = found.filter(_.isKnown).map: f =>
-        SampleRange(whole(f.estimate), whole(f.low), whole(f.high))
-      last = found.map(f => SampleRange(whole(f.estimate), 0, 0))
-      for l <- last if l.expected <= samples do end = Some(Math.max(Goal.Fewest, samples))
-
-    private def whole(samples: Double) =
-      Math.max(Goal.Fewest, Math.min(Math.ceil(samples), Int.MaxValue).toInt)
+      expected = found.flatMap(Goal.range)
+      last = found.map(f => Goal.whole(f.estimate))
+      if last.exists(_ <= samples) then end = Some(Math.max(Goal.Fewest, samples))
 
     def progressed(p: Progress): Unit = if outcome.isEmpty then
       val samples = p.done / pixels
-      for n <- end.orElse(last.map(_.expected)) if n <= samples do
+      for n <- end.orElse(last) if n <= samples do
         val (s, t) = before
         val part = if samples > s then Math.max(0, (n - s) / (samples - s)) else 1
         outcome = Some(Outcome(n, t + part * (p.seconds - t), course))

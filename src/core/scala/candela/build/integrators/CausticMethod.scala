@@ -178,7 +178,7 @@ private object CausticMethod:
           over,
           light.maxDepth,
           i => if over.lights(i).isDelta then light.findsAll else asked.exists(_.lamps(i)),
-          asked.flatMap(_ => aim).map(_.photons).orNull,
+          aim.flatMap(_.seeding).orNull,
           usual = asked.fold(0f)(_.usual)
         )
         Option.unless(walks.isEmpty)(walks)
