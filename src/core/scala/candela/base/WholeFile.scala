@@ -24,10 +24,16 @@ final class WriteError(path: Path, val why: String)
   */
 object WholeFile:
 
-  def write(path: Path, bytes: Array[Byte]): Unit =
+  def write(path: Path, bytes: Array[Byte]): Unit = write(path, Vector(ByteBuffer.wrap(bytes)))
+
+  /** Writes what remains in the parts, in order. */
+  def write(path: Path, parts: Vector[ByteBuffer]): Unit =
     write(path): channel =>
-      val buffer = ByteBuffer.wrap(bytes)
-      while buffer.hasRemaining do channel.write(buffer): Unit
+      for part <- parts do
+        while part.hasRemaining do
+          // Java copies what it writes to memory outside the heap, all at once
+          val next = part.slice(part.position(), Math.min(part.remaining, WrittenAtOnce))
+          part.position(part.position() + channel.write(next)): Unit
 
   /** Lets `body` write the file.
     *
@@ -95,6 +101,9 @@ object WholeFile:
     else followed(path.resolveSibling(Files.readSymbolicLink(path)), left - 1)
 
   private val Opened = Vector("/proc", "/dev/fd").map(Path.of(_))
+
+  /** In bytes. */
+  private val WrittenAtOnce = 1 << 20
 
   /** As Linux. */
   private val MostLinks = 40

@@ -78,10 +78,11 @@ object SceneBuilder:
         Some("give the film a crop window, or render parts of it with --cropwindow")
       )
     checkLimits(context, image, crop, sampling)
+    val perPixel = taken.getOrElse(sampling.sampler.samplesPerPixel)
     val film = Option.when(control.isRendered):
-      FilmSize.least(crop.pixels, image.layers, image.film.development.bands)
+      FilmSize.least(crop.pixels, perPixel, image.layers, image.film.development.bands)
     val memory = MemoryCheck(control.heap, film, context)
-    val samples = crop.pixels * taken.getOrElse(sampling.sampler.samplesPerPixel)
+    val samples = crop.pixels * perPixel
     control.expects(samples)
     Hierarchies.expect(samples, control.pool, context.resources.warmUps)
     val built =

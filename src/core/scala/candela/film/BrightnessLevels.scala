@@ -49,7 +49,7 @@ private final class LevelBlock(bounds: PixelBounds):
   private val sums = new Array[ExactSums | Null](BrightnessLevels.Count)
   private val size = Math.multiplyExact(3, Math.multiplyExact(bounds.width, bounds.height))
 
-  def memory: Long = 16L * size * sums.count(_ != null)
+  def memory: Long = sums.map(s => if s == null then 0L else s.memory).sum
 
   def level(i: Int): ExactSums =
     val known = sums(i)

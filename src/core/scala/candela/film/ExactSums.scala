@@ -9,16 +9,36 @@ import java.util.concurrent.ConcurrentHashMap
   * division among machines matters. Numbers that are not finite don't count.
   *
   * A sum is the unevaluated sum of two Doubles: each addition's rounding error is computed and
-  * added to the second. A third part, of arbitrary precision, is used only if values differ by
-  * more than some 100 binary digits. One worker at a time owns a sum.
+  * added to the second, which takes memory from the first such error on: a single sample has none.
+  * A third part, of arbitrary precision, is used only if values differ by more than some 100 binary
+  * digits. One worker at a time owns a sum.
   *
   * Source: Knuth, "The Art of Computer Programming", vol. 2, §4.2.2, theorem B; Shewchuk, "Adaptive
   * Precision Floating-Point Arithmetic", Discrete & Computational Geometry 18, 1997.
   */
 final class ExactSums(val size: Int):
   private val high = new Array[Double](size)
-  private val low = new Array[Double](size)
+  private val lows = new Array[Array[Double] | Null]((size + ExactSums.Run - 1) / ExactSums.Run)
   private val rest = ConcurrentHashMap[Int, BigDecimal]
+
+  private def low(at: Int): Double =
+    val run = lows(at / ExactSums.Run)
+    if run == null then 0.0 else run(at % ExactSums.Run)
+
+  /** The second parts of the sums around `at`. Without a lock where they exist: what a thread sees
+    * of an array is its zeros, and what it wrote itself.
+    */
+  private def lowsOf(at: Int): Array[Double] =
+    val run = lows(at / ExactSums.Run)
+    if run != null then run else makeLows(at / ExactSums.Run)
+
+  private def makeLows(run: Int): Array[Double] = lows.synchronized:
+    val known = lows(run)
+    if known != null then known
+    else
+      val made = new Array[Double](Math.min(ExactSums.Run, size - run * ExactSums.Run))
+      lows(run) = made
+      made
 
   def add(at: Int, value: Double): Unit =
     val h = high(at)
@@ -30,17 +50,19 @@ final class ExactSums(val size: Int):
       if error != 0.0 then addLow(at, error)
 
   private def addLow(at: Int, value: Double): Unit =
-    val l = low(at)
+    val lows = lowsOf(at)
+    val inRun = at % ExactSums.Run
+    val l = lows(inRun)
     val sum = l + value
-    low(at) = sum
+    lows(inRun) = sum
     val error = ExactSums.error(l, value, sum)
     if error != 0.0 then
       // Moves what the high part can hold there, which makes room
       val h = high(at)
       high(at) = h + sum
       val moved = ExactSums.error(h, sum, high(at))
-      low(at) = moved + error
-      val left = ExactSums.error(moved, error, low(at))
+      lows(inRun) = moved + error
+      val left = ExactSums.error(moved, error, lows(inRun))
       if left != 0.0 then addRest(at, BigDecimal(left))
 
   private def addRest(at: Int, value: BigDecimal): Unit =
@@ -75,6 +97,10 @@ final class ExactSums(val size: Int):
       add(i, sign * other.low(i))
     other.rest.forEach((i, value) => addRest(i, if isNegative then value.negate else value))
 
+  /** Bytes in use, but for the third parts. */
+  def memory: Long =
+    8L * size + lows.map(run => if run == null then 0L else 8L * run.length).sum
+
   /** Writes the sums, in a form that depends on their values only: the rounded sums, the rounded
     * remainders, and what these leave of some, as decimal numbers.
     */
@@ -101,6 +127,9 @@ final class ExactSums(val size: Int):
       addRest(at, ExactSums.left(from.text()))
 
 object ExactSums:
+  /** So many sums get their second parts together: a power of two. */
+  private inline val Run = 2048
+
   /** Decimal digits, before or behind the point, of numbers that are sums of Doubles. */
   private val MostDigits = 1100
 

@@ -2,6 +2,8 @@ package candela.image
 
 import candela.base.Code
 
+import java.nio.ByteBuffer
+
 /** OpenEXR images, through tinyexr.
   *
   * Reads half, float and integer channels of any names, in scanlines or tiles (the finest level);
@@ -63,17 +65,28 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
 
   /** ZIP compression; every channel under its own name. Encoded images are decoded first. */
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
+    val all = parts(image, metadata, options)
+    val size = all.map(_.remaining.toLong).sum
+    if size > Int.MaxValue - 8 then
+      throw ImageError(Code.TooLarge, "an EXR file of more than 2 GB in memory")
+    val file = ByteBuffer.allocate(size.toInt)
+    all.foreach(file.put(_))
+    file.array
+
+  override def parts(
+      image: Image,
+      metadata: Vector[(String, String)],
+      options: WriteOptions
+  ): Vector[ByteBuffer] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do
       throw ImageError(
         Code.UnsupportedImage,
         s"metadata `$name`: the name must have 1 to 255 bytes"
       )
-    val file =
-      ExrEncoder.encode(
-        image.linear,
-        metadata,
-        options.others.getOrElse(_, options.isHalf),
-        options.pool
-      )
-    for window <- options.window do ExrWindow.place(file, window, image.height, ExrEncoder.Rows)
-    file
+    ExrEncoder.encode(
+      image.linear,
+      metadata,
+      options.others.getOrElse(_, options.isHalf),
+      options.pool,
+      options.window
+    )

@@ -20,27 +20,31 @@ private[image] object ExrEncoder:
   val Rows = 16
 
   /** Of which native memory has a copy at a time, for each thread. */
-  private val PixelsOfStrip = 1 << 20
+  private val PixelsOfStrip = 1 << 18
 
   /** Largest finite half. */
   private val LargestHalf = 65504f
 
-  /** @param isHalf whether to store 16 bits per value of a channel; the encoder rounds
+  /** The parts of a file, in order.
+    *
+    * @param isHalf whether to store 16 bits per value of a channel; the encoder rounds
     * @param pool   encodes strips of chunks
+    * @param window in which the image has its place, if it is a crop
     */
   def encode(
       image: Image,
       metadata: Vector[(String, String)],
       isHalf: String => Boolean,
       pool: Parallel = Parallel.Alone,
+      window: Option[ImageWindow] = None,
       pixelsOfStrip: Int = PixelsOfStrip
-  ): Array[Byte] =
+  ): Vector[ByteBuffer] =
     Natives.need("tinyexr")
     val rows = Math.max(1, pixelsOfStrip / image.width / Rows) * Rows
     val strips = new Array[Array[Byte]]((image.height + rows - 1) / rows)
     pool.each(strips.length): i =>
       strips(i) = encode(image, i * rows, Math.min(rows, image.height - i * rows), metadata, isHalf)
-    if strips.length == 1 then strips(0) else ExrWindow.joined(strips, rows, image.height, Rows)
+    ExrWindow.joined(strips, rows, image.height, Rows, window)
 
   /** A file of some rows of the image. */
   private def encode(

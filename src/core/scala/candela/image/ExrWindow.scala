@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.{Code, loop}
+import candela.base.loop
 
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.{ByteBuffer, ByteOrder}
@@ -16,52 +16,52 @@ final case class ImageWindow(x: Int, y: Int, width: Int, height: Int)
 private[image] object ExrWindow:
   private val HeaderStart = 8
 
-  /** Moves the pixels of a file of scanlines to their place in the window; changes `file`.
-    *
-    * @param rows scanlines per chunk
-    */
-  def place(file: Array[Byte], window: ImageWindow, height: Int, rows: Int): Unit =
-    val bytes = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)
-    def move(at: Int, by: Int): Unit =
-      val _ = bytes.putInt(at, bytes.getInt(at) + by)
-    val table = attributes(bytes): (name, at) =>
-      if name == "dataWindow" then
-        loop(4)(i => move(at + 4 * i, if i % 2 == 0 then window.x else window.y))
-      else if name == "displayWindow" then
-        val _ = bytes.putInt(at, 0).putInt(at + 4, 0)
-        val _ = bytes.putInt(at + 8, window.width - 1).putInt(at + 12, window.height - 1)
-    // Each chunk begins with the row of its first scanline.
-    loop((height + rows - 1) / rows)(i => move(bytes.getLong(table + 8 * i).toInt, window.y))
-
   /** One file of those of its strips, which have `each` scanlines; all are alike but for these.
+    * Changes the strips, and refers to them: there is no second copy of an image that may be large.
     *
-    * @param rows scanlines per chunk
+    * @param rows   scanlines per chunk
+    * @param window moves the pixels to their place there
     */
-  def joined(strips: Array[Array[Byte]], each: Int, height: Int, rows: Int): Array[Byte] =
+  def joined(
+      strips: Array[Array[Byte]],
+      each: Int,
+      height: Int,
+      rows: Int,
+      window: Option[ImageWindow]
+  ): Vector[ByteBuffer] =
     val sources = strips.map(ByteBuffer.wrap(_).order(ByteOrder.LITTLE_ENDIAN))
     val header = attributes(sources(0))((_, _) => ())
     val chunks = (height + rows - 1) / rows
-    def table(strip: Int) = 8L * ((Math.min(each, height - strip * each) + rows - 1) / rows)
-    val size = header + 8L * chunks +
-      strips.indices.map(i => strips(i).length - header - table(i)).sum
-    if size > Int.MaxValue - 8 then
-      throw ImageError(Code.TooLarge, "an EXR file of more than 2 GB")
-    val bytes = ByteBuffer.allocate(size.toInt).order(ByteOrder.LITTLE_ENDIAN)
-    bytes.put(strips(0), 0, header)
-    val _ = attributes(bytes): (name, at) =>
-      if name == "dataWindow" || name == "displayWindow" then
-        val _ = bytes.putInt(at + 12, height - 1)
-    var at = header + 8 * chunks
-    loop(chunks): i =>
-      val (strip, inStrip) = (i * rows / each, i * rows % each / rows)
-      val source = sources(strip)
-      val from = source.getLong(header + 8 * inStrip).toInt
-      val length = 8 + source.getInt(from + 4)
-      bytes.putLong(header + 8 * i, at)
-      bytes.put(at, strips(strip), from, length)
-      bytes.putInt(at, source.getInt(from) + strip * each)
-      at += length
-    bytes.array
+    val head = ByteBuffer.allocate(header + 8 * chunks).order(ByteOrder.LITTLE_ENDIAN)
+    head.put(0, strips(0), 0, header)
+    place(head, window, height)
+    var at = head.capacity.toLong
+    val pixels = sources.zipWithIndex.map: (source, strip) =>
+      val inStrip = (Math.min(each, height - strip * each) + rows - 1) / rows
+      val first = header + 8 * inStrip
+      loop(inStrip): i =>
+        val from = source.getLong(header + 8 * i)
+        // Each chunk begins with the row of its first scanline
+        val row = source.getInt(from.toInt) + strip * each + window.fold(0)(_.y)
+        source.putInt(from.toInt, row)
+        head.putLong(header + 8 * (strip * each / rows + i), at + from - first): Unit
+      at += source.capacity - first
+      source.slice(first, source.capacity - first)
+    head +: pixels.toVector
+
+  /** Sets both windows of a header of some of the image's scanlines. */
+  private def place(head: ByteBuffer, window: Option[ImageWindow], height: Int): Unit =
+    def put(at: Int, x0: Int, y0: Int, x1: Int, y1: Int): Unit =
+      val _ = head.putInt(at, x0).putInt(at + 4, y0).putInt(at + 8, x1).putInt(at + 12, y1)
+    val _ = attributes(head): (name, at) =>
+      def right = head.getInt(at + 8)
+      if name == "dataWindow" then
+        window match
+          case Some(w) => put(at, w.x, w.y, right + w.x, height - 1 + w.y)
+          case None => put(at, 0, 0, right, height - 1)
+      else if name == "displayWindow" then
+        val (width, rows) = window.fold((right + 1, height))(w => (w.width, w.height))
+        put(at, 0, 0, width - 1, rows - 1)
 
   /** Where the last of the chunks of scanlines ends. */
   def end(file: Array[Byte], chunks: Int): Long =

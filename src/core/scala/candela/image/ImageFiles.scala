@@ -151,16 +151,16 @@ object ImageFiles:
       metadata: Vector[(String, String)] = Vector.empty,
       options: WriteOptions = WriteOptions()
   ): Unit =
-    val bytes =
+    val parts =
       try
         (OutputFormat.of(path), FileName.suffix(path)) match
-          case (Some(format), _) => format.write(image, metadata, options)
+          case (Some(format), _) => format.parts(image, metadata, options)
           case (None, "") =>
             throw ImageError(Code.UnknownFormat, s"the name has no extension; $Writable")
           case (None, other) =>
             throw ImageError(Code.UnknownFormat, s"can't write .$other files; $Writable")
       catch case e: ImageError => throw ImageError(e.code, s"$path: ${e.getMessage}")
-    try WholeFile.write(path, bytes)
+    try WholeFile.write(path, parts)
     catch case e: WriteError => throw ImageError(Code.Unwritable, e.getMessage)
 
   /** The bytes that `write` stores in an `.exr` file. */

@@ -2,6 +2,7 @@ package candela.image
 
 import candela.base.{FileName, Parallel}
 
+import java.nio.ByteBuffer
 import java.nio.file.Path
 
 /** Pixel data that a format can store. */
@@ -65,6 +66,13 @@ abstract class OutputFormat(val suffix: String, val contents: Contents):
       metadata: Vector[(String, String)],
       options: WriteOptions = WriteOptions()
   ): Array[Byte]
+
+  /** The same as the parts of the file, in order, if that saves a copy of a large one. */
+  private[image] def parts(
+      image: Image,
+      metadata: Vector[(String, String)],
+      options: WriteOptions
+  ): Vector[ByteBuffer] = Vector(ByteBuffer.wrap(write(image, metadata, options)))
 
 object OutputFormat:
   val all: Vector[OutputFormat] = Vector(Exr, Pfm, Png, Jpeg, Qoi, Tga, Npz)

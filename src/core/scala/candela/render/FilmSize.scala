@@ -9,10 +9,17 @@ object FilmSize:
 
   /** Before the method is known.
     *
-    * @param pixels that are rendered
+    * @param pixels  that are rendered
+    * @param samples of each
     */
-  def least(pixels: Long, layers: Vector[Layer], bands: Option[SpectralBands]): Cost =
-    film(pixels, if layers.isEmpty then 0 else LayerFilm.size(layers, None), bands, 0)
+  def least(
+      pixels: Long,
+      samples: Int,
+      layers: Vector[Layer],
+      bands: Option[SpectralBands]
+  ): Cost =
+    val all = if layers.isEmpty then 0L else LayerFilm.size(layers, None)
+    film(pixels, samples, all, bands, 0)
 
   private[render] def of(plan: RenderPlan): Vector[Cost] =
     val pixels = plan.crop.pixels
@@ -23,20 +30,24 @@ object FilmSize:
       case _: RenderMethod.SplattedTiles | _: RenderMethod.Chains =>
         3 * groups.fold(1)(_.size) + bands
       case _ => 0
-    val levels = if plan.fireflies == Fireflies.Reweighted then Levels * 3L * Sum else 0L
-    val borders = if plan.sharesSamples then Border * 4 * Sum else 0
-    val all = film(pixels, layers, plan.bands, splats)
+    val sum = sumOf(plan.samplesPerPixel)
+    val levels = if plan.fireflies == Fireflies.Reweighted then Levels * 3L * sum else 0L
+    val borders = if plan.sharesSamples then Border * 4 * sum else 0
+    val all = film(pixels, plan.samplesPerPixel, layers, plan.bands, splats)
     all.copy(bytes = all.bytes + pixels * (levels + borders.toLong)) +: guide(plan).toVector
 
   private def film(
       pixels: Long,
+      samples: Int,
       layers: Long,
       bands: Option[SpectralBands],
       splats: Int
   ): Cost =
-    val sums = 4L + layers + bands.fold(0L)(2L * _.channels.size)
+    val sums = (4L + layers) * sumOf(samples)
+    // Several wavelengths of a sample are in one band
+    val inBands = bands.fold(0L)(2L * _.channels.size * Sum)
     val shown = 3L + layers
-    Cost(CostKind.Film, pixels * ((sums + splats) * Sum + shown * 4))
+    Cost(CostKind.Film, pixels * (sums + inBands + splats * Sum + shown * 4))
 
   private def guide(plan: RenderPlan): Option[Cost] = plan.method match
     case RenderMethod.Guided(_, settings, _) => Some(guide(plan, settings))
@@ -49,8 +60,9 @@ object FilmSize:
     // As threads record them, in one array, and its order
     Cost(CostKind.Guiding, records * (2 * GuideRecords.Bytes + 8))
 
-  /** An exact sum is two Doubles. */
+  /** An exact sum is two Doubles, and of one value the first. */
   private val Sum = 16L
+  private def sumOf(samples: Int): Long = if samples == 1 then Sum / 2 else Sum
 
   /** Pixels beside tiles that samples of a tile contribute to, relative to its own. */
   private val Border = 0.27

@@ -24,6 +24,14 @@ class WholeFileSuite extends AnyFunSuite:
       assert(bytes(path) == Vector(3))
       assert(TempFolder.names(folder) == Set("a"))
 
+  test("parts of any size are written in order, as much as remains of each"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("parts.bin")
+      val long = Array.tabulate((1 << 21) + 3)(i => (i * 31 >> 3).toByte)
+      val few = ByteBuffer.wrap(Array[Byte](1, 2, 3, 4)).position(1).limit(3)
+      WholeFile.write(file, Vector(few, ByteBuffer.allocate(0), ByteBuffer.wrap(long)))
+      assert(Files.readAllBytes(file).sameElements(Array[Byte](2, 3) ++ long))
+
   test("a write that fails leaves what was there, and nothing else, and names the file"):
     TempFolder.use: folder =>
       val path = folder.resolve("a")

@@ -181,14 +181,18 @@ class SceneSizeSuite extends AnyFunSuite:
       assert(bytes(both, control) == 25)
 
   test("films, with bands, within a fifth"):
-    def film(statement: String) =
+    def film(statement: String, samples: Int) =
       val text = Head.linesIterator.drop(1).mkString(statement, "\n", "\n") + Sky +
         "Shape \"sphere\"\n"
-      SceneBuilder.build(SceneTexts.parse(text, Dialect.V4), RenderSettings())._1
+      val settings = RenderSettings(samples = Some(samples))
+      SceneBuilder.build(SceneTexts.parse(text, Dialect.V4), settings)._1
     def size =
       " \"integer xresolution\" 320 \"integer yresolution\" 240 \"string filename\" \"a\"\n"
-    for statement <- Vector("Film \"rgb\"", "Film \"spectral\"") do
-      val plan = film(statement + size)
+    for
+      (statement, samples) <-
+        Vector(("Film \"rgb\"", 1), ("Film \"rgb\"", 16), ("Film \"spectral\"", 16))
+    do
+      val plan = film(statement + size, samples)
       val made = Renderer.render(plan, threads = 1)
       val measured = ObjectSizes().add(Vector(made.film, made.image(plan.development)))
       assertNear(plan.costs.all.find(_.kind == CostKind.Film).get.bytes, measured, 0.2)
@@ -216,7 +220,7 @@ class SceneSizeSuite extends AnyFunSuite:
     val scene = SceneTexts.parse(text, Dialect.V4)
     def build(heap: Long, isRendered: Boolean = true) =
       val control = BuildControl(heap = heap, isRendered = isRendered)
-      SceneBuilder.build(scene, RenderSettings(), control)
+      SceneBuilder.build(scene, RenderSettings(samples = Some(4)), control)
     val problem = intercept[SceneError](build(3_000_000_000L)).problems.head
     assert(problem.message.contains("film 4.9 GB"), problem.message)
     assert(problem.help.exists(_.contains("--cropwindow")), problem.help)

@@ -1,6 +1,7 @@
 package candela.film
 
-import candela.base.{CheckedFile, CheckedOutput}
+import candela.base.{CheckedFile, CheckedOutput, loop}
+import candela.render.ThreadPool
 import candela.testing.Draws
 
 import java.math.BigDecimal
@@ -73,3 +74,26 @@ class ExactSumsSuite extends AnyFunSuite:
         read.add(sums, isNegative = true)
         assert(read(0) == 0.0)
       finally Files.delete(file)
+
+  test("second parts take memory only where sums have rounding errors"):
+    val sums = ExactSums(5000)
+    loop(5000)(i => sums.add(i, 0.1 * i))
+    assert(sums.memory == 8 * 5000)
+    sums.add(4500, 1e-9)
+    assert(sums.memory == 8 * 5000 + 8 * (5000 - 4096))
+    assert(sums(4500) == BigDecimal(0.1 * 4500).add(BigDecimal(1e-9)).doubleValue)
+    assert(sums.remainder(4500) != 0 && sums.remainder(4499) == 0)
+    val twice = ExactSums(5000)
+    twice.add(sums)
+    assert(twice.memory == sums.memory && bytes(twice) == bytes(sums))
+
+  test("workers get second parts of sums beside each other at the same time"):
+    val all = values(200, 1e-3, 1e3)
+    val pool = ThreadPool(4)
+    try
+      for _ <- 1 to 20 do
+        val sums = ExactSums(64)
+        pool.each(64)(at => all.foreach(sums.add(at, _)))
+        assert((0 until 64).forall(at => sums(at) == sumOf(all)(0)))
+        assert((0 until 64).forall(at => sums.remainder(at) == sumOf(all).remainder(0)))
+    finally pool.close()

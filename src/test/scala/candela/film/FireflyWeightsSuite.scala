@@ -123,8 +123,8 @@ class FireflyWeightsSuite extends AnyFunSuite:
 
   test("levels take memory only where they have samples"):
     val dim = film(4)((_, _, _) => 1f)
-    val bytes = 48L * side * side
+    val bytes = 24L * side * side
     assert(dim.levels.get.memory == bytes)
     // A lamp in the smaller tile, between two levels
     val lit = film(4)((x, _, _) => if x == 15 then 100f else 1f)
-    assert(lit.levels.get.memory == bytes + 2 * 48L * 5 * side)
+    assert(lit.levels.get.memory == bytes + 2 * 24L * 5 * side)

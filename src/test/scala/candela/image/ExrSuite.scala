@@ -40,12 +40,18 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val image = Image(37, 75, names, data, colorSpace = ColorSpace.named("rec2020").get)
     val texts = Vector("scene" -> "a.pbrt")
     val pool = ThreadPool(3)
-    def file(rows: Int) = ExrEncoder.encode(image, texts, _ != "depth", pool, 37 * rows)
+    def file(rows: Int, window: Option[ImageWindow]) =
+      val parts = ExrEncoder.encode(image, texts, _ != "depth", pool, window, 37 * rows)
+      parts.toArray.flatMap(part => Array.tabulate(part.remaining)(part.get(_)))
     try
-      val whole = file(80)
-      for rows <- Vector(1, 16, 33, 48, 64) do
-        assert(java.util.Arrays.equals(file(rows), whole), s"$rows rows")
-      assert(Exr.read(whole)(36, 74, 3) == data.last)
+      for window <- Vector(None, Some(ImageWindow(5, 60, 50, 200))) do
+        val whole = file(80, window)
+        for rows <- Vector(1, 16, 33, 48, 64) do
+          assert(java.util.Arrays.equals(file(rows, window), whole), s"$rows rows")
+        assert(Exr.read(whole)(36, 74, 3) == data.last)
+        for library <- OpenExr.load() do
+          val part = ExrHeader.parts(whole).head
+          assert(Math.abs(library.read(whole, part, "")(36, 74, 2) - image(36, 74, 2)) < 1e-3f)
     finally pool.close()
 
   test("of several parts the one with colour is read"):

@@ -126,9 +126,9 @@ private[tracing] object VectorKernel extends WideKernel:
     val s2 = e2.reinterpretAsInts()
     val all = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue)
     val zero = all.sub(1).or(Infinities.sub(all))
-    // No sign bit, all sign bits, or a zero, for which the product is also zero or NaN
-    val same = s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).and(zero.not())
-    bits(same.compare(VectorOperators.LT, 0)) |
+    // One or two sign bits, or a zero, for which the product is also zero or NaN
+    val some = s0.or(s1).or(s2).lanewise(VectorOperators.XOR, s0.and(s1).and(s2)).or(zero)
+    bits(some.compare(VectorOperators.GE, 0)) |
       (bits(zero.compare(VectorOperators.LT, 0)) << WideWalk.Unsure)
 
   /** Bits of the lanes whose triangles are neither behind the ray nor past its end, along the axis
