@@ -19,7 +19,7 @@ import java.util.concurrent.ConcurrentHashMap
 final class ExactSums(val size: Int):
   private val high = new Array[Double](size)
   private val lows = new Array[Array[Double] | Null]((size + ExactSums.Run - 1) / ExactSums.Run)
-  private val rest = ConcurrentHashMap[Int, BigDecimal]
+  @volatile private var rests: ConcurrentHashMap[Int, BigDecimal] | Null = null
 
   private def low(at: Int): Double =
     val run = lows(at / ExactSums.Run)
@@ -66,27 +66,36 @@ final class ExactSums(val size: Int):
       if left != 0.0 then addRest(at, BigDecimal(left))
 
   private def addRest(at: Int, value: BigDecimal): Unit =
-    val _ = rest.merge(at, value, (a, b) => a.add(b))
+    if rests == null then lows.synchronized { if rests == null then rests = ConcurrentHashMap() }
+    val known = rests
+    if known != null then known.merge(at, value, (a, b) => a.add(b)): Unit
+
+  /** The third part of a sum, if it has one. */
+  private def rest(at: Int): BigDecimal | Null =
+    val known = rests
+    if known == null then null else known.get(at)
 
   /** The sum, rounded once. */
   def apply(at: Int): Double =
-    if rest.isEmpty || !rest.containsKey(at) then high(at) + low(at) else exact(at).doubleValue
+    if rest(at) == null then high(at) + low(at) else exact(at).doubleValue
 
   /** Adds the sums from `from` on to `to` at `at`, each rounded once. */
   def addTo(to: Array[Double], at: Int, from: Int, count: Int): Unit =
-    if rest.isEmpty then loop(count)(i => to(at + i) += high(from + i) + low(from + i))
+    if rests == null then loop(count)(i => to(at + i) += high(from + i) + low(from + i))
     else loop(count)(i => to(at + i) += this(from + i))
 
   /** The difference of the sum and its rounded value, rounded. */
   def remainder(at: Int): Double =
-    if rest.isEmpty || !rest.containsKey(at) then
+    if rest(at) == null then
       ExactSums.error(high(at), low(at), high(at) + low(at))
     else
       val all = exact(at)
       all.subtract(BigDecimal(all.doubleValue)).doubleValue
 
   private def exact(at: Int): BigDecimal =
-    BigDecimal(high(at)).add(BigDecimal(low(at))).add(rest.getOrDefault(at, BigDecimal.ZERO))
+    val both = BigDecimal(high(at)).add(BigDecimal(low(at)))
+    val third = rest(at)
+    if third == null then both else both.add(third)
 
   /** Adds all sums of `other`, or subtracts them. */
   def add(other: ExactSums, isNegative: Boolean = false): Unit =
@@ -95,7 +104,9 @@ final class ExactSums(val size: Int):
     loop(size): i =>
       add(i, sign * other.high(i))
       add(i, sign * other.low(i))
-    other.rest.forEach((i, value) => addRest(i, if isNegative then value.negate else value))
+    val thirds = other.rests
+    if thirds != null then
+      thirds.forEach((i, value) => addRest(i, if isNegative then value.negate else value))
 
   /** Bytes in use, but for the third parts. */
   def memory: Long =
@@ -108,9 +119,11 @@ final class ExactSums(val size: Int):
     loop(size)(i => to.double(this(i) + 0.0)) // no negative zeros
     loop(size)(i => to.double(remainder(i) + 0.0))
     val left = Vector.newBuilder[(Int, BigDecimal)]
-    rest.keySet.forEach: i =>
-      val value = exact(i).subtract(BigDecimal(this(i))).subtract(BigDecimal(remainder(i)))
-      if value.signum != 0 then left += i -> value
+    val thirds = rests
+    if thirds != null then
+      thirds.keySet.forEach: i =>
+        val value = exact(i).subtract(BigDecimal(this(i))).subtract(BigDecimal(remainder(i)))
+        if value.signum != 0 then left += i -> value
     val sorted = left.result().sortBy(_._1)
     to.int(sorted.size)
     for (i, value) <- sorted do
