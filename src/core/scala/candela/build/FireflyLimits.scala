@@ -38,8 +38,8 @@ private[build] object FireflyLimits:
       case _ if settings.preview => None
       case Fireflies.Kept => None
       case Fireflies.Reweighted =>
-        Some("light that few samples have found is left out; 48 bytes per pixel and level of " +
-          "brightness; the image is biased")
+        Some("light that few samples have found is left out; 24 to 48 bytes per pixel and level " +
+          "of brightness; the image is biased")
       case Fireflies.Clamped(most) =>
         Some(s"indirect light of samples is limited to $most; the image is biased")
     what.map("fireflies" -> _)

@@ -50,25 +50,33 @@ final class ExactSums(val size: Int):
       if error != 0.0 then addLow(at, error)
 
   private def addLow(at: Int, value: Double): Unit =
-    val lows = lowsOf(at)
+    val run = lowsOf(at)
     val inRun = at % ExactSums.Run
-    val l = lows(inRun)
+    val l = run(inRun)
     val sum = l + value
-    lows(inRun) = sum
+    run(inRun) = sum
     val error = ExactSums.error(l, value, sum)
     if error != 0.0 then
       // Moves what the high part can hold there, which makes room
       val h = high(at)
       high(at) = h + sum
       val moved = ExactSums.error(h, sum, high(at))
-      lows(inRun) = moved + error
-      val left = ExactSums.error(moved, error, lows(inRun))
+      run(inRun) = moved + error
+      val left = ExactSums.error(moved, error, run(inRun))
       if left != 0.0 then addRest(at, BigDecimal(left))
 
   private def addRest(at: Int, value: BigDecimal): Unit =
-    if rests == null then lows.synchronized { if rests == null then rests = ConcurrentHashMap() }
     val known = rests
-    if known != null then known.merge(at, value, (a, b) => a.add(b)): Unit
+    val all = if known != null then known else makeRests()
+    all.merge(at, value, (a, b) => a.add(b)): Unit
+
+  private def makeRests(): ConcurrentHashMap[Int, BigDecimal] = lows.synchronized:
+    val known = rests
+    if known != null then known
+    else
+      val made = ConcurrentHashMap[Int, BigDecimal]()
+      rests = made
+      made
 
   /** The third part of a sum, if it has one. */
   private def rest(at: Int): BigDecimal | Null =

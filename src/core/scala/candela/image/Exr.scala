@@ -73,7 +73,7 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
     all.foreach(file.put(_))
     file.array
 
-  override def parts(
+  private[image] override def parts(
       image: Image,
       metadata: Vector[(String, String)],
       options: WriteOptions

@@ -43,7 +43,9 @@ private[image] object ExrEncoder:
     val rows = Math.max(1, pixelsOfStrip / image.width / Rows) * Rows
     val strips = new Array[Array[Byte]]((image.height + rows - 1) / rows)
     pool.each(strips.length): i =>
-      strips(i) = encode(image, i * rows, Math.min(rows, image.height - i * rows), metadata, isHalf)
+      // Of the others' headers only their own pixels matter
+      val texts = if i == 0 then metadata else Vector.empty
+      strips(i) = encode(image, i * rows, Math.min(rows, image.height - i * rows), texts, isHalf)
     ExrWindow.joined(strips, rows, image.height, Rows, window)
 
   /** A file of some rows of the image. */

@@ -16,7 +16,7 @@ final case class ImageWindow(x: Int, y: Int, width: Int, height: Int)
 private[image] object ExrWindow:
   private val HeaderStart = 8
 
-  /** One file of those of its strips, which have `each` scanlines; all are alike but for these.
+  /** One file of those of its strips, which have `each` scanlines, with the header of the first.
     * Changes the strips, and refers to them: there is no second copy of an image that may be large.
     *
     * @param rows   scanlines per chunk
@@ -38,9 +38,10 @@ private[image] object ExrWindow:
     var at = head.capacity.toLong
     val pixels = sources.zipWithIndex.map: (source, strip) =>
       val inStrip = (Math.min(each, height - strip * each) + rows - 1) / rows
-      val first = header + 8 * inStrip
+      val table = attributes(source)((_, _) => ())
+      val first = table + 8 * inStrip
       loop(inStrip): i =>
-        val from = source.getLong(header + 8 * i)
+        val from = source.getLong(table + 8 * i)
         // Each chunk begins with the row of its first scanline
         val row = source.getInt(from.toInt) + strip * each + window.fold(0)(_.y)
         source.putInt(from.toInt, row)

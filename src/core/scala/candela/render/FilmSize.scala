@@ -30,10 +30,16 @@ object FilmSize:
       case _: RenderMethod.SplattedTiles | _: RenderMethod.Chains =>
         3 * groups.fold(1)(_.size) + bands
       case _ => 0
-    val sum = sumOf(plan.samplesPerPixel)
-    val levels = if plan.fireflies == Fireflies.Reweighted then Levels * 3L * sum else 0L
+    // Chains bring splats alone
+    val samples = plan.method match
+      case _: RenderMethod.Chains => 1
+      case _ => plan.samplesPerPixel
+    val sum = sumOf(samples)
+    // Samples that pixels share add to a level one by one
+    val ofLevel = if plan.sharesSamples then Sum else sum
+    val levels = if plan.fireflies == Fireflies.Reweighted then Levels * 3L * ofLevel else 0L
     val borders = if plan.sharesSamples then Border * 4 * sum else 0
-    val all = film(pixels, plan.samplesPerPixel, layers, plan.bands, splats)
+    val all = film(pixels, samples, layers, plan.bands, splats)
     all.copy(bytes = all.bytes + pixels * (levels + borders.toLong)) +: guide(plan).toVector
 
   private def film(

@@ -88,10 +88,13 @@ class ExactSumsSuite extends AnyFunSuite:
     assert(twice.memory == sums.memory && bytes(twice) == bytes(sums))
 
   test("workers get second parts of sums beside each other at the same time"):
-    val all = values(200, 1e-3, 1e3)
     val pool = ThreadPool(4)
     try
-      for _ <- 1 to 20 do
+      for
+        (least, most) <- ranges
+        all = values(200, least, most)
+        _ <- 1 to 20
+      do
         val sums = ExactSums(64)
         pool.each(64)(at => all.foreach(sums.add(at, _)))
         assert((0 until 64).forall(at => sums(at) == sumOf(all)(0)))

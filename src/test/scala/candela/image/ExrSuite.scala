@@ -38,7 +38,7 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val names = Image.RgbNames :+ "depth"
     val data = Array.fill(37 * 75 * 4)(if random.nextInt(3) == 0 then 1f else random.nextFloat)
     val image = Image(37, 75, names, data, colorSpace = ColorSpace.named("rec2020").get)
-    val texts = Vector("scene" -> "a.pbrt")
+    val texts = Vector("scene" -> "a.pbrt", "manifest" -> "x" * 100_000)
     val pool = ThreadPool(3)
     def file(rows: Int, window: Option[ImageWindow]) =
       val parts = ExrEncoder.encode(image, texts, _ != "depth", pool, window, 37 * rows)

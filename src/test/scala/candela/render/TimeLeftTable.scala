@@ -56,6 +56,17 @@ object TimeLeftTable:
         ranges.count((r, t, o) => t + r.low <= o.seconds && o.seconds <= t + r.high)
       )
       println(s"| ${(100 * part).round} % of ${found.size} | ${cells.mkString(" | ")} |")
+    println("What was expected over what came true, samples and the whole time:")
+    for part <- Parts do
+      val ratios =
+        for
+          o <- found
+          t <- o.told(part)
+          s <- t.samples
+        yield
+          val time = t.left.orElse(t.between.map(_.expected)).map(l => (t.seconds + l) / o.seconds)
+          f"${s.expected / o.samples}%.2f ${time.fold("-")(r => f"$r%.2f")}"
+      println(s"${(100 * part).round} %: ${ratios.mkString(", ")}")
 
   /** What is told at a time. */
   private final case class Told(
