@@ -94,7 +94,8 @@ final class ErrorEstimate:
     * a smaller part. Beyond, it is the geometric mean of what this and the earlier estimates say,
     * the earlier the less, as noise changes from one power of two to the next; each says it to an
     * eighth. The 95 % interval is that of the number with which it will say so. There is none after
-    * two samples only, and no upper limit where few pixels have the error.
+    * two samples only, and where few pixels have the error it tells nothing: the next estimate may
+    * be a thousandth.
     */
   def samplesUntil(relativeMse: Double): Option[Interval] =
     for
@@ -114,11 +115,13 @@ final class ErrorEstimate:
             sum += weight * Math.log(Math.max(least, now.samples + byWeight))
             weights += weight
           Math.max(least, Math.exp(sum / weights))
-      val far = Math.exp(1.959964 * ErrorEstimate.deviation(now.samples, isSoon))
+      val ahead = Math.log(Math.max(1, found / now.samples)) / Math.log(2)
+      val far = Math.exp(1.959964 * ErrorEstimate.deviation(now.samples, isSoon, ahead))
       if now.samples < ErrorEstimate.FewSamples then Interval(found, Double.NaN, Double.NaN)
       else
-        val low = Math.max(Math.min(found, now.samples), found / far)
-        Interval(found, low, if isOfFew then Double.PositiveInfinity else found * far)
+        val least = Math.min(found, now.samples)
+        if isOfFew then Interval(found, least, Double.PositiveInfinity)
+        else Interval(found, Math.max(least, found / far), found * far)
 
   /** Of one of the latest samples. Those of guided passes may count more than those before. */
   private def sampleWeight: Double =
@@ -189,9 +192,11 @@ object ErrorEstimate:
     * docs/journal/NOISE.md, "Time left".
     *
     * @param isSoon whether that is expected before the next power of two
+    * @param ahead  doublings of the samples until then
     */
-  private def deviation(samples: Int, isSoon: Boolean): Double =
-    if isSoon then 0.08 else 0.11 * Math.hypot(1, 20.0 / samples)
+  private def deviation(samples: Int, isSoon: Boolean, ahead: Double): Double =
+    if isSoon then 0.08
+    else 0.11 * Math.hypot(1, 20.0 / samples) * Math.sqrt((1 + Math.max(1, ahead)) / 2)
 
   /** Scatter between two parts of the samples.
     *

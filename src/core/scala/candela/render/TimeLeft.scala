@@ -196,7 +196,7 @@ private[render] object TimeLeft:
     * standard deviations of the logarithm.
     */
   private val Slow = 5.0
-  private val YoungNoise = 7.0
+  private val YoungNoise = 12.0
   private val PaceNoise = 0.05
 
   private val Confidence = 1.959964

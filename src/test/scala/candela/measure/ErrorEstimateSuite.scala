@@ -65,6 +65,9 @@ class ErrorEstimateSuite extends AnyFunSuite:
     assert(Math.abs(estimate.at(64).get.relativeMse / known - 0.5) < 0.04)
     val end = estimate.samplesUntil(known / 4).get
     assert(Math.abs(end.estimate - 128) < 12 && end.low < 105 && end.high > 150)
+    // The farther, the less is known
+    val far = estimate.samplesUntil(known / 64).get
+    assert(far.high / far.estimate > 1.1 * end.high / end.estimate)
     // What is reached before the next look is known well, and what is reached already, at once
     val soon = estimate.samplesUntil(known / 1.5).get
     assert(Math.abs(soon.estimate - 48) < 5 && soon.high < 1.2 * soon.estimate)
@@ -127,12 +130,15 @@ class ErrorEstimateSuite extends AnyFunSuite:
     def isOfFew(noisy: Int) =
       val estimate = ErrorEstimate()
       val random = scala.util.Random(5)
-      for n <- Vector(1, 2) do
+      for n <- Vector(1, 2, 4) do
         val image = Image.rgb(side, side)
         for i <- image.data.indices do
           image.data(i) = if i / 3 < noisy then random.nextFloat() else 0.5f
         val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), isLast = false)
-      assert(estimate.interval(2).get.isBounded != estimate.isOfFew)
+      assert(estimate.interval(4).get.isBounded != estimate.isOfFew)
+      // A lamp's edge in a pixel: the next estimate may be a thousandth
+      val end = estimate.samplesUntil(estimate.at(4).get.relativeMse / 1000).get
+      assert((end.low == 4 && end.high.isInfinite) == estimate.isOfFew)
       estimate.isOfFew
     // Of 2304 pixels a third or less counts, as few halves differ much
     assert(!isOfFew(side * side) && isOfFew(9))
