@@ -70,7 +70,8 @@ final class ErrorEstimate:
     errors.copy(mse = errors.mse * factor, relativeMse = errors.relativeMse * factor)
 
   /** The relative MSE after so many samples per pixel, with its 95 % interval. This has no upper
-    * limit where the error is that of few pixels.
+    * limit where the error is that of few pixels, and its lower one is what the error would be if
+    * their own means were true: a speck at the edge of a lamp may be part of it.
     *
     * Its logarithm is uncertain by what few pixels tell, and by how far the trend of scatter can be
     * extrapolated. How far, is calibrated over many scenes by docs/NOISE.md, "Intervals": of one
@@ -85,9 +86,11 @@ final class ErrorEstimate:
       def far(ofTrend: Double) =
         val variance = ofTrend * ofTrend + ErrorEstimate.OfPixel / known.pixels
         Math.exp(1.959964 * Math.sqrt(variance))
-      val high =
-        if isOfFew then Double.PositiveInfinity else estimate * far(ErrorEstimate.TrendUp)
-      Interval(estimate, estimate / far(ErrorEstimate.TrendDown), high)
+      val low = estimate / far(ErrorEstimate.TrendDown)
+      if isOfFew then
+        val sure = estimate * known.sure / Math.exp(1.959964 * ErrorEstimate.TrendDown)
+        Interval(estimate, Math.min(low, sure), Double.PositiveInfinity)
+      else Interval(estimate, low, estimate * far(ErrorEstimate.TrendUp))
 
   /** Samples per pixel with which the relative MSE is at most this. Up to the next power of two,
     * where the error is estimated anew, that is what [[at]] says, to an eighth of a power of two or
@@ -155,19 +158,21 @@ final class ErrorEstimate:
             ErrorEstimate.inParts(scatter.values, now.image, means, isStopped).map(_ * scale)
         ScatterTrend.of(parts)
       else ScatterTrend.Independent
-    var squares, relatives, spread = 0.0
+    var squares, relatives, spread, sure = 0.0
     loop(all.values.length): i =>
       GivenUp.check(isStopped, i)
       val relative = all.values(i).toDouble * means.weight(i)
       squares += all.values(i)
       relatives += relative
+      sure += all.values(i) * Math.min(means.weight(i), means.ownWeight(i))
       spread += relative * relative
     val scale = trend.factor / all.values.length
     val errors = Errors(squares * scale, relatives * scale, None, None, None, Vector.empty)
     whole = Some(all)
     halves = inner
     val values = if spread > 0 then relatives * relatives / spread else all.values.length.toDouble
-    Known(now.samples, now.weighed.weight, errors, trend, values / now.image.channels)
+    val part = if relatives > 0 then sure / relatives else 1.0
+    Known(now.samples, now.weighed.weight, errors, trend, values / now.image.channels, part)
 
 object ErrorEstimate:
   /** Samples between two numbers at which a rendering may end by its error. */
@@ -209,13 +214,15 @@ object ErrorEstimate:
     *
     * @param weight of a pixel's samples
     * @param pixels that have the error, about: if all had as much, as many as there are over 3
+    * @param sure   part of the relative error that there is if each pixel's own mean is true
     */
   private final case class Known(
       samples: Int,
       weight: Double,
       errors: Errors,
       trend: ScatterTrend,
-      pixels: Double
+      pixels: Double,
+      sure: Double
   ):
     /** The relative MSE after other samples, relative to that now. Those that count more are not
       * more evenly spread before they are twice as many.

@@ -33,6 +33,10 @@ final class QuietMeans(
   /** The weight of a squared error, by which it is relative. */
   def weight(i: Int): Float = weights(i)
 
+  /** The same if the pixel's own mean is true, however noisy it is. */
+  def ownWeight(i: Int): Float =
+    (1 / square(Math.max(image.data(i), 0f) + Metrics.RelativeEpsilon)).toFloat
+
   /** Mean of the pixels around that differ by noise, and of itself. */
   private def around(x: Int, y: Int, c: Int): Double =
     val at = (y * image.width + x) * channels + c

@@ -143,6 +143,26 @@ class ErrorEstimateSuite extends AnyFunSuite:
     // Of 2304 pixels a third or less counts, as few halves differ much
     assert(!isOfFew(side * side) && isOfFew(9))
 
+  test("an edge of a lamp before black is no certain error"):
+    // A pixel has a hundredth of a lamp of 2000, all others are dim and slightly noisy
+    val random = scala.util.Random(9)
+    val sums = new Array[Double](side * side * 3)
+    val estimate = ErrorEstimate()
+    val edge = side * side / 2
+    for n <- 1 to 16 do
+      val isHit = n == 13
+      for i <- sums.indices do
+        sums(i) += (if i / 3 == edge then if isHit then 2000.0 else 0.0
+                    else 1e-4 * random.nextDouble())
+      val image = Image.rgb(side, side)
+      for i <- sums.indices do image.data(i) = (sums(i) / n).toFloat
+      val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), isLast = false)
+    val found = estimate.interval(16).get
+    // The mean of 16 samples is 125, the true one 20: that is its relative error, over all pixels
+    val truth = Math.pow((125 - 20) / 20.0, 2) / (side * side)
+    assert(estimate.isOfFew && found.estimate > 100 * truth)
+    assert(found.low < truth && found.low > truth / 1000 && found.high.isInfinite)
+
   test("the interval of an estimate holds the true error, and is open where few pixels have it"):
     var hits = 0
     for seed <- 1 to 40 do

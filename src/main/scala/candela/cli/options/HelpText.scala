@@ -122,8 +122,10 @@ private[cli] object UsageErrors:
       case other => UsageError(Code.OptionConflict, other)
 
   private def number(found: String): String =
-    val isWhole = scala.util.Try(BigInt(found)).isSuccess
-    if isWhole then s"between ${Int.MinValue} and ${Int.MaxValue}" else "a number"
+    scala.util.Try(BigInt(found)).fold(
+      _ => "a number",
+      n => if n > 0 then s"at most ${Int.MaxValue}" else s"at least ${Int.MinValue}"
+    )
 
   private def valueOf(name: String, row: CommandRow): String =
     row.option(name).flatMap(_.valueName).getOrElse("VALUE")
