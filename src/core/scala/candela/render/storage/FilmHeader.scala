@@ -84,7 +84,7 @@ final case class FilmHeader(
     else if !plan.sampler.isProgressive then
       Some("its sampler's points depend on their number (scrambled Sobol' points don't)")
     else if plan.differentialScale != footprint then
-      Some("its textures are filtered according to the number of samples")
+      Some("its textures, or its layers of gradients, depend on the number of samples")
     else None
 
   private[storage] def save(to: CheckedOutput): Unit =
