@@ -3,7 +3,6 @@ package candela.film
 import candela.base.{CheckedInput, CheckedOutput, loop}
 
 import java.math.BigDecimal
-import java.util.concurrent.ConcurrentHashMap
 
 /** Sums of numbers without any rounding, so that neither the order of the additions nor their
   * division among machines matters. Numbers that are not finite don't count.
@@ -19,7 +18,7 @@ import java.util.concurrent.ConcurrentHashMap
 final class ExactSums(val size: Int):
   private val high = new Array[Double](size)
   private val lows = new Array[Array[Double] | Null]((size + ExactSums.Run - 1) / ExactSums.Run)
-  @volatile private var rests: ConcurrentHashMap[Int, BigDecimal] | Null = null
+  @volatile private var rest = Map.empty[Int, BigDecimal]
 
   private def low(at: Int): Double =
     val run = lows(at / ExactSums.Run)
@@ -65,45 +64,28 @@ final class ExactSums(val size: Int):
       val left = ExactSums.error(moved, error, run(inRun))
       if left != 0.0 then addRest(at, BigDecimal(left))
 
-  private def addRest(at: Int, value: BigDecimal): Unit =
-    val known = rests
-    val all = if known != null then known else makeRests()
-    all.merge(at, value, (a, b) => a.add(b)): Unit
-
-  private def makeRests(): ConcurrentHashMap[Int, BigDecimal] = lows.synchronized:
-    val known = rests
-    if known != null then known
-    else
-      val made = ConcurrentHashMap[Int, BigDecimal]()
-      rests = made
-      made
-
-  /** The third part of a sum, if it has one. */
-  private def rest(at: Int): BigDecimal | Null =
-    val known = rests
-    if known == null then null else known.get(at)
+  private def addRest(at: Int, value: BigDecimal): Unit = lows.synchronized:
+    rest = rest.updated(at, rest.get(at).fold(value)(_.add(value)))
 
   /** The sum, rounded once. */
   def apply(at: Int): Double =
-    if rest(at) == null then high(at) + low(at) else exact(at).doubleValue
+    if rest.isEmpty || !rest.contains(at) then high(at) + low(at) else exact(at).doubleValue
 
   /** Adds the sums from `from` on to `to` at `at`, each rounded once. */
   def addTo(to: Array[Double], at: Int, from: Int, count: Int): Unit =
-    if rests == null then loop(count)(i => to(at + i) += high(from + i) + low(from + i))
+    if rest.isEmpty then loop(count)(i => to(at + i) += high(from + i) + low(from + i))
     else loop(count)(i => to(at + i) += this(from + i))
 
   /** The difference of the sum and its rounded value, rounded. */
   def remainder(at: Int): Double =
-    if rest(at) == null then
+    if rest.isEmpty || !rest.contains(at) then
       ExactSums.error(high(at), low(at), high(at) + low(at))
     else
       val all = exact(at)
       all.subtract(BigDecimal(all.doubleValue)).doubleValue
 
   private def exact(at: Int): BigDecimal =
-    val both = BigDecimal(high(at)).add(BigDecimal(low(at)))
-    val third = rest(at)
-    if third == null then both else both.add(third)
+    BigDecimal(high(at)).add(BigDecimal(low(at))).add(rest.getOrElse(at, BigDecimal.ZERO))
 
   /** Adds all sums of `other`, or subtracts them. */
   def add(other: ExactSums, isNegative: Boolean = false): Unit =
@@ -112,9 +94,7 @@ final class ExactSums(val size: Int):
     loop(size): i =>
       add(i, sign * other.high(i))
       add(i, sign * other.low(i))
-    val thirds = other.rests
-    if thirds != null then
-      thirds.forEach((i, value) => addRest(i, if isNegative then value.negate else value))
+    for (i, value) <- other.rest do addRest(i, if isNegative then value.negate else value)
 
   /** Bytes in use, but for the third parts. */
   def memory: Long =
@@ -127,11 +107,9 @@ final class ExactSums(val size: Int):
     loop(size)(i => to.double(this(i) + 0.0)) // no negative zeros
     loop(size)(i => to.double(remainder(i) + 0.0))
     val left = Vector.newBuilder[(Int, BigDecimal)]
-    val thirds = rests
-    if thirds != null then
-      thirds.keySet.forEach: i =>
-        val value = exact(i).subtract(BigDecimal(this(i))).subtract(BigDecimal(remainder(i)))
-        if value.signum != 0 then left += i -> value
+    for i <- rest.keys do
+      val value = exact(i).subtract(BigDecimal(this(i))).subtract(BigDecimal(remainder(i)))
+      if value.signum != 0 then left += i -> value
     val sorted = left.result().sortBy(_._1)
     to.int(sorted.size)
     for (i, value) <- sorted do

@@ -46,7 +46,8 @@ private[image] object ExrEncoder:
       // Of the others' headers only their own pixels matter
       val texts = if i == 0 then metadata else Vector.empty
       strips(i) = encode(image, i * rows, Math.min(rows, image.height - i * rows), texts, isHalf)
-    ExrWindow.joined(strips, rows, image.height, Rows, window)
+    if strips.length == 1 && window.isEmpty then Vector(ByteBuffer.wrap(strips(0)))
+    else ExrWindow.joined(strips, rows, image.height, Rows, window)
 
   /** A file of some rows of the image. */
   private def encode(

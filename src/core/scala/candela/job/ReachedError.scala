@@ -30,6 +30,10 @@ final class ReachedError(development: Development, planned: Int)
     super.errorAt(samples).filter(e => !isGivenUp && samples >= Goal.Fewest && !e.isNaN)
 
 object ReachedError:
+  /** None if so few samples are planned that no error will be told. */
+  def of(development: Development, planned: Int): Option[ReachedError] =
+    Option.when(planned >= Goal.Fewest)(ReachedError(development, planned))
+
   /** Its trend is told by three estimates, of twice as many samples each. */
   private val LastDoublings = 8
 

@@ -85,10 +85,10 @@ final class ErrorEstimate:
       val estimate = errors.relativeMse
       def far(ofTrend: Double) =
         val variance = ofTrend * ofTrend + ErrorEstimate.OfPixel / known.pixels
-        Math.exp(1.959964 * Math.sqrt(variance))
+        ErrorEstimate.factor(Math.sqrt(variance))
       val low = estimate / far(ErrorEstimate.TrendDown)
       if isOfFew then
-        val sure = estimate * known.sure / Math.exp(1.959964 * ErrorEstimate.TrendDown)
+        val sure = estimate * known.sure / ErrorEstimate.factor(ErrorEstimate.TrendDown)
         Interval(estimate, Math.min(low, sure), Double.PositiveInfinity)
       else Interval(estimate, low, estimate * far(ErrorEstimate.TrendUp))
 
@@ -119,12 +119,12 @@ final class ErrorEstimate:
             weights += weight
           Math.max(least, Math.exp(sum / weights))
       val ahead = Math.log(Math.max(1, found / now.samples)) / Math.log(2)
-      val far = Math.exp(1.959964 * ErrorEstimate.deviation(now.samples, isSoon, ahead))
+      val far = ErrorEstimate.factor(ErrorEstimate.deviation(now.samples, isSoon, ahead))
       if now.samples < ErrorEstimate.FewSamples then Interval(found, Double.NaN, Double.NaN)
       else
-        val least = Math.min(found, now.samples)
-        if isOfFew then Interval(found, least, Double.PositiveInfinity)
-        else Interval(found, Math.max(least, found / far), found * far)
+        val soonest = Math.min(found, now.samples)
+        if isOfFew then Interval(found, soonest, Double.PositiveInfinity)
+        else Interval(found, Math.max(soonest, found / far), found * far)
 
   /** Of one of the latest samples. Those of guided passes may count more than those before. */
   private def sampleWeight: Double =
@@ -192,6 +192,9 @@ object ErrorEstimate:
 
   /** Estimates after fewer samples don't count beside later ones: noise still changes its trend. */
   private val FewToForetell = 8
+
+  /** How far a value may be from its estimate, with 95 %, whose logarithm has such a deviation. */
+  private def factor(deviation: Double): Double = Math.exp(1.959964 * deviation)
 
   /** Standard deviation of the logarithm of the samples at which an error is seen to be reached, by
     * docs/journal/NOISE.md, "Time left".

@@ -28,14 +28,16 @@ final class QuietMeans(
         val noise = variance(at) / square(own + Metrics.RelativeEpsilon)
         val share = Math.min(1, QuietMeans.Doubt * noise)
         val mean = if share < 0.05 then own else own + (around(x, y, c) - own) * share
-        weights(at) = (1 / square(mean + Metrics.RelativeEpsilon)).toFloat
+        weights(at) = weightBy(mean)
 
   /** The weight of a squared error, by which it is relative. */
   def weight(i: Int): Float = weights(i)
 
   /** The same if the pixel's own mean is true, however noisy it is. */
-  def ownWeight(i: Int): Float =
-    (1 / square(Math.max(image.data(i), 0f) + Metrics.RelativeEpsilon)).toFloat
+  def ownWeight(i: Int): Float = weightBy(Math.max(image.data(i), 0f))
+
+  private def weightBy(mean: Double): Float =
+    (1 / square(mean + Metrics.RelativeEpsilon)).toFloat
 
   /** Mean of the pixels around that differ by noise, and of itself. */
   private def around(x: Int, y: Int, c: Int): Double =

@@ -22,6 +22,10 @@ class ReachedErrorSuite extends AnyFunSuite:
 
   test("few samples say too little"):
     assert(error(2).isEmpty)
+    // So none is looked for
+    val plan = TinyPlan(2, 2, 3)((_, _) => Rgb(1, 1, 1))
+    assert(ReachedError.of(plan.development, 3).isEmpty)
+    assert(ReachedError.of(plan.development, 4).nonEmpty)
 
   test("looks take a hundredth of the time that the rendering is expected to take, at most"):
     assert(!ReachedError.takesLong(0.3, whole = 31))

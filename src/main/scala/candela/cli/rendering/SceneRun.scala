@@ -36,9 +36,8 @@ private[cli] final class SceneRun(
   private val recorder: Option[ErrorRecorder] = reporting.map(_.recorder).orElse:
     val tells = !options.quiet && !isPreview && options.film.shard.isWhole
     if settings.goal.isGiven then Some(ErrorRecorder(plan.development, None))
-    else
-      Option.when(tells && plan.samplesPerPixel >= Goal.Fewest):
-        ReachedError(plan.development, plan.samplesPerPixel)
+    else if tells then ReachedError.of(plan.development, plan.samplesPerPixel)
+    else None
   private val goal =
     for r <- recorder if settings.goal.isGiven
     yield Goal(settings.goal, plan.samplesPerPixel, r)
