@@ -156,7 +156,7 @@ final class ErrorEstimate:
           for (scatter, i) <- scatters.flatten.zipWithIndex yield
             val scale = Math.scalb(all.unit, i) / scatter.unit
             ErrorEstimate.inParts(scatter.values, now.image, means, isStopped).map(_ * scale)
-        ScatterTrend.of(parts)
+        ScatterTrend.of(parts, now.samples)
       else ScatterTrend.Independent
     var squares, relatives, spread, sure = 0.0
     loop(all.values.length): i =>
@@ -246,7 +246,7 @@ object ErrorEstimate:
     * than the scatter shows make it too high more often than too low.
     */
   private val TrendUp = 0.12
-  private val TrendDown = 0.35
+  private val TrendDown = 0.36
 
   /** Its variance by the squares of a single pixel, of its true error and of its scatter. */
   private val OfPixel = 4.0 / 3

@@ -7,6 +7,12 @@ import candela.image.Image
   * around that differ from it by noise, and of itself: a firefly must not hide its own error, nor
   * its neighbours, which lack it, make that seem larger than it is.
   *
+  * A pixel at the edge of a lamp is noisy, too, and far above the dark around. But what its samples
+  * see is in a pixel beside it: one that is quiet, and brighter by more than noise. Its own mean
+  * holds. If a lamp covers an unknown part of a pixel, uniformly distributed, then as many pixels
+  * have one sample of it as have none; these miss all of their light, and seem to have no error. So
+  * the squared errors of the noisiest count twice.
+  *
   * @param variance of each value
   * @param isStopped whether to give up
   */
@@ -27,8 +33,7 @@ final class QuietMeans(
         val own = Math.max(image.data(at), 0f).toDouble
         val noise = variance(at) / square(own + Metrics.RelativeEpsilon)
         val share = Math.min(1, QuietMeans.Doubt * noise)
-        val mean = if share < 0.05 then own else own + (around(x, y, c) - own) * share
-        weights(at) = weightBy(mean)
+        weights(at) = weightBy(if share < QuietMeans.Quiet then own else noisy(x, y, c, own, share))
 
   /** The weight of a squared error, by which it is relative. */
   def weight(i: Int): Float = weights(i)
@@ -38,6 +43,33 @@ final class QuietMeans(
 
   private def weightBy(mean: Double): Float =
     (1 / square(mean + Metrics.RelativeEpsilon)).toFloat
+
+  /** The mean of a pixel that is noisy.
+    *
+    * @param share of its surroundings in it
+    */
+  private def noisy(x: Int, y: Int, c: Int, own: Double, share: Double): Double =
+    val mean = own + (around(x, y, c) - own) * share
+    val ofEdge = own * (1 - share * QuietMeans.Missed)
+    if ofEdge > mean && isEdge(x, y, c) then ofEdge else mean
+
+  /** Whether a pixel beside it is quiet, and brighter by more than noise. */
+  private def isEdge(x: Int, y: Int, c: Int): Boolean =
+    val at = (y * image.width + x) * channels + c
+    val (own, noise) = (image.data(at).toDouble, variance(at).toDouble)
+    var found = false
+    var ny = Math.max(0, y - 1)
+    while !found && ny <= Math.min(image.height - 1, y + 1) do
+      var nx = Math.max(0, x - 1)
+      while !found && nx <= Math.min(image.width - 1, x + 1) do
+        val i = (ny * image.width + nx) * channels + c
+        val more = image.data(i) - own
+        found = more > 0 && square(more) > QuietMeans.Spread * (noise + variance(i)) &&
+          QuietMeans.Doubt * variance(i) < QuietMeans.Quiet *
+          square(image.data(i) + Metrics.RelativeEpsilon)
+        nx += 1
+      ny += 1
+    found
 
   /** Mean of the pixels around that differ by noise, and of itself. */
   private def around(x: Int, y: Int, c: Int): Double =
@@ -67,10 +99,18 @@ private object QuietMeans:
   /** From a relative variance of one over this on, a pixel's mean says no more than each of the
     * others.
     */
-  val Doubt = 2.0
+  val Doubt = 4.0
+
+  /** A pixel that takes less of its surroundings is quiet: its own mean is true. */
+  val Quiet = 0.05
+
+  /** What the noisiest pixels at an edge lack, for those that missed all: their weight is twice as
+    * large.
+    */
+  val Missed: Double = 1 - Math.sqrt(0.5)
 
   /** A pixel counts no more than this many times the mean of the others. */
-  val Brightest = 4.0
+  val Brightest = 2.0
 
   /** Squared difference over variance: three standard deviations. */
   val Spread = 9

@@ -180,14 +180,14 @@ class ErrorEstimateSuite extends AnyFunSuite:
       val truth = image.data.map(v => Metrics.relativeSquare(v, 1f)).sum / image.data.length
       val found = estimate.interval(16).get
       assert(found.estimate == estimate.at(16).get.relativeMse)
-      // By the trend deviations of 0.12 and 0.35, and by 576 / 3 pixels one of 0.083
-      assert(found.isBounded && found.high / found.low < Math.exp(1.96 * (0.16 + 0.37)))
+      // By the trend deviations of 0.12 and 0.36, and by 576 / 3 pixels one of 0.083
+      assert(found.isBounded && found.high / found.low < Math.exp(1.96 * (0.16 + 0.38)))
       if found.low <= truth && truth <= found.high then hits += 1
     assert(hits >= 37)
 
   test("the gap between scatters closes, and an error takes as many samples as that says"):
     val parts = Vector(0.4, 1.0, 2.86).map(d => Array.fill(20)(d))
-    val trend = ScatterTrend.of(parts)
+    val trend = ScatterTrend.of(parts, 1024)
     assert(trend.ratio < 0.48)
     assert(Math.abs(trend.times(trend.ratio) - 2) < 1e-9)
     // Later doublings bring less
@@ -198,6 +198,14 @@ class ErrorEstimateSuite extends AnyFunSuite:
     assert(ScatterTrend.Independent.times(1 / 1.06, 64 / 1024.0) == 1.0625)
     assert(ScatterTrend.Independent.times(1 / 2.02, 64 / 1024.0) == 2.25)
     assert(ScatterTrend.Independent.times(1e-18, 64 / 1024.0) > 1e17)
+
+  test("what the first samples gain goes on less"):
+    val parts = Vector(0.4, 1.0, 2.86).map(d => Array.fill(20)(d))
+    def gain(samples: Double) = 1 - ScatterTrend.of(parts, samples).factor
+    assert(gain(4) == 0)
+    // Half of the gap brings a little more than half of the gain, as that is a sum of products
+    assert(gain(8) / gain(1024) > 0.5 && gain(8) / gain(1024) < 0.6)
+    assert(gain(16) / gain(1024) > 0.875 && gain(16) / gain(1024) < 0.93)
 
   test("between powers of two, the error is that of blocks of points"):
     val (pixels, parts) = (40_000, 20)
@@ -214,7 +222,7 @@ class ErrorEstimateSuite extends AnyFunSuite:
         squares(n)(i * parts / pixels) += error * error
     def variance(n: Int) = squares(n).sum
     def scatter(n: Int) = Array.tabulate(parts)(i => squares(n / 2)(i) - squares(n)(i))
-    val trend = ScatterTrend.of(Vector(16, 8, 4).map(scatter))
+    val trend = ScatterTrend.of(Vector(16, 8, 4).map(scatter), 16)
     for n <- Vector(18, 20, 24, 28, 32) do
       val found = trend.after(n / 16.0) / (variance(n) / variance(16))
       assert(Math.abs(found - 1) < 0.1, s"$n: $found")
