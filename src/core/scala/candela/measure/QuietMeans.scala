@@ -7,11 +7,11 @@ import candela.image.Image
   * around that differ from it by noise, and of itself: a firefly must not hide its own error, nor
   * its neighbours, which lack it, make that seem larger than it is.
   *
-  * A pixel at the edge of a lamp is noisy, too, and far above the dark around. But what its samples
-  * see is in a pixel beside it: one that is quiet, and brighter by more than noise. Its own mean
-  * holds. If a lamp covers an unknown part of a pixel, uniformly distributed, then as many pixels
-  * have one sample of it as have none; these miss all of their light, and seem to have no error. So
-  * the squared errors of the noisiest count twice.
+  * A pixel at the edge of a lamp is noisy, too, and far above the dark around. But the whole lamp
+  * is in a pixel beside it: one that is quiet, and brighter by more than noise. Its own mean holds.
+  * If a lamp covers an unknown part of a pixel, uniformly distributed, then as many pixels have one
+  * sample of it as have none; these miss all of their light, and seem to have no error. So the
+  * squared errors of the noisiest count twice.
   *
   * @param variance of each value
   * @param isStopped whether to give up
@@ -104,8 +104,8 @@ private object QuietMeans:
   /** A pixel that takes less of its surroundings is quiet: its own mean is true. */
   val Quiet = 0.05
 
-  /** What the noisiest pixels at an edge lack, for those that missed all: their weight is twice as
-    * large.
+  /** By this part the mean of the noisiest pixels at an edge is lowered: their weight is then twice
+    * as large, for those that missed the lamp.
     */
   val Missed: Double = 1 - Math.sqrt(0.5)
 

@@ -29,13 +29,18 @@ class QuietMeansSuite extends AnyFunSuite:
     // The weight is 1 / (mean + 0.01)²
     (x, y) => 1 / Math.sqrt(found.weight(y * width + x)) - 0.01
 
-  test("a pixel at the edge of a lamp before black counts by its own mean, and for one it missed"):
+  test("the noisiest pixel at the edge of a lamp before black has its own mean over the root of 2"):
     for dark <- Vector(0f, 0.04f, 1f) do
       val found = means(dark, 2000, lone(3, 2, 125))
       assert(Math.abs(found(3, 2) / (125 / Math.sqrt(2)) - 1) < 1e-4, dark)
       // Those beside it, quiet, have their own
       assert(Math.abs(found(2, 2) / 2000 - 1) < 1e-4)
       assert(Math.abs(found(4, 2) - dark) < 1e-4)
+
+  test("so does one at the border of the image"):
+    for y <- Vector(0, height - 1) do
+      val found = means(0.04f, 2000, lone(3, y, 125))
+      assert(Math.abs(found(3, y) / (125 / Math.sqrt(2)) - 1) < 1e-4)
 
   test("a firefly does not hide its own error"):
     for dark <- Vector(0f, 0.04f, 1f) do

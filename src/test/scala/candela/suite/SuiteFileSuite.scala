@@ -6,6 +6,8 @@ import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
 
+import scala.jdk.CollectionConverters.*
+
 import org.scalatest.funsuite.AnyFunSuite
 
 class SuiteFileSuite extends AnyFunSuite:
@@ -56,6 +58,20 @@ class SuiteFileSuite extends AnyFunSuite:
     assert(sizes.values.forall(s => s.lazyZip(s.tail).forall((a, b) => b >= 3 * a)))
     assert(scenes.forall(s => s.name.endsWith(f"-${s.growth.get.size}%.0f")))
     assert(scenes.forall(s => s.files("v4").getFileName.toString == s"${s.name}.pbrt"))
+
+  test("each edit of the repository's suites finds something in each scene that it is for"):
+    // The programs alone, which others include
+    val all = Files.list(Path.of("bench/suites")).toList.asScala
+    val files = all.filterNot(_.endsWith("programs.conf"))
+    for file <- files do
+      val suite = SuiteFile.read(file)
+      for
+        scene <- suite.scenes
+        program <- suite.programs if scene.programs.forall(_.contains(program.name))
+        text <- program.kinds.flatMap(scene.files.get).headOption if Files.isRegularFile(text)
+      do
+        val useless = SceneCopy.useless(text, program.edits)
+        assert(useless.isEmpty, s"$file: ${program.name} on ${scene.name}")
 
   private val wrong = Vector(
     ("seeds = 2", "seeds = 0", "`seeds` must be at least 1"),
