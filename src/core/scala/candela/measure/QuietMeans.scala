@@ -29,10 +29,9 @@ final class QuietMeans(
     GivenUp.check(isStopped)
     loop(image.width): x =>
       loop(channels): c =>
-        val at = (y * image.width + x) * channels + c
+        val at = index(x, y, c)
         val own = Math.max(image.data(at), 0f).toDouble
-        val noise = variance(at) / square(own + Metrics.RelativeEpsilon)
-        val share = Math.min(1, QuietMeans.Doubt * noise)
+        val share = doubt(at)
         weights(at) = weightBy(if share < QuietMeans.Quiet then own else noisy(x, y, c, own, share))
 
   /** The weight of a squared error, by which it is relative. */
@@ -53,43 +52,44 @@ final class QuietMeans(
     val ofEdge = own * (1 - share * QuietMeans.Missed)
     if ofEdge > mean && isEdge(x, y, c) then ofEdge else mean
 
+  /** The share of its surroundings in the mean of a value, unless it is at an edge. */
+  private def doubt(i: Int): Double =
+    val own = Math.max(image.data(i), 0f).toDouble
+    Math.min(1, QuietMeans.Doubt * variance(i) / square(own + Metrics.RelativeEpsilon))
+
   /** Whether a pixel beside it is quiet, and brighter by more than noise. */
   private def isEdge(x: Int, y: Int, c: Int): Boolean =
-    val at = (y * image.width + x) * channels + c
-    val (own, noise) = (image.data(at).toDouble, variance(at).toDouble)
+    val at = index(x, y, c)
     var found = false
-    var ny = Math.max(0, y - 1)
-    while !found && ny <= Math.min(image.height - 1, y + 1) do
-      var nx = Math.max(0, x - 1)
-      while !found && nx <= Math.min(image.width - 1, x + 1) do
-        val i = (ny * image.width + nx) * channels + c
-        val more = image.data(i) - own
-        found = more > 0 && square(more) > QuietMeans.Spread * (noise + variance(i)) &&
-          QuietMeans.Doubt * variance(i) < QuietMeans.Quiet *
-          square(image.data(i) + Metrics.RelativeEpsilon)
-        nx += 1
-      ny += 1
+    near(x, y, c, radius = 1): i =>
+      found ||= image.data(i) > image.data(at) && !isAlike(i, at) && doubt(i) < QuietMeans.Quiet
     found
 
   /** Mean of the pixels around that differ by noise, and of itself. */
   private def around(x: Int, y: Int, c: Int): Double =
-    val at = (y * image.width + x) * channels + c
-    val (own, noise) = (image.data(at).toDouble, variance(at).toDouble)
+    val at = index(x, y, c)
+    val own = image.data(at).toDouble
     var sum = 0.0
     var all = 0
-    var ny = Math.max(0, y - QuietMeans.Radius)
-    while ny <= Math.min(image.height - 1, y + QuietMeans.Radius) do
-      var nx = Math.max(0, x - QuietMeans.Radius)
-      while nx <= Math.min(image.width - 1, x + QuietMeans.Radius) do
-        val i = (ny * image.width + nx) * channels + c
-        val both = noise + variance(i)
-        if i != at && square(image.data(i) - own) <= QuietMeans.Spread * both then
-          sum += Math.max(image.data(i), 0f)
-          all += 1
-        nx += 1
-      ny += 1
+    near(x, y, c, QuietMeans.Radius): i =>
+      if i != at && isAlike(i, at) then
+        sum += Math.max(image.data(i), 0f)
+        all += 1
     if all == 0 then Math.max(own, 0)
     else (sum + Math.max(0, Math.min(own, QuietMeans.Brightest * sum / all))) / (all + 1)
+
+  /** Do two values differ by noise only? */
+  private def isAlike(i: Int, k: Int): Boolean =
+    square(image.data(i) - image.data(k).toDouble) <=
+      QuietMeans.Spread * (variance(k).toDouble + variance(i))
+
+  private def index(x: Int, y: Int, c: Int): Int = (y * image.width + x) * channels + c
+
+  /** Calls `use` with the index of each pixel so near, and of itself. */
+  private inline def near(x: Int, y: Int, c: Int, radius: Int)(inline use: Int => Unit): Unit =
+    loop(Math.max(0, y - radius), Math.min(image.height, y + radius + 1)): ny =>
+      loop(Math.max(0, x - radius), Math.min(image.width, x + radius + 1)): nx =>
+        use(index(nx, ny, c))
 
   private def square(a: Double): Double = a * a
 

@@ -77,7 +77,12 @@ final case class SuiteScene(
     programs: Option[Vector[String]],
     needs: Vector[String],
     growth: Option[Growth] = None
-)
+):
+  def isFor(program: Program): Boolean = programs.forall(_.contains(program.name))
+
+  /** The file that the program renders, if it does. */
+  def file(program: Program): Option[Path] =
+    if isFor(program) then program.kinds.flatMap(files.get).headOption else None
 
 /** Amount of work: sample counts, or approximate render times in seconds. */
 enum Work:

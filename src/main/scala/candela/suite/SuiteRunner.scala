@@ -200,12 +200,9 @@ final class SuiteRunner(
     why.foreach(leaveOut(scene.title, _))
     why.isEmpty
 
-  private def isWanted(program: Program, scene: SuiteScene): Boolean =
-    scene.programs.forall(_.contains(program.name))
-
   /** Whether one of these programs takes one of the scene's files. */
   private def isRead(scene: SuiteScene, programs: Vector[Program]): Boolean =
-    val wanted = programs.filter(isWanted(_, scene))
+    val wanted = programs.filter(scene.isFor)
     val isRead = wanted.exists(_.kinds.exists(scene.files.contains))
     if wanted.nonEmpty && !isRead then
       val files = scene.files.keys.toVector.sorted.mkString(", ")
@@ -214,10 +211,8 @@ final class SuiteRunner(
     isRead
 
   private def entryOf(program: Program, scene: SuiteScene): Option[Entry] =
-    val wanted = isWanted(program, scene)
-    val file = program.kinds.flatMap(scene.files.get).headOption
     for
-      f <- file if wanted
+      f <- scene.file(program)
       useless = SceneCopy.useless(f, program.edits)
       _ = useless.foreach: edit =>
         leaveOut(s"${program.title} on ${scene.title}", s"edit matches nothing: `${edit.find}`")

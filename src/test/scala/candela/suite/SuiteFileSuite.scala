@@ -7,6 +7,7 @@ import candela.testing.TempFolder
 import java.nio.file.{Files, Path}
 
 import scala.jdk.CollectionConverters.*
+import scala.util.Using
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -60,18 +61,17 @@ class SuiteFileSuite extends AnyFunSuite:
     assert(scenes.forall(s => s.files("v4").getFileName.toString == s"${s.name}.pbrt"))
 
   test("each edit of the repository's suites finds something in each scene that it is for"):
-    // The programs alone, which others include
-    val all = Files.list(Path.of("bench/suites")).toList.asScala
-    val files = all.filterNot(_.endsWith("programs.conf"))
-    for file <- files do
-      val suite = SuiteFile.read(file)
-      for
-        scene <- suite.scenes
-        program <- suite.programs if scene.programs.forall(_.contains(program.name))
-        text <- program.kinds.flatMap(scene.files.get).headOption if Files.isRegularFile(text)
-      do
-        val useless = SceneCopy.useless(text, program.edits)
-        assert(useless.isEmpty, s"$file: ${program.name} on ${scene.name}")
+    val files = Using.resource(Files.list(Path.of("bench/suites")))(_.toList.asScala)
+    for
+      // Those without scenes have programs for others
+      file <- files if Files.readString(file).contains("\nscenes {")
+      suite = SuiteFile.read(file)
+      scene <- suite.scenes
+      program <- suite.programs
+      text <- scene.file(program) if Files.isRegularFile(text)
+    do
+      val useless = SceneCopy.useless(text, program.edits)
+      assert(useless.isEmpty, s"$file: ${program.name} on ${scene.name}")
 
   private val wrong = Vector(
     ("seeds = 2", "seeds = 0", "`seeds` must be at least 1"),
