@@ -96,6 +96,23 @@ val builtOnce = Seq(
   "candela.bsdf.layered.RoughCoat$*"
 ).map(code => s"-XX:CompileCommand=MaxNodeLimit,$code::*,1") // an option of JDK 22 and later
 
+val testAll = taskKey[Unit]("Runs all tests.")
+val testSlow = taskKey[Unit]("Runs the tests that `test` leaves out.")
+
+/** Two tiers of tests: `test` runs all but those with ScalaTest's tag `Slow`, which `testSlow` runs;
+  * `testAll` and `testOnly` run both.
+  */
+val tiers = Seq(
+  Test / testListeners += new TestRecord(
+    (ThisBuild / baseDirectory).value / "target" / "test-times.csv"
+  ),
+  Test / test / testOptions += Tests.Argument(TestFrameworks.ScalaTest, "-l", slowTag),
+  testAll := (Test / testOnly).toTask(" *").value,
+  testSlow := (Test / testOnly).toTask(s" * -- -n $slowTag").value
+)
+
+def slowTag = "org.scalatest.tags.Slow"
+
 val compiled = Seq(
   scalacOptions ++= Seq("-encoding", "UTF-8"),
   scalacOptions ++= Seq("-deprecation", "-feature", "-Wunused:all", "-Wvalue-discard", "-Werror"),
@@ -133,6 +150,8 @@ lazy val root: Project = (project in file("."))
     name := "candela",
     aggregate := false, // `run`, `stage`, … are the program's; but what follows is of all modules
     test / aggregate := true,
+    testAll / aggregate := true,
+    testSlow / aggregate := true,
     publish / aggregate := true,
     publishLocal / aggregate := true,
     publishM2 / aggregate := true,
@@ -185,7 +204,10 @@ lazy val root: Project = (project in file("."))
     Test / javaOptions ++= jvmOptions ++ Seq("-Xmx3g", "-ea:candela..."), // Assertions
     Test / test / testResultLogger := CountedTests((Test / test / testResultLogger).value),
     Test / testOnly / testResultLogger := CountedTests((Test / testOnly / testResultLogger).value),
-    Test / testQuick / testResultLogger := CountedTests((Test / testQuick / testResultLogger).value)
+    Test / testQuick / testResultLogger := CountedTests(
+      (Test / testQuick / testResultLogger).value
+    ),
+    tiers
   )
 
 /** Renders on Apache Spark. Neither depends on the other: the program looks for it at run time. */
@@ -218,7 +240,8 @@ lazy val cluster: Project = (project in file("cluster"))
     Test / javaOptions ++= jvmOptions ++
       Seq(s"-Dcandela.spark.jar=${sparkJar.value}", s"-Dcandela.spark.version=$spark"),
     Test / test / testResultLogger := CountedTests((Test / test / testResultLogger).value),
-    Test / testOnly / testResultLogger := CountedTests((Test / testOnly / testResultLogger).value)
+    Test / testOnly / testResultLogger := CountedTests((Test / testOnly / testResultLogger).value),
+    tiers
   )
 
 val sparkJar = taskKey[File]("Makes candela-spark.jar: the program and its Spark module.")

@@ -3,7 +3,7 @@ import java.io.{FileDescriptor, FileOutputStream, PrintStream}
 import sbt.{Logger, TestResult, TestResultLogger, Tests}
 
 /** Counts the tests of the whole sbt session and prints the totals as its last line: `12 passed, 0
-  * failed`, followed by `, 1 skipped` if any.
+  * failed`, followed by `, 1 skipped` if any; before it, the slowest of [[TestRecord]].
   *
   * Uses a shutdown hook, because nothing else runs after sbt's own closing lines. Success and
   * failure of the session are unchanged.
@@ -38,6 +38,7 @@ object CountedTests {
   private def report(): Unit = {
     // Not Console: sbt has already restored its own.
     val out = new PrintStream(new FileOutputStream(FileDescriptor.out))
+    TestRecord.report(out)
     val rest = if (skipped > 0) s", $skipped skipped" else ""
     out.println(s"$passed passed, $failed failed$rest")
     out.flush()

@@ -3,6 +3,7 @@ package candela.api
 import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import java.net.URLClassLoader
 import java.nio.file.{Files, Path}
@@ -59,7 +60,7 @@ class ExamplesSuite extends AnyFunSuite:
       Using.resource(few.prepare(RenderSettings(samples = 4))): job =>
         assert(DocumentedExamples.cancelled(job).isComplete)
 
-  test("the examples in Scala and in Java have the same results"):
+  test("the examples in Scala and in Java have the same results", Slow):
     TempFolder.use: folder =>
       val compiler = ToolProvider.getSystemJavaCompiler
       val words = Vector("-d", folder.toString, "-Xlint:all", "-Werror", "-classpath",

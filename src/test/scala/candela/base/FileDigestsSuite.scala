@@ -3,6 +3,7 @@ package candela.base
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.testing.TempFolder
 
@@ -31,7 +32,7 @@ class FileDigestsSuite extends AnyFunSuite:
       rest()
       body(folder.resolve("cache"), files): Unit
 
-  test("what one process has read, another need not read while the file is not touched"):
+  test("what one process has read, another need not read while the file is not touched", Slow):
     withFiles("a", "b"): (cache, files) =>
       val first = digests(cache)
       assert(files.map(f => first(f)(f.digest())) == Vector(Sha256.of("a"), Sha256.of("b")))
@@ -53,7 +54,7 @@ class FileDigestsSuite extends AnyFunSuite:
       first.save()
       assert(known(first, file) == "new" && known(digests(folder.resolve("cache")), file) == "new")
 
-  test("processes that save at the same time keep each other's, and files that are gone, go"):
+  test("processes that save at the same time keep each other's, and files that are gone, go", Slow):
     withFiles("a", "b", "c"): (cache, files) =>
       val both = Vector.fill(2)(digests(cache))
       for (d, i) <- both.zipWithIndex do assert(d(files(i))(s"of $i") == s"of $i")
@@ -66,7 +67,7 @@ class FileDigestsSuite extends AnyFunSuite:
       assert(rows(cache, files(1).path.getParent).map(_.keySet).contains(Set("b", "c")))
       assert(known(digests(cache), files(2)) == "of 2")
 
-  test("a name that is none here is left out"):
+  test("a name that is none here is left out", Slow):
     withFiles("a"): (cache, files) =>
       val folder = files(0).path.getParent
       val strange = Map("\u0000" -> (FileStamp("1"), "x"), "a" -> (FileStamp("2"), "y"))
@@ -76,7 +77,7 @@ class FileDigestsSuite extends AnyFunSuite:
       all.save()
       assert(rows(cache, folder).map(_.keySet).contains(Set("a")))
 
-  test("a cache that can't be written is no trouble"):
+  test("a cache that can't be written is no trouble", Slow):
     withFiles("a"): (_, files) =>
       val store = parts(Files.writeString(files(0).path.resolveSibling("file"), ""))
       val all = FileDigests(Some(store))
@@ -84,7 +85,7 @@ class FileDigestsSuite extends AnyFunSuite:
       all.save()
       assert(store.trouble().isEmpty && known(all, files(0)) == "first")
 
-  test("a damaged table is as none, and is written again"):
+  test("a damaged table is as none, and is written again", Slow):
     withFiles("a"): (cache, files) =>
       def save(what: String) =
         val all = digests(cache)
@@ -100,7 +101,7 @@ class FileDigestsSuite extends AnyFunSuite:
       save("second")
       assert(known(digests(cache), files(0)) == "second")
 
-  test("without a cache, a process remembers its own"):
+  test("without a cache, a process remembers its own", Slow):
     withFiles("a"): (_, files) =>
       val own = FileDigests(None)
       assert(own(files(0))("first") == "first")

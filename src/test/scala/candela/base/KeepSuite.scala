@@ -5,6 +5,7 @@ import java.nio.file.{Files, Path}
 import java.time.Instant
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.testing.TempFolder
 
@@ -64,7 +65,7 @@ class KeepSuite extends AnyFunSuite:
         assert(keep.digest(file) == Sha256.of(text), i)
         assert(keep.digest(file) == Sha256.of(text), i)
 
-  test("a file that is at rest is read for its digest once"):
+  test("a file that is at rest is read for its digest once", Slow):
     TempFolder.use: folder =>
       val keep = Keep()
       val file = written(folder.resolve("a"), "aaa")

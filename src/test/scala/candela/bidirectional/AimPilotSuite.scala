@@ -15,6 +15,7 @@ import java.nio.file.{Files, Path}
 /** Light that only specular surfaces show to the camera. The lamp is wide, so that paths find it
   * without photons, too.
   */
+@org.scalatest.tags.Slow
 final class AimPilotSuite extends AnyFunSuite:
   import AimPilotSuite.*
 

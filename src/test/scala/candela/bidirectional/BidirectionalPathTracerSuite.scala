@@ -1,6 +1,7 @@
 package candela.bidirectional
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.build.{RenderRegion, RenderSettings}
 import candela.color.Rgb
@@ -140,7 +141,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
   private def square(x: Double): Double = x * x
 
   for (name, lights, materials, dialect, camera) <- cases do
-    test(s"$name: the mean is that of path tracing"):
+    test(s"$name: the mean is that of path tracing", Slow):
       def found(integrator: String) =
         val text = scene(integrator, lights, materials, dialect, camera, spp = 24)
         // Light paths do not know yet where a camera that moves sees them
@@ -154,7 +155,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
       assert(apart < 5, s"$a, expected $b")
       assert(Math.sqrt(va + vb) < 0.05 * b, "too much noise to tell")
 
-  test("bumps under a sky: the mean is that of path tracing, which samples one side only"):
+  test("bumps under a sky: the mean is that of path tracing, which samples one side only", Slow):
     val sky = """LightSource "infinite" "rgb L" [1 1 1]"""
     val bumps = """Texture "w" "float" "wrinkled"
       Texture "bumps" "float" "scale" "texture tex1" "w" "float tex2" .5
@@ -168,7 +169,10 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
     assert(Math.abs(a - b) / Math.sqrt(va + vb) < 5, s"$a, expected $b")
     assert(Math.sqrt(va + vb) < 0.005 * b, "too much noise to tell")
 
-  test("roulette for minor connections keeps the mean, where most are minor: in a bright ball"):
+  test(
+    "roulette for minor connections keeps the mean, where most are minor: in a bright ball",
+    Slow
+  ):
     def found(integrator: String) =
       val text = s"""Integrator $integrator
         |Camera "perspective" "float fov" 60
@@ -188,7 +192,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
     assert(Math.abs(a - b) / Math.sqrt(va + vb) < 5, s"$a, expected $b")
     assert(Math.sqrt(va + vb) < 0.002 * b, "too much noise to tell")
 
-  test("a point in the middle of a glass ball lights as it does without: no path finds it"):
+  test("a point in the middle of a glass ball lights as it does without: no path finds it", Slow):
     // All of the light leaves along the radius at last, however often it is reflected
     def text(integrator: String, glass: String, camera: String, space: String) =
       s"""$space
@@ -227,7 +231,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
       val found = mean("\"bdpt\"", glass)
       assert(Math.abs(found.g / expected.g - 1f) < 0.045f, s"$camera $space $found, not $expected")
 
-  test("so it does in pbrt-v2, whose refraction leaves radiance as it is"):
+  test("so it does in pbrt-v2, whose refraction leaves radiance as it is", Slow):
     def text(integrator: String, glass: String) =
       s"""LookAt 3 0 3  0 0 0  0 1 0
          |Camera "orthographic" "float screenwindow" [-.2 .2 -.2 .2]

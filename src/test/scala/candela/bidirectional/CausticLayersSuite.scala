@@ -12,6 +12,7 @@ import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** Light paths, where light is divided: by way, by lamp, by brightness, by wavelength. */
 final class CausticLayersSuite extends AnyFunSuite:
@@ -96,7 +97,7 @@ final class CausticLayersSuite extends AnyFunSuite:
     for i <- 0 until plain.width * plain.height; c <- 0 to 2 do
       assert(plain.data(i * plain.channels + c) == parts.data(i * parts.channels + c))
 
-  test("a limit of indirect light holds for light paths, each as a sample"):
+  test("a limit of indirect light holds for light paths, each as a sample", Slow):
     def mean(limit: Float) =
       val settings = divided.copy(layers = Vector.empty, lightGroups = None)
       val fireflies = if limit == 0f then Fireflies.Kept else Fireflies.Clamped(limit)

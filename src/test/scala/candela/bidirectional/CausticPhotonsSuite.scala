@@ -11,6 +11,7 @@ import candela.testing.{FileKeeper, SceneTexts, TempFolder, WatchedSampler}
 
 import org.scalatest.funsuite.AnyFunSuite
 
+@org.scalatest.tags.Slow
 final class CausticPhotonsSuite extends AnyFunSuite:
 
   /** A ball over a floor, and another of brushed metal, beneath a large lamp. */

@@ -11,6 +11,7 @@ import candela.testing.{BlockMeans, SceneTexts}
 import org.scalatest.funsuite.AnyFunSuite
 
 /** Lamps are wide, so that paths from the camera find all caustics, too. */
+@org.scalatest.tags.Slow
 final class CausticTracerSuite extends AnyFunSuite:
   import CausticTracerSuite.*
 

@@ -14,6 +14,7 @@ import org.scalatest.funsuite.AnyFunSuite
 /** Light paths from lamps, which bring what fog scatters close to these. Bidirectional path tracing
   * finds it with little noise, too, by weights of its own.
   */
+@org.scalatest.tags.Slow
 final class LampPathsSuite extends AnyFunSuite:
   import CausticTracerSuite.{GlassBall, inFog, lamp, scene}
 

@@ -1,6 +1,7 @@
 package candela.bidirectional
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.build.{ColorMode, RenderRegion, RenderSettings}
 import candela.color.Rgb
@@ -53,7 +54,7 @@ final class MetropolisSuite extends AnyFunSuite:
     Renderer.render(plan, threads).image(plan.development).data
 
   for dialect <- Seq(Dialect.V2, Dialect.V3, Dialect.V4) do
-    test(s"pixel by pixel the picture is that of paths joined one by one, in $dialect"):
+    test(s"pixel by pixel the picture is that of paths joined one by one, in $dialect", Slow):
       val found = (1 to 4).map(seed => image(room(mlt(dialect), dialect), dialect, seed = seed))
       // v2 has no other name for paths from both ends, and its "path" counts one event less
       val paths =
@@ -94,7 +95,7 @@ final class MetropolisSuite extends AnyFunSuite:
     // 64,000 paths and 100,000 for the brightness: at deviations of up to 3, 1 % each
     assert(Math.abs(found.g / expected.g - 1) < 0.04f, s"$found, expected $expected")
 
-  test("the brightness is right however few paths were asked for to know it"):
+  test("the brightness is right however few paths were asked for to know it", Slow):
     def mean(text: String, seed: Int) =
       val data = image(text, Dialect.V3, seed = seed)
       data.map(_.toDouble).sum / data.length

@@ -6,6 +6,7 @@ import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** Bidirectional paths through media see the light that paths from the camera see, and more. */
 final class PathMediaSuite extends AnyFunSuite:
@@ -63,7 +64,7 @@ final class PathMediaSuite extends AnyFunSuite:
   )
 
   for (what, medium, light) <- cases; depth <- Seq(1, 3) do
-    test(s"bdpt sees what volpath sees: $what, depth $depth"):
+    test(s"bdpt sees what volpath sees: $what, depth $depth", Slow):
       val bdpt = color(scene("\"bdpt\"", medium, light, 1000, depth))
       val path = color(scene("\"volpath\"", medium, light, 4000, depth))
       // 64,000 and 256,000 paths, whose deviations are up to five times the mean: 2 %; blue, which
@@ -71,12 +72,12 @@ final class PathMediaSuite extends AnyFunSuite:
       for (b, p) <- Seq(bdpt.r -> path.r, bdpt.g -> path.g) do
         assert(p > 0.01f && Math.abs(b - p) < 0.04f * p, s"$bdpt, volpath $path")
 
-  test("around a point in smoke volpath, of no finite variance there, sees a little less"):
+  test("around a point in smoke volpath, of no finite variance there, sees a little less", Slow):
     val bdpt = mean(scene("\"bdpt\"", coloured, enclosed, 1000, 3))
     val path = mean(scene("\"volpath\"", coloured, enclosed, 4000, 3))
     assert(bdpt > 0.97f * path && bdpt < 1.12f * path, s"$bdpt, volpath $path")
 
-  test("the chains of mlt see it, too"):
+  test("the chains of mlt see it, too", Slow):
     val metropolis = "\"mlt\" \"integer mutationsperpixel\" 2000 \"integer chains\" 50"
     val mlt = mean(scene(metropolis, coloured, lamp, 1, 3))
     val path = mean(scene("\"volpath\"", coloured, lamp, 4000, 3))
@@ -106,7 +107,7 @@ final class PathMediaSuite extends AnyFunSuite:
       )
       .replace("MediumInterface \"m\" \"\"", "MediumInterface \"m\" \"f\"")
 
-  test("bdpt sees what volpath sees from within fog without end"):
+  test("bdpt sees what volpath sees from within fog without end", Slow):
     val bdpt = color(inFog(scene("\"bdpt\"", coloured, lamp, 1000, 3)))
     val path = color(inFog(scene("\"volpath\"", coloured, lamp, 4000, 3)))
     // As above
@@ -125,7 +126,7 @@ final class PathMediaSuite extends AnyFunSuite:
     for (b, p) <- Seq(bdpt.g -> path.g, bdpt.b -> path.b) do
       assert(p > 0.01f && Math.abs(b - p) < 0.04f * p, s"$bdpt, volpath $path")
 
-  test("media agree from within a ball of smoke, too, under a sky"):
+  test("media agree from within a ball of smoke, too, under a sky", Slow):
     val medium = s"MakeNamedMedium \"m\" \"string type\" $coloured \"float g\" .3\n"
     def within(integrator: String, spp: Int) =
       scene(integrator, coloured, sky, spp, 3)

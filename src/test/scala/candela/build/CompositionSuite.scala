@@ -4,6 +4,7 @@ import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** Materials and textures that are composed of others, in long chains and with shared parts. */
 class CompositionSuite extends AnyFunSuite:
@@ -59,7 +60,7 @@ class CompositionSuite extends AnyFunSuite:
     assert(SceneTexts.mean(mixes(10, 1, 2)).g > 0f)
     assert(SceneTexts.mean(mixes(60, 1, 2)).g > 0f)
 
-  test("a chain of thousands of blends is rendered"):
+  test("a chain of thousands of blends is rendered", Slow):
     val chain = mixes(5000, 1, 1).replaceAll(
       "\"string namedmaterial2\" \"m[0-9]+\"",
       "\"string namedmaterial2\" \"m0\""

@@ -12,6 +12,7 @@ import java.nio.file.{Files, Path}
 import java.util.Random
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** Estimates against the bytes of what is built. */
 class SceneSizeSuite extends AnyFunSuite:
@@ -180,7 +181,7 @@ class SceneSizeSuite extends AnyFunSuite:
       val both = "\"infinite\" \"string filename\" \"a.exr\"\nLightSource \"goniometric\""
       assert(bytes(both, control) == 25)
 
-  test("films, with bands, within a fifth"):
+  test("films, with bands, within a fifth", Slow):
     def film(statement: String, samples: Int) =
       val text = Head.linesIterator.drop(1).mkString(statement, "\n", "\n") + Sky +
         "Shape \"sphere\"\n"

@@ -1,6 +1,7 @@
 package candela.build
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.base.{Problem, Severity}
 import candela.scenefile.Dialect
@@ -32,7 +33,7 @@ final class ValueTypesSuite extends AnyFunSuite:
     assert(SceneTexts.mean(wrong, d) == SceneTexts.mean(plain, d))
     found.head
 
-  test("a number is no scale of a light in v2 and v3"):
+  test("a number is no scale of a light in v2 and v3", Slow):
     for
       d <- old
       light <- Seq(

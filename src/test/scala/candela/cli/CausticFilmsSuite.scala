@@ -3,6 +3,7 @@ package candela.cli
 import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import java.nio.file.Files
 
@@ -26,7 +27,10 @@ class CausticFilmsSuite extends AnyFunSuite:
 
   for (film, options) <- ways do
     val words = options.split(' ').toSeq
-    test(s"shards and resumed films add up to the image of one run: $options, ${film.take(8)}"):
+    test(
+      s"shards and resumed films add up to the image of one run: $options, ${film.take(8)}",
+      Slow
+    ):
       withScene(film): f =>
         def render(more: String*) = f.render(words ++ more*)
         render("--spp", "4", "--outfile", f("one.exr"))
@@ -37,7 +41,7 @@ class CausticFilmsSuite extends AnyFunSuite:
         f.run(Vector("resume", f("a.film"), "--spp", "4"))
         assert(f.bytes("a.exr") == f.bytes("one.exr"))
 
-  test("an image with caustics that ended by an error is that of as many samples"):
+  test("an image with caustics that ended by an error is that of as many samples", Slow):
     withScene(): f =>
       val looked = Vector("--caustics", "auto", "--guiding", "off")
       f.render(looked ++ Vector("--error", "0.05", "--outfile", f("a.exr"))*)

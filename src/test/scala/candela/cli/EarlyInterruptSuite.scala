@@ -13,6 +13,7 @@ import scala.jdk.CollectionConverters.*
 import scala.util.Try
 
 /** Ctrl-C before, during and after the rendering itself, in processes of their own. */
+@org.scalatest.tags.Slow
 class EarlyInterruptSuite extends AnyFunSuite:
 
   /** What a background job's children ignore, they must be told to obey. */

@@ -6,6 +6,7 @@ import java.nio.file.{Files, Path}
 
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.base.{CheckedFile, loop}
 import candela.image.{Image, ImageFiles}
@@ -65,7 +66,7 @@ class EnvironmentTilesSuite extends AnyFunSuite:
   private def files(cache: Path, suffix: String): Vector[Path] =
     TempFolder.names(cache).toVector.sorted.filter(_.endsWith(suffix)).map(cache.resolve(_))
 
-  test("images are the same with environment maps in tiles and in memory, and once more"):
+  test("images are the same with environment maps in tiles and in memory, and once more", Slow):
     TempFolder.use: folder =>
       for scene <- scenes(folder); color <- Vector("rgb", "spectral") do
         val cache = folder.resolve(s"cache $color ${scene.getFileName}")

@@ -7,6 +7,7 @@ import candela.testing.TempFolder
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** From a scene's text over film files to images. */
 class FilmFilesSuite extends AnyFunSuite:
@@ -27,7 +28,7 @@ class FilmFilesSuite extends AnyFunSuite:
     "Markov chains" -> "\"mlt\" \"integer maxdepth\" 3 \"integer bootstrapsamples\" 500"
   )
 
-  test("shards add up to the image of one machine, file for file, in any number and order"):
+  test("shards add up to the image of one machine, file for file, in any number and order", Slow):
     for
       (name, integrator) <- methods
       count <- Vector(2, 3, 13)

@@ -4,6 +4,7 @@ import candela.render.storage.FilmLock
 import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import java.nio.file.{Files, Path}
 
@@ -48,7 +49,7 @@ class FilmLockSuite extends AnyFunSuite:
       f.run(Vector("resume", f("one.film"), "--spp", "8"))
       assert(f.bytes("one.film") != film)
 
-  test("a process that is killed no longer owns its film"):
+  test("a process that is killed no longer owns its film", Slow):
     withScene: f =>
       val words = Vector("s.pbrt", "--spp", "1000000", "--outfile", "a.film")
       val process = KilledRenderings.candela(f.folder, words :+ "--checkpoint-every" :+ "0.05s")

@@ -4,6 +4,7 @@ import candela.image.ImageFiles
 import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import java.nio.file.{Files, Path}
 
@@ -21,7 +22,7 @@ class GoalFilmsSuite extends AnyFunSuite:
 
   private def samples(f: FilmFilesSuite.Folder, name: String): Int = ImageSamples.of(f.bytes(name))
 
-  test("a time goes on beyond the scene's samples"):
+  test("a time goes on beyond the scene's samples", Slow):
     withScene("independent"): f =>
       // A millisecond each, after a start of half a second, or many on a busy machine
       f.render("--time", "4s", "--outfile", f("a.exr"))
@@ -37,7 +38,7 @@ class GoalFilmsSuite extends AnyFunSuite:
 
   for integrator <- methods do
     val name = integrator.drop(1).takeWhile(_ != '"')
-    test(s"an error goes on beyond the scene's samples; --spp is a ceiling: $name"):
+    test(s"an error goes on beyond the scene's samples; --spp is a ceiling: $name", Slow):
       withScene("independent", integrator): f =>
         f.render("--error", "0.03", "--outfile", f("b.exr"))
         assert(samples(f, "b.exr") > 4)
@@ -59,7 +60,7 @@ class GoalFilmsSuite extends AnyFunSuite:
         f.render("--sampler", "progressive", "--spp", s"${samples(f, "c.exr")}", "-o", f("d.exr"))
         assert(f.bytes("c.exr") == f.bytes("d.exr") && f.bytes("c.exr") != f.bytes("a.exr"))
 
-  test("points of a fixed number are taken set by set, the same for any number of threads"):
+  test("points of a fixed number are taken set by set, the same for any number of threads", Slow):
     for points <- Vector("zsobol", "stratified", "halton") do
       withScene("independent"): f =>
         def rendered(threads: String, file: String) =
@@ -83,7 +84,7 @@ class GoalFilmsSuite extends AnyFunSuite:
         f.captured(Vector(f.scene, "--time", "0.5s", "--error", "1e-9", "--outfile", f("c.exr")))
       assert(code == 0 || code == 130)
 
-  test("a goal continues films of any method and points beyond their samples"):
+  test("a goal continues films of any method and points beyond their samples", Slow):
     for (sampler, integrator) <- ("stratified", methods(0)) +: methods.map(("independent", _)) do
       withScene(sampler, integrator): f =>
         f.render("--sampler", "scene", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
@@ -97,7 +98,10 @@ class GoalFilmsSuite extends AnyFunSuite:
         f.run(Vector("resume", f("a.film")))
         assert(f.bytes("a.exr") == image)
 
-  test("a film that a goal ended early is complete, and one that it took further can be resumed"):
+  test(
+    "a film that a goal ended early is complete, and one that it took further can be resumed",
+    Slow
+  ):
     withScene("independent"): f =>
       f.render("--error", "0.02", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
       val many = samples(f, "a.exr")

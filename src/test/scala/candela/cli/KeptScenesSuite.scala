@@ -5,6 +5,7 @@ import java.nio.file.{Files, Path}
 import scala.util.Using
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.api.{Candela, ReadSettings, RenderSettings}
 import candela.base.loop
@@ -119,22 +120,22 @@ class KeptScenesSuite extends AnyFunSuite:
       )
       for i <- scenes.indices do assert(image(s"t$threads-$i.pfm") == alone(i), s"$threads, $i")
 
-  test("many views of one scene are as each alone"):
+  test("many views of one scene are as each alone", Slow):
     assertSame((0 to 2).map(i => scene(eye = s"$i -4 3"))*)
 
-  test("frames in which an object moves are as each alone"):
+  test("frames in which an object moves are as each alone", Slow):
     assertSame((0 to 3).map(i => scene(at = s"${0.2 * i} 0 1"))*)
 
-  test("frames in which a mesh of a file moves are as each alone"):
+  test("frames in which a mesh of a file moves are as each alone", Slow):
     assertSame((0 to 2).map(i => scene(ground = s"0 ${0.3 * i} -0.5"))*)
 
-  test("frames that differ in meshes and materials are as each alone, and in any order"):
+  test("frames that differ in meshes and materials are as each alone, and in any order", Slow):
     val (glass, dull) = ("\"dielectric\"", "\"coateddiffuse\"")
     assertSame(
       scene(), scene(mesh = "other.ply"), scene(material = glass), scene(material = dull), scene()
     )
 
-  test("files that change between two renderings are read again"):
+  test("files that change between two renderings are read again", Slow):
     TempFolder.use: folder =>
       val file = Files.writeString(folder.resolve("s.pbrt"), scene())
       def rendered(how: ReadSettings) =
@@ -168,7 +169,10 @@ class KeptScenesSuite extends AnyFunSuite:
     val warnings = captured.err.linesIterator.filter(_.contains("warning")).mkString
     (Files.readAllBytes(to).toVector, warnings)
 
-  test("images are the same with a scene cache, cold, warm and damaged, for any number of threads"):
+  test(
+    "images are the same with a scene cache, cold, warm and damaged, for any number of threads",
+    Slow
+  ):
     prepared: folder =>
       val (alone, _) = rendered(folder, "--nthreads", "1")
       val cache = folder.resolve("cache")

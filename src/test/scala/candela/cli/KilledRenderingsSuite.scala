@@ -6,6 +6,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import scala.util.Random
 
+@org.scalatest.tags.Slow
 class KilledRenderingsSuite extends AnyFunSuite:
 
   for (i, kills) <- Vector(0 -> 3, 2 -> 2) do

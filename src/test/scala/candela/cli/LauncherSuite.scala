@@ -9,6 +9,7 @@ import java.nio.file.{Files, Path, StandardCopyOption}
 import scala.util.Try
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** What `src/universal/bin/candela` does before Java runs. */
 class LauncherSuite extends AnyFunSuite:
@@ -234,7 +235,10 @@ class LauncherSuite extends AnyFunSuite:
       assert(!replays(newest, "--spp", "1", "x.pbrt", "--spp", "64"))
       assert(replays(old, "x.pbrt"))
 
-  test("renderings of few samples are compiled by C1 alone, whatever tells how many they are"):
+  test(
+    "renderings of few samples are compiled by C1 alone, whatever tells how many they are",
+    Slow
+  ):
     staged: p =>
       val _ = p.jdk("99")
       val folder = p.lib.getParent.getParent
@@ -353,7 +357,7 @@ class LauncherSuite extends AnyFunSuite:
       assert(p.run(env = Make).code == 0)
       assert(p.archives(p.lib).size == 1)
 
-  test("after a first start the archive is made behind it, without a word"):
+  test("after a first start the archive is made behind it, without a word", Slow):
     staged: p =>
       val _ = p.jdk("99")
       val ended = p.run(Seq("x"), Map.empty)

@@ -5,6 +5,7 @@ import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.cli.files.OutputFiles
 import candela.cli.terminal.{Interrupts, Terminal}
@@ -124,7 +125,7 @@ class LostDataSuite extends AnyFunSuite:
       assert(third == 2 && more.err.contains("--outfile needs a single scene, found several"))
       assert(!Files.exists(f("p.png")) && !Files.exists(f("d.png")))
 
-  test("an image is done only when all its files are whole and of this rendering"):
+  test("an image is done only when all its files are whole and of this rendering", Slow):
     inFolder: f =>
       for format <- OutputFormat.all.map(_.suffix) do
         val file = f(s"a.$format")

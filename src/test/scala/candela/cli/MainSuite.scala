@@ -5,6 +5,7 @@ import candela.testing.TempFolder
 import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import scala.jdk.CollectionConverters.*
 
@@ -66,7 +67,7 @@ class MainSuite extends AnyFunSuite:
       assert(captured.err.contains("did you mean `Translate`?"))
       assert(!captured.err.contains("\tat "))
 
-  test("Java adds no warnings of its own"):
+  test("Java adds no warnings of its own", Slow):
     TempFolder.use: folder =>
       val scene = Files.writeString(folder.resolve("a.pbrt"), "WorldBegin Shape \"sphere\"")
       val java = ProcessHandle.current.info.command.orElse("java")

@@ -3,6 +3,7 @@ package candela.cli
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.base.loop
 import candela.image.{Image, ImageFiles}
@@ -92,7 +93,10 @@ class TextureMemorySuite extends AnyFunSuite:
       """
     Files.writeString(folder.resolve("v4.pbrt"), text)
 
-  test("levels in a tiled EXR file are used as they are, in tiles and in memory, without a copy"):
+  test(
+    "levels in a tiled EXR file are used as they are, in tiles and in memory, without a copy",
+    Slow
+  ):
     TempFolder.use: folder =>
       val draws = Draws(1)
       // Smaller levels are darker than they would be made

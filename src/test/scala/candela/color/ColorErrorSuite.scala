@@ -1,6 +1,7 @@
 package candela.color
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** The bound, against the exact error of rooms whose light can be computed: closed cubes with
   * diffuse walls, by their form factors, wavelength by wavelength.
@@ -87,7 +88,7 @@ class ColorErrorSuite extends AnyFunSuite:
         val x = (nm - middle) / width
         0.03f + (top - 0.03f) * Math.exp(-x * x).toFloat
 
-  test("the error of a room is within the bound, which is not much larger"):
+  test("the error of a room is within the bound, which is not much larger", Slow):
     val found =
       for _ <- 0 until 400 yield
         val bulb = lamp()

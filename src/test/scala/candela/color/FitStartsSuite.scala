@@ -1,13 +1,14 @@
 package candela.color
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 final class FitStartsSuite extends AnyFunSuite:
   private val random = java.util.Random(3)
   private def unit() = random.nextFloat
   private def inside() = 1e-3f + 0.998f * unit()
 
-  test("the table that ships is the one that the fit makes"):
+  test("the table that ships is the one that the fit makes", Slow):
     val shipped = getClass.getResourceAsStream(FitStarts.Resource).readAllBytes()
     assert(java.util.Arrays.equals(shipped, FitStarts.made))
 

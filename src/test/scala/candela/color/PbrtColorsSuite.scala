@@ -1,6 +1,7 @@
 package candela.color
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.build.{ColorMode, RenderSettings}
 import candela.color.Colorimetry.White
@@ -60,7 +61,7 @@ final class PbrtColorsSuite extends AnyFunSuite:
   /** Of 1024 samples of three wavelengths, besides. */
   private val Noise = 0.03f
 
-  test("they have them in images, too"):
+  test("they have them in images, too", Slow):
     val sun = "LightSource \"distant\" \"point3 from\" [0 0 -1] \"point3 to\" [0 0 0] \"rgb L\" " +
       s"[${Math.PI} ${Math.PI} ${Math.PI}]"
     for (name, wanted) <- PbrtColors.bySpace do

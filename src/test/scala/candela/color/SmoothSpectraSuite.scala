@@ -1,6 +1,7 @@
 package candela.color
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 class SmoothSpectraSuite extends AnyFunSuite:
   private val spectra = SmoothSpectra()
@@ -15,7 +16,7 @@ class SmoothSpectraSuite extends AnyFunSuite:
       val off = seen(c) - c
       off.largest.toDouble / c.max
 
-  test("spectra have the colours that they were asked for"):
+  test("spectra have the colours that they were asked for", Slow):
     val muted = errors(2000)(Rgb(unit(0.05f, 0.95f), unit(0.05f, 0.95f), unit(0.05f, 0.95f)))
     info(f"muted: mean ${muted.sum / muted.size}%.6f, largest ${muted.max}%.6f")
     val deep = errors(2000)(Rgb(unit(0f, 1f), unit(0f, 1f), unit(0f, 1f)))

@@ -10,6 +10,7 @@ import candela.scenefile.Dialect
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 class SunskyLightsSuite extends AnyFunSuite:
 
@@ -30,7 +31,7 @@ class SunskyLightsSuite extends AnyFunSuite:
     val scene = MitsubaScene.readable(file, Map.empty, keepGoing = false)
     Converter.convert(scene, Dialect.V4, folder)
 
-  test("a sky becomes a map, brightest around the sun, and the sun another"):
+  test("a sky becomes a map, brightest around the sun, and the sun another", Slow):
     inFolder: folder =>
       val done = converted(folder, "")
       val Vector(sky, sun) = done.scene.lights.map(_.light): @unchecked
@@ -43,7 +44,7 @@ class SunskyLightsSuite extends AnyFunSuite:
       assert(seen(1f, 0.1f, 1f) > 2 * seen(-1f, 0f, 1f))
       assert(seen(-1f, 0f, 1f) > 0f && seen(1f, 0f, -1f) == 0f)
 
-  test("the sky or the sun alone is one map"):
+  test("the sky or the sun alone is one map", Slow):
     inFolder: folder =>
       def files(inside: String) =
         converted(folder, inside).scene.lights.map(_.light.param("filename").get.strings.head)
@@ -58,7 +59,7 @@ class SunskyLightsSuite extends AnyFunSuite:
     val sums = (0 to 2).map(c => image.data.indices.by(3).map(i => image.data(i + c).toDouble).sum)
     Rgb(sums(0).toFloat, sums(1).toFloat, sums(2).toFloat) * (scale * pixel).toFloat
 
-  test("the sun's map has the sun's irradiance, at its place"):
+  test("the sun's map has the sun's irradiance, at its place", Slow):
     val expected = Rgb(1.5f, 1f, 0.5f)
     val (image, scale) = SunImage(toSun, 0.5358f, expected)
     assert((irradiance(image, scale) - expected).map(Math.abs(_)).max < 1e-5f)

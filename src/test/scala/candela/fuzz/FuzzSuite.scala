@@ -4,21 +4,19 @@ import java.nio.file.{Files, Path}
 import scala.util.Random
 
 import candela.image.ImageFiles
-import candela.testing.TempFolder
-
-import org.scalatest.funsuite.AnyFunSuite
+import candela.testing.{RandomLaws, TempFolder}
 
 /** The short version of [[FuzzScenes]]. */
-class FuzzSuite extends AnyFunSuite:
+class FuzzSuite extends RandomLaws:
 
   for kind <- Kind.all do
-    test(s"${kind.short} attempts end in an answer or a clean refusal: ${kind.name}"):
+    law(s"attempts end in an answer or a clean refusal: ${kind.name}"): plan =>
       TempFolder.use: folder =>
-        kind.start(Place(Path.of("scenes"), folder, Random(7))) match
+        kind.start(Place(Path.of("scenes"), folder, Random(plan.seed(7)))) match
           case Left(why) => cancel(why)
           case Right(attempts) =>
             try
-              for i <- 0 until kind.short do
+              for i <- 0 until plan.count(kind.short) do
                 val attempt = attempts.next()
                 val wrong = attempt.judge()
                 def texts = attempt.files.filter(Files.isRegularFile(_)).map: file =>

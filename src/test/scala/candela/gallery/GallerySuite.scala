@@ -3,6 +3,7 @@ package candela.gallery
 import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.base.SceneError
 import candela.build.RenderSettings
@@ -31,7 +32,7 @@ final class GallerySuite extends AnyFunSuite:
       // Noise: 0.05 at most, in blocks of 192 pixels
       assert(worst < 0.1)
 
-    test(s"the picture of ${e.file} is neither black nor white nor noisy, and large"):
+    test(s"the picture of ${e.file} is neither black nor white nor noisy, and large", Slow):
       val picture = ImageFiles.read(Gallery.picture(e.file))
       assert(picture.width >= 400)
       val looks = Looks.of(picture)

@@ -4,6 +4,7 @@ import candela.math.*
 import candela.sampling.{IndependentSampler, SampleHash}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 class GuideFieldSuite extends AnyFunSuite:
   import GuideFieldSuite.*
@@ -65,7 +66,7 @@ class GuideFieldSuite extends AnyFunSuite:
     assert(one.grouped(GuideRecords.Size).toSet == (0 until 10000).map(event(_).toVector).toSet)
     assert(sorted((0 until 10000).reverse, 3) == one)
 
-  test("no event is lost or doubled, however often events are sorted"):
+  test("no event is lost or doubled, however often events are sorted", Slow):
     val memory = GuideMemory()
     val expected = (0 until 3000).map(event(_).toVector).toSet
     for round <- 0 until 400 do

@@ -4,12 +4,13 @@ import candela.math.*
 import candela.sampling.IndependentSampler
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** Paths of two events in a world of two directions. */
 class GuidePathSuite extends AnyFunSuite:
   import GuidePathSuite.*
 
-  test("guided paths know the second moment of unguided ones"):
+  test("guided paths know the second moment of unguided ones", Slow):
     val measured = unguidedMoment(shareOfBright = 0.6)
     // The same path by its own second moment, where nothing is guided
     val direct = ownMoment(shareOfBright = Bsdf)
@@ -18,7 +19,7 @@ class GuidePathSuite extends AnyFunSuite:
     assert(Math.abs(ownMoment(shareOfBright = 0.6) / exact(0.6) - 1) < 0.03)
     assert(exact(0.6) < 0.6 * exact(Bsdf))
 
-  test("paths with branches know the second moment of those without, and what they cost"):
+  test("paths with branches know the second moment of those without, and what they cost", Slow):
     val measured = unguidedMoment(shareOfBright = 0.6, branches = 3)
     assert(Math.abs(measured / exact(Bsdf) - 1) < 0.03)
     assert(ownMoment(shareOfBright = Bsdf, branches = 3) < 0.9 * exact(Bsdf))

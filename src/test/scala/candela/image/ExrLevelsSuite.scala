@@ -3,6 +3,7 @@ package candela.image
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.base.InputFile
 import candela.testing.{Draws, TempFolder, TiledExr}
@@ -13,7 +14,10 @@ class ExrLevelsSuite extends AnyFunSuite:
     case Some(Right(levels)) => levels
     case other => fail(s"$other")
 
-  test("tiles have the texels that were written, of all levels, kinds of numbers and compressions"):
+  test(
+    "tiles have the texels that were written, of all levels, kinds of numbers and compressions",
+    Slow
+  ):
     TempFolder.use: folder =>
       for
         (w, h) <- Seq((64, 32), (8, 128), (1, 1))

@@ -7,6 +7,7 @@ import candela.color.{Rgb, SmoothSpectra, Wavelengths}
 import candela.math.lerp
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
+import org.scalatest.tagobjects.Slow
 
 class DispersionSuite extends BsdfLaws:
   private def splitting(alpha: Float) = Dispersive(Dielectric(TrowbridgeReitz(alpha, alpha), 1.6f))
@@ -41,7 +42,7 @@ class DispersionSuite extends BsdfLaws:
        |Shape "sphere"
        |""".stripMargin
 
-  test("each wavelength goes its own way, and their colours add up to what is seen"):
+  test("each wavelength goes its own way, and their colours add up to what is seen", Slow):
     // For each wavelength what glass of its index shows
     val steps = 24
     def eta(k: Int) = 1.3f + 0.6f * k / steps

@@ -12,6 +12,7 @@ import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
+@org.scalatest.tags.Slow
 final class GuidedWalkSuite extends AnyFunSuite:
   import GuidedWalkSuite.*
 

@@ -7,6 +7,7 @@ import candela.scenefile.Dialect
 import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** Manifold walks find the light of a point, or of a tiny ball, that paths find of a larger ball in
   * its place.
@@ -33,7 +34,7 @@ final class ManifoldLightingSuite extends AnyFunSuite:
         ReverseOrientation Shape "disk" "float height" .3 "float radius" 9"""
     )
   do
-    test(s"walks find of a tiny lamp what paths find of a large one, on a wall, too: $what"):
+    test(s"walks find of a tiny lamp what paths find of a large one, on a wall, too: $what", Slow):
       val walked = plan(scene(s"$wall $surface", ball(0.0005)), CausticsMode.Auto, 64)
       assert(walks(walked))
       val found = image(walked)
@@ -47,7 +48,7 @@ final class ManifoldLightingSuite extends AnyFunSuite:
       // The ball's centre is as far as its parts but for the square of its size, 1 %
       BlockMeans.assertEqual(found, expected, allowance = 0.03)
 
-  test("where rays pass surfaces by chance, there are no walks, as trials would count that"):
+  test("where rays pass surfaces by chance, there are no walks, as trials would count that", Slow):
     val water = """Shape "disk" "float height" .5 "float radius" 9"""
     def walked(alpha: String) =
       walks(plan(scene(water + alpha, ball(0.0005)), CausticsMode.Auto, 64))

@@ -1,6 +1,7 @@
 package candela.integrators
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
@@ -96,7 +97,7 @@ final class VolumeMarchSuite extends AnyFunSuite:
       for name <- Seq("none", "", "interface") do
         assert(c == seen(s""" Material "$name" Shape "sphere""""), name)
 
-  test("steps without number are bounded, and a warning says how"):
+  test("steps without number are bounded, and a warning says how", Slow):
     val volume = "\"volumegrid\" \"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 1 " +
       "\"float density\" [1 1] \"color sigma_s\" [.1 .1 .1] \"color Le\" [.02 .02 .02]"
     for method <- Vector("emission", "single") do

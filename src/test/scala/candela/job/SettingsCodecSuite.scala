@@ -12,6 +12,7 @@ import candela.scenefile.Dialect
 
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 import org.scalatestplus.scalacheck.ScalaCheckPropertyChecks
 
 class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
@@ -120,7 +121,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
         output
       )
 
-  test("settings are read from words as they were written, all of them"):
+  test("settings are read from words as they were written, all of them", Slow):
     val fields = Vector(RenderSettings(), RenderGoal(), ReadSettings(), OutputSettings())
     assert(fields.map(_.productArity) == Vector(21, 2, 3, 6), "`settings` must make the new field")
     forAll(settings, minSuccessful(500)): s =>

@@ -1,6 +1,7 @@
 package candela.job
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.build.{RenderGoal, RenderSettings}
 import candela.guiding.GuidingMode
@@ -29,7 +30,7 @@ class SoonerSuite extends AnyFunSuite:
       val rendering = change(p.render(RenderControl()).copy(seconds = seconds))
       Sooner.of(p, rendering, threads = 2, Cancellation())
 
-  test("guided paths are sooner in an interior that is lit indirectly"):
+  test("guided paths are sooner in an interior that is lit indirectly", Slow):
     assert(tried(interior) == Some(Sooner(guiding = true, caustics = false)))
 
   test("light paths are sooner for a caustic"):
@@ -42,7 +43,7 @@ class SoonerSuite extends AnyFunSuite:
   test("a trial ends with its time, and then tells nothing"):
     assert(tried(interior, seconds = 0).isEmpty)
 
-  test("only a long rendering is followed by a trial"):
+  test("only a long rendering is followed by a trial", Slow):
     assert(after(interior, 1e6).exists(_.guiding))
     assert(after(interior, Sooner.Worth - 1).isEmpty)
 

@@ -1,6 +1,7 @@
 package candela.lights
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.color.Rgb
 import candela.geometry.Frame
@@ -54,7 +55,7 @@ final class PortalEnvironmentSuite extends AnyFunSuite:
       // Rounding may move a direction over one of the 16 borders between pixels, or the window's
       assert(off <= 3)
 
-  test("directions are as dense as the pdf says, which integrates to 1"):
+  test("directions are as dense as the pdf says, which integrates to 1", Slow):
     val out = LightSample()
     for (from, i) <- inside.zipWithIndex do
       val result = ChiSquare.directions(i + 1, draws = 100000, cosBins = 40, phiBins = 40)(

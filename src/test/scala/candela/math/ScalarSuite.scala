@@ -1,12 +1,13 @@
 package candela.math
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.testing.Draws
 
 class ScalarSuite extends AnyFunSuite:
 
-  test("a difference of products is the exact one, rounded once"):
+  test("a difference of products is the exact one, rounded once", Slow):
     val draws = Draws(1)
     for i <- 0 until 100000 do
       val a = draws.between(-2, 2) * draws.magnitude(1e-6, 1e6)

@@ -2,6 +2,7 @@ package candela.media
 
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.color.Rgb
 import candela.math.*
@@ -97,7 +98,7 @@ final class MediumSuite extends AnyFunSuite:
     val colors = (Rgb(0.4f, 1f, 2f), Rgb(1.4f, 1f, 0.2f))
     check(medium, (Vec3(-0.5f, 0f, 0f), Vec3(0.5f, 0f, 0f)), colors, Rgb(1f, 2f, 0.5f))(_ => 1)
 
-  test("a cloud lets through what its density says"):
+  test("a cloud lets through what its density says", Slow):
     val (low, size) = (Vec3(-0.5f, 0f, -0.5f), Vec3(1f, 1f, 1f))
     val map = Transform.translate(0.5, 0, 0.5)
     val (a, s) = (Rgb.gray(0.5f), Rgb.gray(4f))
@@ -173,7 +174,7 @@ final class MediumSuite extends AnyFunSuite:
       protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
         out.setDensity(0f, Rgb.Black, Rgb.Black)
 
-  test("tracking without progress is given up, and its sample is not a number"):
+  test("tracking without progress is given up, and its sample is not a number", Slow):
     def lost(majorant: Float) =
       val (work, ray) = (MediumWork(), candela.geometry.Ray())
       work.random.seed(0.25f, 0.5f)

@@ -10,6 +10,7 @@ import candela.scenefile.Parser
 import java.nio.file.Path
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** What is done about fireflies in a scene that has many, against pbrt-v4's image of it. */
 class FirefliesSuite extends AnyFunSuite:
@@ -25,7 +26,7 @@ class FirefliesSuite extends AnyFunSuite:
   private def brightness(image: Image) =
     image.data.map(_.toDouble).sum / reference.data.map(_.toDouble).sum
 
-  test("re-weighted, an image has far less noise, and converges to pbrt's"):
+  test("re-weighted, an image has far less noise, and converges to pbrt's", Slow):
     val (few, fewKept) = (image(64, Fireflies.Reweighted), image(64, Fireflies.Kept))
     assert(error(few) < error(fewKept) / 4)
     val many = image(1024, Fireflies.Reweighted)
@@ -33,7 +34,7 @@ class FirefliesSuite extends AnyFunSuite:
     // The reference's own mean is known to 0.2 %; the noise of 1024 samples is 1 %
     assert(Math.abs(brightness(many) - 1) < 0.02, brightness(many))
 
-  test("limited indirect light has little noise, and keeps its bias"):
+  test("limited indirect light has little noise, and keeps its bias", Slow):
     assert(error(image(64, Fireflies.Clamped(4))) < 0.1)
     assert(brightness(image(512, Fireflies.Clamped(4))) < 0.97)
 

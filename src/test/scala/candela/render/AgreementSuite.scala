@@ -5,6 +5,7 @@ import java.util.SplittableRandom
 import candela.image.Image
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** The statistic of [[RenderSuite]], on images whose truth is known. */
 class AgreementSuite extends AnyFunSuite:
@@ -38,7 +39,7 @@ class AgreementSuite extends AnyFunSuite:
     val noise = a.data.zip(b.data).map((p, q) => Math.pow(p - q, 2) / 4).sum / a.data.length
     Agreement(renders, reference, noise, allowance).disagreements(significance)
 
-  test("noise alone is no disagreement"):
+  test("noise alone is no disagreement", Slow):
     // At this significance one of a thousand correct images is accused; 20 fixed seeds are not
     for seed <- 1 to 20 do
       val wrong = found(seed)(same)

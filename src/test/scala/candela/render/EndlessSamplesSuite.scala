@@ -6,6 +6,7 @@ import java.util.concurrent.atomic.AtomicBoolean
 import java.util.concurrent.{CountDownLatch, TimeUnit}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** Renderings one of whose samples does not end. */
 class EndlessSamplesSuite extends AnyFunSuite:
@@ -65,7 +66,7 @@ class EndlessSamplesSuite extends AnyFunSuite:
         isEnded
     assert(!endless.rendered(2, timed, isCancelled = false).isComplete)
 
-  test("nor one that keeps copies, the last of which is then not replaced"):
+  test("nor one that keeps copies, the last of which is then not replaced", Slow):
     for due <- Vector(false, true) do
       val endless = Endless()
       object Keeper extends Checkpointer:

@@ -5,6 +5,8 @@ import java.nio.file.{Files, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
+import candela.build.RenderSettings
+import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
 import candela.integrators.CausticsMode
 
@@ -12,8 +14,25 @@ import candela.integrators.CausticsMode
   *
   * @param noise     variance of the reference's pixels, measured between two independent halves
   * @param allowance relative systematic difference that is known, measured and explained
+  * @param guiding   whether its paths are guided
   */
-final case class ReferenceScene(name: String, noise: Double, allowance: Double):
+final case class ReferenceScene(
+    name: String,
+    noise: Double,
+    allowance: Double,
+    guiding: GuidingMode = GuidingMode.Off
+):
+  /** The name, and what differs from the scene as its file has it. */
+  def title: String = if guiding == GuidingMode.Off then name else s"$name, guided"
+
+  def settings(samplesPerPixel: Int, seed: Int): RenderSettings =
+    RenderSettings(
+      Some(samplesPerPixel),
+      seed,
+      guiding = Some(guiding),
+      caustics = Some(caustics)
+    )
+
   def isMitsubas: Boolean = name.startsWith("mi-")
   def file: Path =
     if isMitsubas then ReferenceScenes.OfMitsuba.resolve(s"$name.xml")
@@ -52,5 +71,10 @@ object ReferenceScenes:
     for name <- names(OfMitsuba, ".xml") ++ names(Scenes, ".pbrt") if rows.contains(name) yield
       val row = rows(name)
       ReferenceScene(name, row("noise_variance").toDouble, row("allowance").toDouble)
+
+  /** Scenes that are rendered in another way, too, with the same mean. */
+  lazy val variants: Vector[ReferenceScene] =
+    Vector("v4-fog-gap", "v4-depth-of-field", "v3-lights")
+      .map(named(_).copy(guiding = GuidingMode.On))
 
   def named(name: String): ReferenceScene = all.find(_.name == name).get

@@ -13,6 +13,7 @@ import java.nio.file.{Files, Path}
 import java.util.concurrent.atomic.AtomicInteger
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 class RenderStateSuite extends AnyFunSuite:
 
@@ -87,7 +88,10 @@ class RenderStateSuite extends AnyFunSuite:
           val _ = Renderer.render(plan(shares, 60)(), threads = 2, checkpointer = Some(next))
           assert(Files.readAllBytes(folder.resolve("b")).sameElements(last))
 
-  test("a sample of a tile that takes long is left in its midst, and continued to the same image"):
+  test(
+    "a sample of a tile that takes long is left in its midst, and continued to the same image",
+    Slow
+  ):
     for shares <- Vector(false, true); shard <- Vector(Shard.Whole, Shard(1, 2)) do
       withFolder: folder =>
         val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
@@ -161,7 +165,10 @@ class RenderStateSuite extends AnyFunSuite:
     )
     TinyPlan(50, 37, spp = 20, method = Some(method))((_, _) => Rgb.Black)
 
-  test("chains whose paths take long are left in their midst, and continued to the same image"):
+  test(
+    "chains whose paths take long are left in their midst, and continued to the same image",
+    Slow
+  ):
     withFolder: folder =>
       val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
       def render(plan: RenderPlan, from: Option[Path], to: Path, stop: Cancellation) =

@@ -1,6 +1,7 @@
 package candela.sampling
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.math.*
 import candela.testing.ChiSquare
@@ -43,7 +44,7 @@ class SphericalTriangleSuite extends AnyFunSuite:
     // positions of 1000 round to 6e-5 of the triangle's size
     assert(Math.abs(solidAngle(t) / 0.5e-6 - 1) < 2e-4)
 
-  test("samples are as dense as the pdf says"):
+  test("samples are as dense as the pdf says", Slow):
     for (t, i) <- triangles.zipWithIndex.take(3) do
       val triangle = set(t)
       val result = ChiSquare.directions(i + 1)(

@@ -1,6 +1,7 @@
 package candela.scene
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.accel.*
 import candela.accel.tracing.Bvh
@@ -31,7 +32,7 @@ class MovingSuite extends AnyFunSuite:
       Instances.of(Array(Bvh(surfaces.primitives())), Vector((0, motion)).view, 0f, 1f)
     )
 
-  test("bounds contain the surface whenever the shutter is open"):
+  test("bounds contain the surface whenever the shutter is open", Slow):
     val draws = Draws(1)
     for _ <- 0 until 60 do
       val soup = Soups.of(Soups.around(draws, 20, 1)(draws.vec(-1, 1)))
@@ -86,7 +87,7 @@ class MovingSuite extends AnyFunSuite:
           assert((at.geometricNormal - there.geometricNormal).length < 1e-2f): Unit
     assert(hits > 500, s"$hits hits")
 
-  test("a ray that leaves a moving triangle does not meet it again"):
+  test("a ray that leaves a moving triangle does not meet it again", Slow):
     val draws = Draws(3)
     val at = ShadingPoint()
     var spawned = 0

@@ -5,6 +5,7 @@ import java.nio.file.{Files, Path}
 import candela.base.SceneError
 import candela.math.Transform
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 class IncludeSuite extends AnyFunSuite:
 
@@ -43,14 +44,14 @@ class IncludeSuite extends AnyFunSuite:
     assert(why.problems.head.message ==
       "can't include `/dev/zero`: it is no regular file, but a pipe or a device")
 
-  test("files that include the next one twice are read a limited number of times"):
+  test("files that include the next one twice are read a limited number of times", Slow):
     val files = (0 to 30).map(i => s"$i.pbrt" -> s"Include \"${i + 1}.pbrt\" " * 2)
     withFolder((files :+ ("31.pbrt" -> "# end"))*): folder =>
       val why = intercept[SceneError]:
         Parser.parseText("test", "WorldBegin Include \"0.pbrt\" WorldEnd", folder)
       assert(why.problems.exists(_.message == "more than 100000 files are included"))
 
-  test("so are those that go on with the parameters before the Include"):
+  test("so are those that go on with the parameters before the Include", Slow):
     val part = "\"float a\" 1" + " Shape \"s\" Include \"NEXT.pbrt\"" * 2
     val files = (0 to 30).map(i => s"$i.pbrt" -> part.replace("NEXT", s"${i + 1}"))
     withFolder((files :+ ("31.pbrt" -> "\"float a\" 1"))*): folder =>

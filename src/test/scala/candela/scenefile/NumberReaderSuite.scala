@@ -4,6 +4,7 @@ import java.nio.charset.StandardCharsets.ISO_8859_1
 
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 import org.scalatestplus.scalacheck.ScalaCheckPropertyChecks
 
 class NumberReaderSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
@@ -49,7 +50,7 @@ class NumberReaderSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
         sameAsJdk("%.16e".formatLocal(java.util.Locale.ROOT, float.toDouble))
         assert(reader(float.toString).toFloat == float)
 
-  test("numbers halfway between two Floats, and a trifle beside, go to the right side"):
+  test("numbers halfway between two Floats, and a trifle beside, go to the right side", Slow):
     forAll(Gen.choose(0x00800000, 0x7f000000)): bits =>
       val low = java.lang.Float.intBitsToFloat(bits).toDouble
       val high = java.lang.Float.intBitsToFloat(bits + 1).toDouble

@@ -8,6 +8,7 @@ import java.util.zip.GZIPOutputStream
 import candela.base.{FloatBuffer, IntBuffer, Problem, RestBuffer, SceneError}
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 import org.scalatestplus.scalacheck.ScalaCheckPropertyChecks
 
 private enum Reading:
@@ -115,7 +116,7 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       assert(problem(file).message.startsWith("can't read further: "))
       assert(problem(file).at.nonEmpty)
 
-  test("a small file that unpacks without end is refused"):
+  test("a small file that unpacks without end is refused", Slow):
     val blanks = Array.fill[Byte](1 << 20)(' ')
     val bytes = zipped(zip => for _ <- 0 until 100 do zip.write(blanks))
     withFile(bytes): file =>

@@ -1,6 +1,7 @@
 package candela.shapes
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
@@ -110,7 +111,7 @@ class BilinearPatchSuite extends AnyFunSuite:
         ray.set(from, target - from, Float.PositiveInfinity)
         assert(of(points).intersect(ray, hit) && abs(ray.tMax - 1f) < 1e-5f, s"$i $target")
 
-  test("rays that leave a patch don't meet it again at once, and a flat one not at all"):
+  test("rays that leave a patch don't meet it again at once, and a flat one not at all", Slow):
     val draws = Draws(4)
     var spawned = 0
     while spawned < 50000 do
@@ -169,7 +170,7 @@ class BilinearPatchSuite extends AnyFunSuite:
     val skew = Seq(Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(1, 2, 0), Vec3(4, 2, 0))
     assert(abs(of(skew).area - 6f) < 1e-5f)
 
-  test("samples have the density that the pdf says, and are where the normals' cone says"):
+  test("samples have the density that the pdf says, and are where the normals' cone says", Slow):
     val draws = Draws(6)
     for i <- 0 until 6 do
       val flipped = i % 2 == 1

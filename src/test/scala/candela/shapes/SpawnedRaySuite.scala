@@ -1,6 +1,7 @@
 package candela.shapes
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
@@ -53,7 +54,7 @@ class SpawnedRaySuite extends AnyFunSuite:
       assert(!TriangleTest.isHit(corners, 0, own, hit), s"${at.p} ${at.geometricNormal} $d")
       spawned += 1
 
-  test("a plane of many triangles across an axis is not met again"):
+  test("a plane of many triangles across an axis is not met again", Slow):
     val draws = Draws(2)
     for _ <- 0 until 100 do
       val axis = draws.below(3)

@@ -1,6 +1,7 @@
 package candela.shapes
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.geometry.{Hit, Ray}
 import candela.math.*
@@ -26,7 +27,7 @@ class TriangleSamplerSuite extends AnyFunSuite:
     val flipped = TriangleSampler(Soups.of(Seq(triangle), flipped = true), 0)
     assert(flipped.normal == -sampler.normal)
 
-  test("directions to samples are as dense as the pdf says, from either side"):
+  test("directions to samples are as dense as the pdf says, from either side", Slow):
     val eyes = Seq(Vec3(1f, 1f, 4f), Vec3(2f, 1f, -1f), Vec3(1.5f, 1.5f, 2.2f))
     for (from, i) <- eyes.zipWithIndex do
       val result = SampledShapes.chiSquare(seed = i, sampler, see, from)

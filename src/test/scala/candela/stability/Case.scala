@@ -1,7 +1,7 @@
 package candela.stability
 
 import candela.robustness.Trials
-import org.scalatest.funsuite.AnyFunSuite
+import candela.testing.RandomLaws
 
 /** A hard case of arithmetic, checked with as many random trials as are asked for.
   *
@@ -30,5 +30,8 @@ object Case:
 abstract class Group(val cases: Seq[Case])
 
 /** Tests a group with its quick counts. */
-abstract class GroupSuite(group: Group) extends AnyFunSuite:
-  for c <- group.cases do test(c.name)(c.check(Trials(c.quick.toLong, slice = 0)))
+abstract class GroupSuite(group: Group) extends RandomLaws:
+  for c <- group.cases do
+    law(c.name): plan =>
+      val slice = if c.isSliced then plan.seed(0).toInt else 0
+      c.check(Trials(plan.count(c.quick.toLong), slice))

@@ -9,6 +9,7 @@ import candela.scenefile.Dialect
 import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** Caustics where arithmetic is hard: light paths, manifold walks and photons. */
 final class HardCausticsSuite extends AnyFunSuite:
@@ -31,7 +32,7 @@ final class HardCausticsSuite extends AnyFunSuite:
       for mode <- Seq(CausticsMode.On, CausticsMode.Photons) do
         assert(image(lit, mode, 3).data.forall(v => v >= 0f && v < 1e4f), mode)
 
-    test(s"neither the pilot's choice nor photons change the mean: $what"):
+    test(s"neither the pilot's choice nor photons change the mean: $what", Slow):
       val expected = image(text, CausticsMode.Off, 96, seed = 1)
       for mode <- Seq(CausticsMode.Auto, CausticsMode.Photons) do
         // Photons near an edge are gathered beyond it, too

@@ -3,6 +3,7 @@ package candela.stability
 import org.scalatest.funsuite.AnyFunSuite
 
 /** Materials and media at the ends of their parameters, by every integrator. */
+@org.scalatest.tags.Slow
 class IntegratorTableSuite extends AnyFunSuite:
   for ball <- ExtremeBall.all do
     test(s"${ball.name}: every integrator finds the light that volpath does"):

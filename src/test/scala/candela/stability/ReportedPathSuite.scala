@@ -5,6 +5,7 @@ import java.nio.file.{Files, Path}
 import scala.collection.mutable.ArrayBuffer
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.build.{RenderRegion, RenderSettings, SceneBuilder}
 import candela.color.Rgb
@@ -37,7 +38,7 @@ class ReportedPathSuite extends AnyFunSuite:
       for words <- Seq("1: point (", "Lambert", "light 0 is sampled", "f rgb(", "pdf") do
         assert(told.contains(words), s"$integrator: $told"): Unit
 
-  test("where glass splits light, all samples told are those that are rendered"):
+  test("where glass splits light, all samples told are those that are rendered", Slow):
     val file = Path.of("scenes/v4-dispersion.pbrt")
     for regularize <- Seq(false, true) do
       val text = Files.readString(file).replace("pixelsamples\" 16", "pixelsamples\" 1")

@@ -1,6 +1,7 @@
 package candela.testing
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.math.*
 
@@ -31,7 +32,7 @@ class ChiSquareSuite extends AnyFunSuite:
     val tilted = ChiSquare.directions(seed = 1)(uniformSphere, w => (1 + 0.06f * w.x) / (4 * Pi))
     assert(!tilted.accepted(tests = 100), tilted)
 
-  test("p-values of a right density are spread evenly"):
+  test("p-values of a right density are spread evenly", Slow):
     val ps = (1 to 100).map: seed =>
       ChiSquare.directions(seed, draws = 5000)(uniformSphere, _ => 1 / (4 * Pi)).pValue
     // 100 uniform values: each quarter gets 25 ± 4.3; 4 sigmas

@@ -3,6 +3,7 @@ package candela.textures
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.base.{CacheFolder, InputFile, SceneError}
 import candela.image.ExrLevels
@@ -18,7 +19,7 @@ class FileLevelsSuite extends AnyFunSuite:
     val cache = CacheFolder(folder.resolve("none"), Long.MaxValue)
     new TileCache(new TileMemory(1), cache).levels(levels, wrap)
 
-  test("levels of a file have its texels, in memory and in tiles, and nothing is written"):
+  test("levels of a file have its texels, in memory and in tiles, and nothing is written", Slow):
     TempFolder.use: folder =>
       for
         (w, h, tw, th) <- Seq((128, 64, 16, 16), (256, 256, 40, 24), (8, 64, 64, 64), (1, 1, 9, 9))

@@ -6,6 +6,7 @@ import java.util.concurrent.atomic.AtomicInteger
 import scala.util.Using
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.base.{CacheFolder, Code, Parallel, SceneError}
 import candela.color.{Encoding, Rgb}
@@ -135,7 +136,7 @@ class TileCacheSuite extends AnyFunSuite:
       val error = intercept[ImageError](cache(folder).image("a", Wrap.Repeat)(() => way))
       assert(error.getMessage.contains("it has changed") && files(folder).isEmpty)
 
-  test("an image that is read in bands is in the same file as one in memory"):
+  test("an image that is read in bands is in the same file as one in memory", Slow):
     TempFolder.use: folder =>
       val sizes =
         Seq((256, 128), (130, 200), (128, 67), (5, 300), (64, 3), (1, 70), (200, 1), (3, 2))

@@ -4,6 +4,7 @@ import candela.render.Background
 import candela.testing.Eventually.eventually
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import java.io.{ByteArrayOutputStream, InputStream}
 import java.net.{InetAddress, InetSocketAddress, Socket}
@@ -45,11 +46,16 @@ class HttpServerSuite extends AnyFunSuite:
         for _ <- 1 to 5 do assert(asked(port, "GET", "/a?x=1").body == "GET /a Vector((x,1))")
       finally crowd.result().foreach(_.close())
 
-  for count <- Vector(16, 300) do
-    test(s"$count clients with slow headers keep no other one waiting"):
-      besides(count)(send(_, "GET / HTTP/1.1\r\nHost: a\r\nX-Slow: "))
+  private def besidesSlowHeaders(count: Int): Unit =
+    besides(count)(send(_, "GET / HTTP/1.1\r\nHost: a\r\nX-Slow: "))
 
-  test("clients that connect and say nothing keep no other one waiting"):
+  test("16 clients with slow headers keep no other one waiting"):
+    besidesSlowHeaders(16)
+
+  test("300 clients with slow headers keep no other one waiting", Slow):
+    besidesSlowHeaders(300)
+
+  test("clients that connect and say nothing keep no other one waiting", Slow):
     besides(300)(_ => ())
 
   test("clients with slow bodies keep no other one waiting, and are told that none is wanted"):
@@ -57,12 +63,12 @@ class HttpServerSuite extends AnyFunSuite:
       send(socket, "POST /stop HTTP/1.1\r\nHost: a\r\nContent-Length: 1000000\r\n\r\nabc")
       assert(received(socket.getInputStream).code == 413): Unit
 
-  test("clients that keep their connections keep no other one waiting"):
+  test("clients that keep their connections keep no other one waiting", Slow):
     besides(300): socket =>
       send(socket, "GET /a HTTP/1.1\r\nHost: a\r\n\r\n")
       assert(received(socket.getInputStream).code == 200): Unit
 
-  test("clients that don't read what they ask for keep no other one waiting"):
+  test("clients that don't read what they ask for keep no other one waiting", Slow):
     besides(100)(send(_, "GET /large HTTP/1.1\r\nHost: a\r\n\r\n"))
 
   test("what a client asks for it gets, while others of its address take all connections"):
@@ -73,7 +79,7 @@ class HttpServerSuite extends AnyFunSuite:
         assert(asked(port, "GET", "/large").bytes.sameElements(large))
       finally crowd.foreach(_.close())
 
-  test("one address can't take the connections of another"):
+  test("one address can't take the connections of another", Slow):
     serving(): port =>
       val own = connected(port, "127.0.0.2")
       send(own, "GET /a HTTP/1.1\r\nHost: a\r\nX-Half: ")
@@ -84,7 +90,7 @@ class HttpServerSuite extends AnyFunSuite:
         assert(received(own.getInputStream).body == "GET /a Vector()")
       finally (own +: crowd).foreach(_.close())
 
-  test("every wait has an end: slow headers, idle connections, clients that don't read"):
+  test("every wait has an end: slow headers, idle connections, clients that don't read", Slow):
     serving(patience = 0.02): port =>
       for words <- Vector("", "GET / HTTP/1.1\r\n") do
         val socket = connected(port)

@@ -1,6 +1,7 @@
 package candela.accel.building
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.accel.{AcceleratorScenes, Primitives, WideTree}
 import candela.accel.tracing.{Bvh, Hierarchies}
@@ -14,7 +15,7 @@ class WideBuilderSuite extends AnyFunSuite:
 
   private def bits(x: Float): Int = java.lang.Float.floatToRawIntBits(x)
 
-  test("the wide tree is the same for any number of threads"):
+  test("the wide tree is the same for any number of threads", Slow):
     val draws = Draws(10)
     val spheres = Soups.shapes(draws, 12_000, 1e-3f)(draws.vec(-1, 1)).toArray
     val mixed = Primitives(AcceleratorScenes.torus(115).soup, spheres)

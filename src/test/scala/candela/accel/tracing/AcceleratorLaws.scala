@@ -1,14 +1,12 @@
 package candela.accel.tracing
 
-import org.scalatest.funsuite.AnyFunSuite
-
 import candela.accel.{Accelerator, AcceleratorScenes, BruteForce, Primitives}
 import candela.geometry.{Bounds3, Hit, Ray}
 import candela.math.*
-import candela.testing.{Draws, Soups}
+import candela.testing.{Draws, RandomLaws, Soups}
 
 /** What every accelerator must obey: it finds what testing everything finds. */
-abstract class AcceleratorLaws(make: Primitives => Accelerator) extends AnyFunSuite:
+abstract class AcceleratorLaws(make: Primitives => Accelerator) extends RandomLaws:
 
   /** A ray to be: origin, direction and end. */
   private type Line = (Vec3, Vec3, Float)
@@ -63,15 +61,15 @@ abstract class AcceleratorLaws(make: Primitives => Accelerator) extends AnyFunSu
     (o, d, end)
 
   for (name, primitives) <- AcceleratorScenes.all do
-    test(s"finds what testing everything finds: $name"):
+    law(s"finds what testing everything finds: $name"): plan =>
       val reference = BruteForce(primitives)
       val accelerator = make(primitives)
       val boxes = primitives.bounds
-      val draws = Draws(name.hashCode)
+      val draws = Draws(plan.seed(name.hashCode))
       val (ray, expectedRay) = (Ray(), Ray())
       val (hit, expected) = (Hit(), Hit())
       // Testing 10000 primitives in turn takes its time
-      val rays = if primitives.count > 1000 then 1000 else 4000
+      val rays = plan.count(if primitives.count > 1000 then 1000 else 4000)
       var hits = 0
       for i <- 0 until rays do
         val (o, d, end) = line(draws, primitives, boxes)
@@ -106,7 +104,7 @@ abstract class AcceleratorLaws(make: Primitives => Accelerator) extends AnyFunSu
         assert(accelerator.isOccluded(ray, hit) == found, at)
         assert(ray.tMax == end, "asking for occlusion leaves the ray as it is")
       // The rays are worth something
-      assert(primitives.count == 0 || hits > rays / 50, s"$hits hits")
+      assert(primitives.count == 0 || hits > rays / 50, s"$hits hits"): Unit
 
   test("bounds are those of all primitives"):
     for (name, primitives) <- AcceleratorScenes.all do
@@ -123,12 +121,12 @@ abstract class AcceleratorLaws(make: Primitives => Accelerator) extends AnyFunSu
     )
 
   for (name, toWorld) <- placements(Draws(7)) do
-    test(s"no ray leaves a closed mesh: $name"):
+    law(s"no ray leaves a closed mesh: $name"): plan =>
       val soup = Soups.icosphere(4, toWorld)
       val accelerator = make(Primitives(soup, Array.empty))
-      val draws = Draws(name.hashCode)
+      val draws = Draws(plan.seed(name.hashCode))
       val (ray, hit) = (Ray(), Hit())
-      for i <- 0 until 40000 do
+      for i <- 0 until plan.count(40000) do
         // All placements keep the ball of half the smallest stretch inside
         val o = toWorld.point(if i % 50 == 0 then Vec3.Zero else draws.direction() * 0.6f)
         val triangle = draws.below(soup.count)

@@ -1,6 +1,7 @@
 package candela.bsdf.composite
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.bsdf.{
   ConstantMaterial, DiffuseMaterial, DiffuseTransmissionMaterial, Directions, FullReflectance,
@@ -102,7 +103,10 @@ class MaterialSuite extends AnyFunSuite:
     val clay = OrenNayar(Rgb.gray(0.5f), 30f)
     assert(matte.bsdf(point(30f, 0.5f)).f(wo, wi) == clay.f(wo, wi))
 
-  test("a varying roughness of a coat keeps its own gloss over a coat between two of a family"):
+  test(
+    "a varying roughness of a coat keeps its own gloss over a coat between two of a family",
+    Slow
+  ):
     val roughness = Roughness(FromU, FromU, RoughnessModel.PlainAlpha)
     val varying = coated(gray(0.5f), roughness).bsdf(point(0.25f, 0f))
     val fixed = coated(gray(0.5f), rough(0.25f)).bsdf(point(0f, 0f))

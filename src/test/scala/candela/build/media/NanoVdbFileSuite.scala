@@ -3,6 +3,7 @@ package candela.build.media
 import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import scala.util.Random
 
@@ -180,7 +181,7 @@ final class NanoVdbFileSuite extends AnyFunSuite:
       val copy = file.patch(208, Array.fill(8)(none.toByte), 8)
       assert(read(copy).isRight)
 
-  test("damaged files are read or refused, never anything else"):
+  test("damaged files are read or refused, never anything else", Slow):
     val random = Random(3)
     val grids = Vector(VdbGrid("density", Map((0, 0, 0) -> 1f, (0, 0, 130) -> 2f)))
     val (file, zipped) = (NanoVdb.file(grids), NanoVdb.file(grids, zipped = true))

@@ -1,6 +1,7 @@
 package candela.build.shapes
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
@@ -35,14 +36,17 @@ class ReliefSuite extends AnyFunSuite:
   private def assertNear(found: Float, expected: Float, share: Float): Unit =
     assert(Math.abs(found - expected) < share * expected, s"$found"): Unit
 
-  test("pbrt-v3's instances scale the unit tangents of meshes with normals, copied or shared"):
+  test(
+    "pbrt-v3's instances scale the unit tangents of meshes with normals, copied or shared",
+    Slow
+  ):
     val one = mean(s"$sun$obj Scale 3 3 3 ObjectInstance \"o\"")
     assertNear(one, 0.2856f, 0.001f)
     val shared = "AttributeBegin Scale 3 3 3 ObjectInstance \"o\" AttributeEnd\n" +
       "Translate 0 0 -50 ObjectInstance \"o\""
     assertNear(mean(s"$sun$obj$shared"), 0.2856f, 0.001f)
 
-  test("pbrt-v2 makes them of unit length once they are placed, copied or shared"):
+  test("pbrt-v2 makes them of unit length once they are placed, copied or shared", Slow):
     def v2(places: String) =
       val text = seen(s"$sun$obj$places")
         .replace("Integrator", "SurfaceIntegrator").replace("\"rgb ", "\"color ")

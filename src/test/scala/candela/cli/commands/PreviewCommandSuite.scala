@@ -12,6 +12,7 @@ import java.nio.file.Files
 import java.util.concurrent.{CountDownLatch, TimeUnit}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 class PreviewCommandSuite extends AnyFunSuite:
 
@@ -66,7 +67,7 @@ class PreviewCommandSuite extends AnyFunSuite:
       val where = "the first at pixel (3, 0), sample 2 [E1105]"
       assert(captured.err.endsWith(s"samples discarded: NaN or infinite, $where\n"), captured.err)
 
-  test("a preview whose time is over before its first sample says so"):
+  test("a preview whose time is over before its first sample says so", Slow):
     TempFolder.use: folder =>
       val ended = CountDownLatch(1)
       object Slow extends SceneLoader:

@@ -8,6 +8,7 @@ import candela.testing.TempFolder
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 class ReferenceCommandSuite extends AnyFunSuite:
 
@@ -54,7 +55,7 @@ class ReferenceCommandSuite extends AnyFunSuite:
       assert(Math.abs(own / error - 1) < 0.05)
       assert(Files.list(folder).count == 2) // no films are left
 
-  test("a reference that goes on is the one that was made at once, byte for byte"):
+  test("a reference that goes on is the one that was made at once, byte for byte", Slow):
     TempFolder.use: folder =>
       val (a, b) = (folder.resolve("a.exr"), folder.resolve("b.exr"))
       val ball = scene(folder)

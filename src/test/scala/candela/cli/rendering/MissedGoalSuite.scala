@@ -7,13 +7,14 @@ import candela.job.{ErrorRecorder, Goal}
 import candela.render.{Renderer, TinyPlan}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 class MissedGoalSuite extends AnyFunSuite:
   /** Uniform numbers around 1: their relative error is the root of 1/12 over the samples. */
   private val plan = TinyPlan(width = 40, height = 30, spp = 1000): (_, sampler) =>
     Rgb.gray(0.5f + sampler.next1D())
 
-  test("what ends before its goal because all samples are taken says so, and what to do"):
+  test("what ends before its goal because all samples are taken says so, and what to do", Slow):
     def missed(options: RenderGoal) =
       val ended = Goal(options, 1000, ErrorRecorder(Development(), None))
       MissedGoal.warning(ended, Renderer.render(plan, 2, listener = ended))

@@ -9,6 +9,7 @@ import candela.testing.Eventually.eventually
 import candela.testing.{TempFolder, TevMessage, TevPeer}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import java.net.{InetAddress, ServerSocket}
 import java.nio.file.Path
@@ -57,7 +58,7 @@ class TevSuite extends AnyFunSuite:
       assert(later.nonEmpty && later.forall(_ == ("R", 0)), later)
       peer.close()
 
-  test("a viewer that goes away is no error, and gets the whole image when it is back"):
+  test("a viewer that goes away is no error, and gets the whole image when it is back", Slow):
     TempFolder.use: folder =>
       val peer = TevPeer()
       val gate = CountDownLatch(1)
@@ -74,7 +75,7 @@ class TevSuite extends AnyFunSuite:
       assert(TevPeer.shown(all(peer).init) == ImageFiles.read(file).data.toVector)
       peer.close()
 
-  test("without a viewer a warning says so, and the image is rendered"):
+  test("without a viewer a warning says so, and the image is rendered", Slow):
     TempFolder.use: folder =>
       val free = ServerSocket(0, 1, InetAddress.getLoopbackAddress)
       free.close()
@@ -88,7 +89,7 @@ class TevSuite extends AnyFunSuite:
       val warning = s"warning: no viewer at localhost:${free.getLocalPort} yet: "
       assert(running.err.startsWith(warning) && running.err.linesIterator.size == 1, running.err)
 
-  test("a viewer that never reads holds nothing up for long"):
+  test("a viewer that never reads holds nothing up for long", Slow):
     TempFolder.use: folder =>
       val peer = TevPeer()
       peer.ignore()

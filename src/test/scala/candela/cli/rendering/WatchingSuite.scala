@@ -11,6 +11,7 @@ import candela.testing.Eventually.eventually
 import candela.testing.{SceneTexts, TempFolder, WebClient}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 import java.net.ServerSocket
 import java.nio.file.Path
@@ -98,7 +99,7 @@ class WatchingSuite extends AnyFunSuite:
       assert(WebClient.get(s"${running.link}nonsense").code == 404)
       assert(WebClient.get(s"${running.link}pixel?x=40&y=0").code == 404)
 
-  test("keep on goes on beyond the planned samples, until it is stopped"):
+  test("keep on goes on beyond the planned samples, until it is stopped", Slow):
     TempFolder.use: folder =>
       val gate = CountDownLatch(1)
       val endless = TinyPlan(spp = 16, filename = folder.resolve("a.exr").toString): (where, _) =>
