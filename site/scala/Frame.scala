@@ -9,9 +9,9 @@ final class Frame(pages: Vector[Page]):
       val here = pages.filter(p => p.path.getParent == Path.of(folder))
       val (first, others) = here.partition(_.path.endsWith("README.md"))
       first ++ (if folder == "docs" then others.sortBy(_.title.toLowerCase) else others)
-    val named = Vector("docs/guide", "docs", "docs/decisions", "docs/journal")
+    val named = Vector("docs/guide", "docs", "docs/decisions")
     val rest = pages.filterNot(p => named.exists(in(_).contains(p)))
-    Vector("Guide", "Pages", "Decisions", "Journal").zip(named.map(in)) :+ ("Project" -> rest)
+    Vector("Guide", "Pages", "Decisions").zip(named.map(in)) :+ ("Project" -> rest)
 
   def apply(page: Page, body: String): String =
     val up = "../" * (page.path.getNameCount - 1)

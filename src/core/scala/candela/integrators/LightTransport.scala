@@ -9,7 +9,7 @@ import candela.scene.Scene
 /** Parts of the estimators that all light transport algorithms share. */
 object LightTransport:
   /** Scattering events before Russian roulette starts. As in pbrt-v2 and v3; v4 starts after one,
-    * which costs more in noise than it saves in time: docs/journal/SPEED.md.
+    * which costs more in noise than it saves in time: docs/decisions/0016-shared-samples.md.
     */
   inline val RouletteAfter = 4
 

@@ -197,7 +197,7 @@ object ErrorEstimate:
   private def factor(deviation: Double): Double = Math.exp(1.959964 * deviation)
 
   /** Standard deviation of the logarithm of the samples at which an error is seen to be reached, by
-    * docs/journal/NOISE.md, "Time left".
+    * docs/NOISE.md, "Time left".
     *
     * @param isSoon whether that is expected before the next power of two
     * @param ahead  doublings of the samples until then

@@ -192,8 +192,8 @@ private[render] object TimeLeft:
   private val FirstSeconds = 2.0
 
   /** The logarithm of the time left is too large by this over the square of the seconds so far, if
-    * the rendering is long in comparison: by docs/journal/NOISE.md, "Time left", as are the
-    * standard deviations of the logarithm.
+    * the rendering is long in comparison: by docs/NOISE.md, "Time left", as are the standard
+    * deviations of the logarithm.
     */
   private val Slow = 5.0
   private val YoungNoise = 12.0
