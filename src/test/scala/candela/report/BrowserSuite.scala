@@ -11,6 +11,7 @@ import java.util.concurrent.TimeUnit
 import scala.jdk.CollectionConverters.*
 
 /** What a page's script does, in a real browser: a headless Chromium, if there is one. */
+@org.scalatest.tags.Slow
 class BrowserSuite extends AnyFunSuite:
   import BrowserSuite.*
 

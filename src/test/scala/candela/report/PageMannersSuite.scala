@@ -7,6 +7,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import java.nio.file.{Files, Path}
 
 /** Reports on screens of all widths, by keyboard and wheel, in a real browser, if there is one. */
+@org.scalatest.tags.Slow
 class PageMannersSuite extends AnyFunSuite:
 
   private lazy val browser: Path = Chromium.installed

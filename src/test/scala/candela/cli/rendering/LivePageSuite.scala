@@ -13,6 +13,7 @@ import java.nio.file.Path
 import java.util.concurrent.CountDownLatch
 
 /** The live page in a real browser, if there is one. */
+@org.scalatest.tags.Slow
 class LivePageSuite extends AnyFunSuite:
 
   private lazy val browser: Path = Chromium.installed
