@@ -234,11 +234,7 @@ lazy val bench = (project in file("bench"))
     run / fork := true,
     run / baseDirectory := (ThisBuild / baseDirectory).value,
     run / javaHome := sys.env.get("CANDELA_JAVA").map(file),
-    run / javaOptions ++= jvmOptions :+ "-Xmx2g",
-    // Kernels of the prototype of lanes, docs/decisions/0024-lanes.md, as VectorKernel's
-    run / javaOptions ++= Seq("Stream", "Decision", "Vertex", "Lamp").map(kernel =>
-      s"-XX:CompileCommand=CompileThresholdScaling,candela.accel.tracing.${kernel}Kernel$$::*,0.01"
-    ) :+ "-Djdk.incubator.vector.VECTOR_ACCESS_OOB_CHECK=0"
+    run / javaOptions ++= jvmOptions :+ "-Xmx2g"
   )
 
 /** The site: the pages of this repository as static HTML, `./sbt site/run`. Not part of `root`. */
