@@ -24,7 +24,6 @@ import candela.scenefile.SceneDescription
   * @param keep      has what other scenes have made
   * @param heap      bytes that the scene may take
   * @param isRendered whether it needs a film
-  * @param pixels     at most, for a trial: the image is made as small
   * @param expects    is told the number of camera samples before anything is built
   */
 final case class BuildControl(
@@ -35,7 +34,6 @@ final case class BuildControl(
     keep: Keep = Keep.Nothing,
     heap: Long = JavaHeap.limit,
     isRendered: Boolean = true,
-    pixels: Option[Int] = None,
     expects: Long => Unit = _ => ()
 )
 
@@ -56,7 +54,7 @@ object SceneBuilder:
       control: BuildControl = BuildControl()
   ): (RenderPlan, Vector[Problem]) =
     val context = BuildContext(description, settings, control.pool, control.textures, control.keep)
-    val image = ImageSetup.of(context, settings, control.pixels)
+    val image = ImageSetup.of(context, settings)
     val taken = control.taken.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
     def integratorIn(context: BuildContext) =
       if settings.preview then Preview.integrator(context) else integratorPlan(context)

@@ -59,8 +59,8 @@ final case class RenderControl(
   * rendered in one process. Its threads end when it is closed.
   *
   * @param warnings of reading and building
+  * @param settings it was prepared by
   * @param pool     of its threads
-  * @param how      it was prepared
   */
 final case class Prepared(
     description: SceneDescription,
@@ -69,11 +69,9 @@ final case class Prepared(
     readSeconds: Double = 0,
     buildSeconds: Double = 0,
     pool: ThreadPool = ThreadPool(1),
-    how: Preparation = Preparation()
+    settings: RenderSettings = RenderSettings()
 ) extends AutoCloseable:
   def close(): Unit = pool.close()
-
-  def settings: RenderSettings = how.settings
 
   /** Number of missing items replaced by placeholders. */
   def standIns: Int = warnings.distinct.count(_.standIn.nonEmpty)
