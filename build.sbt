@@ -174,7 +174,7 @@ lazy val root: Project = (project in file("."))
 
     // What makes the packages is tested, too.
     Test / unmanagedSources ++=
-      Seq("Facts", "JavaRuntime", "LambdaClasses", "Manifests", "PlainLambdas", "ProgramFiles",
+      Seq("Facts", "JavaRuntime", "Manifests", "PlainLambdas", "ProgramFiles",
         "Revision", "Wheel", "ZipWriter")
         .map(name => (ThisBuild / baseDirectory).value / "project" / s"$name.scala"),
 

@@ -24,7 +24,6 @@ import candela.scenefile.SceneDescription
   * @param keep      has what other scenes have made
   * @param heap      bytes that the scene may take
   * @param isRendered whether it needs a film
-  * @param expects    is told the number of camera samples before anything is built
   */
 final case class BuildControl(
     pool: Parallel = Parallel.Alone,
@@ -33,8 +32,7 @@ final case class BuildControl(
     textures: TextureControl = TextureControl(),
     keep: Keep = Keep.Nothing,
     heap: Long = JavaHeap.limit,
-    isRendered: Boolean = true,
-    expects: Long => Unit = _ => ()
+    isRendered: Boolean = true
 )
 
 /** Builds a render plan from a description. Connects scene files to rendering.
@@ -81,7 +79,6 @@ object SceneBuilder:
       FilmSize.least(crop.pixels, perPixel, image.layers, image.film.development.bands)
     val memory = MemoryCheck(control.heap, film, context)
     val samples = crop.pixels * perPixel
-    control.expects(samples)
     Hierarchies.expect(samples, control.pool, context.resources.warmUps)
     val built =
       WorldBuilder(

@@ -25,8 +25,6 @@ import java.nio.file.Path
   * @param isFirst    whether the others are not looked at, which is then told
   * @param textures   how image textures are kept
   * @param keep       has what other scenes have made
-  * @param expects    is told the number of camera samples before anything is built, unless another
-  *                   of the file's worlds follows
   */
 final case class Preparation(
     settings: RenderSettings = RenderSettings(),
@@ -38,8 +36,7 @@ final case class Preparation(
     world: Int = 0,
     isFirst: Boolean = false,
     textures: TextureControl = TextureControl(),
-    keep: Keep = Keep.Nothing,
-    expects: Long => Unit = _ => ()
+    keep: Keep = Keep.Nothing
 )
 
 /** How a prepared scene is rendered; the image is the same.

@@ -64,8 +64,7 @@ object SceneLoader:
         how.footprint,
         textures,
         keep,
-        isRendered = how.isRendered,
-        expects = if description.isFollowed then _ => () else how.expects
+        isRendered = how.isRendered
       )
       val (plan, warnings) = SceneBuilder.build(description, how.settings, control)
       val seconds = (System.nanoTime - started) * 1e-9
