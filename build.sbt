@@ -69,6 +69,11 @@ val jvmOptions = Seq(
   "-XX:CompileCommand=BackgroundCompilation,candela.accel.tracing.VectorKernel$::*,false"
 ) ++ compiledApart
 
+/** The archive of JDK 25 has profiles of the small renderings by which it was made. Code that is
+  * compiled by them renders up to a tenth slower.
+  */
+val withoutProfiles = Seq("-XX:+UnlockDiagnosticVMOptions", "-XX:-AOTReplayTraining")
+
 /** Code that a render runs once, as it reads and builds its scene: C2 gives it up at once, and C1's
   * code stays. Compiled by C2, which takes longer than the work, it would delay the first image.
   * The inner loops of BVH construction are C2's, and all that rendering shares.
@@ -258,6 +263,7 @@ def program = Def.task {
   val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
   val folder = target.value / "program"
   val options = jvmOptions ++ memory
+  val ofNewest = options ++ withoutProfiles ++ builtOnce
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))
@@ -269,7 +275,7 @@ def program = Def.task {
     IO.write(folder / name, lines.mkString("", "\n", "\n"))
     folder / name
   }
-  (files + written("options", options) + written("options-25", options ++ builtOnce)).toSeq
+  (files + written("options", options) + written("options-25", ofNewest)).toSeq
     .pair(Path.rebase(folder, "lib"))
 }
 
