@@ -96,8 +96,7 @@ object SceneBuilder:
       ).build(footprints)
     context.problems.stopAtErrors()
     if !settings.preview then IdleSettings(context, settings).checkCaustics(built.method)
-    val world =
-      piloted(context, built, image, sampling, camera, settings.choices.byGoal)
+    val world = piloted(context, built, image, sampling, camera)
     warnOfLimits(context, image, camera, world.method)
     if !settings.preview then
       FireflyLimits(context, settings.fireflies).check(world.method)
@@ -115,8 +114,7 @@ object SceneBuilder:
       world: World,
       image: ImageSetup,
       sampling: SamplingSetup,
-      camera: CameraSetup,
-      byGoal: Boolean
+      camera: CameraSetup
   ): World =
     val asked = context.resources.switches.caustics
     val (method, why) = world.method match
@@ -141,10 +139,7 @@ object SceneBuilder:
     val survey = world.method match
       case RenderMethod.Piloted(_, _, _, _) => world.caustics.features
       case _ => Vector.empty
-    val told =
-      if asked != CausticsMode.Off then ("caustics" -> why) +: survey
-      else if byGoal && method.learns then Vector("caustics" -> Choices.NoCaustics)
-      else Vector.empty
+    val told = if asked == CausticsMode.Off then Vector.empty else ("caustics" -> why) +: survey
     world.rendered(method, told)
 
   private def footprint(context: BuildContext, sampling: SamplingSetup): Float =
