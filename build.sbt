@@ -69,6 +69,11 @@ val jvmOptions = Seq(
   "-XX:CompileCommand=BackgroundCompilation,candela.accel.tracing.VectorKernel$::*,false"
 ) ++ compiledApart
 
+/** The archive of JDK 25 has profiles of the small renderings by which it was made. Code that is
+  * compiled by them renders up to a tenth slower.
+  */
+val withoutProfiles = Seq("-XX:+UnlockDiagnosticVMOptions", "-XX:-AOTReplayTraining")
+
 /** Code that a render runs once, as it reads and builds its scene: C2 gives it up at once, and C1's
   * code stays. Compiled by C2, which takes longer than the work, it would delay the first image.
   * The inner loops of BVH construction are C2's, and all that rendering shares.
@@ -193,7 +198,7 @@ lazy val root: Project = (project in file("."))
 
     // What makes the packages is tested, too.
     Test / unmanagedSources ++=
-      Seq("Facts", "JavaRuntime", "LambdaClasses", "Manifests", "PlainLambdas", "ProgramFiles",
+      Seq("Facts", "JavaRuntime", "Manifests", "PlainLambdas", "ProgramFiles",
         "Revision", "Wheel", "ZipWriter")
         .map(name => (ThisBuild / baseDirectory).value / "project" / s"$name.scala"),
 
@@ -257,11 +262,7 @@ lazy val bench = (project in file("bench"))
     run / fork := true,
     run / baseDirectory := (ThisBuild / baseDirectory).value,
     run / javaHome := sys.env.get("CANDELA_JAVA").map(file),
-    run / javaOptions ++= jvmOptions :+ "-Xmx2g",
-    // Kernels of the prototype of lanes, docs/decisions/0024-lanes.md, as VectorKernel's
-    run / javaOptions ++= Seq("Stream", "Decision", "Vertex", "Lamp").map(kernel =>
-      s"-XX:CompileCommand=CompileThresholdScaling,candela.accel.tracing.${kernel}Kernel$$::*,0.01"
-    ) :+ "-Djdk.incubator.vector.VECTOR_ACCESS_OOB_CHECK=0"
+    run / javaOptions ++= jvmOptions :+ "-Xmx2g"
   )
 
 /** The site: the pages of this repository as static HTML, `./sbt site/run`. Not part of `root`. */
@@ -285,6 +286,7 @@ def program = Def.task {
   val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
   val folder = target.value / "program"
   val options = jvmOptions ++ memory
+  val ofNewest = options ++ withoutProfiles ++ builtOnce
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))
@@ -296,7 +298,7 @@ def program = Def.task {
     IO.write(folder / name, lines.mkString("", "\n", "\n"))
     folder / name
   }
-  (files + written("options", options) + written("options-25", options ++ builtOnce)).toSeq
+  (files + written("options", options) + written("options-25", ofNewest)).toSeq
     .pair(Path.rebase(folder, "lib"))
 }
 

@@ -6,26 +6,20 @@ import org.objectweb.asm.{
 
 /** Lambdas that start fast. Scala makes every lambda serialisable, which class-data sharing can't
   * archive: a few hundred classes would be generated at every start. This program never serialises
-  * lambdas, so they need not be, and what would read them again goes. Those that capture something
-  * become classes ([[LambdaClasses]]).
+  * lambdas, so they need not be, and what would read them again goes.
   *
   * Also removes the bridges that Scala requests: the interfaces below declare only the erased
   * method.
   */
 object PlainLambdas {
 
-  /** @return internal names and contents: of the class, then of those of its lambdas */
-  def apply(bytes: Array[Byte]): Seq[(String, Array[Byte])] = {
-    val reader = new ClassReader(bytes)
+  def apply(bytes: Array[Byte]): Array[Byte] = {
     val writer = new ClassWriter(0) // without constants that are no longer used
-    val lambdas = new LambdaClasses(reader)
-    reader.accept(new Rewritten(writer, lambdas), 0)
-    lambdas.members.foreach(name => writer.visitNestMember(name))
-    (reader.getClassName -> writer.toByteArray) +: lambdas.classes
+    new ClassReader(bytes).accept(new Rewritten(writer), 0)
+    writer.toByteArray
   }
 
-  private final class Rewritten(to: ClassVisitor, lambdas: LambdaClasses)
-      extends ClassVisitor(Opcodes.ASM9, to) {
+  private final class Rewritten(to: ClassVisitor) extends ClassVisitor(Opcodes.ASM9, to) {
 
     /** Leaves out the identity of the `.tasty` file, which the jar lacks: it depends on which other
       * files were compiled at the same time.
@@ -49,11 +43,9 @@ object PlainLambdas {
             bootstrap: Handle,
             arguments: AnyRef*
         ): Unit =
-          if (bootstrap == Metafactory || isPlain(bootstrap, descriptor, arguments)) {
-            val plain = arguments.take(3)
-            if (!lambdas.write(inner, name, descriptor, plain))
-              super.visitInvokeDynamicInsn(name, descriptor, Metafactory, plain: _*)
-          } else super.visitInvokeDynamicInsn(name, descriptor, bootstrap, arguments: _*)
+          if (isPlain(bootstrap, descriptor, arguments))
+            super.visitInvokeDynamicInsn(name, descriptor, Metafactory, arguments.take(3): _*)
+          else super.visitInvokeDynamicInsn(name, descriptor, bootstrap, arguments: _*)
       }
     }
   }

@@ -42,8 +42,7 @@ object ProgramJar {
       for (jar <- jars; (name, bytes) <- entries(jar)) name match {
         case Useless() =>
         case Legal(text) => put(s"META-INF/legal/${jar.getName.stripSuffix(".jar")}/$text", bytes)
-        case n if n.endsWith(".class") && !n.startsWith("META-INF/") =>
-          for ((className, contents) <- PlainLambdas(bytes)) put(s"$className.class", contents)
+        case n if n.endsWith(".class") && !n.startsWith("META-INF/") => put(n, PlainLambdas(bytes))
         case n => put(n, bytes)
       }
     } finally out.close()

@@ -28,26 +28,18 @@ object Choices:
   private val ForGoal =
     Choices(PointChoice.Progressive, GuidingMode.Progressive, CausticsMode.Auto)
 
-  /** Seconds of rendering that are worth the pilots of caustics, which take up to one. */
-  private inline val WorthPilots = 20.0
-
   private[build] val Why =
     "chosen as a time or an error ends the rendering (--guiding off takes none)"
-
-  private[build] val NoCaustics =
-    "found by the camera's paths alone, as the time is short (--caustics auto looks for them)"
 
   private[build] def of(s: RenderSettings): Choices =
     val isByGoal = s.goal.isGiven && !s.preview
     val usual = if isByGoal then ForGoal else OfScene
-    val caustics =
-      if s.goal.time.exists(_ < WorthPilots) then CausticsMode.Off else usual.caustics
     val guiding = s.guiding match
       case Some(GuidingMode.Auto) if s.isEndless => GuidingMode.Progressive
       case asked => asked.getOrElse(usual.guiding)
     Choices(
       s.points.getOrElse(usual.points),
       guiding,
-      s.caustics.getOrElse(caustics),
+      s.caustics.getOrElse(usual.caustics),
       isByGoal && s.guiding.isEmpty
     )

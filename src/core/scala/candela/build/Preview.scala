@@ -8,7 +8,11 @@ import candela.render.RenderMethod
 /** A first look at a scene, whatever its lights, media and integrator. */
 private[build] object Preview:
   /** Largest number of pixels. */
-  val Pixels = 160_000
+  private val Pixels = 160_000
+
+  /** By how much the width and the height of an image are divided. */
+  def reduction(width: Int, height: Int): Int =
+    Math.ceil(Math.sqrt(width.toDouble * height / Pixels)).toInt
 
   def integrator(context: BuildContext): IntegratorPlan =
     val white = context.resources.basis.fromSrgb(Rgb.White)

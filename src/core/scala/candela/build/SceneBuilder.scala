@@ -24,8 +24,6 @@ import candela.scenefile.SceneDescription
   * @param keep      has what other scenes have made
   * @param heap      bytes that the scene may take
   * @param isRendered whether it needs a film
-  * @param pixels     at most, for a trial: the image is made as small
-  * @param expects    is told the number of camera samples before anything is built
   */
 final case class BuildControl(
     pool: Parallel = Parallel.Alone,
@@ -34,9 +32,7 @@ final case class BuildControl(
     textures: TextureControl = TextureControl(),
     keep: Keep = Keep.Nothing,
     heap: Long = JavaHeap.limit,
-    isRendered: Boolean = true,
-    pixels: Option[Int] = None,
-    expects: Long => Unit = _ => ()
+    isRendered: Boolean = true
 )
 
 /** Builds a render plan from a description. Connects scene files to rendering.
@@ -56,7 +52,7 @@ object SceneBuilder:
       control: BuildControl = BuildControl()
   ): (RenderPlan, Vector[Problem]) =
     val context = BuildContext(description, settings, control.pool, control.textures, control.keep)
-    val image = ImageSetup.of(context, settings, control.pixels)
+    val image = ImageSetup.of(context, settings)
     val taken = control.taken.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
     def integratorIn(context: BuildContext) =
       if settings.preview then Preview.integrator(context) else integratorPlan(context)
@@ -83,7 +79,6 @@ object SceneBuilder:
       FilmSize.least(crop.pixels, perPixel, image.layers, image.film.development.bands)
     val memory = MemoryCheck(control.heap, film, context)
     val samples = crop.pixels * perPixel
-    control.expects(samples)
     Hierarchies.expect(samples, control.pool, context.resources.warmUps)
     val built =
       WorldBuilder(
@@ -101,8 +96,7 @@ object SceneBuilder:
       ).build(footprints)
     context.problems.stopAtErrors()
     if !settings.preview then IdleSettings(context, settings).checkCaustics(built.method)
-    val world =
-      piloted(context, built, image, sampling, camera, settings.choices.byGoal)
+    val world = piloted(context, built, image, sampling, camera)
     warnOfLimits(context, image, camera, world.method)
     if !settings.preview then
       FireflyLimits(context, settings.fireflies).check(world.method)
@@ -120,8 +114,7 @@ object SceneBuilder:
       world: World,
       image: ImageSetup,
       sampling: SamplingSetup,
-      camera: CameraSetup,
-      byGoal: Boolean
+      camera: CameraSetup
   ): World =
     val asked = context.resources.switches.caustics
     val (method, why) = world.method match
@@ -146,10 +139,7 @@ object SceneBuilder:
     val survey = world.method match
       case RenderMethod.Piloted(_, _, _, _) => world.caustics.features
       case _ => Vector.empty
-    val told =
-      if asked != CausticsMode.Off then ("caustics" -> why) +: survey
-      else if byGoal && method.learns then Vector("caustics" -> Choices.NoCaustics)
-      else Vector.empty
+    val told = if asked == CausticsMode.Off then Vector.empty else ("caustics" -> why) +: survey
     world.rendered(method, told)
 
   private def footprint(context: BuildContext, sampling: SamplingSetup): Float =

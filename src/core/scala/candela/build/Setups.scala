@@ -77,16 +77,15 @@ private[build] final case class ImageSetup(
     bounds
 
 private[build] object ImageSetup:
-  /** @param pixels at most, if the image is to be small */
-  def of(context: BuildContext, settings: RenderSettings, pixels: Option[Int] = None): ImageSetup =
+  def of(context: BuildContext, settings: RenderSettings): ImageSetup =
     val film = context.made(context.description.film, Films.all, context.defaults.film)
     val filter = context.made(context.description.filter, Filters.all, context.defaults.filter)
     val layers =
       if settings.preview then Vector.empty else (film.layers ++ settings.layers).distinct
-    val most = if settings.preview then Some(Preview.Pixels) else pixels
-    val part = most match
-      case Some(n) => reduction(film.width, film.height, n)
-      case None => if settings.quick then 4 else 1
+    val part =
+      if settings.preview then Preview.reduction(film.width, film.height)
+      else if settings.quick then 4
+      else 1
     ImageSetup(
       film,
       Math.max(1, film.width / part),
@@ -94,10 +93,6 @@ private[build] object ImageSetup:
       filter,
       layers
     )
-
-  /** By how much the width and the height of an image are divided, for at most so many pixels. */
-  private def reduction(width: Int, height: Int, pixels: Int): Int =
-    Math.ceil(Math.sqrt(width.toDouble * height / pixels)).toInt
 
 /** Settings of sampling.
   *

@@ -84,8 +84,7 @@ final class Guide(
       guided = tallies.map(_.guided).sum,
       left = progress.left,
       weight = weight,
-      gaveUp = progress.gaveUp,
-      pays = progress.pays
+      gaveUp = progress.gaveUp
     )
 
   /** Called when sample number `sample` begins, and no path of an earlier pass is on its way.

@@ -12,7 +12,6 @@ package candela.guiding
   *   from enough of them; on average of the last two, if the one before paid, but not clearly
   * @param weight     of the last samples, relative to the first
   * @param gaveUp     was guiding given up because it did not pay?
-  * @param pays       did it, by what guiding left in that pass, or on average of these two?
   */
 final case class GuideOutcome(
     samples: Int,
@@ -23,8 +22,7 @@ final case class GuideOutcome(
     guided: Long,
     left: Option[Double],
     weight: Float,
-    gaveUp: Boolean,
-    pays: Boolean
+    gaveUp: Boolean
 ):
   /** Part of the bounces that were guided. */
   def share: Double = if bounces > 0 then guided.toDouble / bounces else 0.0

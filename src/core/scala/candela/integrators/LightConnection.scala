@@ -21,7 +21,7 @@ final class LightConnection(
 ):
   private val examines = crosses && scene.hasInterfaces
   private val choice = LightChoice()
-  private[integrators] val ray = Ray()
+  private val ray = Ray()
   private val hit = Hit()
   private val border = ShadingPoint()
   private var rays = 0L
@@ -102,7 +102,7 @@ final class LightConnection(
       !LightConnection.reaches(scene, ray, hit, border, opens, _ => rays += 1, true, aim)
 
   /** Sets the shadow ray. */
-  private[integrators] def aim(origin: Vec3): Unit =
+  private def aim(origin: Vec3): Unit =
     if sample.isInfinite then ray.set(origin, wi, Float.PositiveInfinity)
     else
       val end = LightConnection.end(sample)

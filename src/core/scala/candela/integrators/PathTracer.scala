@@ -16,8 +16,8 @@ import candela.scene.Scene
   * power heuristic, where Miller, Georgiev and Jarosz 2019 use the balance heuristic.
   */
 final class PathTracer private[integrators] (
-    private[candela] val scene: Scene,
-    private[candela] val limits: PathLimits,
+    scene: Scene,
+    limits: PathLimits,
     protected val walk: Walk
 ) extends CameraPathIntegrator:
 

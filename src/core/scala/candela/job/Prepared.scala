@@ -25,8 +25,6 @@ import java.nio.file.Path
   * @param isFirst    whether the others are not looked at, which is then told
   * @param textures   how image textures are kept
   * @param keep       has what other scenes have made
-  * @param expects    is told the number of camera samples before anything is built, unless another
-  *                   of the file's worlds follows
   */
 final case class Preparation(
     settings: RenderSettings = RenderSettings(),
@@ -38,8 +36,7 @@ final case class Preparation(
     world: Int = 0,
     isFirst: Boolean = false,
     textures: TextureControl = TextureControl(),
-    keep: Keep = Keep.Nothing,
-    expects: Long => Unit = _ => ()
+    keep: Keep = Keep.Nothing
 )
 
 /** How a prepared scene is rendered; the image is the same.
@@ -59,8 +56,8 @@ final case class RenderControl(
   * rendered in one process. Its threads end when it is closed.
   *
   * @param warnings of reading and building
+  * @param settings it was prepared by
   * @param pool     of its threads
-  * @param how      it was prepared
   */
 final case class Prepared(
     description: SceneDescription,
@@ -69,11 +66,9 @@ final case class Prepared(
     readSeconds: Double = 0,
     buildSeconds: Double = 0,
     pool: ThreadPool = ThreadPool(1),
-    how: Preparation = Preparation()
+    settings: RenderSettings = RenderSettings()
 ) extends AutoCloseable:
   def close(): Unit = pool.close()
-
-  def settings: RenderSettings = how.settings
 
   /** Number of missing items replaced by placeholders. */
   def standIns: Int = warnings.distinct.count(_.standIn.nonEmpty)

@@ -64,13 +64,12 @@ object SceneLoader:
         how.footprint,
         textures,
         keep,
-        isRendered = how.isRendered,
-        expects = if description.isFollowed then _ => () else how.expects
+        isRendered = how.isRendered
       )
       val (plan, warnings) = SceneBuilder.build(description, how.settings, control)
       val seconds = (System.nanoTime - started) * 1e-9
       val all = description.warnings ++ warnings
-      Prepared(description, plan, all, 0, seconds, pool, how)
+      Prepared(description, plan, all, 0, seconds, pool, how.settings)
     catch
       case e: Throwable =>
         pool.close()

@@ -43,11 +43,10 @@ object Renderer:
     val canKeepOn = plan.method.canKeepOn && shard.isWhole && checkpointer.isEmpty &&
       samplesPerPixel < RenderPlan.Endless
     val live = Live(plan, job, queue, workers, state, total, canKeepOn, () => seconds)
-    val forecast =
-      Forecast(schedule, pixels.toDouble / shard.count, earlier, workers.size, listener)
+    val timeLeft = TimeLeft(schedule, pixels.toDouble / shard.count, earlier, listener)
     def progress() =
       val now = live.progress
-      live.expect(forecast.outlook(now.done, live.samplesPerPixel, now.seconds, clock))
+      live.expect(timeLeft.outlook(now.done, live.samplesPerPixel, now.seconds, clock))
       listener.progressed(live.progress)
     listener.started(live)
     var beats = 0L

@@ -19,19 +19,16 @@ final case class Progress(
 ):
   /** How much of the rendering is done, in [0, 1]; of one that a goal ends, of its time. */
   def part: Double =
-    if outlook.hasGoal then
-      val left = outlook.left.orElse(outlook.between.map(_.expected))
-      left.fold(0.0)(l => seconds / Math.max(seconds + l, 1e-9))
+    if outlook.hasGoal then outlook.left.fold(0.0)(l => seconds / Math.max(seconds + l, 1e-9))
     else if total == 0 then 1
     else done.toDouble / total
 
 /** What is known about the rest of a rendering.
   *
-  * @param left    seconds until it ends, if the whole time is known to a fourth with 95 %
-  * @param rate    camera samples per second, recently
+  * @param left    seconds until it ends, if that is known
+  * @param rate    camera samples per second, over the last half of them
   * @param error   relative error so far, if somebody observes it
   * @param hasGoal whether something else than the number of its samples may end it
-  * @param between seconds until it ends, if these are not known so well, but not unknown either
   * @param samples per pixel at which its goal ends it, if that is known
   */
 final case class Outlook(
@@ -39,7 +36,6 @@ final case class Outlook(
     rate: Option[Double] = None,
     error: Option[Double] = None,
     hasGoal: Boolean = false,
-    between: Option[TimeRange] = None,
     samples: Option[SampleRange] = None
 )
 

@@ -20,7 +20,7 @@ import candela.math.Vec3
 final class Scene(
     private[candela] val surfaces: Surfaces,
     instanced: Instanced,
-    private[candela] val accelerator: Accelerator,
+    accelerator: Accelerator,
     private[candela] val materials: SceneMaterials,
     val lights: Array[Light],
     val selection: LightSelection,

@@ -9,7 +9,6 @@ import java.nio.file.{Files, Path, StandardCopyOption}
 import scala.util.Try
 
 import org.scalatest.funsuite.AnyFunSuite
-import org.scalatest.tagobjects.Slow
 
 /** What `src/universal/bin/candela` does before Java runs. */
 class LauncherSuite extends AnyFunSuite:
@@ -79,10 +78,10 @@ class LauncherSuite extends AnyFunSuite:
       val ended = p.run(Seq("a b", "*", "$HOME", ""), Map(None_, "JAVA_OPTS" -> "-Xmx1g  -Da=*"))
       assert((ended.code, ended.out, ended.err) == (3, "out\n", "err\n"))
       val words = p.starts.head
-      assert(words.drop(3).take(2) == Vector("-Xmx1g", "-Da=*"))
+      assert(words.drop(4).take(2) == Vector("-Xmx1g", "-Da=*"))
       val jar = p.lib.toRealPath().resolve("candela.jar").toString
       val rest = Vector("-cp", jar, "candela.cli.Main", "a b", "*", "$HOME", "")
-      assert(words.drop(5).dropRight(1) == rest)
+      assert(words.drop(6).dropRight(1) == rest)
 
   test("a collector that is asked for replaces ours: Java refuses two"):
     staged: p =>
@@ -102,31 +101,20 @@ class LauncherSuite extends AnyFunSuite:
         assert(p.run(env = Map(None_, "JAVA_OPTS" -> options)).code == 0)
         assert(!p.starts.last.contains(ours), options)
 
-  test("in a heap too small for an archive, Java starts without one"):
-    staged: p =>
-      val _ = p.jdk("99")
-      assert(p.run(env = Make).code == 0)
-      def usesArchive(options: String, variable: String = "JAVA_OPTS") =
-        assert(p.run(env = Map(variable -> options)).code == 0)
-        p.starts.last.exists(_.startsWith("-XX:AOTCache="))
-      val small = Seq("-Xmx40m", "-Xmx64M", "-Xmx65536k", "-XX:MaxHeapSize=67108864")
-      for options <- small :+ "-Xmx4g -Xmx64m" do
-        assert(!usesArchive(options), options)
-        assert(!usesArchive(options, "JAVA_TOOL_OPTIONS"), options)
-        assert(p.starts.last.contains("-Xlog:gc+ergo=off"), options)
-      for options <- Seq("-Xmx128m", "-Xmx8g", "-Xmx64m -Xmx8589934592", "-Xmx1t", "-Xmxlots") do
-        assert(usesArchive(options), options)
-
   test("a small heap has a small young generation, unless another is asked for"):
     staged: p =>
       val _ = p.jdk("99")
-      def young(options: String): Seq[String] =
-        assert(p.run(env = Map(None_, "JAVA_OPTS" -> options)).code == 0)
+      def young(options: String, variable: String = "JAVA_OPTS"): Seq[String] =
+        assert(p.run(env = Map(None_, variable -> options)).code == 0)
         p.starts.last.filter(_.startsWith("-XX:MaxNewSize=")).toSeq
-      assert(young("-Xmx160m") == Seq("-XX:MaxNewSize=10m"))
+      for options <- Seq("-Xmx160m", "-Xmx163840K", "-XX:MaxHeapSize=167772160", "-Xmx4g -Xmx160m")
+      do
+        assert(young(options) == Seq("-XX:MaxNewSize=10m"), options)
+        assert(young(options, "JAVA_TOOL_OPTIONS") == Seq("-XX:MaxNewSize=10m"), options)
       assert(young("-Xmx100m") == Seq("-XX:MaxNewSize=8m"))
       assert(young("-Xmx511m") == Seq("-XX:MaxNewSize=31m"))
-      for options <- Seq("-Xmx512m", "-Xmx8g", "-Xmx1t") do assert(young(options).isEmpty, options)
+      for options <- Seq("-Xmx512m", "-Xmx8g", "-Xmx1t", "-Xmx64m -Xmx8589934592", "-Xmxlots") do
+        assert(young(options).isEmpty, options)
       assert(young("-Xmx160m -XX:MaxNewSize=50m").last == "-XX:MaxNewSize=50m")
 
   test("names of files are UTF-8 where there is no locale; a locale stays as it is"):
@@ -159,14 +147,11 @@ class LauncherSuite extends AnyFunSuite:
       assert(started.drop(7) == jar.toRealPath().toString +: words)
       assert(p.run(Seq("--spp", "4"), env).out.isEmpty && p.starts.size == 2)
 
-  test("bench is told how people start the program, and nothing else is"):
+  test("the program is told how people start it, which its benchmarks repeat"):
     staged: p =>
       val _ = p.jdk("99")
-      for words <- Seq(Seq("bench", "x.conf"), Seq("x.pbrt")) do
-        assert(p.run(words, Map(None_)).code == 0)
-      val launcher = p.launcher.toRealPath()
-      assert(p.starts.head.contains(s"-Dcandela.launcher=$launcher"))
-      assert(!p.starts.last.exists(_.startsWith("-Dcandela.launcher")))
+      assert(p.run(Seq("bench", "x.conf"), Map(None_)).code == 0)
+      assert(p.starts.head.contains(s"-Dcandela.launcher=${p.launcher.toRealPath()}"))
 
   test("Java takes the launcher's place, so that signals reach it"):
     staged: p =>
@@ -218,89 +203,6 @@ class LauncherSuite extends AnyFunSuite:
       assert(p.archives(p.lib).map(_.getFileName.toString).toSet == Set("99.aot", "17.0.1.jsa"))
       assert(p.run(env = Map("CANDELA_JAVA" -> older.toString)).code == 0)
       assert(p.starts.last.exists(_.startsWith("-XX:SharedArchiveFile=")))
-
-  test("commands that end soon use the archive's profiles, renderings of many samples do not"):
-    staged: p =>
-      val (old, newest) = (p.jdk("17.0.1", in = "17"), p.jdk("99", in = "99"))
-      def replays(jdk: Path, words: String*): Boolean =
-        val env = Map("CANDELA_JAVA" -> jdk.toString)
-        assert(p.run(env = env ++ Make).code == 0 && p.run(words, env).code == 0)
-        !p.starts.last.contains("-XX:-AOTReplayTraining")
-      assert(!replays(newest, "x.pbrt") && !replays(newest, "render", "x.pbrt"))
-      assert(!replays(newest, "--spp", "4", "x.pbrt") && !replays(newest, "resume", "x.film"))
-      assert(replays(newest, "preview", "x.pbrt") && replays(newest, "check", "x.pbrt"))
-      assert(replays(newest, "--spp", "1", "x.pbrt") && replays(newest, "x.pbrt", "--spp=1"))
-      assert(!replays(newest, "x.pbrt", "--spp=16") && !replays(newest, "x.pbrt", "-o", "1"))
-      assert(!replays(newest, "yes.pbrt", "--spp", "16"))
-      assert(!replays(newest, "--spp", "1", "x.pbrt", "--spp", "64"))
-      assert(replays(old, "x.pbrt"))
-
-  test(
-    "renderings of few samples are compiled by C1 alone, whatever tells how many they are",
-    Slow
-  ):
-    staged: p =>
-      val _ = p.jdk("99")
-      val folder = p.lib.getParent.getParent
-      val head = """Film "rgb" # "integer xresolution" 9999
-        |  "integer xresolution" 640 "integer xresolution" [ 64 ]
-        |  "integer yresolution" [64]
-        |Sampler "zsobol" "integer pixelsamples" 64
-        |WorldBegin
-        |Include "rest.pbrt"
-        |""".stripMargin
-      def isFew(words: String*): Boolean =
-        val ended = p.run(words, Map(None_))
-        assert((ended.code, ended.err) == (0, ""))
-        p.starts.last.contains("-XX:TieredStopAtLevel=1")
-      def isFewIn(scene: String, words: String*): Boolean =
-        Files.writeString(folder.resolve("a scene.pbrt"), scene): Unit
-        isFew("a scene.pbrt" +: words*)
-      assert(isFewIn(head) && isFew("render", folder.resolve("a scene.pbrt").toString))
-      assert(isFew("--spp", "8", "a scene.pbrt") && !isFew("--spp", "65", "a scene.pbrt"))
-      assert(!isFewIn(head.replace("64", "65")) && isFewIn(head.replace("64", "65"), "--quick"))
-      assert(!isFewIn(head, "--spp=65") && !isFewIn(head, "--spp", "many"))
-      for
-        words <- Seq("--time 10s", "--error=2%", "--frames 1-3", "--watch", "b.pbrt", "-spp 4") ++
-          Seq("--SPP=4", "--pixel_bounds=1,2,3,4")
-      do assert(!isFewIn(head, words.split(' ')*), words)
-      for words <- Seq("-j 2", "-Da=b", "--outfile=A_B.exr", "-o x.exr") do
-        assert(isFewIn(head, words.split(' ')*), words)
-      // What can't be known without more of the scene
-      assert(!isFewIn(head.replace("WorldBegin", "")))
-      assert(!isFewIn(head.replace("WorldBegin", "Include \"film.pbrt\"\nWorldBegin")))
-      assert(!isFewIn(head.replace("pixelsamples", "xsamples")))
-      for integrator <- Seq("mlt", "metropolis", "sppm") do
-        assert(!isFewIn(s"Integrator \"$integrator\"\n$head"))
-      assert(!isFewIn(head.replace("[64]", "")) && !isFewIn(head.replace("[64]", "064")))
-      assert(!isFewIn("#" * 9000) && !isFewIn("") && !isFew("none.pbrt") && !isFew())
-      // Mitsuba's scenes
-      val xml = """<scene><default name="n" value="64"/><sensor type="perspective">
-        |<film type="hdrfilm"><integer name="width" value="64"/>
-        |<integer name="height" value="64"/></film>
-        |<sampler type="independent"><integer name="sample_count" value="64"/></sampler>
-        |</sensor><include filename="rest.xml"/></scene>""".stripMargin
-      def isFewXml(scene: String, words: String*): Boolean =
-        Files.writeString(folder.resolve("scene.xml"), scene): Unit
-        isFew("scene.xml" +: words*)
-      assert(isFewXml(xml) && !isFewXml(xml, "--spp=65"))
-      assert(!isFewXml(xml.replace("value=\"64\"", "value=\"65\"")))
-      assert(!isFewXml(xml.replace("value=\"64\"", "value=\"$n\"")))
-      assert(!isFewXml(xml.replace("<sensor", "<include filename=\"film.xml\"/><sensor")))
-      // Other commands
-      for command <- Seq("check", "bench") do assert(!isFew(command, "a scene.pbrt"))
-      assert(isFewIn(head))
-      assert(isFewIn(head + " " * (31 << 20)) && !isFewIn(head + " " * (33 << 20)))
-      assert(isFewIn(head))
-      // What it may include
-      val rest = folder.resolve("rest.pbrt")
-      Files.writeString(rest, " " * (33 << 20)): Unit
-      assert(!isFewIn(head) && isFewIn(head.replace("Include", "")))
-      Files.delete(rest)
-      val textures = Files.createDirectories(folder.resolve("textures"))
-      val large = Files.write(folder.resolve("large"), new Array[Byte](5 << 20))
-      Files.createSymbolicLink(textures.resolve("a.png"), large): Unit
-      assert(!isFewIn(head))
 
   test("where the program's folder is read-only, the archive is in the user's cache"):
     staged: p =>
@@ -357,7 +259,7 @@ class LauncherSuite extends AnyFunSuite:
       assert(p.run(env = Make).code == 0)
       assert(p.archives(p.lib).size == 1)
 
-  test("after a first start the archive is made behind it, without a word", Slow):
+  test("after a first start the archive is made behind it, without a word"):
     staged: p =>
       val _ = p.jdk("99")
       val ended = p.run(Seq("x"), Map.empty)

@@ -137,11 +137,13 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
   test("a film's settings keep what was chosen for a goal, or by the scene, with any goal"):
     val goal = RenderGoal(time = Some(10))
     val timed = SettingsCodec.identity(RenderSettings(goal = goal))
-    assert(timed == Vector("--sampler", "progressive", "--guiding", "progressive"))
+    val words = "--sampler progressive --guiding progressive --caustics auto"
+    assert(timed == words.split(' ').toVector)
     val asked = RenderSettings(
       goal = goal,
       points = Some(PointChoice.Best),
-      guiding = Some(GuidingMode.Off)
+      guiding = Some(GuidingMode.Off),
+      caustics = Some(CausticsMode.Off)
     )
     assert(SettingsCodec.identity(asked).isEmpty)
     for s <- Vector(RenderSettings(), asked) do

@@ -21,6 +21,12 @@ class ScheduleSuite extends AnyFunSuite:
         schedule.firstSample(wave) until schedule.endSample(wave)
       assert(covered == (0 until samples))
 
+  test("samples until an error are as many as its waves have"):
+    val schedule = TileSchedule(crop, RenderPlan.Endless)
+    assert(Vector(0.5, 1.0, 5.2, 33.0, 64.0, 65.0, 1000.0).map(schedule.wholeWaves) ==
+      Vector(1, 1, 6, 48, 64, 96, 1024))
+    assert(schedule.wholeWaves(1e300) == Int.MaxValue)
+
   test("the greatest numbers of samples have waves, without a list of them"):
     val schedule = TileSchedule(crop, Int.MaxValue)
     assert(schedule.firstSample(schedule.waves) == Int.MaxValue)

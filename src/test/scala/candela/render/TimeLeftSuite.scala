@@ -10,120 +10,114 @@ class TimeLeftSuite extends AnyFunSuite:
 
   test("a steady rendering is foretold, but not in the first seconds"):
     val course = Course(spp = 64, (_, _) => 1.0)
-    // Looks are 0.1 s apart, which is 1.6 % of the first 6.4 s
     assert(Math.abs(course.total - 64) <= 0.1)
-    assert(course.foretold(1.5).isEmpty && course.foretold(2.5).isDefined)
-    for part <- Vector(0.1, 0.25, 0.5, 0.9) do course.assertNear(part, 0.02)
+    assert(course.left(1.5).isEmpty && course.left(2.5).isDefined)
+    for part <- Vector(0.1, 0.25, 0.5, 0.9) do course.assertNear(part, 0.01)
 
   test("a slow start is forgotten"):
     // The first seconds are up to six times slower
     val course = Course(spp = 512, (_, seconds) => 0.2 * (1 + 5 * Math.exp(-seconds / 1.5)))
-    course.assertNear(0.1, 0.1)
-    for part <- Vector(0.25, 0.5) do course.assertNear(part, 0.03)
+    course.assertNear(0.1, 0.03)
+    for part <- Vector(0.25, 0.5) do course.assertNear(part, 0.01)
 
-  test("a JVM that still compiles gets faster, and the interval says how uncertain that is"):
-    val course = Course(spp = 64, (_, _) => 1.0)
-    def range(seconds: Double, warm: Double) = course.range(seconds, Some(warm)).get
-    def width(r: TimeRange) = r.high / r.low
-    // On a busy machine 20 s may be 3 s of a processor
-    assert(range(20, 3).expected < 0.75 * range(20, Warm).expected)
-    assert(width(range(20, 3)) > 2 && width(range(20, Warm)) < 1.3)
-    assert(!range(3, 3).isKnown(3) && range(20, Warm).isKnown(20))
-    assert(course.range(20, Some(1.5)).isEmpty)
+  test("what precedes the first samples is no part of their pace"):
+    val course = Course(spp = 64, (_, _) => 1.0, before = 30)
+    course.assertNear(0.5, 0.01)
 
-  test("an interval of samples is one of the time"):
-    val course = Course(spp = 200, (_, _) => 1.0)
-    val found = course.until(SampleRange(100, 80, Int.MaxValue), 50)
-    assert(Math.abs(found.expected - 50) < 2 && found.low < 31 && found.high.isInfinite)
-    assert(!found.isKnown(50) && !found.says(50))
-    assert(course.until(SampleRange(100, 80, 130), 50).says(50))
-
-  test("pixels of unequal cost are compared with themselves"):
+  test("pixels of unequal cost are foretold to an eighth"):
     // An empty sky at the top, glass at the bottom
-    val cost = (place: Double, _: Double) => if place < 0.5 then 0.2 else 3.0
-    for spp <- Vector(16, 64) do
-      val course = Course(spp, cost)
-      for part <- Vector(0.25, 0.5, 0.75) do course.assertNear(part, 0.05)
+    for spp <- Vector(16, 64, 300) do
+      val course = Course(spp, (place, _) => if place < 0.5 then 0.2 else 3.0)
+      for part <- Vector(0.12, 0.25, 0.4, 0.5, 0.75, 0.9) do course.assertNear(part, 0.13)
 
-  test("in the first sweep over the image the pixels so far stand for all"):
-    val course = Course(spp = 1, (_, _) => 60)
-    // Steps of 0.3 s, 4 % of the first 7.2 s
-    for part <- Vector(0.12, 0.25, 0.5) do course.assertNear(part, 0.05)
-
-  test("of a rendering whose machine gets busy, what is left is told by the new pace"):
+  test("of a rendering whose machine gets busy, what is left follows the new pace"):
     val course = Course(spp = 256, (_, seconds) => if seconds < 64 then 1.0 else 2.0)
-    // Half the pace, from 64 s on: 128 s and 256 s remain at the two places
-    assert(Math.abs(course.foretold(64).get - 192) < 8)
-    assert(Math.abs(course.foretold(192).get - (course.total - 192)) < 15)
+    // From 192 s on, the last half is all at half the pace
+    course.assertNear(200.0 / course.total, 0.02)
 
-  test("what a pass prepares before its samples counts for all passes"):
-    // Photons: as long as the samples
-    val course = Course(spp = 100, (place, _) => if place < 0.02 then 26 else 0.5, largest = 1)
-    for part <- Vector(0.1, 0.25, 0.5) do course.assertNear(part, 0.06)
+  test("a rendering that is continued has only its new samples left"):
+    val course = Course(spp = 64, (_, _) => 1.0, earlier = 32)
+    course.assertNear(0.5, 0.01)
 
-  test("samples until an error are as many as its waves have"):
-    val schedule = TileSchedule(PixelBounds(0, 0, 64, 64), RenderPlan.Endless)
-    assert(Vector(0.5, 1.0, 5.2, 33.0, 64.0, 65.0, 1000.0).map(schedule.wholeWaves) ==
-      Vector(1, 1, 6, 48, 64, 96, 1024))
-    assert(schedule.wholeWaves(1e300) == Int.MaxValue)
+  test("an error ends it at the samples that it needs, at most those that are planned"):
+    def found(samples: SampleRange) = Course(4096).by(ExpectedEnd(None, true, Some(samples)))
+    val near = found(SampleRange(96, 64, 128))
+    assert(near.samples.contains(SampleRange(96, 64, 128)))
+    assert(near.left.exists(isNear(76)))
+    val far = found(SampleRange(6000, 3000, Int.MaxValue))
+    assert(far.samples.contains(SampleRange(4096, 3000, 4096)))
 
-  test("the rate is that of the latest samples"):
+  test("while nobody knows when an error is reached, the samples that are planned are no end"):
+    def unknown(time: Option[Double]) = Course(4096).by(ExpectedEnd(time, true, None))
+    assert(unknown(None).samples.isEmpty && unknown(None).left.isEmpty && unknown(None).hasGoal)
+    // A time ends it in any case
+    assert(unknown(Some(60)).left.exists(isNear(40)))
+
+  test("of a time and a number of samples, the first one ends it"):
+    def timed(spp: Int) = Course(spp).by(ExpectedEnd(Some(60), false, None))
+    assert(timed(4096).left.exists(isNear(40)) && timed(4096).samples.isEmpty)
+    assert(timed(40).left.exists(isNear(20)))
+
+  test("the rate is that of the last half of the samples"):
     val course = Course(spp = 512, (_, seconds) => if seconds < 10 then 1.0 else 0.1)
-    assert(Math.abs(course.rate(50).get - 10) < 0.5)
+    assert(Math.abs(course.at(50).rate.get / Pixels - 10) < 0.1)
 
 private object TimeLeftSuite:
-  /** Seconds after which nothing is compiled any more. */
-  val Warm = 1e6
+  private val Pixels = 64 * 64
 
-  /** A rendering.
+  private def isNear(expected: Double)(seconds: Double) = Math.abs(seconds - expected) < 0.2
+
+  /** A rendering that is looked at ten times a second.
     *
-    * @param cost seconds per sample of all pixels, by the place in the image, from 0 to 1, and the
-    *   seconds so far
+    * @param cost    seconds per sample of all pixels, by the place in the image, from 0 to 1, and
+    *   the seconds so far
+    * @param before  seconds that precede the first sample
+    * @param earlier samples per pixel of the rendering that it continues
     */
-  final class Course(spp: Int, cost: (Double, Double) => Double, largest: Int = 64):
-    private val schedule = TileSchedule(PixelBounds(0, 0, 64, 64), spp, largest)
+  final class Course(
+      spp: Int,
+      cost: (Double, Double) => Double = (_, _) => 1.0,
+      before: Double = 0,
+      earlier: Int = 0
+  ):
+    private val schedule = TileSchedule(PixelBounds(0, 0, 64, 64), spp)
     private val Steps = 200
 
-    /** Ten looks a second: samples per pixel, and seconds. */
-    private val looks: Vector[(Double, Double)] =
-      val found = Vector.newBuilder[(Double, Double)]
-      var seconds = 0.0
-      for wave <- 0 until schedule.waves do
-        val first = schedule.firstSample(wave)
-        val size = schedule.endSample(wave) - first
+    /** Samples taken, and seconds. */
+    private val looks: Vector[(Long, Double)] =
+      val found = Vector.newBuilder[(Long, Double)]
+      found += ((0L, before))
+      var seconds = before
+      for wave <- 0 until schedule.waves if schedule.firstSample(wave) >= earlier do
+        val first = schedule.firstSample(wave) - earlier
+        val size = schedule.endSample(wave) - schedule.firstSample(wave)
         for step <- 0 until Steps do
-          val before = seconds
+          val previous = seconds
           seconds += size * cost((step + 0.5) / Steps, seconds) / Steps
           // A look in between sees what was done before
-          if Math.floor(seconds * 10) > Math.floor(before * 10) then
-            found += ((first + size * (step + 1.0) / Steps, seconds))
+          if Math.floor(seconds * 10) > Math.floor(previous * 10) then
+            found += (((first + size * (step + 1.0) / Steps) * Pixels).toLong -> seconds)
       found.result()
     val total: Double = looks.last._2
 
-    private def after(seconds: Double): TimeLeft =
-      val left = TimeLeft()
-      for (samples, at) <- looks if at <= seconds + 1e-6 do
-        val wave = schedule.waveOf(Math.min(samples, spp - 1e-6).toInt)
-        left.add(samples, TimeLeft.Sweep(schedule.firstSample(wave), schedule.endSample(wave)), at)
-      left
+    /** What is told after so many seconds. */
+    def at(seconds: Double, goal: Option[ExpectedEnd] = None): Outlook =
+      val ends = goal
+      val listener = new RenderListener:
+        override def goal: Option[ExpectedEnd] = ends
+      val timeLeft = TimeLeft(schedule, Pixels, earlier, listener)
+      looks.takeWhile(_._2 <= seconds + 1e-6)
+        .map((done, s) => timeLeft.outlook(done, spp, s, s)).last
 
-    /** Seconds left, as expected at some time. */
-    def foretold(seconds: Double): Option[Double] = range(seconds, Some(Warm)).map(_.expected)
+    def left(seconds: Double): Option[Double] = at(seconds).left
 
-    /** With its interval.
-      *
-      * @param warm seconds that the JVM had to compile, if it is not done
-      */
-    def range(seconds: Double, warm: Option[Double]): Option[TimeRange] =
-      after(seconds).until(SampleRange(spp, spp, spp), seconds, warm)
-
-    def until(samples: SampleRange, seconds: Double): TimeRange =
-      after(seconds).until(samples, seconds, Some(Warm)).get
-
-    def rate(seconds: Double): Option[Double] = after(seconds).rate
+    /** What is told of a goal after twenty seconds. */
+    def by(goal: ExpectedEnd): Outlook = at(20, Some(goal))
 
     /** What is expected at a part of the time is right up to a part of the whole time. */
     def assertNear(part: Double, tolerance: Double): Unit =
-      val at = part * total
-      val all = at + foretold(at).getOrElse(throw AssertionError(s"nothing is known at $at s"))
+      val seconds = part * total
+      val all = seconds + left(seconds).getOrElse(fail(seconds))
       assert(Math.abs(all / total - 1) <= tolerance, s"at $part of $total s: $all s")
+
+    private def fail(seconds: Double) = throw AssertionError(s"nothing is known at $seconds s")

@@ -82,7 +82,7 @@ object RayKernels:
     file(folder.resolve("mesh.bin")): out =>
       ints(out, Array(soup.positions.length / 3, soup.count))
       floats(out, soup.positions)
-      ints(out, soup.indices)
+      ints(out, soup.indices.slice(0, soup.indices.length))
     for set <- sets do
       file(folder.resolve(s"${set.name}.bin")): out =>
         ints(out, Array(set.count, if set.anyHit then 1 else 0))

@@ -13,9 +13,8 @@ import org.openjdk.jmh.annotations.*
   * that a memory of 256 MB holds. `place`: `near`, where successive lookups are a few texels apart
   * as those of neighbouring pixels, or `far`, anywhere.
   *
-  * `JAVA_TOOL_OPTIONS=--add-modules=jdk.incubator.vector ./sbt "bench/Jmh/run TextureBenchmark"`,
-  * as JMH looks at all classes of this folder, also at SIMD kernels. Samples of 4096 lookups each:
-  * their median is that of an idle machine, if other programs take less than half of it.
+  * Samples of 4096 lookups each: their median is that of an idle machine, if other programs take
+  * less than half of it.
   */
 @State(Scope.Benchmark)
 @BenchmarkMode(Array(Mode.SampleTime))

@@ -1,7 +1,5 @@
 package candela.accel.tracing
 
-import candela.base.JavaCompilers
-
 /** The JDK's incubating Vector API, loaded when it is first needed. To ask for it on the command
   * line (`--add-modules`) costs every start time, and the JVM then prints a warning.
   *
@@ -12,9 +10,15 @@ import candela.base.JavaCompilers
 private[tracing] object VectorModule:
   private val Name = "jdk.incubator.vector"
 
-  /** False, too, where its operations would be calls, not instructions. */
-  lazy val isLoaded: Boolean =
-    JavaCompilers.hasC2 && (ModuleLayer.boot.findModule(Name).isPresent || load())
+  /** False, too, where its operations would be calls, not instructions: a hundred times slower. */
+  lazy val isLoaded: Boolean = hasC2 && (ModuleLayer.boot.findModule(Name).isPresent || load())
+
+  /** Whether hot code is compiled by C2, as usual, or by a compiler as good. Not with
+    * `-XX:TieredStopAtLevel=1`, and not with `-Xint`.
+    */
+  private def hasC2: Boolean =
+    val mode = System.getProperty("java.vm.info", "")
+    !Vector("emulated-client", "interpreted mode").exists(mode.contains)
 
   private def load(): Boolean =
     try

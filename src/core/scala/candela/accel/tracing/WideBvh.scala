@@ -14,7 +14,7 @@ import candela.math.magnitudeBits
   * @param warmUps those of the job, otherwise
   */
 final class WideBvh private[tracing] (
-    private[tracing] val tree: WideTree,
+    tree: WideTree,
     fast: WideKernel,
     atOnce: Boolean,
     warmUps: WarmUps = WarmUps()

@@ -4,7 +4,7 @@ import candela.base.{Code, InputFile, Keep, Problem, SceneError}
 import candela.build.RenderRegion
 import candela.cli.files.{FileRegister, FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.Options
-import candela.cli.rendering.{Compilers, CostRows, ImageWriter, RenderOutputs, SceneRun, Summary}
+import candela.cli.rendering.{CostRows, ImageWriter, RenderOutputs, SceneRun, Summary}
 import candela.cli.terminal.{ExitCode, Printer, Report, Terminal, Thumbnail}
 import candela.image.Oidn
 import candela.job.{Denoising, FilmKeeper, Prepared, SceneLoader}
@@ -41,9 +41,6 @@ final class RenderCommand(
     if files.nonEmpty || sequence.frames.size > 1 then Keep(files) else Keep.Nothing
   private lazy val denoising = Option.when(options.settings.output.denoise):
     Denoising(Oidn.load(terminal.environment), options.threadCount)
-
-  /** The JVM renders one scene, once. */
-  private val isOnly = terminal.endsJava && sequence.frames.size == 1 && !options.isWatched
 
   def run(): ExitCode =
     val code = report.guarded:
@@ -85,11 +82,7 @@ final class RenderCommand(
     files.check(scene, outfiles)
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
-    val prepared = loader.load(
-      scene,
-      options.preparation
-        .copy(world = world, keep = keep, expects = if isOnly then Compilers.expect else _ => ())
-    )
+    val prepared = loader.load(scene, options.preparation.copy(world = world, keep = keep))
     // A first look ignores most of what warnings are about.
     val isBrief = options.settings.preview && !options.verbose
     val told = if isBrief then prepared.warnings.filter(_.standIn.nonEmpty) else prepared.warnings

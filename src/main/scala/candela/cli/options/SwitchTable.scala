@@ -55,8 +55,7 @@ private[cli] object SwitchTable extends OptionRows:
           "guide or walks complete, where these reduce the noise (auto); also for those of lamps " +
           "without extent (on); by photon maps, which blur them and thick fog a little " +
           "(photons); or not (off, default with a number of samples)",
-        "`auto` is the default with `--error`, and with `--time` from 20 s on. " +
-          "[What it brings](CAUSTICS.md)."
+        "`auto` is the default with `--time` and `--error`. [What it brings](CAUSTICS.md)."
       ))
       .action(set((mode, s) => s.copy(caustics = Some(mode)))),
     flag("force-diffuse", "make all materials diffuse")(_.copy(diffuse = true)),

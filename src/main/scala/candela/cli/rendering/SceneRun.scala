@@ -6,7 +6,7 @@ import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
 import candela.job.{
-  Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, ReachedError, RenderControl, Sooner
+  Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, ReachedError, RenderControl
 }
 import candela.render.{Cancellation, Rendering, RenderListener}
 import candela.render.storage.Checkpoints
@@ -141,10 +141,6 @@ private[cli] final class SceneRun(
       val shown = Denoising.shown(image)
       terminal.out.control(Thumbnail.of(shown, options.display, kind, terminal))
     terminal.out.flush()
-    if told && options.film.shard.isWhole then
-      for found <- Sooner.of(prepared, rendering, threads, cancellation) do
-        terminal.out.println(Summary.sooner(found))
-        terminal.out.flush()
     (files ++ pages, failures)
 
   /** Whether a rendering that did not end by itself ended by its time, and not by its user. */

@@ -3,7 +3,7 @@ package candela.cli.rendering
 import candela.base.Code
 import candela.cli.options.Options
 import candela.cli.terminal.{Figures, ProblemText, Terminal}
-import candela.job.{Prepared, Sooner}
+import candela.job.Prepared
 import candela.measure.Interval
 import candela.render.{Refused, Rendering}
 import candela.render.storage.FilmFile
@@ -68,12 +68,6 @@ object Summary:
 
   /** An error that is known to this part of it needs no interval. */
   private val Known = 0.15
-
-  /** `sooner: --guiding auto would have reached this error in less time` */
-  def sooner(found: Sooner): String =
-    val options = Vector("--guiding auto" -> found.guiding, "--caustics auto" -> found.caustics)
-    val words = options.collect { case (option, true) => option }.mkString(" ")
-    s"sooner: $words would have reached this error in less time, by a trial of few samples"
 
   private def ended(isLate: Boolean) = if isLate then "out of time" else "interrupted"
 

@@ -63,7 +63,7 @@ object ProgressLine:
   private val LongestLeft = 359_999.0
 
   /** `render  42%  12.0 s, 1.31 M samples/s, 0:17 left`; or, of an error that is to be reached,
-    * `… 0:14 to 0:24 left, until 96 to 141 spp`.
+    * `… 0:17 left, until 96 to 141 spp`.
     */
   def line(progress: Progress): String =
     val seconds = Figures.duration(progress.seconds)
@@ -101,10 +101,6 @@ object ProgressLine:
     else if s.low == s.high then s", until ${s.expected} spp"
     else s", until ${s.low} to ${s.high} spp"
 
-  /** The time left, or its interval where it is not known well. */
-  private def left(p: Progress): String =
-    def clock(seconds: Double) = Figures.clock(Math.min(seconds, LongestLeft))
-    (p.outlook.left, p.outlook.between) match
-      case (Some(left), _) => s", ${clock(left)} left"
-      case (None, Some(r)) => s", ${clock(r.low)} to ${clock(r.high)} left"
-      case (None, None) => if p.outlook.hasGoal then ", time left unknown" else ""
+  private def left(p: Progress): String = p.outlook.left match
+    case Some(seconds) => s", ${Figures.clock(Math.min(seconds, LongestLeft))} left"
+    case None => if p.outlook.hasGoal then ", time left unknown" else ""

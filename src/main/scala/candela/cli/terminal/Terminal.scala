@@ -18,7 +18,6 @@ import scala.util.Try
   * @param environment variables of the process
   * @param lost why output was lost, if it is known
   * @param isSeen whether results are shown by a terminal, instead of going to a file or program
-  * @param endsJava whether the JVM ends with this run
   */
 final class Terminal(
     stdout: PrintStream,
@@ -28,8 +27,7 @@ final class Terminal(
     val columns: Int = Terminal.UsualColumns,
     val environment: Map[String, String] = Map.empty,
     lost: () => Option[IOException] = () => None,
-    isSeen: Boolean = false,
-    val endsJava: Boolean = false
+    isSeen: Boolean = false
 ):
   val out: Printer = Printer(stdout)
   val err: Printer = Printer(stderr)
@@ -51,8 +49,7 @@ final class Terminal(
       other,
       columns,
       environment,
-      lost,
-      endsJava = endsJava
+      lost
     )
 
   /** Whether `err` shows colours. Source: "NO_COLOR", no-color.org. */
@@ -79,8 +76,7 @@ object Terminal:
       columns,
       sys.env,
       () => out.failure,
-      isAttached || isDevice(1, "/dev/pts/") || isDevice(1, "/dev/tty"),
-      endsJava = true
+      isAttached || isDevice(1, "/dev/pts/") || isDevice(1, "/dev/tty")
     )
 
   /** Standard output that remembers why it can't be written: a PrintStream tells only that. */

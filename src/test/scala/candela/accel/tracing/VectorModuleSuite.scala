@@ -1,6 +1,5 @@
 package candela.accel.tracing
 
-import candela.base.JavaCompilers
 import candela.testing.OtherJava
 
 import java.lang.module.ModuleFinder
@@ -14,7 +13,7 @@ class VectorModuleSuite extends AnyFunSuite:
 
   /** What another JVM says that asks for vectors. */
   private def said(options: String*): String =
-    OtherJava.output(PrintsVectors, VectorModule.getClass, JavaCompilers.getClass)(options*)()
+    OtherJava.output(PrintsVectors, VectorModule.getClass)(options*)()
 
   test("vectors are there if the JDK has them, and no JVM warns of them"):
     assert(VectorModule.isLoaded == isInThisJdk)

@@ -6,7 +6,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 class LearningSuite extends AnyFunSuite:
   private val outcome =
-    GuideOutcome(64, 120, 300, 1400, 1000L, 375L, Some(0.4156), 4f, gaveUp = false, pays = true)
+    GuideOutcome(64, 120, 300, 1400, 1000L, 375L, Some(0.4156), weight = 4f, gaveUp = false)
 
   test("what was learnt is said in one line"):
     assert(

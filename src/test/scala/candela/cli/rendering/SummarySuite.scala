@@ -2,7 +2,6 @@ package candela.cli.rendering
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.job.Sooner
 import candela.measure.Interval
 
 class SummarySuite extends AnyFunSuite:
@@ -24,9 +23,3 @@ class SummarySuite extends AnyFunSuite:
     val words = "or more, as few pixels have nearly all of it)"
     assert(Summary.noise(0.1, isOfFew = true, open) == s"error 10 % (7.07 % $words")
     assert(Summary.noise(0.1, isOfFew = true) == s"error 10 % ($words")
-
-  test("what would have been sooner is told by its options"):
-    val both = Summary.sooner(Sooner(guiding = true, caustics = true))
-    assert(both.startsWith("sooner: --guiding auto --caustics auto would have reached this error"))
-    val one = Summary.sooner(Sooner(guiding = false, caustics = true))
-    assert(one.startsWith("sooner: --caustics auto would have"))
