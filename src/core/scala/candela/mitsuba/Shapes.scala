@@ -264,7 +264,7 @@ object Shapes:
     *
     * Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
     */
-  private def frame(x: Double, y: Double, z: Double): Transform =
+  def frame(x: Double, y: Double, z: Double): Transform =
     val sign = if z < 0 then -1.0 else 1.0
     val a = -1 / (sign + z)
     val b = x * y * a

@@ -218,6 +218,18 @@ private[mitsuba] object Transforms:
           Vector(x * z * k - y * s, y * z * k + x * s, z * z * k + c, 0) ++ Vector(0, 0, 0, 1)
       )
 
+  /** What Mitsuba takes for up where a `lookat` has none: the first vector of the frame about the
+    * direction.
+    */
+  private def across(origin: Vector[Double], target: Vector[Double]): Vector[Double] =
+    val direction = target.lazyZip(origin).map(_ - _)
+    val length = Math.sqrt(direction.map(x => x * x).sum)
+    if length == 0.0 then direction
+    else
+      val Vector(x, y, z) = direction.map(_ / length): @unchecked
+      val m = Shapes.frame(x, y, z).m
+      Vector(m(0), m(4), m(8))
+
   private def step(e: Element): Transform =
     def or(name: String, default: Double) = e(name).fold(default)(number(_, e.at))
     def list(name: String) =
@@ -253,8 +265,10 @@ private[mitsuba] object Transforms:
         regular(rotation(degrees, v), "axis of length 0, or far from 1")
       case "lookat" =>
         val why = "origin equals target, or up is parallel to the view direction"
-        val up = if e("up").isDefined then list("up") else Vector(0.0, 0.0, 1.0)
-        regular(Transform.lookAt(list("origin"), list("target"), up), why).inverse
+        val (origin, target) = (list("origin"), list("target"))
+        val stated = if e("up").isDefined then list("up") else Vector(0.0, 0.0, 0.0)
+        val up = if stated.forall(_ == 0.0) then across(origin, target) else stated
+        regular(Transform.lookAt(origin, target, up), why).inverse
       case "matrix" =>
         val m = numbers(e("value").getOrElse(""), e.at)
         val rows = m.size match

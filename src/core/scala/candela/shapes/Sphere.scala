@@ -109,10 +109,13 @@ final class Sphere private[shapes] (
 
   def normals: (Vec3, Float) = (Vec3.Z, -1f)
 
+  /** By quadrature of thousands of points: once, since each sample of a caustic asks for it. */
+  private lazy val stretchedArea: Float =
+    RevolutionSampling(map, Profile.sphere(radius, zMin, zMax), phiMax).area.toFloat
+
   def area: Float = uniformScale match
     case Some(scale) => phiMax * radius * (zMax - zMin) * square(scale)
-    case None =>
-      RevolutionSampling(map, Profile.sphere(radius, zMin, zMax), phiMax).area.toFloat
+    case None => stretchedArea
 
   override def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     if conical && (from - center).lengthSquared > square(worldRadius) * 1.0001f then

@@ -4,7 +4,6 @@ import candela.color.Rgb
 import candela.math.*
 import candela.testing.{ChiSquare, RandomLaws, TrialPlan}
 import java.util.SplittableRandom
-import org.scalatest.tagobjects.Slow
 
 /** What every [[Bsdf]] must obey; a suite calls `obeysLaws` for some parameters of its own.
   *
@@ -49,9 +48,6 @@ abstract class BsdfLaws extends RandomLaws:
     if !bsdf.isSpecular && !isNarrow && !isWalked then
       law(s"$name: sampled directions are spread like the pdf"):
         spreadsLikePdf(bsdf, _)
-      // The laws above imply it, but for what their tolerances add up to
-      test(s"$name: the mean weight of samples is the integral of f·cos", Slow):
-        weighsLikeIntegral(bsdf)
 
   private def obeysOnAverage(name: String, bsdf: Bsdf): Unit =
     law(s"$name: a sample's pdf is that of its direction, and all of them are at most 1"):
@@ -144,19 +140,6 @@ abstract class BsdfLaws extends RandomLaws:
       val result = ChiSquare.counts(seen, expected)
       val nowhere = s"nowhere: ${seen.last}, expected ${expected.last}"
       assert(result.accepted(tests = 200), s"$result at wo=$wo; $nowhere")
-
-  private def weighsLikeIntegral(bsdf: Bsdf): Unit =
-    val random = SplittableRandom(6)
-    for wo <- Directions.few do
-      val integral =
-        Directions.integrals(1, 1, fine = 400)(wi => bsdf.f(wo, wi).g * Math.abs(wi.z)).sum
-      val mean = Statistics()
-      for _ <- 0 until 20000 do
-        val s = draw(bsdf, wo, random)
-        mean.add(if s.isSpecular then 0f else s.weight.g)
-      // A thousandth for the grid.
-      val allowed = 4.5 * mean.error + 1e-3 * integral
-      assert(Math.abs(mean.mean - integral) <= allowed, s"$mean, not $integral, at wo=$wo")
 
   private def guides(bsdf: Bsdf, plan: TrialPlan): Unit =
     val random = SplittableRandom(plan.seed(2))

@@ -28,6 +28,18 @@ final class MediaBuilderSuite extends AnyFunSuite:
     assert(media(plan) == "1 (homogeneous)")
     assert(media(SceneTexts.plan(scene("volpath", ""), Dialect.V4)) == "none")
 
+  test("what is subtracted from temperatures has two names"):
+    def glow(more: String) =
+      val gas = s"""MakeNamedMedium "fog" "string type" "uniformgrid" "integer nx" 1
+        "integer ny" 1 "integer nz" 1 "point3 p0" [-1 -1 -1] "point3 p1" [1 1 1]
+        "float density" [.1] "float temperature" [3000] "float Lescale" 1 $more
+        MediumInterface "fog" "" Material "interface""""
+      val film = "Film \"rgb\" \"integer xresolution\" 2 \"integer yresolution\" 2\n"
+      SceneTexts.mean(film + scene("volpath", gas), Dialect.V4)
+    val offset = glow("\"float temperatureoffset\" 1000")
+    assert(glow("\"float temperaturecutoff\" 1000") == offset)
+    assert(glow("") != offset)
+
   test("media that nothing has around it, or that are empty space, cost nothing"):
     val unused = """MakeNamedMedium "fog" "string type" "homogeneous""""
     assert(media(SceneTexts.plan(scene("volpath", unused), Dialect.V4)) == "none")

@@ -34,6 +34,19 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(integrator(plan).isInstanceOf[DirectLighting])
     assert(plan.basis.isSrgb)
 
+  test("the seed of the scene and that of the settings both change the noise"):
+    val scene = """Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+      Sampler "independent" "integer pixelsamples" 1 Integrator "path" WorldBegin
+      LightSource "infinite" Shape "sphere" "float radius" .4"""
+    def noise(inScene: Int, inSettings: Int): Seq[Float] =
+      val text = s"Option \"integer seed\" $inScene Camera \"perspective\" $scene"
+        .replace("WorldBegin", "WorldBegin Translate 0 0 2")
+      val plan = SceneTexts.plan(text, Dialect.V4, RenderSettings(seed = inSettings))
+      Renderer.render(plan, threads = 1).image(plan.development).data.toSeq
+    assert(noise(1, 0) == noise(1, 0))
+    assert(noise(1, 0) != noise(2, 0))
+    assert(noise(1, 0) != noise(1, 3))
+
   test("where the scene says nothing, pbrt-v3's defaults hold"):
     val plan = SceneTexts.plan(nothing, Dialect.V3)
     assert((plan.width, plan.height) == (1280, 720))

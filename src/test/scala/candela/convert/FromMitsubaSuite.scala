@@ -167,6 +167,10 @@ class FromMitsubaSuite extends AnyFunSuite:
       "pbrt has no `vskew` of \"checkerboard\""
     ))
     assert(done.scene.textures.forall(_.texture.param("uskew").isEmpty))
+    val group = s"<shape type=\"shapegroup\" id=\"g\">$disk</shape>" +
+      "<shape type=\"instance\"><ref id=\"g\"/></shape>"
+    val grouped = FromMitsuba.converted(read("", group)).warnings
+    assert(grouped.exists(_.message.startsWith("textures lie otherwise on pbrt's disks")))
     assert(FromMitsuba.converted(read("", "<shape type=\"disk\"/>")).warnings.isEmpty)
     def glass(depth: Int) = FromMitsuba.converted(read(
       "<bsdf type=\"thindielectric\"/>",

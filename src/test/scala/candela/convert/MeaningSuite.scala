@@ -71,6 +71,12 @@ class MeaningSuite extends AnyFunSuite:
       )
     do assertSameLight(s"LightSource \"infinite\" $light", Dialect.V4, Dialect.V3)
 
+  test("the power of an area light is that of one side, or of two"):
+    for isTwoSided <- Seq(false, true) do
+      val light = s"AreaLightSource \"diffuse\" \"float power\" 5 \"bool twosided\" $isTwoSided\n" +
+        "Translate 0 0 3 Shape \"sphere\""
+      assertSameLight(light, Dialect.V4, Dialect.V3)
+
   test("colours of other spaces become sRGB's, the white of a light too"):
     for light <- Vector(
         "ColorSpace \"rec2020\" LightSource \"infinite\" \"rgb L\" [1 .8 .9]",

@@ -199,6 +199,8 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val data = Array.tabulate(6 * 35)(i => (i - 70) * 1.000123f)
     data(4) = 1e6f
     data(5) = Float.PositiveInfinity
+    data(6) = -1e6f
+    data(7) = Float.NegativeInfinity
     val image = Image(7, 5, names, data)
     val whole = Exr.read(Exr.write(image, Vector.empty))
     assert(whole.channelNames == names && whole.data.sameElements(data))
@@ -207,8 +209,9 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val half = Exr.read(file)
     assert(half.channelNames == names)
     assert(half.data(4) == 65504f && half.data(5) == Float.PositiveInfinity)
+    assert(half.data(6) == -65504f && half.data(7) == Float.NegativeInfinity)
     // Eleven bits, rounded
-    for i <- 6 until data.length do
+    for i <- 8 until data.length do
       assert(Math.abs(half.data(i) - data(i)) <= Math.abs(data(i)) / 2048 + 1e-7f): Unit
 
   test("a crop is stored with its place in the whole image, and is read by itself"):
@@ -244,6 +247,14 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     assert(ExrTiling(16, 8, 1, roundsUp = false).tiles(37, 21) == 9 + 4 + 1 + 1 + 1 + 1)
     // Rounding up: 19×11, 10×6, 5×3, 3×2, 2×1, 1×1.
     assert(ExrTiling(16, 8, 1, roundsUp = true).tiles(37, 21) == 9 + 4 + 1 + 1 + 1 + 1 + 1)
+    assert(
+      ExrTiling(16, 8, 1, roundsUp = true).sizes(37, 21) ==
+        Vector((37, 21), (19, 11), (10, 6), (5, 3), (3, 2), (2, 1), (1, 1))
+    )
+    assert(
+      ExrTiling(16, 8, 1, roundsUp = false).sizes(37, 21) ==
+        Vector((37, 21), (18, 10), (9, 5), (4, 2), (2, 1), (1, 1))
+    )
     // Across 3+2+1+1+1+1, down 3+2+1+1+1.
     assert(ExrTiling(16, 8, 2, roundsUp = false).tiles(37, 21) == 9 * 8)
 

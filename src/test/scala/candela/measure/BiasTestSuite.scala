@@ -88,6 +88,14 @@ class BiasTestSuite extends AnyFunSuite:
     assert(alarms(20)(BiasTest.of(known(1), images(8, even))) <= 4)
     assert(BiasTest.of(known(1.02), images(16, even)).p < 0.05)
 
+  test("pixels that are alike have so much more variance in the mean of an image"):
+    def flat(value: Float) = Image(side, side, Image.RgbNames, Array.fill(side * side * 3)(value))
+    def error(correlation: Double) =
+      def of(value: Float) = Renderings.known(flat(value), flat(0.01f), 1e6, correlation)
+      BiasTest.of(of(1f), of(1.01f)).whole.head.error
+    // Two standard errors of the means, but for the allowance of what half floats round
+    assert(Math.abs(error(4) / error(1) - 2) < 0.02)
+
   test("values that only half floats or other sums have rounded are equal"):
     def made(value: Float) = Vector.fill(2)(value).zipWithIndex.map: (v, i) =>
       val image = Image.rgb(16, 16)

@@ -182,6 +182,8 @@ class ErrorEstimateSuite extends AnyFunSuite:
       assert(found.estimate == estimate.at(16).get.relativeMse)
       // By the trend deviations of 0.12 and 0.36, and by 576 / 3 pixels one of 0.083
       assert(found.isBounded && found.high / found.low < Math.exp(1.96 * (0.16 + 0.38)))
+      // Errors fall more often short of the estimate than they exceed it
+      assert(found.estimate / found.low > found.high / found.estimate)
       if found.low <= truth && truth <= found.high then hits += 1
     assert(hits >= 37)
 

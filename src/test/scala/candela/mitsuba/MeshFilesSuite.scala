@@ -60,6 +60,41 @@ class MeshFilesSuite extends AnyFunSuite:
       at
     ))).contains("more than it can hold"))
 
+  /** A `.serialized` file of one triangle, with the arrays that the flags name. */
+  private def serialized(flags: Int, arrays: Vector[Float]*): Array[Byte] =
+    val plain =
+      java.nio.ByteBuffer.allocate(4 + 1 + 16 + arrays.map(4 * _.size).sum + 12)
+        .order(java.nio.ByteOrder.LITTLE_ENDIAN)
+    plain.putInt(0x1000 | flags).put(0.toByte).putLong(3L).putLong(1L): Unit
+    arrays.flatten.foreach(plain.putFloat)
+    for i <- Vector(2, 0, 1) do plain.putInt(i)
+    val body = java.io.ByteArrayOutputStream()
+    val zip = java.util.zip.DeflaterOutputStream(body)
+    zip.write(plain.array)
+    zip.close()
+    val file =
+      java.nio.ByteBuffer.allocate(body.size + 16).order(java.nio.ByteOrder.LITTLE_ENDIAN)
+    file.putShort(0x041c).putShort(4).put(body.toByteArray).putLong(0L).putInt(1).array
+
+  test("arrays of a serialized mesh follow each other as its flags say, colours too"):
+    val p = Vector(0f, 0f, 0f, 1f, 0f, 0f, 0f, 1f, 0f)
+    val n = Vector.fill(3)(Vector(0f, 0f, 1f)).flatten
+    val uv = Vector(0f, 0f, 1f, 0f, 0f, 1f)
+    val colours = Vector.fill(9)(0.25f)
+    for (flags, arrays) <- Vector(
+        (0, Vector(p)),
+        (1, Vector(p, n)),
+        (2, Vector(p, uv)),
+        (8, Vector(p, colours)),
+        (1 | 2 | 8, Vector(p, n, uv, colours))
+      )
+    do
+      val mesh = written(serialized(flags, arrays*))(SerializedFile.read(_, 0, at))
+      assert(mesh.positions.toVector == p, flags)
+      assert(mesh.normals.toVector == (if (flags & 1) != 0 then n else Vector.empty), flags)
+      assert(mesh.uvs.toVector == (if (flags & 2) != 0 then uv else Vector.empty), flags)
+      assert(mesh.indices.toVector == Vector(2, 0, 1), flags)
+
   test("vertex normals are the triangles', weighted by angle"):
     // A cube's corner: three right angles, whatever the number of triangles
     val cube = Mesh(

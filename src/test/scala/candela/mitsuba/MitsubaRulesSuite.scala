@@ -41,6 +41,22 @@ class MitsubaRulesSuite extends AnyFunSuite:
   private def isNear(found: Vector[Double], right: Double*)(error: Double): Unit =
     for (a, b) <- found.zip(right) do assert(Math.abs(a - b) <= error, s"$found, not $right")
 
+  test("the sun of a sky subtends its aperture"):
+    val sun = "<emitter type=\"sunsky\"><vector name=\"sun_direction\" x=\"0\" y=\"0\" z=\"1\"/>" +
+      "<float name=\"sun_aperture\" value=\"20\"/><float name=\"sky_scale\" value=\"0\"/></emitter>"
+    val up = sensor().replace("target=\"0,0,0\" up=\"0,1,0\"", "target=\"0,0,9\" up=\"0,1,0\"")
+    inFile(up + sun): scene =>
+      val plan = SceneBuilder.build(scene, RenderSettings())._1
+      val image = Renderer.render(plan, threads = 1).image(plan.development)
+      val n = image.channels
+      val lit = image.data.indices.by(n).map(i => image.data(i).toDouble)
+      // Of 40 degrees across 16 pixels and a disk of 20: π (tan 10°)² of the film's tangents
+      val share = Math.PI * Math.pow(Math.tan(Math.toRadians(10)), 2) /
+        (4 * 0.75 * Math.pow(Math.tan(Math.toRadians(20)), 2))
+      // The limb is darker than the centre, and a pixel is a 16th of the film
+      val found = lit.sum / lit.max / lit.size
+      assert(found < share * 1.1 && found > share * 0.6, s"$found of $share")
+
   test("a principal point moves the image to the left and down"):
     val at = "<float name=\"principal_point_offset_x\" value=\".2\"/>" +
       "<float name=\"principal_point_offset_y\" value=\"-.1\"/>"

@@ -226,6 +226,25 @@ class MitsubaSceneSuite extends AnyFunSuite:
     val mirrored = texture(image + "<string name=\"wrap_mode\" value=\"mirror\"/>")
     assert(mirrored.param("wrap").get.strings.toVector == Vector("mirror"))
 
+  test("a lookat without up, or of length 0, has the up that Mitsuba takes"):
+    def camera(lookat: String) =
+      val sensor = s"<transform name=\"to_world\"><lookat $lookat/></transform>"
+      read(s"<sensor type=\"perspective\">$sensor</sensor>").worldToCamera.start.m
+    // The y axis of to_world in Mitsuba 3.9.1
+    for (from, to, up) <- Vector(
+        ("0,0,5", "0,0,0", "1,0,0"),
+        ("0,0,-5", "0,0,0", "1,0,0"),
+        ("4,0,0", "0,0,0", "0,0,1"),
+        ("0,3,0", "0,0,0", "1,0,0"),
+        ("1,2,3", "0,.5,-1", ".97283,-.04076,-.22792"),
+        ("1,2,3", "-2,.5,7", ".81301,-.0935,.57470")
+      )
+    do
+      val expected = camera(s"origin=\"$from\" target=\"$to\" up=\"$up\"")
+      for without <- Vector("", " up=\"0,0,0\"") do
+        val found = camera(s"origin=\"$from\" target=\"$to\"$without")
+        for i <- 0 until 16 do assert(Math.abs(found(i) - expected(i)) < 1e-4, s"$from $to $i")
+
   test("cameras clip, and lenses focus at the far plane unless told otherwise"):
     def camera(more: String) = read(s"<sensor type=\"thinlens\">$more</sensor>").camera.get
     def number(more: String, name: String) = camera(more).param(name).map(_.floats.head)

@@ -33,6 +33,12 @@ final class SkiesSuite extends AnyFunSuite:
     // Default: Tokyo on 10 July 2010 at 3 p.m.
     assert(near(sun(""), Expected))
 
+  test("minutes and seconds are parts of the hour"):
+    val half = sun(number("hour", 10.5))
+    assert(near(sun(number("hour", 10) + number("minute", 30)), half))
+    assert(near(sun(number("hour", 10) + number("minute", 29) + number("second", 60)), half))
+    assert(!near(sun(number("hour", 10)), half))
+
   test("a direction is the world's, and excludes a time"):
     val turned = """<transform name="to_world"><rotate x="1" angle="-90"/></transform>"""
     val up = """<vector name="sun_direction" x="0" y="3" z="0"/>"""

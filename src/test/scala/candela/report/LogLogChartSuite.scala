@@ -28,6 +28,17 @@ class LogLogChartSuite extends AnyFunSuite:
     assert(elements(svg.getElementsByTagName("style")).head.getTextContent.contains("color-scheme"))
     assert(elements(svg.getElementsByTagName("title")).exists(_.getTextContent == "at <1.0>"))
 
+  test("a mark whose interval reaches 0 has no bar, and nothing is drawn at infinity"):
+    def bars(low: Double): Int =
+      val odd = Vector(Mark(1, 1, low, 2, "a"), Mark(10, 0.1, 0.05, 0.2, "b"))
+      val text =
+        LogLogChart("A", "x", "y", Vector(Series("s", 0, isThin = false, odd)), None).standalone
+      assert(!text.contains("NaN") && !text.contains("Infinity"), text)
+      elements(parsed(text).getElementsByTagName("line")).count(_.getAttribute("class") == "bar")
+    assert(bars(0.5) == 2)
+    assert(bars(0) == 1)
+    assert(bars(-1) == 1)
+
   test("equal ratios are equal distances"):
     val line = elements(parsed(chart.svg.render).getElementsByTagName("polyline")).head
     val places = line.getAttribute("points").split(' ').map(_.split(',').map(_.toDouble))

@@ -90,3 +90,6 @@ class RowsSuite extends AnyFunSuite:
       Vector("sphere", "constant", "area", "mesh-0.obj", "lookat origin=\"0.0, 1.0, -4.0\"")
     for part <- parts do
       assert(xml.contains(part), xml)
+    // Mitsuba counts the edges of a path, Candela its scattering events
+    val depth = s"<integer name=\"max_depth\" value=\"${scene.depth + 1}\"/>"
+    assert(xml.contains(depth), xml)

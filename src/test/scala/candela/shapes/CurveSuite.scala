@@ -51,6 +51,25 @@ class CurveSuite extends AnyFunSuite:
   private def aim(from: Vec3, to: Vec3): Unit =
     ray.set(from, (to - from).normalized, Float.PositiveInfinity)
 
+  test("the box of a segment holds what rays meet of it, thin at either end"):
+    val draws = Draws(2)
+    var hits = 0
+    for (w0, w1) <- Seq((0.02f, 0.6f), (0.6f, 0.02f)); _ <- 0 until 300 do
+      val c = bent(draws)
+      val s = segments(c, w0, w1, depth = draws.below(3))
+      val u = draws.unit()
+      val target = point(c, u) + draws.direction() * (0.5f * lerp(u, w0, w1))
+      aim(target + draws.direction() * 4f, target)
+      val segment = first(s)
+      if segment >= 0 then
+        hits += 1
+        val box = s.bounds(segment)
+        val p = ray.origin + ray.direction * ray.tMax
+        // The ray ends in Float, from 4 away
+        val isIn = (0 until 3).forall(k => p(k) >= box.min(k) - 1e-5f && p(k) <= box.max(k) + 1e-5f)
+        assert(isIn, s"$p in $box"): Unit
+    assert(hits > 200, hits)
+
   test("a ray meets a curve where it passes it within half of its width, and nowhere else"):
     val draws = Draws(1)
     var (hits, misses) = (0, 0)

@@ -163,6 +163,14 @@ class SuiteRunnerSuite extends AnyFunSuite:
       for words <- Seq("variance between the seeds", "renderings of one and two") do
         assert(page.contains(words))
 
+  test("repeated images of a program without seeds count once"):
+    inFolder: folder =>
+      val copy = program("copy", "cp {scene} {out}")
+      val still = program("still", "cp {scene} {out}").copy(isSeeded = false)
+      val (report, _) = run(folder, copy, still)
+      val runs = report.scenes.head.programs.map(_.curve.points.map(_.runs.size))
+      assert(runs == Vector(Vector(2, 2), Vector(1, 1)))
+
   test("a scene whose images have no finite pixel is left out"):
     inFolder: folder =>
       val dark = flat(folder.resolve("nothing.exr"), Float.NaN)

@@ -103,6 +103,26 @@ class PlyFileSuite extends AnyFunSuite:
     val little = s"ply\nformat binary_little_endian 1.0\n$rich"
     checkRich(mesh(binary(little, ByteOrder.LITTLE_ENDIAN)(writeRich)))
 
+  test("numbers of every type have all their values, with the sign of the type"):
+    val types = Vector("char", "uchar", "short", "ushort", "int", "uint", "float", "double")
+    val values = Vector(-128.0, 255.0, -32768.0, 65535.0, -2147483648.0, 4294967040.0, 0.25, 0.1)
+    for (name, value) <- types.zip(values); order <- Vector("big", "little") do
+      val head = s"ply\nformat binary_${order}_endian 1.0\nelement vertex 3\nproperty $name x\n" +
+        "property float y\nproperty float z\nelement face 1\nproperty list uchar int i\n" +
+        "end_header\n"
+      val to = if order == "big" then ByteOrder.BIG_ENDIAN else ByteOrder.LITTLE_ENDIAN
+      val bytes = binary(head.replace("int i", "int vertex_indices"), to): out =>
+        for i <- 0 until 3 do
+          name match
+            case "char" | "uchar" => out.put(value.toInt.toByte)
+            case "short" | "ushort" => out.putShort(value.toInt.toShort)
+            case "int" | "uint" => out.putInt(value.toLong.toInt)
+            case "float" => out.putFloat(value.toFloat)
+            case _ => out.putDouble(value)
+          out.putFloat(i.toFloat).putFloat(0f)
+        out.put(3.toByte).putInt(0).putInt(1).putInt(2): Unit
+      assert(mesh(bytes).positions(0) == value.toFloat, s"$name, $order endian")
+
   test("a mesh with all its properties is the same in ASCII"):
     checkRich(
       mesh(

@@ -53,6 +53,20 @@ class BiasComparisonSuite extends AnyFunSuite:
       assert(ImageFiles.read(png).width == 24)
       assert(run(a, b, "--significance", "1e-30")._1 == 0)
 
+  test("images that are partly no numbers have exit code 1, and are named"):
+    TempFolder.use: folder =>
+      val a = folder.resolve("a")
+      val _ = images(a, 6, 1)
+      val b = images(folder.resolve("b"), 6, 2)
+      val first = a.resolve("run-1.exr")
+      val image = ImageFiles.read(first)
+      image.data(0) = Float.NaN
+      ImageFiles.write(first, image)
+      val (code, captured) = run(a.toString, b)
+      assert(code == 1)
+      assert(captured.out.startsWith("bias          none found"), captured.out)
+      assert(captured.err.contains("NaN or infinite in 1 tile"), captured.err)
+
   test("sets are folders, names between commas, and patterns"):
     TempFolder.use: folder =>
       val a = images(folder.resolve("a"), 4, 1)

@@ -52,6 +52,14 @@ class CompletionSuite extends AnyFunSuite:
             o.name
           )
 
+  test("zsh offers an option once, but one that may be repeated again"):
+    val lines = script("zsh").linesIterator.map(_.trim).toVector
+    def forms(option: String) = lines.filter(_.contains(s"$option[")).map(_.takeWhile(_ != '['))
+    assert(forms("--spp").nonEmpty && forms("--spp").forall(!_.contains("*")))
+    assert(forms("--crop").forall(!_.contains("*")))
+    assert(forms("--reference").forall(!_.contains("*")))
+    assert(forms("--report").exists(_.contains("*--report")))
+
   for shell <- Vector("bash", "zsh", "fish") do
     test(s"$shell accepts its script"):
       inFolder: folder =>
