@@ -34,8 +34,9 @@ final class MediaBuilderSuite extends AnyFunSuite:
         "integer ny" 1 "integer nz" 1 "point3 p0" [-1 -1 -1] "point3 p1" [1 1 1]
         "float density" [.1] "float temperature" [3000] "float Lescale" 1 $more
         MediumInterface "fog" "" Material "interface""""
-      val film = "Film \"rgb\" \"integer xresolution\" 2 \"integer yresolution\" 2\n"
-      SceneTexts.mean(film + scene("volpath", gas), Dialect.V4)
+      val view = "LookAt 0 0 -3  0 0 0  0 1 0\n" +
+        "Film \"rgb\" \"integer xresolution\" 2 \"integer yresolution\" 2\n"
+      SceneTexts.mean(view + scene("volpath", gas), Dialect.V4)
     val offset = glow("\"float temperatureoffset\" 1000")
     assert(glow("\"float temperaturecutoff\" 1000") == offset)
     assert(glow("") != offset)
