@@ -61,11 +61,7 @@ final class Guide(
     val until =
       if samples == Int.MaxValue then "learnt until it brings no more"
       else s"learnt in the first ${Math.max(1, lastPass)} of $samples samples"
-    val what =
-      if !settings.divides then "directions alone, "
-      else if !settings.directs then "roulette and splitting alone, "
-      else ""
-    if !settings.adapts then s"${what}everywhere, $until"
+    if !settings.adapts then s"everywhere, $until"
     else if isLongEnough then s"where it pays, $until; ends sooner if it does not"
     else "none: the rendering is too short to learn"
 
@@ -219,7 +215,7 @@ final class Guide(
 object Guide:
   /** One that learns nothing: photons alone guide paths. */
   def unlearning: Guide =
-    Guide(GuideSettings(adapts = false, divides = false, weighs = false), 1, 1, learns = false)
+    Guide(GuideSettings(adapts = false), 1, 1, learns = false)
 
   /** A pass of training.
     *
