@@ -134,7 +134,8 @@ lazy val core: Project = (project in file("src/core"))
     Compile / resourceDirectory := baseDirectory.value / "resources",
     compiled,
     // Natives are for the platforms that the library's users choose
-    libraryDependencies ++= lwjglModules.map("org.lwjgl" % _ % lwjgl),
+    libraryDependencies ++= lwjglModules.map("org.lwjgl" % _ % lwjgl) :+
+      "org.apache.commons" % "commons-numbers-gamma" % "1.2",
     Compile / sourceGenerators += versionSource,
 
     // `sbt core/doc`: what users are promised.

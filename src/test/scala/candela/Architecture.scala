@@ -93,9 +93,10 @@ object Architecture:
       room ->
         (job ++ lower ++ Set("job", "convert", "report", "suite", "peers", "watch", "robustness"))
 
-  /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */
+  /** Libraries beside Java's and Scala's own, by the beginnings of their names: who knows them. */
   private val libraries = Map(
-    "org" -> Set("image"),
+    "org.lwjgl" -> Set("image"),
+    "org.apache" -> Set("measure"),
     "scopt" -> Set("cli.options"),
     "sun" -> Set("cli", "cli.terminal"),
     "scalatags" -> Set("report"),
@@ -113,8 +114,8 @@ object Architecture:
     val names = allowed.keys.filter(_.contains('.')).map(_.split('.').last).mkString("|")
     raw"(?<![\w.])(?:$names)(?:\s*\.\s*[A-Z{*]|\s+as\b)".r
 
-  private val imported = raw"^(?:import|export)\s+(?:_root_\.)?([a-z]\w*)\.".r
-  private val fullName = raw"(?<![\w.])(org|com|jdk|scopt|sun)\.\w".r // within code, too
+  private val imported = raw"^(?:import|export)\s+(?:_root_\.)?((?:org\.)?[a-z]\w*)\.".r
+  private val fullName = raw"(?<![\w.])(org\.\w+|com|jdk|scopt|sun)\.\w".r // within code, too
   private val print = (raw"\b(?:println|printf|printStackTrace|Console)\b|\bprint\(|" +
     raw"\bSystem\.(?:out|err|in|exit)\b|\bsys\.exit\b|\.halt\(").r
   private val thread = (raw"\bThread\s*[(:{]|\b(?:extends|new)\s+Thread\b|\bThread\.(?:of|start)|" +

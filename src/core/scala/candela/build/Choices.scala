@@ -26,7 +26,7 @@ object Choices:
     * docs/CAUSTICS.md.
     */
   private val ForGoal =
-    Choices(PointChoice.Progressive, GuidingMode.Progressive, CausticsMode.Auto)
+    Choices(PointChoice.Progressive, GuidingMode.Auto, CausticsMode.Auto)
 
   private[build] val Why =
     "chosen as a time or an error ends the rendering (--guiding off takes none)"
@@ -34,12 +34,9 @@ object Choices:
   private[build] def of(s: RenderSettings): Choices =
     val isByGoal = s.goal.isGiven && !s.preview
     val usual = if isByGoal then ForGoal else OfScene
-    val guiding = s.guiding match
-      case Some(GuidingMode.Auto) if s.isEndless => GuidingMode.Progressive
-      case asked => asked.getOrElse(usual.guiding)
     Choices(
       s.points.getOrElse(usual.points),
-      guiding,
+      s.guiding.getOrElse(usual.guiding),
       s.caustics.getOrElse(usual.caustics),
       isByGoal && s.guiding.isEmpty
     )

@@ -3,7 +3,7 @@ package candela.build
 import candela.build.recipe.Switches
 import candela.build.sampling.PointChoice
 import candela.film.{Fireflies, PixelBounds}
-import candela.guiding.GuidingMode
+import candela.guiding.{GuideSettings, GuidingMode}
 import candela.image.DisplayTransform
 import candela.integrators.CausticsMode
 import candela.layers.Layer
@@ -90,7 +90,10 @@ final case class RenderSettings(
       edgeScale = edgeScale.orElse(scene.edgeScale),
       reference = output.reference.orElse(scene.reference),
       errors = output.errors.orElse(scene.errors),
-      guiding = choices.guiding,
+      guiding = GuideSettings.of(
+        choices.guiding,
+        endsOpen = isEndless || choices.points == PointChoice.Progressive
+      ),
       caustics = choices.caustics
     )
 

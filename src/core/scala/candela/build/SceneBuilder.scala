@@ -6,7 +6,7 @@ import candela.build.recipe.TextureControl
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
 import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands, Splats, View}
-import candela.guiding.{Guide, GuidingMode}
+import candela.guiding.Guide
 import candela.integrators.CausticsMode
 import candela.layers.{Layer, LayerFilm, ScreenMotion, VisibleSurface}
 import candela.math.{Motion, Still}
@@ -318,9 +318,8 @@ object SceneBuilder:
       samples: Int,
       pixels: Long
   ): Option[(String, String)] =
-    val mode = context.resources.switches.guiding
     val why = if settings.choices.byGoal then s"; ${Choices.Why}" else ""
-    Option.when(mode != GuidingMode.Off):
+    Option.when(context.resources.switches.guiding.isDefined):
       "guiding" -> (method match
         case RenderMethod.Guided(_, learning, _) =>
           Guide(learning, samples, pixels).describe + why

@@ -61,11 +61,7 @@ final class Guide(
     val until =
       if samples == Int.MaxValue then "learnt until it brings no more"
       else s"learnt in the first ${Math.max(1, lastPass)} of $samples samples"
-    val what =
-      if !settings.divides then "directions alone, "
-      else if !settings.directs then "roulette and splitting alone, "
-      else ""
-    if !settings.adapts then s"${what}everywhere, $until"
+    if !settings.adapts then s"everywhere, $until"
     else if isLongEnough then s"where it pays, $until; ends sooner if it does not"
     else "none: the rendering is too short to learn"
 
@@ -136,8 +132,7 @@ final class Guide(
   private def after(was: Pass, verdict: GuideVerdict, sample: Int): GuideProgress =
     val next =
       if was.field.guides then progress.after(verdict) else progress.copy(cost = verdict.cost)
-    val most = if recordsFrom(sample) then GuideProgress.MostDoubts else 1
-    next.copy(gaveUp = settings.adapts && !next.pays && next.doubts >= most)
+    next.copy(gaveUp = settings.adapts && next.givesUp(isLast = !recordsFrom(sample)))
 
   private def take(growth: GuideGrowth, sample: Int): Unit =
     val was = current
@@ -182,10 +177,9 @@ final class Guide(
         val isTried = field.guides && goesOn(next(end))
         val trial =
           if progress.pays then Promising
-          else if isTried && !progress.sure then TrialPaths
+          else if isTried then TrialPaths
           else LearningPaths
-        val judged = if progress.sure then PathsPerRegion * field.regions else 0
-        Math.min(1.0, Math.max(trial, judged) / (paths * Math.max(lit, 1e-3))).toFloat
+        Math.min(1.0, trial / (paths * Math.max(lit, 1e-3))).toFloat
     val rate = Math.min(1.0, settings.records / (paths * part * Math.max(found, 1e-3))).toFloat
     Pass(field, begun, part, if learns then GuideRecords(rate, field.regions, memory) else null)
 
@@ -219,7 +213,7 @@ final class Guide(
 object Guide:
   /** One that learns nothing: photons alone guide paths. */
   def unlearning: Guide =
-    Guide(GuideSettings(adapts = false, divides = false, weighs = false), 1, 1, learns = false)
+    Guide(GuideSettings(adapts = false), 1, 1, learns = false)
 
   /** A pass of training.
     *
@@ -268,11 +262,6 @@ object Guide:
 
   /** Likewise, of those in between. */
   private val TrialPaths = 1 << 14
-
-  /** Likewise, for each region, since it is certain no more: all that was learnt has made regions
-    * many, and those of few events are not judged.
-    */
-  private val PathsPerRegion = 2 * GuideGrowth.Fewest
 
   /** Likewise, where it has paid, but not clearly: of a short rendering nearly all. */
   private val Promising = 1 << 17

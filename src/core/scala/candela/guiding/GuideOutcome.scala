@@ -9,7 +9,7 @@ package candela.guiding
   * @param bounces    off surfaces that are not specular
   * @param guided     of these, those that were guided
   * @param left       what guiding left of the variance, by the paths of the last pass that learnt
-  *   from enough of them; on average of the last two, if the one before paid, but not clearly
+  *   from enough of them
   * @param weight     of the last samples, relative to the first
   * @param gaveUp     was guiding given up because it did not pay?
   */

@@ -112,8 +112,8 @@ private[integrators] final class Guidance(
         else
           GuideField.side(if vertex.localWo.z < 0f then -vertex.at.frame.n else vertex.at.frame.n)
       region = mixture.region(field, vertex.at.p, side)
-      share = if !guide.settings.directs || ratio < LeastRatio then 1f else field.shares(region)
-      isFitted = guide.settings.directs && field.isFitted(region)
+      share = if ratio < LeastRatio then 1f else field.shares(region)
+      isFitted = field.isFitted(region)
       if isAimed && photons != null && ratio >= LeastRatio then aimAt(photons)
       isKept = part != null || share < 1f
       if isKept && isFitted then mixture.locate(field, region, vertex.at.p)
@@ -258,7 +258,7 @@ private[integrators] final class Guidance(
   /** Branches in which the path leaves on average; one where the field does not know. */
   private def expected(throughput: Float): Float =
     isExpected = false
-    if region < 0 || !guide.settings.divides then 1f
+    if region < 0 then 1f
     else
       val field = pass.field
       val factor = field.splittingFactors(region)

@@ -101,8 +101,7 @@ object TextForm:
 
   given TextForm[ColorMode] = named(ColorMode.values.toSeq, lower, "auto, rgb or spectral")
 
-  given TextForm[GuidingMode] =
-    named(GuidingMode.values.toSeq, lower, "auto, progressive, on, off, directions or splitting")
+  given TextForm[GuidingMode] = named(GuidingMode.values.toSeq, lower, "auto, on or off")
 
   given TextForm[CausticsMode] = named(CausticsMode.values.toSeq, lower, "auto, on, off or photons")
 

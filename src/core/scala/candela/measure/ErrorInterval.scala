@@ -47,7 +47,7 @@ object ErrorInterval:
     if spread.variance <= 0 then ErrorInterval(Interval(mean, mean, mean), Double.PositiveInfinity)
     else
       val events = mean * mean / within.variance
-      val t = Interval.studentT(spread.degrees)
+      val t = StudentT.limit(spread.degrees)
       val low = gamma(mean, spread.variance, -t)
       val next = NextEvent * (1 + 1.0 / seeds) * spread.largest * spread.largest /
         Math.sqrt(spread.variance)

@@ -27,7 +27,7 @@ object Interval:
     val mean = values.sum / n
     if n == 1 then Interval(mean, Double.NaN, Double.NaN)
     else
-      val half = studentT(n - 1) * deviation(values) / Math.sqrt(n)
+      val half = StudentT.limit(n - 1) * deviation(values) / Math.sqrt(n)
       Interval(mean, mean - half, mean + half)
 
   /** Standard deviation of what the values are drawn from; NaN for a single one. */
@@ -39,25 +39,3 @@ object Interval:
     val sorted = values.sorted
     val middle = sorted.size / 2
     if sorted.size % 2 == 1 then sorted(middle) else (sorted(middle - 1) + sorted(middle)) / 2
-
-  /** Two-sided 95 % quantile of Student's t distribution. From 30 degrees of freedom on, the normal
-    * quantile with two terms of its expansion (Abramowitz and Stegun, 26.7.5), with an error below
-    * 0.0001; between whole degrees, linear in their reciprocal.
-    */
-  def studentT(degrees: Double): Double =
-    require(degrees >= 1, s"$degrees degrees of freedom")
-    if degrees < Table.size then
-      val whole = degrees.toInt
-      val part = (1.0 / whole - 1 / degrees) / (1.0 / whole - 1.0 / (whole + 1))
-      Table(whole - 1) + part * (Table(whole) - Table(whole - 1))
-    else
-      val z = 1.959964
-      val (cube, fifth) = (z * z * z, z * z * z * z * z)
-      z + (cube + z) / (4 * degrees) +
-        (5 * fifth + 16 * cube + 3 * z) / (96 * degrees * degrees)
-
-  private val Table = Vector(
-    12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281, //
-    2.2010, 2.1788, 2.1604, 2.1448, 2.1314, 2.1199, 2.1098, 2.1009, 2.0930, 2.0860, //
-    2.0796, 2.0739, 2.0687, 2.0639, 2.0595, 2.0555, 2.0518, 2.0484, 2.0452, 2.0423
-  )

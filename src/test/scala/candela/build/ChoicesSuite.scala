@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.build.sampling.PointChoice
+import candela.build.sampling.{PointChoice, PointSet}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.render.RenderMethod
@@ -27,15 +27,16 @@ class ChoicesSuite extends AnyFunSuite:
       settings
     )
 
-  private def isGuided(settings: RenderSettings) = plan(settings).method match
+  /** Whether it is guided, and learns until it brings no more. */
+  private def learnsOn(settings: RenderSettings) = plan(settings).method match
     case RenderMethod.Guided(_, learning, _) => learning.learnsOn
     case _ => false
 
   test("a goal guides paths and takes points of any number; a number of samples does neither"):
     for settings <- Vector(timed, exact, timed.copy(samples = Some(64))) do
-      assert(isGuided(settings) && plan(settings).sampler.isProgressive)
+      assert(learnsOn(settings) && plan(settings).sampler.isProgressive)
     val samples = RenderSettings(samples = Some(64))
-    assert(!isGuided(samples) && !plan(samples).sampler.isProgressive)
+    assert(!learnsOn(samples) && !plan(samples).sampler.isProgressive)
     assert(samples.choices == Choices.OfScene)
 
   test("a goal looks for caustics, and the methods don't depend on how much time there is"):
@@ -52,12 +53,16 @@ class ChoicesSuite extends AnyFunSuite:
         CausticsMode.Auto
       ))
     val on = timed.copy(guiding = Some(GuidingMode.On))
-    assert(on.choices.guiding == GuidingMode.On && !isGuided(on))
+    assert(on.choices.guiding == GuidingMode.On && !learnsOn(on))
 
-  test("paths guided where it pays learn until it brings no more if samples are not counted"):
-    val auto = timed.copy(guiding = Some(GuidingMode.Auto))
-    assert(auto.choices.guiding == GuidingMode.Progressive)
-    assert(auto.copy(samples = Some(64)).choices.guiding == GuidingMode.Auto)
+  test("paths guided where it pays learn until it brings no more if samples can be added"):
+    val counted = RenderSettings(samples = Some(64), guiding = Some(GuidingMode.Auto))
+    assert(!learnsOn(counted))
+    assert(learnsOn(counted.copy(points = Some(PointChoice.Progressive))))
+    // A goal adds samples, whatever the points
+    val halton = Some(PointChoice.Named(PointSet.Halton))
+    assert(learnsOn(timed.copy(points = halton)))
+    assert(!learnsOn(timed.copy(points = halton, samples = Some(64))))
 
   test("what a goal chose is told with its reason, and what was asked for without"):
     def told(s: RenderSettings, what: String, integrator: String = "path") =

@@ -30,39 +30,32 @@ class GuideProgressSuite extends AnyFunSuite:
     assert(weight(0.9 -> 7.0, 0.5 -> 1.0) == 16f)
     assert(weight(0.9 -> 1.0, 0.5 -> 1.0, 0.3 -> 5.0) == 4f)
 
+  /** After passes that leave these parts of the variance. */
+  private def after(lefts: Double*): GuideProgress =
+    lefts.foldLeft(start)((p, l) => p.after(verdict(l, 1.0)))
+
   test("guiding pays by the variance that it leaves, and by what branches cost"):
     def pays(left: Double, effort: Double) = start.after(verdict(left, 1.0, cost = 3 * effort)).pays
     assert(!start.pays)
     assert(pays(0.65, 1.0) && !pays(0.67, 1.0) && !pays(0.67, 0.5))
     assert(pays(0.5, 2.1) && !pays(0.5, 2.3))
-    // Doubts are forgotten when it clearly pays, or twice
-    val doubtful = start.after(verdict(0.9, 1.0)).after(verdict(0.9, 1.0))
-    assert(doubtful.doubts == 2 && doubtful.after(verdict(0.3, 1.0)).doubts == 0)
-    val unclear = doubtful.after(verdict(0.61, 1.0))
-    assert(unclear.doubts == 2 && unclear.after(verdict(0.61, 1.0)).doubts == 0)
-    // What leaves all of the variance says as much as two passes
-    assert(start.after(verdict(1.01, 1.0)).doubts == 2)
-    // … and what does not pay on average with what paid before, but not clearly
-    assert(start.after(verdict(0.61, 1.0)).after(verdict(0.8, 1.0)).doubts == 2)
-    assert(start.after(verdict(0.61, 1.0)).after(verdict(0.68, 1.0)).isCertain)
-    assert(start.after(verdict(0.4, 1.0)).after(verdict(0.8, 1.0)).doubts == 1)
-    // … which is of what branches cost, too
-    def afterCostly(left: Double, effort: Double) =
-      start.after(verdict(0.3, 1.0, cost = 3 * 3.5)).after(verdict(left, 1.0, cost = 3 * effort))
-    assert(!afterCostly(0.9, 1.2).pays && afterCostly(0.3, 3.4).isCertain)
-    // After it was certain, no single pass says it for good
-    val certain = start.after(verdict(0.4, 1.0)).after(verdict(0.4, 1.0))
-    assert(certain.after(verdict(1.1, 1.0)).doubts == 1)
 
-  test("all paths are guided when guiding has clearly paid once, or twice one after the other"):
-    def certain(lefts: Double*) =
-      lefts.foldLeft(start)((p, l) => p.after(verdict(l, 1.0))).isCertain
+  test("one pass decides if it is clear, else the mean of two"):
+    def certain(lefts: Double*) = after(lefts*).isCertain
     assert(!certain() && !certain(0.61) && certain(0.58))
-    assert(certain(0.61, 0.61) && !certain(0.61, 0.8, 0.61) && !certain(0.4, 0.8))
+    assert(certain(0.61, 0.61) && certain(0.61, 0.68) && !certain(0.61, 0.8))
     // What branches cost counts, too
     assert(!start.after(verdict(0.5, 1.0, cost = 3 * 2.15)).isCertain)
-    // A pass of few paths is no second one
-    assert(!start.after(verdict(0.61, 1.0)).after(verdict(0.61, 1.0, paths = 100L)).isCertain)
+    def givesUp(lefts: Double*) = after(lefts*).givesUp(isLast = false)
+    assert(!givesUp() && !givesUp(0.8) && givesUp(1.01))
+    assert(givesUp(0.8, 0.8) && givesUp(0.61, 0.8) && !givesUp(0.8, 0.5))
+    // The last field guides all paths, or none
+    assert(after(0.8).givesUp(isLast = true) && !after(0.61).givesUp(isLast = true))
+
+  test("where it was certain, a single pass gives it up only if it did not bring much before"):
+    assert(after(0.4, 0.8).isCertain && after(0.2, 0.2, 1.1).isCertain)
+    val worse = after(0.4, 0.8, 0.8)
+    assert(!worse.pays && worse.givesUp(isLast = false))
 
   test("learning has settled where a pass brings less than two percent for the time"):
     def isSettled(noise: Double, cost: Double, before: Double = 0.4, paths: Long = 20000L) =
@@ -84,22 +77,10 @@ class GuideProgressSuite extends AnyFunSuite:
     val certain = start.after(verdict(0.4, 1.0))
     assert(certain.after(few).after(few) == certain)
 
-  test("two passes of few paths are a doubt where it was certain, but is no more"):
-    val few = verdict(0.1, 1.0, paths = 100L)
-    val doubtful = start.after(verdict(0.4, 1.0)).after(verdict(0.8, 1.0))
-    assert(doubtful.after(few).doubts == 1 && doubtful.after(few).after(few).doubts == 2)
-    // In a row
-    val between = doubtful.after(few).after(verdict(0.61, 1.0)).after(few)
-    assert(between.doubts == 1 && between.pays)
-    assert(between.after(few).doubts == 2 && !between.after(few).pays)
-
   test("it is read as it was written"):
     val file = Files.createTempFile("candela-progress", "")
-    val twice = start.after(verdict(0.5, 1.0)).after(verdict(0.5, 1.0))
-    val silent = start.after(verdict(0.3, 1.0)).after(verdict(0.8, 1.0, cost = 4.0))
-      .after(verdict(0.1, 1.0, paths = 100L))
-    assert(silent.sure && silent.silent == 1)
-    for progress <- Vector(start, twice, start.after(verdict(2.0, 1.0)), silent) do
+    val costly = after(0.3).after(verdict(0.8, 1.0, cost = 4.0))
+    for progress <- Vector(start, after(0.5, 0.5), after(2.0).copy(gaveUp = true), costly) do
       CheckedFile.write(file, "progress")(progress.save)
       assert(CheckedFile.read(file, "progress")(GuideProgress.load) == progress)
     Files.delete(file)

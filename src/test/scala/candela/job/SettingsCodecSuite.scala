@@ -137,7 +137,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
   test("a film's settings keep what was chosen for a goal, or by the scene, with any goal"):
     val goal = RenderGoal(time = Some(10))
     val timed = SettingsCodec.identity(RenderSettings(goal = goal))
-    val words = "--sampler progressive --guiding progressive --caustics auto"
+    val words = "--sampler progressive --guiding auto --caustics auto"
     assert(timed == words.split(' ').toVector)
     val asked = RenderSettings(
       goal = goal,
@@ -170,7 +170,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     assert(wrong("scene.pbrt") == "unknown setting `scene.pbrt`")
     assert(wrong("--seed") == "wrong value of `--seed`")
     for text <- Vector(
-        "--seed x", "--bits 9", "--cropwindow 1,0,0,1", "--pixel -1,2", "--guiding maybe",
+        "--seed x", "--bits 9", "--cropwindow 1,0,0,1", "--pixel -1,2", "--guiding directions",
         "--fireflies clamp:0", "--aov depth,nothing", "--define x", "--exposure 1000"
       )
     do assert(wrong(text).startsWith("wrong value of `--"), text)

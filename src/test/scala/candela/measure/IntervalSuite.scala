@@ -6,31 +6,6 @@ import java.util.SplittableRandom
 
 class IntervalSuite extends AnyFunSuite:
 
-  /** The chance of |t| < x by Simpson's rule over the density of Student's distribution. */
-  private def inside(x: Double, degrees: Int): Double =
-    def density(t: Double) = Math.pow(1 + t * t / degrees, -(degrees + 1) / 2.0)
-    def integral(from: Double, to: Double): Double =
-      val n = 4000
-      val h = (to - from) / n
-      (0 to n).map: i =>
-        val weight = if i == 0 || i == n then 1 else if i % 2 == 1 then 4 else 2
-        weight * density(from + i * h) * h / 3
-      .sum
-    // The tails of few degrees of freedom are long: t = tan makes them finite.
-    def whole =
-      val n = 20000
-      val h = Math.PI / 2 / n
-      (0 until n).map: i =>
-        val a = (i + 0.5) * h
-        density(Math.tan(a)) / (Math.cos(a) * Math.cos(a)) * h
-      .sum
-    integral(0, x) / whole
-
-  test("95 % of Student's distribution are within the table's values, and beyond the table"):
-    for degrees <- Vector(1, 2, 3, 4, 7, 12, 20, 29, 30, 31, 60, 500) do
-      // The table's three digits: 5e-4, times a density of 0.12
-      assert(Math.abs(inside(Interval.studentT(degrees), degrees) - 0.95) < 1e-4, degrees)
-
   test("the interval of a mean holds the truth in 95 of 100 cases"):
     val random = SplittableRandom(7)
     val trials = 4000

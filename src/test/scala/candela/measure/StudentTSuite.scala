@@ -35,3 +35,28 @@ class StudentTSuite extends AnyFunSuite:
 
   test("no difference has the chance 1, and an endless one 0"):
     assert(StudentT.twoSided(0, 7) == 1 && StudentT.twoSided(Double.PositiveInfinity, 7) == 0)
+
+  /** The chance of |t| < x by Simpson's rule over the density of Student's distribution. */
+  private def inside(x: Double, degrees: Double): Double =
+    def density(t: Double) = Math.pow(1 + t * t / degrees, -(degrees + 1) / 2.0)
+    def integral(from: Double, to: Double): Double =
+      val n = 4000
+      val h = (to - from) / n
+      (0 to n).map: i =>
+        val weight = if i == 0 || i == n then 1 else if i % 2 == 1 then 4 else 2
+        weight * density(from + i * h) * h / 3
+      .sum
+    // The tails of few degrees of freedom are long: t = tan makes them finite.
+    def whole =
+      val n = 20000
+      val h = Math.PI / 2 / n
+      (0 until n).map: i =>
+        val a = (i + 0.5) * h
+        density(Math.tan(a)) / (Math.cos(a) * Math.cos(a)) * h
+      .sum
+    integral(0, x) / whole
+
+  test("95 % of the distribution are within the limit, also of degrees that are not whole"):
+    for degrees <- Vector(1, 1.5, 2, 3, 7.3, 30, 500) do
+      // The rule's error is below 1e-7
+      assert(Math.abs(inside(StudentT.limit(degrees), degrees) - 0.95) < 1e-6, degrees)

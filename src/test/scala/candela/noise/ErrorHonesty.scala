@@ -14,7 +14,7 @@ import java.nio.file.{Files, Path}
 /** Compares the error that a rendering estimates of itself with the true one, for docs/NOISE.md.
   *
   * Options: `--scenes A.pbrt,B.pbrt` `--samples 16,64` `--seeds N` `--width N` (of the image, in
-  * pixels) `--truth N` (samples of the reference) `--guiding progressive` `--folder F` (keeps
+  * pixels) `--truth N` (samples of the reference) `--guiding auto` `--folder F` (keeps
   * references) `--values F` (a file of all figures: scene, samples, true
   * relative MSE, its estimate, and the limits of that).
   */

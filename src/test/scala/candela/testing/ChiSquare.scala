@@ -2,6 +2,8 @@ package candela.testing
 
 import java.util.SplittableRandom
 
+import org.apache.commons.numbers.gamma.RegularizedGamma
+
 import candela.math.*
 
 /** Pearson's χ² test that samples are spread as their density says.
@@ -109,5 +111,5 @@ object ChiSquare:
     val p =
       if impossible then 0.0
       else if freedom < 1 then 1.0
-      else IncompleteGamma.upper(freedom / 2.0, statistic / 2)
+      else RegularizedGamma.Q.value(freedom / 2.0, statistic / 2)
     Result(statistic, freedom, small.size, p)

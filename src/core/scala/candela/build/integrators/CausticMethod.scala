@@ -7,7 +7,7 @@ import candela.bidirectional.{
 }
 import candela.build.recipe.*
 import candela.film.View
-import candela.guiding.{Guide, GuideSettings}
+import candela.guiding.Guide
 import candela.integrators.*
 import candela.layers.LightParts
 import candela.media.SceneMedia
@@ -133,9 +133,10 @@ private object CausticMethod:
         RenderMethod.SplattedTiles(
           makers(_, None),
           beside = true,
-          GuideSettings
-            .of(site.resources.switches.guiding)
-            .map(GuidedSplats(_, (view, guide) => makers(view, Some(guide)))),
+          site.resources.switches.guiding.map(GuidedSplats(
+            _,
+            (view, guide) => makers(view, Some(guide))
+          )),
           Option.when(light.findsAll && scene.lights.exists(_.isDelta)):
             "also light of lamps without extent, through and off smooth surfaces"
         )

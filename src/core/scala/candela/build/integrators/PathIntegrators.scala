@@ -1,7 +1,7 @@
 package candela.build.integrators
 
 import candela.build.recipe.*
-import candela.guiding.{Guide, GuideSettings}
+import candela.guiding.Guide
 import candela.integrators.*
 import candela.layers.LightParts
 import candela.render.RenderMethod
@@ -73,7 +73,7 @@ private object GuidedMethod:
       using site: Site
   ): RenderMethod =
     val unguided = WorkerIntegrators(scene)(tracer(_, null, null))
-    GuideSettings.of(site.resources.switches.guiding) match
+    site.resources.switches.guiding match
       case None => RenderMethod.Tiles(unguided)
       case Some(settings) =>
         RenderMethod.Guided(

@@ -1,6 +1,6 @@
 package candela.build.recipe
 
-import candela.guiding.GuidingMode
+import candela.guiding.GuideSettings
 import candela.integrators.CausticsMode
 import candela.math.Position
 
@@ -18,7 +18,7 @@ import candela.math.Position
   * @param errors      file for the errors
   * @param rules       for all statements; else those of each statement's dialect
   * @param origin      where the origin of what is built lies in the scene's world
-  * @param guiding     whether paths learn where light comes from
+  * @param guiding     how paths learn where light comes from, if they do
   * @param caustics    whether light paths look for caustics
   */
 final case class Switches(
@@ -32,7 +32,7 @@ final case class Switches(
     reference: Option[String] = None,
     errors: Option[String] = None,
     rules: Option[Rules] = None,
-    guiding: GuidingMode = GuidingMode.Off,
+    guiding: Option[GuideSettings] = None,
     caustics: CausticsMode = CausticsMode.Off,
     origin: Position = Position.Origin
 )

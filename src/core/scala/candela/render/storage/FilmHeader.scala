@@ -80,7 +80,8 @@ final case class FilmHeader(
     if !plan.method.takesCameraSamples then
       Some("Metropolis light transport distributes its mutations in advance")
     else if plan.method.learns && !plan.method.canKeepOn then
-      Some("what its paths learn depends on their number (not with --guiding progressive)")
+      Some("what its paths learn depends on their number; with --guiding auto --sampler " +
+        "progressive it doesn't")
     else if !plan.sampler.isProgressive then
       Some("its sampler's points depend on their number (scrambled Sobol' points don't)")
     else if plan.differentialScale != footprint then

@@ -37,16 +37,15 @@ private[cli] object SwitchTable extends OptionRows:
       "disable-wavelength-jitter",
       "take the same wavelengths for all samples, if rendering is spectral; colours are off"
     )(_.copy(oneColorSet = true)),
-    opt[GuidingMode]("guiding").valueName("auto|progressive|on|off|directions|splitting")
+    opt[GuidingMode]("guiding").valueName("auto|on|off")
       .text(OptionText(
-        "let paths learn where light comes from: where it pays, everywhere, or not at all " +
-          "(default without --time and --error); or everywhere by one technique alone",
-        "Paths of `path` and `volpath` learn on surfaces and in media; `auto` guides where it " +
-          "was measured to pay. It learns for a quarter of the samples; `progressive` does not " +
-          "depend on their number, and is the default with `--time` and `--error`. `directions` " +
-          "and `splitting` use one technique alone, to compare them. A sample takes 1.2 to 16 " +
-          "times as long, with far less noise, so compare by time or error: " +
-          "[what it brings](decisions/0020-path-guiding.md)."
+        "path guiding: where it reduces noise (auto, default with --time and --error), " +
+          "everywhere (on), or not at all (off, default with a number of samples)",
+        "Paths of `path` and `volpath` learn where light comes from, on surfaces and in media, " +
+          "for a quarter of the samples. Where a time or an error ends the rendering, or with " +
+          "`--sampler progressive`, `auto` learns until it brings no more, so samples can be " +
+          "added. A sample takes 1.2 to 16 times as long, with far less noise, so compare by " +
+          "time or error: [what it brings](decisions/0020-path-guiding.md)."
       ))
       .action(set((mode, s) => s.copy(guiding = Some(mode)))),
     opt[CausticsMode]("caustics").valueName("auto|on|off|photons")
