@@ -51,7 +51,7 @@ object Architecture:
   val runtime: Vector[String] = floors(
     "base math color geometry sampling image textures shapes bsdf bsdf.microfacet bsdf.layered " +
       "bsdf.measured bsdf.subsurface bsdf.composite lights media cameras film accel " +
-      "accel.building accel.tracing scene layers guiding manifold integrators bidirectional " +
+      "accel.building accel.tracing scene aov guiding manifold integrators bidirectional " +
       "render render.storage"
   )
   val file: Vector[String] = floors("base math scenefile")
@@ -88,7 +88,7 @@ object Architecture:
       "suite" -> (report ++ Set("report", "job")),
       "robustness" -> (job ++ Set("job", "convert", "report", "suite")),
       "peers" -> (job ++ Set("job", "convert", "suite")),
-      "watch" -> (report ++ Set("film", "layers", "render", "report"))
+      "watch" -> (report ++ Set("film", "aov", "render", "report"))
     ) ++ below(program).map: (room, lower) =>
       room ->
         (job ++ lower ++ Set("job", "convert", "report", "suite", "peers", "watch", "robustness"))
@@ -294,6 +294,17 @@ object Architecture:
     code(sources): (home, line) =>
       defined(line).filter(name => bridge.contains(home) && taken(name))
         .map(name => s"`$name` is the name of a class of the runtime, too")
+
+  private val constant = raw"\bval\s+([A-Z]\w*)\s*(?::[^=]+)?=\s*-?[\d.]".r
+
+  /** The name of a number says what it counts: `MaxDepth`, not `Most`. */
+  def constants(sources: Vector[SourceText]): Vector[String] =
+    for
+      source <- sources
+      (line, i) <- source.code.zipWithIndex
+      name <- constant.findAllMatchIn(line).map(_.group(1))
+      if FunctionWords.contains(name)
+    yield s"${source.path}:${i + 1}: `$name` does not say what it counts"
 
   /** A file fits in the mind, a line on the screen. */
   def sizes(sources: Vector[SourceText]): Vector[String] =

@@ -9,6 +9,7 @@ import java.nio.file.{Files, Path}
 class ArchitectureSuite extends AnyFunSuite:
   private lazy val core = SourceText.under(Path.of("src/core/scala/candela"))
   private lazy val main = core ++ SourceText.under(Path.of("src/main/scala/candela"))
+  private lazy val cluster = SourceText.under(Path.of("cluster/src/main/scala/candela"))
   private lazy val tests = SourceText.under(Path.of("src/test/scala/candela"))
 
   private def holds(wrong: Vector[String]): Assertion =
@@ -46,6 +47,9 @@ class ArchitectureSuite extends AnyFunSuite:
 
   test("no class of build has the name of one of the runtime"):
     holds(Architecture.names(main))
+
+  test("no constant that is a number has a function word as its name"):
+    holds(Architecture.constants(main ++ cluster))
 
   test("what a mutable class overwrites is typed as mutable"):
     holds(Architecture.scratch(main))
@@ -136,6 +140,15 @@ class ArchitectureSuite extends AnyFunSuite:
     assert(beside("object Mirror extends MaterialRecipe(1)") == Vector(wrong))
     assert(beside("private[build] final case class Mirror(x: Int)") == Vector(wrong))
     assert(beside("object MirrorRecipe // object Mirror").isEmpty)
+
+  test("a number whose name is a function word is found"):
+    def constants(line: String) = Architecture.constants(planted("film/A.scala", "", line))
+    def wrong(name: String) = Vector(s"film/A.scala:2: `$name` does not say what it counts")
+    assert(constants("  private inline val Most = 3") == wrong("Most"))
+    assert(constants("  val Least: Long = 1 << 16") == wrong("Least"))
+    assert(constants("  final val Patience = -.5") == wrong("Patience"))
+    for line <- Vector("val MaxDepth = 3", "val Most = Depth(3)", "val most = 3", "// val Few = 3")
+    do assert(constants(line).isEmpty, line)
 
   test("a use by full name is found"):
     val source = planted("scenefile/A.scala", "val s: candela.shapes.Shape = x // candela.render")

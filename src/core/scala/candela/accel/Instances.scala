@@ -136,7 +136,7 @@ object Instances:
     parallel.ranges(places.length): (from, until) =>
       loop(from, until)(i => kinds(i) = kind(places(i)._2, shared).toByte)
     val found = IntBuffer()
-    loop(places.length)(i => if kinds(i) == Apart then found += i)
+    loop(places.length)(i => if kinds(i) == NoRow then found += i)
     val apart = found.take()
     val still = places.length - apart.length
     val objectOf = new Array[Int](places.length)
@@ -147,26 +147,26 @@ object Instances:
       motions(k) = motion
 
     // Others follow those that are shared
-    val hasOwn = kinds.exists(_ == Own)
+    val hasOwn = kinds.exists(_ == OwnRow)
     val rows =
       if shared == null then MotionRows() else if hasOwn then shared.continued else shared
     val rowOf = new Array[Int](still)
     var k = 0
     loop(places.length): i =>
-      if kinds(i) == Own then rowOf(k) = rows.grow()
-      if kinds(i) != Apart then k += 1
+      if kinds(i) == OwnRow then rowOf(k) = rows.grow()
+      if kinds(i) != NoRow then k += 1
     parallel.ranges(places.length): (from, until) =>
       val work = new Array[Double](Motion.Work)
       // Those apart before `from`
       var passed = apart.search(from).insertionPoint
       loop(from, until): i =>
-        if kinds(i) == Apart then passed += 1
+        if kinds(i) == NoRow then passed += 1
         else
           val (which, motion) = places(i)
           val k = i - passed
           objectOf(k) = which
           motion match
-            case at: MotionRow if kinds(i) == Shared => rowOf(k) = at.row
+            case at: MotionRow if kinds(i) == SharedRow => rowOf(k) = at.row
             case _ =>
               motion.write(0f, work, 0)
               rows.put(rowOf(k), work)
@@ -175,13 +175,13 @@ object Instances:
     val moving = motions.count(_.moves)
     new Instances(objects, objectOf, rows.all, numbers, motions, moving, open, close)
 
-  private inline val Own = 0
-  private inline val Shared = 1
-  private inline val Apart = 2
+  private inline val OwnRow = 0
+  private inline val SharedRow = 1
+  private inline val NoRow = 2
 
   private def kind(motion: Motion, shared: MotionRows | Null): Int = motion match
-    case at: MotionRow if at.rows eq shared => Shared
-    case _ => if motion.moves || !canHold(motion) then Apart else Own
+    case at: MotionRow if at.rows eq shared => SharedRow
+    case _ => if motion.moves || !canHold(motion) then NoRow else OwnRow
 
   private def canHold(motion: Motion): Boolean =
     val work = new Array[Double](Motion.Work)

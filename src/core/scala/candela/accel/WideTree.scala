@@ -87,7 +87,7 @@ private[accel] object WideTree:
       row += 1
     put(node + 6 * width + lane, java.lang.Float.intBitsToFloat(NoChild))
 
-  /** Twice the tolerance of [[candela.shapes.TriangleTest.Within]]. */
+  /** Twice the tolerance of [[candela.shapes.TriangleTest.BoxTolerance]]. */
   private final val Pad = 4e-6f
 
   inline def floats(width: Int): Int = 7 * width

@@ -144,7 +144,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   def light(kind: String, parameters: Parameters): SceneBuilder =
     named("LightSource", kind, parameters)
 
-  /** Makes the shapes that follow lamps, until the end of the block. */
+  /** Makes the shapes that follow area lights, until the end of the block. */
   def areaLight(kind: String, parameters: Parameters): SceneBuilder =
     named("AreaLightSource", kind, parameters)
 

@@ -78,7 +78,7 @@ object FileDigests:
 
   private[base] object TableForm extends PartForm[Rows]("digests 1", CacheFolder.Digests):
     /** Written however small: it stands for reading all of the files. */
-    def size(rows: Rows): Long = PartFiles.Least
+    def size(rows: Rows): Long = PartFiles.MinBytes
 
     def write(rows: Rows, out: CheckedOutput): Unit =
       out.int(rows.size)

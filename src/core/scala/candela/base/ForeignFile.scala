@@ -7,7 +7,8 @@ import scala.util.Using
 
 /** What can be done with a file that is no scene. */
 enum ForeignKind:
-  case Picture, Film, Suite, Triangles, MitsubaMesh, Model, Volume, Lamp, Packed, Mitsuba, Other
+  case Picture, Film, Suite, Triangles, MitsubaMesh, Model, Volume, Photometry, Packed, Mitsuba
+  case Other
 
 /** A file of another kind than the one that was expected.
   *
@@ -74,7 +75,7 @@ object ForeignFile:
     Mark("NanoVDB", Volume, "a NanoVDB volume"),
     Mark(" BDV", Other, "an OpenVDB volume"),
     Mark("VOL\u0003", Volume, "a volume of Mitsuba's"),
-    Mark("IESNA", Lamp, "an IES file of a lamp"),
+    Mark("IESNA", Photometry, "an IES photometric file"),
     Mark("SCATFUN", Other, "a table of a BSDF"),
     Mark("tensor_file\u0000", Other, "a table of a measured BSDF"),
     Mark("PK\u0003\u0004", Packed, "a ZIP archive"),
@@ -112,7 +113,7 @@ object ForeignFile:
       case "gltf" => Some(ForeignFile(Model, "a glTF model"))
       case "conf" if text.contains('{') || text.contains('=') =>
         Some(ForeignFile(Suite, "a benchmark suite"))
-      case "ies" => Some(ForeignFile(Lamp, "an IES file of a lamp"))
+      case "ies" => Some(ForeignFile(Photometry, "an IES photometric file"))
       case _ if !hasZero => None
       case "stl" => Some(ForeignFile(Model, "an STL mesh"))
       case "blend" => Some(ForeignFile(Model, "a Blender file"))

@@ -18,7 +18,7 @@ abstract class NumberBuffer[A](newArray: Int => A):
   /** The chunk that holds the number at index `i`. */
   protected def pieceOf(i: Int): A =
     val k = i >>> NumberBuffer.Bits
-    if k == NumberBuffer.Most then throw OutOfMemoryError("a list of more than 2^31 numbers")
+    if k == NumberBuffer.MaxPieces then throw OutOfMemoryError("a list of more than 2^31 numbers")
     while pieces.length <= k do pieces += newArray(NumberBuffer.Piece)
     pieces(k)
 
@@ -54,14 +54,17 @@ abstract class NumberBuffer[A](newArray: Int => A):
 object NumberBuffer:
   private[base] inline val Bits = 12
   private[base] inline val Piece = 4096
-  private[base] inline val Within = 4095
-  private inline val Most = 524287
+
+  /** Of an index: the bits of the offset in its chunk. */
+  private[base] inline val OffsetMask = 4095
+
+  private inline val MaxPieces = 524287
 
 final class FloatBuffer extends NumberBuffer[Array[Float]](new Array[Float](_)):
   private var last = Array.emptyFloatArray
 
   def +=(x: Float): Unit =
-    val at = size & NumberBuffer.Within
+    val at = size & NumberBuffer.OffsetMask
     if at == 0 then last = pieceOf(size)
     last(at) = x
     size += 1
@@ -69,21 +72,21 @@ final class FloatBuffer extends NumberBuffer[Array[Float]](new Array[Float](_)):
   def ++=(some: Array[Float]): Unit =
     var from = 0
     while from < some.length do
-      val at = size & NumberBuffer.Within
+      val at = size & NumberBuffer.OffsetMask
       last = pieceOf(size)
       val count = Math.min(some.length - from, NumberBuffer.Piece - at)
       System.arraycopy(some, from, last, at, count)
       from += count
       size += count
 
-  def apply(i: Int): Float = pieceOf(i)(i & NumberBuffer.Within)
-  def update(i: Int, x: Float): Unit = pieceOf(i)(i & NumberBuffer.Within) = x
+  def apply(i: Int): Float = pieceOf(i)(i & NumberBuffer.OffsetMask)
+  def update(i: Int, x: Float): Unit = pieceOf(i)(i & NumberBuffer.OffsetMask) = x
 
 final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
   private var last = Array.emptyIntArray
 
   def +=(x: Int): Unit =
-    val at = size & NumberBuffer.Within
+    val at = size & NumberBuffer.OffsetMask
     if at == 0 then last = pieceOf(size)
     last(at) = x
     size += 1
@@ -92,7 +95,7 @@ final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
   def add(x: Int, count: Int): Unit =
     val end = size + count
     while size < end do
-      val at = size & NumberBuffer.Within
+      val at = size & NumberBuffer.OffsetMask
       last = pieceOf(size)
       val until = Math.min(at + end - size, NumberBuffer.Piece)
       java.util.Arrays.fill(last, at, until, x)
@@ -102,11 +105,11 @@ final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
   def continued: IntBuffer =
     val next = IntBuffer()
     next.share(this)
-    if (size & NumberBuffer.Within) > 0 then next.last = next.pieceOf(size)
+    if (size & NumberBuffer.OffsetMask) > 0 then next.last = next.pieceOf(size)
     next
 
-  def apply(i: Int): Int = pieceOf(i)(i & NumberBuffer.Within)
-  def update(i: Int, x: Int): Unit = pieceOf(i)(i & NumberBuffer.Within) = x
+  def apply(i: Int): Int = pieceOf(i)(i & NumberBuffer.OffsetMask)
+  def update(i: Int, x: Int): Unit = pieceOf(i)(i & NumberBuffer.OffsetMask) = x
 
 /** What Floats lack of the numbers that they are rounded from: the rounding errors of large ones.
   * Most lists have none.
@@ -129,10 +132,10 @@ final class RestBuffer:
       rests.take()
 
 object RestBuffer:
-  /** Magnitude from which on rests matter: Floats are 0.0001 apart there. */
-  private inline val Least = 1024f
+  /** Rounding errors of smaller numbers are ignored: Floats are 0.0001 apart here. */
+  private inline val MinCoarse = 1024f
 
-  inline def isCoarse(x: Float): Boolean = Math.abs(x) >= Least
+  inline def isCoarse(x: Float): Boolean = Math.abs(x) >= MinCoarse
 
   /** The rests of coordinates that are known in Double. */
   def of(count: Int)(exact: Int => Double): Array[Float] =

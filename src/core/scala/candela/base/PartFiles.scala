@@ -44,7 +44,7 @@ final class PartFiles(folder: CacheFolder):
     * @param isNeeded whether a failure is to be told
     */
   def write[A](form: PartForm[A], key: String, thing: A, isNeeded: Boolean = true): Unit =
-    if obstacle.isEmpty && form.size(thing) >= PartFiles.Least then
+    if obstacle.isEmpty && form.size(thing) >= PartFiles.MinBytes then
       val words = mark(form, key)
       try
         folder.write(folder.file(words, form.suffix)): channel =>
@@ -58,5 +58,5 @@ final class PartFiles(folder: CacheFolder):
   private def mark(form: PartForm[?], key: String) = s"${form.name} $key ${Version.current}"
 
 object PartFiles:
-  /** Bytes below which a thing is made as fast as its file is read. */
-  val Least: Long = 1 << 16
+  /** Smaller things are computed as fast as their files are read. */
+  val MinBytes: Long = 1 << 16

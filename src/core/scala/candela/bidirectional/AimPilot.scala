@@ -25,10 +25,10 @@ final case class SeenLight(photons: PhotonField, walked: Option[SeenLight.Walked
     if walked.isEmpty then AimPilot.GuidedOverhead else AimPilot.WalkedOverhead
 
 object SeenLight:
-  /** @param lamps that walks look for
+  /** @param emitters that walks look for
     * @param usual light of a chain, as in [[Manifolds]]
     */
-  final case class Walked(lamps: Set[Int], usual: Float)
+  final case class Walked(emitters: Set[Int], usual: Float)
 
 /** Finds out by few paths whether it pays that photons guide the camera's paths, or that manifold
   * walks begin where photons came from. Depends on the scene and its camera alone, as
@@ -90,16 +90,16 @@ private[candela] final class AimPilot(
     val (_, first) = walked(field, all, 0f, 0, FirstPairs)
     val saved = new Array[Double](scene.lights.length)
     for tally <- first do loop(saved.length)(i => saved(i) += tally.saved(i))
-    val lamps = saved.indices.filter(saved(_) > 0.0).toSet
-    if lamps.isEmpty then (None, 1.0)
+    val emitters = saved.indices.filter(saved(_) > 0.0).toSet
+    if emitters.isEmpty then (None, 1.0)
     else
       val usual = (first.map(_.light).sum / first.map(_.count).sum).toFloat
-      def of(from: Int, until: Int) = walked(field, lamps, usual, from, until)._1
+      def of(from: Int, until: Int) = walked(field, emitters, usual, from, until)._1
       def gain(found: PilotBlocks) = gainOf(found, plain, WalkedOverhead)
       val found = of(FirstPairs, CausticPilot.Pairs)
       if gain(found) > CausticPilot.LeastGain then
         found.add(of(CausticPilot.Pairs, 2 * CausticPilot.Pairs))
-      (Some(SeenLight.Walked(lamps, usual)), gain(found))
+      (Some(SeenLight.Walked(emitters, usual)), gain(found))
 
   private def gainOf(found: PilotBlocks, plain: Double, overhead: Double): Double =
     val (variance, saved) = found.savings()
@@ -111,17 +111,17 @@ private[candela] final class AimPilot(
       val guide = Guide.unlearning
       (tracer(field, guide), (x, y) => part.addSaving(x, y, guide.takeSaving()))
 
-  /** Follows the pairs `from` to `until`, with walks to these lamps. */
+  /** Follows the pairs `from` to `until`, with walks to these emitters. */
   private def walked(
       field: PhotonField,
-      lamps: Int => Boolean,
+      emitters: Int => Boolean,
       usual: Float,
       from: Int,
       until: Int
   ): (PilotBlocks, Vector[WalkTally]) =
     CameraPairs.counted(view, Seed, pool, from, until): part =>
       val tally = WalkTally(scene.lights.length)
-      val walks = Manifolds(scene, light.maxDepth, lamps, field, MostWalks, usual, tally)
+      val walks = Manifolds(scene, light.maxDepth, emitters, field, MostWalks, usual, tally)
       (walker(walks), (x, y) => part.addSaving(x, y, tally.take()), tally)
 
 private[candela] object AimPilot:
@@ -135,7 +135,7 @@ private[candela] object AimPilot:
   /** Pairs of paths that tell how many rays an unguided path has. */
   inline val RayPairs = 512
 
-  /** Pairs that tell which lamps walks shall look for. */
+  /** Pairs that tell which emitters walks shall look for. */
   inline val FirstPairs = 512
 
   /** Walks for the probability of a chain, in the pilot. */

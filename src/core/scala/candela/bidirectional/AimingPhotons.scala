@@ -13,7 +13,7 @@ import candela.scene.{CasterLearning, Scene}
   */
 private final class AimingPhotons(scene: Scene, view: View, light: CausticLight, pool: Parallel):
   import AimingPhotons.*
-  private val places = SeenPlaces(scene, view, light, pool, Looks, onlyBehind = true)
+  private val places = SeenPlaces(scene, view, light, pool, CameraPaths, onlyBehind = true)
 
   private val aimed: Option[CausticLight] =
     val learning = if places.isEmpty then CasterLearning() else places.learn()
@@ -26,7 +26,7 @@ private final class AimingPhotons(scene: Scene, view: View, light: CausticLight,
     */
   def trace(paths: Int): Option[PhotonField] = aimed.flatMap: by =>
     val aside = Math.sqrt(light.casters.area / paths).toFloat
-    val parts = pool.map(Parts)(i => Tracer(by, aside).part(i * paths / Parts, paths / Parts))
+    val parts = pool.map(Tasks)(i => Tracer(by, aside).part(i * paths / Tasks, paths / Tasks))
     val all = FieldPhotons()
     for part <- parts do all.append(part)
     Option.when(all.count > 0)(PhotonFieldBuilder(all, pool).result())
@@ -82,9 +82,8 @@ private final class AimingPhotons(scene: Scene, view: View, light: CausticLight,
         GuideField.side(if vertex.localWo.z < 0f then -n else n)
 
 private object AimingPhotons:
-  /** Paths of the camera. */
-  inline val Looks = 1 << 14
+  inline val CameraPaths = 1 << 14
 
-  /** In which light paths are traced. */
-  inline val Parts = 64
+  /** Number of parallel tasks that trace the light paths; results do not depend on threads. */
+  inline val Tasks = 64
   inline val Seed = 0xa1d

@@ -12,8 +12,8 @@ import candela.scene.{CasterPoint, Casters, Scene}
   * Mutable, one per worker.
   *
   * A path begins at a point of a caster, which [[candela.scene.Casters]] sample. Light sampling
-  * there finds the lamp, so that paths are aimed at casters whatever sends the light: small lamps,
-  * suns and skies.
+  * there finds the emitter, so that paths are aimed at casters whatever sends the light: small
+  * emitters, suns and skies.
   *
   * @param maxEdges   maximum number of scattering events
   * @param compresses as in [[Subpath]]
@@ -60,17 +60,17 @@ private[bidirectional] final class CausticPaths(
     val choice = Casters.choice(sampler.x, sampler.y)
     sampler.next2D()
     val isSampled = casters.sample(choice, sampler.x, sampler.y, ray, point)
-    val choiceOfLamp = sampler.next1D(matters = connection.isRandom)
+    val choiceOfEmitter = sampler.next1D(matters = connection.isRandom)
     sampler.next2D()
-    if isSampled && connection.choose(point.p, Vec3.Zero, choiceOfLamp) then
-      lamp = connection.index
-      val light = scene.lights(lamp)
+    if isSampled && connection.choose(point.p, Vec3.Zero, choiceOfEmitter) then
+      emitter = connection.index
+      val light = scene.lights(emitter)
       if light.isCausticSource && connection.samplePoint(point.p, sampler.x, sampler.y) then
         val vertex = next()
         if arrive(vertex, aside, across, sampler) then follow(vertex, light.isDelta, sampler)
 
-  /** Traces the ray from the lamp to the sampled point, or beside it; false if something is in the
-    * way.
+  /** Traces the ray from the emitter to the sampled point, or beside it; false if something is in
+    * the way.
     */
   private def arrive(vertex: PathVertex, aside: Float, across: Float, sampler: Sampler): Boolean =
     val sample = connection.sample
@@ -130,7 +130,7 @@ private[bidirectional] final class CausticPaths(
     var alive = cosine > 0f && pdf > 0.0
     if alive then
       path.throughput = path.throughput * connection.sample.radiance.toRgb * (cosine / pdf).toFloat
-      // Light sampling from here chooses the lamp by another normal
+      // Light sampling from here chooses the emitter by another normal
       val chosen =
         scene.selection.probability(first.at.p, first.lightNormal, connection.index)
       path.weights.near = PartialWeights.mis(chosen.toDouble / connection.probability / perArea)
@@ -180,5 +180,5 @@ private[bidirectional] final class CausticPaths(
       vertex.crosses(vertex.bounce.wi)
 
 private object CausticPaths:
-  /** Where rays from infinite lamps start, in radii of the scene. */
+  /** Where rays from infinite emitters start, in radii of the scene. */
   private inline val Beyond = 2.1f

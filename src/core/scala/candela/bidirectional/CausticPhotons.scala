@@ -87,7 +87,7 @@ private final class MappedPhotons(
     while i < passed.count && segment.goTo(passed.t(i)) do
       val at = passed.at(i)
       // As at surfaces
-      val share = if isAlone && photons(at + PhotonMap.Edges) < 0f then 1f / 3f else 1f
+      val share = if isAlone && photons(at + PhotonMap.EdgesOffset) < 0f then 1f / 3f else 1f
       val factor = tree.perArea * share
       segment.add(
         photons(at + 3),

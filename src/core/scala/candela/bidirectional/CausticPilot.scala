@@ -9,30 +9,30 @@ import candela.scene.{CasterLearning, Casters, Scene}
 
 /** How light paths look for caustics.
   *
-  * @param casters   where they begin, more often where caustics come from
-  * @param perSample light paths per camera sample, on average
-  * @param ofLamps   the same of those that begin at lamps
-  * @param radius    within which photons are gathered at first, if paths leave them caustics
-  * @param bringsAll do photons then bring all that media scatter to the camera?
-  * @param aim       how light is found that specular surfaces show, if it is looked for
+  * @param casters    where they begin, more often where caustics come from
+  * @param perSample  light paths per camera sample, on average
+  * @param ofEmitters the same of those that begin at emitters
+  * @param radius     within which photons are gathered at first, if paths leave them caustics
+  * @param bringsAll  do photons then bring all that media scatter to the camera?
+  * @param aim        how light is found that specular surfaces show, if it is looked for
   */
 final case class CausticChoice(
     casters: Casters,
     perSample: Float,
-    ofLamps: Float = 0f,
+    ofEmitters: Float = 0f,
     radius: Float = 0f,
     bringsAll: Boolean = false,
     aim: Option[SeenLight] = None
 ):
   /** How many light paths there are. */
   def paths: String =
-    val more = if ofLamps > 0f then f", and $ofLamps%.3g from lamps" else ""
+    val more = if ofEmitters > 0f then f", and $ofEmitters%.3g from emitters" else ""
     f"$perSample%.3g light paths per camera sample$more"
 
-  def hasLightPaths: Boolean = perSample > 0f || ofLamps > 0f
+  def hasLightPaths: Boolean = perSample > 0f || ofEmitters > 0f
 
   private[candela] def weights(scene: Scene, view: View): CausticWeights =
-    CausticWeights(scene, casters, view.camera, perSample, ofLamps)
+    CausticWeights(scene, casters, view.camera, perSample, ofEmitters)
 
 /** Finds out by few paths whether light paths pay: whether they reduce the variance of the image by
   * more than they cost. Depends on the scene and its camera alone, not on the samples to be taken,
@@ -75,7 +75,7 @@ private[candela] final class CausticPilot(
     * light paths bring.
     */
   def balanced(choice: CausticChoice): CausticChoice = looked.fold(choice): found =>
-    val kinds = LightKind.values.toVector.take(if choice.ofLamps > 0f then 2 else 1)
+    val kinds = LightKind.values.toVector.take(if choice.ofEmitters > 0f then 2 else 1)
     val beside = found.beside(followed(choice.casters, kinds, 0, 1, choice.aim))
     val expected = Expected.of(beside, kinds, choice.aim.fold(1.0)(_.overhead))
     expected.choice(choice.casters).copy(aim = choice.aim)
@@ -101,14 +101,14 @@ private[candela] final class CausticPilot(
     if light.findsAll || expected.pays then (Some(expected.choice(aimed)), expected.toString)
     else (None, s"none: $expected")
 
-  /** Which light paths are taken, if any are: those from lamps, too, if that seems better; and what
-    * the first round finds.
+  /** Which light paths are taken, if any are: those from emitters, too, if that seems better; and
+    * what the first round finds.
     */
   private def ofKinds(aimed: Casters): (Vector[LightKind], Found) =
     def first(kinds: Vector[LightKind]) = (kinds, look(aimed, kinds, 0, 1))
     def gain(kinds: Vector[LightKind], found: Found) = Expected.of(found, kinds).gain
     val few = first(Vector(LightKind.OfCasters))
-    if !light.beginsAtLamps(scene) then few
+    if !light.beginsAtEmitters(scene) then few
     else
       val all = first(LightKind.values.toVector)
       if gain.tupled(all) > LeastGainOfMore * gain.tupled(few) then all else few
@@ -132,8 +132,8 @@ private[candela] final class CausticPilot(
       until: Int,
       aim: Option[SeenLight]
   ): PilotBlocks =
-    val ofLamps = if kinds.contains(LightKind.OfLamps) then 1f else 0f
-    val weights = CausticWeights(scene, aimed, view.camera, 1f, ofLamps)
+    val ofEmitters = if kinds.contains(LightKind.OfEmitters) then 1f else 0f
+    val weights = CausticWeights(scene, aimed, view.camera, 1f, ofEmitters)
     CameraPairs.followed(view, Seed + 2, pool, from * Pairs, until * Pairs): _ =>
       (tracer(weights, aim), (_, _) => ())
 
@@ -206,8 +206,8 @@ private[candela] final class CausticPilot(
           val paths = by.paths(scene, within)
           val observer = Observer(kind, this, if isLearning then Some(paths) else None)
           trace(paths, within, kind, observer, from, until, seed)(paths.trace(_, _))
-        case LightKind.OfLamps =>
-          val paths = by.lampPaths(scene, within)
+        case LightKind.OfEmitters =>
+          val paths = by.emitterPaths(scene, within)
           trace(paths, within, kind, Observer(kind, this, None), from, until, seed):
             (time, sampler) =>
               paths.trace(time, sampler, hero = (sampler.next1D() * 3f).toInt)
@@ -250,12 +250,12 @@ private[candela] final class CausticPilot(
             Math.min(if others > 0.0 then 1.0 / Math.sqrt(others) else MostRatio, MostRatio)
           found.splatted.addSplat(x, y, kind, weighted, weighted * (1.0 + others), ratio)
 
-  /** Samples of an image for which light paths shall pay. Where they may begin at lamps, those of
-    * casters alone seem to bring more than any can, by light that is found once in a million
+  /** Samples of an image for which light paths shall pay. Where they may begin at emitters, those
+    * of casters alone seem to bring more than any can, by light that is found once in a million
     * samples. Elsewhere that light is most of the gain where they pay, too.
     */
   private lazy val usual =
-    if light.beginsAtLamps(scene) then PilotBlocks.Usual else PilotBlocks.Endless
+    if light.beginsAtEmitters(scene) then PilotBlocks.UsualSamples else PilotBlocks.EndlessSamples
 
   /** What is expected of light paths.
     *
@@ -279,7 +279,7 @@ private[candela] final class CausticPilot(
       val variances = found.variances(usual)
       import variances.*
       // To the nearest power of two in media; elsewhere down, as the ring of docs/CAUSTICS.md asks
-      val ample = if kinds.contains(LightKind.OfLamps) then Math.sqrt(2.0) else 1.0
+      val ample = if kinds.contains(LightKind.OfEmitters) then Math.sqrt(2.0) else 1.0
       val perSample = LightKind.values.toVector.map: kind =>
         val k = kind.ordinal
         val best = ample * Math.sqrt(overhead * byLight(k) / (byPaths * cost(k)))
@@ -304,9 +304,9 @@ private[candela] object CausticPilot:
   val CameraElsewhere: String =
     "none: the first border of media before the camera says that it is in another medium"
 
-  /** Light paths per camera sample. */
-  inline val Least = 1.0 / 64
-  inline val Most = 16.0
+  /** Bounds of the light paths per camera sample. */
+  inline val MinPathsPerSample = 1.0 / 64
+  inline val MaxPathsPerSample = 16.0
 
   /** The same beside manifold walks, where the pilot's find nothing. What others then find counts
     * as many times as they are few.
@@ -322,7 +322,9 @@ private[candela] object CausticPilot:
     */
   inline val LeastGain = 3.0
 
-  /** Times the efficiency, from which on paths from lamps are taken beside those from casters. */
+  /** Times the efficiency, from which on paths from emitters are taken beside those from
+    * casters.
+    */
   inline val LeastGainOfMore = 1.2
 
   /** A power of two, not above `best`, within bounds.
@@ -330,8 +332,10 @@ private[candela] object CausticPilot:
     * @param best not a number where neither light paths nor the camera's find anything
     */
   def amount(best: Double): Double =
-    if best > 0.0 then Math.max(Least, Math.min(Math.scalb(1.0, Math.getExponent(best)), Most))
-    else Least
+    if best > 0.0 then
+      val power = Math.scalb(1.0, Math.getExponent(best))
+      Math.max(MinPathsPerSample, Math.min(power, MaxPathsPerSample))
+    else MinPathsPerSample
 
   /** The factor of efficiency, from variance times cost before and after; one where nothing is
     * noisy.

@@ -1,11 +1,11 @@
 package candela.bidirectional
 
+import candela.aov.LightParts
 import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.View
 import candela.geometry.Ray
 import candela.integrators.{CausticWeights, Integrator, LightTransport}
-import candela.layers.LightParts
 import candela.media.SceneMedia
 import candela.sampling.{IndependentSampler, Sampler}
 import candela.scene.{Casters, Scene}
@@ -59,18 +59,18 @@ final case class CausticLight(
   private[bidirectional] def paths(scene: Scene, within: PathMedia | Null): CausticPaths =
     CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, within)
 
-  /** May light paths begin at lamps, too? In fog without end, those from infinity would begin
+  /** May light paths begin at emitters, too? In fog without end, those from infinity would begin
     * closer than where light samples do. What they bring may be scattered once; where light is
     * divided, or limited if it was scattered more often, what light paths bring is not told apart.
     */
-  private[candela] def beginsAtLamps(scene: Scene): Boolean =
+  private[candela] def beginsAtEmitters(scene: Scene): Boolean =
     !beneath && scene.lightGroups.isEmpty && media.exists: all =>
       lazy val isEndless = PathMedia.beyondAll(scene, all) >= 0
       !scene.lights.indices.exists: i =>
         scene.lights(i).isInfinite && (all.lights(i) >= 0 || isEndless)
 
   /** Paths of all light that does not meet a caster first. */
-  private[bidirectional] def lampPaths(scene: Scene, within: PathMedia | Null): LightPaths =
+  private[bidirectional] def emitterPaths(scene: Scene, within: PathMedia | Null): LightPaths =
     LightPaths(
       scene,
       maxDepth,
@@ -79,7 +79,7 @@ final case class CausticLight(
       weighsAll = false,
       media = within,
       casters = casters,
-      beside = LightPaths.Beside(CausticWeights.lamps(scene), findsAll)
+      beside = LightPaths.Beside(CausticWeights.emitters(scene), findsAll)
     )
 
 object CausticLight:
@@ -89,9 +89,9 @@ object CausticLight:
   * scatter, and that a surface or a medium before the camera sends on. Where both find the same
   * light, both are weighted by multiple importance sampling.
   *
-  * @param tracer    weighs what it finds by [[candela.integrators.CausticWeights]]
-  * @param perSample light paths from casters per camera sample, on average
-  * @param ofLamps   the same of those from lamps
+  * @param tracer     weighs what it finds by [[candela.integrators.CausticWeights]]
+  * @param perSample  light paths from casters per camera sample, on average
+  * @param ofEmitters the same of those from emitters
   *
   * Source: Veach 1997, §10: light tracing is his strategy t = 1, of which only caustics are taken.
   */
@@ -101,15 +101,15 @@ final class CausticTracer(
     view: View,
     light: CausticLight,
     perSample: Float,
-    ofLamps: Float
+    ofEmitters: Float
 ) extends Integrator:
   private val within = light.within(scene)
   private val paths = light.paths(scene, within)
-  private val lampPaths = if ofLamps > 0f then light.lampPaths(scene, within) else null
+  private val emitterPaths = if ofEmitters > 0f then light.emitterPaths(scene, within) else null
   private val camera = CameraConnection(scene, view.camera, view.splats, within)
 
   def raysTraced: Long = tracer.raysTraced + paths.raysTraced + camera.raysTraced +
-    (if lampPaths == null then 0L else lampPaths.raysTraced) +
+    (if emitterPaths == null then 0L else emitterPaths.raysTraced) +
     (if within == null then 0L else within.raysTraced)
 
   override def lastMaterial: Int = tracer.lastMaterial
@@ -125,11 +125,11 @@ final class CausticTracer(
       paths.trace(time, sampler)
       camera.connect(paths, isWeighted = true, sampler, perSample)
       left -= 1f
-    val more = lampPaths
-    left = if more == null then 0f else ofLamps
+    val more = emitterPaths
+    left = if more == null then 0f else ofEmitters
     while more != null && isNext(left, sampler) do
       more.trace(time, sampler, hero = (sampler.next1D() * 3f).toInt)
-      camera.connect(more, isWeighted = true, sampler, ofLamps)
+      camera.connect(more, isWeighted = true, sampler, ofEmitters)
       left -= 1f
     found
 

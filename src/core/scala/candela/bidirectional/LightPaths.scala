@@ -2,7 +2,7 @@ package candela.bidirectional
 
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray}
-import candela.integrators.LampChoice
+import candela.integrators.EmitterChoice
 import candela.lights.{EmittedRay, LightGroups}
 import candela.math.*
 import candela.sampling.Sampler
@@ -36,7 +36,8 @@ private[bidirectional] final class LightPaths(
     beside: LightPaths.Beside | Null = null
 ) extends LightVertices(scene):
   private val choice =
-    if beside != null then beside.lamps else LampChoice(scene, l => !(weighsAll && l.isContrary))
+    if beside != null then beside.emitters
+    else EmitterChoice(scene, l => !(weighsAll && l.isContrary))
   private val start = EmittedRay()
   private val ray = Ray()
   private val hit = Hit()
@@ -56,7 +57,7 @@ private[bidirectional] final class LightPaths(
     clear()
     if maxEdges > 0 && !choice.isEmpty then
       val light = choice.sample(sampler)
-      lamp = light
+      emitter = light
       sampler.next2D()
       val u1 = sampler.x
       val u2 = sampler.y
@@ -121,7 +122,7 @@ private[bidirectional] final class LightPaths(
             if within != null then within.medium = within.towards(vertex, ray.direction)
 
   /** Is the vertex left to others? Light samples find well what is lit directly, but for what a
-    * medium close to a lamp scatters.
+    * medium close to an emitter scatters.
     */
   private def isLeft(vertex: PathVertex): Boolean =
     beside != null && vertex.edges == 1 && !vertex.isInMedium
@@ -153,17 +154,17 @@ private[bidirectional] final class LightPaths(
 private[bidirectional] object LightPaths:
   /** What light paths are to be beside others.
     *
-    * @param lamps    where they begin
+    * @param emitters where they begin
     * @param findsAll also trace light that paths from the camera cannot find
     */
-  final case class Beside(lamps: LampChoice, findsAll: Boolean)
+  final case class Beside(emitters: EmitterChoice, findsAll: Boolean)
 
 /** The vertices of a light path that can be connected to a camera subpath. */
 private[bidirectional] abstract class LightVertices(scene: Scene):
   private val groups: LightGroups | Null = scene.lightGroups.orNull
 
   /** Index of the light where the path begins. */
-  protected final var lamp = -1
+  protected final var emitter = -1
   private var kept = Array.fill(LightVertices.InitialSize)(PathVertex(scene))
   private var used = 0
 
@@ -175,7 +176,7 @@ private[bidirectional] abstract class LightVertices(scene: Scene):
   /** The group of its light; 0: it is not told. */
   final def group: Int =
     val all = groups
-    if all == null || lamp < 0 then 0 else all(lamp)
+    if all == null || emitter < 0 then 0 else all(emitter)
 
   /** Vertex `i`. Its throughput is power, not yet divided by solid angle. */
   final def apply(i: Int): PathVertex = kept(i)

@@ -36,8 +36,8 @@ private[bidirectional] final class Photons:
     data(at + 6) = light.r
     data(at + 7) = light.g
     data(at + 8) = light.b
-    data(at + PhotonMap.Edges) = edges.toFloat
-    data(at + PhotonMap.Place) = place.toFloat
+    data(at + PhotonMap.EdgesOffset) = edges.toFloat
+    data(at + PhotonMap.PlaceOffset) = place.toFloat
     count += 1
     if place >= 0 then inMedia += 1
 
@@ -84,7 +84,7 @@ private[bidirectional] final class PhotonMap(
         loop(part.count): i =>
           val at = i * Numbers
           val d = part.data
-          if d(at + Place) == Surface then
+          if d(at + PlaceOffset) == Surface then
             use(d, at, bucket(cell(d(at)), cell(d(at + 1)), cell(d(at + 2))))
     each((_, _, b) => starts(b + 1) += 1)
     loop(mask + 1)(b => starts(b + 1) += starts(b))
@@ -146,13 +146,13 @@ private[bidirectional] final class PhotonMap(
       val distance2 = square(px - p.x) + square(py - p.y) + square(pz - p.z)
       // Other cells may have the same hash; they are visited separately
       if distance2 < radius2 && cell(px) == x && cell(py) == y && cell(pz) == z &&
-        Math.abs(data(at + Edges)) <= most
+        Math.abs(data(at + EdgesOffset)) <= most
       then
         val wi = Vec3(data(at + 3), data(at + 4), data(at + 5))
         val f = vertex.received(wi)
         if !f.isBlack && (takesAll || vertex.pdf(wi) <= limit) then
           // If both paths carry their hero alone, each stands for all three wavelengths
-          val share = if isAlone && data(at + Edges) < 0f then 1f / 3f else 1f
+          val share = if isAlone && data(at + EdgesOffset) < 0f then 1f / 3f else 1f
           r += f.r * data(at + 6) * share
           g += f.g * data(at + 7) * share
           blue += f.b * data(at + 8) * share
@@ -163,11 +163,11 @@ private[bidirectional] object PhotonMap:
   /** Floats per photon. */
   inline val Numbers = 11
 
-  /** Where a photon has the number of its edges, and its place. */
-  inline val Edges = 9
-  inline val Place = 10
+  /** Offsets of a photon's number of edges, and of its place: a medium, or [[Surface]]. */
+  inline val EdgesOffset = 9
+  inline val PlaceOffset = 10
 
-  /** It has arrived at a surface. */
+  /** The place of a photon that has arrived at a surface. */
   inline val Surface = -1
 
   /** Photons in media for what the camera does not see, and their radius. */

@@ -16,7 +16,8 @@ import candela.scene.Scene
   * once.
   *
   * @param maxDepth   maximum number of scattering events of the camera subpath
-  * @param interfaces what they are to light sampling. Where they stop it, lamps without a BSDF are
+  * @param interfaces what they are to light sampling. Where they stop it, emitters without a BSDF
+  *   are
   *                   invisible; where they are weighed, paths look for light beyond the surface
   *                   where they gather
   *

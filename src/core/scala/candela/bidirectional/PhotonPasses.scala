@@ -101,9 +101,9 @@ abstract class PhotonMaps(first: Float, asked: Int, view: View) extends SharedPa
 
   private val paths = if asked > 0 then asked else Math.min(view.crop.pixels, MostPaths).toInt
   private val shutter = view.shutter.getOrElse(Shutter(0f, 0f))
-  private val recent = new Array[Pass | Null](SharedPasses.Open)
+  private val recent = new Array[Pass | Null](SharedPasses.MaxOpen)
 
-  /** The photon map of a pass; up to [[SharedPasses.Open]] passes may be in progress. None if
+  /** The photon map of a pass; up to [[SharedPasses.MaxOpen]] passes may be in progress. None if
     * stopped before it was complete.
     */
   private[bidirectional] def apply(

@@ -21,7 +21,7 @@ private[candela] final class PhotonPilot(
     else (None, CausticPilot.CameraElsewhere)
 
   private def look(): (Option[CausticChoice], String) =
-    val places = SeenPlaces(scene, view, light, pool, Looks, onlyBehind = false)
+    val places = SeenPlaces(scene, view, light, pool, CameraPaths, onlyBehind = false)
     if places.isEmpty then (None, s"none: the camera sees no $receivers that receives photons")
     else
       val learning = places.learn()
@@ -37,7 +37,7 @@ private[candela] final class PhotonPilot(
 
   /** May photons bring all that media scatter? They can't begin at skies behind portals. */
   private def mayBringAll: Boolean =
-    light.suitsPhotons && light.beginsAtLamps(scene) &&
+    light.suitsPhotons && light.beginsAtEmitters(scene) &&
       scene.environments.forall(_.power(scene.ball) > 0f)
 
   private def receivers = if light.media.isDefined then "surface or medium" else "surface"
@@ -48,8 +48,7 @@ private[candela] final class PhotonPilot(
     else "caustics"
 
 private[candela] object PhotonPilot:
-  /** Paths of the camera. */
-  inline val Looks = 4096
+  inline val CameraPaths = 4096
 
   /** The first radius, in pixels: each gathers some ten photons where they are evenly spread. */
   inline val Pixels = 2f

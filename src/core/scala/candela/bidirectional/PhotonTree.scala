@@ -57,7 +57,7 @@ private[bidirectional] final class PhotonTree(
     for part <- parts do
       GivenUp.check(isStopped)
       loop(part.count): i =>
-        if part.data(i * Numbers + PhotonMap.Place) >= 0f then
+        if part.data(i * Numbers + PhotonMap.PlaceOffset) >= 0f then
           skipped += 1
           if skipped == every then
             System.arraycopy(part.data, i * Numbers, all, at, Numbers)
@@ -159,8 +159,8 @@ private[bidirectional] final class PhotonTree(
       val beside2 = square(x - t * ray.dx) + square(y - t * ray.dy) + square(z - t * ray.dz)
       if beside2 < radius2 && t > 0f && t < ray.tMax then
         val at = i * Numbers
-        val isTaken = data(at + PhotonMap.Place) == medium &&
-          Math.abs(data(at + PhotonMap.Edges)) <= most
+        val isTaken = data(at + PhotonMap.PlaceOffset) == medium &&
+          Math.abs(data(at + PhotonMap.EdgesOffset)) <= most
         if isTaken then out.add(t, at)
       i += 1
 

@@ -138,7 +138,7 @@ private final class PilotBlocks(view: View):
 
 /** Light paths, by where they begin. */
 private enum LightKind:
-  case OfCasters, OfLamps
+  case OfCasters, OfEmitters
 
 private object PilotBlocks:
   /** Relative variances.
@@ -155,11 +155,11 @@ private object PilotBlocks:
   /** Part of the mean brightness below which blocks count no more. */
   inline val Floor = 0.1
 
-  /** Samples of a pixel, as images often have. */
-  inline val Usual = 1024.0
+  /** Samples per pixel of a typical image. */
+  inline val UsualSamples = 1024.0
 
-  /** More than any image has. */
-  inline val Endless = 1e30
+  /** More samples than any image has. */
+  inline val EndlessSamples = 1e30
 
   /** Powers of two, from this one on, that brightness is told apart by. */
   inline val Dimmest = -32

@@ -132,7 +132,7 @@ private[bidirectional] object PrimarySamples:
         values(i) = from.float()
         changed(i) = from.int()
         require(values(i) >= 0f && values(i) < 1f, s"a random number is ${values(i)}")
-        require(changed(i) >= Never && changed(i) <= owner.time, s"a step is ${changed(i)}")
+        require(changed(i) >= NeverChanged && changed(i) <= owner.time, s"a step is ${changed(i)}")
 
     def clear(): Unit =
       known = 0
@@ -171,7 +171,7 @@ private[bidirectional] object PrimarySamples:
         changed = java.util.Arrays.copyOf(changed, 2 * known)
         oldValues = java.util.Arrays.copyOf(oldValues, 2 * known)
         oldChanged = java.util.Arrays.copyOf(oldChanged, 2 * known)
-      changed(known) = Never
+      changed(known) = NeverChanged
       known += 1
 
   /** Wraps around to [0, 1): the space is a torus. */
@@ -179,7 +179,7 @@ private[bidirectional] object PrimarySamples:
     val inside = value - Math.floor(value.toDouble).toFloat
     if inside < 1f then inside else 0f
 
-  private inline val Never = -1
+  private inline val NeverChanged = -1
 
   /** Initial capacity in dimensions. */
   private inline val InitialSize = 32

@@ -27,7 +27,7 @@ private[bidirectional] final class SeenPlaces(
     onlyBehind: Boolean
 ):
   import SeenPlaces.*
-  private val parts = pool.map(Parts)(i => Look(i * looks / Parts, (i + 1) * looks / Parts))
+  private val parts = pool.map(Tasks)(i => Look(i * looks / Tasks, (i + 1) * looks / Tasks))
   private val places = parts.flatMap(_.found)
 
   /** The median size of pixels there; 0: there is none. */
@@ -51,14 +51,14 @@ private[bidirectional] final class SeenPlaces(
   /** Learns where light begins its way that arrives there. */
   def learn(): CasterLearning =
     val learning = CasterLearning()
-    val each = CausticPilot.LearningPaths / Parts
-    pool.map(Parts)(i => learn(i * each, (i + 1) * each)).foreach(learning.addAll)
+    val each = CausticPilot.LearningPaths / Tasks
+    pool.map(Tasks)(i => learn(i * each, (i + 1) * each)).foreach(learning.addAll)
     learning
 
   /** How many photons of other light than [[CausticPaths]] bring a path leaves here, in media. */
   def othersOfPath(): Double =
-    val each = OtherPaths / Parts
-    val counts = pool.map(Parts): part =>
+    val each = OtherPaths / Tasks
+    val counts = pool.map(Tasks): part =>
       val within = light.within(scene)
       val paths = CausticPhotons.others(scene, light, within)
       val sampler = IndependentSampler(1, CausticPilot.Seed + 3)
@@ -152,6 +152,6 @@ private[bidirectional] final class SeenPlaces(
       (eye + direction * distance - other).length
 
 private object SeenPlaces:
-  /** In which paths are traced. */
-  inline val Parts = 16
+  /** Number of parallel tasks that trace the paths; results do not depend on threads. */
+  inline val Tasks = 16
   inline val OtherPaths = 4096

@@ -2,22 +2,22 @@ package candela.build
 
 import candela.scenefile.Declaration
 
-/** What `--explain` says of caustics: which surfaces cast them, and which lamps send the light.
+/** What `--explain` says of caustics: which surfaces cast them, and which emitters send the light.
   *
-  * @param casters shapes of each material that casts caustics, by the material's name
-  * @param lamps   that light paths can begin at
-  * @param named   materials by name
+  * @param casters  shapes of each material that casts caustics, by the material's name
+  * @param emitters that light paths can begin at
+  * @param named    materials by name
   */
 private[build] final class CausticSurvey(
     casters: Vector[(String, Int)],
-    lamps: Vector[SampledLight],
+    emitters: Vector[SampledLight],
     named: Map[String, Declaration]
 ):
   import CausticSurvey.*
 
   def features: Vector[(String, String)] =
     if casters.isEmpty then Vector.empty
-    else Vector("casters" -> shortened(surfaces, "materials"), "their lamps" -> lights)
+    else Vector("casters" -> shortened(surfaces, "materials"), "their lights" -> lights)
 
   private def surfaces: Vector[String] =
     // Most shapes first; sorting keeps the order of the scene file among equals
@@ -28,16 +28,16 @@ private[build] final class CausticSurvey(
       s"$material on ${if shapes == 1 then "1 shape" else s"$shapes shapes"}"
 
   private def lights: String =
-    val statements = lamps.map(l => StatementName(l.statement) -> l.light.isDelta).distinct
+    val statements = emitters.map(l => StatementName(l.statement) -> l.light.isDelta).distinct
     if statements.isEmpty then "none"
     else
       shortened(
-        statements.map((name, isDelta) => if isDelta then s"$name without extent" else name),
-        "lamps"
+        statements.map((name, isDelta) => if isDelta then s"$name (delta light)" else name),
+        "lights"
       )
 
 private[build] object CausticSurvey:
-  private val Most = 3
+  private val MaxListed = 3
 
   /** @param worn   material of each shape
     * @param lights of the scene
@@ -60,5 +60,5 @@ private[build] object CausticSurvey:
     )
 
   private def shortened(all: Vector[String], what: String): String =
-    if all.size <= Most then all.mkString(", ")
-    else s"${all.take(Most).mkString(", ")} and ${all.size - Most} more $what"
+    if all.size <= MaxListed then all.mkString(", ")
+    else s"${all.take(MaxListed).mkString(", ")} and ${all.size - MaxListed} more $what"

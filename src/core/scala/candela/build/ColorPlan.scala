@@ -34,18 +34,18 @@ private[build] object ColorPlan:
     */
   def of(context: BuildContext, asked: ColorMode, camera: Option[CameraSensor]): ColorPlan =
     val census = context.resources.census
-    val (least, uniform) = census.bands.fold((Usual, Wavelengths.Uniform))(n => (4 * n, 1.0))
+    val (least, uniform) = census.bands.fold((UsualSets, Wavelengths.Uniform))(n => (4 * n, 1.0))
     def spectral(why: String) =
       val smooth = SmoothSpectra()
       val (lights, surfaces) = (census.lights, census.surfaces)
       val light = census.light
-      val fewest = Math.max(if census.isDispersive then Many else Usual, least)
+      val fewest = Math.max(if census.isDispersive then DispersionSets else UsualSets, least)
       val observed =
         Iterator
           .iterate(fewest)(2 * _)
           .map(Wavelengths.covering(_, smooth, light))
           .find(bases =>
-            bases.size >= Most ||
+            bases.size >= MaxSets ||
               ColorError.ofWavelengths(bases, lights, surfaces) < LineTolerance
           )
           .get
@@ -77,14 +77,14 @@ private[build] object ColorPlan:
   /** Scattering events of a path that matter for its colour. */
   private val Bounces = 12
 
-  /** Sets of three wavelengths. */
-  private val Usual = 64
+  /** Number of sets of three wavelengths. */
+  private val UsualSets = 64
 
-  /** … where each hero wavelength goes its own way. */
-  private val Many = 256
+  /** … if glass disperses light. */
+  private val DispersionSets = 256
 
-  /** … for spectra of narrow lines. */
-  private val Most = 512
+  /** … at most, for spectra of narrow lines. */
+  private val MaxSets = 512
 
   /** Error of a channel above which spectra need more wavelengths. */
   private val LineTolerance = 0.003

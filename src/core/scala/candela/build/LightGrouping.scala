@@ -18,8 +18,8 @@ enum LightGrouping:
   case Named(groups: Vector[(String, Vector[String])])
 
 object LightGrouping:
-  /** Each has three channels; scenes may have thousands of lights. */
-  val Most = 100
+  /** Each group has three channels, and scenes may have thousands of lights. */
+  val MaxGroups = 100
 
   private val Rest = "default"
   private val Media = "media"
@@ -37,10 +37,10 @@ object LightGrouping:
       Option.when(glows)(Light(Media, Media))
     val found = lights.map(groupOf(grouping, lights))
     val all = found.distinct
-    if all.size > Most then
+    if all.size > MaxGroups then
       throw error(
         Code.OptionMisfit,
-        s"the scene has ${all.size} light groups, more than $Most",
+        s"the scene has ${all.size} light groups, more than $MaxGroups",
         Some("--light-groups type merges those of equal types; NAME=LIGHT+LIGHT,… names them")
       )
     val indices = found.map(all.indexOf).toArray

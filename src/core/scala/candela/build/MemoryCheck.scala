@@ -28,7 +28,7 @@ private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: 
     val all = known ++ film
     // What building the largest hierarchy takes is gone before that hierarchy is there
     val others = all.filter(_.kind != CostKind.Hierarchies)
-    def least(costs: Vector[Cost]) = (costs.map(_.bytes).sum * MemoryCheck.Sure).toLong
+    def least(costs: Vector[Cost]) = (costs.map(_.bytes).sum * MemoryCheck.CertainShare).toLong
     if Math.max(least(all), least(others) + size.building) > heap && !context.problems.hasErrors
     then
       val building = others :+ Cost(CostKind.Hierarchies, size.building)
@@ -41,5 +41,5 @@ private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: 
     catch case _: OutOfMemoryError => throw SceneError(Costs(known ++ film).problem(heap, None))
 
 private object MemoryCheck:
-  /** Part of the estimate that a scene takes if the estimate is too high. */
-  private val Sure = 0.8
+  /** A scene takes at least this share of the estimate. */
+  private val CertainShare = 0.8

@@ -132,7 +132,7 @@ private[build] final class ObjectUses(
           Code.AsInPbrt,
           light.at,
           "area lights of an object are seen, but light nothing, as in pbrt",
-          Some("place the lamp outside of the object")
+          Some("place the light outside of the object")
         )
       s.copy(inObject = true)
 

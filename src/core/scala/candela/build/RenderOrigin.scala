@@ -42,8 +42,8 @@ private[build] final class RenderOrigin(val at: Position, val why: String = ""):
 private[build] object RenderOrigin:
   val World: RenderOrigin = RenderOrigin(Position.Origin)
 
-  /** Distance below which the world's origin is near enough: Floats are 0.001 apart. */
-  private val Near = 8192.0
+  /** Scenes that are nearer to the world's origin keep it: Floats are 0.001 apart there. */
+  private val NearDistance = 8192.0
 
   /** How many times its size a scene must be away, that rounding shows: from a million times on, a
     * scene is a few Floats wide; at 64, an image of a thousand pixels is still exact.
@@ -70,7 +70,7 @@ private[build] object RenderOrigin:
     val middle = median(found.map(_.middle))
     if found.isEmpty || !isFar(middle) then Position.Origin else around(middle, found).at
 
-  private def isFar(p: Position) = p.reach >= Near && p.reach < 1e15
+  private def isFar(p: Position) = p.reach >= NearDistance && p.reach < 1e15
 
   private def around(eye: Position, seen: Vector[Extent]): RenderOrigin =
     val sizes = seen.map(e => Math.max(e.size, e.middle.distance(eye)))

@@ -1,12 +1,12 @@
 package candela.build
 
+import candela.aov.Layer
 import candela.build.recipe.Switches
 import candela.build.sampling.PointChoice
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.{GuideSettings, GuidingMode}
 import candela.image.DisplayTransform
 import candela.integrators.CausticsMode
-import candela.layers.Layer
 import candela.scenefile.Dialect
 
 /** What is rendered of a scene. With the scene's files, these are the identity of a rendering:

@@ -1,6 +1,7 @@
 package candela.build
 
 import candela.accel.tracing.Hierarchies
+import candela.aov.{Layer, LayerFilm, ScreenMotion, VisibleSurface}
 import candela.base.{Code, JavaHeap, Keep, Limit, Parallel, Problem}
 import candela.build.recipe.TextureControl
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
@@ -8,7 +9,6 @@ import candela.color.ColorBasis
 import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands, Splats, View}
 import candela.guiding.Guide
 import candela.integrators.CausticsMode
-import candela.layers.{Layer, LayerFilm, ScreenMotion, VisibleSurface}
 import candela.math.{Motion, Still}
 import candela.render.{ErrorFile, FilmSize, LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.{CenteredSampler, IndependentSampler}

@@ -60,7 +60,7 @@ private[build] final class SceneSize(
   private def statements: Long =
     listed + description.media.iterator.map(m => arrays(m.medium)).sum +
       description.instances.size * Placed + unshared * Rows +
-      (emitting + description.lights.size) * LampStatement
+      (emitting + description.lights.size) * LightStatement
 
   /** Instances whose matrix is copied, or is not that of a row. */
   private def unshared: Long =
@@ -76,10 +76,10 @@ private[build] final class SceneSize(
     description.namedMaterials.size + worn.size
 
   private def lights: Long =
-    val emitters =
+    val shapes =
       if emitting == 0 then Vector.empty else uses.world.filter(_.areaLight.isDefined)
-    val lamps = SurfaceCount.of(emitters, description.dialect.base)
-    lamps.triangles * TriangleLamp + (lamps.solids + description.lights.size) * Lamp +
+    val areaLights = SurfaceCount.of(shapes, description.dialect.base)
+    areaLights.triangles * TriangleLight + (areaLights.solids + description.lights.size) * Light +
       description.lights.map(l => image(l.light)).sum
 
   /** Bytes of the image of a light. What portals make of theirs is in memory. */
@@ -99,7 +99,7 @@ private[build] final class SceneSize(
 private[build] object SceneSize:
   // Bytes in memory of one of each, as objects of Java lie there on 64 bits
   private val Statement = 330L
-  private val LampStatement = 280L
+  private val LightStatement = 280L
 
   /** Of an instance: without its matrix, which may be that of [[Instance]]. */
   private val Placed = 13L
@@ -110,8 +110,8 @@ private[build] object SceneSize:
   private val Patch = 172L
   private val Instance = 104L
   private val Material = 1000L
-  private val Lamp = 450L
-  private val TriangleLamp = 550L
+  private val Light = 450L
+  private val TriangleLight = 550L
 
   // Blocks of triangles that are not quite full, and nodes
   private val TriangleNode = 54L

@@ -16,12 +16,12 @@ private[build] final class SceneSurvey(d: SceneDescription):
 
   def extents(): Vector[Extent] =
     val shapes = d.shapes.flatMap(extent(_, looks = true))
-    val instances = d.instances.take(Most).toVector.flatMap: i =>
-      d.objects.getOrElse(i.name, Vector.empty).take(FewShapes)
+    val instances = d.instances.take(MaxInstances).toVector.flatMap: i =>
+      d.objects.getOrElse(i.name, Vector.empty).take(MaxShapes)
         .flatMap(extent(_, looks = true, i.instanceToWorld.start))
     val volumes = d.volumes.flatMap(v => box(v.light, v.lightToWorld.start))
     val solid = shapes ++ instances ++ volumes
-    // Lamps may be far off, so they tell little
+    // Emitters may be far off, so they tell little
     if solid.nonEmpty then solid
     else
       d.lights.filterNot(_.light.name == "infinite").flatMap: l =>
@@ -29,10 +29,10 @@ private[build] final class SceneSurvey(d: SceneDescription):
         around(Vector(from.getOrElse(Position.Origin)), l.lightToWorld.start)
 
 private[build] object SceneSurvey:
-  /** Vertices of a mesh, shapes of an object and instances that suffice for an estimate. */
-  private val FewVertices = 64
-  private val FewShapes = 16
-  private val Most = 4096
+  /** An estimate uses this many vertices of a mesh, shapes of an object, and instances. */
+  private val MaxVertices = 64
+  private val MaxShapes = 16
+  private val MaxInstances = 4096
 
   /** @param looks whether to look into files */
   def extent(
@@ -61,12 +61,12 @@ private[build] object SceneSurvey:
     Position(p.number(i) / w, p.number(i + 1) / w, p.number(i + 2) / w)
 
   private def vertices(folder: SceneFolder, name: String): Vector[Position] =
-    folder.glance(name).flatMap(file => Try(PlyFile.begin(file, FewVertices)).toOption).fold(
+    folder.glance(name).flatMap(file => Try(PlyFile.begin(file, MaxVertices)).toOption).fold(
       Vector.empty
     )(p => Vector.tabulate(p.length / 3)(i => Position(p(3 * i), p(3 * i + 1), p(3 * i + 2))))
 
   private def spread(count: Int): Vector[Int] =
-    val step = Math.max(1, count / FewVertices)
+    val step = Math.max(1, count / MaxVertices)
     Vector.range(0, count, step)
 
   /** The box of a volume. */

@@ -1,5 +1,6 @@
 package candela.build
 
+import candela.aov.Layer
 import candela.base.{Code, Problem, SceneError, Severity}
 import candela.build.cameras.Cameras
 import candela.build.film.{FilmSettings, Films, Filters}
@@ -7,7 +8,6 @@ import candela.build.integrators.IntegratorPlan
 import candela.build.sampling.{SamplerPlan, SamplerRequest, Samplers}
 import candela.cameras.{Camera, FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.film.{Filter, PixelBounds}
-import candela.layers.Layer
 import candela.math.*
 import candela.sampling.Sampler
 

@@ -90,10 +90,10 @@ private[build] final class SurfaceBuilder(
       case None => (dressed.declared, written)
     val here = context.site(declared, toWorld)
     for plan <- alike(declared, isPlaced, throughOthers)(Shapes.all.build(here).flatten) do
-      val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
+      val emitter = dressed.shape.areaLight.filter(context.emission(_).isDefined)
         .filter(_ => !isUnlit(dressed.material, here))
       val before = soup.triangleCount + solids.count
-      Placement(dressed, here, plan, lamp, toWorld).place(plan.geometry)
+      Placement(dressed, here, plan, emitter, toWorld).place(plan.geometry)
       val made = soup.triangleCount + solids.count - before
       context.resources.allowance.countShapes(made, Some(declared.at))
 
@@ -145,7 +145,7 @@ private[build] final class SurfaceBuilder(
       dressed: DressedShape,
       here: Site,
       plan: ShapePlan,
-      lamp: Option[Declaration],
+      emitter: Option[Declaration],
       toWorld: Transform
   ):
     private val isReversed = dressed.shape.reverseOrientation
@@ -158,22 +158,22 @@ private[build] final class SurfaceBuilder(
     private def isShadowing: Boolean = integrator.interfaces.stopsLight &&
       ((veil ne SolidMask) || materials.materials(dressed.material).isInterface)
 
-    /** In Mitsuba's scenes, samples of a lamp lie on the side that rays see. */
-    private val isConsistent = context.rules.facesLamps
+    /** In Mitsuba's scenes, samples of an emitter lie on the side that rays see. */
+    private val isConsistent = context.rules.facesEmitters
 
     def place(geometry: ShapeGeometry): Unit = geometry match
       case mesh: ShapeGeometry.Triangles => addMesh(mesh)
       case ShapeGeometry.Solid(_, _) if toWorld.isFlat => () // reported before
       case ShapeGeometry.Solid(make, turned) =>
         val facesInwards = isReversed != (isConsistent && isReflected)
-        // Samples of a mirrored lamp that is a cylinder lie on its other side, as in Mitsuba
-        val isOdd = isConsistent && isReflected && lamp.isDefined &&
+        // Samples of a mirrored emitter that is a cylinder lie on its other side, as in Mitsuba
+        val isOdd = isConsistent && isReflected && emitter.isDefined &&
           dressed.declared.name == "cylinder"
-        addSolid(make(toWorld, facesInwards != isOdd), lamp, (isInverted != turned) != isOdd)
+        addSolid(make(toWorld, facesInwards != isOdd), emitter, (isInverted != turned) != isOdd)
       case ShapeGeometry.Solids(make) =>
-        for shape <- make(toWorld, isReversed) do addSolid(shape, lamp, isInverted = false)
+        for shape <- make(toWorld, isReversed) do addSolid(shape, emitter, isInverted = false)
       case ShapeGeometry.Curves(strand, curves) =>
-        if lamp.isDefined then
+        if emitter.isDefined then
           val name = dressed.shape.shape.name
           here.warn(
             Code.DarkLight,
@@ -182,7 +182,7 @@ private[build] final class SurfaceBuilder(
         note(solids.addCurves(curves, strand.form, toWorld, isReversed, dressed.material))
       case ShapeGeometry.Several(parts) => parts.foreach(place)
       case ShapeGeometry.Around(origin, parts) =>
-        Placement(dressed, here, plan, lamp, toWorld * origin.fromOrigin).place(parts)
+        Placement(dressed, here, plan, emitter, toWorld * origin.fromOrigin).place(parts)
 
     /** pbrt-v3 and v4 flip the normals of reflected quadrics, v2 those of all disks. */
     private def isInverted: Boolean =
@@ -195,13 +195,13 @@ private[build] final class SurfaceBuilder(
 
     private def addSolid(
         shape: Shape,
-        lamp: Option[Declaration],
+        emitter: Option[Declaration],
         isInverted: Boolean
     ): Unit =
-      val lit = lamp.filter(_ => hasArea(shape))
+      val lit = emitter.filter(_ => hasArea(shape))
       val light = lit.fold(ShapeTable.Dark)(_ => lightCount)
-      for lamp <- lit do
-        addLights(1, lamp, dressed.shape.inObject): (emitted, _) =>
+      for emitter <- lit do
+        addLights(1, emitter, dressed.shape.inObject): (emitted, _) =>
           Vector(holes.light(emitted.ofShape(shape, isInverted), shape))
       solids.add(shape, dressed.material, light, isInverted)
       note(1)
@@ -230,11 +230,12 @@ private[build] final class SurfaceBuilder(
       if soup.triangleCount.toLong + count > most then
         here.error(Code.TooLarge, s"more than $most triangles in the world or in one object")
       else
-        val light = lamp.fold(-1)(_ => lightCount)
+        val light = emitter.fold(-1)(_ => lightCount)
         val flipNormals = !context.isV2
-        val corners = lamp.filter(isUniform).fold(Vector.empty)(_ => Rectangles.of(mesh, toWorld))
+        val corners =
+          emitter.filter(isUniform).fold(Vector.empty)(_ => Rectangles.of(mesh, toWorld))
         val isPaired = corners.nonEmpty
-        val readsPartials = lamp.isDefined || !materials.materials(dressed.material).isConstant
+        val readsPartials = emitter.isDefined || !materials.materials(dressed.material).isConstant
         val first = soup.add(
           mesh,
           toWorld,
@@ -251,16 +252,16 @@ private[build] final class SurfaceBuilder(
         meshVeils.add(veil)
         meshStatements += dressed.declared
         val shown = dressed.shape.inObject
-        for lamp <- lamp do
+        for emitter <- emitter do
           if isPaired then
-            addLights(corners.size, lamp, shown, 2)(MeshLights.ofRectangles(first, corners).of)
+            addLights(corners.size, emitter, shown, 2)(MeshLights.ofRectangles(first, corners).of)
           else
-            addLights(count, lamp, shown)(
+            addLights(count, emitter, shown)(
               MeshLights.ofTriangles(holes, first, count, here).of
             )
 
-    private def isUniform(lamp: Declaration): Boolean =
-      holes == EmitterHoles.Ignored && context.emission(lamp).exists(_.isUniform)
+    private def isUniform(emitter: Declaration): Boolean =
+      holes == EmitterHoles.Ignored && context.emission(emitter).exists(_.isUniform)
 
     private def bumps: BumpTangents = context.dialect match
       case Dialect.V4 | Dialect.Mitsuba =>

@@ -5,6 +5,7 @@ import scala.collection.IndexedSeqView
 import candela.base.Code
 
 import candela.accel.{Accelerator, Instances, Primitives}
+import candela.aov.Cryptomatte
 import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{LightPlan, Lights, SkySampling}
 import candela.build.settings.{Accelerators, BvhRecipe}
@@ -12,7 +13,6 @@ import candela.build.textures.Textures
 import candela.cameras.Shutter
 import candela.color.{CameraSensor, ColorBasis}
 import candela.integrators.CausticsMode
-import candela.layers.Cryptomatte
 import candela.math.Motion
 import candela.lights.LightSelection
 import candela.render.{Cost, CostKind, RenderMethod}

@@ -39,12 +39,12 @@ object ExitPupil:
   private val Rings = 64
 
   /** Cells of the search grid across and up; up covers half the height, by symmetry. */
-  private val Across = 48
-  private val Up = 24
+  private val CellsAcross = 48
+  private val CellsUp = 24
 
-  /** Cells across below which the pupil is searched with a finer grid. */
-  private val Enough = 12
-  private val Zooms = 8
+  /** If the pupil has fewer cells across, the search continues with a finer grid. */
+  private val MinCells = 12
+  private val MaxZooms = 8
 
   /** Computes the rectangles, which contain all light that a circular stop would admit.
     *
@@ -156,24 +156,25 @@ object ExitPupil:
     var region = area
     var found = Option.empty[Region]
     var zooms = 0
-    while zooms < Zooms do
-      val cell = (region.x1 - region.x0) / Across
+    while zooms < MaxZooms do
+      val cell = (region.x1 - region.x0) / CellsAcross
       val seen = radii.flatMap(scan(lens, _, region))
       found = Option.when(seen.nonEmpty):
         Region(seen.map(_.x0).min, seen.map(_.x1).max, seen.map(_.top).max)
       found match
-        case Some(r) if r.x1 - r.x0 < Enough * cell || r.top < Enough / 2 * region.top / Up =>
-          region = Region(r.x0 - cell, r.x1 + cell, r.top + region.top / Up)
+        case Some(r)
+            if r.x1 - r.x0 < MinCells * cell || r.top < MinCells / 2 * region.top / CellsUp =>
+          region = Region(r.x0 - cell, r.x1 + cell, r.top + region.top / CellsUp)
           zooms += 1
-        case _ => zooms = Zooms
+        case _ => zooms = MaxZooms
     found
 
   /** Bounds of all rays from `radius` that pass. */
   private def scan(lens: LensSystem, radius: Double, region: Region): Option[Region] =
     val ray = new Array[Double](6)
     def passes(x: Double, y: Double): Boolean = this.passes(lens, ray, radius, x, y)
-    val dx = (region.x1 - region.x0) / Across
-    val dy = region.top / Up
+    val dx = (region.x1 - region.x0) / CellsAcross
+    val dy = region.top / CellsUp
     def rim(inside: Double, outside: Double)(isIn: Double => Boolean): Double =
       var a = inside
       var b = outside
@@ -184,9 +185,9 @@ object ExitPupil:
     var x0 = Double.PositiveInfinity
     var x1 = Double.NegativeInfinity
     var top = -1.0
-    for row <- 0 to Up do
+    for row <- 0 to CellsUp do
       val y = row * dy
-      val hits = (0 to Across).filter(i => passes(region.x0 + i * dx, y))
+      val hits = (0 to CellsAcross).filter(i => passes(region.x0 + i * dx, y))
       if hits.nonEmpty then
         val left = region.x0 + hits.head * dx
         val right = region.x0 + hits.last * dx

@@ -19,10 +19,10 @@ private[color] object FitStarts:
   /** Colours along an edge of the grid. */
   private inline val Size = 12
 
-  private val Scale = Short.MaxValue / SpectrumFit.Most
+  private val Scale = Short.MaxValue / SpectrumFit.MaxCoefficient
 
-  /** Numbers of a space. */
-  private inline val Each = 3 * Size * Size * Size * 3
+  /** Numbers in the table of a colour space. */
+  private inline val NumbersPerSpace = 3 * Size * Size * Size * 3
 
   /** The name of the resource. */
   val Resource = "/candela/spectra/starts.bin"
@@ -39,7 +39,7 @@ private[color] object FitStarts:
     */
   def place(space: ColorSpace, target: Array[Double], c: Array[Double]): Boolean =
     val index = ColorSpace.all.indexOf(space)
-    if index >= 0 then interpolate(all, index * Each, target, c)
+    if index >= 0 then interpolate(all, index * NumbersPerSpace, target, c)
     index >= 0
 
   private def interpolate(
@@ -79,18 +79,19 @@ private[color] object FitStarts:
 
   /** Values of the largest component. */
   private val Level: Array[Double] = Array.tabulate(Size): k =>
+    import Upsampling.{MaxComponent, MinComponent}
     val t = k.toDouble / (Size - 1)
-    Upsampling.Least + (Upsampling.Most - Upsampling.Least) * t * t * (3 - 2 * t)
+    MinComponent + (MaxComponent - MinComponent) * t * t * (3 - 2 * t)
 
   /** The resource's bytes, by the fit alone. */
   def made: Array[Byte] =
-    val bytes = ByteBuffer.allocate(2 * Each * ColorSpace.all.size)
+    val bytes = ByteBuffer.allocate(2 * NumbersPerSpace * ColorSpace.all.size)
     val _ = bytes.asShortBuffer.put(ColorSpace.all.flatMap(made(_)).toArray)
     bytes.array
 
   /** Colours that no spectrum of the space has are those where the way from grey ends. */
   private def made(space: ColorSpace): Array[Short] =
-    val values = new Array[Short](Each)
+    val values = new Array[Short](NumbersPerSpace)
     for largest <- 0 until 3; j <- 0 until Size; i <- 0 until Size do
       val middle = Size / 2
       def go(levels: Range): Unit =
@@ -99,7 +100,7 @@ private[color] object FitStarts:
           val target = Array.fill(3)(Level(k))
           target((largest + 1) % 3) *= i.toDouble / (Size - 1)
           target((largest + 2) % 3) *= j.toDouble / (Size - 1)
-          walk.go(target.map(c => Math.max(c, Upsampling.Least)))
+          walk.go(target.map(c => Math.max(c, Upsampling.MinComponent)))
           val found = walk.coefficients
           loop(3)(n => values(place(largest, j, i, k) + n) = Math.round(found(n) * Scale).toShort)
       go(middle until Size)

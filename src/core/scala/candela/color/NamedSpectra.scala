@@ -16,12 +16,12 @@ object NamedSpectra:
     val metals = Vector("Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2")
       .flatMap(m => Vector(s"metal-$m-eta", s"metal-$m-k"))
     val glasses = Vector("BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11").map(g => s"glass-$g")
-    val lamps = (1 to 12).map(i => s"stdillum-F$i" -> Place("fluorescent", i))
+    val fluorescent = (1 to 12).map(i => s"stdillum-F$i" -> Place("fluorescent", i))
     val channels = Vector("r", "g", "b").zipWithIndex
     val sensors = CameraSensor.names.flatMap: sensor =>
       channels.map((c, i) => s"${sensor}_$c" -> Place(CameraSensor.file(sensor), i + 1))
     (metals ++ glasses).map(name => name -> Place(name)) ++
-      Vector("A", "D50", "D65").map(name => s"stdillum-$name" -> Place(name)) ++ lamps ++
+      Vector("A", "D50", "D65").map(name => s"stdillum-$name" -> Place(name)) ++ fluorescent ++
       Vector("illum-acesD60" -> Place("acesD60")) ++ sensors
 
   val names: Vector[String] = places.map(_._1)

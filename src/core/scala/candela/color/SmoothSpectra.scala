@@ -26,8 +26,8 @@ final class SmoothSpectra:
 
 object SmoothSpectra:
   /** Bounds of the largest component of a colour that is fitted. */
-  private[color] inline val Least = 1e-4f
-  private[color] inline val Most = 0.9999f
+  private[color] inline val MinComponent = 1e-4f
+  private[color] inline val MaxComponent = 0.9999f
 
   /** Steps from grey to a colour, where the table is too coarse to start from. */
   private val Steps = 6
@@ -35,7 +35,8 @@ object SmoothSpectra:
   /** The spectrum of one colour with components in [0, 1], fitted exactly. */
   def spectrum(color: Rgb): Float => Float =
     val fit = SpectrumFit()
-    val target = Array(color.r, color.g, color.b).map(c => clamp(c, Least, Most).toDouble)
+    val target =
+      Array(color.r, color.g, color.b).map(c => clamp(c, MinComponent, MaxComponent).toDouble)
     if !(FitStarts.place(ColorSpace.Srgb, target, fit.c) && fit.reach(target)) then
       fit.restart()
       for step <- 1 to Steps do
@@ -76,7 +77,8 @@ final class SpectrumTable:
   /** The spectrum of a colour with components in [0, 1], at three wavelengths in nm. */
   def at(r: Float, g: Float, b: Float, nm0: Float, nm1: Float, nm2: Float): Rgb =
     val largest = if r >= g && r >= b then 0 else if g >= b then 1 else 2
-    val z = clamp(if largest == 0 then r else if largest == 1 then g else b, Least, Most)
+    val z =
+      clamp(if largest == 0 then r else if largest == 1 then g else b, MinComponent, MaxComponent)
     val x = step(if largest == 0 then g else if largest == 1 then b else r, z)
     val y = step(if largest == 0 then b else if largest == 1 then r else g, z)
     val i = Math.min(x.toInt, Size - 2)
@@ -103,14 +105,14 @@ final class SpectrumTable:
     clamp(c, 0f, largest) / largest * (Size - 1)
 
 object SpectrumTable:
-  import SmoothSpectra.{Least, Most}
+  import SmoothSpectra.{MinComponent, MaxComponent}
   private inline val Size = 40
 
   /** Values of the largest component. */
   private val Levels: Array[Float] = Array.tabulate(Size): k =>
     def smoothStep(t: Double) = t * t * (3 - 2 * t)
     val t = smoothStep(k.toDouble / (Size - 1))
-    (Least + (Most - Least) * t).toFloat
+    (MinComponent + (MaxComponent - MinComponent) * t).toFloat
 
   /** Index of a level at or below `z`, by the integer part of `z * Starts.length`. */
   private val Starts: Array[Byte] = Array.tabulate(256): cell =>

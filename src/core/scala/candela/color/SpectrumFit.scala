@@ -117,7 +117,7 @@ private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.sh
       c(1) = clamp(c(1) - scale * s1)
       c(2) = clamp(c(2) - scale * s2)
 
-  private def clamp(x: Double): Double = Math.max(-Most, Math.min(Most, x))
+  private def clamp(x: Double): Double = Math.max(-MaxCoefficient, Math.min(MaxCoefficient, x))
 
 private[color] object SpectrumFit:
   private inline val Iterations = 8
@@ -129,4 +129,4 @@ private[color] object SpectrumFit:
   private inline val Rounding = 1e-10
 
   /** Bound of all coefficients. */
-  inline val Most = 500.0
+  inline val MaxCoefficient = 500.0

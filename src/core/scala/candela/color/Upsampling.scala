@@ -33,8 +33,8 @@ object Upsampling:
   private def inRange(c: Float): Float = clamp(c, 1e-3f, 0.999f)
 
   /** Bounds of the components of a reflectance that is fitted. */
-  private[color] val Least = 1e-3
-  private[color] val Most = 0.999
+  private[color] val MinComponent = 1e-3
+  private[color] val MaxComponent = 0.999
 
   private[color] final class Fit(val coefficients: Array[Double], val isExact: Boolean)
 

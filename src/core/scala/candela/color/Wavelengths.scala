@@ -71,8 +71,8 @@ final class Wavelengths private (
   private def each(s: Float => Float): Rgb = Rgb(s(nm(0)), s(nm(1)), s(nm(2)))
 
 object Wavelengths:
-  private inline val First = 360
-  private inline val Last = 830
+  private inline val FirstNm = 360
+  private inline val LastNm = 830
 
   /** Share of the wavelengths that are sampled uniformly, whatever the sensitivity. */
   val Uniform = 0.02
@@ -86,7 +86,7 @@ object Wavelengths:
   /** Luminance of a spectrum of light, where D65 has luminance 1. */
   private def luminance(s: Float => Float): Float =
     val y = Colorimetry.observers(1)
-    val sum = (First to Last).map(nm => s(nm.toFloat).toDouble * y(nm.toFloat)).sum
+    val sum = (FirstNm to LastNm).map(nm => s(nm.toFloat).toDouble * y(nm.toFloat)).sum
     (sum / Colorimetry.luminanceOfD65).toFloat
 
   /** Linear sRGB, by the standard observer: for each wavelength, its channels. */
@@ -108,7 +108,7 @@ object Wavelengths:
       detector: Float => Array[Double] = Observer,
       uniform: Double = Uniform
   ): Vector[Wavelengths] =
-    val centres = Array.tabulate(Last - First)(First + _ + 0.5f)
+    val centres = Array.tabulate(LastNm - FirstNm)(FirstNm + _ + 0.5f)
     def seen(light: Float => Double) = Array.tabulate(3): c =>
       centres.map(nm => Math.abs(detector(nm)(c)) * light(nm)).sum
     val bright = seen(light).lazyZip(seen(Colorimetry.D65(_))).map(_ / _)
@@ -127,7 +127,7 @@ object Wavelengths:
       val target = u * below.last
       val found = java.util.Arrays.binarySearch(below, target)
       val i = Math.min(if found >= 0 then found else -found - 2, density.length - 1)
-      ((First + i + (target - below(i)) / density(i)).toFloat, density(i) / below.last)
+      ((FirstNm + i + (target - below(i)) / density(i)).toFloat, density(i) / below.last)
 
     val sets = Vector.tabulate(count): k =>
       val u = (k + 0.5) / count
@@ -136,7 +136,7 @@ object Wavelengths:
       detector(nm).map(_ / (3 * pdf * Colorimetry.luminanceOfD65))
     // What the finite set makes of the light, corrected to what an integral would make of it
     val exact = Array.tabulate(3): c =>
-      (First to Last).map(nm =>
+      (FirstNm to LastNm).map(nm =>
         detector(nm.toFloat)(c) * light(nm.toFloat) / Colorimetry.luminanceOfD65
       ).sum
     val found = Array.tabulate(3): c =>

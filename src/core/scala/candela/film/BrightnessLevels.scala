@@ -38,11 +38,11 @@ object BrightnessLevels:
   /** Number of levels: from 6e-8 to 7e10. */
   val Count: Int = 21
 
-  /** Its level 0 has all darker samples, and the last one all brighter ones. */
-  private[film] inline val First = -8
+  /** Power of 8 of level 0, which has all darker samples, too; the last has all brighter ones. */
+  private[film] inline val FirstExponent = -8
 
   /** Brightness of a level. */
-  def brightness(level: Int): Float = Math.scalb(1f, 3 * (level + First))
+  def brightness(level: Int): Float = Math.scalb(1f, 3 * (level + FirstExponent))
 
 /** The levels of one tile. */
 private final class LevelBlock(bounds: PixelBounds):
@@ -99,9 +99,9 @@ final class LevelPass private[film] (blocks: Vector[LevelBlock]):
     if bright <= 0f then lower = -1
     else
       val exponent = Math.floorDiv(Math.getExponent(bright), 3)
-      lower = Math.max(0, Math.min(Count - 1, exponent - First))
+      lower = Math.max(0, Math.min(Count - 1, exponent - FirstExponent))
       lowerShare =
-        if exponent < First || exponent - First >= Count - 1 then 1
+        if exponent < FirstExponent || exponent - FirstExponent >= Count - 1 then 1
         else (brightness(lower) / bright.toDouble - 0.125) / 0.875
       upperShare = 1 - lowerShare
 

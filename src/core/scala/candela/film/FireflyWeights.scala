@@ -29,7 +29,7 @@ private[film] final class FireflyWeights(
     * @param sums of each pixel, row by row: weighted red, green, blue, sum of weights
     */
   def apply(sums: Array[Double]): Unit =
-    val least = Least * typical(sums)
+    val least = MinBrightness * typical(sums)
     val kept = new Array[Double](pixels) // brightness of the trusted light so far
     val around, near = new Array[Double](pixels)
     var before = Level(-1)
@@ -46,7 +46,7 @@ private[film] final class FireflyWeights(
           if level.counts(p) != 0 && weight != 0 then
             val little = Little * (around(p) / box.size(p) + least)
             val effect = BrightnessLevels.brightness(i) * volume / Math.abs(weight)
-            val found = Math.max((near(p) - Alone) / Enough, little / effect)
+            val found = Math.max((near(p) - Alone) / TrustedNeighbours, little / effect)
             val trust = Math.max(0.0, Math.min(1.0, found))
             if trust < 1 then
               loop(3)(c => sums(4 * p + c) -= (1 - trust) * level.light(3 * p + c))
@@ -81,14 +81,14 @@ private[film] object FireflyWeights:
     */
   private val Alone = 1.5
 
-  /** Further samples around that make a level trustworthy. */
-  private val Enough = 4.0
+  /** A level is trusted if it has this many further samples around. */
+  private val TrustedNeighbours = 4.0
 
   /** Share of its surroundings by which any sample may change a pixel. */
   private val Little = 0.1
 
-  /** Brightness of surroundings at least, relative to that of the image. */
-  private val Least = 0.01
+  /** Darker surroundings count as if they were this bright, relative to the image. */
+  private val MinBrightness = 0.01
 
   /** The largest of three values. */
   private def brightest(data: Array[Double], at: Int): Double =

@@ -210,6 +210,7 @@ object FilterReach:
     */
   def isUseful(filter: Filter): Boolean =
     val most = Math.max(beyond(filter.radiusX), beyond(filter.radiusY))
-    most >= 1 && most <= Most
+    most >= 1 && most <= MaxPixels
 
-  private val Most = 8
+  /** Reach of a filter beyond its pixel. */
+  private val MaxPixels = 8

@@ -23,7 +23,7 @@ final class FieldPhotons:
     data(at + Distance) = distance
     data(at + Power) = power
     data(at + Side) = side.toFloat
-    data(at + Known) = 0f
+    data(at + HasChange) = 0f
     used += 1
 
   /** The last photon's path, started a little aside in two ways, arrives at `p1` and `p2`, where it
@@ -43,7 +43,7 @@ final class FieldPhotons:
       set(at + Change, d1 * f1.x + d2 * f2.x)
       set(at + Change + 3, d1 * f1.y + d2 * f2.y)
       set(at + Change + 6, d1 * f1.z + d2 * f2.z)
-      data(at + Known) = 1f
+      data(at + HasChange) = 1f
 
   /** Appends others. */
   def append(others: FieldPhotons): Unit =
@@ -72,7 +72,7 @@ object FieldPhotons:
   private[guiding] inline val Distance = 15
   private[guiding] inline val Power = 16
   private[guiding] inline val Side = 17
-  private[guiding] inline val Known = 18
+  private[guiding] inline val HasChange = 18
 
   /** Squared sine of the angle between two ways aside that tell of a plane. */
   private[guiding] inline val Flattest = 1e-4f

@@ -11,7 +11,7 @@ import candela.sampling.SampleHash
   * @param events their numbers, sorted ([[GuideEvents]])
   * @param most   events that one mixture is fitted to
   */
-private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit.Most):
+private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit.MaxEvents):
   import GuideField.{End, Factor, Kappa, Lobes, Nearness, Size, Weight}
   import GuideFit.*
 
@@ -46,7 +46,7 @@ private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit
       loop(Lobes): k =>
         maximise(lobes, k)
         lobes(k * Size + Weight) =
-          (masses(k) / count).toFloat + (if start == null then Uniform else Old) * before(k)
+          (masses(k) / count).toFloat + (if start == null then Uniform else OldWeight) * before(k)
       normalise(lobes)
     finished(lobes)
 
@@ -201,9 +201,9 @@ private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit
 private[guiding] object GuideFit:
   import GuideField.{Lobes, Nearness, Size}
 
-  /** Events that one mixture is fitted to, and as many as do for few paths. */
-  inline val Most = 512
-  inline val Rough = 256
+  /** A mixture is fitted to at most this many events; to fewer after few paths. */
+  inline val MaxEvents = 512
+  inline val RoughEvents = 256
 
   /** Distances that each lobe tries. */
   private inline val Nears = 7
@@ -223,8 +223,8 @@ private[guiding] object GuideFit:
   /** Weight of a lobe that is used. */
   private inline val Lightest = 0.025f
 
-  /** The part of old weights, beside the new ones, and of equal ones in the beginning. */
-  private inline val Old = 0.25f
+  /** Weights of the old mixture, and of a uniform one if there is none, beside the new one. */
+  private inline val OldWeight = 0.25f
   private inline val Uniform = 0.02f
 
   /** Of the events at these places. */

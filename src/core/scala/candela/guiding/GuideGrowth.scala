@@ -53,7 +53,8 @@ private[guiding] final class GuideGrowth(
   /** Fits one of them, with memory for it. */
   def grow(region: Int, fit: GuideFit): Unit = leaves(region).grow(fit)
 
-  def newFit(): GuideFit = GuideFit(numbers, if isRough then GuideFit.Rough else GuideFit.Most)
+  def newFit(): GuideFit =
+    GuideFit(numbers, if isRough then GuideFit.RoughEvents else GuideFit.MaxEvents)
 
   /** The field, when all regions have grown. */
   def result(): GuideField =

@@ -75,7 +75,7 @@ private[guiding] final class GuideLeaf(
       val light = Math.min(events(of(j) + Light), BrightestEffort * meanLight)
       squares += light * light
       if events(of(j) + Total) > 0f then
-        before += events(of(j) + Before)
+        before += events(of(j) + EarlierLight)
         count += 1
     measurement = meanLight * found + (before / Math.max(1, count)).toFloat
     effort = Math.sqrt(squares / of.length * found / Math.max(1f, cost)).toFloat
@@ -110,8 +110,8 @@ private[guiding] final class GuideLeaf(
   private def bestShare(meanLight: Float): Float =
     val pays =
       !settings.adapts || !old.isFitted(region) ||
-        moment(Half, meanLight) < moment(1f, meanLight)
-    if pays then Half else 1f
+        moment(BsdfProbability, meanLight) < moment(1f, meanLight)
+    if pays then BsdfProbability else 1f
 
   private def moment(share: Float, meanLight: Float): Double =
     val most = Brightest * meanLight
@@ -131,4 +131,4 @@ private object GuideLeaf:
   private val BrightestEffort = 20f
 
   /** Probability of BSDF sampling in guided regions. */
-  val Half = 0.5f
+  val BsdfProbability = 0.5f

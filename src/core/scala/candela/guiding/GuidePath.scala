@@ -7,17 +7,17 @@ import candela.math.*
   */
 final class GuidePath:
   import GuidePath.*
-  private val events = Array.fill(Most)(new Array[Float](GuideRecords.Size))
-  private val throughputs, ratios = new Array[Float](Most)
+  private val events = Array.fill(MaxEvents)(new Array[Float](GuideRecords.Size))
+  private val throughputs, ratios = new Array[Float](MaxEvents)
 
   // Of each event: its region; the one before it on its branch, −1 if none
-  private val regions, parents = new Array[Int](Most)
+  private val regions, parents = new Array[Int](MaxEvents)
 
   // Light found and rays traced before the next recorded ones; addUp adds those. Of rays, one for
   // each direction taken and one for the light of each event: about as many
-  private val lights = new Array[Float](Most)
-  private val costs = new Array[Int](Most)
-  private val laters = new Array[Float](Most)
+  private val lights = new Array[Float](MaxEvents)
+  private val costs = new Array[Int](MaxEvents)
+  private val laters = new Array[Float](MaxEvents)
   private var size = 0
 
   // The same before the first recorded event
@@ -77,7 +77,7 @@ final class GuidePath:
       ratio: Float
   ): Unit =
     import GuideRecords.*
-    if size < Most && throughput > 0f then
+    if size < MaxEvents && throughput > 0f then
       val to = events(size)
       to(0) = p.x
       to(1) = p.y
@@ -117,7 +117,7 @@ final class GuidePath:
         isFirst &&= !isFirstHere
         event(GuideRecords.Light) = found
         event(GuideRecords.Total) = if isFirstHere then light else 0f
-        event(GuideRecords.Before) = if isFirstHere then before else 0f
+        event(GuideRecords.EarlierLight) = if isFirstHere then before else 0f
         event(GuideRecords.Unguided) = if isFirstHere then unguided else 0f
         to.add(event)
       i += 1
@@ -127,8 +127,8 @@ final class GuidePath:
     * @return the second moment of the light if BSDFs alone were sampled, and paths had no branches:
     *   light found after the events `j` and `k`, where `k` is `j` or comes later on the same
     *   branch, contributes its product times the ratio of densities up to `j`. Where the first
-    *   direction leads to a lamp or the sky, and no further, it counts less: evenly spread points
-    *   are worth more there the fewer decisions a path has made
+    *   direction leads to an emitter or the sky, and no further, it counts less: evenly spread
+    *   points are worth more there the fewer decisions a path has made
     */
   private def addUp(): Float =
     var later, sum = 0f
@@ -151,8 +151,8 @@ final class GuidePath:
     Math.min(sum + firstLight * (firstLight + 2f * later), Float.MaxValue)
 
 object GuidePath:
-  /** Events that are recorded; later ones are rare, and find little. */
-  private inline val Most = 256
+  /** Later events are rare, find little, and are not recorded. */
+  private inline val MaxEvents = 256
 
   /** What evenly spread points leave of the noise of light that the first direction of an unguided
     * path finds, about, relative to what they leave of a guided one's.

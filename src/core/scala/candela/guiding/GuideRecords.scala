@@ -147,7 +147,7 @@ object GuideRecords:
   private[guiding] inline val GuidePdf = 10
   private[guiding] inline val Total = 11
   private[guiding] inline val Unguided = 12
-  private[guiding] inline val Before = 13
+  private[guiding] inline val EarlierLight = 13
 
   // Of a key: the place of the event among all
   private inline val PlaceMask = 0xffffffL

@@ -81,7 +81,7 @@ final class PhotonFieldBuilder(photons: FieldPhotons, pool: Parallel):
           else
             divide(low, begin, end, rest)
             leaf(high, end)
-        case None if end - begin <= Most || box(widest + 3) == box(widest) => leaf(node, end)
+        case None if end - begin <= MaxPhotons || box(widest + 3) == box(widest) => leaf(node, end)
         case None =>
           val middle = halve(begin, end, widest)
           val plane = (at(middle - 1, widest) + at(middle, widest)) * 0.5f
@@ -128,8 +128,8 @@ final class PhotonFieldBuilder(photons: FieldPhotons, pool: Parallel):
     ends += end
 
 object PhotonFieldBuilder:
-  /** Photons of a region. */
-  private[guiding] inline val Most = 64
+  /** Regions with more photons are split. */
+  private[guiding] inline val MaxPhotons = 64
 
   /** Distance to photons within which a place belongs to them, in widths of all of them. */
   private[guiding] inline val Margin = 0.1f

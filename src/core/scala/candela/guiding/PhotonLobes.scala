@@ -19,13 +19,13 @@ private[guiding] final class PhotonLobes(
     order: Array[Int],
     to: Array[Float]
 ):
-  import FieldPhotons.{Direction, Distance, Known, Power}
+  import FieldPhotons.{Direction, Distance, HasChange, Power}
   import PhotonField.{Change, End, Factor, Sharpness, Size}
   import PhotonLobes.*
   private val from = photons.data
-  private val errors = new Array[Float](PhotonFieldBuilder.Most)
+  private val errors = new Array[Float](PhotonFieldBuilder.MaxPhotons)
   private val direction = new Array[Float](3)
-  private val weights = new Array[Float](PhotonMixture.Most)
+  private val weights = new Array[Float](PhotonMixture.MaxLobes)
   private val change, best = new Array[Float](9)
 
   /** Fits lobes to the photons of a region, which are written where its first would be.
@@ -33,14 +33,14 @@ private[guiding] final class PhotonLobes(
     * @return their number
     */
   def apply(begin: Int, end: Int): Int =
-    val last = Math.min(end, begin + PhotonFieldBuilder.Most)
+    val last = Math.min(end, begin + PhotonFieldBuilder.MaxPhotons)
     var count = 0
     var i = begin
     while i < last do
       val at = order(i) * FieldPhotons.Size
       val known = foreteller(at, begin * Size, count)
       if known >= 0 then weights(known) += from(at + Power)
-      else if count < PhotonMixture.Most then
+      else if count < PhotonMixture.MaxLobes then
         val own = begin * Size + count * Size
         System.arraycopy(from, at, to, own, Change)
         to(own + Sharpness) = 1f / square(fit(at, begin, last))
@@ -54,7 +54,7 @@ private[guiding] final class PhotonLobes(
   /** The lobe that foretells the photon's direction best, if any does; else −1. */
   private def foreteller(at: Int, lobes: Int, count: Int): Int =
     var found = -1
-    var least = square(Near)
+    var least = square(MaxWidths)
     var k = 0
     while k < count do
       val own = lobes + k * Size
@@ -80,7 +80,7 @@ private[guiding] final class PhotonLobes(
   private def fit(at: Int, begin: Int, end: Int): Float =
     var least = Float.PositiveInfinity
     var kind = 0
-    while kind < (if from(at + Known) > 0f then 3 else 2) do
+    while kind < (if from(at + HasChange) > 0f then 3 else 2) do
       take(kind, at)
       val error = wrong(at, begin, end)
       if error < least then
@@ -143,8 +143,8 @@ private object PhotonLobes:
   /** Others whose directions a photon's lobe covers. */
   inline val Neighbours = 4
 
-  /** Widths of a lobe within which it stands for other photons, too. */
-  inline val Near = 1.5f
+  /** A lobe also represents photons within this many of its widths. */
+  inline val MaxWidths = 1.5f
 
   /** Widths of lobes, in radians. */
   inline val Narrowest = 3e-3f

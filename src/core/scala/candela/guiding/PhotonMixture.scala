@@ -9,9 +9,9 @@ import candela.sampling.Warp
   * like a normal distribution near the axis, but with tails. Light beside all lobes is found seldom
   * by them, too, and so doesn't count as much as that which BSDF sampling finds alone.
   */
-final class PhotonMixture extends LobeMixture(PhotonMixture.Most):
+final class PhotonMixture extends LobeMixture(PhotonMixture.MaxLobes):
   import PhotonField.*
-  private val sharpness = new Array[Float](PhotonMixture.Most)
+  private val sharpness = new Array[Float](PhotonMixture.MaxLobes)
 
   /** Takes the lobes of the photons around a point of this side ([[GuideField.side]]); false if
     * there are none.
@@ -61,5 +61,5 @@ final class PhotonMixture extends LobeMixture(PhotonMixture.Most):
     to.set(frame(k).toWorld(Warp.around(1f - down, sin, v)))
 
 object PhotonMixture:
-  /** Lobes of a region. */
-  private[guiding] inline val Most = 16
+  /** Lobes of a region, at most. */
+  private[guiding] inline val MaxLobes = 16

@@ -41,7 +41,7 @@ private[image] final case class ExrPart(
 
   /** Uncompressed size of some pixels. */
   def bytes(w: Int, h: Int): Long =
-    w.toLong * h * channels.map(c => if c.pixelType == ExrHeader.Half then 2L else 4L).sum
+    w.toLong * h * channels.map(c => if c.pixelType == ExrHeader.HalfFloat then 2L else 4L).sum
 
   /** Upper bound of its compression ratio; DWA and HTJ2K drop details of blocks before. */
   def maxRatio: Int = if obstacle.isEmpty then ExrHeader.MaxRatio else 64 * ExrHeader.MaxRatio
@@ -99,7 +99,8 @@ private[image] object ExrHeader:
   /** Scanlines per chunk, by compression. */
   private val ChunkRows = Vector(1, 1, 1, 16, 32, 16, 32, 32, 32, 256, 256, 32)
 
-  val Half = 1
+  /** Pixel type of channels of 16-bit floats. */
+  val HalfFloat = 1
 
   /** Upper bound of the format's compression ratios: deflate reaches 1032, over the 3 of 4 bytes
     * that PXR24 keeps. Limits the memory that a damaged size can request.
@@ -249,7 +250,7 @@ private[image] object ExrHeader:
       ))
     val isB44 = name == "B44" || name == "B44A"
     if compression > LastRead then Some(s"EXR compression $name is not supported")
-    else if isB44 && channels.exists(_.pixelType != Half) then
+    else if isB44 && channels.exists(_.pixelType != HalfFloat) then
       Some(s"EXR compression $name is read for half channels only")
     else
       channels.find(c => c.xSampling != 1 || c.ySampling != 1).map(c =>

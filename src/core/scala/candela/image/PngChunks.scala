@@ -17,15 +17,15 @@ private[image] object PngChunks:
   private val Transparency = 0x74524e53 // tRNS
   val End = 0x49454e44 // IEND
   private val Mark = 0x89504e470d0a1a0aL
-  private inline val Begin = 8
+  private inline val SignatureBytes = 8
 
   /** Length and name before the data of a chunk, and the checksum behind it, in bytes. */
-  private inline val Before = 8
-  private inline val Behind = 4
+  private inline val HeadBytes = 8
+  private inline val ChecksumBytes = 4
 
   /** Whether a file that begins like this is a PNG. */
   def areIn(bytes: Array[Byte]): Boolean =
-    bytes.length >= Begin && ByteBuffer.wrap(bytes).getLong == Mark
+    bytes.length >= SignatureBytes && ByteBuffer.wrap(bytes).getLong == Mark
 
   /** Whether the pixels are the same without chunks of this name: its first letter is small then.
     */
@@ -35,15 +35,15 @@ private[image] object PngChunks:
   def check(bytes: Array[Byte]): Unit =
     if areIn(bytes) then
       val file = ByteBuffer.wrap(bytes)
-      var at = Begin
+      var at = SignatureBytes
       // A chunk that is cut short is told by the decoder
-      while at >= 0 && file.limit - at >= Before + Behind do at = checked(file, at)
+      while at >= 0 && file.limit - at >= HeadBytes + ChecksumBytes do at = checked(file, at)
 
   /** Checks the chunk that begins at `at`; where the next one begins, below 0 if there is none. */
   private def checked(file: ByteBuffer, at: Int): Int =
     val length = file.getInt(at)
-    val end = at.toLong + Before + length
-    if length < 0 || end + Behind > file.limit then -1
+    val end = at.toLong + HeadBytes + length
+    if length < 0 || end + ChecksumBytes > file.limit then -1
     else
       val name = file.getInt(at + 4)
       if !isPlain(name) then
@@ -56,4 +56,4 @@ private[image] object PngChunks:
             Code.DamagedImage,
             s"the checksum of the chunk $word at byte $at is wrong: the file is damaged"
           )
-      if name == End then -1 else end.toInt + Behind
+      if name == End then -1 else end.toInt + ChecksumBytes

@@ -58,8 +58,8 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
 
   /** Of the hemisphere around the geometric normal. */
   private def openness(vertex: SurfaceVertex, sampler: Sampler): Float =
-    val at = vertex.at
-    val frame = Frame.around(at.geometricNormal.facing(vertex.wo))
+    val point = vertex.at
+    val frame = Frame.around(point.geometricNormal.facing(vertex.wo))
     sampler.next2D()
     // One point of the sampler, and the others of a sequence that starts there
     var (u1, u2) = (sampler.x, sampler.y)
@@ -68,7 +68,7 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
     while i < samples do
       val w = if cosine then Warp.cosineHemisphere(u1, u2) else Warp.uniformHemisphere(u1, u2)
       val wi = frame.toWorld(w)
-      shadowRay.set(at.offsetOrigin(wi) + wi * start, wi, end - start)
+      shadowRay.set(point.offsetOrigin(wi) + wi * start, wi, end - start)
       shadowRays += 1
       // By the cosine, over its mean: 1 is a half of its density
       if !scene.isOccluded(shadowRay, shadowHit) then

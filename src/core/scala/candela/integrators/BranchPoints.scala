@@ -10,8 +10,8 @@ import candela.sampling.{SampleHash, Sampler}
   */
 private[integrators] final class BranchPoints:
   import BranchPoints.*
-  private val choices, xs, ys = new Array[Float](Most)
-  private val positions = new Array[Long](Most)
+  private val choices, xs, ys = new Array[Float](MaxBranches)
+  private val positions = new Array[Long](MaxBranches)
   private var strips = 1f
 
   /** Branches of this time. */
@@ -19,7 +19,7 @@ private[integrators] final class BranchPoints:
 
   /** Draws the points. The sampler goes on behind the first, however many there are.
     *
-    * @param average number of branches, above 0, at most [[BranchPoints.Most]]
+    * @param average number of branches, above 0, at most [[BranchPoints.MaxBranches]]
     * @param chooses does what is sampled discretely matter?
     */
   def draw(average: Float, chooses: Boolean, sampler: Sampler): Unit =
@@ -60,8 +60,8 @@ private[integrators] final class BranchPoints:
   def position(branch: Int): Long = positions(branch)
 
 private[integrators] object BranchPoints:
-  /** Branches of a vertex. */
-  inline val Most = 8
+  /** Branches of a vertex, at most. */
+  inline val MaxBranches = 8
 
   /** A request that paths without branches don't reach. */
   private inline val Far = 1 << 16

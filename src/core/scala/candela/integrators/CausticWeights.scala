@@ -17,12 +17,12 @@ import candela.scene.{Casters, Scene}
   * path's weight, (p₀² + p₁²) / (p₀² + p₁² + p²): p₀ is the density of the path itself, p₁ that of
   * a light sample at its last vertex, and p that of the light path.
   *
-  * Others begin at lamps, and bring what does not meet a caster first, and was scattered more than
-  * once or in a medium. Of each path, one kind of light paths competes.
+  * Others begin at emitters, and bring what does not meet a caster first, and was scattered more
+  * than once or in a medium. Of each path, one kind of light paths competes.
   *
-  * @param camera    that light paths are connected to
-  * @param perSample light paths from casters per camera sample
-  * @param ofLamps   those from lamps; 0: there are none
+  * @param camera     that light paths are connected to
+  * @param perSample  light paths from casters per camera sample
+  * @param ofEmitters those from emitters; 0: there are none
   *
   * Source: Veach 1997, §10.2; the recursion as in Georgiev 2012, for one competitor.
   */
@@ -31,10 +31,10 @@ final class CausticWeights(
     casters: Casters,
     camera: Camera,
     perSample: Float,
-    ofLamps: Float = 0f
+    ofEmitters: Float = 0f
 ):
-  private val lamps: LampChoice | Null =
-    if ofLamps > 0f then CausticWeights.lamps(scene) else null
+  private val emitters: EmitterChoice | Null =
+    if ofEmitters > 0f then CausticWeights.emitters(scene) else null
 
   /** The path has met a surface, and its BSDF is known. */
   def arrive(eye: Vec3, vertex: SurfaceVertex, path: PathState): Unit =
@@ -48,7 +48,7 @@ final class CausticWeights(
     */
   def leave(vertex: SurfaceVertex, ray: Ray, hit: Hit, wi: Vec3, path: PathState): Unit =
     path.rivalAtLight = 0.0
-    path.rivalOfLamp = 0.0
+    path.rivalOfEmitter = 0.0
     if path.rival > 0.0 then
       val bounce = vertex.bounce
       val pdf = if bounce.isSpecular then 0f else vertex.localPdf(bounce.wi)
@@ -56,16 +56,16 @@ final class CausticWeights(
       if path.depth == 1 then
         path.rival = if pdf > 0f then path.rival * (vertex.cosine(wi) / pdf) else 0.0
       else
-        val back =
+        val reverse =
           if bounce.isSpecular then 1.0
           else vertex.bsdf.pdf(bounce.wi, vertex.localWo).toDouble / pdf
         val begins = startDensity(vertex, ray, hit)
-        path.rivalAtLight = path.rival * back * begins
-        path.rival *= back * vertex.cosine(wi)
-        if begins == 0f then path.rivalOfLamp = path.rival
+        path.rivalAtLight = path.rival * reverse * begins
+        path.rival *= reverse * vertex.cosine(wi)
+        if begins == 0f then path.rivalOfEmitter = path.rival
       if !(path.rival < Double.PositiveInfinity) then path.rival = 0.0
       if !(path.rivalAtLight < Double.PositiveInfinity) then path.rivalAtLight = 0.0
-      if !(path.rivalOfLamp < Double.PositiveInfinity) then path.rivalOfLamp = 0.0
+      if !(path.rivalOfEmitter < Double.PositiveInfinity) then path.rivalOfEmitter = 0.0
 
   /** Density with which light paths begin where the ray has met the vertex, per area. */
   private def startDensity(vertex: SurfaceVertex, ray: Ray, hit: Hit): Float =
@@ -84,38 +84,39 @@ final class CausticWeights(
     path.ownPdf = pdf
     // Phase functions are symmetric: farther on, both densities are the same
     if path.depth == 1 then path.rival = if pdf > 0f then path.rival / pdf else 0.0
-    path.rivalOfLamp = path.rival
+    path.rivalOfEmitter = path.rival
 
   private def begun(eye: Vec3, p: Vec3, cosine: Float): Double =
     val density = camera.density(eye, p)
     if density > 0f && cosine > 0f then 1.0 / (density.toDouble * cosine) else 0.0
 
-  /** Does a light path compete with what the path meets of lamps? */
+  /** Does a light path compete with what the path meets of emitters? */
   def competes(path: PathState): Boolean =
-    path.rivalAtLight > 0.0 || lamps != null && path.rivalOfLamp > 0.0
+    path.rivalAtLight > 0.0 || emitters != null && path.rivalOfEmitter > 0.0
 
-  /** Factor of what the camera's path finds where it has met a lamp.
+  /** Factor of what the camera's path finds where it has met an emitter.
     *
-    * @param pdf solid-angle density of the point of the lamp, seen from the last vertex
-    * @param emitted density with which the lamp sends light along the path, over the cosine there
+    * @param pdf solid-angle density of the point of the emitter, seen from the last vertex
+    * @param emitted density with which the emitter sends light along the path, over the cosine
+    *   there
     */
   inline def ofEmission(light: Int, pdf: Float, inline emitted: Float, path: PathState): Float =
     if path.rivalAtLight > 0.0 then ofEmissionFromCaster(light, pdf, path)
-    else ofEmissionFromLamp(light, pdf, emitted, path)
+    else ofEmissionFromEmitter(light, pdf, emitted, path)
 
-  def ofEmissionFromLamp(light: Int, pdf: Float, emitted: Float, path: PathState): Float =
-    val begins = lamps
+  def ofEmissionFromEmitter(light: Int, pdf: Float, emitted: Float, path: PathState): Float =
+    val begins = emitters
     if begins == null || !(emitted > 0f) || !scene.lights(light).isCausticSource then 1f
     else
-      val rival = path.rivalOfLamp * begins.chance(light) * emitted * ofLamps
-      rest(ofSampled(light, pdf, path), rival)
+      val rival = path.rivalOfEmitter * begins.chance(light) * emitted * ofEmitters
+      ownShare(ofSampled(light, pdf, path), rival)
 
   def ofEmissionFromCaster(light: Int, pdf: Float, path: PathState): Float =
     if !scene.lights(light).isCausticSource then 1f
     else
       val p = path.lastP
       val chosen = scene.selection.probability(p, Vec3.Zero, light)
-      rest(ofSampled(light, pdf, path), path.rivalAtLight * chosen * pdf * perSample)
+      ownShare(ofSampled(light, pdf, path), path.rivalAtLight * chosen * pdf * perSample)
 
   /** Squared densities of the path itself and of a light sample, relative to its own. */
   private def ofSampled(light: Int, pdf: Float, path: PathState): Double =
@@ -126,7 +127,7 @@ final class CausticWeights(
 
   /** Factor of a light sample at the vertex.
     *
-    * @param localWi direction to the lamp
+    * @param localWi direction to the emitter
     */
   def ofSample(
       connection: LightConnection,
@@ -139,26 +140,28 @@ final class CausticWeights(
     if !scene.lights(connection.index).isCausticSource then 1f
     else
       val begins = startDensity(vertex, ray, hit)
-      if begins == 0f && lamps == null then 1f
+      if begins == 0f && emitters == null then 1f
       else
         val wi = connection.wi
-        val there =
-          if begins == 0f then fromLamp(connection, vertex.at.p) * vertex.cosine(wi)
+        val lightDensity =
+          if begins == 0f then fromEmitter(connection, vertex.at.p) * vertex.cosine(wi)
           else
             val chosen = scene.selection.probability(vertex.at.p, Vec3.Zero, connection.index)
             begins * chosen.toDouble * perSample / connection.probability
-        val rival = path.rival * vertex.reversePdf(wi) * there
-        rest(ofMet(connection, vertex.localPdf(localWi)), rival)
+        val rival = path.rival * vertex.reversePdf(wi) * lightDensity
+        ownShare(ofMet(connection, vertex.localPdf(localWi)), rival)
 
   /** Factor of a light sample at a place in a medium.
     *
     * @param pdf of the phase function
     */
   def ofSampleInMedium(connection: LightConnection, p: Vec3, pdf: Float, path: PathState): Float =
-    if lamps == null || path.rival == 0.0 || !scene.lights(connection.index).isCausticSource then 1f
+    if emitters == null || path.rival == 0.0 ||
+      !scene.lights(connection.index).isCausticSource
+    then 1f
     else
       val reverse = if path.depth == 1 then 1f else pdf
-      rest(ofMet(connection, pdf), path.rival * reverse * fromLamp(connection, p))
+      ownShare(ofMet(connection, pdf), path.rival * reverse * fromEmitter(connection, p))
 
   /** Squared densities of a light sample and of the path itself, relative to the first.
     *
@@ -167,20 +170,20 @@ final class CausticWeights(
   private def ofMet(connection: LightConnection, pdf: Float): Double =
     1.0 + (if connection.isDelta then 0.0 else square(pdf.toDouble / connection.pdf))
 
-  /** Density with which paths from the lamp arrive at `p`, across their way, to that of the light
-    * sample.
+  /** Density with which paths from the emitter arrive at `p`, across their way, to that of the
+    * light sample.
     */
-  private def fromLamp(connection: LightConnection, p: Vec3): Double =
-    val begins = lamps
+  private def fromEmitter(connection: LightConnection, p: Vec3): Double =
+    val begins = emitters
     if begins == null then 0.0
     else
-      begins.chance(connection.index).toDouble * connection.emissionPdf * ofLamps /
+      begins.chance(connection.index).toDouble * connection.emissionPdf * ofEmitters /
         (connection.probability.toDouble * connection.spread(p))
 
-  private def rest(own: Double, rival: Double): Float = (own / (own + square(rival))).toFloat
+  private def ownShare(own: Double, rival: Double): Float = (own / (own + square(rival))).toFloat
 
   private def square(x: Double): Double = x * x
 
 object CausticWeights:
-  /** Where light paths begin that do so at lamps. */
-  def lamps(scene: Scene): LampChoice = LampChoice(scene, _.isCausticSource)
+  /** Where light paths begin that do so at emitters. */
+  def emitters(scene: Scene): EmitterChoice = EmitterChoice(scene, _.isCausticSource)

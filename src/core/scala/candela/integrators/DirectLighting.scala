@@ -82,10 +82,10 @@ class DirectLighting(
           val weight = LightTransport.powerHeuristic(bounce.pdf, chosen * source.pdf(p, emitter))
           bounce.weight * attenuated(source.radiance(emitter, -wi)) * (weight / chosen)
       else
-        val found = scene.environmentIndex.indexOf(connection.index)
-        if found < 0 then Rgb.Black
+        val index = scene.environmentIndex.indexOf(connection.index)
+        if index < 0 then Rgb.Black
         else
-          val source = scene.environments(found)
+          val source = scene.environments(index)
           val weight = LightTransport.powerHeuristic(bounce.pdf, chosen * source.pdf(p, wi))
           bounce.weight * attenuated(source.radiance(p, wi)) * (weight / chosen)
 
@@ -93,9 +93,9 @@ class DirectLighting(
   private def meetsSurface(): Boolean =
     if !interfaces.stopsLight then scene.closestBehindInterfaces(bsdfRay, bsdfHit, emitter)
     else
-      val found = scene.closest(bsdfRay, bsdfHit)
-      if found then scene.surface(bsdfRay, bsdfHit, emitter)
-      found
+      val isHit = scene.closest(bsdfRay, bsdfHit)
+      if isHit then scene.surface(bsdfRay, bsdfHit, emitter)
+      isHit
 
   private def attenuated(radiance: Rgb): Rgb =
     val march = volumes

@@ -121,9 +121,9 @@ private[integrators] final class Guidance(
   /** Photons give a part of the directions, if there are any here. */
   private def aimAt(field: PhotonField): Unit =
     if aim.locate(field, vertex.at.p, side) then
-      val least = 1f - PhotonField.Share
-      val learnt = least * (1f - share)
-      share *= least
+      val otherShare = 1f - PhotonField.Share
+      val learnt = otherShare * (1f - share)
+      share *= otherShare
       aimed = PhotonField.Share / (PhotonField.Share + learnt)
 
   /** The vertex is neither guided nor recorded. */
@@ -150,7 +150,7 @@ private[integrators] final class Guidance(
 
   private def crosses(local: Vec3) = !vertex.isInMedium && vertex.crosses(local)
 
-  /** The path has met a lamp, or the sky, by way of a specular surface: light that nothing else
+  /** The path has met an emitter, or the sky, by way of a specular surface: light that nothing else
     * finds.
     */
   def meet(light: Float): Unit =
@@ -267,8 +267,8 @@ private[integrators] final class Guidance(
       if factor == 0f || measurement == 0f || transmits then 1f
       else
         isExpected = true
-        val most = Math.min(BranchPoints.Most.toFloat, MostInAll / splits)
-        val n = Math.max(LeastSurvival, Math.min(throughput * factor / measurement, most))
+        val maxBranches = Math.min(BranchPoints.MaxBranches.toFloat, MostInAll / splits)
+        val n = Math.max(LeastSurvival, Math.min(throughput * factor / measurement, maxBranches))
         chances *= n
         splits *= Math.max(1f, n)
         n

@@ -14,34 +14,34 @@ import candela.scene.Scene
   */
 final class Headlight(scene: Scene, white: Rgb) extends Integrator:
   private val hit = Hit()
-  private val at = scene.newPoint()
+  private val point = scene.newPoint()
   private var rays = 0L
 
   def raysTraced: Long = rays
-  override def lastMaterial: Int = at.material
+  override def lastMaterial: Int = point.material
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     val wo = -ray.direction
     rays += 1
-    var found = scene.closest(ray, hit)
-    if found then scene.surface(ray, hit, at)
+    var isHit = scene.closest(ray, hit)
+    if isHit then scene.surface(ray, hit, point)
     // Seen where nothing is behind them: they may enclose a cloud.
     var mist = 0f
-    while found && scene.isInterface(at) do
+    while isHit && scene.isInterface(point) do
       mist = Math.max(mist, Headlight.Mist * facing(wo))
-      scene.passThrough(ray, at)
+      scene.passThrough(ray, point)
       rays += 1
-      found = scene.closest(ray, hit)
-      if found then scene.surface(ray, hit, at)
-    if found then shade(wo) else white * (Headlight.Background + mist)
+      isHit = scene.closest(ray, hit)
+      if isHit then scene.surface(ray, hit, point)
+    if isHit then shade(wo) else white * (Headlight.Background + mist)
 
   private def shade(wo: Vec3): Rgb =
-    if at.areaLight >= 0 && !scene.surfaceLight(at).radiance(at, wo).isBlack then white
+    if point.areaLight >= 0 && !scene.surfaceLight(point).radiance(point, wo).isBlack then white
     else
-      val albedo = DirectionalAlbedo(scene.bsdf(at), at.frame.toLocal(wo), Headlight.Samples)
+      val albedo = DirectionalAlbedo(scene.bsdf(point), point.frame.toLocal(wo), Headlight.Samples)
       albedo * lerp(facing(wo), Headlight.Grazing, 1f)
 
-  private def facing(wo: Vec3): Float = Math.abs(at.frame.n dot wo)
+  private def facing(wo: Vec3): Float = Math.abs(point.frame.n dot wo)
 
 object Headlight:
   private val Background = 0.05f

@@ -1,9 +1,9 @@
 package candela.integrators
 
+import candela.aov.LightParts
 import candela.base.{CheckedInput, CheckedOutput}
 import candela.color.{Rgb, Wavelengths}
 import candela.geometry.Ray
-import candela.layers.LightParts
 import candela.sampling.Sampler
 import candela.scene.{PathReport, Scene}
 
@@ -52,7 +52,7 @@ abstract class CameraPathIntegrator extends Integrator:
   override final def lightParts: LightParts | Null = walk.parts
 
 /** The passes of one rendering, shared by all workers: sample k of every pixel uses what pass k has
-  * prepared. At most [[SharedPasses.Open]] passes are in use at a time.
+  * prepared. At most [[SharedPasses.MaxOpen]] passes are in use at a time.
   */
 abstract class SharedPasses:
   /** The integrator of one worker, reporting its path if a report is given. */
@@ -62,8 +62,8 @@ abstract class SharedPasses:
   def release(pass: Int): Unit
 
 object SharedPasses:
-  /** The current pass and the next, so that no worker waits at the end of a pass. */
-  inline val Open = 2
+  /** Two passes are in use, so that no worker waits at the end of a pass. */
+  inline val MaxOpen = 2
 
 /** Estimates radiance with what a pass has prepared. */
 trait PassIntegrator extends Integrator:

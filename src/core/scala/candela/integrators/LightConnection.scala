@@ -133,10 +133,10 @@ final class LightConnection(
 
   /** f · radiance · factor, attenuated by volumes. */
   def arrive(f: Rgb, factor: Float): Unit =
-    val sent = sample.radiance
-    arrived.r = f.r * sent.r * factor
-    arrived.g = f.g * sent.g * factor
-    arrived.b = f.b * sent.b * factor
+    val radiance = sample.radiance
+    arrived.r = f.r * radiance.r * factor
+    arrived.g = f.g * radiance.g * factor
+    arrived.b = f.b * radiance.b * factor
     val march = volumes
     if march != null then arrived.scale(transmittance(march))
 

@@ -13,7 +13,7 @@ import candela.shapes.SurfaceSample
 /** Light that comes to a surface by chains of specular surfaces: a manifold walk finds one chain,
   * and how often others find the same one estimates its probability. Mutable, one per worker.
   *
-  * To lamps that are surfaces, walks begin in directions that photons came from: any direction has
+  * To area lights, walks begin in directions that photons came from: any direction has
   * a probability, as lobes have tails.
   *
   * Source: Zeltner, Georgiev and Jakob 2020, §4.2; see [[candela.manifold.SpecularChain]].
@@ -33,19 +33,19 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
   /** Are there lobes at the vertex? */
   private var isSeeded = false
 
-  /** Is the lamp a surface? */
+  /** Is it an area light? */
   private var isSurface = false
 
-  /** Per area at the lamp, or 1 for those without extent, times the probability of the lamp. */
+  /** Per area of the light, or 1 for delta lights, times the probability of the light. */
   private var density = 0f
 
-  /** What a path finds that meets the lamp by chance, relative to what the chain brings. */
+  /** What a path finds that meets the emitter by chance, relative to what the chain brings. */
   private var rarity = 0.0
 
   /** What [[finds]] has found, not yet weighted with the path's throughput. */
   val arrived: MutableRgb = MutableRgb()
 
-  /** The lamp that sends it. */
+  /** The emitter that sends it. */
   def index: Int = light
 
   def raysTraced: Long = chain.raysTraced
@@ -59,8 +59,10 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     random.seed(sampler.next1D(), sampler.next1D())
     sampler.goTo(position)
     locate(vertex)
-    val share = if path.chain == Manifolds.Seen then 1f else ManifoldLighting.Later
-    (share == 1f || random.next() < share) && chooseLamp(vertex) && {
+    val share =
+      if path.chain == Manifolds.SpecularFromCamera then 1f
+      else ManifoldLighting.IndirectProbability
+    (share == 1f || random.next() < share) && chooseEmitter(vertex) && {
       chain.begin(vertex.at, time, manifolds.maxDepth - path.depth)
       finds() && lights(vertex, path) && {
         val alone = path.carried(arrived.toRgb, 1f).average
@@ -84,7 +86,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
       lobes.locate(field, vertex.at.p, side)
     }
 
-  private def chooseLamp(vertex: SurfaceVertex): Boolean =
+  private def chooseEmitter(vertex: SurfaceVertex): Boolean =
     val points = manifolds.points
     val surfaces = if isSeeded then manifolds.surfaces else null
     if points != null && surfaces != null then
@@ -93,22 +95,22 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     else if surfaces != null then chooseSurface(surfaces, 1f)
     else points != null && choosePoint(points, 1f, vertex)
 
-  private def chooseSurface(lamps: Discrete, chance: Float): Boolean =
-    light = lamps.sample(random.next())
+  private def chooseSurface(emitters: Discrete, chance: Float): Boolean =
+    light = emitters.sample(random.next())
     isSurface = true
-    val lamp = scene.lights(light).asSurface
-    lamp != null && {
-      lamp.samplePlace(random.next(), random.next(), place)
-      density = place.pdf * chance * lamps.probability(light)
+    val emitter = scene.lights(light).asSurface
+    emitter != null && {
+      emitter.samplePlace(random.next(), random.next(), place)
+      density = place.pdf * chance * emitters.probability(light)
       chain.aim(place.p, isDirection = false)
       density > 0f
     }
 
-  private def choosePoint(lamps: Discrete, chance: Float, vertex: SurfaceVertex): Boolean =
-    light = lamps.sample(random.next())
+  private def choosePoint(emitters: Discrete, chance: Float, vertex: SurfaceVertex): Boolean =
+    light = emitters.sample(random.next())
     isSurface = false
     scene.lights(light).sample(vertex.at.p, random.next(), random.next(), sample)
-    density = chance * lamps.probability(light)
+    density = chance * emitters.probability(light)
     chain.aim(if sample.isInfinite then sample.wi else sample.target.p, sample.isInfinite)
     // Others are surfaces that rays do not meet
     sample.pdf == 1f && (sample.isInfinite || sample.target.n.isZero)
@@ -127,15 +129,15 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     val f = if isTaken(vertex, localWi) then vertex.received(wi, localWi) else Rgb.Black
     !f.isBlack && {
       chain.throughput(passed)
-      val sent = if passed.isBlack then Rgb.Black else emitted
+      val radiance = if passed.isBlack then Rgb.Black else emitted
       val factor = (chain.spread * Math.abs(localWi.z) / density).toFloat
       if scene.isDispersive && !path.isAlone && chain.isDispersive then
         passed.scale(LightTransport.Hero)
-      passed.scale(f * sent)
+      passed.scale(f * radiance)
       passed.scale(factor)
       arrived.set(passed.toRgb)
       if manifolds.tally != null && isSurface then
-        val cosine = met.geometricNormal absDot chain.toLamp
+        val cosine = met.geometricNormal absDot chain.toEmitter
         val byChance = vertex.localPdf(localWi).toDouble * chain.probability * cosine * chain.spread
         rarity = if byChance > 0.0 then density / byChance else 0.0
       !arrived.isBlack && factor < Float.PositiveInfinity
@@ -146,25 +148,25 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     !isSurface || !vertex.crosses(localWi) ||
       vertex.bsdf.isTransmissive && !scene.isSubsurface(vertex.at.material)
 
-  /** Radiance of the lamp towards the chain, times the cosine there; of others, their intensity or
-    * irradiance.
+  /** Radiance of the emitter towards the chain, times the cosine there; of others, their intensity
+    * or irradiance.
     */
   private def emitted: Rgb =
-    val lamp = scene.lights(light)
-    val surface = lamp.asSurface
-    val to = chain.toLamp
+    val emitter = scene.lights(light)
+    val surface = emitter.asSurface
+    val to = chain.toEmitter
     if surface != null then
       if !chain.reaches(light, met) || !isSameSide(to) then Rgb.Black
       else surface.radiance(met, -to) * (met.geometricNormal absDot to)
     else if !chain.escapes(met) then Rgb.Black
     else
-      lamp.sample(chain.end, 0f, 0f, sample)
+      emitter.sample(chain.end, 0f, 0f, sample)
       if sample.pdf != 1f then Rgb.Black
       else if sample.isInfinite then sample.radiance.toRgb
       else sample.radiance.toRgb * (sample.target.p - chain.end).lengthSquared
 
-  /** Has the ray met the side of the lamp where the place is? Both are near each other on a tiny
-    * lamp that is curved.
+  /** Has the ray met the side of the emitter where the place is? Both are near each other on a tiny
+    * emitter that is curved.
     */
   private def isSameSide(to: Vec3): Boolean =
     (place.n dot to) * (met.geometricNormal dot to) > 0f
@@ -181,7 +183,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     manifolds.leave(vertex, hit, path, coverage, isSeeded)
 
 private object ManifoldLighting:
-  /** Probability of a walk at a vertex that the camera does not see by specular surfaces only: it
-    * matters less.
+  /** Probability of a walk at a vertex that the camera does not see through specular surfaces
+    * only: such a vertex matters less.
     */
-  private inline val Later = 0.25f
+  private inline val IndirectProbability = 0.25f

@@ -1,9 +1,9 @@
 package candela.integrators
 
+import candela.aov.LightParts
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.guiding.Guide
-import candela.layers.LightParts
 import candela.sampling.Sampler
 import candela.scene.Scene
 

@@ -18,8 +18,9 @@ import candela.math.*
   *     otherwise with 0.
   *   - Light that is found in two ways, because the path may go there by itself, counts with the
   *     weights w of multiple importance sampling. Those of both ways add up to 1. Each needs both
-  *     densities, but a ray that meets a lamp has left the vertex where the lamp could have been
-  *     sampled. So the path remembers the density of its direction, and the place of that vertex.
+  *     densities, but a ray that meets an emitter has left the vertex where the emitter could have
+  *     been sampled. So the path remembers the density of its direction, and the place of that
+  *     vertex.
   *
   * Between surfaces one density is enough ([[SurfacePath]]). In media each colour has its own
   * ([[VolumePath]]).
@@ -45,11 +46,11 @@ abstract class PathState:
   final var isSpread: Boolean = false
 
   /** As long as a light path may have made the path: the ratio of the density with which it would
-    * have come to the vertex to the path's own, and what is known of it for a lamp that its ray
+    * have come to the vertex to the path's own, and what is known of it for an emitter that its ray
     * meets; else 0. Light paths of the first kind begin at the last vertex, a caster, those of the
-    * second at the lamp. See [[CausticWeights]].
+    * second at the emitter. See [[CausticWeights]].
     */
-  final var rival, rivalAtLight, rivalOfLamp: Double = 0.0
+  final var rival, rivalAtLight, rivalOfEmitter: Double = 0.0
 
   /** The solid-angle density of the current direction, without guiding, where one of the last two
     * is above 0; 0: it is specular.
@@ -127,8 +128,8 @@ abstract class PathState:
     isSpread = false
     rival = 0.0
     rivalAtLight = 0.0
-    rivalOfLamp = 0.0
-    chain = Manifolds.Seen
+    rivalOfEmitter = 0.0
+    chain = Manifolds.SpecularFromCamera
 
   /** A new one of the same kind. */
   def another(): PathState
@@ -141,7 +142,7 @@ abstract class PathState:
     isSpread = from.isSpread
     rival = from.rival
     rivalAtLight = from.rivalAtLight
-    rivalOfLamp = from.rivalOfLamp
+    rivalOfEmitter = from.rivalOfEmitter
     ownPdf = from.ownPdf
     chain = from.chain
     lastP.set(from.lastP)

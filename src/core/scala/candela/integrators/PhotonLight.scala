@@ -4,8 +4,8 @@ import candela.color.Rgb
 import candela.geometry.{Hit, Ray}
 import candela.scene.{Casters, Scene}
 
-/** Light that photons bring in place of a path: what lamps send, by casters alone, to a surface or
-  * a medium that receives it. Of each worker, as the photons are those of a pass.
+/** Light that photons bring in place of a path: what emitters send, by casters alone, to a surface
+  * or a medium that receives it. Of each worker, as the photons are those of a pass.
   *
   * It is gathered along every part of the path in a medium, at every vertex that is no caster, and
   * at one that is (a rough one) if none has gathered since the last of these. So a light's way to
@@ -47,23 +47,23 @@ abstract class PhotonLight(
 
   /** Adds what the medium scatters to the path. */
   private[integrators] final def scatter(segment: MediumSegment, path: PathState): Unit =
-    val most = maxDepth - path.depth
-    if most > 0 then along(segment, most, path.isAlone, isSeen = path.chain < Started)
+    val events = maxDepth - path.depth
+    if events > 0 then along(segment, events, path.isAlone, isSeen = path.chain < Started)
 
   /** The path leaves a place in a medium. */
   private[integrators] final def leaveMedium(path: PathState): Unit = path.chain = Started
 
   /** What the vertex reflects towards the path. */
   private[integrators] final def reflected(vertex: SurfaceVertex, path: PathState): Rgb =
-    val most = maxDepth - path.depth
-    if most > 0 && gathers(vertex, path) then around(vertex, most, path.isAlone) else Rgb.Black
+    val events = maxDepth - path.depth
+    if events > 0 && gathers(vertex, path) then around(vertex, events, path.isAlone) else Rgb.Black
 
   private def gathers(vertex: SurfaceVertex, path: PathState): Boolean =
     receives(scene, vertex) && (path.chain < Started || !scene.isCaster(vertex.at))
 
-  /** Do they bring what the path meets at the lamp? */
+  /** Do they bring what the path meets at the emitter? */
   private[integrators] final def brings(light: Int, path: PathState): Boolean =
-    path.chain == Behind && isBrought(light)
+    path.chain == MayBeginPhoton && isBrought(light)
 
   /** Do they bring what a light sample finds at the vertex, which the ray has met? */
   private[integrators] final def brings(
@@ -87,19 +87,19 @@ abstract class PhotonLight(
   ): Unit =
     val before = path.chain
     path.chain =
-      if gathers(vertex, path) then if vertex.bounce.isSpecular then Other else Started
+      if gathers(vertex, path) then if vertex.bounce.isSpecular then NotGathered else Started
       else if before < Started then before
-      else if canBegin(vertex, ray, hit) then Behind
+      else if canBegin(vertex, ray, hit) then MayBeginPhoton
       else if scene.isCaster(vertex.at) then Started
-      else Other
+      else NotGathered
 
 private[candela] object PhotonLight:
-  /** Since a vertex that has gathered, the path has met casters only; the next number: the last of
-    * them may be the first of a photon. Below: there is no such vertex.
+  /** The path has met casters only, since a vertex that gathered photons; `MayBeginPhoton`: and a
+    * photon may begin at the last of them; `NotGathered`: there is no such vertex.
     */
   inline val Started = 1
-  inline val Behind = 2
-  inline val Other = Manifolds.Never
+  inline val MayBeginPhoton = 2
+  inline val NotGathered = Manifolds.NoWalks
 
   /** Are photons stored at such a vertex? Not where they would be found in a narrow lobe, or would
     * go on beneath the surface.

@@ -1,9 +1,9 @@
 package candela.integrators
 
+import candela.aov.LightParts
 import candela.color.{Rgb, Wavelengths}
 import candela.film.Splats
 import candela.geometry.Ray
-import candela.layers.LightParts
 import candela.sampling.{SampleHash, Sampler}
 import candela.scene.PathReport
 
@@ -34,8 +34,8 @@ final class SpectralIntegrator(
     for r <- report do r.components(bases(current))
     components = integrators(current).radiance(ray, sampler)
     if parts != null then
-      val found = integrators(current).lightParts
-      if found != null then parts.convert(found, bases(current))
+      val source = integrators(current).lightParts
+      if source != null then parts.convert(source, bases(current))
     bases(current).toSrgb(components)
 
   override def lastWavelengths: Wavelengths = bases(current)
@@ -85,7 +85,7 @@ object SpectralPasses:
     private var components = Rgb.Black
 
     def begin(pass: Int, isStopped: () => Boolean): Boolean =
-      if pass >= SharedPasses.Open then shared.release(pass - SharedPasses.Open)
+      if pass >= SharedPasses.MaxOpen then shared.release(pass - SharedPasses.MaxOpen)
       current = shared.basis(pass)
       integrators(current).begin(pass, isStopped)
 

@@ -10,7 +10,7 @@ import candela.scene.Scene
   *
   * @param maxDepth specular bounces plus one, at most
   * @param steps    as in [[SurfaceWalk]]
-  * @param interfaces what they are to light sampling; unless they are open, lamps without a BSDF
+  * @param interfaces what they are to light sampling; unless they are open, emitters without a BSDF
   *                   are invisible
   */
 abstract class SpecularWalk(

@@ -49,23 +49,23 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
     if !(radius >= 0f && radius < reach) then Rgb.Black
     else
       val phi = TwoPi * sampler.y
-      val half = sqrt(reach * reach - radius * radius)
+      val halfLength = sqrt(reach * reach - radius * radius)
       val x = radius * cos(phi)
       val y = radius * sin(phi)
       val p = at.p.toVec3
       val frame = at.frame.toFrame
       val (start, direction) = axis match
-        case 0 => (p + frame.t * x + frame.n * y - frame.s * half, frame.s)
-        case 1 => (p + frame.n * x + frame.s * y - frame.t * half, frame.t)
-        case _ => (p + frame.s * x + frame.t * y - frame.n * half, frame.n)
+        case 0 => (p + frame.t * x + frame.n * y - frame.s * halfLength, frame.s)
+        case 1 => (p + frame.n * x + frame.s * y - frame.t * halfLength, frame.t)
+        case _ => (p + frame.s * x + frame.t * y - frame.n * halfLength, frame.n)
       ray.time = time
-      val found = walk(start, direction, 2f * half, at.material, 3f * within - channel)
-      if found == 0 then Rgb.Black
+      val count = walk(start, direction, 2f * halfLength, at.material, 3f * within - channel)
+      if count == 0 then Rgb.Black
       else
         ray.set(chosenFrom, direction, chosenAt)
         scene.surface(ray, chosen, entry)
         val density = pdf(p, frame, inside, entry)
-        if density > 0f then inside((p - entry.p).length) * (found / density) else Rgb.Black
+        if density > 0f then inside((p - entry.p).length) * (count / density) else Rgb.Black
 
   /** Chooses uniformly among the intersections of the segment with surfaces that light can enter.
     *
@@ -73,35 +73,35 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
     * @return  number of these intersections
     */
   private def walk(start: Vec3, direction: Vec3, length: Float, material: Int, u: Float): Int =
-    var from = start
-    var rest = length
+    var origin = start
+    var remaining = length
     var choice = u
-    var found = 0
+    var count = 0
     var crossings = 0
     var goesOn = true
     while goesOn do
-      ray.set(from, direction, rest)
+      ray.set(origin, direction, remaining)
       traced += 1
       goesOn = scene.closest(ray, hit)
       if goesOn then
         scene.surface(ray, hit, point)
         if isEntry(point.material, material) then
-          found += 1
+          count += 1
           // Reservoir sampling: the n-th replaces the earlier choice with probability 1/n
-          if choice * found < 1f then
-            choice *= found
+          if choice * count < 1f then
+            choice *= count
             val free = chosen
             chosen = hit
             hit = free
-            chosenFrom.set(from)
+            chosenFrom.set(origin)
             chosenAt = ray.tMax
-          else choice = (choice * found - 1f) / (found - 1)
-        from = point.offsetOrigin(direction)
-        rest = length - ((from - start) dot direction)
+          else choice = (choice * count - 1f) / (count - 1)
+        origin = point.offsetOrigin(direction)
+        remaining = length - ((origin - start) dot direction)
         // Surfaces that touch are crossed at one distance
         crossings += 1
-        goesOn = rest > 0f && crossings < SubsurfaceProbe.MostCrossings
-    found
+        goesOn = remaining > 0f && crossings < SubsurfaceProbe.MostCrossings
+    count
 
   private def isEntry(there: Int, here: Int): Boolean =
     if acrossMaterials then scene.isSubsurface(there) else scene.isSameMaterial(there, here)

@@ -8,7 +8,7 @@ final class SurfacePath extends PathState:
   private var alone = false
 
   /** Solid-angle density of the current direction; 0 if light sampling does not compete with it;
-    * [[SurfacePath.Lost]] if what it meets counts nothing.
+    * [[SurfacePath.Uncounted]] if what it meets counts nothing.
     */
   private var directionPdf = 0f
 
@@ -37,7 +37,7 @@ final class SurfacePath extends PathState:
     * sampling competed so far, either the path alone finds it from here on, or nobody does.
     */
   def leaveLightSampling(isLost: Boolean): Unit =
-    if directionPdf > 0f then directionPdf = if isLost then SurfacePath.Lost else 0f
+    if directionPdf > 0f then directionPdf = if isLost then SurfacePath.Uncounted else 0f
 
   def isAlone: Boolean = alone
 
@@ -61,4 +61,4 @@ final class SurfacePath extends PathState:
     directionPdf = same.directionPdf
 
 private object SurfacePath:
-  inline val Lost = -1f
+  inline val Uncounted = -1f

@@ -144,8 +144,8 @@ class SurfaceVertex(scene: Scene):
     val wi =
       if bothSides then Warp.uniformSphere(sampler.x, sampler.y)
       else
-        val around = Frame.around(at.geometricNormal.facing(wo))
-        around.toWorld(Warp.uniformHemisphere(sampler.x, sampler.y))
+        val frame = Frame.around(at.geometricNormal.facing(wo))
+        frame.toWorld(Warp.uniformHemisphere(sampler.x, sampler.y))
     val localWi = at.frame.toLocal(wi)
     val pdf = if bothSides then 0.5f * InvTwoPi else InvTwoPi
     val weight = received(wi, localWi) * (Math.abs(localWi.z) / pdf)

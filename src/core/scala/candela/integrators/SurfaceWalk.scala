@@ -1,8 +1,8 @@
 package candela.integrators
 
+import candela.aov.LightParts
 import candela.color.Rgb
 import candela.guiding.Guide
-import candela.layers.LightParts
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene

@@ -1,8 +1,8 @@
 package candela.integrators
 
+import candela.aov.LightParts
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.layers.LightParts
 import candela.math.*
 import candela.media.Regions
 import candela.sampling.{RandomStream, Sampler}
@@ -42,38 +42,38 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
     transmitted = Rgb.White
     if regions.clip(ray, work) then
       val unit = ray.direction.length
-      val begin = work.overlap.begin
+      val start = work.overlap.begin
       val end = work.overlap.end
-      val wanted = Math.ceil(((end - begin) * unit / stepSize).toDouble).toInt
+      val wanted = Math.ceil(((end - start) * unit / stepSize).toDouble).toInt
       val count = clamp(wanted, 1, Regions.MostSteps)
-      val step = (end - begin) / count
+      val step = (end - start) / count
       val offset = sampler.next1D()
       work.clearDepth()
       var boost = 1f
       var sumR, sumG, sumB = 0f
-      var before = begin
+      var previous = start
       var i = 0
       while i < count do
-        val t = begin + (i + offset) * step
-        regions.addDepth(ray, before, t, unit, 0.5f * stepSize, random.next(), work)
-        before = t
-        val left = work.transmittance * boost
+        val t = start + (i + offset) * step
+        regions.addDepth(ray, previous, t, unit, 0.5f * stepSize, random.next(), work)
+        previous = t
+        val remaining = work.transmittance * boost
         // Russian roulette where hardly any light gets through
-        if left.luminance < VolumeMarch.Faint then
+        if remaining.luminance < VolumeMarch.Faint then
           if random.next() < 0.5f then boost *= 2f
           else
             boost = 0f
             i = count
         if boost > 0f then
-          val here = work.transmittance * boost
+          val reaching = work.transmittance * boost
           val p = ray.at(t)
           regions.at(p, work)
-          sumR += here.r * work.glowR
-          sumG += here.g * work.glowG
-          sumB += here.b * work.glowB
+          sumR += reaching.r * work.glowR
+          sumG += reaching.g * work.glowG
+          sumB += reaching.b * work.glowB
           if parts != null then
             val glow = Rgb(work.glowR, work.glowG, work.glowB)
-            parts.addGlow(0, here * glow * (step * unit))
+            parts.addGlow(0, reaching * glow * (step * unit))
           if scatters && work.scatters && scene.lights.length > 0 then
             val dr = work.depthR
             val dg = work.depthG
@@ -82,11 +82,11 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
             work.depthR = dr
             work.depthG = dg
             work.depthB = db
-            sumR += here.r * arrived.r
-            sumG += here.g * arrived.g
-            sumB += here.b * arrived.b
+            sumR += reaching.r * arrived.r
+            sumG += reaching.g * arrived.g
+            sumB += reaching.b * arrived.b
             if parts != null then
-              parts.addLight(connection.index, 1, here * arrived * (step * unit))
+              parts.addLight(connection.index, 1, reaching * arrived * (step * unit))
         i += 1
       added = Rgb(sumR, sumG, sumB) * (step * unit)
       transmitted = work.transmittance * boost
@@ -98,8 +98,9 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
     then Rgb.Black
     else
       val phase = regions.phase(wo, connection.wi, work)
-      val sent = Rgb(work.scatterR, work.scatterG, work.scatterB) * connection.sample.radiance.toRgb
-      sent * connection.transmittance(this) * (phase / connection.pdf)
+      val source =
+        Rgb(work.scatterR, work.scatterG, work.scatterB) * connection.sample.radiance.toRgb
+      source * connection.transmittance(this) * (phase / connection.pdf)
 
   /** Transmittance along the ray up to `ray.tMax`.
     *

@@ -1,9 +1,9 @@
 package candela.integrators
 
+import candela.aov.LightParts
 import candela.bsdf.PhaseLobe
 import candela.color.Rgb
 import candela.guiding.Guide
-import candela.layers.LightParts
 import candela.math.*
 import candela.media.{MediumWork, SceneMedia}
 import candela.sampling.{PhaseFunction, Sampler}
@@ -171,10 +171,10 @@ final class VolumeWalk private (
       if visibility.reaches(vertex.at.offsetOrigin(wi), connection.sample, beyond) then
         val arrived = arriving(competingPdf(localWi, isBoundary))
         val rivals = caustics
-        val rest =
+        val misWeight =
           if rivals == null || path.rival == 0.0 || depth == 1 then 1f
           else rivals.ofSample(connection, vertex, localWi, ray, hit, path)
-        addSample(arrived * f * (Math.abs(localWi.z) * rest))
+        addSample(arrived * f * (Math.abs(localWi.z) * misWeight))
 
   /** Adds what the path carries of the light sample. */
   private def addSample(carried: Rgb): Unit =

@@ -1,10 +1,10 @@
 package candela.integrators
 
+import candela.aov.LightParts
 import candela.bsdf.Bssrdf
 import candela.color.{MutableRgb, Rgb}
 import candela.geometry.{Hit, Ray}
 import candela.guiding.Guide
-import candela.layers.LightParts
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -14,8 +14,8 @@ import candela.scene.Scene
   *
   * At each vertex: [[trace]] and [[travel]] get there; [[addEnvironment]], or [[meetSurface]] and
   * [[addEmission]], add what the ray has met; [[evaluate]] prepares the vertex; [[sampleLight]] and
-  * [[connect]] add light of a lamp; [[scatter]] samples the next direction, and [[leave]] takes it;
-  * [[roulette]] may end the path. [[StepOrder]] checks the order.
+  * [[connect]] add light of an emitter; [[scatter]] samples the next direction, and [[leave]] takes
+  * it; [[roulette]] may end the path. [[StepOrder]] checks the order.
   *
   * [[SurfaceWalk]] and [[VolumeWalk]] say what is between surfaces, and how light samples get to a
   * vertex. Few programs load both, so the JIT compiler knows which of them is meant.
@@ -51,7 +51,7 @@ abstract class Walk(
     if guide == null then null else GuidedScattering(guide, this, options.aim.orNull)
   protected final val samplesLights: Boolean = options.samplesLights
   protected final val regularizes: Boolean = options.regularizes
-  private val hidesLamps = options.hidesLamps
+  private val hidesEmitters = options.hidesEmitters
   private val countsPassed = options.countsPassed
   protected final val caustics: CausticWeights | Null = options.caustics.orNull
 
@@ -129,7 +129,7 @@ abstract class Walk(
   /** Adds the environment's radiance and ends the path. */
   final def addEnvironment(): Unit =
     order.step(to = Stage.Ended, Stage.Escaped)
-    if !hidesLamps || depth > 0 then
+    if !hidesEmitters || depth > 0 then
       val weighted = LightTransport.environment(
         scene,
         ray,
@@ -153,27 +153,27 @@ abstract class Walk(
   /** Adds what the surface emits. */
   final def addEmission(): Unit =
     order.step(to = Stage.Arrived, Stage.Arrived)
-    val at = vertex.at
-    if at.areaLight >= 0 && !isHidden then
-      val source = scene.surfaceLight(at)
-      val emitted = source.radiance(at, vertex.wo)
-      if !emitted.isBlack && !isLeft(at.areaLight) then
+    val point = vertex.at
+    if point.areaLight >= 0 && !isHidden then
+      val source = scene.surfaceLight(point)
+      val emitted = source.radiance(point, vertex.wo)
+      if !emitted.isBlack && !isLeft(point.areaLight) then
         val weight =
           // Only the camera and specular scattering see it
           if source.isShownOnly then (if path.competes then 0f else 1f)
           else
             emissionWeight(
-              at.areaLight,
-              source.pdf(path.lastP, at),
-              source.emissionPdf(scene.ball, at.p, at.geometricNormal, vertex.wo) /
+              point.areaLight,
+              source.pdf(path.lastP, point),
+              source.emissionPdf(scene.ball, point.p, point.geometricNormal, vertex.wo) /
                 vertex.cosine(vertex.wo)
             )
         path.addTo(found, emitted, weight)
         if guiding != null && !path.competes then
           guiding.meet(path.carried(emitted, weight).average)
-        if parts != null then parts.addLight(at.areaLight, depth, path.carried(emitted, weight))
+        if parts != null then parts.addLight(point.areaLight, depth, path.carried(emitted, weight))
 
-  /** Is what the path meets of the lamp left to manifold walks or photons? */
+  /** Is what the path meets of the emitter left to manifold walks or photons? */
   private def isLeft(light: Int): Boolean =
     (manifolds != null && manifolds.finds(light, path)) ||
       (photons != null && photons.brings(light, path))
@@ -203,12 +203,12 @@ abstract class Walk(
   /** Does light pass here unscattered? */
   final def isAtInterface: Boolean = scene.isPassed(ray, hit, vertex.at)
 
-  private def isHidden = hidesLamps && depth == 0 && vertex.at.areaLight >= 0
+  private def isHidden = hidesEmitters && depth == 0 && vertex.at.areaLight >= 0
 
   /** Has the path had as many events? */
   final def hasHad(most: Int): Boolean = depth + path.passed == most
 
-  /** Continues through an interface or a hidden lamp, unless the path has had `most` events that
+  /** Continues through an interface or a hidden emitter, unless the path has had `most` events that
     * count.
     */
   final def passThrough(most: Int = Int.MaxValue): Unit =
@@ -254,13 +254,13 @@ abstract class Walk(
   /** Chooses one light and samples a point on it; false if it contributes nothing. */
   final def sampleLight(sampler: Sampler): Boolean =
     order.step(to = Stage.Evaluated, Stage.Evaluated)
-    val finds = samplesLights && hasLights && !vertex.bsdf.isSpecular
-    if !finds && !drawsAlways then false
+    val isSampled = samplesLights && hasLights && !vertex.bsdf.isSpecular
+    if !isSampled && !drawsAlways then false
     else
       val choice = sampler.next1D(matters = connection.isRandom)
       sampler.next2D()
       val p = vertex.at.p
-      val isLit = finds && connection.choose(p, vertex.lightNormal, choice) &&
+      val isLit = isSampled && connection.choose(p, vertex.lightNormal, choice) &&
         connection.samplePoint(p, sampler.x, sampler.y) &&
         (photons == null || !photons.brings(connection.index, vertex, ray, hit, path))
       if isLit then order.step(to = Stage.Sampled, Stage.Evaluated)
@@ -330,7 +330,7 @@ abstract class Walk(
         vertex.scatterBy(inside.entry, vertex.at.frame.n)
         path.isSpread = regularizes
         path.rival = 0.0
-        path.chain = Manifolds.Never
+        path.chain = Manifolds.NoWalks
       emerges
 
   /** Leaves in the sampled direction, or ends. */

@@ -9,7 +9,7 @@ import candela.guiding.PhotonField
   * @param samplesLights does light sampling look for lights, too?
   * @param crossesPanes  do paths and light samples through media pass panes without a scattering
   *   event, as they pass interfaces?
-  * @param hidesLamps    does the camera see through lamps, and no sky?
+  * @param hidesEmitters does the camera see through area lights, and no sky?
   * @param interfaces    what interfaces are to light sampling; in media they are open
   * @param countsPassed  is passing an interface one of the events that a path may have?
   * @param caustics      weights against light paths, if there are any
@@ -22,7 +22,7 @@ final case class WalkOptions(
     subsurface: Boolean = false,
     samplesLights: Boolean = true,
     crossesPanes: Boolean = false,
-    hidesLamps: Boolean = false,
+    hidesEmitters: Boolean = false,
     interfaces: Interfaces = Interfaces.Open,
     countsPassed: Boolean = false,
     caustics: Option[CausticWeights] = None,

@@ -1,7 +1,7 @@
 package candela.job
 
+import candela.aov.Layer
 import candela.image.{Image, Oidn}
-import candela.layers.Layer
 
 /** Adds a denoised image beside the noisy one.
   *

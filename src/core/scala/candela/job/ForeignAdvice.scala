@@ -56,7 +56,7 @@ private[job] object ForeignAdvice:
           "PLY meshes may be shapes of Mitsuba's scenes"
       )
     case Volume => Some("a scene shows it as a medium")
-    case Lamp => Some("a LightSource \"goniometric\" takes it as its \"string filename\"")
+    case Photometry => Some("a LightSource \"goniometric\" takes it as its \"string filename\"")
     case Packed => Some("unpack it, and name the scene in it")
     case Mitsuba => Some("its name must end with .xml")
     case Other => Some(Formats)

@@ -32,7 +32,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
   override def passed(pass: Pass, film: Film): Unit =
     val began = System.nanoTime
     def clock = pass.clock + (System.nanoTime - began) * 1e-9
-    def isLate = options.time.exists(clock > _ + Goal.Late)
+    def isLate = options.time.exists(clock > _ + Goal.MaxLateSeconds)
     val watched = pass.copy(isStopped = () => pass.isStopped() || isLate)
     // Where an error is looked at, and so where it ends, must not depend on the time
     if pass.isWhole then
@@ -58,13 +58,13 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
 
   /** Whether the shortest part that there is ends nearer to the time than now, and not late. */
   private def isWorthMore(left: Double): Boolean =
-    left > step * perSample / 2 && step * perSample - left <= Goal.Late
+    left > step * perSample / 2 && step * perSample - left <= Goal.MaxLateSeconds
 
   /** As many samples as the error needs, or end in time. */
   override def most: Int =
     val inTime = options.time.filter(_ => perSample > 0).fold(Int.MaxValue): t =>
       val left = t - now
-      val fits = Math.min(left / perSample + 0.5, (left + Goal.Late) / perSample)
+      val fits = Math.min(left / perSample + 0.5, (left + Goal.MaxLateSeconds) / perSample)
       Math.max(1, Math.min(fits, Int.MaxValue)).toInt
     end.fold(inTime)(samples => Math.min(inTime, Math.max(1, samples - seen)))
 
@@ -72,7 +72,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     * after, if the samples take longer than expected.
     */
   override def isOver(seconds: Double, still: Double): Boolean =
-    val late = if step == 0 || still > Goal.Patience then 0 else Goal.Late
+    val late = if step == 0 || still > Goal.MaxStillSeconds then 0 else Goal.MaxLateSeconds
     if options.time.exists(_ + late <= seconds) then isReached = true
     isReached
 
@@ -90,11 +90,11 @@ object Goal:
   /** Of a time; what ends later was asked for. */
   private val Nearly = 0.9
 
-  /** In seconds; longer than any sound sample takes. */
-  private val Patience = 0.5
+  /** No regular sample takes longer without any progress. */
+  private val MaxStillSeconds = 0.5
 
-  /** In seconds: by how much a rendering may end late. Its workers then have to end, too. */
-  private val Late = 0.4
+  /** A rendering may end this much late, including the time until its workers have ended. */
+  private val MaxLateSeconds = 0.4
 
   /** What a sample is expected to take after each part, relative to those of the part. If it takes
     * longer, the rendering ends in the midst of it, in time.

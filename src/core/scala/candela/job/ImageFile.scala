@@ -1,12 +1,12 @@
 package candela.job
 
+import candela.aov.Layer
 import candela.base.Version
 import candela.build.RenderSettings
 import candela.film.{Fireflies, PixelBounds, SpectralBands}
 import candela.image.{
   Contents, Image, ImageEdits, ImageFiles, ImageWindow, OutputFormat, WriteOptions
 }
-import candela.layers.Layer
 import candela.render.{RenderMethod, Rendering, RenderPlan}
 
 import java.nio.file.Path

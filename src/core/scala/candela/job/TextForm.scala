@@ -1,5 +1,6 @@
 package candela.job
 
+import candela.aov.Layer
 import candela.build.{ColorMode, LightGrouping, RenderRegion}
 import candela.build.sampling.PointChoice
 import candela.color.ToneCurve
@@ -7,7 +8,6 @@ import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.image.Exposure
-import candela.layers.Layer
 import candela.scenefile.Dialect
 
 /** A value as text, in film files and on command lines.

@@ -153,29 +153,29 @@ object FewLights:
 
   // Kinds of lights
   private inline val Flat = 0
-  private inline val Around = 1
+  private inline val Omnidirectional = 1
   private inline val Bounded = 2
 
-  /** Of a squared distance: nothing overflows next to a point light. */
-  private inline val Least = 1e-30f
+  /** Prevents an overflow next to a point light. */
+  private inline val MinSquaredDistance = 1e-30f
 
   /** Time of the general estimate, in units of that of a flat light. */
   private inline val BoundedCost = 6
 
-  /** Of flat lights, that take as long as a descent of a [[LightTree]]. */
-  private inline val Most = 40
+  /** Time of a descent of a [[LightTree]], in the same unit. */
+  private inline val MaxCost = 40
 
   /** Are these so few that a loop over all is faster than a tree? */
   private[lights] def suits(lights: Array[Light]): Boolean =
     var cost = 0
     var i = 0
-    while i < lights.length && cost <= Most do
+    while i < lights.length && cost <= MaxCost do
       for b <- lights(i).bounds do cost += (if kind(b) == Bounded then BoundedCost else 1)
       i += 1
-    cost <= Most
+    cost <= MaxCost
 
   private def kind(b: LightBounds): Int =
-    if b.cosNormals == -1f then Around
+    if b.cosNormals == -1f then Omnidirectional
     else if b.cosNormals == 1f && b.cosEmission == 0f then Flat
     else Bounded
 
@@ -192,5 +192,5 @@ object FewLights:
       if b.twoSided then 0.5f * b.power else b.power,
       if b.twoSided then 0f else 1f,
       if b.twoSided then 2f else 1f,
-      Math.max(square(b.box.radius), Least)
+      Math.max(square(b.box.radius), MinSquaredDistance)
     )

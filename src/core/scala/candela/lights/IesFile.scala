@@ -5,8 +5,8 @@ import candela.base.{InputFile, IoReason}
 import java.io.IOException
 import java.util.Locale
 
-/** A lamp of a file, and what of the file has no effect. */
-final case class IesLamp(photometry: Photometry, notes: Vector[String])
+/** The light of a file, and what of the file has no effect. */
+final case class IesLight(photometry: Photometry, notes: Vector[String])
 
 /** Why a file can't be read, with its name and line. */
 final class IesError(message: String) extends Exception(message)
@@ -20,19 +20,19 @@ object IesFile:
 
   def isNamed(file: String): Boolean = file.toLowerCase(Locale.ROOT).endsWith(".ies")
 
-  def read(file: InputFile): IesLamp =
+  def read(file: InputFile): IesLight =
     val text =
       try file.text()
       catch case e: IOException => throw IesError(s"$file: can't be read: ${IoReason(e)}")
     parse(file.toString, text)
 
   /** @param name of the file, for messages */
-  def parse(name: String, text: String): IesLamp =
+  def parse(name: String, text: String): IesLight =
     val lines = text.linesIterator.toVector
     val tilt = lines.indexWhere(_.trim.toUpperCase(Locale.ROOT).startsWith("TILT"))
     if tilt < 0 then
       throw IesError(s"$name: expected a line `TILT=NONE`, as in all IES files; there is none")
-    Reading(name, lines, tilt).lamp
+    Reading(name, lines, tilt).light
 
   /** @param tilt index of the line that ends the header */
   private final class Reading(name: String, lines: Vector[String], tilt: Int):
@@ -76,7 +76,7 @@ object IesFile:
           fail(s"expected ascending angles, found ${all(i)} after ${all(i - 1)}")
       all
 
-    def lamp: IesLamp =
+    def light: IesLight =
       val notes = Vector.newBuilder[String]
       val what = lines(tilt).dropWhile(_ != '=').drop(1).trim
       if what.toUpperCase(Locale.ROOT) != "NONE" then
@@ -95,7 +95,7 @@ object IesFile:
         case 1 => PhotometricType.C
         case 2 => PhotometricType.B
         case _ => PhotometricType.A
-      numbers(4, "unit or size of the lamp"): Unit
+      numbers(4, "unit or size of the light"): Unit
       val ballast = number("the ballast factor")
       // Until 1991 another factor; since 1995 unused, since 2019 a kind of file
       val other = number("the ballast-lamp factor")
@@ -110,7 +110,7 @@ object IesFile:
         if x * factor < 0f && negative == 0 then negative = line + 1
         candelas(i) = Math.max(0f, x * factor)
       if negative > 0 then notes += s"$name:$negative: negative candelas are read as 0"
-      IesLamp(Photometry(kind, vertical, horizontal, candelas), notes.result())
+      IesLight(Photometry(kind, vertical, horizontal, candelas), notes.result())
 
     private def isOld: Boolean =
       val mark = lines.head.trim.toUpperCase(Locale.ROOT)

@@ -4,7 +4,7 @@ import candela.base.loop
 import candela.image.Image
 import candela.math.*
 
-/** Angles by which a lamp was measured, in LM-63's terms. */
+/** Angles by which a light was measured, in LM-63's terms. */
 enum PhotometricType:
   /** Polar angles from the nadir, −y, in half-planes around +y, of which the first contains +x and
     * that of 90° +z.
@@ -17,7 +17,7 @@ enum PhotometricType:
   /** Angles from the vertical plane of the beam, in half-planes that turn around +x, up from +z. */
   case B
 
-/** Luminous intensity of a lamp over directions, interpolated between measured ones: zero beyond
+/** Luminous intensity of a light over directions, interpolated between measured ones: zero beyond
   * the measured polar angles, and mirrored where half or a quarter of the planes was measured.
   *
   * @param vertical, horizontal ascending angles, in degrees
@@ -83,7 +83,7 @@ final class Photometry(
 
   private def Slack = 1e-3
 
-  /** The lamp as the equirectangular image of a [[GoniometricLight]], to be interpolated: four
+  /** The light as the equirectangular image of a [[GoniometricLight]], to be interpolated: four
     * pixels between measured angles.
     */
   def image: Image =

@@ -120,7 +120,7 @@ final class ProjectionLight(
 
   def intensity(w: Vec3): Rgb =
     val d = frame.toLight(w)
-    if d.z < ProjectionLight.Near then Rgb.Black
+    if d.z < ProjectionLight.MinCosine then Rgb.Black
     else
       val x = (d.x / (d.z * screen.halfWidth) + 1f) * 0.5f
       val up = d.y / (d.z * screen.halfHeight)
@@ -148,8 +148,8 @@ final class ProjectionLight(
       )
 
 object ProjectionLight:
-  /** Cosine with the axis below which nothing is projected, as in all pbrt versions. */
-  private inline val Near = 1e-3f
+  /** Nothing is projected at smaller cosines with the axis, as in all pbrt versions. */
+  private inline val MinCosine = 1e-3f
 
   /** 1 − cos of a cone that contains the image. */
   private def spread(slide: Option[Picture], tanHalf: Float): Float =

@@ -47,7 +47,7 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler)
     if out.pdf > 0f then
       // Traces back to the point, from so close that no smooth surface occludes it
       val work = out.sample
-      val start = out.p + out.direction * (UnevenLight.Near * sqrt(surface.area))
+      val start = out.p + out.direction * (UnevenLight.RelativeOffset * sqrt(surface.area))
       work.ray.set(start, -out.direction, Float.PositiveInfinity)
       if surface.meets(work.ray, work.hit, work.at) then
         out.radiance = out.radiance * factor(work.at)
@@ -57,8 +57,8 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler)
     even.bounds.map(b => b.copy(power = b.power * strength))
 
 object UnevenLight:
-  /** Fraction of the surface's extent. */
-  private val Near = 1e-2f
+  /** Distance from which a ray is traced back, relative to the surface's extent. */
+  private val RelativeOffset = 1e-2f
 
 /** An area light textured by an image over u and v (v up).
   *

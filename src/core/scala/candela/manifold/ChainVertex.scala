@@ -48,7 +48,7 @@ private[manifold] final class ChainVertex(scene: Scene, coverage: Coverage):
 
   /** Computes how the shading normal turns. */
   private def curve(ray: Ray, hit: Hit): Unit =
-    val isPlain = (at.frame.n - bent.frame.n).lengthSquared < ChainVertex.Same
+    val isPlain = (at.frame.n - bent.frame.n).lengthSquared < ChainVertex.NormalTolerance
     if isPlain || !scene.isTriangle(hit) then
       byU.set(bent.dndu)
       byV.set(bent.dndv)
@@ -124,8 +124,8 @@ private[manifold] final class ChainVertex(scene: Scene, coverage: Coverage):
 private object ChainVertex:
   private val Black: Bsdf = Lambert.Black
 
-  /** Squared distance of normals that no texture has parted. */
-  private inline val Same = 1e-12f
+  /** Normals with a smaller squared distance are the same: no texture bends them. */
+  private inline val NormalTolerance = 1e-12f
 
   /** In barycentric weights: beyond the rounding of differences of heights, within most texels. */
   private inline val Step = 5e-3

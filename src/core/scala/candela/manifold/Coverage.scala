@@ -21,7 +21,7 @@ final class Coverage(scene: Scene):
 
   /** Is the shading normal that of the shape? The curvature of others is known on triangles. */
   private def isEven(at: ShadingPoint): Boolean =
-    Math.abs(at.frame.n dot at.geometricNormal) > Coverage.Even
+    Math.abs(at.frame.n dot at.geometricNormal) > Coverage.MinEvenCosine
 
   /** Are there no more directions than the two that the choices of 0 and of 1 sample? */
   private def isSimple(bsdf: Bsdf, wo: Vec3): Boolean =
@@ -29,11 +29,11 @@ final class Coverage(scene: Scene):
     bsdf.draw(wo, OneMinusEpsilon, 0.5f, 0.5f, last)
     first.isSpecular && last.isSpecular && {
       val isOne = (first.wi.z > 0f) == (last.wi.z > 0f)
-      Math.abs((if isOne then first.pdf else first.pdf + last.pdf) - 1f) < Coverage.Whole
+      Math.abs((if isOne then first.pdf else first.pdf + last.pdf) - 1f) < Coverage.PdfTolerance
     }
 
 private[candela] object Coverage:
-  private inline val Even = 0.9999999f
+  private inline val MinEvenCosine = 0.9999999f
 
   /** Rounding of probabilities. */
-  private inline val Whole = 1e-3f
+  private inline val PdfTolerance = 1e-3f

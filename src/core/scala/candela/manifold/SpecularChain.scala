@@ -6,12 +6,12 @@ import candela.math.*
 import candela.sampling.{RandomStream, Warp}
 import candela.scene.{CasterPoint, Casters, Scene}
 
-/** A chain of one or two surfaces that reflect or refract light on its way from a lamp to a point
-  * `x`, found by a manifold walk. Mutable, one per worker.
+/** A chain of one or two surfaces that reflect or refract light on its way from an emitter to a
+  * point `x`, found by a manifold walk. Mutable, one per worker.
   *
   * The walk moves the first vertex on its tangent plane, and traces the others from there, so that
   * all but the last obey the law of reflection or refraction. At the last one, the tangential part
-  * of the direction to the lamp must be that of the direction of arrival, times the ratio of the
+  * of the direction to the emitter must be that of the direction of arrival, times the ratio of the
   * indices: Newton's method solves this equation of two dimensions.
   *
   * Sources: Hanika, Droske and Fascione, "Manifold Next Event Estimation", EGSR 2015; Zeltner,
@@ -28,7 +28,7 @@ final class SpecularChain(scene: Scene):
 
   // The chain's ends
   private val x, xError, xNormal = MutableVec3()
-  private val lamp = MutableVec3()
+  private val emitter = MutableVec3()
   private var isFar = false
 
   private var length = 0
@@ -70,18 +70,18 @@ final class SpecularChain(scene: Scene):
     ray.differential.isKnown = false
     this.most = Math.min(most, SpecularChain.Longest)
 
-  /** Places the lamp at a point, or infinitely far away in a direction. */
+  /** Places the emitter at a point, or infinitely far away in a direction. */
   def aim(place: Vec3, isDirection: Boolean): Unit =
-    lamp.set(place)
+    emitter.set(place)
     isFar = isDirection
 
-  /** Walks from a point of a caster, or from that on the straight way to the lamp, which light
+  /** Walks from a point of a caster, or from that on the straight way to the emitter, which light
     * rays that are refracted are often close to; true if the walk has found a chain.
     */
   def find(random: RandomStream): Boolean =
     val isSeeded =
       if random.next() < SpecularChain.Straight then
-        towardsLamp(random)
+        towardsEmitter(random)
         true
       else
         val choice = Casters.choice(random.next(), random.next())
@@ -92,14 +92,14 @@ final class SpecularChain(scene: Scene):
 
   /** Likewise, from what is seen in a direction. */
   def findAlong(way: Vec3, random: RandomStream): Boolean =
-    start.set(x + way * (if isFar then 1f else (lamp - x).length))
+    start.set(x + way * (if isFar then 1f else (emitter - x).length))
     plant(random) && walk()
 
-  /** Starts in a direction near that of the lamp, at a distance of an even logarithm: the closer,
-    * the more do waves send light to x.
+  /** Starts in a direction near that of the emitter, at a distance of an even logarithm: the
+    * closer, the more do waves send light to x.
     */
-  private def towardsLamp(random: RandomStream): Unit =
-    val way = if isFar then lamp.toVec3 else lamp - x
+  private def towardsEmitter(random: RandomStream): Unit =
+    val way = if isFar then emitter.toVec3 else emitter - x
     val around = Warp.uniformSphere(random.next(), random.next())
     val spread = exp(SpecularChain.Closest * random.next()) * way.length
     start.set(x + way + around * spread)
@@ -110,8 +110,9 @@ final class SpecularChain(scene: Scene):
     meet(start) && vertices(0).choose(random.next()) && {
       if most > 1 then
         depart(vertices(0))
-        val isLonger = vertices(1).isMet(ray, hit) && random.next() < SpecularChain.Long &&
-          vertices(1).choose(random.next())
+        val isLonger =
+          vertices(1).isMet(ray, hit) && random.next() < SpecularChain.SecondVertexProbability &&
+            vertices(1).choose(random.next())
         if isLonger then length = 2
       error = Float.PositiveInfinity
       differentiate(limit = Float.PositiveInfinity)
@@ -137,7 +138,7 @@ final class SpecularChain(scene: Scene):
       scale = if step(scale) then Math.min(1f, 2f * scale) else 0.5f * scale
     error < tolerance && arrives
 
-  /** Does light leave the last vertex on the side where the lamp is? */
+  /** Does light leave the last vertex on the side where the emitter is? */
   private def arrives: Boolean =
     val last = vertices(length - 1)
     (towards dot last.wo) > SpecularChain.Aligned
@@ -161,9 +162,9 @@ final class SpecularChain(scene: Scene):
     follow()
     val last = vertices(length - 1)
     val frame = last.at.frame
-    val way = lamp - last.p
+    val way = emitter - last.p
     val distance = way.length
-    val to = if isFar then lamp.toVec3 else way * (1f / distance)
+    val to = if isFar then emitter.toVec3 else way * (1f / distance)
     val k = last.ratio
     val rest = to - last.wi * k
     val (s, t) = (frame.s dot rest, frame.t dot rest)
@@ -242,12 +243,12 @@ final class SpecularChain(scene: Scene):
   def isDispersive: Boolean =
     vertices(0).isDispersive || length > 1 && vertices(1).isDispersive
 
-  /** Solid angle at x in which an area at the lamp is seen, which faces the light; or, if the lamp
-    * is infinitely far away, a solid angle of its directions.
+  /** Solid angle at x in which an area at the emitter is seen, which faces the light; or, if the
+    * emitter is infinitely far away, a solid angle of its directions.
     */
   def spread: Double =
     val last = vertices(length - 1)
-    val way = if isFar then 1f else (lamp - last.p).length
+    val way = if isFar then 1f else (emitter - last.p).length
     def arrival(p: Vec3, d: Vec3): Vec3 =
       val turn = last.departure(d, last.bend(p))
       if isFar then turn else p + turn * way
@@ -258,24 +259,24 @@ final class SpecularChain(scene: Scene):
   /** The last vertex. */
   def end: MutableVec3 = vertices(length - 1).p
 
-  /** Direction from the chain to the lamp. */
-  def toLamp: MutableVec3 = towards
+  /** Direction from the chain to the emitter. */
+  def toEmitter: MutableVec3 = towards
 
-  /** Traces the ray from the chain to the lamp: does it reach a surface lamp there?
+  /** Traces the ray from the chain to the emitter: does it reach an area light there?
     *
-    * @param light index of the lamp
+    * @param light index of the emitter
     * @param at    where it is met
     */
   def reaches(light: Int, at: ShadingPoint): Boolean =
     val last = vertices(length - 1)
-    val distance = (lamp - last.p).length
+    val distance = (emitter - last.p).length
     leave(at) && at.areaLight == light &&
-    (at.p - lamp).length < SpecularChain.Near * distance
+    (at.p - emitter).length < SpecularChain.DistanceTolerance * distance
 
-  /** Likewise of a lamp that is none of the scene's surfaces. */
+  /** Likewise of an emitter that is none of the scene's surfaces. */
   def escapes(at: ShadingPoint): Boolean =
     val last = vertices(length - 1)
-    val distance = if isFar then Float.PositiveInfinity else (lamp - last.p).length
+    val distance = if isFar then Float.PositiveInfinity else (emitter - last.p).length
     !leave(at) || (at.p - last.p).length > distance
 
   private def leave(at: ShadingPoint): Boolean =
@@ -291,7 +292,7 @@ final class SpecularChain(scene: Scene):
 
   /** Is the chain the one that was kept? */
   def isSame: Boolean =
-    pattern == keptPattern && (kept - direction).lengthSquared < SpecularChain.Same
+    pattern == keptPattern && (kept - direction).lengthSquared < SpecularChain.DirectionTolerance
 
   private def pattern: Int =
     val last = if length > 1 && vertices(1).isRefracted then 2 else 0
@@ -300,32 +301,34 @@ final class SpecularChain(scene: Scene):
 private[candela] object SpecularChain:
   private inline val Longest = 2
 
-  /** Probability of a walk from the straight way to the lamp. */
+  /** Probability of a walk from the straight way to the emitter. */
   private inline val Straight = 0.5f
 
-  /** Logarithm of the smallest distance from it, relative to that of the lamp. */
+  /** Logarithm of the smallest distance from it, relative to that of the emitter. */
   private inline val Closest = -5f
 
   /** Probability of a second vertex, where there may be one. */
-  private inline val Long = 0.75f
+  private inline val SecondVertexProbability = 0.75f
 
   /** Of Newton's method. */
   private inline val Steps = 20
   private inline val Shortest = 0.06f
 
   /** Largest error of a chain, as a sine: above the rounding of traced rays; and that of places,
-    * relative to the distance to the lamp.
+    * relative to the distance to the emitter.
     */
   private inline val Tolerance = 1e-5f
   private inline val Rounding = 2.5e-7f
 
-  /** Cosine of the angle between the direction of departure and that to the lamp: others are on the
-    * wrong side of the surface.
+  /** Cosine of the angle between the direction of departure and that to the emitter: others are on
+    * the wrong side of the surface.
     */
   private inline val Aligned = 0.9999f
 
-  /** Squared distance of the directions in which the same chain is found again. */
-  private inline val Same = 1e-7f
+  /** Two walks have found the same chain if the squared distance of their directions is less. */
+  private inline val DirectionTolerance = 1e-7f
 
-  /** Distance from the place of the lamp where it may be met, relative to that from the chain. */
-  private inline val Near = 1e-3f
+  /** A ray may meet the emitter this far from the expected point, relative to the distance of
+    * both.
+    */
+  private inline val DistanceTolerance = 1e-3f

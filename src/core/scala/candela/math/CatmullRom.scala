@@ -168,14 +168,14 @@ final class CubicPiece(f0: Double, f1: Double, d0: Double, d1: Double):
     var high = 1.0
     var t = first
     var residual = Double.PositiveInfinity
-    while Math.abs(residual) > CubicPiece.Exact && high - low > CubicPiece.Near do
+    while Math.abs(residual) > CubicPiece.MaxResidual && high - low > CubicPiece.MinInterval do
       if !(t >= low && t <= high) then t = 0.5 * (low + high)
       residual = f(t)
       if residual < 0 then low = t else high = t
-      if Math.abs(residual) > CubicPiece.Exact then t -= residual / slope(t)
+      if Math.abs(residual) > CubicPiece.MaxResidual then t -= residual / slope(t)
     if t >= low && t <= high then t else 0.5 * (low + high)
 
 object CubicPiece:
   // Far below the resolution of Float
-  private inline val Exact = 1e-12
-  private inline val Near = 1e-9
+  private inline val MaxResidual = 1e-12
+  private inline val MinInterval = 1e-9

@@ -26,7 +26,7 @@ final class Interpolation(
   private val cos0 = a.dot(b0)
   // Nearly opposite quaternions are the same rotation, and can't be interpolated
   private val b =
-    if cos0 < -Interpolation.Near || (shortest && cos0 < 0) then b0.reversed else b0
+    if cos0 < -Interpolation.MaxCosine || (shortest && cos0 < 0) then b0.reversed else b0
   private val cosAngle = a.dot(b)
   private val angle = Math.acos(Math.min(1.0, cosAngle))
   private val sinAngle = Math.sin(angle)
@@ -40,7 +40,7 @@ final class Interpolation(
     else between((time.toDouble - startTime) / (endTime.toDouble - startTime), to, at)
 
   private def between(t: Double, to: Array[Double], at: Int): Unit =
-    val isNear = cosAngle > Interpolation.Near
+    val isNear = cosAngle > Interpolation.MaxCosine
     val wa = if isNear then 1 - t else Math.sin((1 - t) * angle) / sinAngle
     val wb = if isNear then t else Math.sin(t * angle) / sinAngle
     val qx = wa * a.x + wb * b.x
@@ -75,8 +75,8 @@ final class Interpolation(
     Interpolation.invert(to, at, at + 12)
 
 object Interpolation:
-  /** Cosine of half the angle below which the sines are too small to divide by; pbrt's value. */
-  private val Near = 0.9995
+  /** At larger cosines of half the angle, its sine is too small to divide by; pbrt's value. */
+  private val MaxCosine = 0.9995
 
   /** The image of a point. */
   private def of(t: Transform, p: Vec3): Array[Double] =

@@ -30,12 +30,12 @@ final class BatchVariance(pixels: Int, channels: Int):
       val added = weight(pixel) - weights(pixel)
       if added > 0 && batches(pixel) < Byte.MaxValue then
         loop(channels): c =>
-          val at = pixel * channels + c
-          val now = image.data(at)
+          val index = pixel * channels + c
+          val value = image.data(index)
           // The batch mean's distance from the former mean, by the weights of both
-          val step = (now - means(at)) / added * weight(pixel)
-          squares(at) += added * step * (means(at) + step - now)
-          means(at) = now
+          val step = (value - means(index)) / added * weight(pixel)
+          squares(index) += added * step * (means(index) + step - value)
+          means(index) = value
         weights(pixel) = weight(pixel)
         batches(pixel) = (batches(pixel) + 1).toByte
 
@@ -56,10 +56,10 @@ final class BatchVariance(pixels: Int, channels: Int):
 
   /** The expected errors of the last state. */
   def errors: Errors =
-    var all, relative = 0.0
+    var absolute, relative = 0.0
     loop(means.length): i =>
       val variance = this(i / channels, i % channels).toDouble
       val mean = means(i) + Metrics.RelativeEpsilon
-      all += variance
+      absolute += variance
       relative += variance / (mean * mean)
-    Errors(all / means.length, relative / means.length, None, None, None, Vector.empty)
+    Errors(absolute / means.length, relative / means.length, None, None, None, Vector.empty)

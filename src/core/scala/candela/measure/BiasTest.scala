@@ -164,22 +164,22 @@ object BiasTest:
 
     private val levels: Vector[Level] =
       val sizes = Iterator.iterate(1)(_ * 2).takeWhile(_ < Math.max(columns, rows) * 2).toVector
-      sizes.map(size => Level(size, places(size, columns), places(size, rows)))
+      sizes.map(size => Level(size, offsets(size, columns), offsets(size, rows)))
 
     /** Steps of half a size, up to the one that reaches the end. */
-    private def places(size: Int, all: Int): Vector[Int] =
+    private def offsets(size: Int, all: Int): Vector[Int] =
       val step = Math.max(1, size / 2)
       (0 until all by step).toVector.takeWhile(x => x == 0 || x + size - step < all)
 
     def result: BiasTest =
       val tested = levels.map(of)
-      val found =
+      val corrected =
         for regions <- tested if regions.nonEmpty yield
           val trials = levels.size.toDouble * regions.size
           regions.map(r => r.copy(adjusted = Math.min(1, trials * r.p)))
       val tiles = tested.head.map(_.p).toArray
-      val worst = found.map(_.minBy(_.p)).sortBy(r => (r.adjusted, r.p))
-      val clearest = found.minByOption(all => all.map(r => (r.adjusted, r.p)).min)
+      val worst = corrected.map(_.minBy(_.p)).sortBy(r => (r.adjusted, r.p))
+      val clearest = corrected.minByOption(all => all.map(r => (r.adjusted, r.p)).min)
       new BiasTest(worst, tested.last, tiles, map(clearest.getOrElse(Vector.empty)), skipped)
 
     /** All regions of a level that have noise, or differ. */
@@ -264,9 +264,9 @@ object BiasTest:
       * less than that of the many.
       */
     def beside(other: Estimate): Estimate =
-      val least = other.variance * other.images / Math.max(1, images)
-      if images == 0 || images >= other.images || variance >= least then this
-      else copy(variance = least, freedom = other.freedom)
+      val minVariance = other.variance * other.images / Math.max(1, images)
+      if images == 0 || images >= other.images || variance >= minVariance then this
+      else copy(variance = minVariance, freedom = other.freedom)
 
   private object Estimate:
     def pair(a: Estimate, b: Estimate): (Estimate, Estimate) = (a.beside(b), b.beside(a))

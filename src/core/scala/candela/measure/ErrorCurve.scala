@@ -40,9 +40,9 @@ object Errors:
   /** Error against a reference, without FLIP, which takes by far the longest. */
   def quickly(reference: Image)(image: Image): Errors =
     val m = Metrics.compare(image, reference)
-    val own = ErrorLayer.error(reference)
-    val mse = m.mse - own.fold(0.0)(_.mse)
-    val relativeMse = m.relativeMse - own.fold(0.0)(_.relativeMse)
+    val referenceError = ErrorLayer.error(reference)
+    val mse = m.mse - referenceError.fold(0.0)(_.mse)
+    val relativeMse = m.relativeMse - referenceError.fold(0.0)(_.relativeMse)
     Errors(
       Math.max(0, mse),
       Math.max(0, relativeMse),
@@ -50,7 +50,7 @@ object Errors:
       Some(m.psnr),
       None,
       m.meanRatio,
-      own
+      referenceError
     )
 
 /** Point of an error curve.

@@ -71,7 +71,7 @@ final class ErrorEstimate:
 
   /** The relative MSE after so many samples per pixel, with its 95 % interval. This has no upper
     * limit where the error is that of few pixels, and its lower one is what the error would be if
-    * their own means were true: a speck at the edge of a lamp may be part of it.
+    * their own means were true: a speck at the edge of an emitter may be part of it.
     *
     * Its logarithm is uncertain by what few pixels tell, and by how far the trend of scatter can be
     * extrapolated. How far, is calibrated over many scenes by docs/NOISE.md, "Intervals": of one
@@ -107,33 +107,33 @@ final class ErrorEstimate:
     yield
       val times = known.times(relativeMse)
       val isSoon = times < 2
-      val found =
+      val samples =
         if isSoon then known.samples * times
         else
-          val least = 2.0 * known.samples
+          val minSamples = 2.0 * known.samples
           var sum, weights = 0.0
           for (k, i) <- (known +: before).zipWithIndex do
             val weight = Math.scalb(1.0, -i)
             val byWeight = (k.times(relativeMse) * k.weight - now.weight) / sampleWeight
-            sum += weight * Math.log(Math.max(least, now.samples + byWeight))
+            sum += weight * Math.log(Math.max(minSamples, now.samples + byWeight))
             weights += weight
-          Math.max(least, Math.exp(sum / weights))
-      val ahead = Math.log(Math.max(1, found / now.samples)) / Math.log(2)
+          Math.max(minSamples, Math.exp(sum / weights))
+      val ahead = Math.log(Math.max(1, samples / now.samples)) / Math.log(2)
       val far = ErrorEstimate.factor(ErrorEstimate.deviation(now.samples, isSoon, ahead))
-      if now.samples < ErrorEstimate.FewSamples then Interval(found, Double.NaN, Double.NaN)
+      if now.samples < ErrorEstimate.FewSamples then Interval(samples, Double.NaN, Double.NaN)
       else
-        val soonest = Math.min(found, now.samples)
-        if isOfFew then Interval(found, soonest, Double.PositiveInfinity)
-        else Interval(found, Math.max(soonest, found / far), found * far)
+        val soonest = Math.min(samples, now.samples)
+        if isOfFew then Interval(samples, soonest, Double.PositiveInfinity)
+        else Interval(samples, Math.max(soonest, samples / far), samples * far)
 
   /** Of one of the latest samples. Those of guided passes may count more than those before. */
   private def sampleWeight: Double =
-    val some =
+    val perSample =
       for
         now <- latest
         from <- (base.map(_.weighed) ++ earlier).find(_.samples < now.samples)
       yield (now.weight - from.weight) / (now.samples - from.samples)
-    some.filter(_ > 0).orElse(latest.map(now => now.weight / now.samples)).getOrElse(1.0)
+    perSample.filter(_ > 0).orElse(latest.map(now => now.weight / now.samples)).getOrElse(1.0)
 
   /** Whether so few pixels have nearly all of the error that it is known to 15 % in fewer than nine
     * of ten cases.
@@ -142,37 +142,37 @@ final class ErrorEstimate:
 
   private def estimate(half: State, now: State, isStopped: () => Boolean): Known =
     val doubled = now.samples == 2 * half.samples
-    val all = ErrorEstimate.scatter(None, half, now, isStopped)
+    val full = ErrorEstimate.scatter(None, half, now, isStopped)
     val second = middle.map(ErrorEstimate.scatter(Some(half), _, now, isStopped))
     val inner = whole.filter(_ => doubled).map: first =>
       second.fold(first)(ErrorEstimate.mean(first, _))
-    val variance = inner.fold(all.values)(ErrorEstimate.pooled(all, _))
+    val variance = inner.fold(full.values)(ErrorEstimate.pooled(full, _))
     val means = QuietMeans(now.image, variance, isStopped)
-    val scatters = Vector(Some(all), inner, halves.filter(_ => doubled))
+    val scatters = Vector(Some(full), inner, halves.filter(_ => doubled))
     val trend =
       if scatters.forall(_.isDefined) then
         // As if all samples had the same weight
-        val parts =
+        val squareSums =
           for (scatter, i) <- scatters.flatten.zipWithIndex yield
-            val scale = Math.scalb(all.unit, i) / scatter.unit
+            val scale = Math.scalb(full.unit, i) / scatter.unit
             ErrorEstimate.inParts(scatter.values, now.image, means, isStopped).map(_ * scale)
-        ScatterTrend.of(parts, now.samples)
+        ScatterTrend.of(squareSums, now.samples)
       else ScatterTrend.Independent
     var squares, relatives, spread, sure = 0.0
-    loop(all.values.length): i =>
+    loop(full.values.length): i =>
       GivenUp.check(isStopped, i)
-      val relative = all.values(i).toDouble * means.weight(i)
-      squares += all.values(i)
+      val relative = full.values(i).toDouble * means.weight(i)
+      squares += full.values(i)
       relatives += relative
-      sure += all.values(i) * Math.min(means.weight(i), means.ownWeight(i))
+      sure += full.values(i) * Math.min(means.weight(i), means.ownWeight(i))
       spread += relative * relative
-    val scale = trend.factor / all.values.length
+    val scale = trend.factor / full.values.length
     val errors = Errors(squares * scale, relatives * scale, None, None, None, Vector.empty)
-    whole = Some(all)
+    whole = Some(full)
     halves = inner
-    val values = if spread > 0 then relatives * relatives / spread else all.values.length.toDouble
-    val part = if relatives > 0 then sure / relatives else 1.0
-    Known(now.samples, now.weighed.weight, errors, trend, values / now.image.channels, part)
+    val values = if spread > 0 then relatives * relatives / spread else full.values.length.toDouble
+    val sureShare = if relatives > 0 then sure / relatives else 1.0
+    Known(now.samples, now.weighed.weight, errors, trend, values / now.image.channels, sureShare)
 
 object ErrorEstimate:
   /** Samples between two numbers at which a rendering may end by its error. */
@@ -234,8 +234,8 @@ object ErrorEstimate:
 
     /** How many times these samples have at most this relative MSE ([[ScatterTrend.times]]). */
     def times(relativeMse: Double): Double =
-      val part = relativeMse / Math.max(errors.relativeMse, 1e-30)
-      trend.times(part, MostApart / samples.toDouble)
+      val ratio = relativeMse / Math.max(errors.relativeMse, 1e-30)
+      trend.times(ratio, MostApart / samples.toDouble)
 
   /** The squared difference of two halves of a pixel has the relative variance 2, and a mean square
     * of 3: the root of a sum is then uncertain by the root of 1 / 6 over these pixels, here 0.075.
@@ -294,15 +294,16 @@ object ErrorEstimate:
       means: QuietMeans,
       isStopped: () => Boolean
   ): Array[Double] =
-    val columns = (image.width + Part - 1) / Part
-    val sums = new Array[Double](columns * ((image.height + Part - 1) / Part))
+    val columns = (image.width + SquareSide - 1) / SquareSide
+    val sums = new Array[Double](columns * ((image.height + SquareSide - 1) / SquareSide))
     loop(image.height): y =>
       GivenUp.check(isStopped)
       loop(image.width): x =>
-        val part = y / Part * columns + x / Part
+        val square = y / SquareSide * columns + x / SquareSide
         loop(image.channels): c =>
           val i = (y * image.width + x) * image.channels + c
-          sums(part) += scatter(i) * means.weight(i)
+          sums(square) += scatter(i) * means.weight(i)
     sums
 
-  private val Part = 8
+  /** In pixels. */
+  private val SquareSide = 8

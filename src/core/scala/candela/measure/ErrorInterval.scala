@@ -49,11 +49,11 @@ object ErrorInterval:
       val events = mean * mean / within.variance
       val t = StudentT.limit(spread.degrees)
       val low = gamma(mean, spread.variance, -t)
-      val next = NextEvent * (1 + 1.0 / seeds) * spread.largest * spread.largest /
+      val missed = NextEvent * (1 + 1.0 / seeds) * spread.largest * spread.largest /
         Math.sqrt(spread.variance)
       val high =
         if events < FewestEvents then Double.PositiveInfinity
-        else gamma(mean + next, spread.variance + next * next, t)
+        else gamma(mean + missed, spread.variance + missed * missed, t)
       ErrorInterval(Interval(mean, low, high), events)
 
   /** Quantile of the gamma distribution of this mean and variance, by that of a normal one. */
@@ -79,9 +79,9 @@ object ErrorInterval:
       var variance, squares, largest = 0.0
       for own <- values do
         val mean = own.sum / seeds
-        val of = own.map(v => (v - mean) * (v - mean)).sum / (seeds - 1) / seeds
-        variance += of
-        squares += of * of
+        val partVariance = own.map(v => (v - mean) * (v - mean)).sum / (seeds - 1) / seeds
+        variance += partVariance
+        squares += partVariance * partVariance
         largest = Math.max(largest, own.max - mean)
       // The square of a variance from few seeds is too large by (seeds + 1) / (seeds − 1)
       val equal = if squares > 0 then variance * variance / squares else 1.0

@@ -20,8 +20,8 @@ object ErrorLayer:
   def behind(colors: Image, errors: Image): Image =
     val data = new Array[Float](2 * colors.data.length)
     loop(data.length): i =>
-      val at = i / 6 * 3 + i % 3
-      data(i) = if i % 6 < 3 then colors.data(at) else errors.data(at)
+      val index = i / 6 * 3 + i % 3
+      data(i) = if i % 6 < 3 then colors.data(index) else errors.data(index)
     Image(colors.width, colors.height, colors.channelNames ++ Channels, data)
 
   /** The variances of R, G and B, if the image has them. */
@@ -35,13 +35,13 @@ object ErrorLayer:
     */
   def error(reference: Image): Option[OwnError] = of(reference).map: variance =>
     val colors = reference.toRgb
-    var all, relative = 0.0
+    var absolute, relative = 0.0
     var count = 0
     loop(variance.data.length): i =>
       val scale = colors.data(i) + Metrics.RelativeEpsilon
       val square = variance.data(i).toDouble
       if java.lang.Double.isFinite(square / (scale * scale)) then
-        all += square
+        absolute += square
         relative += square / (scale * scale)
         count += 1
-    OwnError(all / Math.max(1, count), relative / Math.max(1, count))
+    OwnError(absolute / Math.max(1, count), relative / Math.max(1, count))

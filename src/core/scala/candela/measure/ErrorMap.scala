@@ -78,5 +78,5 @@ object HeatMap:
     if metric == Metric.Flip then 1.0
     else
       val sorted = map.data.sorted
-      val most = sorted(Math.min(sorted.length - 1, sorted.length * 99 / 100))
-      if most > 0 then most.toDouble else sorted.last.toDouble
+      val percentile = sorted(Math.min(sorted.length - 1, sorted.length * 99 / 100))
+      if percentile > 0 then percentile.toDouble else sorted.last.toDouble

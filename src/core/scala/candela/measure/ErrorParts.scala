@@ -50,14 +50,14 @@ object ErrorParts:
     loop(width * height): pixel =>
       if isFinite(image, pixel) && isFinite(center, pixel) && isFinite(scale, pixel) then
         count += 1
-        val part = pixel / width / Size * columns + pixel % width / Size
+        val tile = pixel / width / Size * columns + pixel % width / Size
         loop(channels): c =>
-          val at = channels * pixel + c
-          val difference = image.data(at).toDouble - center.data(at)
-          val ratio = difference / (scale.data(at) + Metrics.RelativeEpsilon)
+          val index = channels * pixel + c
+          val difference = image.data(index).toDouble - center.data(index)
+          val ratio = difference / (scale.data(index) + Metrics.RelativeEpsilon)
           val error = if java.lang.Double.isFinite(ratio) then ratio else 0
-          squared(part) += difference * difference
-          relative(part) += error * error
+          squared(tile) += difference * difference
+          relative(tile) += error * error
           pixels(pixel) += error * error
           planes(c)(pixel) = error
     val share = factor / (Math.max(count, 1) * channels)
@@ -67,6 +67,6 @@ object ErrorParts:
 
   private def worstOf(pixels: Array[Double]): Double =
     val sorted = pixels.sorted
-    val all = sorted.sum
-    val few = (sorted.length + 99) / 100
-    if all > 0 then sorted.drop(sorted.length - few).sum / all else 0
+    val total = sorted.sum
+    val hundredth = (sorted.length + 99) / 100
+    if total > 0 then sorted.drop(sorted.length - hundredth).sum / total else 0

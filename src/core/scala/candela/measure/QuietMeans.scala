@@ -7,11 +7,11 @@ import candela.image.Image
   * around that differ from it by noise, and of itself: a firefly must not hide its own error, nor
   * its neighbours, which lack it, make that seem larger than it is.
   *
-  * A pixel at the edge of a lamp is noisy, too, and far above the dark around. But the whole lamp
-  * is in a pixel beside it: one that is quiet, and brighter by more than noise. Its own mean holds.
-  * If a lamp covers an unknown part of a pixel, uniformly distributed, then as many pixels have one
-  * sample of it as have none; these miss all of their light, and seem to have no error. So the
-  * squared errors of the noisiest count twice.
+  * A pixel at the edge of an emitter is noisy, too, and far above the dark around. But the whole
+  * emitter is in a pixel beside it: one that is quiet, and brighter by more than noise. Its own
+  * mean holds. If an emitter covers an unknown part of a pixel, uniformly distributed, then as many
+  * pixels have one sample of it as have none; these miss all of their light, and seem to have no
+  * error. So the squared errors of the noisiest count twice.
   *
   * @param variance of each value
   * @param isStopped whether to give up
@@ -105,7 +105,7 @@ private object QuietMeans:
   val Quiet = 0.05
 
   /** By this part the mean of the noisiest pixels at an edge is lowered: their weight is then twice
-    * as large, for those that missed the lamp.
+    * as large, for those that missed the emitter.
     */
   val Missed: Double = 1 - Math.sqrt(0.5)
 

@@ -98,7 +98,7 @@ final class VoxelNode(val leaves: Array[Array[Float]]):
     found
 
 object VoxelNode:
-  val Leaves = 4096
+  val LeafCount = 4096
   val LeafSize = 512
 
   private def greatest(leaf: Array[Float]): Float =
@@ -108,7 +108,7 @@ object VoxelNode:
 
   def constant(value: Float): VoxelNode =
     val leaf = Array.fill(LeafSize)(value)
-    VoxelNode(Array.fill(Leaves)(leaf))
+    VoxelNode(Array.fill(LeafCount)(leaf))
 
 object VoxelTree:
   /** Voxels of a node along an axis. */

@@ -20,7 +20,7 @@ final class Integrators(session: Session):
       case "path" | "prb" | "prb_basic" => limited(in, "path", hiding(in)*)
       case "volpath" | "volpathmis" | "prbvolpath" => limited(in, "volpath", hiding(in)*)
       case "ptracer" =>
-        in.lose("lamps are visible", "hide_emitters")
+        in.lose("area lights are visible", "hide_emitters")
         limited(in, "lightpath")
       case "direct" => session.declare(
           "Integrator",
@@ -73,7 +73,7 @@ final class Integrators(session: Session):
     Option.when(in.flag("hide_emitters", false))(Param.bool("hideemitters", at, true)).toSeq
 
 object Integrators:
-  /** Whether its paths have no edge: they see nothing, not even lamps. */
+  /** Whether its paths have no edge: they see nothing, not even lights. */
   def isBlack(p: Plugin): Boolean = p.properties.exists: q =>
     q.value match
       case Value.Number(x) => q.name == "max_depth" && x == 0

@@ -76,7 +76,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val (surface, material) = bsdf.headOption match
       case Some(p) =>
         val s = attributes.fold(surfaces(p))(surfaces.on(_, p))
-        // Masks don't dim lamps
+        // Masks don't dim emitters
         val lit = if emitter.isDefined && s.alpha.isDefined then surfaces.whole(s) else s
         (lit, if lit eq s then surfaces.ref(p, s) else MaterialRef.Inline(lit.material))
       case None =>
@@ -99,7 +99,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         surface.isOneSided
       )
 
-  /** Without a BSDF, lamps are black. */
+  /** Without a BSDF, emitters are black. */
   private def bare(in: Asked, emits: Boolean): Surface =
     val grey = candela.color.Rgb.gray(if emits then 0f else 0.5f)
     val material =
@@ -140,7 +140,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         Some(Form("sphere", size, toWorld * centre, isFlipped))
       case "cylinder" =>
         for (place, length) <- axis(in, toWorld) yield
-          // Upside down, so that v runs as on Mitsuba's; lamps have none, and pbrt's light of
+          // Upside down, so that v runs as on Mitsuba's; emitters have none, and pbrt's light of
           // reflected ones is not consistent
           val isEven =
             in.nested("emitter").nonEmpty && !in.nested("emitter").exists(isMapped)

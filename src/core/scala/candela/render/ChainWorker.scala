@@ -25,11 +25,11 @@ private[render] final class ChainWorker(
     var done =
       Math.max(schedule.paths(chain, schedule.firstSample(wave)), queue.progress.get(chain))
     while done < end && queue.goesOn() && !queue.isAbandoned do
-      val some = Math.min(end - done, AtOnce)
-      if walk(chain, some) then
+      val count = Math.min(end - done, AtOnce)
+      if walk(chain, count) then
         beat()
-        queue.samplesTaken.add(some)
-        done += some
+        queue.samplesTaken.add(count)
+        done += count
         queue.progress.set(chain, done)
     done >= end
 
@@ -37,10 +37,10 @@ private[render] final class ChainWorker(
   private def walk(chain: Int, paths: Long): Boolean =
     val begun = queue.begun.remove(chain)
     val (first, weight) = if begun == null then (0, 0f) else (begun.done, begun.sums(0).toFloat)
-    val made = first + walker.advance(chain, paths - first, weight, () => queue.isAbandoned)
-    if made < paths && made > 0 && !queue.isLost then
-      queue.begun.put(chain, BegunPiece(made.toInt, Array(walker.pending.toDouble))): Unit
-    made >= paths
+    val pathsDone = first + walker.advance(chain, paths - first, weight, () => queue.isAbandoned)
+    if pathsDone < paths && pathsDone > 0 && !queue.isLost then
+      queue.begun.put(chain, BegunPiece(pathsDone.toInt, Array(walker.pending.toDouble))): Unit
+    pathsDone >= paths
 
   protected def failure(cause: Throwable): RenderFailure =
     RenderFailure(walker.x, walker.y, 0, cause)

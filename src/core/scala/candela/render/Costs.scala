@@ -17,11 +17,11 @@ final case class Costs(all: Vector[Cost] = Vector.empty):
       all.forall(c => c.kind != CostKind.Triangles || c.bytes == 0)
     val named =
       all.map(c => if isOther && c.kind == CostKind.Triangles then c.copy(CostKind.Shapes) else c)
-    (Costs() ++ named).all.filter(c => c.bytes > 0 || c.seconds >= Costs.Least)
+    (Costs() ++ named).all.filter(c => c.bytes > 0 || c.seconds >= Costs.MinSeconds)
 
   /** The greatest parts, those that matter. */
   def greatest: Vector[Cost] =
-    all.filter(_.bytes * Costs.Matters >= bytes).sortBy(-_.bytes).take(Costs.Told)
+    all.filter(_.bytes * Costs.Matters >= bytes).sortBy(-_.bytes).take(Costs.MaxListed)
 
   /** Why the rendering ends: the heap is too small.
     *
@@ -29,25 +29,25 @@ final case class Costs(all: Vector[Cost] = Vector.empty):
     * @param needed bytes that are needed at least, if that is known
     */
   def problem(heap: Long, needed: Option[Long], at: Option[SourcePos] = None): Problem =
-    val parts = greatest.map(c => s"${c.kind.word} ${ByteCount.show(c.bytes)}").mkString(", ")
+    val listed = greatest.map(c => s"${c.kind.word} ${ByteCount.show(c.bytes)}").mkString(", ")
     val limit = s"Java's heap is limited to ${ByteCount.show(heap)}"
     val message = needed match
-      case Some(n) => s"the scene needs about ${ByteCount.show(n)} of memory, but $limit: $parts"
-      case None if parts.isEmpty => s"out of memory: $limit"
-      case None => s"out of memory: $limit; the scene has $parts"
-    val most = Math.max(needed.getOrElse(0L), Math.max(heap, bytes))
-    val enough = Math.ceil(most * Costs.Room / 1e9).toLong
-    val cures = JavaHeap.raise(s"${enough}g") +: greatest.flatMap(c => Costs.cure(c.kind))
+      case Some(n) => s"the scene needs about ${ByteCount.show(n)} of memory, but $limit: $listed"
+      case None if listed.isEmpty => s"out of memory: $limit"
+      case None => s"out of memory: $limit; the scene has $listed"
+    val bytesNeeded = Math.max(needed.getOrElse(0L), Math.max(heap, bytes))
+    val gigabytes = Math.ceil(bytesNeeded * Costs.Room / 1e9).toLong
+    val cures = JavaHeap.raise(s"${gigabytes}g") +: greatest.flatMap(c => Costs.cure(c.kind))
     Problem.error(Code.OutOfMemory, at, message, Some(cures.mkString("; ")))
 
 object Costs:
-  /** Parts below one in so many are not told. */
+  /** Parts of less than one in this many are not reported. */
   private val Matters = 20
 
-  private val Told = 4
+  private val MaxListed = 4
 
-  /** Seconds; less is not told. */
-  val Least = 0.005
+  /** Costs of less time are not reported. */
+  val MinSeconds = 0.005
 
   /** A heap that is a little larger than a scene makes it slow. */
   private val Room = 1.5

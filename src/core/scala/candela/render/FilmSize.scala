@@ -1,8 +1,8 @@
 package candela.render
 
+import candela.aov.{Layer, LayerFilm}
 import candela.film.{Fireflies, SpectralBands}
 import candela.guiding.{GuideRecords, GuideSettings}
-import candela.layers.{Layer, LayerFilm}
 
 /** What the film of a rendering takes in memory, and what is learnt for it. */
 object FilmSize:
@@ -18,8 +18,8 @@ object FilmSize:
       layers: Vector[Layer],
       bands: Option[SpectralBands]
   ): Cost =
-    val all = if layers.isEmpty then 0L else LayerFilm.size(layers, None)
-    film(pixels, samples, all, bands, 0)
+    val layerNumbers = if layers.isEmpty then 0L else LayerFilm.size(layers, None)
+    film(pixels, samples, layerNumbers, bands, 0)
 
   private[render] def of(plan: RenderPlan): Vector[Cost] =
     val pixels = plan.crop.pixels
@@ -39,8 +39,8 @@ object FilmSize:
     val ofLevel = if plan.sharesSamples then Sum else sum
     val levels = if plan.fireflies == Fireflies.Reweighted then Levels * 3L * ofLevel else 0L
     val borders = if plan.sharesSamples then Border * 4 * sum else 0
-    val all = film(pixels, samples, layers, plan.bands, splats)
-    all.copy(bytes = all.bytes + pixels * (levels + borders.toLong)) +: guide(plan).toVector
+    val cost = film(pixels, samples, layers, plan.bands, splats)
+    cost.copy(bytes = cost.bytes + pixels * (levels + borders.toLong)) +: guide(plan).toVector
 
   private def film(
       pixels: Long,
@@ -52,8 +52,8 @@ object FilmSize:
     val sums = (4L + layers) * sumOf(samples)
     // Several wavelengths of a sample are in one band
     val inBands = bands.fold(0L)(2L * _.channels.size * Sum)
-    val shown = 3L + layers
-    Cost(CostKind.Film, pixels * (sums + inBands + splats * Sum + shown * 4))
+    val channels = 3L + layers
+    Cost(CostKind.Film, pixels * (sums + inBands + splats * Sum + channels * 4))
 
   private def guide(plan: RenderPlan): Option[Cost] = plan.method match
     case RenderMethod.Guided(_, settings, _) => Some(guide(plan, settings))

@@ -1,11 +1,11 @@
 package candela.render
 
+import candela.aov.*
 import candela.film.*
 import candela.guiding.{Guide, GuideSettings}
 import candela.integrators.{
   Integrator, PassIntegrator, SharedChains, SharedPasses, WorkerIntegrators
 }
-import candela.layers.*
 import candela.scene.PathReport
 
 /** Film, schedule and workers of a plan's method, each created once. */
@@ -60,7 +60,7 @@ private[render] object Job:
           plan.sampled,
           samples,
           largestWave = 1,
-          openWaves = SharedPasses.Open
+          openWaves = SharedPasses.MaxOpen
         )
         val takes = (_: Int, sample: Int) => shard.takesPass(sample)
         val tiles = TileJobs(plan, schedule, plan.crop, takes)
@@ -102,7 +102,7 @@ private[render] object Job:
     val queue = TaskQueue(schedule, Cancellation())
     val view = plan.view(Splats.Discarded)
     def worker(integrators: WorkerIntegrators) = tiles.worker(integrators.make(Some(report)), queue)
-    val only = plan.method match
+    val tileWorker = plan.method match
       case RenderMethod.Tiles(integrators) => worker(integrators)
       case RenderMethod.Guided(unguided, _, _) => worker(unguided)
       case RenderMethod.SplattedTiles(make, _, _, _) => worker(make(view))
@@ -111,7 +111,7 @@ private[render] object Job:
       case RenderMethod.Passes(make, _) =>
         val integrator = make(view).integrator(Some(report))
         tiles.worker(integrator, queue, begin(integrator, queue))
-    (tiles.film, only)
+    (tiles.film, tileWorker)
 
   private def unchosen(): Nothing =
     throw IllegalArgumentException("the method has not been chosen")

@@ -169,47 +169,47 @@ object RenderMethod:
     def converted(view: View, basis: Wavelengths) =
       view.copy(splats = ConvertedSplats(view.splats, basis))
     def ofView(integrators: Vector[View => WorkerIntegrators])(view: View): WorkerIntegrators =
-      val made = integrators.zip(bases).map((make, basis) => make(converted(view, basis)))
-      SpectralIntegrators(made, bases)
+      val workers = integrators.zip(bases).map((make, basis) => make(converted(view, basis)))
+      SpectralIntegrators(workers, bases)
     methods.head match
       case Tiles(_) =>
         Tiles(SpectralIntegrators(methods.collect { case Tiles(i) => i }, bases))
       case Guided(_, settings, _) =>
-        val made = methods.collect { case g: Guided => g }
+        val perBasis = methods.collect { case g: Guided => g }
         Guided(
-          SpectralIntegrators(made.map(_.unguided), bases),
+          SpectralIntegrators(perBasis.map(_.unguided), bases),
           settings,
-          shared => SpectralIntegrators(made.map(_.guided(shared)), bases)
+          shared => SpectralIntegrators(perBasis.map(_.guided(shared)), bases)
         )
       case SplattedTiles(_, beside, learning, adds) =>
-        val made = methods.collect { case s: SplattedTiles => s }
+        val perBasis = methods.collect { case s: SplattedTiles => s }
         def guided(view: View, guide: Guide) =
-          val each = made.zip(bases).map: (of, basis) =>
+          val workers = perBasis.zip(bases).map: (of, basis) =>
             of.guided.get.integrators(converted(view, basis), guide)
-          SpectralIntegrators(each, bases)
+          SpectralIntegrators(workers, bases)
         SplattedTiles(
-          ofView(made.map(_.integrators)),
+          ofView(perBasis.map(_.integrators)),
           beside,
           learning.map(s => GuidedSplats(s.settings, guided)),
           adds
         )
       case Piloted(_, _, _, connects) =>
-        val made = methods.collect { case p: Piloted => p }
+        val perBasis = methods.collect { case p: Piloted => p }
         // One decides for all: bases differ in colours only
-        val decider = made(made.size / 2)
+        val decider = perBasis(perBasis.size / 2)
         Piloted(
-          spectral(parts.map(_._1).zip(made.map(_.alone))),
+          spectral(parts.map(_._1).zip(perBasis.map(_.alone))),
           decider.pilot,
-          choice => spectral(parts.map(_._1).zip(made.map(_.chosen(choice)))),
+          choice => spectral(parts.map(_._1).zip(perBasis.map(_.chosen(choice)))),
           connects
         )
       case Passes(_, bias) =>
-        val made = methods.collect { case Passes(make, _) => make }
-        Passes(view => SpectralPasses(made.map(_(view)), bases), bias)
+        val perBasis = methods.collect { case Passes(make, _) => make }
+        Passes(view => SpectralPasses(perBasis.map(_(view)), bases), bias)
       case Chains(_, chains, _) =>
-        val made = methods.collect { case Chains(paths, _, single) => (paths, single) }
+        val perBasis = methods.collect { case Chains(paths, _, single) => (paths, single) }
         def paths(view: View, splats: Splats) =
-          val each = made.zip(bases).map: (of, basis) =>
+          val chainPaths = perBasis.zip(bases).map: (of, basis) =>
             of._1(view, ConvertedSplats(splats, basis))
-          SpectralChainPaths(each.toArray, bases)
-        Chains(paths, chains, ofView(made.map(_._2)))
+          SpectralChainPaths(chainPaths.toArray, bases)
+        Chains(paths, chains, ofView(perBasis.map(_._2)))

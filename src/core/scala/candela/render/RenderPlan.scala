@@ -1,10 +1,10 @@
 package candela.render
 
+import candela.aov.*
 import candela.cameras.{Camera, Shutter}
 import candela.color.ColorBasis
 import candela.film.*
 import candela.image.Image
-import candela.layers.*
 import candela.sampling.Sampler
 import candela.scene.SurfaceNames
 

@@ -30,9 +30,9 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     job.layers.foreach(_.save(to))
     job.chains.foreach(_.save(to))
     job.guide.foreach(_.save(to))
-    val lost = refused.toVector
-    to.int(lost.size)
-    for r <- lost do
+    val rejected = refused.toVector
+    to.int(rejected.size)
+    for r <- rejected do
       to.long(r.count)
       for number <- Vector(r.x, r.y, r.sample, r.material) do to.int(number)
     if !queue.begun.isEmpty then saveBegun(to)

@@ -45,22 +45,22 @@ object Renderer:
     val live = Live(plan, job, queue, workers, state, total, canKeepOn, () => seconds)
     val timeLeft = TimeLeft(schedule, pixels.toDouble / shard.count, earlier, listener)
     def progress() =
-      val now = live.progress
-      live.expect(timeLeft.outlook(now.done, live.samplesPerPixel, now.seconds, clock))
+      val current = live.progress
+      live.expect(timeLeft.outlook(current.done, live.samplesPerPixel, current.seconds, clock))
       listener.progressed(live.progress)
     listener.started(live)
     var beats = 0L
     var lastBeat = started
     def isMoving() =
-      val now = workers.map(_.beats).sum
-      val hasMoved = now != beats
-      beats = now
+      val latestBeats = workers.map(_.beats).sum
+      val hasMoved = latestBeats != beats
+      beats = latestBeats
       hasMoved
     def observe() =
       progress()
       if isMoving() then lastBeat = System.nanoTime
-      val still = (System.nanoTime - lastBeat) * 1e-9
-      if listener.isOver(clock, still) then queue.stop()
+      val stillSeconds = (System.nanoTime - lastBeat) * 1e-9
+      if listener.isOver(clock, stillSeconds) then queue.stop()
     def tick() =
       observe()
       for k <- checkpointer if k.isDue && !queue.isStopped do
@@ -76,7 +76,7 @@ object Renderer:
     /** Takes all samples before the wave `end`, until there are `done` per pixel. */
     def take(end: Int, done: Int): Unit =
       queue.openUntil(end, done)
-      val begin = seconds
+      val start = seconds
       lastBeat = System.nanoTime
       Workers.run(workers, queue, () => isWorthWaiting())(() => tick())
       if looks != Looks.Never && !queue.isStopped then
@@ -85,18 +85,18 @@ object Renderer:
         val busy = workers.map(_.seconds)
         val step = if isWhole then schedule.step else 1
         val pass =
-          Pass(done, begin, seconds, busy, isLast, isWhole, clock, step, () => queue.isStopped)
+          Pass(done, start, seconds, busy, isLast, isWhole, clock, step, () => queue.isStopped)
         val stopped = System.nanoTime
         listener.passed(pass, job.film)
         paused += System.nanoTime - stopped
 
     def run(end: Int): Unit =
-      val all = schedule.firstSample(end)
+      val target = schedule.firstSample(end)
       val mayDivide = looks == Looks.Waves && schedule.step > 0
       var done = Math.max(earlier, schedule.firstSample(end - 1))
-      while done < all && goesOn do
-        val most = if mayDivide then listener.most else Int.MaxValue
-        done = if most >= all - done then all else done + Math.max(1, most)
+      while done < target && goesOn do
+        val maxSamples = if mayDivide then listener.most else Int.MaxValue
+        done = if maxSamples >= target - done then target else done + Math.max(1, maxSamples)
         take(end, done)
     ends(schedule, looks).filter(isNew).takeWhile(_ => goesOn).foreach(run)
     var wave = schedule.waves

@@ -1,10 +1,10 @@
 package candela.render
 
+import candela.aov.LayerFilm
 import candela.base.Parallel
 import candela.film.{Development, Film}
 import candela.guiding.GuideOutcome
 import candela.image.Image
-import candela.layers.LayerFilm
 
 /** Progress of a rendering.
   *

@@ -26,45 +26,45 @@ final class ThreadPool(val threads: Int, val worksAside: Boolean = true)
   private def helpers: Option[ThreadPoolExecutor] = synchronized:
     if isClosed then None
     else
-      if working.isEmpty then working = Some(made())
+      if working.isEmpty then working = Some(newExecutor())
       working
 
-  private def made(): ThreadPoolExecutor =
+  private def newExecutor(): ThreadPoolExecutor =
     val started = AtomicInteger()
-    val made = ThreadPoolExecutor(
+    val executor = ThreadPoolExecutor(
       threads - 1,
       threads - 1,
-      ThreadPool.Patience,
+      ThreadPool.IdleSeconds,
       SECONDS,
       LinkedBlockingQueue[Runnable](),
       task => ThreadPool.thread(s"helper-${started.incrementAndGet()}", task),
       ThreadPoolExecutor.DiscardPolicy() // of what is asked once it is closed: the caller does it
     )
-    made.allowCoreThreadTimeOut(true)
-    made
+    executor.allowCoreThreadTimeOut(true)
+    executor
 
   def each(count: Int)(task: Int => Unit): Unit =
     if threads == 1 || count <= 1 then Parallel.Alone.each(count)(task)
     else
-      val next = AtomicInteger()
-      val left = CountDownLatch(count)
+      val nextIndex = AtomicInteger()
+      val remaining = CountDownLatch(count)
       val failure = AtomicReference[Throwable | Null](null)
       val work: Runnable = () =>
-        var i = next.getAndIncrement()
+        var i = nextIndex.getAndIncrement()
         while i < count do
           try if failure.get == null then task(i)
           catch
             case e: Throwable =>
               val _ = failure.compareAndSet(null, e)
-          finally left.countDown()
-          i = next.getAndIncrement()
-      var more = Math.min(threads, count) - 1
+          finally remaining.countDown()
+          i = nextIndex.getAndIncrement()
+      var helpersLeft = Math.min(threads, count) - 1
       for pool <- helpers do
-        while more > 0 do
+        while helpersLeft > 0 do
           pool.execute(work)
-          more -= 1
+          helpersLeft -= 1
       work.run()
-      left.await()
+      remaining.await()
       val thrown = failure.get
       if thrown != null then throw thrown
 
@@ -88,11 +88,11 @@ object ThreadPool:
   /** For textures within each other, in bytes; memory is taken only as it is used. */
   private val StackSize = 16L << 20
 
-  /** Seconds after which an idle helper ends. */
-  private inline val Patience = 5L
+  /** An idle helper ends after this time. */
+  private inline val IdleSeconds = 5L
 
   /** One that does not keep the JVM alive. */
   private[render] def thread(name: String, work: Runnable): Thread =
-    val made = Thread(null, work, s"candela-$name", StackSize)
-    made.setDaemon(true)
-    made
+    val daemon = Thread(null, work, s"candela-$name", StackSize)
+    daemon.setDaemon(true)
+    daemon

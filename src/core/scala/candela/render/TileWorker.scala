@@ -1,10 +1,10 @@
 package candela.render
 
+import candela.aov.*
 import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.*
 import candela.integrators.Integrator
-import candela.layers.*
 
 /** Renders tiles, pixel by pixel.
   *
@@ -146,13 +146,13 @@ private[render] final class TileWorker(
       val found = integrator.radiance(ray, sampler)
       if !queue.isLost then record(found, weight)
 
-  private def record(found: Rgb, weight: Float): Unit =
-    val whole = plan.basis.toSrgb(found)
+  private def record(estimate: Rgb, weight: Float): Unit =
+    val srgb = plan.basis.toSrgb(estimate)
     if parts != null && !plan.basis.isSrgb then parts.convert(parts, plan.basis)
     val radiance =
-      if dimmer != null && parts != null then parts.limit(dimmer, weight) else whole
-    val seen = if weighs then weighed(radiance, weight) else radiance
-    val light = if limit != null && !weighsLast then seen * limit.scale(seen) else seen
+      if dimmer != null && parts != null then parts.limit(dimmer, weight) else srgb
+    val scaled = if weighs then weighed(radiance, weight) else radiance
+    val light = if limit != null && !weighsLast then scaled * limit.scale(scaled) else scaled
     if light.isFinite then
       add(light)
       if bands != null then addTo(bands, weight)
@@ -163,8 +163,8 @@ private[render] final class TileWorker(
 
   /** Divides `light` as `radiance` is: the camera's weight and the limit scale all parts alike. */
   private def develop(parts: LightParts, radiance: Rgb, light: Rgb): Unit =
-    val whole = radiance.largest
-    if whole != 0f then parts.scale(light.largest / whole)
+    val largest = radiance.largest
+    if largest != 0f then parts.scale(light.largest / largest)
 
   private def addTo(bands: BandFilm, weight: Float): Unit =
     val basis = integrator.lastWavelengths

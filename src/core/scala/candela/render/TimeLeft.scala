@@ -57,9 +57,9 @@ private[render] final class TimeLeft(
 
   /** Samples per second. */
   private def rate: Option[Double] =
-    val from = readings.head
-    Option.when(last.seconds > from.seconds):
-      (last.done - from.done) / (last.seconds - from.seconds)
+    val oldest = readings.head
+    Option.when(last.seconds > oldest.seconds):
+      (last.done - oldest.done) / (last.seconds - oldest.seconds)
 
   /** Where a rendering ends whose goal is reached with so many samples per pixel. */
   private def atEnd(samples: Int): Int =

@@ -106,9 +106,9 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   def finish(piece: Int, wave: Int): Unit =
     // Counted before the piece's next wave can begin: waves are closed in order
     if limitsWaves then
-      val place = wave % schedule.openWaves
-      if finishedPieces.incrementAndGet(place) == schedule.pieces then
-        finishedPieces.set(place, 0)
+      val slot = wave % schedule.openWaves
+      if finishedPieces.incrementAndGet(slot) == schedule.pieces then
+        finishedPieces.set(slot, 0)
         closedWaves.set(wave + 1)
     finishedWaves.set(piece, wave + 1)
 
@@ -130,13 +130,13 @@ private[render] object Workers:
   /** Interval of progress reports, in milliseconds. */
   private val Tick = 100L
 
-  /** How long a stopped worker may do nothing before it is told to leave its sample, how long it
-    * may get on with it, and how long it may take to leave it, in nanoseconds. With a tick, these
-    * add up to less than a second.
+  /** How long a stopped worker may stand still before it must leave its sample, how long it may
+    * continue with it, and how long it may take to leave it. With a tick, these add up to less than
+    * a second.
     */
-  private val Patience = 400_000_000L
-  private val MovingPatience = 500_000_000L
-  private val LastPatience = 250_000_000L
+  private val MaxStillNanos = 400_000_000L
+  private val MaxMovingNanos = 500_000_000L
+  private val MaxLeavingNanos = 250_000_000L
 
   /** Runs each worker in its own thread. An exception in one stops the others (through the queue)
     * and is rethrown here. `onTick` runs about ten times a second in the caller's thread.
@@ -169,17 +169,17 @@ private[render] object Workers:
 
   private def end(threads: Vector[Thread], queue: TaskQueue, isMoving: () => Boolean): Unit =
     val stopped = System.nanoTime
-    var still = stopped
+    var lastMove = stopped
     def isTooLong =
-      val now = System.nanoTime
-      now - still > Patience || now - stopped > MovingPatience
+      val time = System.nanoTime
+      time - lastMove > MaxStillNanos || time - stopped > MaxMovingNanos
     while threads.exists(_.isAlive) && !(queue.isStopped && isTooLong) do
       threads.find(_.isAlive).foreach(_.join(Tick))
-      if isMoving() then still = System.nanoTime
+      if isMoving() then lastMove = System.nanoTime
     if threads.exists(_.isAlive) then
       queue.abandon()
-      val end = System.nanoTime + LastPatience
+      val end = System.nanoTime + MaxLeavingNanos
       for thread <- threads do
-        val left = (end - System.nanoTime) / 1_000_000
-        if left > 0 then thread.join(left)
+        val millisLeft = (end - System.nanoTime) / 1_000_000
+        if millisLeft > 0 then thread.join(millisLeft)
       if threads.exists(_.isAlive) then queue.lose()

@@ -11,7 +11,7 @@ final class CenteredSampler(inner: Sampler, moves: Boolean) extends Sampler:
 
   def start(x: Int, y: Int, sample: Int): Unit =
     inner.start(x, y, sample)
-    places = CenteredSampler.Places
+    places = CenteredSampler.CenteredPoints
     times = if moves then 1 else 0
 
   override def skipTo(requests: Int): Unit =
@@ -42,5 +42,5 @@ final class CenteredSampler(inner: Sampler, moves: Boolean) extends Sampler:
   def copy(): CenteredSampler = CenteredSampler(inner.copy(), moves)
 
 object CenteredSampler:
-  /** On the film and on the lens. */
-  private inline val Places = 2
+  /** The points on the film and on the lens. */
+  private inline val CenteredPoints = 2

@@ -18,7 +18,7 @@ package candela.sampling
   *   `start`
   */
 final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) extends HashedSampler:
-  require(requested > 0 && requested <= ZSobolSampler.Most, s"$requested samples per pixel")
+  require(requested > 0 && requested <= ZSobolSampler.MaxSamples, s"$requested samples per pixel")
 
   private val logSamples = ZSobolSampler.ceilLog2(requested)
   val samplesPerPixel: Int = 1 << logSamples
@@ -70,7 +70,7 @@ object ZSobolSampler:
   /** Maximum samples per pixel: with them, places along the curve fit a `Long` for films of up to
     * 2¹⁹ pixels across.
     */
-  val Most: Int = 1 << 24
+  val MaxSamples: Int = 1 << 24
 
   /** The 24 permutations of 0, 1, 2, 3 in 8 bits each: the image of digit d is in bits 2d and 2d +
     * 1.

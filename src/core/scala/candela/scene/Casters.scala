@@ -242,7 +242,7 @@ private final class CasterTable(surfaces: Surfaces, casts: Array[Boolean]):
       val shape = surfaces.solids.shape(primitive - soup.count)
       shape.sampleArea(u1, u2, to)
       // A ray meets closed shapes twice, and other parts of them are farther away than this
-      out.reach = CasterTable.Near * sqrt(shape.area)
+      out.reach = CasterTable.RelativeReach * sqrt(shape.area)
     primitive
 
   /** Is [[chance]] 1 everywhere on the primitive? */
@@ -270,7 +270,7 @@ private final class CasterTable(surfaces: Surfaces, casts: Array[Boolean]):
       if area < Float.PositiveInfinity then area.toDouble else 0.0
 
 private object CasterTable:
-  private inline val Near = 1e-3f
+  private inline val RelativeReach = 1e-3f
 
   /** The first interval whose end is beyond `place`. */
   def find(ends: Array[Double], place: Double): Int =

@@ -40,7 +40,7 @@ final class ShapeRows(parallel: Parallel):
     if lights.length == 0 && light != ShapeTable.Dark then lights.add(ShapeTable.Dark, size)
     size = Math.addExact(size, more)
     if size > groups.length then
-      groups = Arrays.copyOf(groups, Math.max(size, (2L * groups.length).min(Most).toInt))
+      groups = Arrays.copyOf(groups, Math.max(size, (2L * groups.length).min(MaxElements).toInt))
     materials.add(material, more)
     if lights.length > 0 || light != ShapeTable.Dark then lights.add(light, more)
 
@@ -90,5 +90,5 @@ object ShapeRows:
     */
   private val MostSegments = 1 << 15
 
-  /** Elements of the largest arrays. */
-  private val Most = Int.MaxValue - 8L
+  /** Length of the largest arrays. */
+  private val MaxElements = Int.MaxValue - 8L

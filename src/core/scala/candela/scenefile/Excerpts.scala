@@ -46,7 +46,7 @@ private final class Lines(source: Source):
       while column < at.column && !isLineEnd(0) do pass()
       // Far more bytes than the shown characters need, yet not a line of 100 MB.
       var count = 0
-      while count < Lines.Shown && !isLineEnd(count) do count += 1
+      while count < Lines.MaxBytes && !isLineEnd(count) do count += 1
       while isContinuation(count) do count += 1
       var from = earliest
       while from < next && isContinuation(from - next) do from += 1
@@ -78,7 +78,7 @@ private final class Lines(source: Source):
     next + i < source.limit
 
   /** First byte that may still be shown. */
-  private def earliest: Int = lineStart.max(next - Lines.Shown).max(0)
+  private def earliest: Int = lineStart.max(next - Lines.MaxBytes).max(0)
 
 private object Lines:
-  private val Shown = 1000
+  private val MaxBytes = 1000

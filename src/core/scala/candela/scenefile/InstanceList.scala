@@ -142,9 +142,9 @@ private final class InstanceStore private (
   private var last = Origin("", "", None)
   private var lastNumber = -1
 
-  private inline val Each = 3
+  private inline val NumbersPerInstance = 3
 
-  def length: Int = numbers.length / Each
+  def length: Int = numbers.length / NumbersPerInstance
 
   /** The same instances, to which others can be added; most memory is shared. */
   def continued: InstanceStore =
@@ -174,7 +174,7 @@ private final class InstanceStore private (
   def names: Vector[String] = origins.map(_.name)
 
   /** The number of the origin of an instance. */
-  def origin(i: Int): Int = numbers(Each * i)
+  def origin(i: Int): Int = numbers(NumbersPerInstance * i)
 
   def isPlain(i: Int): Boolean = row(i) >= 0
 
@@ -196,7 +196,12 @@ private final class InstanceStore private (
 
   def apply(i: Int): InstanceDescription =
     val Origin(name, file, includedFrom) = origins(origin(i))
-    val at = SourcePos(file, numbers(Each * i + 1), numbers(Each * i + 2), includedFrom)
+    val at = SourcePos(
+      file,
+      numbers(NumbersPerInstance * i + 1),
+      numbers(NumbersPerInstance * i + 2),
+      includedFrom
+    )
     val toWorld =
       if isPlain(i) then GraphicsState.still(rows.transform(row(i))) else other(i)
     InstanceDescription(name, at, toWorld)

@@ -120,7 +120,8 @@ private final class ParamList:
     if all != null then all(param.name) = param
     else
       few = few :+ param
-      if few.size > ParamList.Few then many = mutable.LinkedHashMap.from(few.map(p => p.name -> p))
+      if few.size > ParamList.MaxSearched then
+        many = mutable.LinkedHashMap.from(few.map(p => p.name -> p))
 
   /** What is used is the last of all. */
   def replace(earlier: Param, used: Param): Unit =
@@ -135,5 +136,5 @@ private final class ParamList:
     if all == null then few else all.values.toVector
 
 private object ParamList:
-  /** Up to which a search is faster than a table. */
-  val Few = 16
+  /** Up to this number, a linear search is faster than a table. */
+  val MaxSearched = 16

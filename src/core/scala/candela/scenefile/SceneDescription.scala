@@ -130,7 +130,7 @@ final case class SceneDescription(
     folder: SceneFolder = SceneFolder.Nowhere,
     unfiled: Vector[(String, String)] = Vector.empty
 ):
-  /** Whether the camera sees no lamps and no sky. */
+  /** Whether the camera sees no area lights and no sky. */
   def hidesEmitters: Boolean =
     dialect == Dialect.Mitsuba && integrator.exists(
       _.param("hideemitters").exists(_.bools.contains(true))

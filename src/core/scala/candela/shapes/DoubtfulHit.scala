@@ -83,7 +83,7 @@ object DoubtfulHit:
       val c = v(at + (6 + axis) * s)
       val low = Math.min(a, Math.min(b, c)).toDouble
       val high = Math.max(a, Math.max(b, c)).toDouble
-      val pad = (high - low) * TriangleTest.Within
+      val pad = (high - low) * TriangleTest.BoxTolerance
       val o = ray.along(axis).toDouble
       val d = if axis == 0 then ray.dx else if axis == 1 then ray.dy else ray.dz
       if d == 0f then

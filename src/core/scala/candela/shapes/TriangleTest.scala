@@ -6,8 +6,8 @@ import candela.math.magnitudeBits
 /** Watertight ray–triangle test: a ray through an edge or vertex of a closed mesh always hits one
   * of the triangles that share it.
   *
-  * Every accepted hit lies, to a relative [[Within]], inside the triangle's box: any BVH thus finds
-  * exactly the hits of the brute-force test.
+  * Every accepted hit lies, to a relative [[BoxTolerance]], inside the triangle's box: any BVH
+  * finds exactly the hits of the brute-force test.
   *
   * Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
   */
@@ -66,7 +66,7 @@ object TriangleTest:
       isHit(v, at, stride, ray, hit)
 
   /** Tolerance of a hit outside the triangle's box, relative to its extent along each axis. */
-  final val Within = 2e-6f
+  final val BoxTolerance = 2e-6f
 
   private inline def test(
       v: Array[Float],

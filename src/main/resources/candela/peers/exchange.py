@@ -152,8 +152,8 @@ class Shape:
         else:
             self.mesh = Mesh.of_file(folder / _text(element, "filename"))
         self.material = element.find("ref").get("id")
-        lamp = element.find("emitter")
-        self.emission = None if lamp is None else _rgb(lamp, "radiance")
+        emitter = element.find("emitter")
+        self.emission = None if emitter is None else _rgb(emitter, "radiance")
 
 
 class Light:

@@ -23,7 +23,7 @@ def link(tree, source, output, target, entry):
     tree.links.new(source.outputs[output], target.inputs[entry])
 
 
-def lamp_nodes(tree, color):
+def emission_nodes(tree, color):
     """Emission from the outside only."""
     emission = tree.nodes.new("ShaderNodeEmission")
     strength = max(float(max(color)), 1e-30)
@@ -85,10 +85,10 @@ def material_of(m, emission):
     tree.nodes.clear()
     surface = bsdf_nodes(tree, m)
     if emission is not None:
-        lamp = lamp_nodes(tree, emission)
+        emitter = emission_nodes(tree, emission)
         both = tree.nodes.new("ShaderNodeAddShader")
         link(tree, surface, 0, both, 0)
-        link(tree, lamp, 0, both, 1)
+        link(tree, emitter, 0, both, 1)
         surface = both
         made.cycles.emission_sampling = "FRONT"
     output = tree.nodes.new("ShaderNodeOutputMaterial")
@@ -149,17 +149,17 @@ for number, light in enumerate(scene.lights):
         link(world.node_tree, picture, "Color", background, "Color")
     else:
         kind = "POINT" if light.kind == "point" else "SUN"
-        lamp = bpy.data.lights.new(f"lamp{number}", kind)
+        emitter = bpy.data.lights.new(f"light{number}", kind)
         strength = max(float(max(light.color)), 1e-30)
-        lamp.color = [float(c) / strength for c in light.color]
-        placed = bpy.data.objects.new(f"lamp{number}", lamp)
+        emitter.color = [float(c) / strength for c in light.color]
+        placed = bpy.data.objects.new(f"light{number}", emitter)
         if kind == "POINT":
-            lamp.energy = 4 * math.pi * strength
-            lamp.shadow_soft_size = 0
+            emitter.energy = 4 * math.pi * strength
+            emitter.shadow_soft_size = 0
             placed.location = light.position
         else:
-            lamp.energy = strength
-            lamp.angle = 0
+            emitter.energy = strength
+            emitter.angle = 0
             from mathutils import Vector
             placed.rotation_mode = "QUATERNION"
             placed.rotation_quaternion = Vector(light.direction).to_track_quat("-Z", "Y")

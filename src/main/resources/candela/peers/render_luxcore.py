@@ -118,7 +118,7 @@ world.Parse(properties({
     "scene.camera.cliphither": scene.near,
     "scene.camera.clipyon": scene.far,
 }))
-# The last vertex is lit by lamps alone, and counts
+# The last vertex is lit by lights alone, and counts
 bounces = scene.depth + 1
 config = pyluxcore.RenderConfig(properties({
     "renderengine.type": "TILEPATHCPU",

@@ -32,13 +32,13 @@ object FromMitsuba:
 
     def plain(d: Declaration): Declaration =
       if d.category == "LightSource" then light(d)
-      else if d.category == "AreaLightSource" then lamp(d)
+      else if d.category == "AreaLightSource" then areaLight(d)
       else if d.category == "Texture" then texture(d)
       else if d.category == "Camera" then
         without(d, "nothing is clipped", "nearclip", "farclip")
       else if d.category == "Film" then without(d, "no alpha is written", "alpha")
       else if d.category == "Integrator" then
-        without(d, "lamps and sky are visible", "hideemitters")
+        without(d, "area lights and sky are visible", "hideemitters")
       else if d.category == "Shape" then
         without(d, "the inside of open tubes is seen", "cullbackfaces")
       else if d.category == "Medium" then
@@ -66,7 +66,7 @@ object FromMitsuba:
       !d.param("softedges").exists(_.bools.contains(false))
 
     /** pbrt's images end with their border; only a mapping or a filter shows much of that. */
-    private def lamp(d: Declaration): Declaration =
+    private def areaLight(d: Declaration): Declaration =
       val isFiltered = d.param("filter").exists(_.strings.contains("point"))
       val filtered = without(d, if isFiltered then "it is smooth" else "", "filter")
       without(without(filtered, "the image lies on u and v as they are", "imageuv"), "", "wrap")

@@ -150,7 +150,7 @@ object FromV2:
   private val quadrics = Set("sphere", "cylinder", "paraboloid", "disk", "cone", "hyperboloid")
 
   /** The illuminated side is the same in both versions; the visibly bright side may differ. */
-  private def lamp(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
+  private def areaLight(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
     val isDisk = s.shape.name == "disk"
     val isMirrored = s.objectToWorld.start.swapsHandedness
     if s.areaLight.nonEmpty && quadrics(s.shape.name) && isDisk != isMirrored then
@@ -195,5 +195,5 @@ object FromV2:
       "Film" -> "image",
       "Sampler" -> "lowdiscrepancy"
     ),
-    shape = lamp
+    shape = areaLight
   )

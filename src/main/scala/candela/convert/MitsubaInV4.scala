@@ -11,13 +11,13 @@ import candela.scenefile.{
 private[convert] object MitsubaInV4:
 
   def converted(scene: SceneDescription): Converted =
-    val lit = lamps(scene)
+    val lit = areaLights(scene)
     lit.copy(warnings = lit.warnings ++ SpectralColors.warning(scene, "Mitsuba"))
 
   /** pbrt-v4 takes no light from shapes without a material. Glass of index 1 looks the same: rays
     * pass it unscattered.
     */
-  private def lamps(scene: SceneDescription): Converted =
+  private def areaLights(scene: SceneDescription): Converted =
     val named = scene.namedMaterials.toMap
     def isNull(s: ShapeDescription) =
       s.areaLight.isDefined && s.material.declared(named).exists(_.name == "interface")
@@ -30,11 +30,11 @@ private[convert] object MitsubaInV4:
         s.copy(material = MaterialRef.Inline(glass))
     val shaded = scene.lights.find(l => Points(l.light.name))
     val lost = (scene.shapes ++ scene.objects.values.flatten).find(isNull).zip(shaded).map:
-      (lamp, point) =>
+      (shape, point) =>
         Problem.warning(
           Code.Inexpressible,
-          lamp.shape.at,
-          "pbrt-v4 has no lamps that light passes; this one casts shadows",
+          shape.shape.at,
+          "pbrt-v4 has no area lights that light passes; this one casts shadows",
           Some(s"of the light at ${point.light.at}")
         )
     Converted(

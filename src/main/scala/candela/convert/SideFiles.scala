@@ -58,7 +58,7 @@ object RewrittenImages:
     */
   def slide(s: Statement, p: Param, lookup: PictureLookup, tint: Rgb = Rgb.White): String =
     written(s, p): image =>
-      val picture = Picture(lamp(image, name(p), s), lookup)
+      val picture = Picture(lightImage(image, name(p), s), lookup)
       val times = Math.max(1, SlideSize / Math.max(image.width, image.height))
       val made = Image.rgb(image.width * times, image.height * times)
       loop(made.width * made.height): i =>
@@ -70,10 +70,10 @@ object RewrittenImages:
         made.data(3 * i + 2) = color.b
       made
 
-  /** The image of a lamp as its dialect shows it: pbrt-v2 and v3 do not decode files of 8 bits, and
-    * v2 reads the rows of TGA files from below.
+  /** The image of a light as its dialect shows it: pbrt-v2 and v3 do not decode files of 8 bits,
+    * and v2 reads the rows of TGA files from below.
     */
-  def lamp(image: Image, name: String, s: Statement): Image =
+  def lightImage(image: Image, name: String, s: Statement): Image =
     if s.run.pass.from == Dialect.V4 then image.linear.toRgb
     else
       val stored = Image(image.width, image.height, image.channelNames, image.data).toRgb

@@ -17,12 +17,12 @@ object SkyImages:
     val name = p.strings.head
     try
       val file = RewrittenImages.file(s, p)
-      val isLamp = IesFile.isNamed(name)
+      val isPhotometry = IesFile.isNamed(name)
       val source =
-        if isLamp then IesFile.read(file).photometry.image
-        else RewrittenImages.lamp(ImageFiles.load(file).toImage, name, s)
+        if isPhotometry then IesFile.read(file).photometry.image
+        else RewrittenImages.lightImage(ImageFiles.load(file).toImage, name, s)
       val made =
-        if isLamp && !toSquare then
+        if isPhotometry && !toSquare then
           resampled(
             source,
             LatLongMap,
@@ -67,18 +67,23 @@ object SkyImages:
     loop(height): y =>
       loop(width): x =>
         java.util.Arrays.fill(sum, 0.0)
-        loop(Parts): j =>
-          loop(Parts): i =>
+        loop(SamplesAcross): j =>
+          loop(SamplesAcross): i =>
             val d =
-              to.toDirection((x + (i + 0.5f) / Parts) / width, (y + (j + 0.5f) / Parts) / height)
+              to.toDirection(
+                (x + (i + 0.5f) / SamplesAcross) / width,
+                (y + (j + 0.5f) / SamplesAcross) / height
+              )
             val place = from.toImage(d)
             if smooth then bilinear(source, from, place.x, place.y, sum)
             else nearest(source, place.x, place.y, sum)
-        loop(3)(c => made.data((y * width + x) * 3 + c) = (sum(c) / (Parts * Parts)).toFloat)
+        loop(3)(c =>
+          made.data((y * width + x) * 3 + c) = (sum(c) / (SamplesAcross * SamplesAcross)).toFloat
+        )
     made
 
   /** Samples per pixel along each axis. */
-  private val Parts = 4
+  private val SamplesAcross = 4
 
   private def nearest(image: Image, x: Float, y: Float, sum: Array[Double]): Unit =
     val px = Math.min((x * image.width).toInt, image.width - 1)

@@ -9,7 +9,7 @@ import candela.image.ImageFiles
 import candela.scenefile.{Declaration, Param, ParamType, SceneDescription}
 
 /** What becomes of colours where pbrt-v4 multiplies spectra instead of three numbers. It considers
-  * single reflections, of the light of each lamp and off each surface, and the albedos of media.
+  * single reflections, of the light of each emitter and off each surface, and the albedos of media.
   */
 private[convert] object SpectralColors:
 
@@ -89,11 +89,11 @@ private[convert] object SpectralColors:
     private def remember(into: mutable.LinkedHashMap[Rgb, Seen], c: Rgb, p: Param): Unit =
       // Scenes have thousands of colours
       val rounded = c.map(x => Math.round(x * 50) / 50f)
-      if rounded.isFinite && !Values.isGray(rounded) && into.size < Most then
+      if rounded.isFinite && !Values.isGray(rounded) && into.size < MaxColors then
         val _ = into.getOrElseUpdate(rounded, Seen(spectrum(c, c.max <= 1f), p.at))
 
   private val Reflecting = Set("reflectance", "transmittance", "color", "Kr", "Kt")
-  private val Most = 100
+  private val MaxColors = 100
   private val White = ColoredSpectrum(ColorError.wavelengths.map(_ => 1.0), Rgb.White)
 
   /** In fractions of the brightest that components as large could be. */

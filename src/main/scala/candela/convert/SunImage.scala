@@ -14,7 +14,7 @@ private[convert] object SunImage:
   val PixelAngle: Float = (Math.sqrt(4 * Math.PI) / Side).toFloat
 
   /** Directions per pixel along each axis. */
-  private val Parts = 8
+  private val SamplesAcross = 8
 
   /** The map, whose largest component is 1, and its scale. Pixels at the edge have the share of the
     * disk that they contain; the irradiance is exact.
@@ -33,20 +33,20 @@ private[convert] object SunImage:
         val centre = EqualAreaMap.toDirection((x + 0.5f) / Side, (y + 0.5f) / Side)
         if (centre - toSun).length < radius + 2 * PixelAngle then
           var lit = 0
-          loop(Parts * Parts): k =>
+          loop(SamplesAcross * SamplesAcross): k =>
             // No direction is on a diagonal of the map, where the horizon is
-            val (i, j) = (k % Parts, k / Parts)
+            val (i, j) = (k % SamplesAcross, k / SamplesAcross)
             val d = EqualAreaMap.toDirection(
-              (x + (i + 0.5f) / Parts) / Side,
-              (y + (j + (i + 0.5f) / Parts) / Parts) / Side
+              (x + (i + 0.5f) / SamplesAcross) / Side,
+              (y + (j + (i + 0.5f) / SamplesAcross) / SamplesAcross) / Side
             )
             if (d - toSun).length <= radius then
               covered += 1
               if d.z >= 0f then lit += 1
-          val share = lit.toFloat / (Parts * Parts)
+          val share = lit.toFloat / (SamplesAcross * SamplesAcross)
           val first = 3 * (y * Side + x)
           image.data(first) = color.r * share
           image.data(first + 1) = color.g * share
           image.data(first + 2) = color.b * share
-    val solidAngle = covered * 4 * Math.PI / (Side.toDouble * Side * Parts * Parts)
+    val solidAngle = covered * 4 * Math.PI / (Side.toDouble * Side * SamplesAcross * SamplesAcross)
     (image, (irradiance.max / solidAngle).toFloat)

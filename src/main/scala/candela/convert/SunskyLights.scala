@@ -49,7 +49,7 @@ private[convert] object SunskyLights:
           )
         )
       val map = Option.when(sky > 0f):
-        val picture = SunAndSky.picture(model, toSun, Side, Side, EqualAreaMap, Parts)
+        val picture = SunAndSky.picture(model, toSun, Side, Side, EqualAreaMap, SamplesAcross)
         val file = files.add("sky", "exr", ImageFiles.exr(picture))
         val scale = Option.when(sky != 1f)(Param.float("scale", d.at, sky))
         light("infinite", Param.string("filename", d.at, file) +: scale.toSeq*)
@@ -66,4 +66,4 @@ private[convert] object SunskyLights:
 
   /** Pixels along each side of a map, and parts of each pixel that are averaged. */
   private val Side = 1024
-  private val Parts = 2
+  private val SamplesAcross = 2

@@ -56,13 +56,14 @@ object Tessellation:
           turned(p.x, p.y, p.z, u)
       case _ => None
 
-  private val Around = 128
-  private val Along = 32
+  private val StepsAround = 128
+  private val StepsAlong = 32
 
   /** A surface over the unit square, with the normal ∂p/∂u × ∂p/∂v. */
   private def grid(d: Declaration)(p: (Float, Float) => Vec3): Declaration =
     val vertices =
-      for j <- 0 to Along; i <- 0 to Around yield (i.toFloat / Around, j.toFloat / Along)
+      for j <- 0 to StepsAlong; i <- 0 to StepsAround
+      yield (i.toFloat / StepsAround, j.toFloat / StepsAlong)
     def normal(u: Float, v: Float) =
       // Offset into the surface, because ∂p/∂u vanishes at a tip.
       val (u0, u1) = (Math.max(u - Step, 0f), Math.min(u + Step, 1f))
@@ -74,7 +75,7 @@ object Tessellation:
       vertices.map(p(_, _)),
       vertices.map(normal(_, _)),
       vertices,
-      squares(Around + 1, Along + 1)
+      squares(StepsAround + 1, StepsAlong + 1)
     )
 
   private val Step = 1e-3f

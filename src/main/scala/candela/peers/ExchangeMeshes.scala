@@ -32,7 +32,7 @@ private[peers] final class ExchangeMeshes(files: SideFiles, values: ExchangeValu
     Math.max(far.length, 1e-3f)
 
   /** @param mapping of the texture, if there is one
-    * @param inner   elements of material and lamp
+    * @param inner   elements of material and emitter
     */
   def element(
       d: Declaration,

@@ -12,7 +12,7 @@ import scala.collection.mutable
 final class Inexpressible(val reasons: Vector[String])
 
 /** Writes a scene of pbrt-v4's statements as a file of Mitsuba's, in the few elements that the
-  * scripts for Cycles and LuxCore read, too: lamps by red, green and blue, triangles and whole
+  * scripts for Cycles and LuxCore read, too: emitters by red, green and blue, triangles and whole
   * spheres in world space, and surfaces whose formulas the programs share.
   *
   * Colours are multiplied by red, green and blue in all programs that read it.
@@ -60,8 +60,8 @@ final class ExchangeScene(scene: SceneDescription, files: SideFiles):
     if s.shape.param("alpha").nonEmpty then values.lose("alpha cutouts")
     if s.oneSided then values.lose("surfaces that are black from behind")
     val material = materials.of(s.material)
-    val lamp = s.areaLight.fold("")(areaLight)
-    val inner = s"""<ref id="${material.id}"/>$lamp"""
+    val emitter = s.areaLight.fold("")(areaLight)
+    val inner = s"""<ref id="${material.id}"/>$emitter"""
     meshes.element(s.shape, toWorld, s.reverseOrientation, material.mapping, inner)
 
   private def areaLight(d: Declaration): String =

@@ -42,7 +42,9 @@ private[peers] final class ExchangeValues(val lose: String => Unit):
         s(589.3f)
     case _ => number(d, name, default)
 
-  /** A lamp's colour times its `scale`; pbrt-v4 normalises all spectra but RGB to luminance 1. */
+  /** An emitter's colour times its `scale`; pbrt-v4 normalises all spectra but RGB to luminance
+    * 1.
+    */
   def light(d: Declaration, name: String): Rgb =
     val c = d.param(name).fold(Rgb.White): p =>
       p.paramType match

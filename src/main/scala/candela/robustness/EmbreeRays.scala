@@ -28,8 +28,8 @@ final class EmbreeRays(python: String, folder: Path, commands: Commands):
   def tally(name: String, soup: TriangleSoup, count: Long)(
       next: Ray => Double
   ): Map[String, Robust] =
-    val parts = Iterator.iterate(count)(_ - Most).takeWhile(_ > 0)
-      .map(left => part(name, soup, Math.min(left, Most).toInt)(next)).toVector
+    val parts = Iterator.iterate(count)(_ - MaxRays).takeWhile(_ > 0)
+      .map(left => part(name, soup, Math.min(left, MaxRays).toInt)(next)).toVector
     val failure = parts.collectFirst { case Left(why) => Robust.Failed(why) }
     val faults = parts.collect { case Right(counts) => counts }
     programs.indices.map(k =>
@@ -71,8 +71,8 @@ object EmbreeRays:
   )
   private final val Timeout = 600.0
 
-  /** Rays at once. */
-  private final val Most = 1_000_000L
+  /** Rays of one run of the script. */
+  private final val MaxRays = 1_000_000L
 
   private lazy val Resource: Array[Byte] =
     val stream = getClass.getResourceAsStream("/candela/robustness/embree.py")

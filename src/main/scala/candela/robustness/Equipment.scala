@@ -19,7 +19,8 @@ final class Equipment(
 ):
   /** Trials in parts, on all threads; the parts depend on the count alone. */
   def tally(count: Long)(of: Trials => Tally): Tally =
-    val parts = Trials.divided(count, Math.max(Equipment.Parts, count / Equipment.PartSize).toInt)
+    val parts =
+      Trials.divided(count, Math.max(Equipment.MinParts, count / Equipment.PartSize).toInt)
     val found = Array.fill(parts.size)(Tally.Empty)
     pool.each(parts.size)(k => if !isCancelled() then found(k) = of(parts(k)))
     found.reduce(_ and _)
@@ -43,7 +44,7 @@ final class Equipment(
     RobustRow(what, cells.toMap, why, if isShown then pictures else Vector.empty)
 
 object Equipment:
-  private final val Parts = 8L
+  private final val MinParts = 8L
   private final val PartSize = 100_000L
 
 /** A kind of fault: its rows are measured one by one.

@@ -15,20 +15,20 @@ object HitDistances:
   private val planes =
     Array(0f, -0f, 1e-45f, -1e-38f, 1e-30f, 1e-20f, -1e-12f, 1e-7f, 1e-5f, -1e-3f, 1f, 0.1f)
   private final val Count = 48
-  private final val Half = 2f
-  private final val Apart = 20f
+  private final val HalfSide = 2f
+  private final val Spacing = 20f
 
   /** A point of plane `k`, at (a, b) from its centre and `height` above it. */
   private def point(k: Int, a: Float, b: Float, height: Float): Vec3 =
     val p = new Array[Float](3)
     p(k % 3) = planes(k % planes.length) + height
-    p((k + 1) % 3) = Apart * (k / 3 + 1) + a
+    p((k + 1) % 3) = Spacing * (k / 3 + 1) + a
     p((k + 2) % 3) = b
     Vec3(p(0), p(1), p(2))
 
   /** Squares of two triangles, none of which is near another one. */
   val soup: TriangleSoup = Solids.of((0 until Count).flatMap: k =>
-    def corner(a: Float, b: Float) = point(k, a * Half, b * Half, 0f)
+    def corner(a: Float, b: Float) = point(k, a * HalfSide, b * HalfSide, 0f)
     Seq(
       (corner(-1, -1), corner(1, -1), corner(1, 1)),
       (corner(-1, -1), corner(1, 1), corner(-1, 1))
@@ -42,7 +42,7 @@ object HitDistances:
     def next(ray: Ray): Double =
       val k = draws.below(Count)
       val axis = k % 3
-      def inside() = draws.between(-0.9f, 0.9f) * Half
+      def inside() = draws.between(-0.9f, 0.9f) * HalfSide
       val height = draws.magnitude(1e-6, 4) * (if draws.coin() then 1f else -1f)
       val o = point(k, inside(), inside(), height)
       // Across the plane by a thousandth of its length at least, so that it hits the square

@@ -52,8 +52,8 @@ enum Surface:
   case Mirror
   case Glass(index: Double)
 
-  /** A lamp that shines to both sides, where the program has such, and reflects nothing. */
-  case Lamp(radiance: Double)
+  /** A light that shines to both sides, where the program has such, and reflects nothing. */
+  case Light(radiance: Double)
 
 /** Where the picture is taken.
   *

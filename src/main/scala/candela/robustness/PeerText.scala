@@ -30,7 +30,7 @@ object PeerText:
       case Surface.Matte(albedo) => Vector(s"Material \"matte\" \"rgb Kd\" ${gray(albedo)}")
       case Surface.Mirror => Vector("Material \"mirror\" \"rgb Kr\" [1 1 1]")
       case Surface.Glass(index) => Vector(s"Material \"glass\" \"float index\" $index")
-      case Surface.Lamp(radiance) => Vector(
+      case Surface.Light(radiance) => Vector(
           "Material \"matte\" \"rgb Kd\" [0 0 0]",
           s"AreaLightSource \"diffuse\" \"rgb L\" ${gray(radiance)} \"bool twosided\" \"true\""
         )
@@ -99,7 +99,7 @@ object PeerXml:
       case Surface.Glass(index) =>
         s"""<bsdf type="dielectric"><float name="int_ior" value="$index"/>
            |<float name="ext_ior" value="1"/></bsdf>""".stripMargin
-      case Surface.Lamp(radiance) => matte(0) +
+      case Surface.Light(radiance) => matte(0) +
           s"""<emitter type="area"><rgb name="radiance" value="$radiance"/></emitter>"""
     val shape = form match
       case Form.Ball(c, radius) =>

@@ -6,30 +6,30 @@ import candela.image.Image
 import candela.math.*
 import candela.report.{Robust, RobustRow}
 
-/** Light close to lamps. */
-object NearLamps extends Measurement(
+/** Light close to light sources. */
+object NearLights extends Measurement(
       "lamp",
-      "Light lost or leaking close to a lamp",
+      "Light lost or leaking close to a light",
       0,
-      "A floor of albedo 0.5 closely below a wide lamp of radiance 1 sees nothing but the lamp. " +
-        "A lamp behind a black screen lights nothing, however close the screen. The figures are " +
+      "A floor of albedo 0.5 closely below a wide light of radiance 1 sees nothing but it. " +
+        "A light behind a black screen lights nothing, however close the screen. The figures are " +
         "means of pictures."
     ):
 
   def rows(by: Equipment): Iterator[RobustRow] =
     distances.iterator.map: d =>
       by.painted(
-        s"a floor ${Spot.short(d)} below a lamp",
+        s"a floor ${Spot.short(d)} below a light",
         PeerInput.of(floor(d))
       )(Pixels.mean(_, 0.5, Allowed))
     ++ distances.iterator.map: d =>
       by.painted(
-        s"a lamp ${Spot.short(d)} behind a screen",
+        s"a light ${Spot.short(d)} behind a screen",
         PeerInput.of(covered(d)),
         Option.when(d < 5e-5)(EndOfRays)
       )(Pixels.mean(_, 0, 0))
 
-  private val EndOfRays = "rays to lamps end 5e-6 of their length before them, slanting ones " +
+  private val EndOfRays = "rays to lights end 5e-6 of their length before them, slanting ones " +
     "sooner, because rounding moves their ends"
 
   private final val Allowed = 0.01
@@ -41,7 +41,7 @@ object NearLamps extends Measurement(
       view,
       Vector(
         (Form.floor(1, 0), Surface.Matte(0.5)),
-        (Form.ceiling(1, d), Surface.Lamp(1))
+        (Form.ceiling(1, d), Surface.Light(1))
       )
     )
 
@@ -52,7 +52,7 @@ object NearLamps extends Measurement(
       Vector(
         (Form.floor(3, 0), Surface.Matte(0.5)),
         (Form.floor(0.5, 1 - d), Surface.Matte(0)),
-        (Form.ceiling(0.25, 1), Surface.Lamp(10))
+        (Form.ceiling(0.25, 1), Surface.Light(10))
       )
     )
 
@@ -130,11 +130,11 @@ object Bumps extends Measurement(
 
   def rows(by: Equipment): Iterator[RobustRow] =
     Vector(0.2, 0.5).iterator.flatMap: height =>
-      Vector("a sky" -> sky, "a lamp" -> lamp).map: (name, light) =>
+      Vector("a sky" -> sky, "a light" -> emitter).map: (name, light) =>
         row(by, s"bumps of $height under $name", height, light)
 
   private val sky = "LightSource \"infinite\" \"rgb L\" [1 1 1]"
-  private val lamp =
+  private val emitter =
     """AttributeBegin Translate 0 3 0 AreaLightSource "diffuse" "rgb L" [9 9 9]
       |Shape "sphere" "float radius" 0.5 AttributeEnd""".stripMargin
 
@@ -196,7 +196,7 @@ object Extremes extends Measurement(
     ) ++ Vector(1e-2, 1e-3, 1e-4, 1e-5, 1e-6).map: d =>
       (s"two glass spheres ${Spot.short(d)} apart", gap(d), Gap)
     ++ Vector(1e-6, 1e-3, 1.0, 1e3, 1e6).map: s =>
-      (s"a floor under a spherical lamp, scaled by ${Spot.short(s)}", lit(s), floorMean)
+      (s"a floor under a spherical light, scaled by ${Spot.short(s)}", lit(s), floorMean)
 
   private val earth = Form.Ball(Spot(0, -6.371e6, 0), 6.371e6)
 
@@ -229,14 +229,14 @@ object Extremes extends Measurement(
 
   private val (radius, height) = (0.5, 3.0)
 
-  /** A floor seen from 1 above it, 2 wide, with a lamp above the camera. */
+  /** A floor seen from 1 above it, 2 wide, with an emitter above the camera. */
   private def lit(s: Double): PeerScene =
     val view = View(Spot(0, 1, 0), Spot.Origin, Spot(1, 0, 0), 90).scaled(s)
     PeerScene(
       view,
       Vector(
         (Form.floor(10 * s, 0), Surface.Matte(0.5)),
-        (Form.Ball(Spot(0, height * s, 0), radius * s), Surface.Lamp(10))
+        (Form.Ball(Spot(0, height * s, 0), radius * s), Surface.Light(10))
       ),
       depth = 1
     )

@@ -75,4 +75,4 @@ final class RobustnessRun(
 object RobustnessRun:
   /** All measurements, in the order of the report. */
   val all: Vector[Measurement] =
-    Vector(Leaks, Distances, SelfHits, NearLamps, BadScattering, Terminators, Bumps, Extremes)
+    Vector(Leaks, Distances, SelfHits, NearLights, BadScattering, Terminators, Bumps, Extremes)

@@ -28,15 +28,14 @@ private[suite] final case class Difference(
   */
 private[suite] object Agreement:
 
-  /** Parts along each side. */
-  private val Parts = 4
+  private val PartsPerSide = 4
 
   /** Differences of so many standard deviations count: there are 51 means. */
   private val Deviations = 5.0
 
-  /** What may differ beside noise: of the whole image, and of its parts. */
-  private val Whole = 0.005
-  private val OfPart = 0.02
+  /** Relative differences that are no noise and yet allowed: of the image, and of its parts. */
+  private val WholeTolerance = 0.005
+  private val PartTolerance = 0.02
 
   /** Parts as dark as this share of the image's mean count as if they were this bright. */
   private val Dark = 0.1
@@ -74,17 +73,17 @@ private[suite] object Agreement:
   private def blocks(width: Int, height: Int): Vector[(Block, Double)] =
     val parts =
       for
-        j <- 0 until Parts
-        i <- 0 until Parts
+        j <- 0 until PartsPerSide
+        i <- 0 until PartsPerSide
         block = Block(
-          i * width / Parts,
-          (i + 1) * width / Parts,
-          j * height / Parts,
-          (j + 1) * height / Parts
+          i * width / PartsPerSide,
+          (i + 1) * width / PartsPerSide,
+          j * height / PartsPerSide,
+          (j + 1) * height / PartsPerSide
         )
         if block.x1 > block.x0 && block.y1 > block.y0
-      yield block -> OfPart
-    (Block(0, width, 0, height) -> Whole) +: parts.toVector
+      yield block -> PartTolerance
+    (Block(0, width, 0, height) -> WholeTolerance) +: parts.toVector
 
   private final case class Block(x0: Int, x1: Int, y0: Int, y1: Int):
     def pixels: Int = (x1 - x0) * (y1 - y0)

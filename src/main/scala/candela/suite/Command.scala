@@ -53,7 +53,7 @@ open class Commands(self: Vector[String], scratch: Path, isCancelled: () => Bool
     try
       def elapsed = (System.nanoTime - started) * 1e-9
       // Returns as soon as the program ends.
-      def ended(): Boolean = process.waitFor(Commands.Patience, TimeUnit.MILLISECONDS)
+      def ended(): Boolean = process.waitFor(Commands.PollMillis, TimeUnit.MILLISECONDS)
       var memory = PeakMemory.of(process.toHandle)
       var hasEnded = ended()
       while !hasEnded && elapsed < timeout && !isCancelled() do
@@ -98,7 +98,7 @@ object Commands:
   private val Colours = "\u001b\\[[0-9;]*m".r
 
   /** Polling interval for cancellation and memory, in milliseconds. */
-  private val Patience = 20L
+  private val PollMillis = 20L
 
   /** After a failure, in milliseconds. */
   private val Afterthought = 100L

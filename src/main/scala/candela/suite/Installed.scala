@@ -109,11 +109,11 @@ object Installed:
         val process = ProcessBuilder(words.asJava).redirectErrorStream(true)
           .redirectOutput(log.toFile).start()
         process.getOutputStream.close()
-        if !process.waitFor(Patience, TimeUnit.SECONDS) then
+        if !process.waitFor(TimeoutSeconds, TimeUnit.SECONDS) then
           process.destroyForcibly().waitFor(): Unit
         String(Files.readAllBytes(log), "UTF-8")
       finally Files.deleteIfExists(log): Unit
     catch case _: java.io.IOException => ""
 
   /** In seconds. */
-  private val Patience = 20L
+  private val TimeoutSeconds = 20L

@@ -57,7 +57,7 @@ private[watch] final class HttpServer(
   /** Closes all connections, after the answers that are under way. */
   def close(): Unit =
     val begin = System.nanoTime
-    while underWay.get > 0 && System.nanoTime - begin < Patience do Thread.sleep(5)
+    while underWay.get > 0 && System.nanoTime - begin < CloseTimeoutNanos do Thread.sleep(5)
     isClosing = true
     selector.wakeup()
     loop.foreach(_.close())
@@ -106,7 +106,7 @@ private[watch] final class HttpServer(
   private def makeRoom(newcomer: Connection): Unit =
     val own = connections.filter(_.client == newcomer.client)
     if own.sizeIs >= MostOfClient then drop(own.minBy(standing))
-    else if connections.sizeIs >= Most then drop(connections.minBy(standing))
+    else if connections.sizeIs >= MaxConnections then drop(connections.minBy(standing))
 
   /** Connections of low standing give way first. */
   private def standing(c: Connection): (Int, Long) = (c.phase.ordinal, c.begin)
@@ -162,7 +162,7 @@ private[watch] final class HttpServer(
 
 private object HttpServer:
   /** Connections at the same time; a browser has up to six. */
-  val Most = 64
+  val MaxConnections = 64
 
   /** Of them of one address, which may be that of a tunnel for several viewers. */
   val MostOfClient = 32
@@ -180,5 +180,5 @@ private object HttpServer:
   private val ShortPause = 100L
   private val LongestPause = 10_000L
 
-  /** For clients that don't read, at the end, in nanoseconds. */
-  private val Patience = 1_000_000_000L
+  /** At its end, the server waits this long for clients that don't read. */
+  private val CloseTimeoutNanos = 1_000_000_000L

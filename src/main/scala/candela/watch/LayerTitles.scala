@@ -1,6 +1,6 @@
 package candela.watch
 
-import candela.layers.Layer
+import candela.aov.Layer
 import candela.report.LiveLayer
 
 /** What the images of a snapshot are called, for readers who don't know names of channels. */

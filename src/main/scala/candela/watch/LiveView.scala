@@ -71,7 +71,7 @@ final class LiveView(
     files = Some(written)
     while remains && !ended.await(100, TimeUnit.MILLISECONDS) do ()
     val begin = System.nanoTime
-    while !viewers.haveAll && System.nanoTime - begin < Patience &&
+    while !viewers.haveAll && System.nanoTime - begin < LastImageTimeoutNanos &&
       !ended.await(50, TimeUnit.MILLISECONDS)
     do ()
 
@@ -121,5 +121,5 @@ object LiveView:
   /** Answers at the same time. */
   private val MostAnswers = 8
 
-  /** For the last image, in nanoseconds. */
-  private val Patience = 5_000_000_000L
+  /** Viewers have this long to get the last image. */
+  private val LastImageTimeoutNanos = 5_000_000_000L

@@ -37,7 +37,7 @@ final class TevDisplay(
     val begin = System.nanoTime
     // The viewer may have been started a moment ago.
     def hopes = isConnected || System.nanoTime - begin < Retry * Tick * 1_000_000
-    while sentVersion < last && hopes && System.nanoTime - begin < Patience do
+    while sentVersion < last && hopes && System.nanoTime - begin < LastImageTimeoutNanos do
       Thread.sleep(Tick / 5)
 
   def close(): Unit =
@@ -82,8 +82,8 @@ object TevDisplay:
 
   private val ConnectMillis = 1000
 
-  /** For the last image, in nanoseconds. */
-  private val Patience = 5_000_000_000L
+  /** Viewers have this long to get the last image. */
+  private val LastImageTimeoutNanos = 5_000_000_000L
 
   /** Edge of the updated tiles, in pixels, as in pbrt-v4. */
   private val TileSize = 128

@@ -14,7 +14,7 @@ final class Viewers:
     */
   def saw(name: String, hasAll: Boolean): Unit =
     val _ = all.values.removeIf(_.age > Forgotten)
-    if all.containsKey(name) || all.size < Most then
+    if all.containsKey(name) || all.size < MaxViewers then
       val _ = all.put(name, Viewer(System.nanoTime, hasAll))
 
   def count: Int =
@@ -33,4 +33,4 @@ object Viewers:
   /** A page asks at least every five seconds. */
   private val Present = 6.0
   private val Forgotten = 60.0
-  private val Most = 100
+  private val MaxViewers = 100

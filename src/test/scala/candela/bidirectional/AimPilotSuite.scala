@@ -12,7 +12,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import java.nio.file.{Files, Path}
 
-/** Light that only specular surfaces show to the camera. The lamp is wide, so that paths find it
+/** Light that only specular surfaces show to the camera. The emitter is wide, so that paths find it
   * without photons, too.
   */
 @org.scalatest.tags.Slow
@@ -85,7 +85,7 @@ final class AimPilotSuite extends AnyFunSuite:
     assert(told(above).startsWith("none") && !told(above).contains("guide"))
 
 private object AimPilotSuite:
-  /** A pool with a wavy surface, under a lamp. */
+  /** A pool with a wavy surface, under an emitter. */
   val Water: String = """
       LookAt 0 3 -6  0 .2 0  0 1 0
       Camera "perspective" "float fov" 30

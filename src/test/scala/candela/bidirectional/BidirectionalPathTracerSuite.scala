@@ -19,7 +19,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
     Translate .3 .4 .6
     Shape "sphere" "float radius" .6
     AttributeEnd"""
-  private val lamp = """AttributeBegin
+  private val emitter = """AttributeBegin
     AreaLightSource "diffuse" "rgb L" [8 6 4]
     Translate -.5 0 2.2
     Shape "sphere" "float radius" .4
@@ -70,7 +70,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
       Dialect.V3,
       perspective
     ),
-    ("a lamp", lamp, (matte, matte), Dialect.V3, perspective),
+    ("an emitter", emitter, (matte, matte), Dialect.V3, perspective),
     (
       "a sky",
       """LightSource "infinite" "rgb L" [1 1 1]""",
@@ -79,8 +79,8 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
       perspective
     ),
     (
-      "a lamp, a point and a sky",
-      lamp + "\n" + point + """
+      "an emitter, a point and a sky",
+      emitter + "\n" + point + """
       LightSource "infinite" "rgb L" [.3 .3 .5]""",
       (matte, """Material "plastic" "float roughness" .2"""),
       Dialect.V3,
@@ -88,29 +88,29 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
     ),
     (
       "rough glass",
-      lamp,
+      emitter,
       (matte, """Material "glass" "float uroughness" .4 "float vroughness" .4"""),
       Dialect.V3,
       perspective
     ),
-    ("smooth glass", lamp, (matte, """Material "glass""""), Dialect.V3, perspective),
+    ("smooth glass", emitter, (matte, """Material "glass""""), Dialect.V3, perspective),
     (
       "rough glass of v4",
-      lamp,
+      emitter,
       (diffuse, """Material "dielectric" "float roughness" .4"""),
       Dialect.V4,
       perspective
     ),
     (
       "a layered surface",
-      lamp,
+      emitter,
       (diffuse, """Material "coateddiffuse" "float roughness" .3"""),
       Dialect.V4,
       perspective
     ),
     (
       "a lens",
-      lamp,
+      emitter,
       (matte, matte),
       Dialect.V3,
       perspective + """ "float lensradius" .3 "float focaldistance" 4"""
@@ -258,7 +258,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
     val text =
       scene(
         "\"bdpt\"",
-        lamp + "\n" + point,
+        emitter + "\n" + point,
         (matte, "Material \"glass\""),
         Dialect.V3,
         perspective,
@@ -272,7 +272,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
   test("light that is seen at once is all that depth 0 shows"):
     val text = scene(
       "\"bdpt\" \"integer maxdepth\" 0",
-      lamp,
+      emitter,
       (matte, matte),
       Dialect.V3,
       perspective,

@@ -1,11 +1,11 @@
 package candela.bidirectional
 
+import candela.aov.Layer
 import candela.build.{ColorMode, LightGrouping, RenderSettings}
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
-import candela.layers.Layer
 import candela.render.{Renderer, RenderMethod, RenderPlan}
 import candela.scenefile.Dialect
 import candela.testing.{BlockMeans, SceneTexts}
@@ -14,14 +14,14 @@ import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-/** Light paths, where light is divided: by way, by lamp, by brightness, by wavelength. */
+/** Light paths, where light is divided: by way, by emitter, by brightness, by wavelength. */
 final class CausticLayersSuite extends AnyFunSuite:
-  import CausticTracerSuite.{GlassBall, lamp, scene}
+  import CausticTracerSuite.{GlassBall, emitter, scene}
 
-  /** Two lamps, and a ball of glass. */
+  /** Two emitters, and a ball of glass. */
   private val two = scene(
     GlassBall,
-    s"""${lamp(0.7f)}
+    s"""${emitter(0.7f)}
         AttributeBegin
         AreaLightSource "diffuse" "rgb L" [1 2 6]
         Translate -1.2 2 -1
@@ -84,7 +84,7 @@ final class CausticLayersSuite extends AnyFunSuite:
 
   test("so they are at wavelengths, where the pilot decides"):
     val settings = divided.copy(samples = Some(4), color = ColorMode.Spectral)
-    val small = two.replace(lamp(0.7f), lamp(0.2f))
+    val small = two.replace(emitter(0.7f), emitter(0.2f))
     val found = image(small, settings, CausticsMode.Auto)
     assertSums(found, groups(found))
     assertSums(found, ways.map(_.channels.head.stripSuffix("R")))

@@ -14,8 +14,8 @@ import org.scalatest.tagobjects.Slow
 
 final class CausticPhotonsSuite extends AnyFunSuite:
 
-  /** A ball over a floor, and another of brushed metal, beneath a large lamp. */
-  private def room(ball: String, depth: Int = 8, size: Int = 20, lamp: String = large): String =
+  /** A ball over a floor, and another of brushed metal, beneath a large emitter. */
+  private def room(ball: String, depth: Int = 8, size: Int = 20, light: String = large): String =
     s"""LookAt 0 -5 3  0 0 .3  0 0 1
        |Camera "perspective" "float fov" 40
        |Film "rgb" "integer xresolution" $size "integer yresolution" $size
@@ -24,7 +24,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
        |Integrator "path" "integer maxdepth" $depth
        |WorldBegin
        |LightSource "infinite" "rgb L" [.1 .1 .15]
-       |$lamp
+       |$light
        |Material "diffuse" "rgb reflectance" [.6 .5 .4]
        |Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
        |  "point3 P" [-3 -3 0  3 -3 0  3 3 0  -3 3 0]
@@ -93,7 +93,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
 
   test("photons bring the dim parts of a sky, too", Slow):
     withSky: sky =>
-      val text = room(glass, lamp = sky).replaceFirst("(?m)^LightSource \"infinite\" \"rgb.*$", "")
+      val text = room(glass, light = sky).replaceFirst("(?m)^LightSource \"infinite\" \"rgb.*$", "")
       val expected = mean(plan(text, CausticsMode.Off, 200))
       val found = mean(plan(text, CausticsMode.Photons, 40))
       // 0.97 without them
@@ -127,7 +127,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
     assert(Math.abs(found / expected - 1) < 0.1, s"$found, expected $expected")
 
   test("the image is the same bit for bit by one thread and by three, and if it is resumed", Slow):
-    val made = plan(room(glass, lamp = s"$large\n$point"), CausticsMode.Photons, 5)
+    val made = plan(room(glass, light = s"$large\n$point"), CausticsMode.Photons, 5)
     val alone = pixels(made).toVector
     assert(pixels(made, threads = 3).toVector == alone)
     TempFolder.use: folder =>
@@ -150,7 +150,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
     * @param fog     what is in the medium's own statement
     * @param inGlass the medium within the glass
     */
-  private def smoke(fog: String, lamp: String, inGlass: String, inside: Boolean = false): String =
+  private def smoke(fog: String, light: String, inGlass: String, inside: Boolean = false): String =
     val from = if inside then ".3 -.9 .9" else "0 -5 2"
     s"""LookAt $from  0 0 .6  0 0 1
        |${if inside then "MediumInterface \"\" \"m\"" else ""}
@@ -161,7 +161,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
        |Integrator "volpath" "integer maxdepth" 7
        |WorldBegin
        |MakeNamedMedium "m" "string type" $fog "float g" .3
-       |$lamp
+       |$light
        |MediumInterface "" ""
        |Material "diffuse" "rgb reflectance" [.6 .5 .4]
        |Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
@@ -219,7 +219,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
       ("a cloud of cells", smoke(cloudy, above, "")),
       ("mist that absorbs only", smoke(mist.replace(".5", "0"), above, "")),
       ("mist that glows", smoke(s"$mist \"rgb Le\" [.2 .1 .1]", above, "")),
-      ("the lamp in the mist", smoke(mist, within, "")),
+      ("the emitter in the mist", smoke(mist, within, "")),
       ("mist in the glass", smoke(coloured, above, "m")),
       ("the camera in the mist", smoke(mist, within, "", inside = true)),
       ("thick mist", smoke(thick, within, "")),
@@ -262,7 +262,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
       compare(text.replace(glass, dispersive), ColorMode.Spectral)
 
   /** A floor in a ball of mist, with a small ball of glass on it. */
-  private def hazy(lamps: String): String =
+  private def hazy(emitters: String): String =
     s"""LookAt 0 -5 .6  0 0 .3  0 0 1
        |Camera "perspective" "float fov" 46
        |Film "rgb" "integer xresolution" 64 "integer yresolution" 64
@@ -277,7 +277,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
        |Material "interface"
        |Shape "sphere" "float radius" 2
        |AttributeEnd
-       |$lamps
+       |$emitters
        |MediumInterface "" "m"
        |Material "diffuse" "rgb reflectance" [.9 .9 .9]
        |Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]

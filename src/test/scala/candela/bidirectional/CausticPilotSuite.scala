@@ -8,14 +8,15 @@ import candela.testing.SceneTexts
 import org.scalatest.funsuite.AnyFunSuite
 
 final class CausticPilotSuite extends AnyFunSuite:
-  import CausticPilot.{Least, Most, amount}
+  import CausticPilot.{MinPathsPerSample, MaxPathsPerSample, amount}
 
   test("the number of light paths is a power of two, not above the best, within bounds"):
     val best = Vector(1e-9, 0.03, 0.25, 0.9, 1.0, 7.99, 1e9, Double.PositiveInfinity)
-    assert(best.map(amount) == Vector(Least, Least, 0.25, 0.5, 1.0, 4.0, Most, Most))
+    assert(best.map(amount) == Vector(MinPathsPerSample, MinPathsPerSample, 0.25, 0.5, 1.0, 4.0,
+      MaxPathsPerSample, MaxPathsPerSample))
 
   test("where nothing is found, or nothing by light paths, there are few of them"):
-    assert(Vector(0.0 / 0.0, 0.0).map(amount) == Vector(Least, Least))
+    assert(Vector(0.0 / 0.0, 0.0).map(amount) == Vector(MinPathsPerSample, MinPathsPerSample))
 
   test("beside manifold walks light paths are not as few as they may be"):
     val point = """LightSource "point" "rgb I" [9 9 9] "point3 from" [1 3 0]"""

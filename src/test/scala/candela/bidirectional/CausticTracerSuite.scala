@@ -10,7 +10,7 @@ import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-/** Lamps are wide, so that paths from the camera find all caustics, too. */
+/** Emitters are wide, so that paths from the camera find all caustics, too. */
 @org.scalatest.tags.Slow
 final class CausticTracerSuite extends AnyFunSuite:
   import CausticTracerSuite.*
@@ -61,7 +61,7 @@ final class CausticTracerSuite extends AnyFunSuite:
     val one = image(plan(Small, CausticsMode.Auto), threads = 1)
     assert(image(plan(Small, CausticsMode.Auto), threads = 3).data.sameElements(one.data))
 
-  test("lamps without extent shine through glass where caustics are on, and only there"):
+  test("delta lights shine through glass where caustics are on, and only there"):
     val text = scene(GlassBall, """LightSource "point" "rgb I" [9 9 9] "point3 from" [1 3 0]""")
     // Only what the ball mirrors is above zero with paths alone: the ground has its shadow
     val Vector(off, auto, on) = Vector(CausticsMode.Off, CausticsMode.Auto, CausticsMode.On)
@@ -83,10 +83,10 @@ final class CausticTracerSuite extends AnyFunSuite:
     assert(image(made).data.sameElements(image(plan(text, CausticsMode.Off)).data))
     assert(made.features.toMap.apply("caustics").startsWith("none"))
 
-  test("the plan names what casts caustics and which lamps send the light, a few of each"):
+  test("the plan names what casts caustics and which lights illuminate them, a few of each"):
     def told(text: String) =
       val features = plan(text, CausticsMode.Auto, spp = 1).features.toMap
-      (features.get("casters"), features.get("their lamps"))
+      (features.get("casters"), features.get("their lights"))
     val line = Small.linesIterator.indexWhere(_.contains("dielectric")) + 1
     assert(told(Small) == (
       Some(s"dielectric test.pbrt:$line:16 on 1 shape"),
@@ -97,11 +97,11 @@ final class CausticTracerSuite extends AnyFunSuite:
     def metal(k: Int) = s"Material \"conductor\" \"float roughness\" .0$k\n$ball"
     val many = s"$made${(1 to 4).map(metal).mkString} NamedMaterial \"water\" $ball $ball"
     val lights = (1 to 5).map(k => s"LightSource \"point\" \"rgb I\" [$k 1 1]").mkString("\n")
-    val (casters, lamps) = told(scene(many, lights)): @unchecked
+    val (casters, theirs) = told(scene(many, lights)): @unchecked
     assert(casters.exists(_.startsWith("\"water\" (dielectric test.pbrt:")))
     assert(casters.exists(_.contains(") on 2 shapes, conductor test.pbrt:")))
     assert(casters.exists(_.endsWith(" on 1 shape and 2 more materials")))
-    assert(lamps.exists(_.endsWith(" without extent and 2 more lamps")))
+    assert(theirs.exists(_.endsWith(" (delta light) and 2 more lights")))
     val matte = scene("Material \"diffuse\" Shape \"sphere\"")
     assert(told(matte) == (None, None))
 
@@ -127,8 +127,8 @@ private[candela] object CausticTracerSuite:
 
   def average(image: Image): Double = image.data.map(_.toDouble).sum / image.data.length
 
-  /** A thing above a ground, under a lamp. */
-  def scene(thing: String, lamp: String = lamp(0.8f)): String =
+  /** A thing above a ground, under an emitter. */
+  def scene(thing: String, emitter: String = emitter(0.8f)): String =
     s"""
       LookAt 0 2 -4  0 .4 0  0 1 0
       Camera "perspective" "float fov" 40
@@ -137,7 +137,7 @@ private[candela] object CausticTracerSuite:
       Sampler "independent"
       Integrator "path" "integer maxdepth" 8
       WorldBegin
-      $lamp
+      $emitter
       Material "diffuse" "rgb reflectance" [.6 .6 .5]
       Shape "trianglemesh" "point3 P" [-5 0 -5  -5 0 5  5 0 5  5 0 -5]
         "integer indices" [0 1 2 0 2 3]
@@ -147,7 +147,7 @@ private[candela] object CausticTracerSuite:
       AttributeEnd
     """
 
-  def lamp(radius: Float): String =
+  def emitter(radius: Float): String =
     val radiance = 3f / (radius * radius)
     s"""AttributeBegin
         AreaLightSource "diffuse" "rgb L" [$radiance $radiance $radiance]
@@ -155,8 +155,8 @@ private[candela] object CausticTracerSuite:
         Shape "sphere" "float radius" $radius
         AttributeEnd"""
 
-  /** The caustic of a small lamp. */
-  val Small: String = scene(GlassBall, lamp(0.15f))
+  /** The caustic of a small emitter. */
+  val Small: String = scene(GlassBall, emitter(0.15f))
 
   private def triangles(count: Int, normal: (Double, Double) => (Double, Double, Double)): String =
     val n = count
@@ -183,7 +183,7 @@ private[candela] object CausticTracerSuite:
     ),
     "an index of one, which bends nothing" ->
       scene("""Material "dielectric" "float eta" 1 Shape "sphere" "float radius" .5"""),
-    "a lamp within the glass" -> scene(
+    "an emitter within the glass" -> scene(
       """AttributeBegin AreaLightSource "diffuse" "rgb L" [5 5 5]
          Shape "sphere" "float radius" .2 AttributeEnd """ + GlassBall
     ),
@@ -204,14 +204,14 @@ private[candela] object CausticTracerSuite:
       s"""ObjectBegin "ball" $GlassBall ObjectEnd
           Scale -1 .6 1.3 ObjectInstance "ball""""
     ),
-    "a pane before the lamp" -> scene(
+    "a pane before the emitter" -> scene(
       """Material "thindielectric" Translate .4 .9 .2
          Shape "disk" "float radius" .8 Rotate 90 1 0 0 Shape "disk" "float radius" .8"""
     ),
     "a sky seen through glass" -> scene(
       GlassBall,
       """LightSource "infinite" "rgb L" [.5 .6 .8]
-         LightSource "distant" "rgb L" [0 0 0] """ + lamp(0.8f)
+         LightSource "distant" "rgb L" [0 0 0] """ + emitter(0.8f)
     ),
     "fog, and a ball in it" -> inFog(scene(GlassBall))
   )

@@ -3,9 +3,9 @@ package candela.bidirectional
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
+import candela.aov.Layer
 import candela.build.{ColorMode, RenderRegion, RenderSettings}
 import candela.color.Rgb
-import candela.layers.Layer
 import candela.render.{Cancellation, Renderer}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts

@@ -18,7 +18,7 @@ final class PathMediaSuite extends AnyFunSuite:
     "point3 p0" [-1 -1 -1] "point3 p1" [1 1 1]"""
   private val glowing = s"""$coloured "rgb Le" [.3 .2 .1]"""
 
-  private val lamp = """AttributeBegin
+  private val emitter = """AttributeBegin
     AreaLightSource "diffuse" "rgb L" [8 6 4]
     Translate -.5 0 2.6
     Shape "sphere" "float radius" .4
@@ -57,8 +57,8 @@ final class PathMediaSuite extends AnyFunSuite:
   private def mean(text: String): Float = color(text).g
 
   private val cases = Seq(
-    ("coloured smoke, a lamp", coloured, lamp),
-    ("a lamp inside the smoke", coloured, inside),
+    ("coloured smoke, an emitter", coloured, emitter),
+    ("an emitter inside the smoke", coloured, inside),
     ("a cloud of cells, a point", cloudy, point),
     ("glowing gas, a sky", glowing, sky)
   )
@@ -79,8 +79,8 @@ final class PathMediaSuite extends AnyFunSuite:
 
   test("the chains of mlt see it, too", Slow):
     val metropolis = "\"mlt\" \"integer mutationsperpixel\" 2000 \"integer chains\" 50"
-    val mlt = mean(scene(metropolis, coloured, lamp, 1, 3))
-    val path = mean(scene("\"volpath\"", coloured, lamp, 4000, 3))
+    val mlt = mean(scene(metropolis, coloured, emitter, 1, 3))
+    val path = mean(scene("\"volpath\"", coloured, emitter, 4000, 3))
     assert(Math.abs(mlt - path) < 0.05f * path, s"$mlt, volpath $path") // brightness, 0.3 %; noise
 
   test("light of a point goes through a ball of glass into smoke, which volpath can't see"):
@@ -108,8 +108,8 @@ final class PathMediaSuite extends AnyFunSuite:
       .replace("MediumInterface \"m\" \"\"", "MediumInterface \"m\" \"f\"")
 
   test("bdpt sees what volpath sees from within fog without end", Slow):
-    val bdpt = color(inFog(scene("\"bdpt\"", coloured, lamp, 1000, 3)))
-    val path = color(inFog(scene("\"volpath\"", coloured, lamp, 4000, 3)))
+    val bdpt = color(inFog(scene("\"bdpt\"", coloured, emitter, 1000, 3)))
+    val path = color(inFog(scene("\"volpath\"", coloured, emitter, 4000, 3)))
     // As above
     for (b, p) <- Seq(bdpt.r -> path.r, bdpt.g -> path.g, bdpt.b -> path.b) do
       assert(p > 0.01f && Math.abs(b - p) < 0.04f * p, s"$bdpt, volpath $path")
@@ -143,11 +143,11 @@ final class PathMediaSuite extends AnyFunSuite:
     val said =
       SceneTexts.problems(inFog(scene("\"bdpt\"", coloured, sky, 1, 3)), Dialect.V4).map(_.message)
     assert(said.exists(_.contains("light from infinity in a medium without end yet")), said)
-    val outside = scene("\"bdpt\"", coloured, lamp, 1, 3)
+    val outside = scene("\"bdpt\"", coloured, emitter, 1, 3)
     assert(SceneTexts.problems(outside, Dialect.V4, options = RenderSettings()).isEmpty)
 
-  test("a lamp's own surface says what is around it, where nothing else on the way does"):
-    // A foggy room, whose borders are the lamp and a window before the camera
+  test("an emitter's own surface says what is around it, where nothing else on the way does"):
+    // A foggy room, whose borders are the emitter and a window before the camera
     def room(integrator: String) = s"""
       LookAt 0 -5 2.5  0 0 .6  0 0 1
       Camera "perspective" "float fov" 35

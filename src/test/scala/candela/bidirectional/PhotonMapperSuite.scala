@@ -127,7 +127,7 @@ final class PhotonMapperSuite extends AnyFunSuite:
       Renderer.render(plan, threads).image(plan.development).data.toVector
     assert(images(0) == images(1) && images(0).exists(_ > 0f))
 
-  test("a lamp with holes lights what is matte, glossy or behind glass as in path tracing", Slow):
+  test("a light with holes lights what is matte, glossy or behind glass as in path tracing", Slow):
     def text(integrator: String, material: String) =
       s"""LookAt 0 -5 2.5  0 0 .6  0 0 1
          |Camera "perspective" "float fov" 35

@@ -41,7 +41,7 @@ class PilotBlocksSuite extends AnyFunSuite:
     val parts = PilotBlocks(view)
     for i <- 0 until 3 do parts.add(found(1000 * i, 1000 * (i + 1)))
     def all(blocks: PilotBlocks) =
-      val found = blocks.variances(3000, PilotBlocks.Endless)
+      val found = blocks.variances(3000, PilotBlocks.EndlessSamples)
       val (guided, unguided) = blocks.savings()
       Vector(found.byPaths, found.without, guided, unguided) ++ found.byLight
     for (a, b) <- all(whole).zip(all(parts)) do
@@ -52,15 +52,15 @@ class PilotBlocksSuite extends AnyFunSuite:
     val twice = PilotBlocks(view)
     for _ <- 0 until 2 do twice.add(found(0, 1000))
     val (of, ofTwice) = (
-      once.variances(1000, PilotBlocks.Usual),
-      twice.variances(2000, PilotBlocks.Usual)
+      once.variances(1000, PilotBlocks.UsualSamples),
+      twice.variances(2000, PilotBlocks.UsualSamples)
     )
     assert(Math.abs(of.without - ofTwice.without) < 1e-9 * of.without)
     for (a, b) <- of.byLight.zip(ofTwice.byLight) do assert(Math.abs(a - b) < 1e-9 * a)
 
   test("light that is seldom found counts no more than if it was missing"):
     /** Even light, and a hundredth of it that the camera's paths find once in `seldom` samples. */
-    def more(seldom: Double, usual: Double = PilotBlocks.Usual): Double =
+    def more(seldom: Double, usual: Double = PilotBlocks.UsualSamples): Double =
       val blocks = PilotBlocks(view)
       for x <- 0 until width; y <- 0 until height do
         blocks.addPair(x, y, 1f, 1f)
@@ -70,6 +70,6 @@ class PilotBlocksSuite extends AnyFunSuite:
     // Relative variance of a sample: the light times its brightness where it is found
     assert(Math.abs(more(1e3) - 0.01 * 0.01 * 1e3) < 0.01)
     assert(Math.abs(more(1e4) - 0.01 * 0.01 * 1e4) < 0.1)
-    assert(Math.abs(more(1e7, PilotBlocks.Endless) - 0.01 * 0.01 * 1e7) < 100)
+    assert(Math.abs(more(1e7, PilotBlocks.EndlessSamples) - 0.01 * 0.01 * 1e7) < 100)
     for seldom <- Seq(1e6, 1e8) do
-      assert(Math.abs(more(seldom) - PilotBlocks.Usual * 0.01 * 0.01) < 0.1)
+      assert(Math.abs(more(seldom) - PilotBlocks.UsualSamples * 0.01 * 0.01) < 0.1)

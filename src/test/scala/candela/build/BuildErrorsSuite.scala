@@ -118,8 +118,8 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertWarning(dark, "this area light emits nothing; it is ignored")
     val flat = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 1 1] " +
       "\"point P\" [0 0 0 1 0 0 0 1 0]"
-    val lamp = only(s"AreaLightSource \"diffuse\" $flat")
-    assertWarning(lamp, "1 of 2 triangles of this area light have no area")
+    val emitter = only(s"AreaLightSource \"diffuse\" $flat")
+    assertWarning(emitter, "1 of 2 triangles of this area light have no area")
     val huge = only("AreaLightSource \"diffuse\" Shape \"sphere\" \"float radius\" 1e30")
     assertWarning(huge, "the area of this area light is too large for a number; it is ignored")
 

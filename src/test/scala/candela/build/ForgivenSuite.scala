@@ -94,8 +94,8 @@ final class ForgivenSuite extends AnyFunSuite:
   test("a disk of negative radius is one, but is seen to emit on the other side"):
     for d <- Dialect.ofPbrt do
       assertMean(d, "Shape \"disk\" \"float radius\" -1", 0.8167f, "their squares count")
-    val lamp = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nShape \"disk\" \"float radius\" "
-    assertMean(Dialect.V3, lamp + "-.7", 1.0384f, "their squares count")
+    val emitter = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nShape \"disk\" \"float radius\" "
+    assertMean(Dialect.V3, emitter + "-.7", 1.0384f, "their squares count")
 
   test("a rotation about no axis hides what it places in v4, and is none before"):
     val body = s"Rotate 30 0 0 0\n$triangle"

@@ -55,7 +55,7 @@ class MotionsSuite extends AnyFunSuite:
     val found = feature(plan(world), "instances")
     assert(found == "4 of 2 objects with 0 triangles and 2 other shapes, 2 of them moving")
 
-  test("what can't move says so: lamps, lights, textures, and what perspective maps show"):
+  test("what can't move says so: area lights, lights, textures, and what perspective maps show"):
     def warned(world: String, words: String) =
       val found = SceneTexts.problems(text(world), Dialect.V3)
       assert(found.exists(_.message.contains(words)), s"$words in $found")

@@ -52,8 +52,8 @@ class ObjectUsesSuite extends AnyFunSuite:
 
   private val square = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
 
-  /** A lamp of a third of the image, as an object; with a wall behind it if `lit`. */
-  private def lamp(dialect: Dialect, method: String, lit: Boolean, copies: Int, body: String) =
+  /** An emitter of a third of the image, as an object; with a wall behind it if `lit`. */
+  private def emitter(dialect: Dialect, method: String, lit: Boolean, copies: Int, body: String) =
     val integrator = if dialect == Dialect.V2 then "SurfaceIntegrator" else "Integrator"
     val wall = if lit then
       "LightSource \"point\" \"point from\" [0 0 -3] \"color I\" [1 1 1]\n" +
@@ -90,7 +90,7 @@ class ObjectUsesSuite extends AnyFunSuite:
       )
       copies <- Seq(1, 2)
     do
-      val text = lamp(d, method, lit = false, copies, panel)
+      val text = emitter(d, method, lit = false, copies, panel)
       // A third of the pixels, as in pbrt; edges run between pixels
       assert(Math.abs(SceneTexts.mean(text, d).average - 1f / 3) < 1e-4f, s"$d $method $copies")
       val told = SceneTexts.problems(text, d).filter(_.message.contains("light nothing"))
@@ -98,12 +98,12 @@ class ObjectUsesSuite extends AnyFunSuite:
 
   test("area lights of objects light nothing in v2 and v3"):
     for (d, method) <- Seq(Dialect.V3 -> "path", Dialect.V3 -> "volpath", Dialect.V2 -> "path") do
-      def mean(lamps: String) =
-        SceneTexts.mean(lamp(d, method, lit = true, 1, lamps), d).average
+      def mean(emitters: String) =
+        SceneTexts.mean(emitter(d, method, lit = true, 1, emitters), d).average
       val small = s"ReverseOrientation\n$square [-1 -1 0 1 -1 0 1 1 0 -1 1 0]"
       val seen = mean(small)
       val dark = mean("AreaLightSource \"\"\n" + small)
-      // The lamp adds itself, and nothing elsewhere; the noise of 12288 samples is below 0.001
+      // The emitter adds itself, and nothing elsewhere; the noise of 12288 samples is below 0.001
       assert(Math.abs(seen - dark - 1f / 3) < 4e-3f, s"$d $method: $seen and $dark")
 
   test("an instance of nothing is an error, and says what was meant"):

@@ -56,10 +56,10 @@ class PartialsReadSuite extends AnyFunSuite:
   private val bumpy = "Material \"diffuse\" \"texture displacement\" \"wrinkles\""
   private val plain = "Material \"diffuse\""
   private val textured = "Material \"diffuse\" \"texture reflectance\" \"squares\""
-  private val lamp = s"AreaLightSource \"diffuse\" $plain"
+  private val emitter = s"AreaLightSource \"diffuse\" $plain"
 
-  test("textured materials and lamps have them, constant materials don't"):
-    val mixed = scene(plain, textured, lamp)
+  test("textured materials and emitters have them, constant materials don't"):
+    val mixed = scene(plain, textured, emitter)
     val at = mixed.newPoint()
     // Back and forth: a hit must not depend on the one before
     for _ <- 0 until 2 do

@@ -2,11 +2,11 @@ package candela.build
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.aov.Layer
 import candela.base.{Parallel, SceneError, Severity}
 import candela.color.{ColorSpace, Rgb}
 import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
 import candela.integrators.{DirectLighting, Integrator, PathTracer}
-import candela.layers.Layer
 import candela.render.{RenderMethod, RenderPlan, Renderer, ThreadPool}
 import candela.build.sampling.{PointChoice, PointSet}
 import candela.sampling.{
@@ -315,10 +315,10 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(SceneTexts.problems(lit).isEmpty)
 
   test("shapes of an interface give no light in v4, as in pbrt"):
-    val lamp = "AreaLightSource \"diffuse\"\nShape \"disk\"\n"
+    val emitter = "AreaLightSource \"diffuse\"\nShape \"disk\"\n"
     val sky = "LightSource \"infinite\"\n"
-    val v4 = s"WorldBegin\n${sky}Material \"interface\"\n$lamp"
+    val v4 = s"WorldBegin\n${sky}Material \"interface\"\n$emitter"
     assert(feature(SceneTexts.plan(v4, Dialect.V4), "lights").startsWith("one light"))
     assert(SceneTexts.problems(v4, Dialect.V4).exists(_.message.contains("gives no light")))
-    val v3 = s"WorldBegin\n${sky}Material \"none\"\n$lamp"
+    val v3 = s"WorldBegin\n${sky}Material \"none\"\n$emitter"
     assert(feature(SceneTexts.plan(v3, Dialect.V3), "lights").startsWith("2 lights"))

@@ -147,16 +147,16 @@ class SceneSizeSuite extends AnyFunSuite:
         found
     assert(measured(1) > 1.7 * measured(0) && measured(2) < 1.1 * measured(0), measured)
 
-  test("lamps, within a half"):
+  test("emitters, within a half"):
     val emission = "AreaLightSource \"diffuse\" \"rgb L\" [ 1 2 3 ]\n"
     val balls = parsed(Vector.fill(2000)(
       s"AttributeBegin\n${emission}Translate $somewhere Shape \"sphere\" \"float radius\" 0.1\n" +
         "AttributeEnd\n"
     ).mkString)
-    val (lamps, lights) = sizes(balls, CostKind.Lights, "Scene")(
+    val (emitters, lights) = sizes(balls, CostKind.Lights, "Scene")(
       ("ShapeTable" +: "TriangleSoup" +: "SceneMaterials" +: Hierarchies)*
     )
-    assertNear(lamps, lights, 0.5)
+    assertNear(emitters, lights, 0.5)
     val shining = parsed(sheet(0, emission))
     val (mesh, triangles) = sizes(shining, CostKind.Lights, "Scene")(
       ("TriangleSoup" +: "SceneMaterials" +: Hierarchies)*

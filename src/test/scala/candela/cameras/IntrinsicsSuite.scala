@@ -11,7 +11,7 @@ import candela.testing.SceneTexts
 
 import java.nio.file.Files
 
-/** The formulas of docs/INTRINSICS.md: lamps at known places appear in the right pixels. */
+/** The formulas of docs/INTRINSICS.md: emitters at known places appear in the right pixels. */
 final class IntrinsicsSuite extends AnyFunSuite:
   private val (width, height) = (64, 48)
   private val (cx, cy) = (40.0, 18.0)
@@ -34,7 +34,7 @@ final class IntrinsicsSuite extends AnyFunSuite:
     (x / sum, y / sum)
 
   private def near(found: (Double, Double), x: Double, y: Double): Assertion =
-    // A lamp is a disk of 3 pixels, sampled at 16 places per pixel
+    // An emitter is a disk of 3 pixels, sampled at 16 places per pixel
     assert(Math.abs(found._1 - x) < 0.1 && Math.abs(found._2 - y) < 0.1, s"$found, not $x $y")
 
   for dialect <- Seq(Dialect.V2, Dialect.V3, Dialect.V4) do

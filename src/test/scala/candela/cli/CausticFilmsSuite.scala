@@ -61,7 +61,7 @@ private object CausticFilmsSuite:
       .replace("LookAt", s"$fog\nMediumInterface \"\" \"m\"\nLookAt")
       .replace("\"path\"", "\"volpath\"")
 
-  /** A ball of glass under a small lamp. */
+  /** A ball of glass under a small emitter. */
   def text(film: String): String =
     s"""LookAt 0 2 -4  0 .4 0  0 1 0
        |Camera "perspective" "float fov" 30

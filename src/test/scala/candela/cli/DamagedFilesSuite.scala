@@ -24,7 +24,7 @@ class DamagedFilesSuite extends AnyFunSuite:
 
   private def light(name: String) =
     head + s"LightSource \"infinite\" \"string filename\" \"$name\"\n"
-  private def lamp(name: String) = head + s"LightSource \"point\" \"spectrum I\" \"$name\"\n"
+  private def emitter(name: String) = head + s"LightSource \"point\" \"spectrum I\" \"$name\"\n"
   private def goniometric(name: String) =
     head + s"LightSource \"goniometric\" \"string filename\" \"$name\"\n"
   private def mesh(name: String) = head + s"Shape \"plymesh\" \"string filename\" \"$name\"\n"
@@ -111,7 +111,7 @@ class DamagedFilesSuite extends AnyFunSuite:
   test("lenses, spectra and meshes of text that are none are told by place, file and cause"):
     val others = Vector(
       ("a.dat", lens, "pbrt"),
-      ("a.spd", lamp, "pbrt"),
+      ("a.spd", emitter, "pbrt"),
       ("a.obj", shape("obj"), "xml"),
       ("a.txt", shape("bsplinecurve"), "xml"),
       (
@@ -226,10 +226,10 @@ class DamagedFilesSuite extends AnyFunSuite:
 
   test("check counts the lights of the renderer, and the statements if they are fewer"):
     TempFolder.use: folder =>
-      val lamps = head.replace("LightSource \"infinite\"", "LightSource \"point\"") +
+      val emitters = head.replace("LightSource \"infinite\"", "LightSource \"point\"") +
         "AreaLightSource \"diffuse\"\nShape \"trianglemesh\" \"integer indices\" [0 1 2 2 1 3] " +
         "\"point3 P\" [0 0 1  2 0 1  0 1 1  1 3 2]\n"
-      val scene = Files.writeString(folder.resolve("a.pbrt"), lamps)
+      val scene = Files.writeString(folder.resolve("a.pbrt"), emitters)
       val (code, captured) = Captured.run("check", "--explain", s"$scene")
       assert(code == 0 && captured.out.contains(", 3 lights (of 2 in the file)"), captured.out)
       assert(captured.out.contains("3 lights, sampled"), captured.out)

@@ -104,12 +104,12 @@ class FileHabitsSuite extends AnyFunSuite:
 
   test("variances beyond the range of halves are whole in images of halves"):
     TempFolder.use: folder =>
-      val lamp = "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\n" +
+      val emitter = "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4\n" +
         "LookAt 0 0 -2  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 90\nWorldBegin\n" +
         "Shape \"disk\" \"float radius\" 9\nTranslate 0 0 -3\n" +
         "AreaLightSource \"diffuse\" \"rgb L\" [60000 60000 60000]\n" +
         "Shape \"sphere\" \"float radius\" .9\n"
-      val scene = Files.writeString(folder.resolve("a.pbrt"), lamp)
+      val scene = Files.writeString(folder.resolve("a.pbrt"), emitter)
       val image = folder.resolve("a.exr")
       val words = Seq("--aov", "variance", "--spp", "16", "--quiet", "-o", s"$image", s"$scene")
       assert(Captured.run(words*)._1 == 0)

@@ -1,7 +1,7 @@
 package candela.cli
 
+import candela.aov.Layer
 import candela.image.ImageFiles
-import candela.layers.Layer
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}

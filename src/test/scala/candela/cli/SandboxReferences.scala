@@ -155,7 +155,7 @@ object SandboxReferences:
       v4("LightSource \"goniometric\" \"string filename\" \"FILE\"")
     ),
     Reference(
-      "goniometric lamp",
+      "goniometric emitter",
       "pbrt",
       "ies",
       v4("LightSource \"goniometric\" \"string filename\" \"FILE\"")
@@ -253,7 +253,7 @@ object SandboxReferences:
       v3("LightSource \"goniometric\" \"string mapname\" \"FILE\"")
     ),
     Reference(
-      "lamp of v3",
+      "emitter of v3",
       "pbrt",
       "ies",
       v3("LightSource \"goniometric\" \"string mapname\" \"FILE\"")
@@ -326,7 +326,7 @@ object SandboxReferences:
       xml(s"<emitter type=\"projector\">${named("irradiance")}</emitter>")
     ),
     Reference(
-      "bitmap of a lamp",
+      "bitmap of an emitter",
       "xml",
       "png",
       xml(

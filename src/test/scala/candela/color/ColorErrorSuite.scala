@@ -20,9 +20,9 @@ class ColorErrorSuite extends AnyFunSuite:
   private def radiosity(
       walls: Vector[Double],
       direct: Vector[Double],
-      lamp: Double
+      emitter: Double
   ): Vector[Double] =
-    var light = direct.map(_ * lamp)
+    var light = direct.map(_ * emitter)
     var sum = Vector.fill(6)(0.0)
     for _ <- 0 until depth do
       val sent = light.zip(walls).map(_ * _)
@@ -31,15 +31,15 @@ class ColorErrorSuite extends AnyFunSuite:
     sum
 
   private def error(
-      lamp: ColoredSpectrum,
+      emitter: ColoredSpectrum,
       direct: Vector[Double],
       walls: Vector[ColoredSpectrum]
   ): Double =
     val bySpectrum = wavelengths.indices.map: w =>
-      radiosity(walls.map(_.values(w)), direct, lamp.values(w))
+      radiosity(walls.map(_.values(w)), direct, emitter.values(w))
     val byComponent =
       Vector[Rgb => Float](_.r, _.g, _.b).map: c =>
-        radiosity(walls.map(x => c(x.components).toDouble), direct, c(lamp.components).toDouble)
+        radiosity(walls.map(x => c(x.components).toDouble), direct, c(emitter.components).toDouble)
     val errors =
       for face <- 0 until 6 yield
         val three = Rgb(
@@ -73,7 +73,7 @@ class ColorErrorSuite extends AnyFunSuite:
     Rgb(random.nextFloat, random.nextFloat, random.nextFloat)
       .map(c => brightness * (1 - saturation + saturation * c))
 
-  private def lamp(): ColoredSpectrum = random.nextInt(4) match
+  private def emitter(): ColoredSpectrum = random.nextInt(4) match
     case 0 => light(Spectrum.blackbody(unit(2000f, 9000f))(_))
     case 1 => light(Colorimetry.D65(_))
     case _ =>
@@ -91,11 +91,11 @@ class ColorErrorSuite extends AnyFunSuite:
   test("the error of a room is within the bound, which is not much larger", Slow):
     val found =
       for _ <- 0 until 400 yield
-        val bulb = lamp()
+        val bulb = emitter()
         val colors = Vector.fill(1 + random.nextInt(3))(wall())
         val walls =
           Vector.tabulate(6)(i => if i < 2 + colors.size && i >= 2 then colors(i - 2) else grey)
-        // Of each face, the light of the lamp that reaches it; some are in the shade
+        // Of each face, the light of the emitter that reaches it; some are in the shade
         val direct = Vector.fill(6)(Math.max(0.0, unit(-0.5f, 1f))).updated(0, 0.5)
         val exact = error(bulb, direct, walls)
         val bound = ColorError.bound(Seq(bulb), walls, basis, depth)

@@ -67,7 +67,7 @@ final class PbrtColorsSuite extends AnyFunSuite:
     for (name, wanted) <- PbrtColors.bySpace do
       val space = s"ColorSpace \"$name\""
       val lit = row(sun)((c, _) => s"$space\nMaterial \"diffuse\" \"rgb reflectance\" $c")
-      val lamps = row("")((c, _) =>
+      val emitters = row("")((c, _) =>
         s"$space\nAreaLightSource \"diffuse\" \"rgb L\" $c \"float scale\" 2.5 " +
           "\"bool twosided\" true"
       )
@@ -75,4 +75,4 @@ final class PbrtColorsSuite extends AnyFunSuite:
         compare(s"$name reflects, $mode", image(lit, mode), wanted.reflections, Tolerance + Noise)
       // Light of three numbers may be negative, reflectances may not
       for mode <- ColorMode.values do
-        compare(s"$name emits, $mode", image(lamps, mode), wanted.emissions, Tolerance + Noise)
+        compare(s"$name emits, $mode", image(emitters, mode), wanted.emissions, Tolerance + Noise)

@@ -25,12 +25,12 @@ class WavelengthsSuite extends AnyFunSuite:
       // The quadrature of 192 wavelengths, as above, and a table of spectra
       assert(relative(found, color) < 6e-3f, s"$found, not $color")
 
-  test("lamps have their colours, and bands between the observer's samples, too"):
+  test("emitters have their colours, and bands between the observer's samples, too"):
     val band = Spectrum(Array(551f, 552f, 558f, 559f), Array(0f, 1f, 1f, 0f), Spectrum.Outside.Zero)
-    for lamp <- Seq(Spectrum.blackbody(2400f), NamedSpectra("stdillum-F11").get, band) do
-      val color = Colorimetry.unitLuminance(lamp)
-      val bases = Wavelengths.covering(64, smooth, nm => 0.1 + lamp(nm))
-      val found = seen(bases)(_.ofLight(lamp(_), color))
+    for emitter <- Seq(Spectrum.blackbody(2400f), NamedSpectra("stdillum-F11").get, band) do
+      val color = Colorimetry.unitLuminance(emitter)
+      val bases = Wavelengths.covering(64, smooth, nm => 0.1 + emitter(nm))
+      val found = seen(bases)(_.ofLight(emitter(_), color))
       // Few of the 192 wavelengths lie in a band of 8 nm or the lines of a fluorescent lamp
       assert(relative(found, color) < 1e-2f, s"$found, not $color")
 

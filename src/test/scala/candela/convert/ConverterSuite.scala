@@ -45,7 +45,7 @@ object ConverterSuite:
   /** Of a quarter's mean: what noise alone makes of the same picture. */
   private val Most = 0.1
 
-  /** The demo; and what is too noisy in so few samples: fog, and caustics of small lamps. */
+  /** The demo; and what is too noisy in so few samples: fog, and caustics of small emitters. */
   private val LeftOut =
     Set("showcase", "v4-fog-gap") ++ Set("glass", "mist", "pool", "ring").map("v4-caustics-" + _)
 

@@ -186,12 +186,12 @@ class FromMitsubaSuite extends AnyFunSuite:
       assert(lost == Vector("pbrt has no wrap `mirror`; using `repeat`"))
     finally Files.delete(image)
 
-  test("lamps that pbrt can't hide are reported"):
+  test("area lights that pbrt can't hide are reported"):
     val hidden = "<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"true\"/>" +
       "</integrator>"
     val done = FromMitsuba.converted(read("", hidden))
     assert(done.warnings.map(_.message) ==
-      Vector("pbrt has no `hideemitters` of \"path\"; lamps and sky are visible"))
+      Vector("pbrt has no `hideemitters` of \"path\"; area lights and sky are visible"))
     assert(done.scene.integrator.get.param("hideemitters").isEmpty)
 
   test("a converted scene has pbrt's rules"):

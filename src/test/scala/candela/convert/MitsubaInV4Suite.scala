@@ -32,16 +32,16 @@ class MitsubaInV4Suite extends AnyFunSuite:
 
   private def sphere(bsdf: String) = s"<shape type=\"sphere\">$bsdf</shape>"
 
-  private val lamp = sphere("<bsdf type=\"null\"/><emitter type=\"area\"/>")
+  private val emitter = sphere("<bsdf type=\"null\"/><emitter type=\"area\"/>")
 
-  test("lamps that light passes become glass of index 1, since pbrt-v4 ignores their light"):
-    val done = converted(lamp + sphere("<bsdf type=\"null\"/>"))
+  test("area lights that light passes become glass of index 1, since pbrt-v4 ignores their light"):
+    val done = converted(emitter + sphere("<bsdf type=\"null\"/>"))
     assert(material(done).name == "dielectric")
     assert(material(done).param("eta").get.floats.toVector == Vector(1f))
     assert(material(done, 1).name == "interface" && done.warnings.isEmpty)
-    val shaded = converted(s"\n$lamp\n<emitter type=\"point\"/>").warnings
+    val shaded = converted(s"\n$emitter\n<emitter type=\"point\"/>").warnings
     assert(shaded.map(_.message) ==
-      Vector("pbrt-v4 has no lamps that light passes; this one casts shadows"))
+      Vector("pbrt-v4 has no area lights that light passes; this one casts shadows"))
     assert(shaded.head.at.map(_.line).contains(2) && shaded.head.help.get.contains(":3:1"))
 
   private def colored(light: String, wall: String) =

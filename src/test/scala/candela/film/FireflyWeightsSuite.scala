@@ -58,10 +58,10 @@ class FireflyWeightsSuite extends AnyFunSuite:
       assert(red(f.toImage(1f, isWhole = true), 11, 8) > brightness / 17)
       assert(f.leftOut > 0.2)
 
-  test("what is bright for all samples is kept: a lamp of one pixel, an edge"):
-    val lamp = film(16)((x, y, s) => if x == 9 && y == 9 then 5000 * noise(x, y, s) else 0.1f)
+  test("what is bright for all samples is kept: an emitter of one pixel, an edge"):
+    val emitter = film(16)((x, y, s) => if x == 9 && y == 9 then 5000 * noise(x, y, s) else 0.1f)
     val edge = film(16)((x, _, s) => if x > 9 || (x == 9 && s == 3) then 5000f else 0.1f)
-    for f <- Vector(lamp, edge) do
+    for f <- Vector(emitter, edge) do
       assert(f.toImage(1f).data.sameElements(f.toImage(1f, isWhole = true).data))
 
   test("light found by few samples comes back with more of them"):
@@ -125,6 +125,6 @@ class FireflyWeightsSuite extends AnyFunSuite:
     val dim = film(4)((_, _, _) => 1f)
     val bytes = 24L * side * side
     assert(dim.levels.get.memory == bytes)
-    // A lamp in the smaller tile, between two levels
+    // An emitter in the smaller tile, between two levels
     val lit = film(4)((x, _, _) => if x == 15 then 100f else 1f)
     assert(lit.levels.get.memory == bytes + 2 * 24L * 5 * side)

@@ -26,7 +26,7 @@ object Comparisons:
       "v4-spectral-fog",
       "blue fog around a warm bulb, a ball of dispersive glass, a coat of flint"
     ),
-    Comparison("v4-spectral-lamps", "lamps of many spectra on named metals and paints"),
+    Comparison("v4-spectral-lamps", "lights of many spectra on named metals and paints"),
     Comparison(
       "v4-color-spaces",
       "colours given in sRGB, DCI P3, BT.2020 and ACES2065-1; a film in BT.2020"

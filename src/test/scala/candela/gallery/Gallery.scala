@@ -2,12 +2,12 @@ package candela.gallery
 
 import java.nio.file.{Files, Path}
 
+import candela.aov.Layer
 import candela.base.Problem
 import candela.build.{Category, RenderSettings, SceneBuilder}
 import candela.build.recipe.Recipe
 import candela.image.{Image, ImageFiles, Oidn}
 import candela.job.Denoising
-import candela.layers.Layer
 import candela.render.{ReferenceScenes, Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser}
 

@@ -1,9 +1,9 @@
 package candela.gallery
 
+import candela.aov.Layer
 import candela.build.{LightGrouping, RenderRegion, RenderSettings, SceneBuilder}
 import candela.image.{ContactSheet, DisplayTransform, Image, ImageFiles}
 import candela.color.ToneCurve
-import candela.layers.Layer
 import candela.scenefile.Parser
 
 import java.nio.file.{Files, Path}

@@ -19,7 +19,7 @@ object Template:
       case "Texture (float)" => words.onFloor(Facing, 24, words.blend(text) + panel)
       case "Texture (spectrum)" => words.onFloor(Facing, 24, words.painted(text) + panel)
       case "LightSource" => words.lit(text)
-      case "AreaLightSource" => words.lit(s"$text\n$lamp")
+      case "AreaLightSource" => words.lit(s"$text\n$emitter")
       case "Camera" => words.seenBy(text)
       case "MakeNamedMedium" | "Volume" => words.foggy(text)
       case other => throw IllegalArgumentException(s"no template for $other")
@@ -44,7 +44,7 @@ AttributeBegin
 AttributeEnd"""
 
   /** Faces the things on the floor, and the camera. */
-  private val lamp = """Translate .8 .2 1.6
+  private val emitter = """Translate .8 .2 1.6
 Rotate 220 0 0 1
 Rotate 128 0 1 0
 Shape "disk" "float radius" .5"""

@@ -118,7 +118,7 @@ class GuideFieldSuite extends AnyFunSuite:
       // Each second one is the first of its path, which had found 3 before
       if i % 2 == 0 then
         found(GuideRecords.Total) = found(GuideRecords.Light) + 3f
-        found(GuideRecords.Before) = 3f
+        found(GuideRecords.EarlierLight) = 3f
       (if i % 3 == 0 then one else other).add(found)
     for i <- 0 until 40000 do (if i % 3 == 0 then one else other).countEvent(GuideField.side(Up))
     val counts = records.counts

@@ -21,8 +21,8 @@ class PhotonFieldSuite extends AnyFunSuite:
     MixtureDensity.check(mixture.pdf, mixture.sample)
 
   for (what, light) <- Vector(
-      "a lamp at the surface that photons left last" -> Vec3(0.2f, 1f, -0.1f),
-      "a lamp behind that surface" -> Vec3(0.2f, 3f, -0.1f),
+      "an emitter at the surface that photons left last" -> Vec3(0.2f, 1f, -0.1f),
+      "an emitter behind that surface" -> Vec3(0.2f, 3f, -0.1f),
       "a sun" -> Vec3(2e4f, 1e5f, -1e4f)
     )
   do
@@ -32,9 +32,9 @@ class PhotonFieldSuite extends AnyFunSuite:
       // Lobes of 0.003 are as dense as 17,700
       assert(densities.min > 2000f, densities)
 
-  test("without neighbours of their paths, photons know no lamp behind the surface"):
-    val lamp = Vec3(0.2f, 3f, -0.1f)
-    def typical(knows: Boolean) = densitiesTo(lamp, lit(lamp, knows)).sorted.apply(32)
+  test("without neighbours of their paths, photons know no emitter behind the surface"):
+    val emitter = Vec3(0.2f, 3f, -0.1f)
+    def typical(knows: Boolean) = densitiesTo(emitter, lit(emitter, knows)).sorted.apply(32)
     assert(typical(true) > 4 * typical(false))
 
   test("where no photon arrives, no direction is aimed at"):
@@ -59,7 +59,7 @@ private object PhotonFieldSuite:
 
   def place(draws: Draws): Vec3 = Vec3(draws.between(-1f, 1f), 0f, draws.between(-1f, 1f))
 
-  /** Photons of a point lamp on the ground, which they reach by way of the plane y = 1. */
+  /** Photons of a point light on the ground, which they reach by way of the plane y = 1. */
   def lit(light: Vec3, knowsChange: Boolean): PhotonField =
     val draws = Draws(2)
     val photons = FieldPhotons()

@@ -205,7 +205,7 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val whole = Exr.read(Exr.write(image, Vector.empty))
     assert(whole.channelNames == names && whole.data.sameElements(data))
     val file = Exr.write(image, Vector.empty, WriteOptions(isHalf = true))
-    assert(ExrHeader.parts(file).head.channels.forall(_.pixelType == ExrHeader.Half))
+    assert(ExrHeader.parts(file).head.channels.forall(_.pixelType == ExrHeader.HalfFloat))
     val half = Exr.read(file)
     assert(half.channelNames == names)
     assert(half.data(4) == 65504f && half.data(5) == Float.PositiveInfinity)
@@ -232,7 +232,7 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val image = Image(1, 1, Image.RgbNames :+ "Z", Array(0.1f, 0.2f, 0.3f, 0.4f))
     def types(options: WriteOptions) =
       ExrHeader.parts(Exr.write(image, Vector.empty, options)).head.channels
-        .map(c => c.name -> (c.pixelType == ExrHeader.Half)).toMap
+        .map(c => c.name -> (c.pixelType == ExrHeader.HalfFloat)).toMap
     val floatDepth = types(WriteOptions(isHalf = true, others = Map("Z" -> false)))
     assert(floatDepth == Map("R" -> true, "G" -> true, "B" -> true, "Z" -> false))
     val halfDepth = types(WriteOptions(others = Map("Z" -> true)))

@@ -105,10 +105,10 @@ final class DirectLightSuite extends AnyFunSuite:
     test(s"\"$name\" sees lights in a plain mirror, and the light's shape itself"):
       val mirror = """Material "mirror" "rgb Kr" [0.8 0.8 0.8]"""
       assertRadiance(LitPlane.scene(s"\"$name\"", spp = 1, sky, mirror), 0.8f, Exact)
-      val lamp = LitPlane.scene(
+      val emitter = LitPlane.scene(
         s"\"$name\"",
         spp = 1,
         lights = "AreaLightSource \"diffuse\" \"rgb L\" [5 5 5]",
         material = LitPlane.matte(0)
       )
-      assertRadiance(lamp, 5f, Exact)
+      assertRadiance(emitter, 5f, Exact)

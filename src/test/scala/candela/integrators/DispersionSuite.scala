@@ -24,7 +24,9 @@ class DispersionSuite extends BsdfLaws:
       "Shape \"disk\" \"float radius\" 3 \"float height\" -1\n" +
       s"Material \"dielectric\" $eta\nShape \"sphere\"\n"
 
-  /** A lamp behind a ball of glass: how much of it is seen depends on where the ball focuses. */
+  /** An emitter behind a ball of glass: how much of it is seen depends on where the ball
+    * focuses.
+    */
   private def lens(eta: String): String =
     s"""LookAt 0 -4 0  0 0 0  0 0 1
        |Camera "orthographic" "float screenwindow" [-.6 .6 -.6 .6]

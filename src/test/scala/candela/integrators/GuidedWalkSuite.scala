@@ -140,7 +140,7 @@ final class GuidedWalkSuite extends AnyFunSuite:
 private object GuidedWalkSuite:
   val Seeds = 64
 
-  /** A box divided by a wall with a gap; the lamp is behind it. Spheres are matte,
+  /** A box divided by a wall with a gap; the emitter is behind it. Spheres are matte,
     * rough metal, coated and of glass.
     */
   def rooms(dialect: Dialect, fog: String = ""): String =

@@ -42,10 +42,10 @@ class HeadlightSuite extends AnyFunSuite:
     val turned = color(s"Rotate 60 0 1 0 $paint Shape \"disk\" \"float radius\" 4")
     assertClose(turned, Rgb(.2f, .4f, .6f) * 0.6f)
 
-  test("lamps are white, whatever their power; the background is dark, whatever is there"):
-    val lamp = """AreaLightSource "diffuse" "rgb L" [900 5 5]"""
+  test("emitters are white, whatever their power; the background is dark, whatever is there"):
+    val emitter = """AreaLightSource "diffuse" "rgb L" [900 5 5]"""
     // A disk's outside is towards +z
-    assertClose(color(s"Rotate 180 0 1 0 $lamp $paint Shape \"disk\""), Rgb.White)
+    assertClose(color(s"Rotate 180 0 1 0 $emitter $paint Shape \"disk\""), Rgb.White)
     assertClose(color("""LightSource "infinite" "rgb L" [90 90 90]"""), Rgb.gray(0.05f))
 
   test("the boundary of a medium shows where nothing is behind it"):

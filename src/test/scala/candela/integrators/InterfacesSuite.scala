@@ -11,12 +11,12 @@ import candela.testing.SceneTexts
 
 import java.nio.file.Files
 
-/** A floor under a lamp, with a surface between them that paths pass: each integrator stops light
-  * samples there where its own program does. The values are those programs'.
+/** A floor under an emitter, with a surface between them that paths pass: each integrator stops
+  * light samples there where its own program does. The values are those programs'.
   */
 final class InterfacesSuite extends AnyFunSuite:
 
-  private def pbrt(isV4: Boolean, integrator: String, lamp: String, spp: Int): String =
+  private def pbrt(isV4: Boolean, integrator: String, emitter: String, spp: Int): String =
     val matte = if isV4 then "\"diffuse\" \"rgb reflectance\"" else "\"matte\" \"rgb Kd\""
     val clear = if isV4 then "\"interface\"" else "\"none\""
     val p = if isV4 then "point3" else "point"
@@ -27,12 +27,12 @@ final class InterfacesSuite extends AnyFunSuite:
          |Translate 0 4 0
          |Shape "sphere" "float radius" .7
          |AttributeEnd""".stripMargin
-    val light = lamp match
+    val light = emitter match
       case "point" => s"""LightSource "point" "$p from" [0 4 0] "rgb I" [10 10 10]"""
       case "infinite" => "LightSource \"infinite\" \"rgb L\" [.5 .5 .5]"
       case "clear" => ball(clear)
       case _ => ball(s"$matte [0 0 0]")
-    val place = if lamp == "enclosed" then "0 4 0" else "0 2 0"
+    val place = if emitter == "enclosed" then "0 4 0" else "0 2 0"
     s"""LookAt 0 5 -5  0 .5 0  0 1 0
        |Camera "perspective" "float fov" 40
        |Film "${if isV4 then "rgb" else "image"}" "integer xresolution" 24 "integer yresolution" 24
@@ -47,7 +47,7 @@ final class InterfacesSuite extends AnyFunSuite:
        |  "$p P" [-5 0 -5  5 0 -5  5 0 5  -5 0 5]
        |Material $clear
        |Translate $place
-       |Shape "sphere" "float radius" ${if lamp == "enclosed" then "1.2" else "1"}
+       |Shape "sphere" "float radius" ${if emitter == "enclosed" then "1.2" else "1"}
        |""".stripMargin
 
   private def near(found: Float, judged: Double, tolerance: Double): Assertion =
@@ -70,21 +70,21 @@ final class InterfacesSuite extends AnyFunSuite:
       (true, "volpath", Seq(0.05716, 0.04400, 0.04400, -1.0, 0.28026)),
       (true, "bdpt", Seq(0.05717, 0.04394, 0.04394, -1.0, 0.28024))
     )
-    (lamp, judged) <- Seq("point", "area", "enclosed", "clear", "infinite").zip(values)
+    (emitter, judged) <- Seq("point", "area", "enclosed", "clear", "infinite").zip(values)
     if judged >= 0
   do
     val dialect = if isV4 then Dialect.V4 else Dialect.V3
-    test(s"\"$integrator\" of $dialect lights a floor behind an interface as pbrt: $lamp"):
-      // Where paths alone find the lamp, of which a tenth of the directions meet it
+    test(s"\"$integrator\" of $dialect lights a floor behind an interface as pbrt: $emitter"):
+      // Where paths alone find the emitter, of which a tenth of the directions meet it
       val isRare = isV4 && Set("path", "simplepath", "lightpath")(integrator)
-      val scene = pbrt(isV4, integrator, lamp, if isRare then 256 else 64)
+      val scene = pbrt(isV4, integrator, emitter, if isRare then 256 else 64)
       // Deviations of 0.5 to 1 %
       near(SceneTexts.mean(scene, dialect).g, judged, if isRare then 0.04 else 0.02)
 
-  private def mitsuba(integrator: String, pane: String, lamp: String): String =
+  private def mitsuba(integrator: String, pane: String, emitter: String): String =
     def diffuse(r: String) =
       s"""<bsdf type="diffuse"><rgb name="reflectance" value="$r"/></bsdf>"""
-    val light = lamp match
+    val light = emitter match
       case "point" => """<emitter type="point"><point name="position" x="0" y="4" z="0"/>
         <rgb name="intensity" value="10,10,10"/></emitter>"""
       case "area" => s"""<shape type="sphere"><point name="center" x="0" y="4" z="0"/>
@@ -130,11 +130,11 @@ final class InterfacesSuite extends AnyFunSuite:
       ("ptracer", "null", Seq(0.04325, 0.03302, 0.19756)),
       ("ptracer", "mask", Seq(0.02218, 0.01725, 0.18216))
     )
-    (lamp, judged) <- Seq("point", "area", "constant").zip(values)
+    (emitter, judged) <- Seq("point", "area", "constant").zip(values)
   do
-    test(s"\"$integrator\" lights a floor behind a `$pane` as Mitsuba: $lamp"):
-      // Deviations of up to 1.3 %, where paths alone find the lamp
-      val found = rendered(mitsuba(integrator, pane, lamp))._1
+    test(s"\"$integrator\" lights a floor behind a `$pane` as Mitsuba: $emitter"):
+      // Deviations of up to 1.3 %, where paths alone find the emitter
+      val found = rendered(mitsuba(integrator, pane, emitter))._1
       assert(Math.abs(found - judged) < 0.05 * judged + 1e-4, s"$found, expected $judged")
 
   test("the first surface that stops light samples is named, and only where one does"):

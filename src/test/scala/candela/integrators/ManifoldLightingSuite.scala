@@ -34,7 +34,7 @@ final class ManifoldLightingSuite extends AnyFunSuite:
         ReverseOrientation Shape "disk" "float height" .3 "float radius" 9"""
     )
   do
-    test(s"walks find of a tiny lamp what paths find of a large one, on a wall, too: $what", Slow):
+    test(s"walks find of a tiny light what paths find of a large one, on a wall, too: $what", Slow):
       val walked = plan(scene(s"$wall $surface", ball(0.0005)), CausticsMode.Auto, 64)
       assert(walks(walked))
       val found = image(walked)
@@ -74,8 +74,8 @@ private object ManifoldLightingSuite:
         Material "diffuse" "rgb reflectance" [.8 .8 .8]
         Shape "disk" "float radius" .48 AttributeEnd"""
 
-  /** A floor beneath the surface. The mirror image of the lamp is out of view. */
-  private def scene(surface: String, lamp: String) =
+  /** A floor beneath the surface. The mirror image of the emitter is out of view. */
+  private def scene(surface: String, emitter: String) =
     s"""LookAt 0 -1.5 3.2  0 0 0  0 0 1
        |Camera "perspective" "float fov" 18
        |Film "rgb" "integer xresolution" 32 "integer yresolution" 16
@@ -83,7 +83,7 @@ private object ManifoldLightingSuite:
        |Sampler "independent"
        |Integrator "path" "integer maxdepth" 5
        |WorldBegin
-       |$lamp
+       |$emitter
        |Material "diffuse" "rgb reflectance" [.6 .6 .6]
        |Shape "disk" "float radius" 9
        |Material "dielectric" "float eta" 1.33

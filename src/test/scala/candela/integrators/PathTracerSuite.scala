@@ -67,7 +67,7 @@ final class PathTracerSuite extends AnyFunSuite:
     assert(Math.abs(seen - bounces(0.5f, 2)) < 0.01f * seen) // as above
 
   /** A matte disk that the whole view shows, lit by a sphere, which `around` may enclose. */
-  private def lampAbove(integrator: String, around: String, dialect: Dialect): String =
+  private def emitterAbove(integrator: String, around: String, dialect: Dialect): String =
     val isV4 = dialect == Dialect.V4
     s"""LookAt 0 -6 3  0 0 0  0 0 1
        |Camera "perspective" "float fov" 10
@@ -86,12 +86,12 @@ final class PathTracerSuite extends AnyFunSuite:
        |${if isV4 then "" else "WorldEnd"}
        |""".stripMargin
 
-  test("a lamp inside an interface lights a disk as a bare one does, found by paths alone"):
+  test("an emitter inside an interface lights a disk as a bare one does, found by paths alone"):
     val interface = "Material \"interface\"\nShape \"sphere\" \"float radius\" 1.4"
     val path = "\"path\" \"integer maxdepth\" 1"
-    val bare = SceneTexts.mean(lampAbove(path, "", Dialect.V4), Dialect.V4).g
-    val enclosed = SceneTexts.mean(lampAbove(path, interface, Dialect.V4), Dialect.V4).g
-    // 65,536 directions, of which a tenth hits the lamp: a deviation of 1.2 %
+    val bare = SceneTexts.mean(emitterAbove(path, "", Dialect.V4), Dialect.V4).g
+    val enclosed = SceneTexts.mean(emitterAbove(path, interface, Dialect.V4), Dialect.V4).g
+    // 65,536 directions, of which a tenth hits the emitter: a deviation of 1.2 %
     assert(bare > 0.02f && Math.abs(enclosed - bare) < 0.05f * bare, s"$enclosed, bare $bare")
 
   for dialect <- Seq(Dialect.V3, Dialect.V4) do

@@ -2,8 +2,8 @@ package candela.integrators
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.aov.Layer
 import candela.build.RenderSettings
-import candela.layers.Layer
 import candela.render.Renderer
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
@@ -93,7 +93,7 @@ final class SimplePathTracerSuite extends AnyFunSuite:
     for integrator <- Seq("\"randomwalk\"", "\"simplepath\" \"bool samplebsdf\" false") do
       assert(Math.abs(mean(disk(integrator, sky, sheet)) - 0.5f) < 0.02f, integrator) // noise
 
-  /** Fog around a lamp. */
+  /** Fog around an emitter. */
   private def fog(integrator: String): String =
     s"""LookAt 0 -4 0  0 0 0  0 0 1
        |Camera "perspective" "float fov" 30
@@ -118,7 +118,7 @@ final class SimplePathTracerSuite extends AnyFunSuite:
     val full = mean(fog("\"volpath\""))
     assert(simple >= full * 0.99f && simple < full * 1.03f, s"$simple, volpath $full")
 
-  /** A floor and a wall that a lamp and a spot light, without a sky. */
+  /** A floor and a wall that an emitter and a spot light, without a sky. */
   private def corner(integrator: String, spp: Int): String =
     s"""LookAt 0 -6 3  0 0 .8  0 0 1
        |Camera "perspective" "float fov" 36
@@ -133,7 +133,7 @@ final class SimplePathTracerSuite extends AnyFunSuite:
        |Shape "disk" "float radius" .5
        |""".stripMargin
 
-  test("light tracing alone sees matte surfaces and lamps as path tracing does"):
+  test("light tracing alone sees matte surfaces and emitters as path tracing does"):
     val light = mean(corner("\"lightpath\"", 2048))
     val path = mean(corner("\"path\"", 512))
     // 131,072 light paths that deviate by twice the mean, 32,768 paths by less than it: 0.5 % each

@@ -88,10 +88,10 @@ final class VolumeMarchSuite extends AnyFunSuite:
   for surface <- Seq("path", "directlighting", "igi", "photonmap") do
     test(s"$surface: a sphere of a material that pbrt-v2 doesn't know, such as none, is matte"):
       val volume = """"homogeneous" "color sigma_s" [.1 .3 0] "color sigma_a" [.2 0 0]"""
-      val lamp = """"point" "point from" [0 .2 .5] "color I" [9 9 9]"""
+      val emitter = """"point" "point from" [0 .2 .5] "color I" [9 9 9]"""
       val floor = s"""${LitPlane.matte()} Shape "disk" "float radius" 5 "float height" -3"""
       def seen(shapes: String) =
-        SceneTexts.mean(boxed(surface, volume, lamp, floor + shapes), Dialect.V2)
+        SceneTexts.mean(boxed(surface, volume, emitter, floor + shapes), Dialect.V2)
       val c = seen(""" Material "matte" Shape "sphere"""")
       assert(c != seen(""), c)
       for name <- Seq("none", "", "interface") do

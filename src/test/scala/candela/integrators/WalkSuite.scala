@@ -14,7 +14,7 @@ import org.scalatest.funsuite.AnyFunSuite
 final class WalkSuite extends AnyFunSuite:
   import WalkSuite.*
 
-  /** A triangle in the plane z = 0, and a lamp above it. */
+  /** A triangle in the plane z = 0, and an emitter above it. */
   private val scene =
     val light = PointLight(Vec3(0f, 0f, 1f), Rgb.White)
     val triangle = (Vec3(-2f, -1f, 0f), Vec3(2f, -1f, 0f), Vec3(0f, 2f, 0f))

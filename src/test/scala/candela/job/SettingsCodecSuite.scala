@@ -1,5 +1,6 @@
 package candela.job
 
+import candela.aov.Layer
 import candela.build.*
 import candela.build.sampling.PointChoice
 import candela.color.ToneCurve
@@ -7,7 +8,6 @@ import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.image.{DisplayTransform, Exposure}
-import candela.layers.Layer
 import candela.scenefile.Dialect
 
 import org.scalacheck.Gen

@@ -10,8 +10,8 @@ import candela.testing.SceneTexts
 
 import java.nio.file.{Files, Path}
 
-/** Photometric files: what they say of directions, what bad ones are told, and lamps made from them
-  * beside those of images.
+/** Photometric files: what they say of directions, what bad ones are told, and lights made from
+  * them beside those of images.
   */
 final class IesSuite extends AnyFunSuite:
 
@@ -46,19 +46,19 @@ final class IesSuite extends AnyFunSuite:
     assert(Math.abs(found - expected) < 0.01 * Math.abs(expected) + 0.01, s"$found, not $expected")
 
   test("type C counts from the nadir, interpolates, and is dark beyond its angles"):
-    val lamp = read(file("0 30 90" -> "0", "100, 80\n0"))
+    val light = read(file("0 30 90" -> "0", "100, 80\n0"))
     for (v, cd) <- Seq(0.0 -> 100.0, 15.0 -> 90.0, 30.0 -> 80.0, 60.0 -> 40.0, 91.0 -> 0.0) do
-      for h <- Seq(0, 77, 200) do near(lamp(polar(v, h)), cd)
+      for h <- Seq(0, 77, 200) do near(light(polar(v, h)), cd)
     val uplight = read(file("90 180" -> "0", "0 50"))
     near(uplight(Vec3(0, 1, 0)), 50)
     near(uplight(polar(135, 10)), 25)
     near(uplight(polar(80, 10)), 0)
 
-  test("half, a quarter, and all of the planes are complete lamps"):
+  test("half, a quarter, and all of the planes are complete lights"):
     def around(planes: String, values: String) =
-      val lamp =
+      val light =
         read(file("0 90 180" -> planes, values.split(" ").map(v => s"5 $v 5").mkString(" ")))
-      (h: Double) => lamp(polar(90, h))
+      (h: Double) => light(polar(90, h))
     val quarter = around("0 45 90", "10 20 30")
     for (h, cd) <- Seq(0 -> 10, 90 -> 30, 135 -> 20, 180 -> 10, 225 -> 20, 270 -> 30, 315 -> 20) do
       near(quarter(h), cd)
@@ -105,10 +105,10 @@ final class IesSuite extends AnyFunSuite:
 
   test("a table of tilts is skipped, with a word; negative candelas are dark"):
     val tilted = "IESNA:LM-63-2002\nTILT=INCLUDE\n1\n3\n0 45 90\n1 .9 .8"
-    val lamp = IesFile.parse("lamp.ies", file("0 90" -> "0", "100 -1", head = tilted))
-    near(lamp.photometry(Vec3(0, -1, 0)), 100)
+    val light = IesFile.parse("lamp.ies", file("0 90" -> "0", "100 -1", head = tilted))
+    near(light.photometry(Vec3(0, -1, 0)), 100)
     assert(
-      lamp.notes == Vector(
+      light.notes == Vector(
         "lamp.ies:2: `TILT=INCLUDE` is ignored: the lamp is not tilted",
         "lamp.ies:11: negative candelas are read as 0"
       )
@@ -134,8 +134,8 @@ final class IesSuite extends AnyFunSuite:
     assert(error(good.replace(" 3 1 1 2", " -3 1 1 2")).contains("the number of vertical angles"))
     assert(error("").contains("TILT=NONE"))
 
-  /** A floor below the lamp. */
-  private def scene(isV4: Boolean, lamp: String): String =
+  /** A floor below the light. */
+  private def scene(isV4: Boolean, light: String): String =
     val matte = if isV4 then "\"diffuse\" \"rgb reflectance\"" else "\"matte\" \"rgb Kd\""
     val p = if isV4 then "point3" else "point"
     s"""LookAt 0 5 -5  0 .5 0  0 1 0
@@ -146,7 +146,7 @@ final class IesSuite extends AnyFunSuite:
        |WorldBegin
        |AttributeBegin
        |Translate 0 2 0
-       |LightSource "goniometric" $lamp
+       |LightSource "goniometric" $light
        |AttributeEnd
        |Material $matte [.5 .5 .5]
        |Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
@@ -160,7 +160,7 @@ final class IesSuite extends AnyFunSuite:
       Files.list(folder).forEach(Files.delete)
       Files.delete(folder)
 
-  test("a lamp lights a room as goniometric images of its distribution do, and by its power"):
+  test("a file lights a room as goniometric images of its distribution do, and by its power"):
     inFolder: folder =>
       val text = file(
         "0 20 40 60 90" -> "0 45 90",
@@ -168,16 +168,16 @@ final class IesSuite extends AnyFunSuite:
       )
       val ies = folder.resolve("Lamp.IES")
       Files.writeString(ies, text)
-      val lamp = read(text)
+      val light = read(text)
       val square = folder.resolve("lamp-square.exr")
       val side = 512
       val map = candela.image.Image.rgb(side, side)
       for y <- 0 until side; x <- 0 until side; c <- 0 until 3 do
         val d = EqualAreaMap.toDirection((x + 0.5f) / side, (y + 0.5f) / side)
-        map.data((y * side + x) * 3 + c) = lamp(Vec3(d.x, d.z, d.y))
+        map.data((y * side + x) * 3 + c) = light(Vec3(d.x, d.z, d.y))
       ImageFiles.write(square, map)
       val flat = folder.resolve("lamp-flat.exr")
-      ImageFiles.write(flat, lamp.image)
+      ImageFiles.write(flat, light.image)
       def seen(isV4: Boolean, of: Path, more: String = "") =
         val name = if isV4 then "filename" else "mapname"
         SceneTexts.mean(

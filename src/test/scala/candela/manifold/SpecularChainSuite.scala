@@ -29,14 +29,14 @@ final class SpecularChainSuite extends AnyFunSuite:
       above / square(Math.cos(out)) * n * Math.cos(angle) / Math.cos(out)
     near(chain.spread, Math.sin(angle) / (reach * perAngle * Math.cos(out)))
 
-  test("in a flat mirror a lamp is seen at its virtual image"):
+  test("in a flat mirror an emitter is seen at its virtual image"):
     val chain = chainTo(Vec3(0f, 0f, 1f), Vec3(1f, 0f, 2f), flat(Mirror(Rgb.White)))
     found(chain)
     near(chain.direction.x, 1.0 / Math.sqrt(10.0))
     near(chain.spread, 1.0 / 10.0)
     assert(chain.events == 1)
 
-  test("a distant lamp is seen in a flat mirror as it is"):
+  test("a distant emitter is seen in a flat mirror as it is"):
     val chain = chainTo(Vec3(0f, 0f, 1f), Vec3(0.6f, 0f, 0.8f), flat(Mirror(Rgb.White)), true)
     found(chain)
     near(chain.direction.z, -0.8)
@@ -63,18 +63,18 @@ final class SpecularChainSuite extends AnyFunSuite:
   test("a surface of interpolated normals spreads light as those of its neighbours do, traced"):
     val scene = hill(glass(1.33f), flipped = false)
     val x = Vec3(0.05f, 0.02f, -1f)
-    def through(lamp: Vec3): Vec3 =
-      val chain = chainTo(x, lamp, scene)
+    def through(emitter: Vec3): Vec3 =
+      val chain = chainTo(x, emitter, scene)
       found(chain, c => Math.abs(c.direction.x) < 0.3f && c.events == 1)
       chain.direction.toVec3
-    val lamp = Vec3(0.2f, 0.1f, 1.5f)
-    val chain = chainTo(x, lamp, scene)
+    val emitter = Vec3(0.2f, 0.1f, 1.5f)
+    val chain = chainTo(x, emitter, scene)
     found(chain, c => Math.abs(c.direction.x) < 0.3f && c.events == 1)
     val step = 2e-3f
-    val along = through(lamp + Vec3(step, 0f, 0f)) - through(lamp + Vec3(-step, 0f, 0f))
-    val across = through(lamp + Vec3(0f, step, 0f)) - through(lamp + Vec3(0f, -step, 0f))
+    val along = through(emitter + Vec3(step, 0f, 0f)) - through(emitter + Vec3(-step, 0f, 0f))
+    val across = through(emitter + Vec3(0f, step, 0f)) - through(emitter + Vec3(0f, -step, 0f))
     val seen = (along cross across).length / square(2f * step)
-    val facing = chain.toLamp.z
+    val facing = chain.toEmitter.z
     // Differences of directions that are known to 1e-6, of a step of 4e-3
     assert(Math.abs(chain.spread * facing / seen - 1) < 0.02, s"${chain.spread * facing}, $seen")
 
@@ -100,7 +100,7 @@ final class SpecularChainSuite extends AnyFunSuite:
     ("a grazing way", flat(glass(1.33f)), Vec3(-50f, 0f, -0.01f), Vec3(50f, 0f, 0.01f)),
     ("the focus of a ball", ball(glass(2f)), Vec3(0f, 0f, -1f), Vec3(0f, 0f, 1e5f)),
     ("an index close to 1", ball(glass(1.00001f)), Vec3(0f, 0f, -2f), Vec3(0f, 0f, 2f)),
-    ("a lamp inside the glass", ball(glass(1.5f)), Vec3(0f, 0f, -3f), Vec3(0.2f, 0f, 0f)),
+    ("an emitter inside the glass", ball(glass(1.5f)), Vec3(0f, 0f, -3f), Vec3(0.2f, 0f, 0f)),
     (
       "thousands of facets",
       hill(glass(1.33f), smooth = false),
@@ -109,11 +109,11 @@ final class SpecularChainSuite extends AnyFunSuite:
     ),
     ("normals that point away", hill(glass(1.33f), away = true), Vec3(0f, 0f, -1f), Vec3.Z),
     ("a point on the glass", ball(glass(1.5f)), Vec3(0f, 0f, -1f), Vec3(0f, 0f, 2f)),
-    ("a lamp where x is", flat(Mirror(Rgb.White)), Vec3(0f, 0f, 1f), Vec3(0f, 0f, 1f))
+    ("an emitter where x is", flat(Mirror(Rgb.White)), Vec3(0f, 0f, 1f), Vec3(0f, 0f, 1f))
   )
-  for (name, scene, x, lamp) <- hard do
+  for (name, scene, x, emitter) <- hard do
     test(s"$name is survived: walks end, and what they find is a number"):
-      val chain = chainTo(x, lamp, scene)
+      val chain = chainTo(x, emitter, scene)
       val random = stream(5)
       for _ <- 1 to 300 do
         if chain.find(random) then
@@ -136,12 +136,12 @@ private object SpecularChainSuite:
     val random = stream(1)
     assert((1 to 3000).exists(_ => chain.find(random) && suits(chain)))
 
-  def chainTo(x: Vec3, lamp: Vec3, scene: Scene, isFar: Boolean = false): SpecularChain =
+  def chainTo(x: Vec3, emitter: Vec3, scene: Scene, isFar: Boolean = false): SpecularChain =
     val chain = SpecularChain(scene)
     val at = ShadingPoint()
     at.p = x
     chain.begin(at, 0f, most = 2)
-    chain.aim(lamp, isFar)
+    chain.aim(emitter, isFar)
     chain
 
   /** The square of side 200 in the plane z = 0. */

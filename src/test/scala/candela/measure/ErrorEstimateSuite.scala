@@ -136,15 +136,15 @@ class ErrorEstimateSuite extends AnyFunSuite:
           image.data(i) = if i / 3 < noisy then random.nextFloat() else 0.5f
         val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), isLast = false)
       assert(estimate.interval(4).get.isBounded != estimate.isOfFew)
-      // A lamp's edge in a pixel: the next estimate may be a thousandth
+      // An emitter's edge in a pixel: the next estimate may be a thousandth
       val end = estimate.samplesUntil(estimate.at(4).get.relativeMse / 1000).get
       assert((end.low == 4 && end.high.isInfinite) == estimate.isOfFew)
       estimate.isOfFew
     // Of 2304 pixels a third or less counts, as few halves differ much
     assert(!isOfFew(side * side) && isOfFew(9))
 
-  test("an edge of a lamp before black is no certain error"):
-    // A pixel has a hundredth of a lamp of 2000, all others are dim and slightly noisy
+  test("an edge of an emitter before black is no certain error"):
+    // A pixel has a hundredth of an emitter of 2000, all others are dim and slightly noisy
     val random = scala.util.Random(9)
     val sums = new Array[Double](side * side * 3)
     val estimate = ErrorEstimate()

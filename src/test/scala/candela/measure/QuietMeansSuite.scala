@@ -13,14 +13,14 @@ class QuietMeansSuite extends AnyFunSuite:
   /** Its value is that of one sample. */
   private def lone(x: Int, y: Int, value: Float) = Lone(x, y, value, value)
 
-  /** The mean of each pixel of an image of one channel, of which the left three columns see a lamp.
-    * Both are quiet.
+  /** The mean of each pixel of an image of one channel, of which the left three columns see an
+    * emitter. Both are quiet.
     */
-  private def means(dark: Float, lamp: Float, others: Lone*): (Int, Int) => Double =
+  private def means(dark: Float, emitter: Float, others: Lone*): (Int, Int) => Double =
     val image = Image(width, height, Vector("Y"), new Array(width * height))
     val variance = new Array[Float](image.data.length)
     for i <- image.data.indices do
-      image.data(i) = if i % width < 3 then lamp else dark
+      image.data(i) = if i % width < 3 then emitter else dark
       variance(i) = 1e-4f * image.data(i) * image.data(i)
     for o <- others do
       image.data(o.y * width + o.x) = o.value
@@ -29,7 +29,7 @@ class QuietMeansSuite extends AnyFunSuite:
     // The weight is 1 / (mean + 0.01)²
     (x, y) => 1 / Math.sqrt(found.weight(y * width + x)) - 0.01
 
-  test("the noisiest pixel at the edge of a lamp before black has its own mean over the root of 2"):
+  test("the noisiest pixel at a light's edge before black has its own mean over the root of 2"):
     for dark <- Vector(0f, 0.04f, 1f) do
       val found = means(dark, 2000, lone(3, 2, 125))
       assert(Math.abs(found(3, 2) / (125 / Math.sqrt(2)) - 1) < 1e-4, dark)
@@ -48,19 +48,19 @@ class QuietMeansSuite extends AnyFunSuite:
       // Itself counts twice the others at most
       assert(Math.abs(found(3, 2) - dark * 26 / 25) < 1e-3 * (dark + 1), dark)
 
-  test("one that is brighter than the lamp beside it is a firefly"):
+  test("one that is brighter than the emitter beside it is a firefly"):
     assert(means(0.04f, 10, lone(3, 2, 125))(3, 2) < 7)
 
-  test("one that is not beside the lamp is a firefly"):
+  test("one that is not beside the emitter is a firefly"):
     assert(means(0.04f, 2000, lone(4, 2, 125))(4, 2) < 0.1)
 
-  test("a noisy neighbour is no lamp"):
+  test("a noisy neighbour is no emitter"):
     def found(deviation: Float) =
       means(0.04f, 0.04f, lone(3, 2, 125), Lone(2, 2, 2000, deviation))(3, 2)
     // More than three deviations apart, the second with a variance of 1 %
     assert(found(500) < 0.1 && found(200) > 80)
 
-  test("a quiet neighbour that is darker is no lamp"):
+  test("a quiet neighbour that is darker is no emitter"):
     val found = means(0.04f, 0.04f, Lone(3, 2, 100, 25), Lone(5, 2, 30, 20))
     // A relative variance of 1/16 takes a fourth of the surroundings: of 30, and twice that
     assert(Math.abs(found(3, 2) - (100 - 55 * 0.25)) < 0.1)

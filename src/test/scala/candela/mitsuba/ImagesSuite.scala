@@ -4,14 +4,14 @@ import candela.color.Rgb
 
 import java.nio.file.{Files, Path}
 
-/** Where images lie on shapes and lamps, against Mitsuba 3.9.1. */
+/** Where images lie on shapes and emitters, against Mitsuba 3.9.1. */
 final class ImagesSuite extends MitsubaPictures:
   private val chart = Path.of("scenes/textures/chart.png").toAbsolutePath
 
   private def image(use: String, more: String = "") =
     s"<texture type=\"bitmap\" name=\"$use\">" +
       s"<string name=\"filename\" value=\"$chart\"/>$more</texture>"
-  private def lamp(more: String = "") =
+  private def emitter(more: String = "") =
     s"<emitter type=\"area\">${image("radiance", more)}</emitter>"
   private def shape(kind: String, within: String) = s"<shape type=\"$kind\">$within</shape>"
 
@@ -24,14 +24,14 @@ final class ImagesSuite extends MitsubaPictures:
   test("an image that emits repeats, interpolates across its border, and lies as to_uv places it"):
     val turned = "<transform name=\"to_uv\"><rotate z=\"1\" angle=\"20\"/>" +
       "<scale x=\"2.3\" y=\"-1.5\"/></transform>"
-    def seen(more: String) = view(8, 256) + shape("rectangle", lamp(more))
+    def seen(more: String) = view(8, 256) + shape("rectangle", emitter(more))
     def word(name: String, value: String) = s"<string name=\"$name\" value=\"$value\"/>"
     agrees(seen(""), Rgb(0.41379f, 0.39466f, 0.42864f))
     agrees(seen(turned), Rgb(0.57024f, 0.493f, 0.54209f))
     agrees(seen(turned + word("wrap_mode", "mirror")), Rgb(0.6058f, 0.69737f, 0.3769f))
     agrees(seen(turned + word("wrap_mode", "clamp")), Rgb(0.60818f, 0.25818f, 0.6446f))
     agrees(seen(turned + word("filter_type", "nearest")), Rgb(0.57038f, 0.49281f, 0.54185f))
-    val seam = view(6, 256, from = "5,0,0") + shape("sphere", lamp())
+    val seam = view(6, 256, from = "5,0,0") + shape("sphere", emitter())
     agrees(seam, Rgb(0.49975f, 0.50012f, 0.53661f))
 
   test("an image on a mesh without coordinates lies on each of its triangles"):

@@ -65,7 +65,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
       val right = Seq(0.4 * 4 / 3 - 4.0 / 3, 0.4 * 4 / 3 + 4.0 / 3, 0.2 - 1, 0.2 + 1)
       assert(window.toSeq.zip(right).forall((a, b) => Math.abs(a - b) < 1e-6), window.toSeq)
 
-  test("a lamp's spectrum of one value is flat, a number and a uniform spectrum are white"):
+  test("an emitter's spectrum of one value is flat, a number and a uniform spectrum are white"):
     def sky(radiance: String) =
       means(s"$Path6${sensor()}<emitter type=\"constant\">$radiance</emitter>")
     // Digits of Mitsuba's table of the observer
@@ -75,7 +75,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
     val uniform = "<spectrum name=\"radiance\" type=\"uniform\"><float name=\"value\" value=\"1\"/>"
     isNear(sky(s"$uniform</spectrum>"), 1, 1, 1)(1e-5)
 
-  test("the spectrum of a lamp keeps its wavelengths, whatever lamp it is"):
+  test("the spectrum of an emitter keeps its wavelengths, whatever emitter it is"):
     def spectrum(name: String) = s"<spectrum name=\"$name\" value=\"2\"/>"
     for (kind, name) <- Seq(
         "point" -> "intensity",
@@ -106,7 +106,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
     isNear(sigmaT(volume), 2, 2, 2)(4e-3)
 
   test("a transform that mirrors turns spheres inside out, not disks"):
-    def lamp(shape: String, mirror: String) = means(
+    def emitter(shape: String, mirror: String) = means(
       s"""$Path6${sensor()}<shape type="$shape"><transform name="to_world">$mirror
         <scale value=".3"/><translate z="1"/></transform><emitter type="area">
         <rgb name="radiance" value="9"/></emitter></shape>
@@ -114,11 +114,11 @@ class MitsubaRulesSuite extends AnyFunSuite:
         </transform><bsdf type="diffuse"><rgb name="reflectance" value=".5"/></bsdf></shape>"""
     ).head
     val (z, x) = ("<scale z=\"-1\"/>", "<scale x=\"-1\"/>")
-    assert(lamp("sphere", z) == 0 && lamp("sphere", x) == 0)
-    assert(lamp("sphere", "<scale x=\"-1\" z=\"-1\"/>") > 0.4)
+    assert(emitter("sphere", z) == 0 && emitter("sphere", x) == 0)
+    assert(emitter("sphere", "<scale x=\"-1\" z=\"-1\"/>") > 0.4)
     // The noise of 64 samples per pixel
-    assert(Math.abs(lamp("disk", z) - 0.0418) < 1e-3)
-    assert(Math.abs(lamp("disk", x) - lamp("disk", "")) < 0.01)
+    assert(Math.abs(emitter("disk", z) - 0.0418) < 1e-3)
+    assert(Math.abs(emitter("disk", x) - emitter("disk", "")) < 0.01)
 
   test("an instance that mirrors keeps the outside of its shapes, however often it is placed"):
     def lit(shape: String, mirror: String, copies: Int): Boolean =
@@ -128,9 +128,9 @@ class MitsubaRulesSuite extends AnyFunSuite:
       val far = "<translate x=\"200\"/>"
       val group = s"<shape type=\"shapegroup\" id=\"g\"><shape type=\"$shape\">" +
         "<bsdf type=\"diffuse\"/></shape></shape>"
-      val lamp = "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"0\" z=\"5\"/>" +
+      val light = "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"0\" z=\"5\"/>" +
         "</emitter>"
-      means(s"$Path6${sensor()}$group${instance("")}${instance(far) * (copies - 1)}$lamp").head > 0
+      means(s"$Path6${sensor()}$group${instance("")}${instance(far) * (copies - 1)}$light").head > 0
     val (x, z, all) = ("<scale x=\"-1\"/>", "<scale z=\"-1\"/>", "<scale value=\"-1\"/>")
     for copies <- 1 to 2 do
       for mirror <- Seq("", x, z, all) do
@@ -161,7 +161,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
     isNear(wall(s"$d65</spectrum>"), 2, 2, 2)(0.03)
     isNear(wall(s"$d65<rgb name=\"color\" value=\".1,.2,.6\"/></spectrum>"), .2, .4, 1.2)(0.02)
 
-  test("negative light is a warning with a place, whatever the lamp"):
+  test("negative light is a warning with a place, whatever the emitter"):
     for
       (kind, name) <- Seq(
         "point" -> "intensity",
@@ -173,11 +173,11 @@ class MitsubaRulesSuite extends AnyFunSuite:
       )
       colour <- Seq("<rgb name=\"%s\" value=\"-1,-2,0\"/>", "<float name=\"%s\" value=\"-1\"/>")
     do
-      val lamp = s"<emitter type=\"$kind\">${colour.format(name)}</emitter>"
-      val body = if kind == "area" then s"<shape type=\"sphere\">$lamp</shape>" else lamp
+      val emitter = s"<emitter type=\"$kind\">${colour.format(name)}</emitter>"
+      val body = if kind == "area" then s"<shape type=\"sphere\">$emitter</shape>" else emitter
       inFile(s"${sensor()}$body"): scene =>
         val told = scene.warnings.filter(_.message.startsWith("negative light"))
-        assert(told.size == 1 && told.head.at.isDefined, lamp)
+        assert(told.size == 1 && told.head.at.isDefined, emitter)
 
   test("depths that Mitsuba refuses are warnings with a place"):
     def warnings(integrator: String, name: String, value: Int) =
@@ -214,13 +214,13 @@ class MitsubaRulesSuite extends AnyFunSuite:
       // Four digits are written above
       assert(right.zip(m).forall((a, b) => Math.abs(a - b) < 1e-4), m.mkString(" "))
 
-  test("a depth of 0 is black, lamps and sky included"):
+  test("a depth of 0 is black, emitters and sky included"):
     val scene = s"${sensor()}<emitter type=\"constant\"/>"
     val depth = "<integer name=\"max_depth\" value=\"0\"/>"
     for kind <- Seq("path", "volpath", "ptracer") do
       isNear(means(s"<integrator type=\"$kind\">$depth</integrator>$scene"), 0, 0, 0)(0)
 
-  test("rgba is an alpha of surfaces: lamps that are hidden have none, a visible sky is opaque"):
+  test("rgba is an alpha of surfaces: emitters that are hidden have none, a visible sky is opaque"):
     def alpha(body: String, hides: Boolean): Double =
       val integrator = "<integrator type=\"path\"><boolean name=\"hide_emitters\" " +
         s"value=\"$hides\"/></integrator>"
@@ -232,12 +232,12 @@ class MitsubaRulesSuite extends AnyFunSuite:
         val values = image.data.indices.by(image.channels).map(i => image.data(i + a).toDouble)
         values.sum / values.size
     val ball = "<shape type=\"sphere\"><float name=\"radius\" value=\".6\"/></shape>"
-    val lamp = "<shape type=\"rectangle\"><transform name=\"to_world\"><translate z=\"-1\"/>" +
+    val emitter = "<shape type=\"rectangle\"><transform name=\"to_world\"><translate z=\"-1\"/>" +
       "</transform><emitter type=\"area\"/></shape>"
     val sky = "<emitter type=\"constant\"/>"
     // The share of the ball in the picture; noise of 64 samples in 192 pixels
     assert(Math.abs(alpha(ball, hides = false) - 0.1151) < 3e-3)
-    assert(Math.abs(alpha(ball + lamp, hides = true) - 0.1151) < 3e-3)
-    assert(Math.abs(alpha(ball + lamp + sky, hides = true) - 0.1151) < 3e-3)
-    assert(alpha(ball + lamp, hides = false) > 0.2)
+    assert(Math.abs(alpha(ball + emitter, hides = true) - 0.1151) < 3e-3)
+    assert(Math.abs(alpha(ball + emitter + sky, hides = true) - 0.1151) < 3e-3)
+    assert(alpha(ball + emitter, hides = false) > 0.2)
     assert(alpha(ball + sky, hides = false) == 1)

@@ -253,7 +253,7 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(number(planes, "nearclip").contains(0.5f) && number(planes, "farclip").contains(9f))
     assert(number(planes, "focaldistance").contains(9f))
 
-  test("lamps and sky are hidden from the camera where paths begin there"):
+  test("emitters and sky are hidden from the camera where paths begin there"):
     def hides(kind: String) =
       val flag = "<boolean name=\"hide_emitters\" value=\"true\"/>"
       val scene = read(s"$Sensor<integrator type=\"$kind\">$flag</integrator>")

@@ -51,10 +51,10 @@ final class SurfacesSuite extends MitsubaPictures:
   test("masks within masks cover what both cover"):
     agrees(mask(mask(Diffuse)), 0.786f)
 
-  test("a mask does not dim the lamp that it is on"):
-    val lamp = "<emitter type=\"area\"><rgb name=\"radiance\" value=\".5\"/></emitter>"
+  test("a mask does not dim the emitter that it is on"):
+    val emitter = "<emitter type=\"area\"><rgb name=\"radiance\" value=\".5\"/></emitter>"
     // Le, what the mask reflects, and what comes through both sides
-    agrees(lamp + mask(Diffuse), 0.5f + 0.4f * 0.5f + 0.6f * 0.6f)
+    agrees(emitter + mask(Diffuse), 0.5f + 0.4f * 0.5f + 0.6f * 0.6f)
 
   private val Sun = "<emitter type=\"directional\"><vector name=\"direction\" " +
     "x=\"-1\" y=\"-.5\" z=\"-1\"/><rgb name=\"irradiance\" value=\"1\"/></emitter>"
@@ -102,7 +102,7 @@ final class SurfacesSuite extends MitsubaPictures:
     assert(Math.abs(instanced("disk") - 0.7435f) < 0.004f)
     assert(Math.abs(instanced("cylinder") - 0.7113f) < 0.006f)
 
-  /** A lamp, a pane, and the floor behind it. */
+  /** An emitter, a pane, and the floor behind it. */
   private def behind(pane: String, integrator: String): Float =
     def square(scale: String, z: String, bsdf: String) =
       "<shape type=\"rectangle\"><transform name=\"to_world\">" +
@@ -114,7 +114,7 @@ final class SurfacesSuite extends MitsubaPictures:
     ).g
 
   test("light samples of volpath pass what a blend has of null or of a mask, those of path don't"):
-    val lamp =
+    val emitter =
       mask(Diffuse) +
         "<emitter type=\"area\"><rgb name=\"radiance\" value=\".1\"/></emitter>"
     for
@@ -122,7 +122,7 @@ final class SurfacesSuite extends MitsubaPictures:
         (blend(".5", Nothing, Diffuse), 0.11446f, 0.13045f),
         (blend(".5", mask(Diffuse), Diffuse), 0.16023f, 0.16596f),
         (blend(".5", blend(".5", Nothing, Metal), Diffuse), 0.3239f, 0.32782f),
-        (lamp, 0.1914f, 0.21558f)
+        (emitter, 0.1914f, 0.21558f)
       )
       (integrator, expected) <- Seq("path" -> byPath, "volpath" -> byVolpath)
     do

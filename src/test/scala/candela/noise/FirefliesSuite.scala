@@ -38,7 +38,7 @@ class FirefliesSuite extends AnyFunSuite:
     assert(error(image(64, Fireflies.Clamped(4))) < 0.1)
     assert(brightness(image(512, Fireflies.Clamped(4))) < 0.97)
 
-  test("lamps seen directly are not limited"):
+  test("emitters seen directly are not limited"):
     def most(image: Image) = image.data.max
     assert(most(image(4, Fireflies.Clamped(1e-3f))) > 100)
 

@@ -41,9 +41,9 @@ class RowsSuite extends AnyFunSuite:
       case Robust.Counted(64, 64, _) => true
       case _ => false))
 
-  test("light that is lost before a lamp, or leaks through a screen, is a fault"):
-    assert(rows(NearLamps)(_ => gray(0.45f)).forall(isFaulty))
-    val right = rows(NearLamps)(_ => gray(0.5f))
+  test("light that is lost before an area light, or leaks through a screen, is a fault"):
+    assert(rows(NearLights)(_ => gray(0.45f)).forall(isFaulty))
+    val right = rows(NearLights)(_ => gray(0.5f))
     assert(right.filter(_.what.startsWith("a floor")).forall(!isFaulty(_)))
 
   test("bidirectional path tracing that is darker than path tracing is a fault"):
@@ -80,7 +80,7 @@ class RowsSuite extends AnyFunSuite:
       View(Spot(0, 1, -4), Spot.Origin, Spot(0, 1, 0), 30),
       Vector(
         (Form.floor(1, 0), Surface.Matte(0.5)),
-        (Form.Ball(Spot(0, 2, 0), 0.5), Surface.Lamp(3))
+        (Form.Ball(Spot(0, 2, 0), 0.5), Surface.Light(3))
       ),
       sky = 1
     )

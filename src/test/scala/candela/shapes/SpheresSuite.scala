@@ -8,7 +8,7 @@ import candela.testing.Draws
 
 class SpheresSuite extends AnyFunSuite:
 
-  /** All that rays and lamps ask of a sphere. */
+  /** All that rays and emitters ask of a sphere. */
   private def answers(s: Sphere, draws: Draws, around: Vec3): Vector[Any] =
     val (ray, hit, at, sample) = (Ray(), Hit(), ShadingPoint(wantsPartials = true), SurfaceSample())
     Vector(s.bounds, s.area, s.normals) ++ Vector.fill(5) {

@@ -2,7 +2,8 @@ package candela.stability
 
 import candela.scenefile.Dialect
 
-/** A ball of a material or medium at the end of its parameters, on a floor under a lamp and a sky.
+/** A ball of a material or medium at the end of its parameters, on a floor under an emitter and a
+  * sky.
   *
   * @param what  the statements that describe it
   * @param depth maximum number of scattering events

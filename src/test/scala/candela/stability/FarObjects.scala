@@ -35,7 +35,7 @@ object FarObjects:
         Seq(
           sky,
           translate(p),
-          lamp,
+          emitter,
           translate(Position(-p.x, -p.y, -p.z)),
           ground(p),
           red4,

@@ -65,7 +65,7 @@ object FarText:
     s"Shape \"trianglemesh\" $indices \"point P\" [${points(p)(floor*)}]"
 
   val sky = "LightSource \"infinite\" \"rgb L\" [.3 .35 .4]"
-  val lamp =
+  val emitter =
     """AttributeBegin
       |AreaLightSource "diffuse" "rgb L" [40 38 34]
       |Translate -1.5 -1.5 2.5
@@ -76,7 +76,7 @@ object FarText:
   val grey4 = "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]"
 
   def lit(p: Position, shapes: String*): String =
-    (Seq(sky, translate(p), lamp) ++ shapes).mkString("\n")
+    (Seq(sky, translate(p), emitter) ++ shapes).mkString("\n")
 
   def shape(text: String, before: String = "") =
     s"AttributeBegin\n$before\nShape $text\nAttributeEnd"

@@ -8,7 +8,7 @@ object FarScenes:
   import Dialect.{V2, V3, V4}
   import FarText.*
   private def inWorld(texture: String)(p: Position) =
-    s"""$sky\n$texture\n${translate(p)}\n$lamp\n${ground(origin)}\nShape "sphere" "float """ +
+    s"""$sky\n$texture\n${translate(p)}\n$emitter\n${ground(origin)}\nShape "sphere" "float """ +
       s"""radius" .7"""
 
   private val fog = "\"rgb sigma_a\" [.1 .2 .3] \"rgb sigma_s\" [1 .8 .6]"
@@ -73,7 +73,7 @@ object FarScenes:
         )
     ),
     FarScene(
-      "many lamps, chosen by place",
+      "many emitters, chosen by place",
       V3,
       p =>
         s"${translate(p)}\n" +
@@ -101,7 +101,7 @@ object FarScenes:
       V4,
       p =>
         s"""MakeNamedMedium "h" "string type" "homogeneous" """ +
-          s"""$fog\n${translate(p)}\n$sky\n$lamp\n""" +
+          s"""$fog\n${translate(p)}\n$sky\n$emitter\n""" +
           s"""MakeNamedMedium "g" "string type" "uniformgrid" $fog $density "point3 p0" """ +
           s"""[-1.5 -.5 -.5] "point3 p1" [-.2 .5 .8]\n""" +
           s"$grey4\n${ground(origin)}\nMaterial \"interface\"\n" +
@@ -118,7 +118,7 @@ object FarScenes:
         s"$sky\nMakeNamedMedium \"g\" \"string type\" \"uniformgrid\" $fog $density " +
           s""""point3 p0" [${points(p)(-1.1, -.6, -.5)}] "point3 p1" """ +
           s"""[${points(p)(.9, .6, .8)}]\n""" +
-          s"${translate(p)}\n$lamp\n$grey4\n${ground(origin)}\nMaterial \"interface\"\n" +
+          s"${translate(p)}\n$emitter\n$grey4\n${ground(origin)}\nMaterial \"interface\"\n" +
           shape("\"sphere\" \"float radius\" .9", "MediumInterface \"g\" \"\"")
     ),
     FarScene(

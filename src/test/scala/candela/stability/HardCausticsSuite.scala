@@ -26,7 +26,7 @@ final class HardCausticsSuite extends AnyFunSuite:
       .replace("xresolution\" 48", "xresolution\" 32")
       .replace("yresolution\" 32", "yresolution\" 16")
 
-    test(s"a point lamp shines through it, and every pixel is a number: $what"):
+    test(s"a point light shines through it, and every pixel is a number: $what"):
       val point = """LightSource "point" "rgb I" [2 2 2] "point3 from" [-.3 1.6 -.2]"""
       val lit = text.replace("WorldBegin", s"WorldBegin $point")
       for mode <- Seq(CausticsMode.On, CausticsMode.Photons) do

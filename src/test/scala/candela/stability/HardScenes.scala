@@ -43,10 +43,10 @@ object HardScenes:
     HardScene("ground-sphere", "a ground that is a sphere of radius 1e6", Value(0.5)),
     HardScene("ball-on-plane", "a ball of 0.01 on a plane 2e6 wide", like, horizon),
     HardScene("ball-on-ball", "a ball of 0.01 on a sphere of radius 1e6", like, horizon),
-    HardScene("two-planes", "a plane 1e-5 above a bright lamp", Value(0.5)),
+    HardScene("two-planes", "a plane 1e-5 above a bright light", Value(0.5)),
     HardScene(
       "covered-lamp",
-      "a lamp covered by a black screen 5e-5 before it, 1 above a floor",
+      "a light covered by a black screen 5e-5 before it, 1 above a floor",
       Value(0)
     ),
     // Σ 0.999ᵏ for k to 1000
@@ -58,8 +58,8 @@ object HardScenes:
     HardScene("moved-room", "a closed room 2000 wide at (1e6, 1e6, 1e6)", Value(2)),
     HardScene("needle-room", "a closed room as thin as a needle", Value(2)),
     HardScene("cone-tip", "a cone from above its tip", Value(0.5)),
-    HardScene("inside-lamp", "a floor within a lamp", Value(0.5)),
-    HardScene("far-lamp", "a floor under a lamp that is 1e-5 radians small", Value(0.5)),
+    HardScene("inside-lamp", "a floor within a light", Value(0.5)),
+    HardScene("far-lamp", "a floor under a light that is 1e-5 radians small", Value(0.5)),
     HardScene("bright-texel", "a floor under a sky with one bright pixel", Value(0.5))
   )
 

@@ -72,8 +72,8 @@ private object Lit:
       val soup = Soups.of(Soups.around(draws, 1, size)(Vec3.Zero))
       val t = TriangleSampler(soup, 0)
       val from = draws.direction() * (size * draws.magnitude(1e4, 1e6))
-      val lamp = AreaLight(t, emitted, true, t.bounds, t.normal, 1f)
-      lamp.sample(from, draws.unit(), draws.unit(), out)
+      val emitter = AreaLight(t, emitted, true, t.bounds, t.normal, 1f)
+      emitter.sample(from, draws.unit(), draws.unit(), out)
       val cosine = Math.abs(from.normalized dot t.normal)
       if cosine > 0.01f && t.area > 1e-3f * size * size then
         val expected = from.length.toDouble * from.length / (t.area * cosine)
@@ -100,8 +100,8 @@ private object Lit:
         case 0 => sample.p
         case 1 => sample.p + draws.direction() * (size * draws.magnitude(1e-9, 1e-3))
         case _ => toWorld.point(draws.vec(-0.5f, 0.5f) * size)
-      val lamp = light(shape)
-      lamp.sample(from, draws.unit(), draws.unit(), out)
+      val emitter = light(shape)
+      emitter.sample(from, draws.unit(), draws.unit(), out)
       val isSane = out.pdf >= 0f && !out.pdf.isNaN &&
         (out.pdf == 0f || (out.wi.isFinite && Math.abs(out.wi.length - 1f) < 1e-4f))
       assert(isSane, s"${out.pdf} ${out.wi} from $from")

@@ -18,7 +18,7 @@ import candela.testing.SceneTexts
 
 /** What is no number never reaches the film, and one can see where it is from. */
 class ReportedPathSuite extends AnyFunSuite:
-  private val lamp = """LightSource "point" "point from" [0 0 2] "rgb I" [8 8 8]"""
+  private val emitter = """LightSource "point" "point from" [0 0 2] "rgb I" [8 8 8]"""
 
   private val ball = """AttributeBegin
     AreaLightSource "diffuse" "rgb L" [8 8 8]
@@ -28,7 +28,7 @@ class ReportedPathSuite extends AnyFunSuite:
 
   test("the path of one sample is told, and is the one that is rendered"):
     for integrator <- Seq("\"path\"", "\"whitted\"", "\"directlighting\"", "\"volpath\"") do
-      val plan = SceneTexts.plan(LitPlane.scene(integrator, spp = 1, lamp))
+      val plan = SceneTexts.plan(LitPlane.scene(integrator, spp = 1, emitter))
       val lines = ArrayBuffer.empty[String]
       val light = Renderer.trace(plan, 2, 1, 0, PathReport(line => lines += line))
       val image = Renderer.render(plan, threads = 1).film.toImage(1f)

@@ -83,7 +83,7 @@ class HttpServerSuite extends AnyFunSuite:
     serving(): port =>
       val own = connected(port, "127.0.0.2")
       send(own, "GET /a HTTP/1.1\r\nHost: a\r\nX-Half: ")
-      val crowd = Vector.fill(4 * HttpServer.Most)(connected(port))
+      val crowd = Vector.fill(4 * HttpServer.MaxConnections)(connected(port))
       try
         assert(asked(port, "GET", "/b").code == 200)
         send(own, "1\r\n\r\n")

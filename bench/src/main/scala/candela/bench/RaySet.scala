@@ -41,8 +41,8 @@ final class RayPass(a: Accelerator, set: RaySet):
       i += 7
 
 object RaySet:
-  /** What a path tracer asks for: rays of a pinhole camera row by row, a diffuse bounce of each that
-    * hits, and its shadow ray to a lamp of some size.
+  /** What a path tracer asks for: rays of a pinhole camera row by row, a diffuse bounce of each
+    * that hits, and its shadow ray to an emitter of some size.
     */
   def all(soup: TriangleSoup, world: Accelerator, side: Int): Seq[RaySet] =
     val random = SplittableRandom(9)
@@ -68,8 +68,8 @@ object RaySet:
           val (r, phi) = (sqrt(draw()), TwoPi * draw())
           val out = Vec3(r * cos(phi), r * sin(phi), sqrt(1f - r * r))
           put(bounce, o, Frame.around(n).toWorld(out), Float.PositiveInfinity)
-          val lamp = Vec3(2f + draw(), -3f + draw(), 6f)
-          put(shadow, o, (lamp - o).normalized, (lamp - o).length)
+          val emitter = Vec3(2f + draw(), -3f + draw(), 6f)
+          put(shadow, o, (emitter - o).normalized, (emitter - o).length)
     Seq(
       RaySet("camera", false, camera.result()),
       RaySet("bounce", false, bounce.result()),

@@ -33,7 +33,7 @@ object ExecutorScenes:
       finally delete(folder)
     scenes += key -> renderer
     // A sequence renders a few at a time.
-    while scenes.size > Kept do
+    while scenes.size > MaxScenes do
       val (oldest, its) = scenes.head
       scenes -= oldest
       its.close()
@@ -44,7 +44,7 @@ object ExecutorScenes:
   /** Name of a new file in a new folder. */
   def newFile(): Path = newFolder().resolve("shard.film")
 
-  private val Kept = 2
+  private val MaxScenes = 2
 
   private def delete(folder: Path): Unit =
     val _ = Try:

@@ -133,7 +133,7 @@ class SparkSuite extends AnyFunSuite with BeforeAndAfterAll:
 
 private object SparkSuite:
 
-  /** A glass ball on a table, under a small lamp. */
+  /** A glass ball on a table, under a small emitter. */
   private val glass =
     """LookAt 0 -5 3  0 0 .5  0 0 1
       |Camera "perspective" "float fov" 40

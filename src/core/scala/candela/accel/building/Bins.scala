@@ -25,7 +25,7 @@ private[building] final class Bins:
   ): Unit =
     clear()
     // In small batches, first the bins, then the boxes while they are still in cache
-    val isLong = end - first >= Bins.Long
+    val isLong = end - first >= Bins.LongRange
     var from = first
     while from < end do
       val until = Math.min(end, from + Bins.Chunk)
@@ -94,7 +94,7 @@ private[building] final class Bins:
       at += BoxRecord.Ints
 
   def clear(): Unit =
-    java.util.Arrays.fill(boxes, BoxRecord.Least)
+    java.util.Arrays.fill(boxes, BoxRecord.MinusInfinity)
     java.util.Arrays.fill(counts, 0)
 
   /** Merges the contents of `others`. */
@@ -121,8 +121,8 @@ private[building] object Bins:
 
   private inline val Chunk = 64
 
-  /** Range length from which bins quickly reach their final bounds and then rarely grow. */
-  private inline val Long = 2048
+  /** In ranges of at least this length, bins soon have their final bounds, and rarely grow. */
+  private inline val LongRange = 2048
 
   /** Clamps to the valid bins, as rounding may place the outermost record just outside. */
   inline def place(middle: Float, low: Float, scale: Float): Int =

@@ -20,8 +20,8 @@ private[building] object BoxRecord:
   /** Offset from −min to max of the same axis. */
   inline val High = 4
 
-  /** Encoded −∞: every coordinate of an empty box. */
-  inline val Least = -2139095041
+  /** −∞, encoded: each coordinate of an empty box. */
+  inline val MinusInfinity = -2139095041
 
   inline def encode(x: Float): Int =
     val bits = java.lang.Float.floatToRawIntBits(x)
@@ -54,7 +54,7 @@ private[building] object BoxRecord:
     x * y + y * z + z * x
 
   def clear(box: Array[Int], at: Int): Unit =
-    java.util.Arrays.fill(box, at, at + Ints, Least)
+    java.util.Arrays.fill(box, at, at + Ints, MinusInfinity)
 
   inline def grow(box: Array[Int], at: Int, by: Array[Int], from: Int): Unit =
     box(at) = Math.max(box(at), by(from))
@@ -75,7 +75,7 @@ private[building] object BoxRecord:
 
   /** Stores the union of records[first, end) in a box. */
   def uniteInto(box: Array[Int], at: Int, records: Array[Int], first: Int, end: Int): Unit =
-    var lowX, lowY, lowZ, highX, highY, highZ = Least
+    var lowX, lowY, lowZ, highX, highY, highZ = MinusInfinity
     var i = first * Ints
     while i < end * Ints do
       lowX = Math.max(lowX, records(i))

@@ -82,7 +82,7 @@ private[building] final class CollapsePlan(
         val left = priceChild(node, 0, level + 1)
         costs.keep(level + 1, level)
         val right = priceChild(node, 1, level + 1)
-        val count = if left >= Many || right >= Many then Many else left + right
+        val count = if left >= NotABlock || right >= NotABlock then NotABlock else left + right
         choose(node, area, level, count)
         count
 
@@ -125,7 +125,7 @@ private[building] final class CollapsePlan(
         val count = tree.leafSize(node, side)
         val isOne = isBlock(~child, ~child + count)
         costs.fill(level, area * (if isOne then BlockCost else count * OtherCost))
-        if isOne then count else Many
+        if isOne then count else NotABlock
 
 private[building] object CollapsePlan:
   /** Costs of a node, a triangle block, and each other primitive: only ratios matter. */
@@ -133,7 +133,8 @@ private[building] object CollapsePlan:
   inline val BlockCost = 1f
   inline val OtherCost = 2f
 
-  private final val Many = 1000000000
+  /** Stands for the count of triangles where they do not fit into a block. */
+  private final val NotABlock = 1000000000
 
   private final class Part(val node: Int, val area: Float)
 

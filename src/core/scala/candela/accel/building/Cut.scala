@@ -35,11 +35,11 @@ private[building] abstract class Cut:
   * the longest axis.
   */
 private[building] final class FewCut(records: Array[Int], shift: Int) extends Cut:
-  import FewCut.Most
+  import FewCut.MaxRange
 
-  private val keys = new Array[Long](Most)
-  private val sorted = new Array[Int](BoxRecord.Ints * Most)
-  protected val sweep: Sweep = Sweep(sorted, Array.fill(Most)(1))
+  private val keys = new Array[Long](MaxRange)
+  private val sorted = new Array[Int](BoxRecord.Ints * MaxRange)
+  protected val sweep: Sweep = Sweep(sorted, Array.fill(MaxRange)(1))
 
   def find(first: Int, end: Int, levels: Levels, depth: Int): Boolean =
     val n = end - first
@@ -72,4 +72,4 @@ private[building] final class FewCut(records: Array[Int], shift: Int) extends Cu
 
 private[building] object FewCut:
   /** Range length above which bins are as good, and faster. */
-  inline val Most = 8
+  inline val MaxRange = 8

@@ -23,7 +23,7 @@ private[accel] final class KeptTrees(
   import KeptTrees.*
 
   def of(primitives: Primitives): WideTree =
-    if !keep.isKeeping || primitives.count < Least then
+    if !keep.isKeeping || primitives.count < MinPrimitives then
       WideBuilder.of(primitives, width, lanes, maxLeaf, parallel, unsplit)
     else layout(primitives).of(primitives, parallel)
 
@@ -60,8 +60,8 @@ private[accel] final class KeptTrees(
     BoxRecord.some(primitives, which, parallel)
 
 private[accel] object KeptTrees:
-  /** Primitives below which building takes no longer than digests. */
-  private val Least = 4096
+  /** Building a tree of fewer primitives takes no longer than their digest. */
+  private val MinPrimitives = 4096
 
   private val Layouts = Keep.Shelf(Some(LayoutForm))
   private val Latest = Keep.Shelf[Moves]()

@@ -7,10 +7,10 @@ package candela.accel.building
   */
 private[building] final class Levels:
   /** See [[BoxRecord]]. */
-  val boxes = new Array[Int](BoxRecord.Ints * Levels.Most)
+  val boxes = new Array[Int](BoxRecord.Ints * Levels.MaxDepth)
 
   /** Twice the coordinates: low x, y, z, high x, y, z. */
-  private val ranges = new Array[Float](6 * Levels.Most)
+  private val ranges = new Array[Float](6 * Levels.MaxDepth)
 
   /** Returns new levels with a copy of this depth. */
   def copy(depth: Int): Levels =
@@ -88,4 +88,4 @@ private[building] final class Levels:
 
 private[building] object Levels:
   /** Maximum SAH depth, plus the depth of median splits of 2³¹ boxes, plus one. */
-  inline val Most = 128
+  inline val MaxDepth = 128

@@ -23,7 +23,7 @@ private[building] final class SubtreeBuilder(
   /** If a block holds as many triangles as [[FewCut]] splits, only ranges with other primitives get
     * there: their cost is per primitive.
     */
-  private val few = FewCut(records, if size.block < FewCut.Most then size.shift else 0)
+  private val few = FewCut(records, if size.block < FewCut.MaxRange then size.shift else 0)
 
   private var nodes = new Array[Float](NodeFloats * 64)
   private var length = 0
@@ -44,7 +44,7 @@ private[building] final class SubtreeBuilder(
     if n <= deferred then leave(first, end, depth)
     else if n <= 1 || size.isLeaf(records, first, end) then leaf(first, end)
     else
-      val how = if n <= FewCut.Most then few else cut
+      val how = if n <= FewCut.MaxRange then few else cut
       val isCut = depth < BvhBuilder.MaxSahDepth && how.find(first, end, levels, depth)
       if !isCut then if n <= size.most then leaf(first, end) else halve(first, end, depth)
       else if n <= size.most && n <= costOf(how, depth) then leaf(first, end)

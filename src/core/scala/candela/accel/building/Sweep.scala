@@ -41,7 +41,7 @@ private[building] final class Sweep(items: Array[Int], weights: Array[Int]):
   private def backwards(n: Int): Unit =
     val items = this.items
     val areas = this.areas
-    var lowX, lowY, lowZ, highX, highY, highZ = BoxRecord.Least
+    var lowX, lowY, lowZ, highX, highY, highZ = BoxRecord.MinusInfinity
     var i = n - 1
     while i > 0 do
       val at = i * BoxRecord.Ints
@@ -58,7 +58,7 @@ private[building] final class Sweep(items: Array[Int], weights: Array[Int]):
     val items = this.items
     val weights = this.weights
     val areas = this.areas
-    var lowX, lowY, lowZ, highX, highY, highZ = BoxRecord.Least
+    var lowX, lowY, lowZ, highX, highY, highZ = BoxRecord.MinusInfinity
     var bestCost = Float.PositiveInfinity
     var bestCut, bestLeft = 0
     var weight = 0

@@ -11,7 +11,7 @@ object Hierarchies:
     * the number of primitives decides, that waits until it is known.
     */
   def expect(samples: Long, parallel: Parallel, warmUps: WarmUps): Unit =
-    if samples >= Many then warmUps.begin(parallel, hasVectors)
+    if samples >= MinSamples then warmUps.begin(parallel, hasVectors)
 
   /** @param samples upper bound of the number of camera samples
     * @param warmUps those of the job
@@ -25,7 +25,7 @@ object Hierarchies:
       keep: Keep = Keep.Nothing
   ): Accelerator =
     val unsplit = if isBrief(primitives.count, samples) then Unsplit else 1
-    if primitives.count > Most then Bvh(primitives, parallel = parallel)
+    if primitives.count > MaxPrimitives then Bvh(primitives, parallel = parallel)
     else if isWorthIt(primitives.count, samples) && hasVectors then
       vector(primitives, parallel = parallel, warmUps = warmUps, keep = keep, unsplit = unsplit)
     else scalar(primitives, parallel = parallel, keep = keep, unsplit = unsplit)
@@ -36,7 +36,8 @@ object Hierarchies:
 
   /** Whether SIMD code repays its loading and compilation, of about a second of processor time. */
   private[tracing] def isWorthIt(primitives: Int, samples: Long): Boolean =
-    primitives >= Few && samples >= (if primitives >= Mesh then SomeSamples else Many)
+    val least = if primitives >= Mesh then MinMeshSamples else MinSamples
+    primitives >= MinPrimitives && samples >= least
 
   /** Wide BVH traversed by scalar code only. */
   def scalar(
@@ -83,16 +84,16 @@ object Hierarchies:
   def lanes: Int = VectorKernel.lanes
 
   /** Primitive count below which a tree has too few nodes for SIMD. */
-  private inline val Few = 16
+  private inline val MinPrimitives = 16
 
   /** Camera samples below which SIMD does not pay, whatever the scene: in a room of 36 triangles,
     * it costs half a second and saves a tenth of the processor time.
     */
-  private inline val Many = 1500000L
+  private inline val MinSamples = 1500000L
 
   /** The same for scenes of at least [[Mesh]] primitives, where rays take most of the time. */
-  private inline val SomeSamples = 500000L
+  private inline val MinMeshSamples = 500000L
   private inline val Mesh = 1000
 
   /** Primitive count above which blocks would not fit into one array. */
-  private inline val Most = 60000000
+  private inline val MaxPrimitives = 60000000

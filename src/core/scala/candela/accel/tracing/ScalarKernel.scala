@@ -75,12 +75,12 @@ private[tracing] object ScalarKernel extends WideKernel:
       )
       inline if !anyHit then ray.lanes(k) = near
       // Tests far + Slack < near; the difference must not overflow if far is negative
-      missed |= ((Math.max(far, Behind) + WideWalk.Slack - near) >>> 31) << k
+      missed |= ((Math.max(far, BelowAnyDistance) + WideWalk.Slack - near) >>> 31) << k
       k += 1
     missed ^ ((1 << width) - 1)
 
-  /** Below any distance by more than the slack. */
-  private inline val Behind = -100
+  /** Less than any distance, by more than the slack. */
+  private inline val BelowAnyDistance = -100
 
   private inline def plane(x: Float, o: Float, i: Float): Int = bits((x - o) * i)
 

@@ -44,28 +44,28 @@ private[tracing] final class WarmUp(
       if clock() - middle < middle - begin then wins += 1
       i += 1
     val nanos = clock() - start
-    if wins >= Most then isOver = true
+    if wins >= MinWins then isOver = true
     nanos
 
 private[tracing] object WarmUp:
   final val Batch = 16
 
-  /** Rays of a batch for which the SIMD kernel must be faster. */
-  private final val Most = 12
+  /** The SIMD kernel must be faster for this many rays of a batch. */
+  private final val MinWins = 12
 
   /** Batches after which the launcher's JVM compiles the kernel (see `lib/options`; others do after
     * 5,000 calls).
     */
-  final val Enough = 20
+  final val BatchesToCompile = 20
 
-  /** Rest after each later batch, relative to its time. */
-  final val Rest = 3L
+  /** The pause after each later batch, relative to its time. */
+  final val RestRatio = 3L
 
-  /** Longest rest in milliseconds: a batch takes long if it waits for the compiler. */
-  final val Longest = 20L
+  /** Longest pause, in milliseconds: a batch takes long if it waits for the compiler. */
+  final val MaxRestMillis = 20L
 
-  /** Seconds after which a kernel that is not faster is given up. */
-  final val Patience = 60L
+  /** The warm-up gives up a kernel that is not faster after this many seconds. */
+  final val TimeoutSeconds = 60L
 
   private final val Triangles = 500
 
@@ -141,11 +141,12 @@ final class WarmUps:
     val random = SplittableRandom(1)
     val tree = testTree(random, fast.width, fast.lanes)
     val rays = TestRays(random)
-    val end = System.nanoTime + Patience * 1000000000L
+    val end = System.nanoTime + TimeoutSeconds * 1000000000L
     var batches = 0
     while !areOver && System.nanoTime < end && !Thread.currentThread.isInterrupted do
       var nanos = 0L
       if !closest.isOver then nanos += closest.attempt(tree, fast, rays)
       if !occluded.isOver then nanos += occluded.attempt(tree, fast, rays)
       batches += 1
-      if batches > Enough then Thread.sleep(Math.min(nanos * Rest / 1000000L, Longest))
+      if batches > BatchesToCompile then
+        Thread.sleep(Math.min(nanos * RestRatio / 1000000L, MaxRestMillis))

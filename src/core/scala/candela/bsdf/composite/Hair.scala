@@ -64,7 +64,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     Fresnel.dielectric(cosO * safeSqrt(1f - h * h), eta)
 
   private def around(p: Int, phi: Float, gammaT: Float): Float =
-    if p == Parts - 1 then 1f / TwoPi
+    if p == Lobes - 1 then 1f / TwoPi
     else
       val off = wrapped(phi - exit(p, gammaO, gammaT))
       Logistic.density(off, shape.azimuthal)
@@ -80,7 +80,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     val r = fresnel(cosO)
     val t = transmitted(sinO, inside)
     var p = 0
-    while p < Parts do
+    while p < Lobes do
       val along =
         longitudinal(cosI, tiltedCos(sinO, cosO, p), sinI, tiltedSin(sinO, cosO, p), shape.v(p))
       visit(share(p, r, t), along, around(p, phi, inside))
@@ -109,14 +109,14 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     val t = transmitted(sinO, inside)
     var total = 0f
     var p = 0
-    while p < Parts do
+    while p < Lobes do
       total += share(p, r, t).average
       p += 1
     // Select a lobe by its attenuation, and remap the sample
     p = 0
     var rest = choice * total
     var own = share(0, r, t).average
-    while p < Parts - 1 && rest >= own do
+    while p < Lobes - 1 && rest >= own do
       rest -= own
       p += 1
       own = share(p, r, t).average
@@ -132,7 +132,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     )
     val cosI = safeSqrt(1f - sinI * sinI)
     val turn =
-      if p == Parts - 1 then TwoPi * again
+      if p == Lobes - 1 then TwoPi * again
       else exit(p, gammaO, inside) + Logistic.sample(again, shape.azimuthal)
     val phi = azimuth(wo) + turn
     val wi = Vec3(sinI, cosI * cos(phi), cosI * sin(phi))
@@ -147,8 +147,8 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     BsdfFlags.Glossy | BsdfFlags.Transmissive | BsdfFlags.OneWay | BsdfFlags.Choosing
 
 object Hair:
-  /** R, TT, TRT, and the rest. */
-  private inline val Parts = 4
+  /** R, TT, TRT, and one lobe for the rest. */
+  private inline val Lobes = 4
 
   private def azimuth(w: Vec3): Float = Math.atan2(w.z.toDouble, w.y.toDouble).toFloat
 

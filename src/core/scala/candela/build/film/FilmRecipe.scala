@@ -2,10 +2,10 @@ package candela.build.film
 
 import candela.base.Code
 
+import candela.aov.Layer
 import candela.build.recipe.*
 import candela.color.CameraSensor
 import candela.film.{Development, SampleLimit}
-import candela.layers.Layer
 import candela.scenefile.Dialect
 
 /** Recipes of films. */

@@ -1,10 +1,10 @@
 package candela.build.film
 
+import candela.aov.Layer
 import candela.base.{Code, Suggest}
 import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
 import candela.film.{Development, SampleLimit, SpectralBands}
-import candela.layers.Layer
 
 object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
   private val scale = float("scale", "scale of all pixel values", onlyV3)(1f)

@@ -1,5 +1,6 @@
 package candela.build.integrators
 
+import candela.aov.LightParts
 import candela.base.Code
 import candela.bidirectional.{
   AimPilot, CausticChoice, CausticLight, CausticPasses, CausticPilot, CausticTracer, PhotonPilot,
@@ -9,7 +10,6 @@ import candela.build.recipe.*
 import candela.film.View
 import candela.guiding.Guide
 import candela.integrators.*
-import candela.layers.LightParts
 import candela.media.SceneMedia
 import candela.render.{GuidedSplats, RenderMethod}
 import candela.scene.Scene
@@ -129,7 +129,7 @@ private object CausticMethod:
           val paths = guide match
             case None => own(over, null, null)
             case Some(by) => PartlyGuided(over, by, own(over, by, _), own(over, null, _))
-          CausticTracer(over, paths, view, chosen, choice.perSample, choice.ofLamps)
+          CausticTracer(over, paths, view, chosen, choice.perSample, choice.ofEmitters)
         RenderMethod.SplattedTiles(
           makers(_, None),
           beside = true,
@@ -138,7 +138,7 @@ private object CausticMethod:
             (view, guide) => makers(view, Some(guide))
           )),
           Option.when(light.findsAll && scene.lights.exists(_.isDelta)):
-            "also light of lamps without extent, through and off smooth surfaces"
+            "also delta lights, through and off smooth surfaces"
         )
 
     /** Paths of the camera that take caustics from photons. */
@@ -178,7 +178,7 @@ private object CausticMethod:
         val walks = Manifolds(
           over,
           light.maxDepth,
-          i => if over.lights(i).isDelta then light.findsAll else asked.exists(_.lamps(i)),
+          i => if over.lights(i).isDelta then light.findsAll else asked.exists(_.emitters(i)),
           aim.flatMap(_.seeding).orNull,
           usual = asked.fold(0f)(_.usual)
         )

@@ -1,9 +1,9 @@
 package candela.build.integrators
 
+import candela.aov.LightParts
 import candela.build.recipe.*
 import candela.guiding.Guide
 import candela.integrators.*
-import candela.layers.LightParts
 import candela.render.RenderMethod
 import candela.scene.Scene
 import candela.scenefile.Dialect
@@ -16,7 +16,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
   private val threshold =
     float("rrthreshold", "throughput below which Russian roulette may end a path", onlyV3)(1f)
   private val hides =
-    bool("hideemitters", "hide lamps and sky from the camera", onlyMitsuba)(false)
+    bool("hideemitters", "hide area lights and sky from the camera", onlyMitsuba)(false)
 
   protected def make()(using site: Site): IntegratorPlan =
     // v2 samples lights at one vertex more than it counts
@@ -35,7 +35,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
         val options = WalkOptions(
           regularizes,
           beneath,
-          hidesLamps = hides(),
+          hidesEmitters = hides(),
           interfaces = interfaces,
           countsPassed = countsPassed
         )
@@ -56,7 +56,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           regularizes,
           scene.hasSubsurface,
           crossesPanes = crossesPanes,
-          hidesLamps = hides()
+          hidesEmitters = hides()
         )
         CausticMethod(scene, limits, options, Some(media)): (over, own, guide, parts) =>
           VolumePathTracer(over, media, limits, own, guide, parts)

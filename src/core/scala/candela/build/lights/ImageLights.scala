@@ -39,15 +39,15 @@ object GoniometricLightRecipe
       measured(if isV4 then "filename" else "mapname")
     else pictured()
 
-  /** The lamp of a photometric file, in candelas. */
+  /** The light of a photometric file, in candelas. */
   private def measured(name: String)(using site: Site): LightPlan =
-    LightImages.lamp(name) match
+    LightImages.photometry(name) match
       case None => LightPlan.nothing
       case Some(image) =>
-        def lamp(i: Rgb) = sphere(image, LatLongMap, i, smooth = true)
-        val mean = means(lamp(Rgb.White).meanOfMax)
+        def light(i: Rgb) = sphere(image, LatLongMap, i, smooth = true)
+        val mean = means(light(Rgb.White).meanOfMax)
         val i = scaled(intensity(), power(), 4f * Pi * mean)
-        shining(i, lamp(i))
+        shining(i, light(i))
 
   private def pictured()(using site: Site): LightPlan =
     if site.dialect == Dialect.V4 then

@@ -61,19 +61,19 @@ private[build] object LightImages:
       site.resources.counting.foreach(_.addColors(image.facts.colors, SpectrumRole.Emission))
       EnvironmentImage.InTiles(image.levels.head, rebasing(site.resources.basis), key)
 
-  /** Returns the lamp of the photometric file that the string parameter `name` names, as an
+  /** Returns the intensity of the photometric file that the string parameter `name` names, as an
     * equirectangular image. Reports files that can't be used.
     */
-  def lamp(name: String)(using site: Site): Option[Image] =
+  def photometry(name: String)(using site: Site): Option[Image] =
     images:
       for
         p <- site.declaration.param(name)
         file <- site.resources.file(p, site.declaration, site.problems, StandIns.LeftOut)
         image <-
           try
-            val lamp = IesFile.read(file)
-            lamp.notes.foreach(site.problems.warn(Code.ImageContents, p.valuesAt, _))
-            Some(lamp.photometry.image)
+            val light = IesFile.read(file)
+            light.notes.foreach(site.problems.warn(Code.ImageContents, p.valuesAt, _))
+            Some(light.photometry.image)
           catch
             case e: IesError =>
               site.problems.missing(Code.MeasuredFile, p.valuesAt, e.getMessage, StandIns.LeftOut)

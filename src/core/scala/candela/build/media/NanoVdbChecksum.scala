@@ -18,7 +18,7 @@ private[media] object NanoVdbChecksum:
 
   // Places in the grid
   private val Sums = 8
-  private val Begin = 16
+  private val FirstByte = 16
   private val TreeEnd = 736
   private val Blind = 640
   private val Tree = 672
@@ -38,7 +38,7 @@ private[media] object NanoVdbChecksum:
     // Writers without checksums leave zeros, too
     if (head != Missing || tail != Missing) && (head != 0 || tail != 0) then
       val ends = headEnds(bytes)
-      if !ends.exists(end => crc(bytes, Begin, end) == head) then refuse("head")
+      if !ends.exists(end => crc(bytes, FirstByte, end) == head) then refuse("head")
       def byBlocks = ends.exists(blocks(bytes, _) == tail)
       def byNodes = nodes(bytes, Vector(upper, lower, leaf)).contains(tail)
       if tail != Missing && !byBlocks && !byNodes then refuse("nodes")

@@ -126,7 +126,7 @@ private[media] object NanoVdbTree:
 
     private def lower(at: Long): VoxelNode =
       val node = visit(at, Level.Lower)
-      VoxelNode(Array.tabulate(VoxelNode.Leaves): n =>
+      VoxelNode(Array.tabulate(VoxelNode.LeafCount): n =>
         val entry = Level.Lower.table + 8 * n
         if isChild(node, Level.Lower, n) then leaf(at + node.getLong(entry))
         else constant(number(node.getFloat(entry))))
@@ -155,7 +155,7 @@ private[media] object NanoVdbTree:
     private def constantNode(value: Float): VoxelNode =
       val made = constantNodes.getOrElseUpdate(
         java.lang.Float.floatToIntBits(value),
-        VoxelNode(Array.fill(VoxelNode.Leaves)(constant(value)))
+        VoxelNode(Array.fill(VoxelNode.LeafCount)(constant(value)))
       )
       if constantNodes.size > MostConstants then
         throw NanoVdbError(s"more than $MostConstants of its large tiles differ")

@@ -28,8 +28,8 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
   lazy val lights: Vector[ColoredSpectrum] = farApart(emitted.values.toVector, pool)
   lazy val surfaces: Vector[ColoredSpectrum] = farApart(reflected.values.toVector, pool)
 
-  /** Spectrum of the scene's light: of all lamps alike, since what each lights is not known, and of
-    * some daylight, for what surfaces make of it.
+  /** Spectrum of the scene's light: of all emitters alike, since what each lights is not known, and
+    * of some daylight, for what surfaces make of it.
     */
   def light: Float => Double =
     val all =
@@ -107,14 +107,14 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
       s: => Float => Float,
       components: => Rgb
   ): Unit =
-    if !noted.contains(key) && (noted.size < Many || fillsCell(noted eq emitted, c)) then
+    if !noted.contains(key) && (noted.size < MaxNoted || fillsCell(noted eq emitted, c)) then
       noted(key) = () =>
         val smooth = s
         ColoredSpectrum(ColorError.wavelengths.map(smooth(_).toDouble), components)
 
   /** Whether a reflectance is like one of very many that are noted. */
   private def isCrowded(c: Rgb): Boolean =
-    reflected.size >= Many && {
+    reflected.size >= MaxNoted && {
       val cell = cellOf(c)
       cell >= 0 && cells.get(2 * cell)
     }
@@ -168,12 +168,12 @@ object ColorCensus:
   /** Share of daylight in [[ColorCensus.light]]. */
   private val Daylight = 0.2
 
-  /** Colours of which all are noted, and cells of the other along an edge of the grid. */
-  private val Many = 4096
+  /** Up to this number, all colours are noted; of others, one in each cell of a grid. */
+  private val MaxNoted = 4096
   private val Cells = 16
 
-  /** Spectra compared, at most: those of pairs are. */
-  private val Most = 24
+  /** Number of spectra of which all pairs are compared. */
+  private val MaxCompared = 24
 
   /** Pixels that stand for the colours of an image. */
   private val PixelsOfImage = 1000
@@ -185,7 +185,7 @@ object ColorCensus:
 
   /** How they are chosen. */
   def choiceOf(pixels: Long): ColorChoice =
-    ColorChoice(Math.max(1L, pixels / PixelsOfImage).toInt, Most, farApartColors)
+    ColorChoice(Math.max(1L, pixels / PixelsOfImage).toInt, MaxCompared, farApartColors)
 
   private def farApart(
       all: Vector[() => ColoredSpectrum],
@@ -207,13 +207,13 @@ object ColorCensus:
   private inline def spread[T](all: Vector[T])(
       inline distance: (T, T, Double) => Double
   ): Vector[T] =
-    if all.size <= Most then all
+    if all.size <= MaxCompared then all
     else
       val chosen = Vector.newBuilder[T]
       val nearest = Array.fill(all.size)(Double.PositiveInfinity)
       var count = 0
       var next = 0
-      while count < Most do
+      while count < MaxCompared do
         chosen += all(next)
         count += 1
         val last = all(next)

@@ -30,7 +30,7 @@ import candela.textures.{TexelBands, Texels}
   * @param fade      of spotlights, towards the edge of the cone
   * @param fovOfWidth whether the field of view of a projected image is that of its width
   * @param glows     whether a shape that is only a border of media may emit
-  * @param facesLamps whether samples of lamps lie on the side that rays see
+  * @param facesEmitters whether samples of emitters lie on the side that rays see
   * @param passes    whether light passes panes and openings of masks unscattered, and what it meets
   *                  there counts as passed
   * @param skyCovers whether the sky is opaque
@@ -57,7 +57,7 @@ final case class Rules(
     fade: Fade = Fade.Quartic,
     fovOfWidth: Boolean = false,
     glows: Boolean = true,
-    facesLamps: Boolean = false,
+    facesEmitters: Boolean = false,
     passes: Boolean = false,
     skyCovers: Boolean = false,
     defaultsToIndependent: Boolean = false
@@ -112,7 +112,7 @@ object Rules:
     gridEdge = GridEdge.Clamped,
     fade = Fade.Linear,
     fovOfWidth = true,
-    facesLamps = true,
+    facesEmitters = true,
     passes = true,
     skyCovers = true,
     defaultsToIndependent = true

@@ -17,7 +17,7 @@ enum PointSet(val word: String, val meaning: String):
 
   /** The most samples per pixel that it can place. */
   def most: Int = this match
-    case ZSobol => ZSobolSampler.Most
+    case ZSobol => ZSobolSampler.MaxSamples
     case _ => Int.MaxValue
 
   /** @param count samples per pixel, at most `most`; some sets round it up */

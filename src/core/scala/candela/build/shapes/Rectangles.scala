@@ -3,7 +3,7 @@ package candela.build.shapes
 import candela.math.{Transform, Vec3}
 import candela.shapes.RectangleSampler
 
-/** Finds meshes whose triangles form rectangles, two by two: most lamps do. */
+/** Finds meshes whose triangles form rectangles, two by two: most emitters do. */
 private[build] object Rectangles:
 
   /** The rectangles in world space, in the order of the triangles; none if a triangle is left over.

@@ -20,7 +20,7 @@ final class Checkpoints(
     warn: String => Unit
 ) extends Checkpointer:
   import Checkpoints.*
-  private var last = System.nanoTime
+  private var lastWritten = System.nanoTime
   private var pause = 0.0
   private var isWritten = false
   private var reason = ""
@@ -30,38 +30,39 @@ final class Checkpoints(
 
   def restore(state: RenderState): Unit = from.foreach(_.load(state))
 
-  def isDue: Boolean = since(last) >= every.getOrElse(Math.max(Usual, pause / LargestShare))
+  def isDue: Boolean =
+    secondsSince(lastWritten) >= every.getOrElse(Math.max(DefaultSeconds, pause / LargestShare))
 
   def save(state: RenderState): Unit =
-    val begin = System.nanoTime
-    isWritten = tried(writer.write(header(state.samplesDone), state))
-    pause = since(begin)
+    val start = System.nanoTime
+    isWritten = succeeds(writer.write(header(state.samplesDone), state))
+    pause = secondsSince(start)
 
   def lose(): Unit =
-    isWritten = tried:
+    isWritten = succeeds:
       throw IOException("a sample did not end in time; the last copy is kept, if there is one")
 
   def finish(): Unit =
     if isWritten then
-      val _ = tried(writer.commit())
-    last = System.nanoTime
+      val _ = succeeds(writer.commit())
+    lastWritten = System.nanoTime
 
-  private def tried(body: => Unit): Boolean =
+  private def succeeds(body: => Unit): Boolean =
     try
       body
       reason = ""
     catch
       case e: IOException =>
-        val why = WholeFile.reason(e)
-        if why != reason then warn(why)
-        reason = why
+        val message = WholeFile.reason(e)
+        if message != reason then warn(message)
+        reason = message
     reason.isEmpty
 
-  private def since(nanos: Long): Double = (System.nanoTime - nanos) * 1e-9
+  private def secondsSince(nanos: Long): Double = (System.nanoTime - nanos) * 1e-9
 
 object Checkpoints:
-  /** In seconds. */
-  private val Usual = 60.0
+  /** Shortest interval, if the user gives none. */
+  private val DefaultSeconds = 60.0
 
   /** Largest share of the time that workers may pause. */
   private val LargestShare = 0.005

@@ -49,10 +49,10 @@ object FilmFile:
 
   /** Where the previous copy is kept: beside the file, not beside a link to it. */
   def previous(path: Path): Path =
-    val file = place(path)
+    val file = target(path)
     file.resolveSibling(s"${file.getFileName}.previous")
 
-  private[storage] def place(path: Path): Path =
+  private[storage] def target(path: Path): Path =
     Try(WholeFile.target(path)).toOption.flatten.getOrElse(path)
 
   /** Opens a film file, or its previous copy if it is damaged or missing.
@@ -88,8 +88,8 @@ object FilmFile:
     try body
     catch
       case e: RuntimeException =>
-        val why = String.valueOf(e.getMessage).stripPrefix("requirement failed: ")
-        throw IOException(s"it is damaged: $why", e)
+        val message = String.valueOf(e.getMessage).stripPrefix("requirement failed: ")
+        throw IOException(s"it is damaged: $message", e)
 
 /** Writes a rendering to a film file, again and again, such that a good copy exists at any moment.
   *
@@ -121,7 +121,7 @@ final class FilmWriter(path: Path, private var isGood: Boolean = true):
     finally abandon()
 
   private def keepPrevious(): Unit =
-    val file = FilmFile.place(path)
+    val file = FilmFile.target(path)
     if isGood && Files.isRegularFile(file) then NextFile.move(file, FilmFile.previous(path))
 
   private def abandon(): Unit =

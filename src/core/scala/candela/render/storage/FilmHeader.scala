@@ -104,8 +104,8 @@ object FilmHeader:
   /** Samples per pixel of films of one rendering, averaged over all shards: missing ones have none.
     */
   def averageDone(parts: Seq[FilmHeader]): Int =
-    val all = parts.map(p => p.done.toLong * p.shards.size).sum
-    parts.headOption.fold(0)(p => (all / p.count).toInt)
+    val total = parts.map(p => p.done.toLong * p.shards.size).sum
+    parts.headOption.fold(0)(p => (total / p.count).toInt)
 
   /** Runs of numbers that follow each other: the first and last of each. */
   private def runs(sorted: Vector[Int]): Vector[(Int, Int)] =
@@ -120,12 +120,12 @@ object FilmHeader:
 
   /** `3/16, 5/16 to 9/16`; of many runs the first ones. */
   def named(runs: Vector[(Int, Int)], count: Int): String =
-    val shown = runs.take(MostNamed).map: (first, last) =>
+    val listed = runs.take(MostNamed).map: (first, last) =>
       if first == last then s"$first/$count"
       else if last == first + 1 then s"$first/$count, $last/$count"
       else s"$first/$count to $last/$count"
-    val more = runs.drop(MostNamed).map((first, last) => last.toLong - first + 1).sum
-    shown.mkString(", ") + (if more > 0 then s" and $more more" else "")
+    val omitted = runs.drop(MostNamed).map((first, last) => last.toLong - first + 1).sum
+    listed.mkString(", ") + (if omitted > 0 then s" and $omitted more" else "")
 
   private val MostNamed = 10
 

@@ -26,8 +26,8 @@ object FilmLock:
     * @throws IOException if the folder can't be written
     */
   def take(film: Path): Option[FilmLock] =
-    val place = FilmFile.place(film)
-    val file = place.resolveSibling(s".${place.getFileName}.lock")
+    val target = FilmFile.target(film)
+    val file = target.resolveSibling(s".${target.getFileName}.lock")
     // A pipe would wait, and a link might lead anywhere
     if Files.exists(file, NOFOLLOW_LINKS) && !Files.isRegularFile(file, NOFOLLOW_LINKS) then
       throw IOException(s"`$file` is no lock, but a link, a folder or a pipe")

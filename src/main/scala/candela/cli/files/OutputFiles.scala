@@ -1,11 +1,11 @@
 package candela.cli.files
 
+import candela.aov.Layer
 import candela.base.{Code, FileName, Problem, SceneError, Severity}
 import candela.build.film.FilmRecipe
 import candela.cli.options.FilmOptions
 import candela.image.{Contents, ImageError, OutputFormat}
 import candela.job.{ImageName, Prepared}
-import candela.layers.Layer
 import candela.render.RenderPlan
 
 import java.io.IOException

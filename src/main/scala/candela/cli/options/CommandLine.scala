@@ -2,6 +2,7 @@ package candela.cli.options
 
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
+import candela.aov.Layer
 import candela.base.{CacheFolder, Code, PartFiles, Problem, Suggest}
 import candela.build.recipe.TextureControl
 import candela.build.{RenderRegion, RenderSettings}
@@ -9,7 +10,6 @@ import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
 import candela.convert.Baking
 import candela.image.DisplayTransform
 import candela.job.{Preparation, SceneLimits}
-import candela.layers.Layer
 import candela.scenefile.Dialect
 import candela.watch.WatchAddress
 

@@ -1,12 +1,12 @@
 package candela.cli.options
 
+import candela.aov.Layer
 import candela.build.{ColorMode, LightGrouping, RenderRegion, RenderSettings}
 import candela.build.sampling.PointChoice
 import candela.convert.Baking
 import candela.film.Fireflies
 import candela.image.{Contents, OutputFormat}
 import candela.job.TextForm
-import candela.layers.Layer
 import candela.scenefile.Dialect
 import candela.watch.{TevDisplay, WatchAddress}
 

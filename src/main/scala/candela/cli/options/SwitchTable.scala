@@ -51,8 +51,8 @@ private[cli] object SwitchTable extends OptionRows:
     opt[CausticsMode]("caustics").valueName("auto|on|off|photons")
       .text(OptionText(
         "look for caustics, on surfaces and in media: by light paths, and by paths that photons " +
-          "guide or walks complete, where these reduce the noise (auto); also for those of lamps " +
-          "without extent (on); by photon maps, which blur them and thick fog a little " +
+          "guide or walks complete, where these reduce the noise (auto); also for those of " +
+          "delta lights (on); by photon maps, which blur them and thick fog a little " +
           "(photons); or not (off, default with a number of samples)",
         "`auto` is the default with `--time` and `--error`. [What it brings](CAUSTICS.md)."
       ))

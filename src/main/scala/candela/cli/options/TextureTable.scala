@@ -23,8 +23,8 @@ private[cli] object TextureTable extends OptionRows:
       case e: InvalidPathException =>
         throw IllegalArgumentException(s"expected a folder: ${e.getReason}")
 
-  /** Enough for the tiles that one lookup needs, and some more. */
-  private val Least = 1_000_000L
+  /** A cache of this size holds more than the tiles that one lookup needs. */
+  private val MinBytes = 1_000_000L
 
   private def kept[A](change: (A, TextureControl) => TextureControl): (A, Options) => Options =
     (value, o) => o.copy(textures = change(value, o.textures))
@@ -54,7 +54,7 @@ private[cli] object TextureTable extends OptionRows:
         "The image is the same: [textures](TEXTURES.md)."
       ))
       .validate: n =>
-        if n >= Least then success
+        if n >= MinBytes then success
         else failure(s"--texture-memory must be at least 1M, found ${ByteCount.show(n)}")
       .action(kept((n, t) => t.copy(memory = Some(n)))),
     opt[Path]("texture-cache").valueName("FOLDER")

@@ -1,10 +1,10 @@
 package candela.cli.options
 
+import candela.aov.Layer
 import candela.base.Limit
 import candela.build.Language
 import candela.image.OutputFormat
 import candela.job.SceneFormat
-import candela.layers.Layer
 import candela.render.storage.FilmFile
 
 import scopt.OptionDef

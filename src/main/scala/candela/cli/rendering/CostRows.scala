@@ -25,5 +25,5 @@ private[cli] object CostRows:
   private def text(cost: Cost): String =
     val most = if cost.isMost then "at most " else ""
     val bytes = Option.when(cost.bytes > 0)(most + ByteCount.show(cost.bytes))
-    val seconds = Option.when(cost.seconds >= Costs.Least)(Figures.duration(cost.seconds))
+    val seconds = Option.when(cost.seconds >= Costs.MinSeconds)(Figures.duration(cost.seconds))
     (bytes ++ seconds).mkString(", ")

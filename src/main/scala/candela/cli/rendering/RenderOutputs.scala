@@ -1,11 +1,11 @@
 package candela.cli.rendering
 
+import candela.aov.Layer
 import candela.base.SourcePos
 import candela.cli.files.{FileRegister, FilmKeeping, FilmName, Frame, Output, OutputFiles}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.terminal.Report
 import candela.job.{Prepared, SceneLoader}
-import candela.layers.Layer
 import candela.render.storage.FilmFile
 import candela.scenefile.SceneFiles
 

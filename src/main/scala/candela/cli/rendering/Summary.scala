@@ -55,7 +55,7 @@ object Summary:
     */
   def noise(error: Double, isOfFew: Boolean, interval: Option[Interval] = None): String =
     val limits = interval.filter(_.isKnown).map(i => (Math.sqrt(i.low), Math.sqrt(i.high)))
-    def isWide(limit: Double) = Math.abs(limit / error - 1) > Known
+    def isWide(limit: Double) = Math.abs(limit / error - 1) > MaxOmitted
     val range = limits match
       case Some((low, _)) if isOfFew => s" (${Figures.percentage(low)} or more, $OfFew)"
       case None if isOfFew => s" (or more, $OfFew)"
@@ -66,8 +66,8 @@ object Summary:
 
   private val OfFew = "as few pixels have nearly all of it"
 
-  /** An error that is known to this part of it needs no interval. */
-  private val Known = 0.15
+  /** An interval whose limits differ less from the error is not shown. */
+  private val MaxOmitted = 0.15
 
   private def ended(isLate: Boolean) = if isLate then "out of time" else "interrupted"
 

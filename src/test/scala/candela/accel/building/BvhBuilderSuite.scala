@@ -99,7 +99,7 @@ class BvhBuilderSuite extends AnyFunSuite:
     val sorted = (numbers ++ numbers.map(-_)).sorted
     assert(sorted.map(BoxRecord.encode(_)) == sorted.map(BoxRecord.encode(_)).sorted)
     assert(sorted.forall(x => BoxRecord.decode(BoxRecord.encode(x)).equals(x)))
-    assert(BoxRecord.encode(Float.NegativeInfinity) == BoxRecord.Least)
+    assert(BoxRecord.encode(Float.NegativeInfinity) == BoxRecord.MinusInfinity)
 
   test("the tree is the same for any number of threads"):
     val draws = Draws(9)

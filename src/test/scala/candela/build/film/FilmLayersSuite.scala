@@ -4,9 +4,9 @@ import java.nio.file.Path
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.aov.{Cryptomatte, Layer}
 import candela.build.{ColorMode, RenderSettings, SceneBuilder}
 import candela.image.{Image, ImageFiles}
-import candela.layers.{Cryptomatte, Layer}
 import candela.math.square
 import candela.render.Renderer
 import candela.scenefile.{Dialect, Parser}

@@ -4,9 +4,9 @@ import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.aov.Layer
 import candela.build.{ColorMode, LightGrouping, RenderSettings, SceneBuilder}
 import candela.image.Image
-import candela.layers.Layer
 import candela.render.{RenderPlan, Renderer}
 import candela.scenefile.{Dialect, Parser}
 import candela.testing.{SceneTexts, TempFolder}
@@ -19,7 +19,7 @@ final class LightLayersSuite extends AnyFunSuite:
   private def image(plan: RenderPlan): Image =
     Renderer.render(plan, threads = 2).image(plan.development)
 
-  /** A box with lamps of four kinds; glass and glossy surfaces scatter their light. */
+  /** A box with emitters of four kinds; glass and glossy surfaces scatter their light. */
   private def box(integrator: String, more: String = "") = s"""$integrator
     LookAt 0 0 -4  0 0 0  0 1 0
     Camera "perspective" "float fov" 60

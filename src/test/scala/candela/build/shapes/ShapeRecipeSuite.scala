@@ -54,7 +54,7 @@ class ShapeRecipeSuite extends AnyFunSuite:
   private val floor =
     "Material \"diffuse\" \"rgb reflectance\" [1 1 1]\nShape \"disk\" \"float radius\" 100\n"
 
-  private def lit(lamp: String): Float =
+  private def lit(emitter: String): Float =
     val text = "LookAt 0 0 5 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 10\n" +
       "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n" +
       "Sampler \"zsobol\" \"integer pixelsamples\" 256\n" +
@@ -62,10 +62,10 @@ class ShapeRecipeSuite extends AnyFunSuite:
       s"WorldBegin\n$floor" +
       "AttributeBegin\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0]\nTranslate 0 0 3\n" +
       s"AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true\n" +
-      s"Shape \"disk\" \"float radius\" 2 \"float innerradius\" .5 $lamp\nAttributeEnd\n"
+      s"Shape \"disk\" \"float radius\" 2 \"float innerradius\" .5 $emitter\nAttributeEnd\n"
     SceneTexts.mean(text, Dialect.V4).g
 
-  test("a lamp of v4 with alpha 0 lights as if it were there, a half transparent one half as much"):
+  test("a v4 light with alpha 0 lights as if it were there, a half transparent one half as much"):
     val full = lit("")
     // 16,384 light samples that deviate by up to the mean: 0.8 %; chances of alpha add as much
     assert(Math.abs(lit("\"float alpha\" 0") / full - 1f) < 0.02f)

@@ -14,7 +14,7 @@ class ReferenceCommandSuite extends AnyFunSuite:
 
   private def run(args: String*): (Int, Captured) = Captured.run("reference" +: args*)
 
-  /** A matte ball under a lamp, of 12 × 8 pixels. */
+  /** A matte ball under an emitter, of 12 × 8 pixels. */
   private def scene(folder: Path): String =
     val text =
       """Film "rgb" "integer xresolution" 12 "integer yresolution" 8

@@ -1,12 +1,12 @@
 package candela.cli.commands
 
+import candela.aov.Layer
 import candela.base.{Code, Problem, SceneError, SourcePos, Version}
 import candela.cli.{Captured, Main}
 import candela.cli.terminal.Interrupts
 import candela.color.Rgb
 import candela.image.ImageFiles
 import candela.job.{Denoising, Preparation, Prepared, SceneLoader}
-import candela.layers.Layer
 import candela.render.{Cancellation, RenderPlan, TinyPlan}
 import candela.scenefile.{Dialect, SceneDescription}
 import candela.testing.TempFolder
@@ -100,8 +100,8 @@ class RenderCommandSuite extends AnyFunSuite:
       val scene = folder.resolve("s.pbrt")
       val film = "Film \"rgb\" \"integer xresolution\" 6 \"integer yresolution\" 6"
       val camera = "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 45"
-      val lamp = "AreaLightSource \"diffuse\" \"rgb L\" [.5 .5 .5] Shape \"sphere\""
-      val _ = Files.writeString(scene, s"$film\n$camera\nWorldBegin $lamp")
+      val emitter = "AreaLightSource \"diffuse\" \"rgb L\" [.5 .5 .5] Shape \"sphere\""
+      val _ = Files.writeString(scene, s"$film\n$camera\nWorldBegin $emitter")
       def render(words: String*) =
         val captured = Captured()
         (Main.run(scene.toString +: words, captured.terminal), captured)
@@ -189,9 +189,9 @@ class RenderCommandSuite extends AnyFunSuite:
       val scene = folder.resolve("s.pbrt")
       val film = "Film \"rgb\" \"integer xresolution\" 48 \"integer yresolution\" 32"
       val camera = "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\""
-      val lamp = "AttributeBegin Translate 2 3 0 AreaLightSource \"diffuse\" " +
+      val emitter = "AttributeBegin Translate 2 3 0 AreaLightSource \"diffuse\" " +
         "Shape \"sphere\" \"float radius\" .2 AttributeEnd"
-      val _ = Files.writeString(scene, s"$film\n$camera\nWorldBegin\n$lamp Shape \"sphere\"")
+      val _ = Files.writeString(scene, s"$film\n$camera\nWorldBegin\n$emitter Shape \"sphere\"")
       def run(args: String*) =
         val captured = Captured(environment = sys.env)
         assert(Main.run(scene.toString +: args, captured.terminal) == 0)

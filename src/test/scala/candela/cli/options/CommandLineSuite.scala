@@ -1,9 +1,9 @@
 package candela.cli.options
 
+import candela.aov.Layer
 import candela.base.Version
 import candela.build.{LightGrouping, ReadSettings, RenderRegion}
 import candela.cli.terminal.ExitCode
-import candela.layers.Layer
 import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect
 import candela.suite.Work

@@ -20,7 +20,7 @@ class OptionTableSuite extends AnyFunSuite:
 
   test("the page of layers has every layer with its first channel"):
     val text = Files.readString(Path.of("docs/LAYERS.md"))
-    for layer <- candela.layers.Layer.values do
+    for layer <- candela.aov.Layer.values do
       assert(text.contains(s"`${layer.word}`"), layer)
       val channel = layer.channelsOf(Vector("GROUP")).head
       assert(text.contains(s"`$channel`"), channel)

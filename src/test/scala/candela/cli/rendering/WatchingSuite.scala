@@ -1,10 +1,10 @@
 package candela.cli.rendering
 
+import candela.aov.Layer
 import candela.build.RenderSettings
 import candela.cli.Watched
 import candela.color.Rgb
 import candela.image.ImageFiles
-import candela.layers.Layer
 import candela.render.{TinyPlan, Where}
 import candela.scenefile.Dialect
 import candela.testing.Eventually.eventually

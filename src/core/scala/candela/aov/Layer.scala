@@ -1,4 +1,4 @@
-package candela.layers
+package candela.aov
 
 import candela.color.{ColorSpace, Matrix3, Rgb}
 import candela.film.ExactSums
@@ -22,7 +22,7 @@ enum Layer(
     val word: String,
     val channels: Vector[String],
     val meaning: String,
-    private[layers] val statistic: Statistic,
+    private[aov] val statistic: Statistic,
     val needsFootprints: Boolean = false,
     val needsFloat: Boolean = false,
     val dividesLight: Boolean = false
@@ -169,7 +169,7 @@ enum Layer(
     case Lights => groups.flatMap(group => Layer.rgb(s"Combined_$group"))
     case _ => channels
 
-  private[layers] def statisticOf(groups: Vector[String]): Statistic = this match
+  private[aov] def statisticOf(groups: Vector[String]): Statistic = this match
     case Lights => ScaledMeanOfAll(Tally.light(LightParts.Groups, groups.size))
     case _ => statistic
 
@@ -177,7 +177,7 @@ enum Layer(
   def isLight: Boolean = dividesLight || this == Emission
 
   /** Matrix from linear sRGB to the colour space of the image, for layers of colours. */
-  private[layers] def to(space: ColorSpace): Option[Matrix3] = this match
+  private[aov] def to(space: ColorSpace): Option[Matrix3] = this match
     case Albedo | DenoisingAlbedo => Some(space.ofSrgbAdapted)
     case Emission => Some(space.ofSrgb)
     case _ => None
@@ -204,7 +204,7 @@ object Layer:
   *
   * @param size number of accumulators
   */
-private[layers] abstract class Tally(val size: Int):
+private[aov] abstract class Tally(val size: Int):
   /** Whether it counts only samples that hit a surface. */
   def needsSurface: Boolean = true
 
@@ -220,7 +220,7 @@ private[layers] abstract class Tally(val size: Int):
   /** Whether `join` does anything. */
   def joins: Boolean = false
 
-private[layers] object Tally:
+private[aov] object Tally:
   /** A quantity accumulated with the filter weight. */
   trait Number:
     def apply(seen: VisibleSurface): Float
@@ -299,7 +299,7 @@ private[layers] object Tally:
   * @param hitWeight sum of the filter weights of samples that hit a surface
   * @param scale     from accumulated values to image values
   */
-private[layers] final class PixelTally(
+private[aov] final class PixelTally(
     sums: ExactSums,
     at: Int,
     val size: Int,
@@ -329,10 +329,10 @@ private[layers] final class PixelTally(
   *
   * @param tally its accumulators; AOVs may share them
   */
-private[layers] abstract class Statistic(val tally: Tally):
+private[aov] abstract class Statistic(val tally: Tally):
   def apply(pixel: PixelTally): Array[Double]
 
-private[layers] object Statistic:
+private[aov] object Statistic:
   /** Average over samples that hit a surface. */
   final class Mean(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.hitWeight)

@@ -1,4 +1,4 @@
-package candela.layers
+package candela.aov
 
 import candela.bsdf.{Bsdf, DirectionalAlbedo}
 import candela.color.{ColorBasis, Rgb}
@@ -9,12 +9,12 @@ import candela.scene.{Scene, SurfaceNames}
 /** The first visible surface of a camera ray, source of the AOVs with any integrator. Properties
   * are computed on demand. Mutable, one per worker.
   *
-  * @param output transform from world space to that of the AOVs, at the time of a ray
-  * @param basis  of the scene's colours
-  * @param names  of what can be seen
-  * @param motion projection of moving points, if the camera has one
-  * @param hidesLamps whether the camera sees through lamps
-  * @param skyCovers  whether samples of the sky count as covered
+  * @param output        transform from world space to that of the AOVs, at the time of a ray
+  * @param basis         of the scene's colours
+  * @param names         of what can be seen
+  * @param motion        projection of moving points, if the camera has one
+  * @param hidesEmitters whether the camera sees through emitters
+  * @param skyCovers     whether samples of the sky count as covered
   */
 final class VisibleSurface(
     val scene: Scene,
@@ -22,7 +22,7 @@ final class VisibleSurface(
     basis: ColorBasis,
     names: SurfaceNames = SurfaceNames.Empty,
     motionOnFilm: Option[ScreenMotion] = None,
-    hidesLamps: Boolean = false,
+    hidesEmitters: Boolean = false,
     skyCovers: Boolean = false
 ):
   private val ray = Ray()
@@ -49,7 +49,7 @@ final class VisibleSurface(
   val at: ShadingPoint = scene.newPoint(always = true)
 
   def copy(): VisibleSurface =
-    VisibleSurface(scene, output, basis, names, motionOnFilm, hidesLamps, skyCovers)
+    VisibleSurface(scene, output, basis, names, motionOnFilm, hidesEmitters, skyCovers)
 
   /** Traces a camera ray through interfaces; leaves the ray unchanged.
     *
@@ -61,13 +61,13 @@ final class VisibleSurface(
     ray.time = from.time
     ray.differential.copy(from.differential)
     isHit = scene.closestBehindInterfaces(ray, hit, at)
-    while isHit && hidesLamps && at.areaLight >= 0 do
+    while isHit && hidesEmitters && at.areaLight >= 0 do
       scene.passThrough(ray, at)
       isHit = scene.closestBehindInterfaces(ray, hit, at)
     if isHit then record(from, scene.bsdf(at))
 
   /** Records the hit in `at`. */
-  private[layers] def record(from: Ray, scattering: Bsdf): Unit =
+  private[aov] def record(from: Ray, scattering: Bsdf): Unit =
     isHit = true
     isReflectionKnown = false
     bsdf = scattering

@@ -1,4 +1,4 @@
-package candela.layers
+package candela.aov
 
 import candela.color.Rgb
 import candela.film.ExactSums
@@ -57,7 +57,7 @@ object Cryptomatte:
     case c => c.toString
 
   /** Pairs of identifier and filter weight, in the order of their first samples. */
-  private[layers] def tally(of: VisibleSurface => Float): Tally = new Tally(2 * Slots):
+  private[aov] def tally(of: VisibleSurface => Float): Tally = new Tally(2 * Slots):
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
       count(sums, at, of(seen).toDouble, weight)
 
@@ -82,7 +82,7 @@ object Cryptomatte:
           count(sums, at, id, rest)
 
   /** Identifiers by falling coverage, each with its coverage. */
-  private[layers] final class Ranked(tally: Tally) extends Statistic(tally):
+  private[aov] final class Ranked(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] =
       val found = Vector.tabulate(Slots)(i => (pixel(2 * i), pixel(2 * i + 1))).filter(_._1 != 0.0)
       val ranked = found.sortBy((id, weight) => (-weight, id)).take(Ranks)

@@ -1,4 +1,4 @@
-package candela.layers
+package candela.aov
 
 import candela.cameras.{Camera, FilmPlace, MovingCamera, Shutter}
 import candela.math.*

@@ -1,4 +1,4 @@
-package candela.layers
+package candela.aov
 
 import candela.color.{ColorBasis, Rgb}
 import candela.film.SampleLimit

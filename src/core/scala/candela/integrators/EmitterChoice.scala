@@ -8,7 +8,7 @@ import candela.scene.Scene
   *
   * @param begins may paths begin at a light?
   */
-final class LampChoice(scene: Scene, begins: Light => Boolean):
+final class EmitterChoice(scene: Scene, begins: Light => Boolean):
   private val powers = scene.lights.map: light =>
     if begins(light) then Discrete.weight(light.power(scene.ball)) else 0f
   private val choice: Discrete | Null = if powers.exists(_ > 0f) then Discrete(powers) else null

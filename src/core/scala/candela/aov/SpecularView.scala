@@ -1,4 +1,4 @@
-package candela.layers
+package candela.aov
 
 import candela.bsdf.{Bsdf, DirectionalAlbedo}
 import candela.color.Rgb
@@ -12,7 +12,7 @@ import candela.scene.Scene
   *
   * Source of what to take: "Open Image Denoise", documentation, §"Albedos" and §"Normals".
   */
-private[layers] final class SpecularView(scene: Scene):
+private[aov] final class SpecularView(scene: Scene):
   private val ray = Ray()
   private val hit = Hit()
   private var found = false

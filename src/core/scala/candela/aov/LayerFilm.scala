@@ -1,4 +1,4 @@
-package candela.layers
+package candela.aov
 
 import candela.base.{CheckedInput, CheckedOutput, loop}
 import candela.color.Rgb

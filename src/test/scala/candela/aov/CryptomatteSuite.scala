@@ -1,4 +1,4 @@
-package candela.layers
+package candela.aov
 
 import org.scalatest.funsuite.AnyFunSuite
 
