@@ -55,7 +55,7 @@ object GalleryPage:
 
   val OfColors: String =
     """Scenes of this repository where three numbers per colour are not enough, beside pbrt-v4's
-      |images of them, which `RenderSuite` compares with Candela's. They are small; here, each
+      |images of them, which `ReferenceSuite` compares with Candela's. They are small; here, each
       |pixel is a square.""".stripMargin
 
   val Introduction: String =

@@ -183,9 +183,11 @@ class LivePageSuite extends AnyFunSuite:
         gate.countDown()
         page.until("document.querySelector('#live').dataset.stage == 'done'")
         page.until("document.getElementById('files').textContent.startsWith('Written')")
-        assert(page.value("document.getElementById('waiting').hidden").bool)
-        val chosen = page.value("document.querySelector('#layer').selectedOptions[0].text").str
-        assert(chosen == "color: the image")
+        // The image is asked for after the stage is known
+        page.until("document.getElementById('waiting').hidden")
+        page.until(
+          "document.querySelector('#layer').selectedOptions[0].text == 'color: the image'"
+        )
         page.value("document.querySelector('.stage').focus()")
         page.press("ArrowRight")
         page.until("document.querySelector('.readout').textContent.startsWith('pixel (20')")
