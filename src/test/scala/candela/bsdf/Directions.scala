@@ -59,6 +59,10 @@ object Directions:
       cells(i / fine * columns + j / fine) += g(w) * r * height * width
     cells
 
+  /** ∫ g over the hemisphere about +z, by a grid of 2¹⁸ points; good to a thousandth. */
+  def overHemisphere(g: Vec3 => Double): Double =
+    integrals(1, 1, fine = 512)(w => if w.z > 0f then g(w) else 0.0).sum
+
   /** The cell of `integrals` that holds `w`. */
   def cell(rows: Int, columns: Int)(w: Vec3): Int =
     val row = Math.min((Math.atan2(Math.hypot(w.x, w.y), w.z) / Math.PI * rows).toInt, rows - 1)

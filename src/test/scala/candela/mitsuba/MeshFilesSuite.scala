@@ -45,22 +45,21 @@ class MeshFilesSuite extends AnyFunSuite:
     assert(why(written(good.take(40))(SerializedFile.read(_, 0, at))).contains("damaged"))
     val tent = InputFile.asked(folder.resolve("tent.serialized"))
     assert(why(SerializedFile.read(tent, 1, at)).contains("1 meshes"))
+    val claim = java.nio.ByteBuffer.allocate(21).order(java.nio.ByteOrder.LITTLE_ENDIAN)
+    val file = packed(claim.putInt(0x1000).put(0.toByte).putLong(700_000_000L).putLong(1L).array)
+    assert(why(written(file)(SerializedFile.read(_, 0, at))).contains("more than it can hold"))
+
+  /** A `.serialized` file of one mesh. */
+  private def packed(mesh: Array[Byte]): Array[Byte] =
     val body = java.io.ByteArrayOutputStream()
     val zip = java.util.zip.DeflaterOutputStream(body)
-    val claim = java.nio.ByteBuffer.allocate(21).order(java.nio.ByteOrder.LITTLE_ENDIAN)
-    zip.write(claim.putInt(0x1000).put(0.toByte).putLong(700_000_000L).putLong(1L).array)
+    zip.write(mesh)
     zip.close()
-    val packed = body.toByteArray
     val file =
-      java.nio.ByteBuffer.allocate(packed.length + 16).order(java.nio.ByteOrder.LITTLE_ENDIAN)
-    file.putShort(0x041c).putShort(4).put(packed).putLong(0L).putInt(1)
-    assert(why(written(file.array)(SerializedFile.read(
-      _,
-      0,
-      at
-    ))).contains("more than it can hold"))
+      java.nio.ByteBuffer.allocate(body.size + 16).order(java.nio.ByteOrder.LITTLE_ENDIAN)
+    file.putShort(0x041c).putShort(4).put(body.toByteArray).putLong(0L).putInt(1).array
 
-  /** A `.serialized` file of one triangle, with the arrays that the flags name. */
+  /** A file of one triangle, with the arrays that the flags name. */
   private def serialized(flags: Int, arrays: Vector[Float]*): Array[Byte] =
     val plain =
       java.nio.ByteBuffer.allocate(4 + 1 + 16 + arrays.map(4 * _.size).sum + 12)
@@ -68,13 +67,7 @@ class MeshFilesSuite extends AnyFunSuite:
     plain.putInt(0x1000 | flags).put(0.toByte).putLong(3L).putLong(1L): Unit
     arrays.flatten.foreach(plain.putFloat)
     for i <- Vector(2, 0, 1) do plain.putInt(i)
-    val body = java.io.ByteArrayOutputStream()
-    val zip = java.util.zip.DeflaterOutputStream(body)
-    zip.write(plain.array)
-    zip.close()
-    val file =
-      java.nio.ByteBuffer.allocate(body.size + 16).order(java.nio.ByteOrder.LITTLE_ENDIAN)
-    file.putShort(0x041c).putShort(4).put(body.toByteArray).putLong(0L).putInt(1).array
+    packed(plain.array)
 
   test("arrays of a serialized mesh follow each other as its flags say, colours too"):
     val p = Vector(0f, 0f, 0f, 1f, 0f, 0f, 0f, 1f, 0f)

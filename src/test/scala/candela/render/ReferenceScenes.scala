@@ -77,4 +77,7 @@ object ReferenceScenes:
     Vector("v4-fog-gap", "v4-depth-of-field", "v3-lights")
       .map(named(_).copy(guiding = GuidingMode.On))
 
+  /** All that is compared with a reference. */
+  def compared: Vector[ReferenceScene] = all ++ variants
+
   def named(name: String): ReferenceScene = all.find(_.name == name).get

@@ -19,7 +19,7 @@ import org.scalatest.tagobjects.Slow
   */
 abstract class ReferenceSuite(prefix: String, part: Int = 0, parts: Int = 1) extends AnyFunSuite:
 
-  private val scenes = (ReferenceScenes.all ++ ReferenceScenes.variants)
+  private val scenes = ReferenceScenes.compared
     .filter(_.name.startsWith(prefix)).zipWithIndex
     .collect { case (scene, i) if i % parts == part => scene }
 

@@ -10,9 +10,7 @@ class BeckmannSuite extends BsdfLaws:
 
   test("the projected area of all facets is that of the surface"):
     val facets = Beckmann(0.5f, 0.2f)
-    val area = Directions
-      .integrals(1, 1, fine = 512)(m => if m.z > 0f then facets.d(m) * m.z.toDouble else 0.0)
-      .sum
+    val area = Directions.overHemisphere(m => facets.d(m) * m.z.toDouble)
     assert(Math.abs(area - 1) < 1e-3) // the grid's error
 
   test("facets have no tails: at a slope of four times the roughness almost none are left"):

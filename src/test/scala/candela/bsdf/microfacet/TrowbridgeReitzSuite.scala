@@ -3,22 +3,21 @@ package candela.bsdf.microfacet
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.bsdf.Directions
-import candela.math.*
 
 class TrowbridgeReitzSuite extends AnyFunSuite:
   private val shapes = Seq(TrowbridgeReitz(0.3f, 0.3f), TrowbridgeReitz(0.2f, 0.6f))
 
-  private def over(g: Vec3 => Double): Double =
-    Directions.integrals(1, 1, fine = 512)(m => if m.z > 0f then g(m) else 0.0).sum
-
   test("the projected area of all facets is that of the surface"):
     for shape <- shapes do
       // The grid's error.
-      assert(Math.abs(over(m => shape.d(m) * m.z.toDouble) - 1) < 1e-3)
+      assert(Math.abs(Directions.overHemisphere(m => shape.d(m) * m.z.toDouble) - 1) < 1e-3)
 
   test("visible facets cover what is seen: the pdf of normals integrates to 1"):
     for shape <- shapes; wo <- Directions.few if wo.z > 0f do
-      assert(Math.abs(over(m => shape.pdf(wo, m)) - 1) < 1e-3, s"at $wo") // the grid's error
+      assert(
+        Math.abs(Directions.overHemisphere(m => shape.pdf(wo, m)) - 1) < 1e-3,
+        s"at $wo"
+      ) // the grid's error
 
   test("the density is that of the textbook, with tangents and cosines"):
     val (ax, ay) = (0.2, 0.6)
