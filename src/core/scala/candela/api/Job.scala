@@ -2,11 +2,8 @@ package candela.api
 
 import candela.base.SceneError
 import candela.image.{Image, Oidn}
-import candela.job.{
-  Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared,
-  RenderControl as CoreControl
-}
-import candela.render.{RenderFailure, Rendering, RenderListener as CoreListener}
+import candela.job.{Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared}
+import candela.render.{RenderControl as CoreControl, RenderFailure, Rendering, StoppingRule}
 
 import java.nio.file.Path
 import java.util.concurrent.CancellationException
@@ -99,13 +96,13 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     val asked = settings.of.goal
     val recorder =
       Option.when(control.estimates || asked.isGiven)(ErrorRecorder(plan.development, None))
-    val goal = for r <- recorder if asked.isGiven yield Goal(asked, plan.samplesPerPixel, r)
+    val goal = recorder.map(Goal(asked, plan.samplesPerPixel, _))
     val followed = Followed(control.listener, r => image(r, r.image(plan.development), None))
-    val listener = CoreListener.all(goal.orElse(recorder) ++ Some(followed))
-    val checkpoints = keeper.map(_.checkpointer(() => goal.exists(_.isEnough)))
+    val checkpoints = keeper.map(_.checkpointer(() => goal.exists(_.isReached)))
     val stop = control.cancellation.of
+    val rule = goal.getOrElse(StoppingRule.Never)
     val how =
-      CoreControl(control.threads, stop, listener, checkpointer = checkpoints)
+      CoreControl(control.threads, stop, followed, checkpointer = checkpoints, rule = rule)
     val rendering =
       try prepared.render(how)
       catch

@@ -3,26 +3,31 @@ package candela.build
 import candela.base.Code
 
 import candela.film.Fireflies
-import candela.render.RenderMethod
+import candela.render.{Passes, RenderMethod}
 
 /** Which methods of rendering have samples that fireflies can be taken from. */
 private[build] final class FireflyLimits(context: BuildContext, fireflies: Fireflies):
 
-  def check(method: RenderMethod): Unit = (fireflies, method) match
-    case (Fireflies.Kept, _) => ()
-    case (_, RenderMethod.Chains(_, _, _)) =>
-      refuse("Markov chains visit light by its brightness: no sample is too bright")
-    case (Fireflies.Reweighted, RenderMethod.Passes(_, _)) =>
-      refuse("a photon brightens many samples alike, none of which is an outlier")
-    case (Fireflies.Reweighted, RenderMethod.SplattedTiles(_, _, _, _)) =>
-      context.problems.warn(
-        Code.OptionMisfit,
-        place,
-        "--fireflies reweight leaves light paths that reach the camera as they are"
-      )
-    case (Fireflies.Clamped(_), _) if !method.dividesLight =>
-      refuse("this integrator does not tell indirect light; \"path\" and \"volpath\" do")
-    case _ => ()
+  /** @param method before its pilot, if it has one, has chosen another */
+  def check(method: RenderMethod): Unit = fireflies match
+    case Fireflies.Kept => ()
+    case Fireflies.Reweighted =>
+      val photons = method.pilot.filter(_.blurs).map(_ => Passes.WithoutOutliers)
+      method.withoutOutliers.orElse(photons) match
+        case Some(why) => refuse(why)
+        case None if method.seesLightPaths || method.pilot.exists(_.connects) =>
+          context.problems.warn(
+            Code.OptionMisfit,
+            place,
+            "--fireflies reweight leaves light paths that reach the camera as they are"
+          )
+        case None => ()
+    case Fireflies.Clamped(_) if method.dividesLight => ()
+    case Fireflies.Clamped(_) =>
+      val why = method.withoutOutliers.filter(_ => !method.takesCameraSamples)
+      refuse(why.getOrElse(
+        "this integrator does not tell indirect light; \"path\" and \"volpath\" do"
+      ))
 
   private def refuse(why: String): Unit =
     context.problems.error(Code.OptionMisfit, place, s"--fireflies ${fireflies.word}: $why")

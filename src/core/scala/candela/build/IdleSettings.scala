@@ -4,28 +4,16 @@ import candela.base.{Code, SourcePos}
 import candela.build.sampling.PointChoice
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
-import candela.render.RenderMethod
 
 /** Warns of options of the command line that the scene's integrator does not heed. */
 private[build] final class IdleSettings(context: BuildContext, settings: RenderSettings):
 
-  /** @param method before it is chosen where that is left to a pilot */
-  def checkCaustics(method: RenderMethod): Unit =
-    val isAsked = settings.caustics.exists(_ != CausticsMode.Off)
-    val looks = method match
-      case RenderMethod.Piloted(_, _, _, _) => true
-      case _ => false
-    idle("caustics", isAsked && !looks)(IdleSettings.NoCaustics)
-
   def check(world: World): Unit =
     val method = world.method
-    val isGuided = method match
-      case RenderMethod.Guided(_, _, _) => true
-      case RenderMethod.SplattedTiles(_, _, guided, _) => guided.isDefined
-      case _ => false
-    val isBiased = method match
-      case RenderMethod.Passes(_, bias) => bias.isDefined
-      case _ => false
+    val isAsked = settings.caustics.exists(_ != CausticsMode.Off)
+    idle("caustics", isAsked && method.pilot.isEmpty)(IdleSettings.NoCaustics)
+    val isBiased = method.pilot.exists(_.blurs)
+    val isGuided = method.guide.isDefined && !isBiased
     idle("guiding", settings.guiding.exists(_ != GuidingMode.Off) && !isGuided):
       if context.isV2 && context.description.volumes.nonEmpty then
         "paths among pbrt-v2's volumes are not guided"

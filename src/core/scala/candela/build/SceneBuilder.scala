@@ -6,7 +6,7 @@ import candela.base.{Code, JavaHeap, Keep, Limit, Parallel, Problem}
 import candela.build.recipe.TextureControl
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
-import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands, Splats, View}
+import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands}
 import candela.guiding.Guide
 import candela.integrators.CausticsMode
 import candela.math.{Motion, Still}
@@ -80,7 +80,7 @@ object SceneBuilder:
     val memory = MemoryCheck(control.heap, film, context)
     val samples = crop.pixels * perPixel
     Hierarchies.expect(samples, control.pool, context.resources.warmUps)
-    val built =
+    val world =
       WorldBuilder(
         context,
         integrator,
@@ -95,8 +95,6 @@ object SceneBuilder:
         memory
       ).build(footprints)
     context.problems.stopAtErrors()
-    if !settings.preview then IdleSettings(context, settings).checkCaustics(built.method)
-    val world = piloted(context, built, image, sampling, camera)
     warnOfLimits(context, image, camera, world.method)
     if !settings.preview then
       FireflyLimits(context, settings.fireflies).check(world.method)
@@ -107,40 +105,6 @@ object SceneBuilder:
     for why <- control.keep.save() do
       context.problems.warn(Code.Unwritable, None, s"$why; the scene cache gets no more files")
     (made, context.problems.result)
-
-  /** The world, with its method chosen. */
-  private def piloted(
-      context: BuildContext,
-      world: World,
-      image: ImageSetup,
-      sampling: SamplingSetup,
-      camera: CameraSetup
-  ): World =
-    val asked = context.resources.switches.caustics
-    val (method, why) = world.method match
-      case RenderMethod.Piloted(alone, pilot, chosen, connects) =>
-        val view = View(
-          camera.camera,
-          Splats.Discarded,
-          image.width,
-          image.height,
-          PixelBounds(0, 0, image.width, image.height),
-          image.filter,
-          sampling.sampler.samplesPerPixel,
-          Option.when(camera.motion.isDefined || world.moves)(camera.shutter),
-          footprint(context, sampling)
-        )
-        if connects && !camera.camera.isTraceable then
-          (alone, "none: light paths can't reach this camera")
-        else
-          val (choice, told) = pilot(view)
-          (choice.fold(alone)(chosen), told)
-      case other => (other, s"none: ${IdleSettings.NoCaustics}")
-    val survey = world.method match
-      case RenderMethod.Piloted(_, _, _, _) => world.caustics.features
-      case _ => Vector.empty
-    val told = if asked == CausticsMode.Off then Vector.empty else ("caustics" -> why) +: survey
-    world.rendered(method, told)
 
   private def footprint(context: BuildContext, sampling: SamplingSetup): Float =
     val switches = context.resources.switches
@@ -281,15 +245,14 @@ object SceneBuilder:
         if settings.preview then Development()
         else film.development.copy(scale = film.development.scale * exposure),
       filename = film.filename,
-      features = Vector(
+      facts = Vector(
         "dialect" -> dialect(context.description),
         "integrator" -> integrator.describe
       ) ++ context.origin.describe.map("origin" -> _) ++ world.features ++
-        context.resources.imagesInWords.map("images" -> _) ++ Vector(
+        caustics(context, world) ++ context.resources.imagesInWords.map("images" -> _) ++ Vector(
           "motion" -> moving(camera, world),
           "layers" -> described(image.layers, film.development.bands),
-          "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
-          "samples" -> (if shares then "splatted under the filter" else "one pixel each")
+          "sampler" -> (if usesSampler then sampling.points else "none: Markov chains")
         ) ++ FireflyLimits.feature(settings) ++
         guiding(context, settings, method, samples, crop.pixels),
       differentialScale = footprint(context, sampling),
@@ -320,13 +283,16 @@ object SceneBuilder:
   ): Option[(String, String)] =
     val why = if settings.choices.byGoal then s"; ${Choices.Why}" else ""
     Option.when(context.resources.switches.guiding.isDefined):
-      "guiding" -> (method match
-        case RenderMethod.Guided(_, learning, _) =>
-          Guide(learning, samples, pixels).describe + why
-        case RenderMethod.SplattedTiles(_, _, Some(guided), _) =>
-          Guide(guided.settings, samples, pixels).describe + why
-        case RenderMethod.Passes(_, Some(_)) => s"none: ${IdleSettings.PhotonPaths}"
-        case _ => "none: only path tracing without pbrt-v2's volumes is guided")
+      "guiding" -> (method.guide match
+        case Some(_) if method.pilot.exists(_.blurs) => s"none: ${IdleSettings.PhotonPaths}"
+        case Some(learning) => Guide(learning, samples, pixels).describe + why
+        case None => "none: only path tracing without pbrt-v2's volumes is guided")
+
+  /** What is said of caustics before the pilot, if they are looked for. */
+  private def caustics(context: BuildContext, world: World): Vector[(String, String)] =
+    if context.resources.switches.caustics == CausticsMode.Off then Vector.empty
+    else if world.method.pilot.isDefined then world.caustics.features
+    else Vector("caustics" -> s"none: ${IdleSettings.NoCaustics}")
 
   private def layerPlan(
       context: BuildContext,

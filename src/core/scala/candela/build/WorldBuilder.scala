@@ -36,10 +36,6 @@ private[build] final class World(
   /** What there is of caustics. */
   def caustics: CausticSurvey = survey()
 
-  /** The same, rendered otherwise. */
-  def rendered(method: RenderMethod, told: Vector[(String, String)]): World =
-    World(scene, method, color, features ++ told, moves, costs, names, survey)
-
 /** All surfaces of the world and its objects, with their acceleration structures. */
 private[build] final class Structure(
     val surfaces: Surfaces,

@@ -36,7 +36,7 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
   /** The relative error after so many samples per pixel, as far as known: the root of the relative
     * MSE.
     */
-  override def errorAt(samples: Double): Option[Double] =
+  def errorAt(samples: Double): Option[Double] =
     val errors =
       if reference.isEmpty then estimate.at(samples) else points.lastOption.map(_.errors)
     errors.map(e => Math.sqrt(e.relativeMse))

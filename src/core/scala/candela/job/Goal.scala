@@ -3,17 +3,17 @@ package candela.job
 import candela.build.RenderGoal
 import candela.film.Film
 import candela.measure.Interval
-import candela.render.{ExpectedEnd, Looks, Pass, RenderListener, Rendering, SampleRange}
+import candela.render.{ExpectedEnd, Looks, Pass, Rendering, SampleRange, StoppingRule}
 
-/** Ends a rendering at a time, or at an error, whichever comes first, with a whole number of
-  * samples in every pixel.
+/** Stops a rendering at a time, or at an error, whichever comes first, with a whole number of
+  * samples in every pixel. Without either, it measures the error.
   *
   * @param planned  samples per pixel at which it ends in any case
   * @param recorder measures the error
   */
 final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
-    extends RenderListener:
-  private var isReached = false
+    extends StoppingRule:
+  private var hasReached = false
   private var seen, step, parts = 0
   private var now, perSample = 0.0
 
@@ -21,8 +21,8 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
   private var end = Option.empty[Int]
   private var expected = Option.empty[SampleRange]
 
-  override def isEnough: Boolean = isReached
-  override def looks: Looks = Looks.Waves
+  override def isReached: Boolean = hasReached
+  def looks: Looks = if options.isGiven then Looks.Waves else recorder.looks
 
   override def begins(samples: Int, film: Film): Unit =
     seen = samples
@@ -30,6 +30,9 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     recorder.begins(samples, film)
 
   override def passed(pass: Pass, film: Film): Unit =
+    if options.isGiven then decide(pass, film) else recorder.passed(pass, film)
+
+  private def decide(pass: Pass, film: Film): Unit =
     val began = System.nanoTime
     def clock = pass.clock + (System.nanoTime - began) * 1e-9
     def isLate = options.time.exists(clock > _ + Goal.MaxLateSeconds)
@@ -40,7 +43,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
       val found = options.error.flatMap(recorder.samplesUntil)
       end = found.map(f => Goal.whole(f.estimate))
       expected = found.flatMap(Goal.range)
-    if end.exists(_ <= pass.samples) || pass.isLast && isLow(pass.samples) then isReached = true
+    if end.exists(_ <= pass.samples) || pass.isLast && isLow(pass.samples) then hasReached = true
     val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - seen)
     // The first ones are slow: the JVM compiles meanwhile
     perSample = measured * Goal.Warm(Math.min(parts, Goal.Warm.size - 1))
@@ -48,8 +51,8 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     seen = pass.samples
     step = pass.step
     now = clock
-    if options.time.exists(t => !isWorthMore(t - now)) then isReached = true
-    if isReached && !pass.isWhole then recorder.passed(watched.copy(isLast = true), film)
+    if options.time.exists(t => !isWorthMore(t - now)) then hasReached = true
+    if hasReached && !pass.isWhole then recorder.passed(watched.copy(isLast = true), film)
 
   /** Whether the error is low enough, though all samples are taken before the next eighth. */
   private def isLow(samples: Int): Boolean =
@@ -61,7 +64,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     left > step * perSample / 2 && step * perSample - left <= Goal.MaxLateSeconds
 
   /** As many samples as the error needs, or end in time. */
-  override def most: Int =
+  override def maxSamples: Int =
     val inTime = options.time.filter(_ => perSample > 0).fold(Int.MaxValue): t =>
       val left = t - now
       val fits = Math.min(left / perSample + 0.5, (left + Goal.MaxLateSeconds) / perSample)
@@ -71,27 +74,27 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
   /** At the time, if the rendering may end anywhere, or no sample ends any more; or else soon
     * after, if the samples take longer than expected.
     */
-  override def isOver(seconds: Double, still: Double): Boolean =
-    val late = if step == 0 || still > Goal.MaxStillSeconds then 0 else Goal.MaxLateSeconds
-    if options.time.exists(_ + late <= seconds) then isReached = true
-    isReached
+  override def isOver(seconds: Double, idleSeconds: Double): Boolean =
+    val late = if step == 0 || idleSeconds > Goal.MaxIdleSeconds then 0 else Goal.MaxLateSeconds
+    if options.time.exists(_ + late <= seconds) then hasReached = true
+    hasReached
 
-  override def goal: Option[ExpectedEnd] =
-    Some(ExpectedEnd(options.time, options.error.isDefined, expected))
+  override def expectedEnd: Option[ExpectedEnd] = Option.when(options.isGiven):
+    ExpectedEnd(options.time, options.error.isDefined, expected)
 
   override def errorAt(samples: Double): Option[Double] = recorder.errorAt(samples)
 
   /** Whether the rendering ended before its goal, because all samples were taken. */
   def isMissed(rendering: Rendering): Boolean =
     val isEarly = options.time.forall(rendering.seconds < Goal.Nearly * _)
-    !isReached && isEarly && rendering.samplesDone >= planned
+    options.isGiven && !hasReached && isEarly && rendering.samplesDone >= planned
 
 object Goal:
   /** Of a time; what ends later was asked for. */
   private val Nearly = 0.9
 
   /** No regular sample takes longer without any progress. */
-  private val MaxStillSeconds = 0.5
+  private val MaxIdleSeconds = 0.5
 
   /** A rendering may end this much late, including the time until its workers have ended. */
   private val MaxLateSeconds = 0.4

@@ -7,7 +7,7 @@ import candela.film.{Fireflies, PixelBounds, SpectralBands}
 import candela.image.{
   Contents, Image, ImageEdits, ImageFiles, ImageWindow, OutputFormat, WriteOptions
 }
-import candela.render.{RenderMethod, Rendering, RenderPlan}
+import candela.render.{Rendering, RenderPlan}
 
 import java.nio.file.Path
 import java.util.Locale
@@ -124,15 +124,11 @@ object ImageFile:
       denoiser: Option[String]
   ): Vector[(String, String)] =
     val changed = fireflies(plan, rendering)
-    val (caustics, added) = plan.method match
-      case RenderMethod.Passes(_, bias) => (bias, None)
-      case RenderMethod.SplattedTiles(_, _, _, adds) => (None, adds)
-      case _ => (None, None)
     val channels =
-      changed.orElse(caustics).toVector.flatMap(_ => Image.RgbNames) ++
+      changed.orElse(plan.method.bias).toVector.flatMap(_ => Image.RgbNames) ++
         denoiser.toVector.flatMap(_ => Denoising.Channels)
     changed.map("fireflies" -> _).toVector ++
-      caustics.orElse(added).map("caustics" -> _) ++
+      plan.method.bias.orElse(plan.method.addedLight).map("caustics" -> _) ++
       denoiser.map("denoiser" -> _) ++
       Option.when(channels.nonEmpty)("biased" -> channels.mkString(", "))
 

@@ -5,8 +5,8 @@ import candela.build.RenderSettings
 import candela.build.recipe.TextureControl
 import candela.color.Rgb
 import candela.render.{
-  Cancellation, Checkpointer, Renderer, RenderFailure, Rendering, RenderListener, RenderPlan,
-  RenderState, Shard, ThreadPool
+  Checkpointer, RenderControl, Renderer, RenderFailure, Rendering, RenderPlan, RenderState,
+  ThreadPool
 }
 import candela.render.storage.{FilmHeader, FilmWriter}
 import candela.scene.PathReport
@@ -39,19 +39,6 @@ final case class Preparation(
     keep: Keep = Keep.Nothing
 )
 
-/** How a prepared scene is rendered; the image is the same.
-  *
-  * @param listener     follows the rendering
-  * @param checkpointer keeps its state, if it is to be kept
-  */
-final case class RenderControl(
-    threads: Int = 1,
-    cancellation: Cancellation = Cancellation(),
-    listener: RenderListener = RenderListener.Silent,
-    shard: Shard = Shard.Whole,
-    checkpointer: Option[Checkpointer] = None
-)
-
 /** A scene that is ready to be rendered: a job of its own, beside which others may be prepared and
   * rendered in one process. Its threads end when it is closed.
   *
@@ -75,15 +62,7 @@ final case class Prepared(
 
   /** @throws SceneError if the heap is full, with what takes it */
   def render(control: RenderControl): Rendering =
-    try
-      Renderer.render(
-        plan,
-        control.threads,
-        control.cancellation,
-        control.listener,
-        control.shard,
-        control.checkpointer
-      )
+    try Renderer.render(plan, control)
     catch
       case e: Throwable if Prepared.isOfMemory(e) =>
         throw SceneError(plan.costs.problem(JavaHeap.limit, None))

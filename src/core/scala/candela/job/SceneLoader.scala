@@ -66,7 +66,8 @@ object SceneLoader:
         keep,
         isRendered = how.isRendered
       )
-      val (plan, warnings) = SceneBuilder.build(description, how.settings, control)
+      val (built, warnings) = SceneBuilder.build(description, how.settings, control)
+      val plan = if how.isRendered then built.piloted else built
       val seconds = (System.nanoTime - started) * 1e-9
       val all = description.warnings ++ warnings
       Prepared(description, plan, all, 0, seconds, pool, how.settings)
@@ -80,11 +81,8 @@ object SceneLoader:
 
   /** The readable part of a scene, of any format. */
   def readable(file: Path, how: Preparation): SceneDescription =
-    val folder = how.limits.folder(file)
-    // What is not to be read is not looked at either
-    if folder.isConfined then folder.scene(file): Unit
-    for problem <- ForeignAdvice.problem(file) do throw SceneError(problem)
-    SceneFormat.of(file).read(file, folder, how)
+    try SceneFormat.of(file).read(file, how.limits.folder(file), how)
+    catch case e: SceneError => throw ForeignAdvice.problem(file).fold(e)(SceneError(_))
 
   /** The path of an existing scene file. */
   def existing(scene: String): Path =

@@ -1,7 +1,7 @@
 package candela.job
 
 import candela.base.{Code, Keep, Problem, SceneError}
-import candela.render.Rendering
+import candela.render.{RenderControl, Rendering}
 import candela.render.storage.{FilmFile, FilmHeader}
 
 import java.io.IOException

@@ -26,21 +26,17 @@ object FilmSize:
     val layers = plan.layers.fold(0L)(asked => LayerFilm.size(asked.layers, asked.groups))
     val bands = plan.bands.fold(0)(_.channels.size)
     val groups = plan.layers.filter(_.layers.contains(Layer.Lights)).flatMap(_.groups)
-    val splats = plan.method match
-      case _: RenderMethod.SplattedTiles | _: RenderMethod.Chains =>
-        3 * groups.fold(1)(_.size) + bands
-      case _ => 0
+    val splats = if plan.method.seesLightPaths then 3 * groups.fold(1)(_.size) + bands else 0
     // Chains bring splats alone
-    val samples = plan.method match
-      case _: RenderMethod.Chains => 1
-      case _ => plan.samplesPerPixel
+    val samples = if plan.method.takesCameraSamples then plan.samplesPerPixel else 1
     val sum = sumOf(samples)
     // Samples that pixels share add to a level one by one
     val ofLevel = if plan.sharesSamples then Sum else sum
     val levels = if plan.fireflies == Fireflies.Reweighted then Levels * 3L * ofLevel else 0L
     val borders = if plan.sharesSamples then Border * 4 * sum else 0
     val cost = film(pixels, samples, layers, plan.bands, splats)
-    cost.copy(bytes = cost.bytes + pixels * (levels + borders.toLong)) +: guide(plan).toVector
+    cost.copy(bytes = cost.bytes + pixels * (levels + borders.toLong)) +:
+      plan.method.guide.map(guide(plan, _)).toVector
 
   private def film(
       pixels: Long,
@@ -54,11 +50,6 @@ object FilmSize:
     val inBands = bands.fold(0L)(2L * _.channels.size * Sum)
     val channels = 3L + layers
     Cost(CostKind.Film, pixels * (sums + inBands + splats * Sum + channels * 4))
-
-  private def guide(plan: RenderPlan): Option[Cost] = plan.method match
-    case RenderMethod.Guided(_, settings, _) => Some(guide(plan, settings))
-    case RenderMethod.SplattedTiles(_, _, Some(guided), _) => Some(guide(plan, guided.settings))
-    case _ => None
 
   private def guide(plan: RenderPlan, settings: GuideSettings): Cost =
     val paths = plan.sampled.pixels.toDouble * plan.samplesPerPixel / LastPass

@@ -12,7 +12,6 @@ final class Live private[render] (
     plan: RenderPlan,
     job: Job,
     queue: TaskQueue,
-    workers: Vector[Worker],
     state: RenderState,
     planned: Long,
     val canKeepOn: Boolean,
@@ -39,11 +38,11 @@ final class Live private[render] (
 
   /** What there is now; the result, once rendering has ended. */
   def rendering: Rendering =
-    Renderer.rendering(state, job, workers, samplesPerPixel)
+    state.rendering(samplesPerPixel)
       .copy(samplesTaken = queue.samplesTaken.sum, seconds = elapsed())
 
   /** The tiles that workers render at the moment; none for methods without tiles. */
   def tiles: Vector[PixelBounds] =
     job.schedule match
-      case tiled: TileSchedule => workers.flatMap(_.piece).map(tiled.tiles)
+      case tiled: TileSchedule => state.pieces.map(tiled.tiles)
       case _ => Vector.empty

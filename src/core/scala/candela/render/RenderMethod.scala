@@ -1,157 +1,84 @@
 package candela.render
 
-import candela.bidirectional.{CausticChoice, ChainPaths, SpectralChainPaths}
+import candela.aov.Layer
+import candela.bidirectional.CausticChoice
 import candela.color.Wavelengths
-import candela.film.{Splats, View}
-import candela.guiding.{Guide, GuideSettings}
-import candela.integrators.{
-  ConvertedSplats, Integrator, SharedChains, SharedPasses, SpectralIntegrators, SpectralPasses,
-  WorkerIntegrators
-}
-import candela.scene.Scene
+import candela.film.{PixelBounds, SplatFilm, View}
+import candela.guiding.GuideSettings
+import candela.integrators.{ConvertedSplats, Integrator, WorkerIntegrators}
+import candela.scene.{PathReport, Scene}
 
-/** Organisation of an image's samples, selected by the integrator's recipe. Parts that depend on
-  * the camera or film are created once these are known. Each method says all that others ask of it.
-  *
-  * @param takesCameraSamples whether the sampler places the camera samples; required for AOVs
-  * @param canShareSamples    whether samples may contribute to all pixels within the filter's
-  *                           radius. Light paths and photons contribute to the pixel that they were
-  *                           started for
-  * @param learns             whether samples depend on those before
-  * @param canKeepOn          whether samples can be added beyond the planned number
-  * @param hasWavelengths     whether all light comes with its wavelengths
-  * @param dividesLight       whether its light is divided by way and source, as the scene asks
-  * @param seesLightPaths     whether light paths connect to the camera
+/** Organisation of an image's samples, selected by the integrator's recipe. What depends on the
+  * camera or the film is created for a plan.
   */
-enum RenderMethod(
-    val takesCameraSamples: Boolean,
-    val canShareSamples: Boolean,
-    val learns: Boolean,
-    val canKeepOn: Boolean,
-    val hasWavelengths: Boolean,
-    val dividesLight: Boolean,
-    val seesLightPaths: Boolean
-):
+abstract class RenderMethod:
 
-  /** Independent camera samples, tile by tile. */
-  case Tiles(integrators: WorkerIntegrators)
-      extends RenderMethod(
-        takesCameraSamples = true,
-        canShareSamples = true,
-        learns = false,
-        canKeepOn = true,
-        hasWavelengths = true,
-        dividesLight = integrators.divideLight,
-        seesLightPaths = false
-      )
+  /** Whether the sampler places the camera samples; required for AOVs. */
+  def takesCameraSamples: Boolean = true
 
-  /** Camera samples, tile by tile, whose paths learn from those of earlier passes.
-    *
-    * @param unguided their integrators, if nothing is learnt
-    * @param settings of what is learnt
-    * @param guided   learn, and are guided
+  /** Whether samples may contribute to all pixels within the filter's radius. Light paths and
+    * photons contribute to the pixel that they were started for.
     */
-  case Guided(
-      unguided: WorkerIntegrators,
-      settings: GuideSettings,
-      guided: Guide => WorkerIntegrators
-  ) extends RenderMethod(
-        takesCameraSamples = true,
-        canShareSamples = true,
-        learns = true,
-        canKeepOn = settings.learnsOn,
-        hasWavelengths = true,
-        dividesLight = unguided.divideLight,
-        seesLightPaths = false
-      )
+  def canShareSamples: Boolean
 
-  /** Camera samples, tile by tile; their light paths splat to the whole film.
+  /** Whether samples can be added beyond the planned number. */
+  def canKeepOn: Boolean
+
+  /** Whether all light comes with its wavelengths. */
+  def hasWavelengths: Boolean = true
+
+  /** Whether its light is divided by way and source, as the scene asks. */
+  def dividesLight: Boolean
+
+  /** Whether light paths connect to the camera. */
+  def seesLightPaths: Boolean = false
+
+  /** What its paths learn, if they do: samples then depend on those before. */
+  def guide: Option[GuideSettings] = None
+
+  /** What makes the image biased, if the integrator alone would not. */
+  def bias: Option[String] = None
+
+  /** Light that it finds although the integrator by its definition doesn't. */
+  def addedLight: Option[String] = None
+
+  /** Whether it blurs light, less so with more samples. */
+  def blurs: Boolean = false
+
+  /** Why no sample is an outlier of brightness, if so. */
+  def withoutOutliers: Option[String] = None
+
+  /** Chooses a method that finds more of the light, for a plan whose camera is known. */
+  def pilot: Option[MethodPilot] = None
+
+  /** The method as it is without its pilot. */
+  def withoutPilot: RenderMethod = this
+
+  /** Film, schedule and workers. */
+  private[render] def job(plan: RenderPlan, shard: Shard): Job
+
+  /** An integrator that traces single samples.
     *
-    * @param beside do light paths find light beside the camera's paths, and weigh it against these?
-    *   Else they find a part of it alone
-    * @param guided how the camera's paths learn, if they do
-    * @param adds   what light they find that the integrator by its definition doesn't, if any
+    * @return with it, what begins a sample
     */
-  case SplattedTiles(
-      integrators: View => WorkerIntegrators,
-      beside: Boolean = false,
-      guided: Option[GuidedSplats] = None,
-      adds: Option[String] = None
-  ) extends RenderMethod(
-        takesCameraSamples = true,
-        canShareSamples = beside,
-        learns = guided.isDefined,
-        canKeepOn = guided.forall(_.settings.learnsOn),
-        hasWavelengths = true,
-        dividesLight = beside,
-        seesLightPaths = true
-      )
+  private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples
 
-  /** Camera samples, tile by tile; samples of equal number share their pass's precomputation.
+  /** The same method in spectral rendering.
     *
-    * @param bias of a method that would have none without passes: what makes the image biased
+    * @param parts methods of this class, one for each basis
     */
-  case Passes(passes: View => SharedPasses, bias: Option[String] = None)
-      extends RenderMethod(
-        takesCameraSamples = true,
-        canShareSamples = false,
-        learns = false,
-        canKeepOn = false,
-        hasWavelengths = true,
-        dividesLight = false,
-        seesLightPaths = false
-      )
+  private[render] def spectral(
+      bases: Array[Wavelengths],
+      parts: Vector[RenderMethod]
+  ): RenderMethod
 
-  /** Markov chains, which choose film positions themselves.
-    *
-    * @param paths       the paths that they explore, with their splats
-    * @param chains      the chains of such paths
-    * @param integrators evaluate a single camera sample without chains
-    */
-  case Chains(
-      paths: (View, Splats) => ChainPaths,
-      chains: (View, Splats => ChainPaths) => SharedChains,
-      integrators: View => WorkerIntegrators
-  ) extends RenderMethod(
-        takesCameraSamples = false,
-        canShareSamples = false,
-        learns = false,
-        canKeepOn = false,
-        hasWavelengths = false,
-        dividesLight = false,
-        seesLightPaths = true
-      )
-
-  /** A method to be chosen once the camera is known, before the plan is made.
-    *
-    * @param alone    without light paths
-    * @param pilot    decides on them, and says why
-    * @param chosen   with light paths
-    * @param connects are they connected to the camera?
-    */
-  case Piloted(
-      alone: RenderMethod,
-      pilot: View => (Option[CausticChoice], String),
-      chosen: CausticChoice => RenderMethod,
-      connects: Boolean = true
-  ) extends RenderMethod(
-        alone.takesCameraSamples,
-        alone.canShareSamples,
-        alone.learns,
-        alone.canKeepOn,
-        alone.hasWavelengths,
-        alone.dividesLight,
-        alone.seesLightPaths
-      )
-
-/** How paths beside light paths learn.
+/** Integrator of single samples.
   *
-  * @param settings    of what is learnt
-  * @param integrators learn, and are guided
+  * @param begin given the stopping of a queue, begins each sample
   */
-final case class GuidedSplats(
-    settings: GuideSettings,
-    integrators: (View, Guide) => WorkerIntegrators
+private[render] final case class SingleSamples(
+    integrator: Integrator,
+    begin: TaskQueue => TileWorker.BeginWave = _ => TileWorker.Unweighted
 )
 
 object RenderMethod:
@@ -161,55 +88,86 @@ object RenderMethod:
 
   /** The method of spectral rendering, made of those of the single bases.
     *
-    * @param parts of the same kind, at least one
+    * @param parts of the same class, at least one
     */
   def spectral(parts: Vector[(Wavelengths, RenderMethod)]): RenderMethod =
-    val bases = parts.map(_._1).toArray
-    val methods = parts.map(_._2)
-    def converted(view: View, basis: Wavelengths) =
-      view.copy(splats = ConvertedSplats(view.splats, basis))
-    def ofView(integrators: Vector[View => WorkerIntegrators])(view: View): WorkerIntegrators =
-      val workers = integrators.zip(bases).map((make, basis) => make(converted(view, basis)))
-      SpectralIntegrators(workers, bases)
-    methods.head match
-      case Tiles(_) =>
-        Tiles(SpectralIntegrators(methods.collect { case Tiles(i) => i }, bases))
-      case Guided(_, settings, _) =>
-        val perBasis = methods.collect { case g: Guided => g }
-        Guided(
-          SpectralIntegrators(perBasis.map(_.unguided), bases),
-          settings,
-          shared => SpectralIntegrators(perBasis.map(_.guided(shared)), bases)
-        )
-      case SplattedTiles(_, beside, learning, adds) =>
-        val perBasis = methods.collect { case s: SplattedTiles => s }
-        def guided(view: View, guide: Guide) =
-          val workers = perBasis.zip(bases).map: (of, basis) =>
-            of.guided.get.integrators(converted(view, basis), guide)
-          SpectralIntegrators(workers, bases)
-        SplattedTiles(
-          ofView(perBasis.map(_.integrators)),
-          beside,
-          learning.map(s => GuidedSplats(s.settings, guided)),
-          adds
-        )
-      case Piloted(_, _, _, connects) =>
-        val perBasis = methods.collect { case p: Piloted => p }
-        // One decides for all: bases differ in colours only
-        val decider = perBasis(perBasis.size / 2)
-        Piloted(
-          spectral(parts.map(_._1).zip(perBasis.map(_.alone))),
-          decider.pilot,
-          choice => spectral(parts.map(_._1).zip(perBasis.map(_.chosen(choice)))),
-          connects
-        )
-      case Passes(_, bias) =>
-        val perBasis = methods.collect { case Passes(make, _) => make }
-        Passes(view => SpectralPasses(perBasis.map(_(view)), bases), bias)
-      case Chains(_, chains, _) =>
-        val perBasis = methods.collect { case Chains(paths, _, single) => (paths, single) }
-        def paths(view: View, splats: Splats) =
-          val chainPaths = perBasis.zip(bases).map: (of, basis) =>
-            of._1(view, ConvertedSplats(splats, basis))
-          SpectralChainPaths(chainPaths.toArray, bases)
-        Chains(paths, chains, ofView(perBasis.map(_._2)))
+    parts.head._2.spectral(parts.map(_._1).toArray, parts.map(_._2))
+
+  /** The view of one basis of a spectral film. */
+  private[render] def converted(view: View, basis: Wavelengths): View =
+    view.copy(splats = ConvertedSplats(view.splats, basis))
+
+  /** The film of splats. */
+  private[render] def splatFilm(plan: RenderPlan): SplatFilm =
+    val PixelBounds(x0, y0, x1, y1) = plan.crop
+    val pixels = plan.width.toDouble * plan.height
+    val groups = plan.layers.filter(_.layers.contains(Layer.Lights)).flatMap(_.groups)
+    SplatFilm(
+      x0,
+      y0,
+      x1,
+      y1,
+      plan.filter,
+      pixels,
+      plan.basis,
+      plan.indirectLimit.toVector ++ plan.limit,
+      groups.fold(1)(_.size),
+      plan.bands
+    )
+
+/** Chooses, by a few paths, a method that finds caustics where that reduces the noise.
+  *
+  * @param run      decides on light paths, and says why
+  * @param method   with light paths
+  * @param connects whether these connect to the camera
+  * @param blurs    whether these bring photons instead, which blur
+  */
+final class MethodPilot(
+    val run: View => (Option[CausticChoice], String),
+    val method: CausticChoice => RenderMethod,
+    val connects: Boolean,
+    val blurs: Boolean
+)
+
+object MethodPilot:
+  /** Leaves the method as it is, and says why. */
+  def without(why: String): MethodPilot =
+    MethodPilot(
+      _ => (None, s"none: $why"),
+      _ => throw IllegalStateException(),
+      connects = false,
+      blurs = false
+    )
+
+/** A method that renders alone, beside which a pilot may choose a better one. */
+final class Piloted(alone: RenderMethod, chooser: MethodPilot) extends RenderMethod:
+  override def takesCameraSamples: Boolean = alone.takesCameraSamples
+  def canShareSamples: Boolean = alone.canShareSamples
+  def canKeepOn: Boolean = alone.canKeepOn
+  override def hasWavelengths: Boolean = alone.hasWavelengths
+  def dividesLight: Boolean = alone.dividesLight
+  override def seesLightPaths: Boolean = alone.seesLightPaths
+  override def guide: Option[GuideSettings] = alone.guide
+  override def pilot: Option[MethodPilot] = Some(chooser)
+  override def withoutPilot: RenderMethod = alone
+
+  private[render] def job(plan: RenderPlan, shard: Shard): Job = alone.job(plan, shard)
+  private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
+    alone.single(plan, report)
+
+  private[render] def spectral(
+      bases: Array[Wavelengths],
+      parts: Vector[RenderMethod]
+  ): RenderMethod =
+    val pilots = parts.flatMap(_.pilot)
+    // One decides for all: bases differ in colours only
+    val decider = pilots(pilots.size / 2)
+    Piloted(
+      alone.spectral(bases, parts.map(_.withoutPilot)),
+      MethodPilot(
+        decider.run,
+        choice => RenderMethod.spectral(bases.toVector.zip(pilots.map(_.method(choice)))),
+        decider.connects,
+        decider.blurs
+      )
+    )

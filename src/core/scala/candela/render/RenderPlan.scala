@@ -17,7 +17,7 @@ import candela.scene.SurfaceNames
   * @param limit             brightness limit of samples, if the scene sets one
   * @param development       post-processing from film to image
   * @param differentialScale scale of camera ray differentials; 0: the scene needs none
-  * @param features          readable summary of what the plan contains and ignores: (what, value)
+  * @param facts             readable summary of what the plan contains and ignores: (what, value)
   * @param shutter           shutter interval, if anything is animated; else all rays have the same
   *                          time
   * @param weighsFirst       whether the limit applies after the camera's weighting of the light,
@@ -34,34 +34,56 @@ import candela.scene.SurfaceNames
   * @param samples           samples per pixel to take, if not as many as the sampler's points are
   *                          made for
   */
-final class RenderPlan(
-    val width: Int,
-    val height: Int,
-    val crop: PixelBounds,
-    val camera: Camera,
-    val filter: Filter,
-    val sampler: Sampler,
-    val method: RenderMethod,
-    val basis: ColorBasis,
-    val limit: Option[SampleLimit],
-    val development: Development,
-    val filename: String,
-    val features: Vector[(String, String)],
-    val differentialScale: Float = 0f,
-    val shutter: Option[Shutter] = None,
-    val weighsFirst: Boolean = true,
-    val layers: Option[LayerPlan] = None,
-    val sharesSamples: Boolean = false,
-    val bands: Option[SpectralBands] = None,
-    val isCentered: Boolean = false,
-    val errors: Option[ErrorFile] = None,
-    val fireflies: Fireflies = Fireflies.Kept,
-    val lights: Int = 0,
+final case class RenderPlan(
+    width: Int,
+    height: Int,
+    crop: PixelBounds,
+    camera: Camera,
+    filter: Filter,
+    sampler: Sampler,
+    method: RenderMethod,
+    basis: ColorBasis,
+    limit: Option[SampleLimit],
+    development: Development,
+    filename: String,
+    facts: Vector[(String, String)],
+    differentialScale: Float = 0f,
+    shutter: Option[Shutter] = None,
+    weighsFirst: Boolean = true,
+    layers: Option[LayerPlan] = None,
+    sharesSamples: Boolean = false,
+    bands: Option[SpectralBands] = None,
+    isCentered: Boolean = false,
+    errors: Option[ErrorFile] = None,
+    fireflies: Fireflies = Fireflies.Kept,
+    lights: Int = 0,
     built: Vector[Cost] = Vector.empty,
     samples: Option[Int] = None
 ):
   /** What the rendering takes in memory, estimated, and has taken in time until it begins. */
   def costs: Costs = Costs() ++ (built ++ FilmSize.of(this))
+
+  /** What `--explain` says of the plan: (what, value). */
+  def features: Vector[(String, String)] =
+    facts :+ ("samples" -> (if sharesSamples then "splatted under the filter"
+                            else "one pixel each"))
+
+  /** This plan with the method that its pilot chooses, if it has one. The choice depends on the
+    * whole image, not on the part that is rendered.
+    */
+  def piloted: RenderPlan = method.pilot.fold(this): pilot =>
+    val whole = PixelBounds(0, 0, width, height)
+    val (choice, why) =
+      if pilot.connects && !camera.isTraceable then
+        (None, "none: light paths can't reach this camera")
+      else pilot.run(view(Splats.Discarded).copy(crop = whole))
+    val chosen = choice.fold(method.withoutPilot)(pilot.method)
+    copy(
+      method = chosen,
+      sharesSamples = sharesSamples && chosen.canShareSamples,
+      layers = layers.map(l => if chosen.dividesLight then l else l.copy(groups = None)),
+      facts = facts :+ ("caustics" -> why)
+    )
 
   /** Samples per pixel to take. */
   val samplesPerPixel: Int = samples.getOrElse(sampler.samplesPerPixel)

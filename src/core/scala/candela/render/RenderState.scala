@@ -22,6 +22,32 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
 
   private[render] def refused: Option[Refused] = Refused.of(earlier ++ workers.flatMap(_.refused))
 
+  /** Completes the film of a rendering that ends and is not continued from here. */
+  private[render] def settle(): Unit =
+    for all <- job.chains do
+      queue.begun.forEach((chain, begun) => all.settle(chain, begun.sums(0).toFloat))
+
+  /** The image so far.
+    *
+    * @param samplesPerPixel planned
+    */
+  private[render] def rendering(samplesPerPixel: Int): Rendering =
+    Rendering(
+      job.film,
+      samplesPerPixel,
+      samplesDone,
+      samplesTaken = 0,
+      workers.map(_.raysTraced).sum,
+      seconds = 0,
+      refused,
+      job.layers,
+      job.guide.map(_.outcome),
+      job.guide.fold(0.0)(_.seconds)
+    )
+
+  /** The pieces at which workers are at the moment. */
+  private[render] def pieces: Vector[Int] = workers.flatMap(_.piece)
+
   /** Writes the state, in a form that depends on the samples only. */
   def save(to: CheckedOutput): Unit =
     to.int(job.schedule.pieces)

@@ -14,7 +14,7 @@ private[render] final class TimeLeft(
     schedule: Schedule,
     pixels: Double,
     earlier: Int,
-    listener: RenderListener
+    rule: StoppingRule
 ):
   import TimeLeft.*
 
@@ -24,12 +24,12 @@ private[render] final class TimeLeft(
 
   /** @param done    samples taken
     * @param planned samples per pixel at which it ends in any case
-    * @param seconds since the start of rendering, without the listeners' time
-    * @param clock   with the listeners' time
+    * @param seconds since the start of rendering, without the time of listeners and rule
+    * @param clock   with the time of listeners and rule
     */
   def outlook(done: Long, planned: Int, seconds: Double, clock: Double): Outlook =
     add(Reading(done, seconds))
-    val goal = listener.goal
+    val goal = rule.expectedEnd
     val byError = goal.filter(_.isByError).map(_.samples.map(_.map(atEnd).atMost(planned)))
     val end = byError.fold(Some(planned))(_.map(_.expected)).filter(_ < RenderPlan.Endless)
     val bySamples =
@@ -39,7 +39,7 @@ private[render] final class TimeLeft(
     Outlook(
       (bySamples ++ byTime).minOption.map(Math.max(0, _)),
       rate,
-      listener.errorAt(earlier + done / Math.max(1, pixels)),
+      rule.errorAt(earlier + done / Math.max(1, pixels)),
       goal.isDefined,
       byError.flatten
     )

@@ -7,7 +7,7 @@ import candela.base.WholeFile
 import candela.build.{RenderSettings, SceneBuilder}
 import candela.convert.{Converter, SceneText}
 import candela.image.{Image, ImageError, ImageFiles}
-import candela.render.{Cancellation, Renderer}
+import candela.render.{RenderControl, Cancellation, Renderer}
 import candela.report.RobustProgram
 import candela.scenefile.{Dialect, Parser, SceneDescription}
 import candela.suite.{Absent, Commands, Installed, Outcome, Present}
@@ -40,7 +40,7 @@ final class OwnPainter(threads: Int, cancellation: Cancellation) extends Painter
 
   def paint(scene: PeerInput): Either[Painter.Refusal, Image] =
     val (plan, _) = SceneBuilder.build(Painter.parsed(scene), RenderSettings())
-    Right(Renderer.render(plan, threads, cancellation).image(plan.development).toRgb)
+    Right(Renderer.render(plan, RenderControl(threads, cancellation)).image(plan.development).toRgb)
 
 /** Another program.
   *

@@ -6,7 +6,7 @@ import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
-import candela.render.{Renderer, RenderMethod, RenderPlan}
+import candela.render.{Renderer, RenderPlan, SplattedTiles}
 import candela.scenefile.Dialect
 import candela.testing.{BlockMeans, SceneTexts}
 
@@ -40,7 +40,7 @@ final class CausticLayersSuite extends AnyFunSuite:
   private def plan(text: String, settings: RenderSettings, mode: CausticsMode): RenderPlan =
     val made = SceneTexts.plan(text, Dialect.V4, settings.copy(caustics = Some(mode)))
     val isBeside = made.method match
-      case RenderMethod.SplattedTiles(_, beside, _, _) => beside
+      case splatted: SplattedTiles => splatted.beside
       case _ => false
     assert(isBeside == (mode != CausticsMode.Off), made.features)
     made

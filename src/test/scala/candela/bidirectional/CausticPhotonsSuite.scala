@@ -5,7 +5,7 @@ import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
 import candela.integrators.CausticsMode
-import candela.render.{Cancellation, Renderer, RenderMethod, RenderPlan}
+import candela.render.{RenderControl, Cancellation, Renderer, RenderPlan}
 import candela.scenefile.Dialect
 import candela.testing.{FileKeeper, SceneTexts, TempFolder, WatchedSampler}
 
@@ -135,13 +135,18 @@ final class CausticPhotonsSuite extends AnyFunSuite:
       val stop = Cancellation()
       val stopped = Renderer.render(
         WatchedSampler.watched(made)((_, _, sample) => if sample == 2 then stop.request()),
-        threads = 2,
-        stop,
-        checkpointer = Some(FileKeeper(None, file))
+        RenderControl(
+          threads = 2,
+          stop,
+          checkpointer = Some(FileKeeper(None, file))
+        )
       )
       assert(stopped.samplesDone < 5)
       val resumed =
-        Renderer.render(made, threads = 2, checkpointer = Some(FileKeeper(Some(file), file)))
+        Renderer.render(
+          made,
+          RenderControl(threads = 2, checkpointer = Some(FileKeeper(Some(file), file)))
+        )
       assert(resumed.samplesDone == 5)
       assert(resumed.image(made.development).data.toVector == alone)
 
@@ -334,9 +339,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
     def feature(plan: RenderPlan) = plan.features.collectFirst { case ("caustics", told) => told }
     val made = plan(room(glass), CausticsMode.Photons, 1)
     assert(feature(made).exists(_.contains("biased")))
-    assert(made.method match
-      case RenderMethod.Passes(_, bias) => bias.isDefined
-      case _ => false)
+    assert(made.method.bias.isDefined)
     val matte = room("").replace("\"conductor\" \"float roughness\" .02", "\"diffuse\"")
     val plain = plan(matte, CausticsMode.Photons, 2)
     assert(feature(plain).exists(_.startsWith("none")))

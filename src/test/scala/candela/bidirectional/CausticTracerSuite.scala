@@ -4,7 +4,7 @@ import candela.build.{ColorMode, RenderSettings}
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
-import candela.render.{Renderer, RenderMethod, RenderPlan}
+import candela.render.{Renderer, RenderPlan, SplattedTiles}
 import candela.scenefile.Dialect
 import candela.testing.{BlockMeans, SceneTexts}
 
@@ -37,7 +37,7 @@ final class CausticTracerSuite extends AnyFunSuite:
   for (what, text) <- Scenes do
     test(s"with light paths the mean of each block is that of paths alone: $what"):
       assert(plan(text, CausticsMode.On).method match
-        case RenderMethod.SplattedTiles(_, true, _, _) => true
+        case splatted: SplattedTiles => splatted.beside
         case _ => false)
       val expected = image(plan(text, CausticsMode.Off, seed = 1))
       BlockMeans.assertEqual(image(plan(text, CausticsMode.On)), expected)
@@ -69,9 +69,7 @@ final class CausticTracerSuite extends AnyFunSuite:
     val both = text.replace("\"path\"", "\"bdpt\"")
     val bdpt = average(image(plan(both, CausticsMode.Off, spp = 64)))
     assert(auto == off)
-    def added(mode: CausticsMode) = plan(text, mode).method match
-      case RenderMethod.SplattedTiles(_, _, _, adds) => adds
-      case _ => None
+    def added(mode: CausticsMode) = plan(text, mode).method.addedLight
     assert(added(CausticsMode.On).isDefined && added(CausticsMode.Auto).isEmpty)
     assert(on > 1.05 * off)
     // Two estimates with errors of half a percent each, of which bdpt lacks what glass shows of it

@@ -6,7 +6,7 @@ import org.scalatest.tagobjects.Slow
 import candela.aov.Layer
 import candela.build.{ColorMode, RenderRegion, RenderSettings}
 import candela.color.Rgb
-import candela.render.{Cancellation, Renderer}
+import candela.render.{RenderControl, Cancellation, Renderer}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -157,7 +157,7 @@ final class MetropolisSuite extends AnyFunSuite:
     val plan = SceneTexts.plan(room(mlt(Dialect.V3), Dialect.V3))
     val stop = Cancellation()
     stop.request()
-    val rendering = Renderer.render(plan, threads = 2, cancellation = stop)
+    val rendering = Renderer.render(plan, RenderControl(threads = 2, cancellation = stop))
     assert(rendering.samplesDone == 0 && rendering.samplesTaken == 0)
 
   test("what makes no sense is an error, and layers that it does not find are a warning"):

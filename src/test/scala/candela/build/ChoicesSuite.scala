@@ -3,7 +3,6 @@ package candela.build
 import candela.build.sampling.{PointChoice, PointSet}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
-import candela.render.RenderMethod
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -28,9 +27,8 @@ class ChoicesSuite extends AnyFunSuite:
     )
 
   /** Whether it is guided, and learns until it brings no more. */
-  private def learnsOn(settings: RenderSettings) = plan(settings).method match
-    case RenderMethod.Guided(_, learning, _) => learning.learnsOn
-    case _ => false
+  private def learnsOn(settings: RenderSettings) =
+    plan(settings).method.guide.exists(_.learnsOn)
 
   test("a goal guides paths and takes points of any number; a number of samples does neither"):
     for settings <- Vector(timed, exact, timed.copy(samples = Some(64))) do

@@ -7,7 +7,7 @@ import candela.base.{Parallel, SceneError, Severity}
 import candela.color.{ColorSpace, Rgb}
 import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
 import candela.integrators.{DirectLighting, Integrator, PathTracer}
-import candela.render.{RenderMethod, RenderPlan, Renderer, ThreadPool}
+import candela.render.{RenderPlan, Renderer, ThreadPool, Tiles}
 import candela.build.sampling.{PointChoice, PointSet}
 import candela.sampling.{
   HaltonSampler, IndependentSampler, OwenSobolSampler, StratifiedSampler, ZSobolSampler
@@ -20,7 +20,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
   private val film = """Film "image" "integer xresolution" 80 "integer yresolution" 40"""
 
   private def integrator(plan: RenderPlan): Integrator = plan.method match
-    case RenderMethod.Tiles(integrators) => integrators.make(None)
+    case tiles: Tiles => tiles.integrators.make(None)
     case other => fail(s"$other")
 
   private def feature(plan: RenderPlan, name: String): String =

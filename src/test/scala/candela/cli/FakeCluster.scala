@@ -1,9 +1,7 @@
 package candela.cli
 
-import candela.job.{
-  Cluster, ClusterFailure, ClusterRun, ClusterService, ClusterWork, RenderControl, ShardRenderer
-}
-import candela.render.Shard
+import candela.job.{Cluster, ClusterFailure, ClusterRun, ClusterService, ClusterWork, ShardRenderer}
+import candela.render.{RenderControl, Shard}
 
 import java.nio.file.{Files, Path}
 

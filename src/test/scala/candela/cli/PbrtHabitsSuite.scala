@@ -4,7 +4,7 @@ import candela.cli.rendering.PartialImages
 import candela.image.{Image, ImageFiles}
 import candela.job.{Preparation, SceneLoader}
 import candela.measure.Metrics
-import candela.render.Renderer
+import candela.render.{RenderControl, Renderer}
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
@@ -127,7 +127,7 @@ final class PbrtHabitsSuite extends AnyFunSuite:
       val plan = SceneLoader.FromFile.load(scene(folder), Preparation()).plan
       var written = 0
       val partly = PartialImages(_ => written += 1)
-      val _ = Renderer.render(plan, threads = 1, listener = partly)
+      val _ = Renderer.render(plan, RenderControl(threads = 1, listener = partly))
       assert(written == 3) // at 1, 2 and 4 of 8 samples
       assert(rendered(folder, "", "--write-partial-images").data.sameElements(plain.data))
 

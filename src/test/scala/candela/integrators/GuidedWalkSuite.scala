@@ -4,7 +4,7 @@ import candela.build.RenderSettings
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
-import candela.render.{Cancellation, Renderer, RenderListener, RenderPlan}
+import candela.render.{RenderControl, Cancellation, Renderer, RenderListener, RenderPlan}
 import candela.scenefile.Dialect
 import candela.testing.{Blocks, FileKeeper, SceneTexts}
 
@@ -119,10 +119,12 @@ final class GuidedWalkSuite extends AnyFunSuite:
       Renderer
         .render(
           plan(rooms(Dialect.V4), Dialect.V4, GuidingMode.On, All),
-          threads = 2,
-          cancellation,
-          RenderListener.onProgress(_ => if cancels then cancellation.request()),
-          checkpointer = Some(FileKeeper(from, to))
+          RenderControl(
+            threads = 2,
+            cancellation,
+            RenderListener.onProgress(_ => if cancels then cancellation.request()),
+            checkpointer = Some(FileKeeper(from, to))
+          )
         )
         .samplesDone
     assert(render(None, whole, cancels = false) == All)

@@ -4,7 +4,7 @@ import candela.build.RenderGoal
 import candela.color.Rgb
 import candela.film.{Development, Film}
 import candela.image.Image
-import candela.render.{Pass, Renderer, Rendering, TinyPlan}
+import candela.render.{RenderControl, Pass, Renderer, Rendering, TinyPlan}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -17,7 +17,7 @@ class GoalSuite extends AnyFunSuite:
     Goal(options, 1000, ErrorRecorder(Development(), None))
 
   private def rendered(goal: Goal, spp: Int = 1000): Rendering =
-    Renderer.render(plan(spp), 2, listener = goal)
+    Renderer.render(plan(spp), RenderControl(2, rule = goal))
 
   test("a rendering ends at the first eighth of a doubling whose error is low enough"):
     // The root of 0.0833 / 41: past 32 and 40, in steps of 4
@@ -46,7 +46,7 @@ class GoalSuite extends AnyFunSuite:
   test("the samples that an error needs are told by its trend"):
     val ended = goal(RenderGoal(error = Some(0.045)))
     val _ = rendered(ended)
-    val expected = ended.goal.get
+    val expected = ended.expectedEnd.get
     assert(expected.seconds.isEmpty && expected.samples.exists(_.expected == 44))
     assert(Math.abs(ended.errorAt(24).get * Math.sqrt(24 * 12) - 1) < 0.08)
 
@@ -62,10 +62,10 @@ class GoalSuite extends AnyFunSuite:
     timed.begins(0, film)
     var clock = 0.0
     var samples = 0
-    while !timed.isEnough do
+    while !timed.isReached do
       val size = Math.min(largest, Math.max(1, Integer.highestOneBit(samples) / 2))
       val rest = size - samples % size
-      val next = Math.min(timed.most, rest)
+      val next = Math.min(timed.maxSamples, rest)
       val end = clock + next * (if samples == 0 then 1 else actual)
       samples += next
       timed.passed(
@@ -86,17 +86,17 @@ class GoalSuite extends AnyFunSuite:
     val timed = goal(RenderGoal(time = Some(1.2)))
     timed.begins(0, film)
     timed.passed(Pass(1, 0, 0.8, Vector.empty, clock = 0.8), film)
-    assert(!timed.isEnough && timed.most == 2)
+    assert(!timed.isReached && timed.maxSamples == 2)
 
   test("samples that take longer than expected are not waited for, nor chains, which end anywhere"):
     val timed = goal(RenderGoal(time = Some(20)))
     timed.begins(0, film)
     for i <- 1 to 3 do timed.passed(Pass(i, i - 1, i, Vector.empty, clock = i), film)
-    assert(timed.most == 17 && !timed.isOver(20.3, 0) && timed.isOver(20.5, 0))
+    assert(timed.maxSamples == 17 && !timed.isOver(20.3, 0) && timed.isOver(20.5, 0))
     val chains = goal(RenderGoal(time = Some(20)))
     chains.begins(0, film)
     chains.passed(Pass(1, 0, 1, Vector.empty, clock = 1, step = 0), film)
-    assert(!chains.isEnough && !chains.isOver(19.9, 0) && chains.isOver(20, 0))
+    assert(!chains.isReached && !chains.isOver(19.9, 0) && chains.isOver(20, 0))
 
   test("an error is measured in time, or not at all"):
     for (clock, isKnown) <- Vector(2.0 -> true, 2.9 -> false) do
@@ -104,7 +104,7 @@ class GoalSuite extends AnyFunSuite:
       timed.begins(0, film)
       for i <- 1 to 2 do
         timed.passed(Pass(i, 0, 1, Vector.empty, clock = if i == 1 then 1 else clock), film)
-      assert(timed.errorAt(2).isDefined == isKnown && timed.isEnough, clock)
+      assert(timed.errorAt(2).isDefined == isKnown && timed.isReached, clock)
     val cancelled = goal(RenderGoal(error = Some(1e9)))
     cancelled.begins(0, film)
     for i <- 1 to 2 do cancelled.passed(Pass(i, 0, 1, Vector.empty, isStopped = () => true), film)
@@ -114,7 +114,7 @@ class GoalSuite extends AnyFunSuite:
     val both = goal(RenderGoal(error = Some(1e9), time = Some(1000)))
     both.begins(0, film)
     both.passed(Pass(8, 0, 1, Vector.empty, isWhole = false, clock = 1), film)
-    assert(!both.isEnough)
+    assert(!both.isReached)
     // An end that the time cuts short is not the error's
     val error = Some(0.045)
     val alone = rendered(goal(RenderGoal(error = error))).samplesDone

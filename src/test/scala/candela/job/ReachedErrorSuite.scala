@@ -3,7 +3,7 @@ package candela.job
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.color.Rgb
-import candela.render.{Renderer, TinyPlan}
+import candela.render.{RenderControl, Renderer, TinyPlan}
 
 class ReachedErrorSuite extends AnyFunSuite:
   /** The error after so many samples, uniform from 0 to 1. */
@@ -12,7 +12,7 @@ class ReachedErrorSuite extends AnyFunSuite:
       val x = sampler.next1D()
       Rgb(x, x, x)
     val reached = ReachedError(plan.development, samples)
-    val rendering = Renderer.render(plan, 1, listener = reached)
+    val rendering = Renderer.render(plan, RenderControl(1, listener = reached))
     reached.errorAt(rendering.samplesDone)
 
   test("the error of a number of samples is told"):

@@ -4,7 +4,7 @@ import candela.build.RenderSettings
 import candela.build.sampling.PointChoice
 import candela.cli.rendering.RenderRecorder
 import candela.measure.{Interval, Metrics}
-import candela.render.{Looks, Pass, Renderer, RenderListener}
+import candela.render.{RenderControl, Looks, Pass, Renderer, RenderListener}
 import candela.film.Film
 import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
@@ -48,7 +48,7 @@ object ErrorHonesty:
       kept.foreach(ImageFiles.write(_, truth))
       val seen = (1 to number("seeds", 20)).toVector.map: seed =>
         val eye = HonestyOf(plan(samples.max, seed).development, truth)
-        val _ = Renderer.render(plan(samples.max, seed), 2, listener = eye)
+        val _ = Renderer.render(plan(samples.max, seed), RenderControl(2, listener = eye))
         eye.ratios
       for n <- samples do
         val found = seen.flatMap(_.get(n))

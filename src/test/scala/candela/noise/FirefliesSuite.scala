@@ -19,7 +19,7 @@ class FirefliesSuite extends AnyFunSuite:
 
   private def image(samples: Int, fireflies: Fireflies, threads: Int = 2): Image =
     val options = RenderSettings(samples = Some(samples), seed = 3, fireflies = fireflies)
-    val plan = SceneBuilder.build(scene, options)._1
+    val plan = SceneBuilder.build(scene, options)._1.piloted
     Renderer.render(plan, threads).image(plan.development)
 
   private def error(image: Image) = Metrics.compare(image, reference).relativeMse

@@ -8,7 +8,8 @@ import java.nio.file.Path
 
 /** A scene whose image is reduced to `width` pixels. */
 final class SmallScene(description: SceneDescription):
-  def plan(options: RenderSettings): RenderPlan = SceneBuilder.build(description, options)._1
+  def plan(options: RenderSettings): RenderPlan =
+    SceneBuilder.build(description, options)._1.piloted
 
 object SmallScene:
   def apply(file: String, width: Int): SmallScene =

@@ -2,7 +2,8 @@ package candela.peers
 
 import candela.base.Parallel
 import candela.image.{Image, ImageFiles}
-import candela.job.{Preparation, RenderControl, SceneLoader}
+import candela.job.{Preparation, SceneLoader}
+import candela.render.RenderControl
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}

@@ -31,7 +31,7 @@ class EndlessSamplesSuite extends AnyFunSuite:
       */
     def rendered(
         threads: Int,
-        listener: RenderListener = RenderListener.Silent,
+        rule: StoppingRule = StoppingRule.Never,
         checkpointer: Option[Checkpointer] = None,
         isCancelled: Boolean = true
     ): Rendering =
@@ -41,10 +41,10 @@ class EndlessSamplesSuite extends AnyFunSuite:
       try
         val result = Renderer.render(
           plan,
-          threads,
-          cancellation,
-          RenderListener.all(Vector(stop, listener)),
-          checkpointer = checkpointer
+          RenderControl(threads,
+            cancellation,
+            stop, rule = rule,
+            checkpointer = checkpointer)
         )
         assert(!wasAwaited.get)
         result
@@ -57,12 +57,12 @@ class EndlessSamplesSuite extends AnyFunSuite:
 
   test("nor does one that ends at a time"):
     val endless = Endless()
-    val timed = new RenderListener:
+    val timed = new StoppingRule:
       var isEnded = false
-      override def looks: Looks = Looks.Doublings
-      override def isEnough: Boolean = isEnded
-      override def isOver(seconds: Double, still: Double): Boolean =
-        isEnded = endless.isBegun && still > 0.1
+      def looks: Looks = Looks.Doublings
+      override def isReached: Boolean = isEnded
+      override def isOver(seconds: Double, idleSeconds: Double): Boolean =
+        isEnded = endless.isBegun && idleSeconds > 0.1
         isEnded
     assert(!endless.rendered(2, timed, isCancelled = false).isComplete)
 

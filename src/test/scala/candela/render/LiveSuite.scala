@@ -17,7 +17,10 @@ class LiveSuite extends AnyFunSuite:
         assert(now.progress.done == 2 * 20 * 16 && now.progress.total == 4 * 20 * 16)
         val _ = assert(now.rendering.film.toImage(1f)(19, 15, 0) == 1f)
       Rgb(where.sample + 0.5f, 1f, 1f)
-    val result = Renderer.render(plan, 1, listener = RenderListener.onStart(l => live = Some(l)))
+    val result = Renderer.render(
+      plan,
+      RenderControl(1, listener = RenderListener.onStart(l => live = Some(l)))
+    )
     val seen = live.get.rendering
     assert(seen.isComplete && live.get.tiles.isEmpty)
     assert(seen.film.toImage(1f).data.sameElements(result.film.toImage(1f).data))
@@ -33,10 +36,12 @@ class LiveSuite extends AnyFunSuite:
       Rgb.White
     val result = Renderer.render(
       plan,
-      1,
-      listener = RenderListener.onStart: l =>
-        live = Some(l)
-        l.keepOn(until > 0)
+      RenderControl(
+        1,
+        listener = RenderListener.onStart: l =>
+          live = Some(l)
+          l.keepOn(until > 0)
+      )
     )
     (seen, result)
 
@@ -57,5 +62,5 @@ class LiveSuite extends AnyFunSuite:
     val plan = TinyPlan(spp = 2)((_, _) => Rgb.White)
     var can = true
     val listener = RenderListener.onStart(l => can = l.canKeepOn)
-    val _ = Renderer.render(plan, 1, listener = listener, shard = Shard(0, 2))
+    val _ = Renderer.render(plan, RenderControl(1, listener = listener, shard = Shard(0, 2)))
     assert(!can)

@@ -62,7 +62,10 @@ object ReferenceComparison:
         Parser.whole(MitsubaScene.readable(scene.file, Map.empty, keepGoing = false))
       else Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
     val settings = scene.settings(spp, seed)
-    SceneBuilder.build(description, settings.copy(caustics = caustics.orElse(settings.caustics)))._1
+    SceneBuilder.build(
+      description,
+      settings.copy(caustics = caustics.orElse(settings.caustics))
+    )._1.piloted
 
   /** Leaves images to look at; their paths. */
   def write(scene: ReferenceScene, agreement: Agreement): Vector[Path] =

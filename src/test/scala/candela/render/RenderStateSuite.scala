@@ -55,7 +55,10 @@ class RenderStateSuite extends AnyFunSuite:
       withFolder: folder =>
         val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
         val checkpointer = FileCheckpointer(None, whole)
-        val _ = Renderer.render(plan(shares, 40)(), threads, checkpointer = Some(checkpointer))
+        val _ = Renderer.render(
+          plan(shares, 40)(),
+          RenderControl(threads, checkpointer = Some(checkpointer))
+        )
         var runs = 0
         var done = 0
         while done < 40 do
@@ -67,7 +70,10 @@ class RenderStateSuite extends AnyFunSuite:
           val from = Option.when(runs > 0)(parts)
           val checkpointer = FileCheckpointer(from, parts)
           val rendering =
-            Renderer.render(interrupted, threads, cancellation, checkpointer = Some(checkpointer))
+            Renderer.render(
+              interrupted,
+              RenderControl(threads, cancellation, checkpointer = Some(checkpointer))
+            )
           done = rendering.samplesDone
           runs += 1
         assert(runs > 5)
@@ -79,13 +85,16 @@ class RenderStateSuite extends AnyFunSuite:
         val checkpointer = FileCheckpointer(None, folder.resolve("a"), isAlwaysDue = true)
         val slow = plan(shares, 60): where =>
           if where.x == 7 && where.y % 16 == 3 then Thread.sleep(3)
-        val _ = Renderer.render(slow, threads = 3, checkpointer = Some(checkpointer))
+        val _ = Renderer.render(slow, RenderControl(threads = 3, checkpointer = Some(checkpointer)))
         // The last one, and at least one before
         assert(checkpointer.saved > 1)
         val last = Files.readAllBytes(checkpointer.copies.last)
         for copy <- checkpointer.copies.init do
           val next = FileCheckpointer(Some(copy), folder.resolve("b"))
-          val _ = Renderer.render(plan(shares, 60)(), threads = 2, checkpointer = Some(next))
+          val _ = Renderer.render(
+            plan(shares, 60)(),
+            RenderControl(threads = 2, checkpointer = Some(next))
+          )
           assert(Files.readAllBytes(folder.resolve("b")).sameElements(last))
 
   test(
@@ -98,7 +107,10 @@ class RenderStateSuite extends AnyFunSuite:
         def render(plan: RenderPlan, from: Option[Path], to: Path, stop: Cancellation) =
           val checkpointer = FileCheckpointer(from, to)
           val keep = Some(checkpointer)
-          val done = Renderer.render(plan, threads = 2, stop, shard = shard, checkpointer = keep)
+          val done = Renderer.render(
+            plan,
+            RenderControl(threads = 2, stop, shard = shard, checkpointer = keep)
+          )
           assert(checkpointer.lost == 0)
           done
         val _ = render(plan(shares, 3)(), None, whole, Cancellation())
@@ -119,7 +131,10 @@ class RenderStateSuite extends AnyFunSuite:
       val (left, other) = (folder.resolve("left"), folder.resolve("other"))
       def render(plan: RenderPlan, index: Int, to: Path, stop: Cancellation) =
         val checkpointer = Some(FileCheckpointer(None, to))
-        Renderer.render(plan, 2, stop, shard = Shard(index, 2), checkpointer = checkpointer)
+        Renderer.render(
+          plan,
+          RenderControl(2, stop, shard = Shard(index, 2), checkpointer = checkpointer)
+        )
       val cancellation = Cancellation()
       val taken = AtomicInteger()
       val slow = plan(shares = false, 3): _ =>
@@ -158,7 +173,7 @@ class RenderStateSuite extends AnyFunSuite:
         // Nearly alike, so that few paths are made before the chains
         Rgb(1f + light.next1D(), 1f + joins.next1D() * 0.1f, 1f - onward.next1D() * 0.2f)
     val settings = MetropolisSettings(bootstrap = 1000, chains = 5, largeStep = 0.3f, sigma = 0.1f)
-    val method = RenderMethod.Chains(
+    val method = Chains(
       (_, _) => Paths(),
       (view, paths) => MarkovChains(paths, settings, view),
       _ => throw AssertionError("single samples")
@@ -173,7 +188,8 @@ class RenderStateSuite extends AnyFunSuite:
       val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
       def render(plan: RenderPlan, from: Option[Path], to: Path, stop: Cancellation) =
         val checkpointer = FileCheckpointer(from, to)
-        val done = Renderer.render(plan, threads = 2, stop, checkpointer = Some(checkpointer))
+        val done =
+          Renderer.render(plan, RenderControl(threads = 2, stop, checkpointer = Some(checkpointer)))
         assert(checkpointer.lost == 0)
         done
       val complete = render(chains(), None, whole, Cancellation())
@@ -206,7 +222,8 @@ class RenderStateSuite extends AnyFunSuite:
           cancellation.request()
           Thread.sleep(20)
       val keep = Some(FileCheckpointer(None, file))
-      val stopped = Renderer.render(slow, threads = 1, cancellation, checkpointer = keep)
+      val stopped =
+        Renderer.render(slow, RenderControl(threads = 1, cancellation, checkpointer = keep))
       val read = Renderer.gather(chains(), s => CheckedFile.read(file, "state")(s.load))
       def light(rendering: Rendering) = rendering.image(slow.development).data
       assert(light(stopped).sum > 0 && light(stopped).sameElements(light(read)))
@@ -220,7 +237,10 @@ class RenderStateSuite extends AnyFunSuite:
           for i <- 0 until 12 do out.long(if i == 7 then wrong else 1L)
         val checkpointer = FileCheckpointer(Some(file), folder.resolve("b"))
         val why = intercept[IllegalArgumentException]:
-          Renderer.render(plan(shares = false, 1)(), 1, checkpointer = Some(checkpointer))
+          Renderer.render(
+            plan(shares = false, 1)(),
+            RenderControl(1, checkpointer = Some(checkpointer))
+          )
         assert(why.getMessage.endsWith(s"piece 7 has $wrong samples"))
 
   test("chains make as many paths as all pixels have samples"):
@@ -232,7 +252,8 @@ class RenderStateSuite extends AnyFunSuite:
     withFolder: folder =>
       val file = folder.resolve("a")
       val plain = plan(shares = false, 1)()
-      val _ = Renderer.render(plain, 1, checkpointer = Some(FileCheckpointer(None, file)))
+      val _ =
+        Renderer.render(plain, RenderControl(1, checkpointer = Some(FileCheckpointer(None, file))))
       // Without mark, length and checksum
       val numbers = Files.readAllBytes(file).drop(9).dropRight(16).grouped(4).toVector
       for (tile, pixels, sums) <- Vector((-1, 5, 0), (99, 5, 0), (1, 0, 0), (1, 256, 0), (1, 5, 2))
@@ -243,7 +264,7 @@ class RenderStateSuite extends AnyFunSuite:
           for _ <- 0 until sums do out.double(1)
         val checkpointer = FileCheckpointer(Some(file), folder.resolve("b"))
         val why = intercept[IllegalArgumentException]:
-          Renderer.render(plain, 1, checkpointer = Some(checkpointer))
+          Renderer.render(plain, RenderControl(1, checkpointer = Some(checkpointer)))
         assert(why.getMessage.endsWith(s"piece $tile has $pixels parts of a sample"))
 
   test("shards share the samples of every pixel, and the work"):

@@ -103,7 +103,7 @@ class RendererSuite extends AnyFunSuite:
     val plan = TinyPlan(spp = 1000): (where, _) =>
       if where.sample == 8 then cancellation.request()
       gray
-    val rendering = Renderer.render(plan, threads = 1, cancellation)
+    val rendering = Renderer.render(plan, RenderControl(threads = 1, cancellation))
     assert(!rendering.isComplete)
     assert(rendering.samplesDone == 8)
     assert(rendering.samplesPerPixel == 1000)
@@ -114,7 +114,7 @@ class RendererSuite extends AnyFunSuite:
     val plan = TinyPlan(spp = 1_000_000_000): (where, _) =>
       if where.sample == 4 then cancellation.request()
       gray
-    val rendering = Renderer.render(plan, threads = 3, cancellation)
+    val rendering = Renderer.render(plan, RenderControl(threads = 3, cancellation))
     // Samples 0 to 3 are earlier waves; of those another worker may have had something unfinished.
     assert(rendering.samplesDone <= 4)
     assert(rendering.samplesTaken < 40L * 27 * 16)
@@ -122,7 +122,8 @@ class RendererSuite extends AnyFunSuite:
   test("a rendering that is cancelled before it begins takes no sample"):
     val cancellation = Cancellation()
     cancellation.request()
-    val rendering = Renderer.render(TinyPlan()((_, _) => gray), threads = 2, cancellation)
+    val rendering =
+      Renderer.render(TinyPlan()((_, _) => gray), RenderControl(threads = 2, cancellation))
     assert(rendering.samplesTaken == 0)
     assert(rendering.samplesDone == 0)
     assert(pixels(rendering.film.toImage(1f)).forall(_.isBlack))
@@ -132,8 +133,10 @@ class RendererSuite extends AnyFunSuite:
     val plan = TinyPlan()((_, _) => gray)
     val _ = Renderer.render(
       plan,
-      threads = 2,
-      listener = RenderListener.onProgress(p => reports += p: Unit)
+      RenderControl(
+        threads = 2,
+        listener = RenderListener.onProgress(p => reports += p: Unit)
+      )
     )
     val done = reports.result().map(_.done)
     assert(done == done.sorted)
@@ -145,7 +148,7 @@ class RendererSuite extends AnyFunSuite:
     val failure = intercept[IllegalStateException]:
       val broken =
         RenderListener.onProgress(p => throw IllegalStateException(s"broken ${p.total}"))
-      Renderer.render(plan, 2, listener = broken)
+      Renderer.render(plan, RenderControl(2, listener = broken))
     assert(failure.getMessage == s"broken ${40L * 27 * 1_000_000_000}")
 
   test("an observer of passes sees whole passes, and the image is the same, bit for bit"):
@@ -158,7 +161,7 @@ class RendererSuite extends AnyFunSuite:
         override def looks: Looks = Looks.Doublings
         override def passed(pass: Pass, film: Film): Unit =
           val _ = seen += pass.samples -> film.toImage(1f).data.toVector
-      val watched = Renderer.render(plan, threads, listener = Eye)
+      val watched = Renderer.render(plan, RenderControl(threads, listener = Eye))
       assert(watched.film.toImage(1f).data.sameElements(plain.film.toImage(1f).data))
       assert(watched.samplesTaken == plain.samplesTaken && watched.isComplete)
       assert(seen.result().map(_._1) == Vector(1, 2, 4, 8, 11))
@@ -173,7 +176,10 @@ class RendererSuite extends AnyFunSuite:
         told += pass.isStopped()
         if pass.samples == 2 then cancellation.request()
         told += pass.isStopped(): Unit
-    val _ = Renderer.render(TinyPlan(spp = 8)((_, _) => gray), 2, cancellation, listener = Eye)
+    val _ = Renderer.render(
+      TinyPlan(spp = 8)((_, _) => gray),
+      RenderControl(2, cancellation, listener = Eye)
+    )
     assert(told.result() == Vector(false, false, false, true))
 
   test("a pass that was cancelled is not shown"):
@@ -186,6 +192,6 @@ class RendererSuite extends AnyFunSuite:
       override def looks: Looks = Looks.Doublings
       override def passed(pass: Pass, film: Film): Unit =
         val _ = samples += pass.samples
-    val rendering = Renderer.render(plan, 2, cancellation, listener = Eye)
+    val rendering = Renderer.render(plan, RenderControl(2, cancellation, listener = Eye))
     assert(samples.result() == Vector(1, 2, 4))
     assert(rendering.samplesDone == 4)

@@ -31,7 +31,7 @@ class SharedSamplesSuite extends AnyFunSuite:
       override def passed(pass: Pass, film: Film): Unit =
         val _ = film.toImage(1f)
     for threads <- Vector(2, 3, 7); eye <- Vector(RenderListener.Silent, Eye) do
-      val many = Renderer.render(shared, threads, listener = eye)
+      val many = Renderer.render(shared, RenderControl(threads, listener = eye))
       assert(many.film.toImage(1f).data.toVector == one, s"$threads threads")
       assert(many.isComplete)
 
@@ -79,7 +79,7 @@ class SharedSamplesSuite extends AnyFunSuite:
     val endless = plan(shares = true, spp = 1000): (where, _) =>
       if where.sample == 8 then cancellation.request()
       Rgb(0.5f, 0.25f, 2f)
-    val rendering = Renderer.render(endless, threads = 2, cancellation)
+    val rendering = Renderer.render(endless, RenderControl(threads = 2, cancellation))
     assert(!rendering.isComplete && rendering.samplesDone <= 8)
     val image = rendering.film.toImage(1f)
     assert(image.data.grouped(3).forall(_.sameElements(Array(0.5f, 0.25f, 2f))))

@@ -103,9 +103,10 @@ private object TimeLeftSuite:
     /** What is told after so many seconds. */
     def at(seconds: Double, goal: Option[ExpectedEnd] = None): Outlook =
       val ends = goal
-      val listener = new RenderListener:
-        override def goal: Option[ExpectedEnd] = ends
-      val timeLeft = TimeLeft(schedule, Pixels, earlier, listener)
+      val rule = new StoppingRule:
+        def looks: Looks = Looks.Never
+        override def expectedEnd: Option[ExpectedEnd] = ends
+      val timeLeft = TimeLeft(schedule, Pixels, earlier, rule)
       looks.takeWhile(_._2 <= seconds + 1e-6)
         .map((done, s) => timeLeft.outlook(done, spp, s, s)).last
 

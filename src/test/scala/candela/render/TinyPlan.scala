@@ -36,7 +36,7 @@ object TinyPlan:
       FlatCamera,
       filter,
       HashSampler(spp),
-      method.getOrElse(RenderMethod.Tiles(Formulas(radiance))),
+      method.getOrElse(Tiles(Formulas(radiance))),
       candela.color.ColorBasis.Srgb,
       limit,
       development,

@@ -83,5 +83,5 @@ private object UnbiasedOptionsSuite:
     val text = change(scene(integrator))
     val description = Parser.parseText("ball.pbrt", text, Path.of("."))
     Renderings.seeds(Vector.tabulate(Seeds): i =>
-      val plan = SceneBuilder.build(description, settings.copy(seed = firstSeed + i))._1
+      val plan = SceneBuilder.build(description, settings.copy(seed = firstSeed + i))._1.piloted
       TileSums.of(Renderer.render(plan, 2).image(plan.development)))

@@ -19,7 +19,7 @@ object SceneTexts:
       dialect: Dialect = Dialect.V3,
       options: RenderSettings = RenderSettings(),
       control: BuildControl = BuildControl()
-  ): RenderPlan = SceneBuilder.build(parse(text, dialect), options, control)._1
+  ): RenderPlan = SceneBuilder.build(parse(text, dialect), options, control)._1.piloted
 
   /** All that building has to say, warnings or errors. */
   def problems(

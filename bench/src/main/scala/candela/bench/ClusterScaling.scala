@@ -125,7 +125,7 @@ object ClusterScaling:
       def lose(): Unit = ()
       def finish(): Unit = ()
     val begin = cpu()
-    Renderer.render(plan, 1, shard = shard, checkpointer = Some(checkpointer)): Unit
+    Renderer.render(plan, RenderControl(1, shard = shard, checkpointer = Some(checkpointer))): Unit
     cpu() - begin
 
   private def write(state: RenderState, to: Path): Unit =

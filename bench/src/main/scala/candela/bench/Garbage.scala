@@ -3,7 +3,7 @@ package candela.bench
 import candela.build.{BuildControl, RenderSettings, SceneBuilder}
 import candela.cameras.CameraRays
 import candela.film.FilterSampler
-import candela.render.{RenderMethod, RenderPlan, ThreadPool}
+import candela.render.{RenderPlan, ThreadPool, Tiles}
 import candela.scenefile.Parser
 
 import java.lang.management.ManagementFactory
@@ -39,7 +39,7 @@ object Garbage:
   private final class Paths(plan: RenderPlan):
     private val sampler = plan.sampler.copy()
     private val integrator = plan.method match
-      case RenderMethod.Tiles(integrators) => integrators.make(None)
+      case tiles: Tiles => tiles.integrators.make(None)
       case other => sys.error(s"only camera paths are counted: $other")
     private val filter = new FilterSampler(plan.filter)
     private val rays = CameraRays(plan.camera, plan.shutter, plan.differentialScale)

@@ -1,8 +1,8 @@
 package candela.cluster
 
-import candela.job.{RenderControl, ShardRenderer}
+import candela.job.ShardRenderer
 import candela.render.storage.FilmHeader
-import candela.render.{Cancellation, RenderListener, Shard}
+import candela.render.{Cancellation, RenderControl, RenderListener, Shard}
 
 import org.apache.spark.TaskContext
 import org.apache.spark.broadcast.Broadcast

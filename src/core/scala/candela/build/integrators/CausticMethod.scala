@@ -11,7 +11,7 @@ import candela.film.View
 import candela.guiding.Guide
 import candela.integrators.*
 import candela.media.SceneMedia
-import candela.render.{GuidedSplats, RenderMethod}
+import candela.render.{GuidedSplats, MethodPilot, Passes, Piloted, RenderMethod, SplattedTiles}
 import candela.scene.Scene
 import candela.scenefile.Dialect
 
@@ -50,16 +50,13 @@ private object CausticMethod:
           val beside = Beside(scene, options, light, tracer)
           if mode == CausticsMode.Photons then
             val pool = site.resources.pool
-            RenderMethod.Piloted(
-              alone,
-              PhotonPilot(scene, _, light, pool).run(),
-              beside.photons,
-              connects = false
-            )
-          else RenderMethod.Piloted(alone, beside.pilot, beside.method)
+            def run(view: View) = PhotonPilot(scene, view, light, pool).run()
+            Piloted(alone, MethodPilot(run, beside.photons, connects = false, blurs = true))
+          else
+            Piloted(alone, MethodPilot(beside.pilot, beside.method, connects = true, blurs = false))
 
   private def without(why: String, alone: RenderMethod): RenderMethod =
-    RenderMethod.Piloted(alone, _ => (None, s"none: $why"), _ => alone, connects = false)
+    Piloted(alone, MethodPilot.without(why))
 
   private def refuse(why: String, instead: String, alone: RenderMethod)(using
       site: Site
@@ -130,7 +127,7 @@ private object CausticMethod:
             case None => own(over, null, null)
             case Some(by) => PartlyGuided(over, by, own(over, by, _), own(over, null, _))
           CausticTracer(over, paths, view, chosen, choice.perSample, choice.ofEmitters)
-        RenderMethod.SplattedTiles(
+        SplattedTiles(
           makers(_, None),
           beside = true,
           site.resources.switches.guiding.map(GuidedSplats(
@@ -144,7 +141,7 @@ private object CausticMethod:
     /** Paths of the camera that take caustics from photons. */
     def photons(choice: CausticChoice): RenderMethod =
       val chosen = light.copy(casters = choice.casters)
-      RenderMethod.Passes(
+      Passes(
         CausticPasses(
           scene,
           chosen,

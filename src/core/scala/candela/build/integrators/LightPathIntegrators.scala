@@ -10,8 +10,7 @@ import candela.integrators.{
 }
 import candela.integrators.LightTransport.RouletteAfter
 import candela.media.SceneMedia
-import candela.render.RenderMethod
-import candela.render.RenderMethod.SplattedTiles
+import candela.render.{Chains, Passes, RenderMethod, SplattedTiles}
 import candela.scene.Scene
 import candela.scenefile.Dialect
 
@@ -224,7 +223,7 @@ private[build] object BidirectionalPlans:
     val most = Math.max(0, depth)
     val seeded = settings.copy(seed = site.resources.seed)
     def chains(scene: Scene, media: SceneMedia | Null) =
-      RenderMethod.Chains(
+      Chains(
         (view, splats) => tracer(scene, view, most, regularizes, media)(splats),
         (view, paths) => MarkovChains(paths, seeded, view),
         tracers(scene, most, regularizes, media)
@@ -262,7 +261,7 @@ private[build] object PhotonPlans:
       .plan(name, most)
       .copy(
         method =
-          (scene, _) => RenderMethod.Passes(PhotonPasses(scene, most, seeded, _, interfaces)),
+          (scene, _) => Passes(PhotonPasses(scene, most, seeded, _, interfaces)),
         describe =
           s"$name, up to $most scattering events, initial photon radius ${settings.radius}",
         samples = passes,

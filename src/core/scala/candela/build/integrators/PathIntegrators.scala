@@ -4,7 +4,7 @@ import candela.aov.LightParts
 import candela.build.recipe.*
 import candela.guiding.Guide
 import candela.integrators.*
-import candela.render.RenderMethod
+import candela.render.{GuidedTiles, RenderMethod, Tiles}
 import candela.scene.Scene
 import candela.scenefile.Dialect
 
@@ -74,9 +74,9 @@ private object GuidedMethod:
   ): RenderMethod =
     val unguided = WorkerIntegrators(scene)(tracer(_, null, null))
     site.resources.switches.guiding match
-      case None => RenderMethod.Tiles(unguided)
+      case None => Tiles(unguided)
       case Some(settings) =>
-        RenderMethod.Guided(
+        GuidedTiles(
           unguided,
           settings,
           guide =>

@@ -79,7 +79,7 @@ final case class FilmHeader(
   def obstacle(plan: RenderPlan): Option[String] =
     if !plan.method.takesCameraSamples then
       Some("Metropolis light transport distributes its mutations in advance")
-    else if plan.method.learns && !plan.method.canKeepOn then
+    else if plan.method.guide.isDefined && !plan.method.canKeepOn then
       Some("what its paths learn depends on their number; with --guiding auto --sampler " +
         "progressive it doesn't")
     else if !plan.sampler.isProgressive then

@@ -6,10 +6,10 @@ import candela.cli.files.{FileRegister, FilmKeeping, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Figures, ProgressLine, Report, Terminal}
 import candela.image.OutputFormat
-import candela.job.{FilmHeaders, FilmKeeper, Prepared, ReferenceFile, RenderControl, SceneLoader}
+import candela.job.{FilmHeaders, FilmKeeper, Prepared, ReferenceFile, SceneLoader}
 import candela.measure.ReferenceMean
 import candela.render.storage.FilmFile
-import candela.render.{Cancellation, Rendering, RenderListener, RenderMethod}
+import candela.render.{Cancellation, RenderControl, Rendering, RenderListener}
 import candela.scenefile.SceneFiles
 
 import java.nio.file.{Files, Path}
@@ -67,11 +67,8 @@ final class ReferenceCommand(
   private def settings(run: Int): RenderSettings = file.settings(run)
 
   private def told(prepared: Prepared): Unit =
-    val biased = prepared.plan.method match
-      case RenderMethod.Passes(_, _) => Some("blurs")
-      case _ => None
-    val all = prepared.warnings ++ biased.map: what =>
-      val message = s"the integrator $what: the error of the reference does not show this bias"
+    val all = prepared.warnings ++ Option.when(prepared.plan.method.blurs):
+      val message = "the integrator blurs: the error of the reference does not show this bias"
       Problem(Code.OptionMisfit, Severity.Warning, None, message)
     report.warnings(all, all = options.verbose)
     if options.verbose then Explanation.print(prepared.plan, terminal.err)

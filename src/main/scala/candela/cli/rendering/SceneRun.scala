@@ -5,10 +5,8 @@ import candela.cli.files.Denoised
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
-import candela.job.{
-  Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, ReachedError, RenderControl
-}
-import candela.render.{Cancellation, Rendering, RenderListener}
+import candela.job.{Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, ReachedError}
+import candela.render.{Cancellation, RenderControl, Rendering, RenderListener, StoppingRule}
 import candela.render.storage.Checkpoints
 
 import java.nio.file.Path
@@ -38,15 +36,13 @@ private[cli] final class SceneRun(
     if settings.goal.isGiven then Some(ErrorRecorder(plan.development, None))
     else if tells then ReachedError.of(plan.development, plan.samplesPerPixel)
     else None
-  private val goal =
-    for r <- recorder if settings.goal.isGiven
-    yield Goal(settings.goal, plan.samplesPerPixel, r)
+  private val goal = recorder.map(Goal(settings.goal, plan.samplesPerPixel, _))
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
 
   def run(): ExitCode = terminal.interrupts.during(cancellation):
     val progress = ProgressLine(terminal.err, terminal.isInteractive, terminal.isReadByProgram)
-    val checkpoints = keeping.map(_.checkpointer(() => goal.exists(_.isEnough)))
+    val checkpoints = keeping.map(_.checkpointer(() => goal.exists(_.isReached)))
     val watching = Option.when(options.isWatched)(watched())
     try
       val rendering = rendered(progress, checkpoints, watching)
@@ -73,13 +69,14 @@ private[cli] final class SceneRun(
     val shown = Option.when(!options.quiet)(RenderListener.onProgress(progress.update))
     val followed = watching.map(w => RenderListener.onStart(w.start))
     val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
-    val listeners = shown ++ goal.orElse(recorder) ++ errorLog ++ images ++ followed
+    val listeners = shown ++ errorLog ++ images ++ followed
     val control = RenderControl(
       options.threadCount,
       cancellation,
       RenderListener.all(listeners),
       options.film.shard,
-      checkpoints
+      checkpoints,
+      goal.getOrElse(StoppingRule.Never)
     )
     try prepared.render(control)
     finally progress.finish()

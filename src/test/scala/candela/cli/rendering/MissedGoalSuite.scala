@@ -4,7 +4,7 @@ import candela.build.RenderGoal
 import candela.color.Rgb
 import candela.film.Development
 import candela.job.{ErrorRecorder, Goal}
-import candela.render.{Renderer, TinyPlan}
+import candela.render.{RenderControl, Renderer, TinyPlan}
 
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
@@ -17,7 +17,7 @@ class MissedGoalSuite extends AnyFunSuite:
   test("what ends before its goal because all samples are taken says so, and what to do", Slow):
     def missed(options: RenderGoal) =
       val ended = Goal(options, 1000, ErrorRecorder(Development(), None))
-      MissedGoal.warning(ended, Renderer.render(plan, 2, listener = ended))
+      MissedGoal.warning(ended, Renderer.render(plan, RenderControl(2, rule = ended)))
     val why =
       raw"all 1000 samples per pixel are taken; a larger --spp, or none, allows more \[E1104\]"
     // The root of 0.0833 / 1000

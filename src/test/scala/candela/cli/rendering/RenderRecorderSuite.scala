@@ -4,7 +4,7 @@ import candela.color.Rgb
 import candela.film.Development
 import candela.image.Image
 import candela.measure.LogLogFit
-import candela.render.{RenderPlan, Renderer, TinyPlan}
+import candela.render.{RenderControl, RenderPlan, Renderer, TinyPlan}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -28,7 +28,7 @@ class RenderRecorderSuite extends AnyFunSuite:
 
   private def recorded(reference: Option[Image], threads: Int = 2): RenderRecorder =
     val recorder = RenderRecorder(Development(), reference)
-    val _ = Renderer.render(plan, threads, listener = recorder)
+    val _ = Renderer.render(plan, RenderControl(threads, listener = recorder))
     recorder
 
   test("against the truth, the error is variance / samples at every point"):

@@ -2,7 +2,7 @@ package candela.cli.terminal
 
 import candela.cli.Captured
 import candela.color.Rgb
-import candela.render.{Cancellation, Renderer, TinyPlan}
+import candela.render.{RenderControl, Cancellation, Renderer, TinyPlan}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -32,7 +32,7 @@ class InterruptsSuite extends AnyFunSuite:
         Signal.raise(Signal(name))
       Rgb.White
     val rendering = Interrupts.fromSignals(captured.terminal.err, false, name).during(cancellation):
-      Renderer.render(plan, threads = 1, cancellation)
+      Renderer.render(plan, RenderControl(threads = 1, cancellation))
     assert(cancellation.isRequested)
     assert(!rendering.isComplete)
     assert(rendering.samplesDone >= 2)

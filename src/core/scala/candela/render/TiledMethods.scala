@@ -1,0 +1,142 @@
+package candela.render
+
+import candela.color.Wavelengths
+import candela.film.{Fireflies, SplatFilm, Splats, View}
+import candela.guiding.{Guide, GuideSettings}
+import candela.integrators.{SpectralIntegrators, WorkerIntegrators}
+import candela.scene.PathReport
+
+/** Independent camera samples, tile by tile. */
+final class Tiles(val integrators: WorkerIntegrators) extends RenderMethod:
+  def canShareSamples: Boolean = true
+  def canKeepOn: Boolean = true
+  def dividesLight: Boolean = integrators.divideLight
+
+  private[render] def job(plan: RenderPlan, shard: Shard): Job =
+    TileJobs(plan, TileSchedule(plan.sampled, plan.samplesPerPixel), shard.takes).job(integrators)
+
+  private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
+    SingleSamples(integrators.make(Some(report)))
+
+  private[render] def spectral(
+      bases: Array[Wavelengths],
+      parts: Vector[RenderMethod]
+  ): RenderMethod =
+    Tiles(SpectralIntegrators(parts.collect { case t: Tiles => t.integrators }, bases))
+
+/** Camera samples, tile by tile, whose paths learn from those of earlier passes.
+  *
+  * @param unguided their integrators, if nothing is learnt
+  * @param settings of what is learnt
+  * @param guided   learn, and are guided
+  */
+final class GuidedTiles(
+    unguided: WorkerIntegrators,
+    settings: GuideSettings,
+    guided: Guide => WorkerIntegrators
+) extends RenderMethod:
+  def canShareSamples: Boolean = true
+  def canKeepOn: Boolean = settings.learnsOn
+  def dividesLight: Boolean = unguided.divideLight
+  override def guide: Option[GuideSettings] = Some(settings)
+
+  private[render] def job(plan: RenderPlan, shard: Shard): Job =
+    GuidedTiles.job(plan, shard, settings, guided, None)
+
+  private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
+    SingleSamples(unguided.make(Some(report)))
+
+  private[render] def spectral(
+      bases: Array[Wavelengths],
+      parts: Vector[RenderMethod]
+  ): RenderMethod =
+    val guides = parts.collect { case g: GuidedTiles => g }
+    GuidedTiles(
+      SpectralIntegrators(guides.map(_.basic), bases),
+      settings,
+      shared => SpectralIntegrators(guides.map(_.learning(shared)), bases)
+    )
+
+  private def basic: WorkerIntegrators = unguided
+  private def learning(guide: Guide): WorkerIntegrators = guided(guide)
+
+object GuidedTiles:
+  private[render] def job(
+      plan: RenderPlan,
+      shard: Shard,
+      settings: GuideSettings,
+      guided: Guide => WorkerIntegrators,
+      splats: Option[SplatFilm]
+  ): Job =
+    val samples = plan.samplesPerPixel
+    val schedule = TileSchedule(plan.sampled, samples, openWaves = 1)
+    // Fireflies are told from other samples by how many there are of each brightness
+    val weighted = settings.copy(weighs = plan.fireflies != Fireflies.Reweighted)
+    val guide = Guide(weighted, samples, plan.sampled.pixels)
+    val begin: TaskQueue => TileWorker.BeginWave = queue =>
+      (sample, moves) =>
+        if guide.begin(sample, moves, () => queue.isAbandoned) then guide.weight
+        else TileWorker.Stopped
+    TileJobs(plan, schedule, shard.takes, splats, Some(guide)).job(guided(guide), begin)
+
+/** Camera samples, tile by tile; their light paths splat to the whole film.
+  *
+  * @param beside     do light paths find light beside the camera's paths, and weigh it against
+  *                   these? Else they find a part of it alone
+  * @param guided     how the camera's paths learn, if they do
+  * @param addedLight what light they find that the integrator by its definition doesn't, if any
+  */
+final class SplattedTiles(
+    integrators: View => WorkerIntegrators,
+    val beside: Boolean = false,
+    guided: Option[GuidedSplats] = None,
+    override val addedLight: Option[String] = None
+) extends RenderMethod:
+  def canShareSamples: Boolean = beside
+  def canKeepOn: Boolean = guided.forall(_.settings.learnsOn)
+  def dividesLight: Boolean = beside
+  override def seesLightPaths: Boolean = true
+  override def guide: Option[GuideSettings] = guided.map(_.settings)
+
+  private[render] def job(plan: RenderPlan, shard: Shard): Job =
+    val splats = RenderMethod.splatFilm(plan)
+    val view = plan.view(splats)
+    guided match
+      case Some(g) => GuidedTiles.job(plan, shard, g.settings, g.integrators(view, _), Some(splats))
+      case None =>
+        val schedule = TileSchedule(plan.sampled, plan.samplesPerPixel)
+        TileJobs(plan, schedule, shard.takes, Some(splats)).job(integrators(view))
+
+  private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
+    SingleSamples(integrators(plan.view(Splats.Discarded)).make(Some(report)))
+
+  private[render] def spectral(
+      bases: Array[Wavelengths],
+      parts: Vector[RenderMethod]
+  ): RenderMethod =
+    val all = parts.collect { case s: SplattedTiles => s }
+    def over(view: View)(make: (SplattedTiles, View) => WorkerIntegrators) =
+      val workers = all.zip(bases).map((of, basis) => make(of, RenderMethod.converted(view, basis)))
+      SpectralIntegrators(workers, bases)
+    SplattedTiles(
+      over(_)(_.unguided(_)),
+      beside,
+      guided.map(g =>
+        GuidedSplats(g.settings, (view, guide) => over(view)(_.learning(_, guide)))
+      ),
+      addedLight
+    )
+
+  private def unguided(view: View): WorkerIntegrators = integrators(view)
+  private def learning(view: View, guide: Guide): WorkerIntegrators =
+    guided.get.integrators(view, guide)
+
+/** How paths beside light paths learn.
+  *
+  * @param settings    of what is learnt
+  * @param integrators learn, and are guided
+  */
+final case class GuidedSplats(
+    settings: GuideSettings,
+    integrators: (View, Guide) => WorkerIntegrators
+)
