@@ -101,22 +101,6 @@ class LauncherSuite extends AnyFunSuite:
         assert(p.run(env = Map(None_, "JAVA_OPTS" -> options)).code == 0)
         assert(!p.starts.last.contains(ours), options)
 
-  test("a small heap has a small young generation, unless another is asked for"):
-    staged: p =>
-      val _ = p.jdk("99")
-      def young(options: String, variable: String = "JAVA_OPTS"): Seq[String] =
-        assert(p.run(env = Map(None_, variable -> options)).code == 0)
-        p.starts.last.filter(_.startsWith("-XX:MaxNewSize=")).toSeq
-      for options <- Seq("-Xmx160m", "-Xmx163840K", "-XX:MaxHeapSize=167772160", "-Xmx4g -Xmx160m")
-      do
-        assert(young(options) == Seq("-XX:MaxNewSize=10m"), options)
-        assert(young(options, "JAVA_TOOL_OPTIONS") == Seq("-XX:MaxNewSize=10m"), options)
-      assert(young("-Xmx100m") == Seq("-XX:MaxNewSize=8m"))
-      assert(young("-Xmx511m") == Seq("-XX:MaxNewSize=31m"))
-      for options <- Seq("-Xmx512m", "-Xmx8g", "-Xmx1t", "-Xmx64m -Xmx8589934592", "-Xmxlots") do
-        assert(young(options).isEmpty, options)
-      assert(young("-Xmx160m -XX:MaxNewSize=50m").last == "-XX:MaxNewSize=50m")
-
   test("names of files are UTF-8 where there is no locale; a locale stays as it is"):
     staged: p =>
       val _ = p.jdk("99", java = "printf %s \"${LC_ALL:-$LANG}\"")
