@@ -33,7 +33,7 @@ object CheckedFile:
     * @throws IOException if it can't be read, is damaged, or of another kind
     */
   def read[A](path: Path, mark: String)(body: CheckedInput => A): A =
-    open(path, mark): (channel, in) =>
+    open(FileChannel.open(path, StandardOpenOption.READ), mark): (channel, in) =>
       verify(channel)
       body(in)
 
@@ -41,7 +41,11 @@ object CheckedFile:
     * is read, and what is made of a damaged one is dropped.
     */
   def make[A](path: Path, mark: String)(body: CheckedInput => A): A =
-    open(path, mark): (channel, in) =>
+    make(FileChannel.open(path, StandardOpenOption.READ), mark)(body)
+
+  /** As `make`, of an open file, which is closed. */
+  def make[A](file: => FileChannel, mark: String)(body: CheckedInput => A): A =
+    open(file, mark): (channel, in) =>
       val made =
         try body(in)
         catch
@@ -51,8 +55,10 @@ object CheckedFile:
       in.verify()
       made
 
-  private def open[A](path: Path, mark: String)(body: (FileChannel, CheckedInput) => A): A =
-    Using.resource(FileChannel.open(path, StandardOpenOption.READ)): channel =>
+  private def open[A](file: => FileChannel, mark: String)(
+      body: (FileChannel, CheckedInput) => A
+  ): A =
+    Using.resource(file): channel =>
       Buffers.lend: buffer =>
         val in = CheckedInput(channel, buffer)
         val isMarked =

@@ -31,7 +31,7 @@ final class PartFiles(folder: CacheFolder):
   def read[A](form: PartForm[A], key: String): Option[A] =
     val file = folder.file(mark(form, key), form.suffix)
     try
-      val found = CheckedFile.make(file, mark(form, key)): in =>
+      val found = CheckedFile.make(folder.open(file), mark(form, key)): in =>
         val made = form.read(in)
         if !in.isAtEnd then throw IOException("it has more than it should")
         made
@@ -55,7 +55,8 @@ final class PartFiles(folder: CacheFolder):
           if isNeeded then obstacle = Some(s"can't write to `${folder.path}`: ${IoReason(e)}")
 
   /** What is made by another version may differ. */
-  private def mark(form: PartForm[?], key: String) = s"${form.name} $key ${Version.current}"
+  private def mark(form: PartForm[?], key: String) =
+    s"${CacheFolder.Mark}${form.name} $key ${Version.current}"
 
 object PartFiles:
   /** Smaller things are computed as fast as their files are read. */

@@ -37,12 +37,15 @@ object WholeFile:
 
   /** Lets `body` write the file.
     *
-    * @param isForced whether the device has it when this ends; else it may be damaged if the
+    * @param isForced     whether the device has it when this ends; else it may be damaged if the
     *   machine fails, which its reader must find
+    * @param followsLinks whether the target of a link is replaced; else the link itself
     * @throws WriteError if that fails with an IOException
     */
-  def write(path: Path, isForced: Boolean = true)(body: FileChannel => Unit): Unit =
-    val next = NextFile.of(path)
+  def write(path: Path, isForced: Boolean = true, followsLinks: Boolean = true)(
+      body: FileChannel => Unit
+  ): Unit =
+    val next = NextFile.of(path, followsLinks)
     try
       next.write(body)
       if isForced then next.commit() else next.place()
@@ -172,12 +175,14 @@ object NextFile:
 
   /** Opens the next version of a file.
     *
+    * @param followsLinks whether the target of a link is replaced; else the link itself
     * @throws WriteError if it can't be opened
     */
-  def of(path: Path): NextFile =
+  def of(path: Path, followsLinks: Boolean = true): NextFile =
     try
-      for why <- WholeFile.obstacle(path) do throw WriteError(path, why)
-      val target = WholeFile.target(path)
+      val isReplaced = !followsLinks && Files.isSymbolicLink(path)
+      for why <- WholeFile.obstacle(path) if !isReplaced do throw WriteError(path, why)
+      val target = if isReplaced then Some(path) else WholeFile.target(path)
       target match
         case None => NextFile(path, None, path, FileChannel.open(path, WRITE, APPEND))
         case Some(file) =>

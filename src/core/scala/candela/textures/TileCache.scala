@@ -62,7 +62,7 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
 
   /** The file of this key, if there is one and it is undamaged as far as its header tells. */
   private def open(key: String): Option[TileFile] =
-    val opened = TileFile.open(place(key), key)
+    val opened = TileFile.open(folder.open(place(key)), key)
     if opened.nonEmpty then folder.use(place(key))
     opened
 

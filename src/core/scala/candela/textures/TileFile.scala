@@ -4,10 +4,10 @@ import java.io.{ByteArrayInputStream, ByteArrayOutputStream, DataInputStream, Da
 import java.io.IOException
 import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
-import java.nio.file.{Path, StandardOpenOption}
+import java.nio.charset.StandardCharsets.US_ASCII
 import java.util.zip.{CRC32, CRC32C}
 
-import candela.base.loop
+import candela.base.{CacheFolder, loop}
 import candela.color.{Encoding, Rgb}
 
 /** What is known of an image in tiles.
@@ -99,13 +99,19 @@ private[textures] final class TileFile private (
     }
 
 private[textures] object TileFile:
-  private val Mark = 0x43544c32 // CTL2
+  private val Mark = s"CTL3${CacheFolder.Mark}".getBytes(US_ASCII)
+
+  /** Bytes of the mark, and of the header's length and checksum. */
+  private val Start = Mark.length + 8
   private val MostHeader = 1 << 20
 
-  /** Opens a file of this key; None if it is missing, damaged or another. */
-  def open(path: Path, key: String): Option[TileFile] =
+  /** The tiles of a file of this key; None if it is missing, damaged or another.
+    *
+    * @param file opens it
+    */
+  def open(file: => FileChannel, key: String): Option[TileFile] =
     try
-      val channel = FileChannel.open(path, StandardOpenOption.READ)
+      val channel = file
       val found =
         try opened(channel, key)
         catch case _: IOException | _: IllegalArgumentException => None
@@ -114,13 +120,15 @@ private[textures] object TileFile:
     catch case _: IOException => None
 
   private def opened(channel: FileChannel, key: String): Option[TileFile] =
-    val beginning = read(channel, 0, 12)
-    val (mark, length, sum) = (beginning.getInt, beginning.getInt, beginning.getInt)
-    if mark != Mark || length < 0 || length > MostHeader then None
+    val beginning = read(channel, 0, Start)
+    val mark = new Array[Byte](Mark.length)
+    beginning.get(mark)
+    val (length, sum) = (beginning.getInt, beginning.getInt)
+    if !mark.sameElements(Mark) || length < 0 || length > MostHeader then None
     else
-      val bytes = read(channel, 12, length).array
+      val bytes = read(channel, Start, length).array
       val header = Option.when(sum == checksum(bytes))(decoded(bytes)).filter(_.key == key)
-      val start = 12L + length
+      val start = Start.toLong + length
       header.filter(h => channel.size == start + h.count.toLong * TileRecord.Bytes)
         .map(TileFile(_, channel, start))
 
@@ -148,11 +156,11 @@ private[textures] object TileFile:
     )
     // The facts are known at the end: there is room for as many colours as there may be
     val room = encoded(header).length + made.colors.fold(0)(_.most * 12)
-    val facts = TileWriter.write(channel, 12L + room, header.places, made, wrap)
+    val facts = TileWriter.write(channel, Start.toLong + room, header.places, made, wrap)
     made.confirm()
     val about = encoded(header.copy(facts = facts)).padTo(room, 0.toByte)
-    val out = ByteBuffer.allocate(12 + room)
-    out.putInt(Mark).putInt(room).putInt(checksum(about)).put(about).flip()
+    val out = ByteBuffer.allocate(Start + room)
+    out.put(Mark).putInt(room).putInt(checksum(about)).put(about).flip()
     while out.hasRemaining do channel.write(out, out.position()): Unit
 
   private def encoded(h: TileHeader): Array[Byte] =

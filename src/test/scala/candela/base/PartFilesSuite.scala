@@ -87,7 +87,8 @@ class PartFilesSuite extends AnyFunSuite:
         Files.setLastModifiedTime(file, time): Unit
       files(folder).write(Numbers, "a", large)
       val part = only(folder)
-      val tiles = Files.write(folder.resolve("x" + CacheFolder.Tiles), new Array[Byte](300_000))
+      val name = CacheFolder(folder, 1).file("x", CacheFolder.Tiles)
+      val tiles = Files.write(name, s"CTL3${CacheFolder.Mark}".getBytes.padTo(300_000, 0.toByte))
       val strange = Files.write(folder.resolve("note.txt"), new Array[Byte](300_000))
       for (file, i) <- Vector(strange, tiles, part).zipWithIndex do age(file, 1000L + i)
       files(folder, most = 500_000).write(Numbers, "b", large)

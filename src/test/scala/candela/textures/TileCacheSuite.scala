@@ -259,7 +259,7 @@ class TileCacheSuite extends AnyFunSuite:
           Files.setLastModifiedTime(folder.resolve(name), time): Unit
       cache(folder).image("a", Wrap.Repeat)(() => never()): Unit
       val size = Files.size(files(folder).head)
-      cache(folder, most = 3 * size).image("d", Wrap.Repeat)(() => made(levels)): Unit
+      cache(folder, most = 7 * size / 2).image("d", Wrap.Repeat)(() => made(levels)): Unit
       assert(files(folder).size == 3)
       for key <- Vector("a", "c", "d") do
         cache(folder).image(key, Wrap.Repeat)(() => never()): Unit

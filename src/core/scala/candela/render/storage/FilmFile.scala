@@ -42,7 +42,7 @@ final class FilmFile private (
         ))
 
 object FilmFile:
-  private[storage] val Mark = "Candela film 1\n"
+  private[storage] val Mark = "Candela film 2\n"
 
   /** File extension. */
   val Suffix = "film"
