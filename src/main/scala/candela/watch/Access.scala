@@ -21,8 +21,8 @@ final class Access(address: InetAddress, val port: Int):
   val root: String = token.fold("/")(t => s"/$t/")
 
   val link: String =
-    val shown = if address.isAnyLocalAddress then Access.ownAddress else address
-    s"http://${Access.written(shown)}:$port$root"
+    val reachable = if address.isAnyLocalAddress then Access.ownAddress else address
+    s"http://${Access.written(reachable)}:$port$root"
 
   /** Whether a request may be answered. Pages of other servers can't know the token; without one,
     * they are recognised by the names that their requests give.
@@ -51,7 +51,7 @@ private object Access:
 
   /** An address at which other machines may reach this one, if there is one. */
   private def ownAddress: InetAddress =
-    val all =
+    val candidates =
       for
         network <- Try(NetworkInterface.networkInterfaces.iterator.asScala.toVector)
           .getOrElse(Vector.empty).sortBy(_.getIndex)
@@ -59,7 +59,7 @@ private object Access:
         address <- network.inetAddresses.iterator.asScala
         if !address.isLinkLocalAddress
       yield address
-    all.find(!_.isInstanceOf[Inet6Address]).orElse(all.headOption)
+    candidates.find(!_.isInstanceOf[Inet6Address]).orElse(candidates.headOption)
       .getOrElse(InetAddress.getLoopbackAddress)
 
   /** As part of a link: `127.0.0.1`, `[fe80::1%25eth0]` (RFC 5952, RFC 6874). */

@@ -21,7 +21,7 @@ private[watch] final case class Answer(
     * @param policy what the page may load and run
     */
   def head(policy: String, keepsOpen: Boolean): Array[Byte] =
-    val all = Vector(
+    val fields = Vector(
       "Date" -> RFC_1123_DATE_TIME.format(ZonedDateTime.now(ZoneOffset.UTC)),
       "Content-Type" -> s"$kind; charset=utf-8",
       "Content-Length" -> body.length.toString,
@@ -29,9 +29,8 @@ private[watch] final case class Answer(
       "Connection" -> (if keepsOpen then "keep-alive" else "close"),
       "Content-Security-Policy" -> policy
     ) ++ Answer.Guards ++ headers
-    val lines = s"HTTP/1.1 $code ${Answer.phrase(code)}" +: all.map((name, value) =>
-      s"$name: $value"
-    )
+    // The reason phrase may be empty
+    val lines = s"HTTP/1.1 $code " +: fields.map((name, value) => s"$name: $value")
     lines.mkString("", "\r\n", "\r\n\r\n").getBytes(ISO_8859_1)
 
 private[watch] object Answer:
@@ -53,25 +52,14 @@ private[watch] object Answer:
     "Cross-Origin-Resource-Policy" -> "same-origin"
   )
 
-  private def phrase(code: Int): String = code match
-    case 200 => "OK"
-    case 400 => "Bad Request"
-    case 404 => "Not Found"
-    case 405 => "Method Not Allowed"
-    case 413 => "Content Too Large"
-    case 431 => "Request Header Fields Too Large"
-    case 505 => "HTTP Version Not Supported"
-    case _ => "Internal Server Error"
-
 /** The value of `Content-Security-Policy`. */
 private[watch] object PagePolicy:
 
   /** Lets `page` run its own script and style, and ask its own server; nothing else. */
-  def of(page: String): String =
+  def allowing(page: String): String =
     def hashes(element: String) =
-      val parts = s"(?s)<$element>(.*?)</$element>".r.findAllMatchIn(page).map(_.group(1))
-      def sum(part: String) = MessageDigest.getInstance("SHA-256").digest(part.getBytes(UTF_8))
-      val sums = parts.map(sum)
+      val sources = s"(?s)<$element>(.*?)</$element>".r.findAllMatchIn(page).map(_.group(1))
+      val sums = sources.map(s => MessageDigest.getInstance("SHA-256").digest(s.getBytes(UTF_8)))
       sums.map(sum => s"'sha256-${Base64.getEncoder.encodeToString(sum)}'").mkString(" ")
     Vector(
       "default-src 'none'",

@@ -7,7 +7,7 @@ import candela.report.LiveLayer
 private[watch] object LayerTitles:
 
   /** @param names as in [[Snapshot.layers]] */
-  def of(names: Vector[String]): Vector[LiveLayer] = names.map:
+  def titled(names: Vector[String]): Vector[LiveLayer] = names.map:
     case "color" => LiveLayer("color", "color", "the image")
     case "noise" => LiveLayer("noise", "noise", "expected standard deviation of the colour")
     case group @ s"Combined_$light" =>

@@ -2,9 +2,8 @@ package candela.watch
 
 import candela.report.{LiveData, LiveState}
 
-import java.net.{InetAddress, InetSocketAddress}
+import java.net.InetAddress
 import java.nio.charset.StandardCharsets.UTF_8
-import java.util.concurrent.ExecutorService
 
 /** Serves the live page.
   *
@@ -12,7 +11,6 @@ import java.util.concurrent.ExecutorService
   * @param observer of the rendering
   * @param state    how far it is
   * @param actions  what a viewer may ask for, by name
-  * @param threads  that answer
   */
 private[watch] final class LiveServer(
     address: InetAddress,
@@ -22,11 +20,10 @@ private[watch] final class LiveServer(
     viewers: Viewers,
     state: () => LiveState,
     actions: Map[String, () => Unit],
-    isEstimated: Boolean,
-    threads: ExecutorService
+    isEstimated: Boolean
 ) extends AutoCloseable:
   private val server =
-    HttpServer(InetSocketAddress(address, port), threads, PagePolicy.of(page), answer(_))
+    HttpServer(address, port, PagePolicy.allowing(page), answer(_))
 
   /** Available as soon as the server is. */
   val access: Access = Access(address, server.port)
@@ -56,10 +53,10 @@ private[watch] final class LiveServer(
     name match
       case "" => Some(Answer("text/html", page.getBytes(UTF_8)))
       case "state" =>
-        val now = state()
+        val current = state()
         for viewer <- query.get("viewer") do
-          viewers.saw(viewer, now.isFinal && number("shown").contains(now.version))
-        val counted = now.copy(viewers = viewers.count)
+          viewers.saw(viewer, current.isFinal && number("shown").contains(current.version))
+        val counted = current.copy(viewers = viewers.count)
         Some(Answer("application/json", LiveData.state(counted).getBytes(UTF_8)))
       case "charts" =>
         val charts = LiveData.charts(observer.points, isEstimated)
@@ -81,7 +78,7 @@ private[watch] final class LiveServer(
           snapshot <- observer.snapshot
           x <- number("x") if x >= 0 && x < snapshot.image.width
           y <- number("y") if y >= 0 && y < snapshot.image.height
-        yield Answer("application/json", LiveData.pixel(snapshot.at(x, y)).getBytes(UTF_8))
+        yield Answer("application/json", LiveData.pixel(snapshot.pixel(x, y)).getBytes(UTF_8))
 
 private object LiveServer:
   /** Names of what can be read; the page is the first. */

@@ -1,7 +1,7 @@
 package candela.watch
 
 import candela.base.Version
-import candela.render.{Background, Cancellation, Rendering, RenderPlan}
+import candela.render.{Cancellation, Rendering, RenderPlan}
 import candela.report.{Frame, LivePage, LiveState, Stage}
 
 import java.net.{BindException, InetAddress}
@@ -36,7 +36,6 @@ final class LiveView(
 
   private val run = UUID.randomUUID.toString
   private val ended = CountDownLatch(1)
-  private val threads = Background.pool("viewers", MostAnswers)
   @volatile private var isStoppedHere = false
   @volatile private var saved: Option[String] = None
   @volatile private var files: Option[Vector[String]] = None
@@ -51,13 +50,13 @@ final class LiveView(
   private val server: LiveServer =
     val host = address.host.fold(InetAddress.getLoopbackAddress)(InetAddress.getByName)
     val page = LivePage.html(scene, Version.current, plan.features, isEstimated)
-    def at(port: Int) =
-      LiveServer(host, port, page, observer, viewers, () => state, actions, isEstimated, threads)
+    def serve(port: Int) =
+      LiveServer(host, port, page, observer, viewers, () => state, actions, isEstimated)
     address.port match
-      case Some(port) => at(port)
+      case Some(port) => serve(port)
       case None =>
-        try at(UsualPort)
-        catch case _: BindException => at(0)
+        try serve(DefaultPort)
+        catch case _: BindException => serve(0)
 
   /** Address of the page. */
   def link: String = server.access.link
@@ -70,8 +69,8 @@ final class LiveView(
   def await(written: Vector[String]): Unit =
     files = Some(written)
     while remains && !ended.await(100, TimeUnit.MILLISECONDS) do ()
-    val begin = System.nanoTime
-    while !viewers.haveAll && System.nanoTime - begin < LastImageTimeoutNanos &&
+    val deadline = System.nanoTime + LastImageTimeoutNanos
+    while !viewers.haveAll && System.nanoTime < deadline &&
       !ended.await(50, TimeUnit.MILLISECONDS)
     do ()
 
@@ -84,7 +83,6 @@ final class LiveView(
 
   def close(): Unit =
     server.close()
-    val _ = threads.shutdownNow()
 
   private def state: LiveState =
     val rendering = observer.rendering
@@ -99,7 +97,7 @@ final class LiveView(
       else if cancellation.isRequested then Stage.Stopping
       else Stage.Rendering,
       Frame(crop.x0, crop.y0, crop.x1, crop.y1),
-      observer.snapshot.fold(Vector.empty)(s => LayerTitles.of(s.layers)),
+      observer.snapshot.fold(Vector.empty)(s => LayerTitles.titled(s.layers)),
       rendering.samplesDone,
       Option.unless(rendering.isOpenEnded)(rendering.samplesPerPixel),
       if isOver && rendering.isComplete then 1.0 else progress.part,
@@ -116,10 +114,7 @@ final class LiveView(
     )
 
 object LiveView:
-  private val UsualPort = 8642
-
-  /** Answers at the same time. */
-  private val MostAnswers = 8
+  private val DefaultPort = 8642
 
   /** Viewers have this long to get the last image. */
-  private val LastImageTimeoutNanos = 5_000_000_000L
+  private[watch] val LastImageTimeoutNanos = 5_000_000_000L

@@ -31,17 +31,17 @@ final class Observer(
   // Changed only by the observer's thread, or after its end
   private var seenSamples, measuredSamples, nextNanos = 0L
   private var noise: Option[Image] = None
-  @volatile private var taken: Option[Snapshot] = None
-  @volatile private var found = Vector.empty[CurvePoint]
+  @volatile private var latest: Option[Snapshot] = None
+  @volatile private var curve = Vector.empty[CurvePoint]
   @volatile private var result: Option[(Rendering, Progress)] = None
 
-  private val repeated = Background.repeat("observer", Tick)(() => tick())
+  private val repeated = Background.repeat("observer", TickMillis)(() => tick())
 
   /** The most recent snapshot, if there is one. */
-  def snapshot: Option[Snapshot] = taken
+  def snapshot: Option[Snapshot] = latest
 
   /** The error curve so far. */
-  def points: Vector[CurvePoint] = found
+  def points: Vector[CurvePoint] = curve
 
   /** The rendering so far; the result, once it has ended. */
   def rendering: Rendering = result.fold(live.rendering)(_._1)
@@ -61,7 +61,7 @@ final class Observer(
   /** Takes the last snapshot, of the result. */
   def end(rendering: Rendering): Unit =
     repeated.close()
-    take(rendering, measures = rendering.samplesTaken > measuredSamples)
+    observe(rendering, measures = rendering.samplesTaken > measuredSamples)
     result = Some((rendering, live.progress.copy(seconds = rendering.seconds)))
 
   def close(): Unit = repeated.close()
@@ -73,20 +73,20 @@ final class Observer(
       val samples = rendering.samplesTaken
       val measures = rendering.samplesDone > 0 && samples >= Growth * measuredSamples
       val watched = isWatched()
-      if samples > seenSamples && (measures || watched) then take(rendering, measures)
+      if samples > seenSamples && (measures || watched) then observe(rendering, measures)
       // The first ones cost most, as the JVM still interprets them, and viewers await them most.
       val longest =
-        if watched && taken.forall(_.version < Early) then EarlyPause else LongestPause
+        if watched && latest.forall(_.version < Early) then EarlyPause else LongestPause
       val pause = ((processorNanos - began) / (Share * threads)).toLong
       nextNanos = System.nanoTime + Math.min(longest, pause)
 
-  private def take(rendering: Rendering, measures: Boolean): Unit =
+  private def observe(rendering: Rendering, measures: Boolean): Unit =
     seenSamples = rendering.samplesTaken
     val weights = Option.when(measures)(new Array[Float](plan.crop.pixels.toInt))
     val colors = plan.development(rendering.film, weights)
     weights.foreach(measure(rendering, colors, _))
     val image = rendering.image(plan.development, colors)
-    taken = Some(Snapshot(taken.fold(1)(_.version + 1), image, noise))
+    latest = Some(Snapshot(latest.fold(1)(_.version + 1), image, noise))
 
   private def measure(state: Rendering, colors: Image, weights: Array[Float]): Unit =
     measuredSamples = state.samplesTaken
@@ -95,13 +95,13 @@ final class Observer(
     val errors = reference match
       case Some(r) => Some(Errors.quickly(r)(colors))
       case None => Option.when(variance.isKnown)(variance.errors)
-    val mean = Math.round(state.samplesTaken.toDouble / plan.sampled.pixels).toInt
-    val samples = Math.max(state.samplesDone, mean)
-    errors.foreach(e => found :+= CurvePoint(samples, state.seconds, e))
+    val average = Math.round(state.samplesTaken.toDouble / plan.sampled.pixels).toInt
+    val samples = Math.max(state.samplesDone, average)
+    errors.foreach(e => curve :+= CurvePoint(samples, state.seconds, e))
 
 object Observer:
   /** Milliseconds between two looks at the rendering. */
-  private val Tick = 100L
+  private val TickMillis = 100L
 
   /** Share of the processors' time that snapshots may take. */
   private val Share = 0.005

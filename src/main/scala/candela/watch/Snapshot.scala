@@ -33,13 +33,13 @@ final class Snapshot(val version: Int, val image: Image, val noise: Option[Image
       )
 
   /** Every layer's channels at a pixel of the image. */
-  def at(x: Int, y: Int): Vector[(String, Vector[(String, Float)])] =
-    val all = layers.map: layer =>
+  def pixel(x: Int, y: Int): Vector[(String, Vector[(String, Float)])] =
+    val values = layers.map: layer =>
       val (from, channels) = sourceOf(layer)
       layer -> channels.map(c => from.channelNames(c) -> from(x, y, c))
     // In a standard deviation's units two images compare; variances add up.
-    all ++ all.collect:
-      case (Noise, values) => "variance" -> values.map((name, value) => name -> value * value)
+    values ++ values.collect:
+      case (Noise, noise) => "variance" -> noise.map((name, value) => name -> value * value)
 
   private def sourceOf(layer: String): (Image, Vector[Int]) =
     noise.filter(_ => layer == Noise) match

@@ -25,20 +25,21 @@ final class TevDisplay(
   @volatile private var connection: Option[TevLink] = None
   @volatile private var isClosed = false
   @volatile private var sentVersion = 0
-  private var tries = 0
+  private var attempts = 0
 
-  private val repeated = Background.repeat("display", Tick)(() => step())
+  private val repeated = Background.repeat("display", TickMillis)(() => step())
 
   def isConnected: Boolean = connection.isDefined
 
   /** Waits until the viewer has the last image, but not for one that doesn't take it. */
   def await(): Unit =
-    val last = observer.snapshot.fold(0)(_.version)
-    val begin = System.nanoTime
+    val version = observer.snapshot.fold(0)(_.version)
+    val start = System.nanoTime
     // The viewer may have been started a moment ago.
-    def hopes = isConnected || System.nanoTime - begin < Retry * Tick * 1_000_000
-    while sentVersion < last && hopes && System.nanoTime - begin < LastImageTimeoutNanos do
-      Thread.sleep(Tick / 5)
+    def hopes = isConnected || System.nanoTime - start < RetryTicks * TickMillis * 1_000_000
+    while sentVersion < version && hopes && System.nanoTime - start < LiveView.LastImageTimeoutNanos
+    do
+      Thread.sleep(TickMillis / 5)
 
   def close(): Unit =
     isClosed = true
@@ -48,17 +49,17 @@ final class TevDisplay(
 
   private def step(): Unit =
     try
-      if connection.isEmpty && !isClosed && tries % Retry == 0 then connect()
+      if connection.isEmpty && !isClosed && attempts % RetryTicks == 0 then connect()
       for to <- connection; snapshot <- observer.snapshot if snapshot.version != sentVersion do
         to.send(snapshot.image)
         sentVersion = snapshot.version
     catch
       case e: IOException =>
-        if tries == 0 && connection.isEmpty && !isClosed then absent(e)
+        if attempts == 0 && connection.isEmpty && !isClosed then absent(e)
         connection.foreach(_.close())
         connection = None
         sentVersion = 0
-    tries += 1
+    attempts += 1
 
   private def connect(): Unit =
     val socket = Socket()
@@ -72,50 +73,47 @@ final class TevDisplay(
 
 object TevDisplay:
   /** tev's own default. */
-  val UsualPort = 14158
+  val DefaultPort = 14158
 
   /** Milliseconds between two looks at the snapshots. */
-  private val Tick = 100L
+  private val TickMillis = 100L
 
   /** Looks from one try to connect to the next. */
-  private val Retry = 10
+  private val RetryTicks = 10
 
   private val ConnectMillis = 1000
 
-  /** Viewers have this long to get the last image. */
-  private val LastImageTimeoutNanos = 5_000_000_000L
-
   /** Edge of the updated tiles, in pixels, as in pbrt-v4. */
-  private val TileSize = 128
+  private val TileEdge = 128
 
   /** A viewer, and what it shows. */
   private final class TevLink(socket: Socket, name: String):
-    private val out: OutputStream = BufferedOutputStream(socket.getOutputStream, 1 << 16)
-    private var shown: Option[Image] = None
+    private val stream: OutputStream = BufferedOutputStream(socket.getOutputStream, 1 << 16)
+    private var displayed: Option[Image] = None
 
     def close(): Unit = socket.close()
 
     def send(image: Image): Unit =
-      val before = shown.getOrElse:
-        out.write(TevPacket.create(name, image.width, image.height, image.channelNames))
+      val previous = displayed.getOrElse:
+        stream.write(TevPacket.create(name, image.width, image.height, image.channelNames))
         Image(image.width, image.height, image.channelNames, new Array[Float](image.data.length))
       for
-        y <- 0 until image.height by TileSize
-        x <- 0 until image.width by TileSize
+        y <- 0 until image.height by TileEdge
+        x <- 0 until image.width by TileEdge
         channel <- 0 until image.channels
-      do sendTile(before, image, x, y, channel)
-      out.flush()
-      shown = Some(image)
+      do sendTile(previous, image, x, y, channel)
+      stream.flush()
+      displayed = Some(image)
 
-    private def sendTile(before: Image, image: Image, x: Int, y: Int, channel: Int): Unit =
-      val width = Math.min(TileSize, image.width - x)
-      val height = Math.min(TileSize, image.height - y)
+    private def sendTile(previous: Image, image: Image, x: Int, y: Int, channel: Int): Unit =
+      val width = Math.min(TileEdge, image.width - x)
+      val height = Math.min(TileEdge, image.height - y)
       val values = new Array[Float](width * height)
       var isChanged = false
       loop(height): row =>
         loop(width): column =>
           val value = image(x + column, y + row, channel)
           values(row * width + column) = value
-          if value != before(x + column, y + row, channel) then isChanged = true
+          if value != previous(x + column, y + row, channel) then isChanged = true
       if isChanged then
-        out.write(TevPacket.update(name, image.channelNames(channel), x, y, width, values))
+        stream.write(TevPacket.update(name, image.channelNames(channel), x, y, width, values))

@@ -36,8 +36,8 @@ private[watch] object TevPacket:
     packet.int(1)
     packet.text(channel)
     for number <- Vector(x, y, width, values.length / width) do packet.int(number)
-    packet.long(0) // the first value of the channel
-    packet.long(1) // distance to the next
+    packet.int64(0) // the first value of the channel
+    packet.int64(1) // distance to the next
     packet.floats(values)
     packet.bytes
 
@@ -46,27 +46,27 @@ private[watch] object TevPacket:
   private val UpdateImage = 6
 
   private final class Writer(operation: Int):
-    private val out = ByteArrayOutputStream()
+    private val packet = ByteArrayOutputStream()
     int(0) // the length
     byte(operation)
 
-    def byte(value: Int): Unit = out.write(value)
+    def byte(value: Int): Unit = packet.write(value)
     def int(value: Int): Unit = append(4)(_.putInt(value))
-    def long(value: Long): Unit = append(8)(_.putLong(value))
+    def int64(value: Long): Unit = append(8)(_.putLong(value))
 
     def text(words: String): Unit =
-      out.writeBytes(words.getBytes(UTF_8))
+      packet.writeBytes(words.getBytes(UTF_8))
       byte(0)
 
     def floats(values: Array[Float]): Unit =
       append(4 * values.length)(_.asFloatBuffer.put(values))
 
     def bytes: Array[Byte] =
-      val all = out.toByteArray
-      val _ = ByteBuffer.wrap(all).order(ByteOrder.LITTLE_ENDIAN).putInt(all.length)
-      all
+      val bytes = packet.toByteArray
+      val _ = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).putInt(bytes.length)
+      bytes
 
     private def append(size: Int)(put: ByteBuffer => Any): Unit =
       val bytes = new Array[Byte](size)
       val _ = put(ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN))
-      out.writeBytes(bytes)
+      packet.writeBytes(bytes)

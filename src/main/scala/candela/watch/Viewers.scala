@@ -6,31 +6,27 @@ import java.util.concurrent.ConcurrentHashMap
 final class Viewers:
   import Viewers.*
 
-  private val all = ConcurrentHashMap[String, Viewer]()
+  private val viewers = ConcurrentHashMap[String, Viewer]()
 
   /** Notes a request of the page `name`.
     *
     * @param hasAll whether it shows the last image
     */
   def saw(name: String, hasAll: Boolean): Unit =
-    val _ = all.values.removeIf(_.age > Forgotten)
-    if all.containsKey(name) || all.size < MaxViewers then
-      val _ = all.put(name, Viewer(System.nanoTime, hasAll))
+    if viewers.containsKey(name) || count < MaxViewers then
+      val _ = viewers.put(name, Viewer(System.nanoTime, hasAll))
 
   def count: Int =
-    var n = 0
-    all.forEach((_, viewer) => if viewer.age < Present then n += 1)
-    n
+    val _ = viewers.values.removeIf(viewer => (System.nanoTime - viewer.nanos) * 1e-9 > MaxSeconds)
+    viewers.size
 
   /** Whether every page that is still there shows the last image. */
-  def haveAll: Boolean = all.values.stream.allMatch(v => v.hasAll || v.age >= Present)
+  def haveAll: Boolean = count == 0 || viewers.values.stream.allMatch(_.hasAll)
 
 object Viewers:
-  private final case class Viewer(nanos: Long, hasAll: Boolean):
-    /** Seconds since its last request. */
-    def age: Double = (System.nanoTime - nanos) * 1e-9
+  /** @param nanos of its last request */
+  private final case class Viewer(nanos: Long, hasAll: Boolean)
 
-  /** A page asks at least every five seconds. */
-  private val Present = 6.0
-  private val Forgotten = 60.0
+  /** Between two requests; a page asks at least every five seconds. */
+  private val MaxSeconds = 6.0
   private val MaxViewers = 100

@@ -1,7 +1,5 @@
 package candela.watch
 
-import candela.render.Background
-
 import java.net.{InetAddress, InetSocketAddress, Socket, SocketException, SocketTimeoutException}
 
 import scala.util.Try
@@ -10,19 +8,16 @@ import scala.util.Try
 final class FuzzedServer extends AutoCloseable:
   private val here = InetAddress.getLoopbackAddress
   private val large = Array.tabulate(1 << 20)(_.toByte)
-  private val threads = Background.pool("fuzzed", 4)
 
   private def answer(request: Request): Answer = request.path match
     case "/large" => Answer("application/octet-stream", large)
     case path => Answer.text(path)
 
   private val server =
-    HttpServer(InetSocketAddress(here, 0), threads, "default-src 'none'", answer, patience = 0.2)
+    HttpServer(here, 0, "default-src 'none'", answer, timeoutSeconds = 2)
   server.start()
 
-  def close(): Unit =
-    server.close()
-    threads.shutdownNow(): Unit
+  def close(): Unit = server.close()
 
   def connected(): Socket =
     val socket = Socket()
@@ -58,10 +53,9 @@ final class FuzzedServer extends AutoCloseable:
   /** The server drops a connection whose request is not understood because of a fault. */
   private def parsed(bytes: Array[Byte]): Option[String] =
     try
-      val count = bytes.length.min(Request.MostBytes)
-      val end = Request.end(bytes, count)
-      if end >= 0 then
-        val _ = Request.parse(String(bytes, 0, end, "ISO-8859-1"))
+      val text = String(bytes, 0, bytes.length.min(Request.MaxBytes), "ISO-8859-1")
+      val end = text.indexOf("\r\n\r\n")
+      val _ = Request.parse(if end < 0 then text else text.take(end + 4))
       None
     catch case e: Throwable => Some(s"$e at ${e.getStackTrace.take(5).mkString(", ")}")
 

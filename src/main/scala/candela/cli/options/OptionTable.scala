@@ -200,7 +200,7 @@ private[cli] object OptionTable extends OptionRows:
       .action((_, o) => o.copy(watchAfter = true)),
     opt[(String, Int)]("display-server").valueName("HOST[:PORT]")
       .text(OptionText(
-        s"show the image in the viewer tev (default port: ${TevDisplay.UsualPort})",
+        s"show the image in the viewer tev (default port: ${TevDisplay.DefaultPort})",
         "[tev](https://github.com/Tom94/tev) must be running; pbrt-v4 has the same option."
       ))
       .action((a, o) => o.copy(displayServer = Some(a))),

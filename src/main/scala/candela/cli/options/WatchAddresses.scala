@@ -16,7 +16,7 @@ private[cli] object WatchAddresses:
   def display(text: String): Option[(String, Int)] =
     parse(text) match
       case Some(WatchAddress(Some(host), Some(port))) => Some((host, port))
-      case None if text.nonEmpty && !text.contains(':') => Some((text, TevDisplay.UsualPort))
+      case None if text.nonEmpty && !text.contains(':') => Some((text, TevDisplay.DefaultPort))
       case _ => None
 
   /** Whether a word of the command line is one, or a wrong one, rather than a scene. */
