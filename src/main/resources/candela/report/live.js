@@ -110,15 +110,15 @@ function liveView(size) {
     } else {
       clearTimeout(asking);
       asking = setTimeout(async () => {
-        const [x, y] = [s.x, s.y];
+        const [x, y, version] = [s.x, s.y, s.version];
         try {
           const rows = await (await fetch(`pixel?x=${x}&y=${y}`)).json();
-          const text = v => (v === null ? "–" : short(v)).padStart(11);
+          const text = v => (v === null ? "–" : short(v)).padStart(10);
           const title = r => titles[r.layer] || r.layer;
           const wide = Math.max(18, ...rows.map(r => title(r).length));
           readout.textContent = `pixel (${x + size.x0}, ${y + size.y0})\n` +
             rows.map(r => `${title(r).padEnd(wide)} ${r.values.map(text).join(" ")}`).join("\n");
-          live.dataset.pixel = JSON.stringify({ x, y, version: s.version, rows });
+          live.dataset.pixel = JSON.stringify({ x, y, version, rows });
         } catch (e) { /* the next state tells that the server has gone */ }
       }, 40);
     }
@@ -218,7 +218,7 @@ function figures(state) {
   byId("keep").setAttribute("aria-pressed", state.keepsOn === true);
   byId("keep").disabled = byId("save").disabled = byId("end").disabled = false;
   byId("end").hidden = !(over && state.stays);
-  live.dataset.stage = state.stage;
+  live.dataset.stage = state.stage; live.dataset.latest = state.version;
 }
 
 // Pauses between two looks, in milliseconds; the server forgets pages that don't ask for six seconds

@@ -7,70 +7,90 @@ import scalatags.Text.all.*
 /** Page that follows a rendering; its script asks the server for state, image and charts. */
 object LivePage:
 
-  /** @param plan        features of the scene: (feature, value)
+  /** @param scene       as users named it: the title is its file's name
+    * @param plan        features of the scene: (feature, value)
+    * @param warnings    of reading and building the scene
     * @param isEstimated whether errors are, for lack of a reference
     */
   def html(
       scene: String,
       version: String,
       plan: Vector[(String, String)],
+      warnings: Vector[String],
       isEstimated: Boolean
   ): String =
-    val error = ErrorCharts(Vector.empty, isEstimated).word("relative MSE")
     val subtitle = span(id := "stage", attr("role") := "status", "connecting")
-    Page.served(scene, subtitle, version, "live")(
-      div(
-        cls := "choice",
-        button(id := "stop", "stop"),
-        button(id := "keep", attr("aria-pressed") := "false", "keep on"),
-        button(id := "save", "save"),
-        button(id := "end", attr("hidden") := "", "end"),
-        span(
-          id := "progress",
-          cls := "bar",
-          attr("role") := "progressbar",
-          attr("aria-label") := "rendered",
-          attr("aria-valuemin") := "0",
-          attr("aria-valuemax") := "100",
-          i(id := "done")
-        )
-      ),
-      p(id := "files", attr("role") := "status", attr("tabindex") := "-1", attr("hidden") := ""),
-      div(
-        cls := "tiles",
-        Vector("samples" -> "samples per pixel", "left" -> "left", "seconds" -> "rendering") ++
-          Vector("rate" -> "samples per second", "error" -> error) map: (key, what) =>
-            div(cls := "tile", b(id := key, "–"), span(what))
-      ),
+    Page.served(scene.split(raw"[/\\]").last, subtitle, version, "live")(
       div(
         id := "live",
-        cls := "viewer-live card",
-        div(
-          cls := "choice",
-          label("layer ", select(id := "layer", disabled, option("no image yet"))),
-          label(
-            "tone curve ",
-            select(
-              id := "curve",
-              ToneCurve.values.toVector.map(c => option(value := c.word, c.word))
-            )
-          ),
-          label("exposure ", exposure, span(id := "evtext")),
-          Viewer.zoomButtons,
-          label(input(tpe := "checkbox", id := "showtiles", checked), "tiles in progress")
-        ),
         Viewer.stage(
           "image: arrows move the pixel cursor, plus and minus zoom",
           p(id := "waiting", cls := "waiting", "waiting for the first pass")
         ),
-        div(cls := "readout"),
-        p(cls := "soft", keys)
+        div(
+          cls := "beside",
+          actions,
+          p(
+            id := "files",
+            attr("role") := "status",
+            attr("tabindex") := "-1",
+            attr("hidden") := ""
+          ),
+          Option.when(warnings.nonEmpty)(warned(warnings)),
+          figures(isEstimated),
+          display,
+          div(cls := "readout")
+        )
       ),
       tables,
+      p(cls := "soft", keys),
       h2("Error"),
       div(id := "charts", p(cls := "soft", "No estimate before the second sample.")),
       h2("Scene"),
-      Page.facts(plan)
+      Page.facts(("file" -> scene) +: plan)
+    )
+
+  private def actions: Frag =
+    div(
+      cls := "choice",
+      button(id := "stop", "stop"),
+      button(id := "keep", attr("aria-pressed") := "false", "keep on"),
+      button(id := "save", "save"),
+      button(id := "end", attr("hidden") := "", "end"),
+      span(
+        id := "progress",
+        cls := "bar",
+        attr("role") := "progressbar",
+        attr("aria-label") := "rendered",
+        attr("aria-valuemin") := "0",
+        attr("aria-valuemax") := "100",
+        i(id := "done")
+      )
+    )
+
+  private def warned(warnings: Vector[String]): Frag =
+    val count = if warnings.sizeIs == 1 then "1 warning" else s"${warnings.size} warnings"
+    tag("details")(cls := "warning", tag("summary")(count), warnings.map(p(_)))
+
+  private def figures(isEstimated: Boolean): Frag =
+    val error = ErrorCharts(Vector.empty, isEstimated).word("relative MSE")
+    val figures = Vector("samples" -> "samples per pixel", "left" -> "left") ++
+      Vector("seconds" -> "rendering", "rate" -> "samples per second", "error" -> error)
+    div(
+      cls := "tiles",
+      figures.map((key, words) => div(cls := "tile", b(id := key, "–"), span(words)))
+    )
+
+  /** Controls of how the image is shown. */
+  private def display: Frag =
+    val curves = ToneCurve.values.toVector.map(c => option(value := c.word, c.word))
+    div(
+      cls := "choice",
+      label("layer ", select(id := "layer", disabled, option("no image yet"))),
+      label("tone curve ", select(id := "curve", curves)),
+      label("exposure ", exposure, span(id := "evtext")),
+      Viewer.zoomButtons,
+      label(input(tpe := "checkbox", id := "showtiles", checked), "tiles in progress")
     )
 
   /** The stages of each tone curve, so that the page shows what a picture of the program does: what

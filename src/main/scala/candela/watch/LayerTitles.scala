@@ -8,7 +8,7 @@ private[watch] object LayerTitles:
 
   /** @param names as in [[Snapshot.layers]] */
   def titled(names: Vector[String]): Vector[LiveLayer] = names.map:
-    case "color" => LiveLayer("color", "color", "the image")
+    case "color" => LiveLayer("color", "colour", "the image")
     case "noise" => LiveLayer("noise", "noise", "expected standard deviation of the colour")
     case group @ s"Combined_$light" =>
       LiveLayer(group, s"light group $light", "light of these lights only")

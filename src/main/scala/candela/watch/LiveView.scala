@@ -17,6 +17,7 @@ final case class WatchAddress(host: Option[String], port: Option[Int])
 
 /** The live page of a rendering: follows it until the end, and longer if it stays.
   *
+  * @param warnings     of reading and building the scene
   * @param cancellation requested by the page's button
   * @param save         writes the image so far, and returns what to tell the viewers
   * @param stays        whether the page remains when rendering has ended
@@ -24,6 +25,7 @@ final case class WatchAddress(host: Option[String], port: Option[Int])
 final class LiveView(
     scene: String,
     plan: RenderPlan,
+    warnings: Vector[String],
     address: WatchAddress,
     observer: Observer,
     viewers: Viewers,
@@ -49,7 +51,7 @@ final class LiveView(
 
   private val server: LiveServer =
     val host = address.host.fold(InetAddress.getLoopbackAddress)(InetAddress.getByName)
-    val page = LivePage.html(scene, Version.current, plan.features, isEstimated)
+    val page = LivePage.html(scene, Version.current, plan.features, warnings, isEstimated)
     def serve(port: Int) =
       LiveServer(host, port, page, observer, viewers, () => state, actions, isEstimated)
     address.port match

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.base.Problem
 import candela.job.{Preparation, Prepared, SceneLoader}
 import candela.render.RenderPlan
 import candela.scenefile.{Dialect, SceneDescription}
@@ -7,17 +8,22 @@ import candela.testing.Eventually.eventually
 
 import java.util.concurrent.atomic.AtomicReference
 
-/** A rendering of `plan` in a thread of its own, as its user starts and sees it. */
-final class Watched(plan: RenderPlan, args: String*):
+/** A rendering of `plan` in a thread of its own, as its user starts and sees it.
+  *
+  * @param warnings of reading and building the scene
+  */
+final class Watched(plan: RenderPlan, scene: String, warnings: Vector[Problem], args: String*):
+  def this(plan: RenderPlan, args: String*) = this(plan, "s.pbrt", Vector.empty, args*)
+
   private val captured = Captured()
   private val code = AtomicReference[Option[Int]](None)
 
   private object Loader extends SceneLoader:
     def load(scene: String, how: Preparation): Prepared =
-      Prepared(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
+      Prepared(SceneDescription(Dialect.V4), plan, warnings, 0.5, 0.25)
 
   private val thread = Thread: () =>
-    code.set(Some(Main.run("s.pbrt" +: args, captured.terminal, Loader)))
+    code.set(Some(Main.run(scene +: args, captured.terminal, Loader)))
   thread.setDaemon(true)
   thread.start()
 

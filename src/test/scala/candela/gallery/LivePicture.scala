@@ -23,6 +23,7 @@ object LivePicture:
       raw"watch at (http://\S+)\n".r.findFirstMatchIn(err.toString).map(_.group(1))
     val _ = Files.createDirectories(file.getParent)
     Chromium.use(browser, s"$link#x=402&y=205&curve=agx&theme=light"): page =>
+      page.resize(1280, 800)
       page.until("parseInt(document.getElementById('samples').textContent) >= 16")
       page.until("document.querySelector('#live').dataset.pixel.includes('noise')")
       val _ = Files.write(file, page.screenshot())

@@ -149,7 +149,7 @@ private[cli] final class SceneRun(
       if writer.writable(rendering).isEmpty then
         "nothing: the new image has less than 1 sample per pixel"
       else save(rendering).mkString(", ")
-    Watching(options, writer.name, plan, reference, cancellation, terminal, saved)
+    Watching(options, writer.name, prepared, reference, cancellation, terminal, saved)
 
   /** Writes the image so far. */
   private def save(rendering: Rendering): Vector[Path] =

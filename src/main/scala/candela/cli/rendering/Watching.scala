@@ -8,7 +8,8 @@ import candela.base.{Code, Problem, SceneError}
 import candela.cli.options.Options
 import candela.cli.terminal.{ProblemText, Terminal}
 import candela.image.Image
-import candela.render.{Cancellation, Live, Rendering, RenderPlan}
+import candela.job.Prepared
+import candela.render.{Cancellation, Live, Rendering}
 import candela.watch.{LiveView, Observer, TevDisplay, Viewers, WatchAddress}
 
 /** Everything that follows a rendering from outside: the live page, an image viewer.
@@ -18,12 +19,13 @@ import candela.watch.{LiveView, Observer, TevDisplay, Viewers, WatchAddress}
 final class Watching(
     options: Options,
     scene: String,
-    plan: RenderPlan,
+    prepared: Prepared,
     reference: Option[Image],
     cancellation: Cancellation,
     terminal: Terminal,
     save: Rendering => String
 ) extends AutoCloseable:
+  private val plan = prepared.plan
   private val viewers = Viewers()
   private var observer: Option[Observer] = None
   private var view: Option[LiveView] = None
@@ -43,6 +45,7 @@ final class Watching(
       val view = LiveView(
         scene,
         plan,
+        prepared.warnings.distinct.map(ProblemText.format),
         address,
         observer,
         viewers,

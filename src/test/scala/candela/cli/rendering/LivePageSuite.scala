@@ -1,5 +1,6 @@
 package candela.cli.rendering
 
+import candela.base.{Code, Problem, SourcePos}
 import candela.cli.{Captured, Main, Watched}
 import candela.color.{ColorSpace, Rgb, ToneCurve}
 import candela.film.Development
@@ -26,6 +27,11 @@ class LivePageSuite extends AnyFunSuite:
   private def data(page: OpenPage, key: String) =
     page.value(s"document.querySelector('#live').dataset.$key || ''").str
 
+  /** Waits until an image is drawn, after the end the last one, with the values at the cursor. */
+  private def awaitImage(page: OpenPage): Unit =
+    page.until("(d => d.version > 0 && JSON.parse(d.pixel).version == d.version && " +
+      "(d.version == d.latest || d.stage == 'rendering'))(document.querySelector('#live').dataset)")
+
   private def click(page: OpenPage, id: String): Unit =
     val _ = page.value(s"document.getElementById('$id').click()")
 
@@ -44,13 +50,14 @@ class LivePageSuite extends AnyFunSuite:
         click(page, "stop")
         assert(running.ended == 130)
         page.until("document.querySelector('#live').dataset.stage == 'stopped'")
+        awaitImage(page)
         val image = ImageFiles.read(file)
         val pixel = ujson.read(data(page, "pixel"))
         val rows = pixel("rows").arr.map(r => r("layer").str -> r("values").arr.map(_.num.toFloat))
         assert(rows.toMap.apply("color") == (0 to 2).map(image(3, 2, _)))
         assert(rows.map(_._1) == Seq("color", "noise", "variance"))
         val readout = page.value("document.querySelector('.readout').textContent").str
-        assert(readout.startsWith("pixel (3, 2)\ncolor "), readout)
+        assert(readout.startsWith("pixel (3, 2)\ncolour "), readout)
 
   test("keys move the cursor, zoom, and change exposure, tone curve and layer"):
     TempFolder.use: folder =>
@@ -58,6 +65,7 @@ class LivePageSuite extends AnyFunSuite:
       try
         Chromium.use(browser, s"${running.link}#x=3&y=2"): page =>
           page.until("[...document.querySelector('#layer').options].length == 2")
+          awaitImage(page)
           val painted = "document.querySelector('canvas').toDataURL()"
           def chosen(id: String) = page.value(s"document.getElementById('$id').value").str
           page.value(s"window.first = $painted")
@@ -88,7 +96,7 @@ class LivePageSuite extends AnyFunSuite:
       val running = Watched(gray, "--watch", "0", "--watch-after")
       Chromium.use(browser, s"${running.link}#x=20&y=13"): page =>
         page.until("document.querySelector('#live').dataset.stage == 'done'")
-        page.until("(document.querySelector('#live').dataset.pixel || '').includes('color')")
+        awaitImage(page)
         val read = ujson.read(data(page, "pixel"))("rows")(0)("values").arr.map(_.num.toFloat)
         assert(read == (0 to 2).map(ImageFiles.read(file)(20, 13, _)))
         val light = space.light(Rgb(0.2f, 0.4f, 0.6f))
@@ -119,7 +127,7 @@ class LivePageSuite extends AnyFunSuite:
         val running = Watched(flat, "--watch", "0", "--watch-after")
         Chromium.use(browser, s"${running.link}#x=20&y=13"): page =>
           page.until("document.querySelector('#live').dataset.stage == 'done'")
-          page.until("(document.querySelector('#live').dataset.pixel || '').includes('color')")
+          awaitImage(page)
           val words = page.value("[...document.querySelector('#curve').options].map(o => o.value)")
           assert(words.arr.map(_.str) == ToneCurve.values.map(_.word).toSeq)
           for curve <- ToneCurve.values do
@@ -186,7 +194,7 @@ class LivePageSuite extends AnyFunSuite:
         // The image is asked for after the stage is known
         page.until("document.getElementById('waiting').hidden")
         page.until(
-          "document.querySelector('#layer').selectedOptions[0].text == 'color: the image'"
+          "document.querySelector('#layer').selectedOptions[0].text == 'colour: the image'"
         )
         page.value("document.querySelector('.stage').focus()")
         page.press("ArrowRight")
@@ -197,6 +205,33 @@ class LivePageSuite extends AnyFunSuite:
         click(page, "end")
         assert(running.ended == 0)
 
+  test("the image comes first and fits the window; title and warnings are the scene's"):
+    TempFolder.use: folder =>
+      val (file, name) = (folder.resolve("a.exr"), "scenes/kitchen <1>.pbrt")
+      for (width, height) <- Vector(20 -> 15, 12 -> 30, 40 -> 10) do
+        val flat =
+          TinyPlan(width = width, height = height, filename = s"$file")((_, _) => Rgb.White)
+        val warnings = Vector(Problem.warning(Code.Viewer, SourcePos(name, 3, 5), "nothing emits"))
+        val running = Watched(flat, name, warnings, "--watch", "0", "--watch-after")
+        Chromium.use(browser, s"${running.link}#x=0&y=0"): page =>
+          awaitImage(page)
+          assert(page.value("document.title").str == "kitchen <1>.pbrt")
+          val warning = page.value("document.querySelector('details.warning').textContent").str
+          assert(warning.contains("1 warning") && warning.contains(s"$name:3:5: warning: nothing"))
+          for window <- Vector((1280, 800), (390, 844), (844, 390)) do
+            page.resize(window._1, window._2)
+            val box = page.value("(b => [b.left, b.top, b.right, b.bottom])" +
+              "(document.querySelector('canvas').getBoundingClientRect())").arr.map(_.num)
+            assert(
+              box(0) >= 0 && box(1) <= 130 && box(2) <= window._1 && box(3) <= window._2,
+              window
+            )
+            val aspect = (box(2) - box(0)) / (box(3) - box(1))
+            assert(Math.abs(aspect / (width.toDouble / height) - 1) < 0.02, window)
+            assert(!page.overflows, window)
+          click(page, "end")
+          assert(running.ended == 0)
+
   test("by keyboard alone, everything of the page is reached, in the order in which it is seen"):
     TempFolder.use: folder =>
       val running = Watched(plan(1_000_000_000, folder.resolve("a.exr")), "--watch", "0")
@@ -205,8 +240,9 @@ class LivePageSuite extends AnyFunSuite:
           page.until("[...document.querySelector('#layer').options].length == 2")
           page.until("document.querySelector('#charts svg')")
           val order = page.tabbed(12)
-          assert(order == Vector("theme", "stop", "keep", "save", "layer", "curve", "ev") ++
-            Vector("+", "−", "whole image", "showtiles", "stage"))
+          assert(order == Vector("theme", "stage", "stop", "keep", "save", "layer", "curve") ++
+            Vector("ev", "+", "−", "whole image", "showtiles"))
+          page.value("document.querySelector('.stage').focus()")
           val outline = "getComputedStyle(document.activeElement).outlineStyle"
           assert(page.value(outline).str == "solid")
           // Where the wheel zooms now, it scrolled the page before
