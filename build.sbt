@@ -252,14 +252,14 @@ lazy val cluster: Project = (project in file("cluster"))
 
 val sparkJar = taskKey[File]("Makes candela-spark.jar: the program and its Spark module.")
 
-/** JMH benchmarks. Not part of `root`: `sbt test` does not compile them. */
-lazy val bench = (project in file("bench"))
+/** What measures parts of the program. Not part of `root`: `sbt test` does not compile it. */
+lazy val jmh = (project in file("jmh"))
   .dependsOn(root)
   .enablePlugins(JmhPlugin)
   .settings(
     Publishing.nothing,
     scalacOptions ++= Seq("-encoding", "UTF-8", "-deprecation", "-Werror"),
-    // `bench/runMain`: JVM options like the renderer's, in the project folder; 10⁷ triangles fit.
+    // `jmh/runMain`: JVM options like the renderer's, in the project folder; 10⁷ triangles fit.
     run / fork := true,
     run / baseDirectory := (ThisBuild / baseDirectory).value,
     run / javaHome := sys.env.get("CANDELA_JAVA").map(file),

@@ -1,4 +1,4 @@
-package candela.bench
+package candela.jmh
 
 import java.io.{BufferedOutputStream, DataOutputStream, OutputStream}
 import java.nio.file.{Files, Path}

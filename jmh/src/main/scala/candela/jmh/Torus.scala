@@ -1,4 +1,4 @@
-package candela.bench
+package candela.jmh
 
 import candela.accel.Primitives
 import candela.base.WholeFile

@@ -1,5 +1,5 @@
 // How many rays a second Embree 4 answers on one thread, by its functions for single rays, on the
-// files that candela.bench.RayKernels writes. Prints the same lines as that program.
+// files that candela.jmh.RayKernels writes. Prints the same lines as that program.
 //
 //   g++ -O3 -march=native -I EMBREE/include rays.cpp -o rays -L EMBREE/lib -lembree4
 //   ./rays FOLDER [seconds]

@@ -12,7 +12,7 @@ import java.util.Map;
  * How long a render takes that is next to none: 64 x 64 pixels with one sample each, start-up
  * included, of the staged program and of pbrt where PBRT_V3 and PBRT_V4 say that it is.
  *
- *   ./sbt stage && java bench/StartUp.java [runs, otherwise 20] [JDK's folder...]
+ *   ./sbt stage && java jmh/StartUp.java [runs, otherwise 20] [JDK's folder...]
  *
  * The programs take turns, and all run once before, unmeasured. With JDKs, each is measured by
  * itself; otherwise the one that the launcher chooses.

@@ -1,4 +1,4 @@
-package candela.bench
+package candela.jmh
 
 import candela.accel.{Accelerator, BruteForce, Primitives}
 import candela.accel.tracing.{Grid, Hierarchies}

@@ -1,4 +1,4 @@
-package candela.bench
+package candela.jmh
 
 import candela.base.WholeFile
 import candela.suite.{SuiteFile, SuiteScene}

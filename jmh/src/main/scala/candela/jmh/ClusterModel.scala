@@ -1,4 +1,4 @@
-package candela.bench
+package candela.jmh
 
 import scala.collection.mutable
 import scala.util.Random

@@ -1,4 +1,4 @@
-package candela.bench
+package candela.jmh
 
 import java.io.{BufferedOutputStream, OutputStream}
 import java.lang.management.ManagementFactory

@@ -1,4 +1,4 @@
-package candela.bench
+package candela.jmh
 
 import java.util.SplittableRandom
 

@@ -1,4 +1,4 @@
-package candela.bench
+package candela.jmh
 
 import java.nio.file.{Files, Path}
 import java.util.concurrent.TimeUnit
