@@ -50,6 +50,8 @@ val compiledApart = Seq(
   "Guidance::drawField"
 ).map(code => s"-XX:CompileCommand=dontinline,candela.integrators.$code")
 
+def mainOfProgram = "candela.cli.Main"
+
 /** Options of every JVM of this build: the renderer's and the tests'. */
 val jvmOptions = Seq(
   "-XX:+UseParallelGC", // throughput matters, pauses don't
@@ -135,7 +137,7 @@ lazy val core: Project = (project in file("src/core"))
     compiled,
     // Natives are for the platforms that the library's users choose
     libraryDependencies ++= lwjglModules.map("org.lwjgl" % _ % lwjgl) :+
-      "org.apache.commons" % "commons-numbers-gamma" % "1.2",
+      "org.apache.commons" % "commons-statistics-distribution" % "1.1",
     Compile / sourceGenerators += versionSource,
 
     // `sbt core/doc`: what users are promised.
@@ -147,13 +149,49 @@ lazy val core: Project = (project in file("src/core"))
     mimaBinaryIssueFilters += Promised.only
   )
 
-/** The program: commands, pages, reports, suites, converters. */
-lazy val root: Project = (project in file("."))
+/** The program: commands, pages, reports, converters. Its tests are among the root's. */
+lazy val program: Project = (project in file("src/main"))
   .dependsOn(core)
-  .aggregate(core, LocalProject("cluster"))
-  .enablePlugins(UniversalPlugin)
   .settings(
     name := "candela",
+    description := "A physically based renderer for pbrt and Mitsuba scenes: the program",
+    target := (ThisBuild / baseDirectory).value / "target" / "main",
+    Compile / scalaSource := baseDirectory.value / "scala",
+    Compile / resourceDirectory := baseDirectory.value / "resources",
+    compiled,
+    Publishing.withoutDocumentation,
+    libraryDependencies ++= Seq(
+      "com.github.scopt" %% "scopt" % "4.1.0",
+      "com.lihaoyi" %% "scalatags" % "0.13.1",
+      "com.lihaoyi" %% "ujson" % "4.1.0"
+    ) ++ lwjglModules.flatMap(module =>
+      lwjglNatives.map(n => "org.lwjgl" % module % lwjgl % Runtime classifier n)
+    ),
+    Compile / mainClass := Some(mainOfProgram),
+    Compile / resourceGenerators += versionFacts
+  )
+
+/** The commands that measure programs: `bench` and `robustness`. The program looks for them at run
+  * time. The tests are among the root's.
+  */
+lazy val bench: Project = (project in file("bench"))
+  .dependsOn(program)
+  .settings(
+    name := "candela-bench",
+    description := "A physically based renderer for pbrt and Mitsuba scenes: benchmarks",
+    target := (ThisBuild / baseDirectory).value / "target" / "bench",
+    compiled,
+    Publishing.withoutDocumentation,
+    libraryDependencies += "com.typesafe" % "config" % "1.4.3"
+  )
+
+/** What is run, staged, tested and distributed: the program with its benchmarks. */
+lazy val root: Project = (project in file("."))
+  .dependsOn(program, bench)
+  .aggregate(core, program, bench, LocalProject("cluster"))
+  .enablePlugins(UniversalPlugin)
+  .settings(
+    name := "candela-all",
     aggregate := false, // `run`, `stage`, … are the program's; but what follows is of all modules
     test / aggregate := true,
     testAll / aggregate := true,
@@ -163,31 +201,24 @@ lazy val root: Project = (project in file("."))
     publishM2 / aggregate := true,
     scalafmtAll / aggregate := true,
     scalafmtCheckAll / aggregate := true,
-    description := "A physically based renderer for pbrt and Mitsuba scenes: the program",
     compiled,
-    Publishing.withoutDocumentation,
+    Publishing.nothing,
+    Compile / sources := Nil, // src/main is the program's
+    Compile / unmanagedResources := Nil,
     libraryDependencies ++= Seq(
-      "com.github.scopt" %% "scopt" % "4.1.0",
-      "com.lihaoyi" %% "scalatags" % "0.13.1",
-      "com.lihaoyi" %% "ujson" % "4.1.0",
-      "com.typesafe" % "config" % "1.4.3"
-    ) ++ lwjglModules.flatMap(module =>
-      lwjglNatives.map(n => "org.lwjgl" % module % lwjgl % Runtime classifier n)
-    ) ++ Seq(
       "org.ow2.asm" % "asm" % "9.8" % Test,
       "org.scalatest" %% "scalatest" % "3.2.19" % Test,
       "org.scalacheck" %% "scalacheck" % "1.19.0" % Test,
       "org.scalatestplus" %% "scalacheck-1-18" % "3.2.19.0" % Test
     ),
-    Compile / mainClass := Some("candela.cli.Main"),
-    Compile / resourceGenerators += versionFacts,
+    Compile / mainClass := Some(mainOfProgram),
 
     // `sbt run`: a separate JVM in the project folder, attached to the terminal.
     Compile / run / javaOptions ++= jvmOptions ++ memory,
     Compile / run / runner := new TerminalRun((Compile / run / forkOptions).value),
 
     // `sbt stage`: src/universal, the program's jar, native libraries, and the same JVM options.
-    Universal / mappings ++= program.value,
+    Universal / mappings ++= programFiles.value,
     stage := withArchive(stage.value, streams.value.log),
 
     // `sbt dist`: the files of a release, in target/dist.
@@ -233,7 +264,7 @@ lazy val cluster: Project = (project in file("cluster"))
     ), // Spark's is 2.13's
     sparkJar := {
       val own = (Runtime / fullClasspathAsJars).value
-      val jars = (own ++ (root / Runtime / fullClasspathAsJars).value).map(_.data).distinct
+      val jars = (own ++ (program / Runtime / fullClasspathAsJars).value).map(_.data).distinct
       val jar = (root / target).value / "universal" / "stage" / "lib" / "candela-spark.jar"
       val make = FileFunction.cached(streams.value.cacheDirectory / "jar") { _ =>
         ProgramJar.write(jars, jar, Some("candela.cli.SparkMain"))
@@ -280,21 +311,25 @@ lazy val site = (project in file("site")).settings(
   run / baseDirectory := (ThisBuild / baseDirectory).value
 )
 
-/** Files that the launcher in src/universal/bin needs: one jar, the native libraries, and the JVM
-  * options.
+/** Files that the launcher in src/universal/bin needs: the program's jar and that of its benchmarks,
+  * the native libraries, and the JVM options.
   */
-def program = Def.task {
-  val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
+def programFiles = Def.task {
+  val jars = (program / Runtime / fullClasspathAsJars).value.map(_.data)
+  val benchJars = (bench / Runtime / fullClasspathAsJars).value.map(_.data).filterNot(jars.toSet)
   val folder = target.value / "program"
   val options = jvmOptions ++ memory
   val ofNewest = options ++ withoutProfiles ++ builtOnce
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))
-    ProgramJar.write(classes, folder / "candela.jar", Some("candela.cli.Main"))
-    ProgramJar.unpackNatives(natives, folder / "natives").toSet + (folder / "candela.jar")
+    val jar = folder / "candela.jar"
+    val modules = Seq(folder / "candela-bench.jar")
+    ProgramJar.write(classes, jar, Some(mainOfProgram), modules.map(_.getName))
+    ProgramJar.write(benchJars, modules.head)
+    ProgramJar.unpackNatives(natives, folder / "natives").toSet ++ modules + jar
   }
-  val files = make(jars.toSet)
+  val files = make((jars ++ benchJars).toSet)
   def written(name: String, lines: Seq[String]) = {
     IO.write(folder / name, lines.mkString("", "\n", "\n"))
     folder / name
@@ -327,7 +362,7 @@ def packages = Def.task {
     program,
     (base / "packaging" / "python" / "candela").toPath,
     JavaRuntime.jdk(sys.env, file(sys.props("java.home")).toPath, facts.value.bestJava),
-    Seq(s"${organization.value}:candela_3:${version.value}"),
+    Seq("candela_3", "candela-bench_3").map(m => s"${organization.value}:$m:${version.value}"),
     jvmOptions ++ memory,
     (target.value / "dist").toPath
   )

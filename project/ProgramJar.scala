@@ -16,8 +16,14 @@ object ProgramJar {
 
   /** @param jars      for equal names the first jar's entry is used; legal texts of all are kept
     * @param mainClass for the manifest
+    * @param modules   names of jars that belong to the class path if they lie beside this one
     */
-  def write(jars: Seq[File], to: File, mainClass: Option[String] = None): Unit = {
+  def write(
+      jars: Seq[File],
+      to: File,
+      mainClass: Option[String] = None,
+      modules: Seq[String] = Nil
+  ): Unit = {
     IO.createDirectory(to.getParentFile)
     val out = new JarOutputStream(new BufferedOutputStream(new FileOutputStream(to)))
     out.setMethod(ZipEntry.STORED)
@@ -37,7 +43,8 @@ object ProgramJar {
       // What the launcher passes as options, as far as a jar can ask for it
       val asked = "Add-Exports: java.base/jdk.internal.module\nEnable-Native-Access: ALL-UNNAMED\n"
       val main = mainClass.fold("")(c => s"Main-Class: $c\n$asked")
-      val manifest = s"Manifest-Version: 1.0\n${main}Multi-Release: true\n\n"
+      val path = if (modules.isEmpty) "" else modules.mkString("Class-Path: ", " ", "\n")
+      val manifest = s"Manifest-Version: 1.0\n$main${path}Multi-Release: true\n\n"
       put(JarFile.MANIFEST_NAME, manifest.getBytes("UTF-8"))
       for (jar <- jars; (name, bytes) <- entries(jar)) name match {
         case Useless() =>

@@ -74,6 +74,10 @@ object Architecture:
   val program: Vector[String] =
     floors("cli.terminal cli.options cli.files cli.rendering cli.commands cli")
 
+  /** Rooms of the module of benchmarks. */
+  val bench: Vector[String] =
+    floors("bench.statistics bench.report bench.suite bench.peers bench.robustness bench")
+
   /** What each package may use beside itself. */
   val allowed: Map[String, Set[String]] =
     def below(tower: Vector[String]) = tower.indices.map(i => tower(i) -> tower.take(i).toSet)
@@ -85,23 +89,22 @@ object Architecture:
       "job" -> job,
       "api" -> (job + "job"),
       "report" -> report,
-      "suite" -> (report ++ Set("report", "job")),
-      "robustness" -> (job ++ Set("job", "convert", "report", "suite")),
-      "peers" -> (job ++ Set("job", "convert", "suite")),
       "watch" -> (report ++ Set("film", "aov", "render", "report"))
-    ) ++ below(program).map: (room, lower) =>
-      room ->
-        (job ++ lower ++ Set("job", "convert", "report", "suite", "peers", "watch", "robustness"))
+    ) ++ below(program).map((room, lower) =>
+      room -> (job ++ lower ++ Set("job", "convert", "report", "watch"))
+    ) ++ below(bench).map: (room, lower) =>
+      val commands = if room == "bench" then program.toSet else Set.empty
+      room -> (job ++ lower ++ Set("job", "convert", "report") ++ commands)
 
   /** Libraries beside Java's and Scala's own, by the beginnings of their names: who knows them. */
   private val libraries = Map(
     "org.lwjgl" -> Set("image"),
-    "org.apache" -> Set("measure"),
-    "scopt" -> Set("cli.options"),
+    "org.apache" -> Set("measure", "bench.statistics"),
+    "scopt" -> Set("cli.options", "bench"),
     "sun" -> Set("cli", "cli.terminal"),
-    "scalatags" -> Set("report"),
-    "ujson" -> Set("report"),
-    "com" -> Set("suite"),
+    "scalatags" -> Set("report", "bench.report"),
+    "ujson" -> Set("report", "bench.report"),
+    "com" -> Set("bench.suite"),
     "jdk" -> Set("accel.tracing")
   )
   private val language = Set("candela", "java", "javax", "scala")
@@ -166,10 +169,12 @@ object Architecture:
         if !language(root) && !libraries.getOrElse(root, Set.empty)(home)
       yield s"$home may not use the library `$root`"
 
+  private val printing = program.toSet + "bench"
+
   /** Results go up as values; what to tell the user, and when to stop, is for `cli` to say. */
   def prints(sources: Vector[SourceText]): Vector[String] =
     code(sources): (home, line) =>
-      val found = if program.contains(home) then None else print.findFirstIn(line)
+      val found = if printing.contains(home) then None else print.findFirstIn(line)
       found.map(what => s"only cli may print or exit, but here is `$what`")
 
   /** Only `render` makes threads. A shutdown hook must be one, and is `cli`'s business. */

@@ -8,7 +8,8 @@ import java.nio.file.{Files, Path}
 /** The floors of docs/ARCHITECTURE.md, kept true; and each rule seen to fail where it should. */
 class ArchitectureSuite extends AnyFunSuite:
   private lazy val core = SourceText.under(Path.of("src/core/scala/candela"))
-  private lazy val main = core ++ SourceText.under(Path.of("src/main/scala/candela"))
+  private lazy val main = core ++ SourceText.under(Path.of("src/main/scala/candela")) ++
+    SourceText.under(Path.of("bench/src/main/scala/candela"))
   private lazy val cluster = SourceText.under(Path.of("cluster/src/main/scala/candela"))
   private lazy val tests = SourceText.under(Path.of("src/test/scala/candela"))
 
@@ -63,7 +64,7 @@ class ArchitectureSuite extends AnyFunSuite:
   test("docs/ARCHITECTURE.md names the same floors in the same order"):
     val page = Files.readString(Path.of("docs/ARCHITECTURE.md")).split("\\s+").mkString(" ")
     val towers = Vector(Architecture.runtime, Architecture.file, Architecture.bridge)
-    for tower <- towers :+ Architecture.program do
+    for tower <- towers ++ Vector(Architecture.program, Architecture.bench) do
       assert(page.contains(tower.mkString(" ")), tower)
 
   test("a package without a floor, and one that lies about its name, are found"):

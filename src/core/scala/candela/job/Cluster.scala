@@ -1,13 +1,11 @@
 package candela.job
 
+import candela.base.Services
 import candela.render.storage.FilmHeader
 
 import java.nio.file.Path
-import java.util.ServiceLoader
 
-import scala.jdk.CollectionConverters.*
-
-/** Connects to clusters. The program knows none: implementations are looked up at run time. */
+/** Connects to clusters; another module brings it. */
 abstract class ClusterService:
 
   /** @param note receives what users should know, line by line */
@@ -64,7 +62,7 @@ object Cluster:
   def connect(
       master: String,
       note: String => Unit,
-      services: => Iterator[ClusterService] = installed
+      services: => Iterator[ClusterService] = Services.installed(classOf[ClusterService])
   ): Cluster =
     try
       services.nextOption() match
@@ -72,9 +70,6 @@ object Cluster:
         case None => throw ClusterFailure(Missing)
     // The jar without Spark
     catch case e: LinkageError => throw ClusterFailure(Missing, e)
-
-  private def installed: Iterator[ClusterService] =
-    ServiceLoader.load(classOf[ClusterService]).iterator.asScala
 
   private val Missing =
     "--spark needs Apache Spark's classes and candela-spark.jar\n" +

@@ -3,6 +3,8 @@ package candela.measure
 import candela.base.{Code, loop}
 import candela.image.{Image, ImageError}
 
+import org.apache.commons.statistics.distribution.TDistribution
+
 /** What a program makes of a scene, with what is needed to know its noise. */
 enum Renderings:
   /** Images of independent seeds. */
@@ -224,7 +226,7 @@ object BiasTest:
         val freedom = Math.pow(variance + floor, 2) /
           (Math.pow(p.variance, 2) / p.freedom + Math.pow(q.variance, 2) / q.freedom)
         val error = Math.sqrt(variance + floor)
-        val chance = StudentT.twoSided(apart / error, freedom)
+        val chance = 2 * TDistribution.of(freedom).survivalProbability(apart / error)
         val window = PixelWindow(
           x * TileSums.Size,
           Math.min(image.width, x1 * TileSums.Size),

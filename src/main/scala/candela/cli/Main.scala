@@ -2,11 +2,11 @@ package candela.cli
 
 import candela.base.{Code, Problem, Severity}
 import candela.cli.commands.{
-  AverageCommand, BenchCommand, CheckCommand, ClusterCommand, CompareCommand, CompletionCommand,
-  ConvertCommand, DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand,
-  PreviewCommand, ReferenceCommand, RenderCommand, ResumeCommand, RobustnessCommand, ViewCommand
+  AverageCommand, CheckCommand, ClusterCommand, CompareCommand, CompletionCommand, ConvertCommand,
+  DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand, PreviewCommand,
+  ReferenceCommand, RenderCommand, ResumeCommand, ViewCommand
 }
-import candela.cli.options.{Command, CommandLine, OptionTable, Options}
+import candela.cli.options.{Command, CommandLine, CommandService, CommandTable, Options}
 import candela.cli.terminal.{ExitCode, Interrupts, ProblemText, Report, Terminal}
 import candela.image.Natives
 import candela.job.SceneLoader
@@ -46,7 +46,7 @@ object Main:
   def run(args: Seq[String], out: PrintStream, err: PrintStream): Int =
     run(args, Terminal(out, err, isInteractive = false, Interrupts.Ignored))
 
-  private[cli] def run(
+  private[candela] def run(
       args: Seq[String],
       terminal: Terminal,
       loader: SceneLoader = SceneLoader.FromFile
@@ -60,7 +60,7 @@ object Main:
     terminal.failure.fold(code)(lost(_, terminal).worseOf(code)).number
 
   private def execute(options: Options, terminal: Terminal, loader: SceneLoader): ExitCode =
-    val known = OptionTable.names(options.command.word)
+    val known = CommandTable.of(options.command).names
     val report = Report(
       terminal.err,
       options.quiet,
@@ -74,7 +74,7 @@ object Main:
         val warning = Problem(Code.IdleOption, Severity.Warning, None, note)
         ProblemText.print(warning, terminal.err, terminal.hasColor)
     // Those have children, or shards, to end
-    val hasChildren = Set(Command.Bench, Command.Robustness)(options.command)
+    val hasChildren = options.command.module.isDefined
     val isAlone = !hasChildren && options.cluster.master.isEmpty
     if isAlone then terminal.interrupts.quitting()
     options.command match
@@ -86,8 +86,6 @@ object Main:
       case Command.Check => CheckCommand(options, terminal, report, loader).run()
       case Command.Reference => ReferenceCommand(options, terminal, report, loader).run()
       case Command.Compare => CompareCommand(options, terminal, report).run()
-      case Command.Bench => BenchCommand(options, terminal, report).run()
-      case Command.Robustness => RobustnessCommand(options, terminal, report).run()
       case Command.Describe => DescribeCommand(options, terminal, report).run()
       case Command.Preview => PreviewCommand(options, terminal, report, loader).run()
       case Command.View => ViewCommand(options, terminal, report).run()
@@ -97,6 +95,8 @@ object Main:
       case Command.Convert => ConvertCommand(options, terminal, report).run()
       case Command.Explain => ExplainCommand(options, terminal, report).run()
       case Command.Completion => CompletionCommand(options, terminal, report).run()
+      case Command.Bench | Command.Robustness =>
+        CommandService.of(options.command).run(options, terminal, report)
 
   /** Nobody wants to hear of output that its reader did not want, such as `head`. */
   private def lost(failure: IOException, terminal: Terminal): ExitCode =

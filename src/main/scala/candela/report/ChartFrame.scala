@@ -63,7 +63,7 @@ private[report] object ChartLegend:
   * @param words   subtitle of the grid
   * @param columns one for narrow windows
   */
-private[report] final class ChartGrid(
+private[candela] final class ChartGrid(
     title: String,
     words: String,
     series: Vector[Series],
@@ -94,7 +94,7 @@ private[report] final class ChartGrid(
       moved((i % columns) * PanelWidth, top + (i / columns) * PanelHeight)(panel.content)
     head ++ legend.at(Margin, legendTop) ++ charts
 
-private[report] object ChartGrid:
+private[candela] object ChartGrid:
   val Columns = 3
 
   /** Typical width of a letter of titles. */

@@ -5,7 +5,7 @@ import candela.measure.Interval
 import java.util.Locale
 
 /** Formats numbers in pages and charts, independently of the locale. */
-private[report] object Numbers:
+private[candela] object Numbers:
 
   /** Four significant digits, with a power of ten for very small or large values: `0.01234`,
     * `1.234·10⁻⁵`.

@@ -8,7 +8,7 @@ import scalatags.Text.all.*
 import scala.io.{Codec, Source}
 
 /** Template of a self-contained page: embeds style and script, needs no network. */
-private[report] object Page:
+private[candela] object Page:
 
   /** A page that works offline. */
   def html(heading: String, subtitle: Frag, version: String)(parts: Frag*): String =

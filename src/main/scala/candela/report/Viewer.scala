@@ -9,7 +9,7 @@ import scalatags.Text.all.*
 /** Image viewer: flips between images, compares them with a slider, magnifies, shows pixel values
   * and, with a reference, per-pixel error. The page's script implements it.
   */
-private[report] object Viewer:
+private[candela] object Viewer:
 
   def apply(pictures: Vector[Picture]): Frag =
     val shown = pictures.map(p => p.copy(image = PackedPicture.reduced(p.image.toRgb)))

@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.cli.options.OptionTable
+import candela.cli.options.{Command, CommandTable}
 import candela.testing.TempFolder
 
 import java.nio.file.attribute.PosixFilePermissions
@@ -17,7 +17,7 @@ class DeploySuite extends AnyFunSuite:
     Vector("kubernetes.yaml", "openjd.yaml", "aws-batch-render.json", "aws-batch-merge.json")
 
   test("the options in the templates are known"):
-    val known = (OptionTable.names("render") ++ OptionTable.names("merge")).toSet
+    val known = Vector(Command.Render, Command.Merge).flatMap(CommandTable.of(_).names).toSet
     for file <- templates do
       val used = "--([a-z][a-z-]+)".r.findAllMatchIn(Files.readString(folder.resolve(file)))
       val names = used.map(_.group(1)).toSet

@@ -24,8 +24,8 @@ class DistributionSuite extends AnyFunSuite:
   private val natives = Platform.all.map(p => s"lib/natives/${p.name}/library")
   private val program =
     val names =
-      Vector("lib/candela.jar", "lib/options", "bin/candela.bat", "powershell/candela.ps1",
-        "share/man/man1/candela.1", "LICENSE") ++ natives
+      Vector("lib/candela.jar", "lib/candela-bench.jar", "lib/options", "bin/candela.bat",
+        "powershell/candela.ps1", "share/man/man1/candela.1", "LICENSE") ++ natives
     names.map(name => Entry.text(name, s"text of $name")) :+
       Entry.text("bin/candela", "#!/bin/sh\n", isExecutable = true)
 
@@ -61,7 +61,7 @@ class DistributionSuite extends AnyFunSuite:
       assert(names.contains("bin/candela") != platform.isWindows)
       assert(names.contains("bin/candela.bat") == platform.isWindows)
       assert(names.contains("powershell/candela.ps1") == platform.isWindows)
-      assert(names("lib/candela.jar") && names("LICENSE"))
+      assert(Vector("lib/candela.jar", "lib/candela-bench.jar", "LICENSE").forall(names))
 
   private val artifacts =
     for

@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.testing.TempFolder
 
+import java.io.File
 import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -67,13 +68,29 @@ class MainSuite extends AnyFunSuite:
       assert(captured.err.contains("did you mean `Translate`?"))
       assert(!captured.err.contains("\tat "))
 
+  private val classPath = System.getProperty("java.class.path").split(File.pathSeparator).toVector
+
+  /** The exit code of a process, and what it prints. */
+  private def started(classPath: Vector[String], words: String*): (Int, String) =
+    val java = ProcessHandle.current.info.command.orElse("java")
+    val path = classPath.mkString(File.pathSeparator)
+    val all = Vector(java, "-XX:TieredStopAtLevel=1", "-cp", path, "candela.cli.Main") ++ words
+    val process = ProcessBuilder(all.asJava).redirectErrorStream(true).start()
+    val printed = String(process.getInputStream.readAllBytes)
+    (process.waitFor(), printed)
+
   test("Java adds no warnings of its own", Slow):
     TempFolder.use: folder =>
       val scene = Files.writeString(folder.resolve("a.pbrt"), "WorldBegin Shape \"sphere\"")
-      val java = ProcessHandle.current.info.command.orElse("java")
-      val classes = System.getProperty("java.class.path")
-      val words = Vector(java, "-XX:TieredStopAtLevel=1", "-cp", classes, "candela.cli.Main") ++
-        Vector("check", scene.toString)
-      val process = ProcessBuilder(words.asJava).redirectErrorStream(true).start()
-      val printed = String(process.getInputStream.readAllBytes)
-      assert(process.waitFor() == 0 && !printed.contains("WARNING"), printed)
+      val (code, printed) = started(classPath, "check", scene.toString)
+      assert(code == 0 && !printed.contains("WARNING"), printed)
+
+  test("without the module of benchmarks their commands tell what is missing", Slow):
+    val alone = classPath.filterNot(_.replace('\\', '/').contains("target/bench/"))
+    assert(alone.size == classPath.size - 1)
+    for words <- Vector("bench x.conf", "help robustness") do
+      val (code, printed) = started(alone, words.split(' ').toVector*)
+      assert(code == 2 && printed.contains("needs the module candela-bench"), printed)
+      assert(printed.contains("candela-bench.jar"), printed)
+    val (code, printed) = started(alone, "help")
+    assert(code == 0 && printed.contains("  render ") && !printed.contains("  bench "), printed)

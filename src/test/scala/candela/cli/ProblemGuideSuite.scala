@@ -26,7 +26,8 @@ class ProblemGuideSuite extends AnyFunSuite:
     assert(Files.readString(Path.of("docs/PROBLEMS.md")) == said.out, help)
 
   test("each number is given by some message"):
-    val sources = Vector("src/core/scala", "src/main/scala").flatMap: folder =>
+    val folders = Vector("src/core/scala", "src/main/scala", "bench/src/main/scala")
+    val sources = folders.flatMap: folder =>
       Using.resource(Files.walk(Path.of(folder))): all =>
         all.iterator.asScala.filter(_.toString.endsWith(".scala")).map(Files.readString).toVector
     val used = sources.flatMap("\\bCode\\.(\\w+)".r.findAllMatchIn(_).map(_.group(1))).toSet

@@ -1,5 +1,6 @@
 package candela.noise
 
+import candela.bench.statistics.*
 import candela.build.RenderSettings
 import candela.image.Image
 import candela.measure.*
@@ -115,7 +116,7 @@ private final class CoveragePool(images: Vector[Image], samples: Int):
           of.zipWithIndex.map((i, seed) => measurement(samples << step, seed, pool(i))),
         steps.indices.map(i => (samples << i) -> Vector((samples << i).toDouble)).toMap
       )
-      val student = Interval.ofMean(of.map(steps.head(_).relative.sum))
+      val student = Statistics.mean(of.map(steps.head(_).relative.sum))
       val noise = SeedNoise.parts(of.map(images), center).map(_.relative)
       (
         curve.points.head(Metric.RelativeMse).get,
@@ -132,7 +133,7 @@ private final class CoveragePool(images: Vector[Image], samples: Int):
     val below = share(bounded.count(_.low > truth), bounded.size)
     val above = share(bounded.count(_.high < truth), bounded.size)
     val widths = bounded.map(i => (i.high - i.low) / 2 / truth)
-    val width = if widths.isEmpty then "–" else f"${100 * Interval.median(widths)}%.0f %%"
+    val width = if widths.isEmpty then "–" else f"${100 * Statistics.median(widths)}%.0f %%"
     val open = errors.filterNot(_.isBounded)
     // Of intervals without an upper limit, how often the lower one is right
     val lower = if open.isEmpty then "" else s" (${share(open.count(_.low <= truth), open.size)})"

@@ -1,7 +1,9 @@
 package candela.render
 
 import candela.image.Image
-import candela.measure.{BiasTest, Renderings, StudentT, TileSums}
+import candela.measure.{BiasTest, Renderings, TileSums}
+
+import org.apache.commons.statistics.distribution.TDistribution
 
 /** How a part of an image differs from its reference, beyond what noise explains.
   *
@@ -119,7 +121,7 @@ final class Agreement(
       (3 * pixel until 3 * pixel + 3).map(i => found(i) - predicted(i)).sum
     val spread = Math.sqrt(alike * excesses.map(e => e * e).sum)
     val t = if spread > 0 then Math.max(0.0, excesses.sum / spread) else 0.0
-    val p = StudentT.twoSided(t, excesses.length - 1.0)
+    val p = 2 * TDistribution.of(excesses.length - 1.0).survivalProbability(t)
     val numbers = f"${found.sum / values}%.3g, predicted ${predicted.sum / values}%.3g (t = $t%.1f)"
     Disagreement(s"relative mean squared error: $numbers", p)
 

@@ -1,5 +1,6 @@
 package candela.report
 
+import candela.bench.report.SuitePage
 import candela.measure.{ErrorMap, ImagePair, Metric, Metrics}
 import candela.testing.Chromium
 

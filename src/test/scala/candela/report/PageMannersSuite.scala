@@ -1,5 +1,6 @@
 package candela.report
 
+import candela.bench.report.SuitePage
 import candela.testing.{Chromium, OpenPage}
 
 import org.scalatest.funsuite.AnyFunSuite

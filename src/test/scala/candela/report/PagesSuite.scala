@@ -1,5 +1,6 @@
 package candela.report
 
+import candela.bench.report.{SuiteData, SuitePage}
 import candela.measure.Interval
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -1,9 +1,9 @@
 package candela.report
 
+import candela.bench.report.{BiasAgainst, ProgramResult, SceneResult, SuiteReport}
+import candela.bench.statistics.{MeasuredCurve, Measurement}
 import candela.image.Image
-import candela.measure.{
-  BiasTest, CurvePoint, Errors, MeasuredCurve, Measurement, Renderings, TileSums
-}
+import candela.measure.{BiasTest, CurvePoint, Errors, Renderings, TileSums}
 
 /** Reports of nothing that was rendered, with numbers that are easy to find again. */
 object Reports:

@@ -1,6 +1,6 @@
 package candela.stability
 
-import candela.robustness.Trials
+import candela.bench.robustness.Trials
 import candela.testing.RandomLaws
 
 /** A hard case of arithmetic, checked with as many random trials as are asked for.

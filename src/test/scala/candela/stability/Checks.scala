@@ -1,6 +1,6 @@
 package candela.stability
 
-import candela.robustness.Tally
+import candela.bench.robustness.Tally
 import org.scalatest.Assertions.fail
 
 /** An assertion that costs nothing while it holds. ScalaTest's makes its words, and a record of

@@ -2,7 +2,7 @@ package candela.stability
 
 import candela.accel.{Accelerator, Primitives}
 import candela.accel.tracing.{Bvh, Grid, Hierarchies}
-import candela.robustness.{ClosedMesh, LeakingRays}
+import candela.bench.robustness.{ClosedMesh, LeakingRays}
 
 /** No ray leaves a closed mesh. */
 private object ClosedMeshes:

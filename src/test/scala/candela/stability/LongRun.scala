@@ -3,7 +3,7 @@ package candela.stability
 import java.lang.management.ManagementFactory
 import java.nio.file.Path
 
-import candela.robustness.Trials
+import candela.bench.robustness.Trials
 
 /** The cases of the stability suites with their long counts, which take minutes to hours:
   * {{{

@@ -4,14 +4,14 @@ import java.util.SplittableRandom
 
 import Checks.assert
 
-import candela.bsdf.measured.{FourierBsdf, FourierTables}
+import candela.bench.robustness.{BsdfKind, ExtremeBsdfs, ExtremeInputs}
 import candela.bsdf.{Bsdf, DiffuseTransmission, Directions, Lambert}
+import candela.bsdf.measured.{FourierBsdf, FourierTables}
 import candela.bsdf.microfacet.{
   Dielectric, Mirror, SmoothDielectric, ThinDielectric, TrowbridgeReitz
 }
 import candela.color.Rgb
 import candela.math.*
-import candela.robustness.{BsdfKind, ExtremeBsdfs, ExtremeInputs}
 
 /** BSDFs at the ends of their parameters and of the hemisphere: 10⁸ inputs a kind, whose variants
   * share them.

@@ -1,6 +1,6 @@
 package candela.stability
 
-import candela.robustness.{Kind, Place, SpawnedRays}
+import candela.bench.robustness.{Kind, Place, SpawnedRays}
 
 /** No ray that leaves a surface meets the same surface where it can't.
   *

@@ -1,6 +1,6 @@
 package candela.testing
 
 /** The random numbers of tests: those with which the program tests itself. */
-type Draws = candela.robustness.Draws
+type Draws = candela.bench.robustness.Draws
 object Draws:
-  def apply(seed: Long): Draws = candela.robustness.Draws(seed)
+  def apply(seed: Long): Draws = candela.bench.robustness.Draws(seed)

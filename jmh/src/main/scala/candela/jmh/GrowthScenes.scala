@@ -1,7 +1,7 @@
 package candela.jmh
 
 import candela.base.WholeFile
-import candela.suite.{SuiteFile, SuiteScene}
+import candela.bench.suite.{SuiteFile, SuiteScene}
 
 import java.awt.image.BufferedImage
 import java.io.{BufferedWriter, IOException, PrintWriter}

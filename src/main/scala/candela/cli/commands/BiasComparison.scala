@@ -7,7 +7,6 @@ import candela.cli.terminal.{ExitCode, Figures, Terminal}
 import candela.image.{Contents, Image, ImageEdits, ImageError, ImageFiles, OutputFormat}
 import candela.job.ReferenceFile
 import candela.measure.{BiasRegion, BiasTest, ErrorLayer, HeatMap, ImagePair, Renderings, TileSums}
-import candela.suite.Work
 
 import java.nio.file.{FileSystems, Files, Path}
 
@@ -138,7 +137,7 @@ private[commands] object ImageSet:
   private def found(name: String, files: Vector[Path]): ImageSet =
     if files.isEmpty then
       throw ImageError(Code.NoSuchFile, s"$name: expected images, found none")
-    for twice <- Work.repeated(files) do
+    for twice <- files.diff(files.distinct).headOption do
       throw ImageError(
         Code.DifferentImages,
         s"$name: `$twice` is named twice; noise shows between different seeds"

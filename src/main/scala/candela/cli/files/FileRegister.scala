@@ -18,7 +18,7 @@ import scala.util.Try
   * @param isAsked whether the user has named them: pipes and devices, too
   * @param isRewritten whether they are written more than once, so that they are no pipes
   */
-private[cli] final case class Output(
+private[candela] final case class Output(
     files: Vector[Path],
     kind: String,
     of: String,
@@ -32,7 +32,7 @@ private[cli] final case class Output(
 /** What a run reads and writes. The one place where outputs are checked, before the work begins:
   * each can be written, is no file that the run has read, and is written once.
   */
-private[cli] final class FileRegister:
+private[candela] final class FileRegister:
   import FileRegister.*
   private var inputs = Set.empty[AnyRef]
   private var outputs = Map.empty[Path, Output]
@@ -110,12 +110,12 @@ private[cli] final class FileRegister:
       else "render them separately, with --outfile"
     SceneError(Problem.general(Code.OutputConflict, message + file, Some(help)))
 
-private[cli] object Output:
+private[candela] object Output:
   def film(file: Path, of: String, option: String = "outfile"): Output =
     val previous = Vector(FilmFile.previous(file))
     Output(Vector(file), "film", of, option, beside = previous, isRewritten = true)
 
-private[cli] object FileRegister:
+private[candela] object FileRegister:
 
   /** Why a file can't be written. */
   def obstacle(file: Path): Option[Problem] =

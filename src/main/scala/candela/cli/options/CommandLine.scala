@@ -26,7 +26,7 @@ object CommandLine:
 
   /** @param columns width of the help, in characters */
   def parse(args: Seq[String], columns: Int = Terminal.UsualColumns): Either[Answer, Options] =
-    asked(args, HelpText(columns)) match
+    missing(args).orElse(asked(args, HelpText(columns))) match
       case Some(answer) => Left(answer)
       case None =>
         translated(args) match
@@ -34,6 +34,18 @@ object CommandLine:
             Left(refusal(Vector(UsageError(Code.UnknownOption, instead)), Command.Render))
           case Right(words, notes) => parseOurs(words).map: o =>
               o.copy(notes = notes ++ IdleOptions.of(o))
+
+  /** The cure, if a module that is not installed has the command. */
+  private def missing(args: Seq[String]): Option[Answer] =
+    val word = if args.headOption.contains("help") then args.lift(1) else args.headOption
+    for
+      command <- word.flatMap(commandOf) if CommandService.isMissing(command)
+      module <- command.module
+    yield
+      val message = s"`candela ${command.word}` needs the module $module"
+      val cure = s"put $module.jar beside candela.jar, into the program's folder lib; releases " +
+        "have it there, and `./sbt stage` makes it"
+      Answer(Vector.empty, Vector(Problem.general(Code.UnknownCommand, message, Some(cure))))
 
   /** What needs no options: help, the version, and a word that is nearly a command. */
   private def asked(args: Seq[String], help: HelpText): Option[Answer] =
@@ -97,7 +109,8 @@ object CommandLine:
         val message = s"no option begins with `${word.take(MostShort)}`"
         Left(refusal(Vector(UsageError(Code.UnknownOption, message)), command))
       case None =>
-        val (options, effects) = OParser.runParser(CommandTable.table, words, Options(), setup)
+        val parser = CommandTable.parser(command)
+        val (options, effects) = OParser.runParser(parser, words, Options(), setup)
         val errors = effects.collect:
           case OEffect.ReportError(text) => text
         def refused(texts: Vector[String]) =
@@ -135,15 +148,16 @@ object CommandLine:
       case (s"-D$definition", rest) if definition.contains('=') => "--define" :: definition :: rest
       case (word, rest) => word :: rest
 
-enum Command(val word: String):
+/** @param module that brings the command, if it is not one of the program itself */
+enum Command(val word: String, val module: Option[String] = None):
   case Render extends Command("render")
   case Resume extends Command("resume")
   case Merge extends Command("merge")
   case Check extends Command("check")
   case Compare extends Command("compare")
   case Reference extends Command("reference")
-  case Bench extends Command("bench")
-  case Robustness extends Command("robustness")
+  case Bench extends Command("bench", Some("candela-bench"))
+  case Robustness extends Command("robustness", Some("candela-bench"))
   case Describe extends Command("describe")
   case Convert extends Command("convert")
   case View extends Command("view")
@@ -188,12 +202,11 @@ enum Page(val option: String):
   * @param watch address of the live page
   * @param displayServer host and port of an image viewer
   * @param watchAfter whether the page stays when rendering has ended
-  * @param bench options of `bench`
-  * @param robustness options of `robustness`
   * @param compare options of `compare`
   * @param image options of `image` and `average`
   * @param limits what scenes may do
   * @param textures how image textures are kept
+  * @param module options of a command that another module brings
   */
 final case class Options(
     command: Command = Command.Render,
@@ -222,8 +235,6 @@ final case class Options(
     watchAfter: Boolean = false,
     displayServer: Option[(String, Int)] = None,
     compare: CompareOptions = CompareOptions(),
-    bench: BenchOptions = BenchOptions(),
-    robustness: RobustnessOptions = RobustnessOptions(),
     image: ImageOptions = ImageOptions(),
     pages: Vector[Page] = Vector.empty,
     to: Option[Dialect] = None,
@@ -232,7 +243,8 @@ final case class Options(
     limits: SceneLimits = SceneLimits(),
     textures: TextureControl = TextureControl(),
     keepsScenes: Boolean = false,
-    sceneFolder: Option[Path] = None
+    sceneFolder: Option[Path] = None,
+    module: Option[ModuleOptions] = None
 ):
   /** Where prepared scenes are kept, if they are to be. */
   def sceneCache: Option[PartFiles] = Option.when(keepsScenes):

@@ -8,48 +8,57 @@ import scopt.{OParser, OptionDef}
   *
   * @param arguments what follows its name, except options
   * @param takes     what the arguments are, for shells
+  * @param table     its options
   * @param more      what pages add to the meaning, in Markdown whose links start at `docs`
   */
-private[cli] final case class CommandRow(
+private[candela] final case class CommandRow(
     command: Command,
     meaning: String,
     arguments: Vector[OParser[?, Options]],
     takes: Words,
+    table: Vector[OParser[?, Options]],
     more: String = ""
 ):
   /** As in `candela view [options] image...`. */
   def usage: String =
-    val options = if OptionTable.of(command).isEmpty then "" else " [options]"
-    (s"candela ${command.word}$options" +: files).mkString(" ")
+    val shown = if table.isEmpty then "" else " [options]"
+    (s"candela ${command.word}$shown" +: files).mkString(" ")
 
   /** Names of the arguments. */
   def files: Vector[String] = arguments.flatMap(_.toList).map(_.name)
 
-  def options: Vector[OptionDef[?, Options]] = OptionTable.of(command).flatMap(_.toList)
+  /** The meaning for pages, in Markdown. */
+  def page: String =
+    val module =
+      command.module.map(name => s"\nit belongs to the module [`$name`](INSTALL.md#benchmarks)")
+    OptionText.whole(OptionText(meaning, more) + module.getOrElse(""))
+
+  def options: Vector[OptionDef[?, Options]] = table.flatMap(_.toList)
+
+  /** Long option names, without dashes. */
+  def names: Vector[String] = options.map(_.name)
 
   /** The option of this name. */
   def option(name: String): Option[OptionDef[?, Options]] =
     options.find(_.name == name)
 
-/** All commands. */
+/** All commands: those of the program, and those of modules that are installed. */
 private[cli] object CommandTable extends OptionRows:
   private val b = OParser.builder[Options]
-  import b.{arg, cmd, programName}
-
-  private def file(name: String, text: String): OParser[String, Options] =
-    arg[String](name).text(text).action((f, o) => o.copy(files = o.files :+ f))
+  import b.{cmd, programName}
 
   private def files(name: String, text: String): Row = file(name, text).unbounded()
 
   private def scenes: Row =
     files("scene.pbrt...", "scene files; each is rendered or checked by itself")
 
-  val rows: Vector[CommandRow] = Vector(
+  private val ofProgram: Vector[CommandRow] = Vector(
     CommandRow(
       Command.Render,
       "render scenes (the default command)",
       Vector(scenes),
       Words.scenes,
+      OptionTable.render,
       "It writes one image per scene, or as many as `--frames` asks for: see [output " +
         "files](#output-files)."
     ),
@@ -58,6 +67,7 @@ private[cli] object CommandTable extends OptionRows:
       "show scenes within seconds: small, shaded by a headlight",
       Vector(files("scene.pbrt...", "scene files")),
       Words.scenes,
+      OptionTable.preview,
       "For a first look: it shows any scene within about two seconds of reading it, with few " +
         "pixels and headlight shading, which has no noise. Missing files become placeholders. " +
         "For a draft with the scene's own light use `render --quick`, or few samples with " +
@@ -68,6 +78,7 @@ private[cli] object CommandTable extends OptionRows:
       "parse and build scenes, and report errors",
       Vector(scenes),
       Words.scenes,
+      OptionTable.check,
       "It lists unsupported features without rendering. With several scenes the last line has " +
         "the number of accepted ones."
     ),
@@ -76,6 +87,7 @@ private[cli] object CommandTable extends OptionRows:
       "convert a scene to another dialect",
       Vector(file("scene.pbrt", "the scene to convert")),
       Words.scenes,
+      OptionTable.convert,
       "[Converting scenes](CONVERTING.md) has the mapping of every type and " + "parameter."
     ),
     CommandRow(
@@ -83,6 +95,7 @@ private[cli] object CommandTable extends OptionRows:
       "print the scene reference: types, parameters, defaults",
       Vector(file("[category] [type]", "what to describe").optional().unbounded()),
       Words.Categories,
+      OptionTable.describe,
       "[The reference](REFERENCE.md) has all entries on one page."
     ),
     CommandRow(
@@ -90,6 +103,7 @@ private[cli] object CommandTable extends OptionRows:
       "continue a saved rendering, or add samples",
       Vector(file("film.film", "the film file, as --checkpoint or --outfile FILE.film wrote it")),
       Words.films,
+      OptionTable.resume,
       "[Film files](FILMS.md)."
     ),
     CommandRow(
@@ -97,6 +111,7 @@ private[cli] object CommandTable extends OptionRows:
       "make an image of shards, or of a saved rendering",
       Vector(files("film.film...", "film files of all shards of a rendering")),
       Words.films,
+      OptionTable.merge,
       "[Several machines](FILMS.md#several-machines)."
     ),
     CommandRow(
@@ -104,13 +119,15 @@ private[cli] object CommandTable extends OptionRows:
       "show images, or write them as a picture; several: a contact sheet",
       Vector(files("image...", "images in any readable format")),
       Words.images,
+      OptionTable.view,
       "[Pictures](PICTURES.md)."
     ),
     CommandRow(
       Command.Info,
       "print size, channels, metadata and statistics of images",
       Vector(files("image...", "images in any readable format; film files, too")),
-      Words.images
+      Words.images,
+      Vector.empty
     ),
     CommandRow(
       Command.Compare,
@@ -124,6 +141,7 @@ private[cli] object CommandTable extends OptionRows:
         )
       ),
       Words.images,
+      CompareTable.options,
       "[Definitions of the metrics](METRICS.md)."
     ),
     CommandRow(
@@ -131,38 +149,22 @@ private[cli] object CommandTable extends OptionRows:
       "render a reference, with its own error, by independent runs",
       Vector(file("scene.pbrt", "the scene")),
       Words.scenes,
+      OptionTable.reference,
       "[References](NOISE.md#references)."
     ),
     CommandRow(
       Command.Image,
       "convert an image: format, size, range, primaries, environment map",
       Vector(file("image", "an image in any readable format")),
-      Words.images
+      Words.images,
+      OptionTable.image
     ),
     CommandRow(
       Command.Average,
       "average images of one size, such as renderings with several seeds",
       Vector(files("image...", "images with the same channels")),
-      Words.images
-    ),
-    CommandRow(
-      Command.Bench,
-      "measure error against time, for several renderers",
-      Vector(file(
-        "[suite.conf]",
-        "the suite, or a folder of scenes with references; with --peers, " +
-          "a scene, or nothing: a suite of some minutes"
-      ).optional()),
-      Words.suites,
-      "[Error against time](BENCH.md)."
-    ),
-    CommandRow(
-      Command.Robustness,
-      "count numerical faults, of Candela and of other renderers",
-      Vector.empty,
-      Words.Anything,
-      "It exits with 1 if Candela has a fault that the table does not explain. [What is counted, " +
-        "and the results](STABILITY.md#measure-it-yourself)."
+      Words.images,
+      OptionTable.average
     ),
     CommandRow(
       Command.Explain,
@@ -170,6 +172,7 @@ private[cli] object CommandTable extends OptionRows:
       Vector(file("[E0123]...", "numbers of problems, as messages end with them (default: all)")
         .optional().unbounded()),
       Words.Of(Code.values.toVector.map(_.word)),
+      Vector.empty,
       "[All problems](PROBLEMS.md)."
     ),
     CommandRow(
@@ -177,24 +180,25 @@ private[cli] object CommandTable extends OptionRows:
       "print the completion of command lines for a shell",
       Vector(file(Words.shells.mkString("|"), "the shell")),
       Words.Of(Words.shells),
+      Vector.empty,
       Completion.Install
     )
   )
 
-  def of(command: Command): CommandRow = byCommand(command)
+  lazy val rows: Vector[CommandRow] = ofProgram ++ CommandService.installed.map(_.row)
 
-  private val byCommand = rows.map(r => r.command -> r).toMap
+  def of(command: Command): CommandRow =
+    ofProgram.find(_.command == command).getOrElse(CommandService.of(command).row)
 
-  private def parsed(row: CommandRow): Row =
-    cmd(row.command.word)
-      .action((_, o) => o.copy(command = row.command))
-      .children((row.arguments ++ OptionTable.of(row.command))*)
-
-  /** For scopt. */
-  val table: Row = OParser.sequence(
-    programName("candela"),
-    rows.map(parsed)*
-  )
+  /** For scopt: a command line of this command. */
+  def parser(command: Command): Row =
+    val row = of(command)
+    OParser.sequence(
+      programName("candela"),
+      cmd(command.word)
+        .action((_, o) => o.copy(command = command))
+        .children((row.arguments ++ row.table)*)
+    )
 
   /** What is wrong with options that belong together, if anything. It holds for options that could
     * all be read: one that could not would seem to be missing.

@@ -14,7 +14,8 @@ private[cli] object CommandsPage:
     "" +: table(
       Vector("command", "effect"),
       CommandTable.rows.map: r =>
-        Vector(s"[`${r.command.word}`](#candela-${r.command.word})", r.meaning)
+        val module = r.command.module.fold("")(name => s" (module `$name`)")
+        Vector(s"[`${r.command.word}`](#candela-${r.command.word})", r.meaning + module)
     ) :++ Vector(
       "",
       "`candela help` lists the commands, `candela help COMMAND` or `candela COMMAND --help` the " +
@@ -27,8 +28,7 @@ private[cli] object CommandsPage:
     val arguments = row.arguments.flatMap(_.toList).map(a => Vector(s"`${a.name}`", a.desc))
     val options = row.options.map(o => Vector(name(o), OptionText.whole(o.desc)))
     val all = arguments ++ options
-    val meaning = OptionText.whole(OptionText(row.meaning, row.more))
-    Vector("", s"## candela ${row.command.word}", "", s"`${row.usage}`", "", meaning, "") ++
+    Vector("", s"## candela ${row.command.word}", "", s"`${row.usage}`", "", row.page, "") ++
       table(Vector(if options.isEmpty then "argument" else "option", "effect"), all)
 
   private def name(o: OptionDef[?, Options]): String =

@@ -10,7 +10,7 @@ import scala.util.Try
 /** Options that can have no effect beside the others of a command line. What depends on the scene
   * is told when it is built.
   */
-private[cli] object IdleOptions:
+private[candela] object IdleOptions:
 
   /** A remark for each. */
   def of(o: Options): Vector[String] = o.command match
@@ -21,11 +21,10 @@ private[cli] object IdleOptions:
     case Command.Resume => interval(o, isFilm = true)
     case Command.Compare => compared(o.compare)
     case Command.Describe => described(o)
-    case Command.Bench => measured(o)
-    case Command.Robustness | Command.Merge | Command.Info | Command.Explain |
-        Command.Completion => Vector.empty
+    case Command.Bench | Command.Robustness => CommandService.of(o.command).idle(o)
+    case Command.Merge | Command.Info | Command.Explain | Command.Completion => Vector.empty
 
-  private def idle(option: String, why: String)(isSo: Boolean): Vector[String] =
+  def idle(option: String, why: String)(isSo: Boolean): Vector[String] =
     Option.when(isSo)(s"--$option has no effect$why").toVector
 
   private def scenes(o: Options): Vector[String] =
@@ -120,13 +119,6 @@ private[cli] object IdleOptions:
           idle(other.option, s" with --${p.option}, which prints a page of its own")(true)
       ++ page.filter(_ => o.files.nonEmpty).map: p =>
         s"`${o.files.mkString(" ")}` has no effect: --${p.option} prints a whole page"
-
-  private def measured(o: Options): Vector[String] =
-    val isPage = o.reports.isEmpty || o.reports.exists(_.toLowerCase.endsWith(".html"))
-    idle("no-pictures", ": only .html files have pictures")(!o.bench.pictures && !isPage) ++
-      idle("references", ": a suite names its own")(
-        o.bench.references.isDefined && o.files.forall(_.toLowerCase.endsWith(".conf"))
-      )
 
   private def format(name: String): Option[OutputFormat] =
     Try(Path.of(name)).toOption.flatMap(OutputFormat.of)

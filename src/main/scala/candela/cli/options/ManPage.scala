@@ -24,8 +24,7 @@ private[cli] object ManPage:
   private def commands: Vector[String] =
     ".SH COMMANDS" +: CommandTable.rows.flatMap: row =>
       val options = row.options.flatMap(o => ".TP" +: name(o) +: text(OptionText.whole(o.desc)))
-      val meaning = OptionText.whole(OptionText(row.meaning, row.more))
-      s".SS ${escaped(row.usage)}" +: (text(meaning) ++ options)
+      s".SS ${escaped(row.usage)}" +: (text(row.page) ++ options)
 
   private def name(o: OptionDef[?, Options]): String =
     val short = o.shortOpt.fold("")(s => s"${bold(s"-$s")}, ")

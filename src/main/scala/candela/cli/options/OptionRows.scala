@@ -6,9 +6,12 @@ import candela.job.TextForm
 import scopt.{OParser, Read}
 
 /** Parts of the option tables. */
-private[cli] trait OptionRows:
+private[candela] trait OptionRows:
   protected type Row = OParser[?, Options]
   private val b = OParser.builder[Options]
+
+  protected final def file(name: String, text: String): OParser[String, Options] =
+    b.arg[String](name).text(text).action((f, o) => o.copy(files = o.files :+ f))
 
   protected final def positive(option: String)(x: Double): Either[String, Unit] =
     if x > 0 && x < 1e30 then b.success else b.failure(s"--$option must be above 0, found `$x`")

@@ -13,7 +13,7 @@ import candela.watch.{TevDisplay, WatchAddress}
 import scopt.{OParser, Read}
 
 /** The options of all commands, one row each, for parsing, validation and help. */
-private[cli] object OptionTable extends OptionRows:
+private[candela] object OptionTable extends OptionRows:
   private val b = OParser.builder[Options]
   import b.{failure, opt, success}
 
@@ -63,7 +63,7 @@ private[cli] object OptionTable extends OptionRows:
     .text("print what the scene is built from and what was ignored")
     .action((_, o) => o.copy(explain = true))
 
-  private def quiet: Row =
+  def quiet: Row =
     opt[Unit]("quiet").text("print errors only").action((_, o) => o.copy(quiet = true))
 
   private def verbose(text: String): Row =
@@ -115,7 +115,7 @@ private[cli] object OptionTable extends OptionRows:
       ))
       .action(set((f, s) => s.copy(fireflies = f)))
 
-  private val renderOptions: Vector[Row] = Vector(
+  val render: Vector[Row] = Vector(
     opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
       .text(OptionText(
         s"output image, ${OutputFormat.listed()}; several: the same image in each format",
@@ -216,28 +216,24 @@ private[cli] object OptionTable extends OptionRows:
   ) ++ SwitchTable.render ++ FilmTable.render ++ ClusterTable.options ++
     DisplayTable.options ++ TextureTable.options ++ TextureTable.scenes ++ LimitTable.options
 
-  private val resumeOptions: Vector[Row] = Vector(
+  val resume: Vector[Row] = Vector(
     threads,
     samples("samples per pixel; more than planned adds samples")
   ) ++ FilmTable.resume ++ TextureTable.options ++ TextureTable.scenes ++
     Vector(quiet, verbose(", and the time of each phase"))
 
-  private val mergeOptions: Vector[Row] = Vector(
+  val merge: Vector[Row] = Vector(
     opt[Seq[String]]('o', "outfile").required().unbounded().valueName("FILE[,FILE]")
       .text(s"output image, ${OutputFormat.listed()}; or .film: the film of all")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f))
   ) ++ FilmTable.merge ++ Vector(quiet, verbose(""))
 
-  private val checkOptions: Vector[Row] =
+  val check: Vector[Row] =
     Vector(
       parsedAs, defines, keepGoing, color, explain, quiet, verbose(", and what --explain prints")
     ) ++ LimitTable.options
 
-  private val benchOptions: Vector[Row] = BenchTable.options :+ quiet
-
-  private val robustnessOptions: Vector[Row] = RobustnessTable.options :+ quiet
-
-  private val describeOptions: Vector[Row] = Vector(
+  val describe: Vector[Row] = Vector(
     opt[Unit]("pbrt-options")
       .text("print the options of pbrt's command lines, and what they are here, as Markdown")
       .action((_, o) => o.copy(pages = o.pages :+ Page.PbrtOptions)),
@@ -259,7 +255,7 @@ private[cli] object OptionTable extends OptionRows:
       .action((f, o) => o.copy(outfiles = Vector(f)))
   )
 
-  private val convertOptions: Vector[Row] = Vector(
+  val convert: Vector[Row] = Vector(
     opt[Dialect]("to").valueName("v4|v3")
       .text("target dialect (default: the scene's own, which reformats it)")
       .action((d, o) => o.copy(to = Some(d))),
@@ -286,7 +282,7 @@ private[cli] object OptionTable extends OptionRows:
     verbose("")
   ) ++ LimitTable.options
 
-  private val viewOptions: Vector[Row] = Vector[Row](
+  val view: Vector[Row] = Vector[Row](
     opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
       .text(s"picture to write, ${OutputFormat.listed(Contents.Display)} (default: the terminal)")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
@@ -297,7 +293,7 @@ private[cli] object OptionTable extends OptionRows:
     quiet
   ) ++ DisplayTable.options
 
-  private val previewOptions: Vector[Row] = Vector[Row](
+  val preview: Vector[Row] = Vector[Row](
     opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
       .text("picture to write (default: the scene's name with -preview.png, in this folder)")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
@@ -310,11 +306,11 @@ private[cli] object OptionTable extends OptionRows:
     verbose("")
   ) ++ DisplayTable.options ++ LimitTable.options
 
-  private val imageOptions: Vector[Row] = (ImageTable.options :+ quiet) ++ DisplayTable.shown
+  val image: Vector[Row] = (ImageTable.options :+ quiet) ++ DisplayTable.shown
 
-  private val averageOptions: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.shown
+  val average: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.shown
 
-  private val referenceOptions: Vector[Row] =
+  val reference: Vector[Row] =
     ReferenceTable.options ++ TextureTable.options ++ Vector(
       threads,
       crop,
@@ -327,25 +323,3 @@ private[cli] object OptionTable extends OptionRows:
       quiet,
       verbose(", and what --explain prints")
     ) ++ LimitTable.options
-
-  /** Rows of a command. */
-  def of(command: Command): Vector[Row] = command match
-    case Command.Render => renderOptions
-    case Command.Resume => resumeOptions
-    case Command.Merge => mergeOptions
-    case Command.Check => checkOptions
-    case Command.Reference => referenceOptions
-    case Command.Compare => CompareTable.options
-    case Command.Bench => benchOptions
-    case Command.Robustness => robustnessOptions
-    case Command.Describe => describeOptions
-    case Command.Convert => convertOptions
-    case Command.View => viewOptions
-    case Command.Preview => previewOptions
-    case Command.Image => imageOptions
-    case Command.Average => averageOptions
-    case Command.Info | Command.Explain | Command.Completion => Vector.empty
-
-  /** Long option names of a command, without dashes. */
-  def names(command: String): Vector[String] =
-    Command.values.find(_.word == command).toVector.flatMap(of).flatMap(_.toList).map(_.name)

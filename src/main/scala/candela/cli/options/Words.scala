@@ -10,7 +10,7 @@ import candela.render.storage.FilmFile
 import scopt.OptionDef
 
 /** What may stand at a place of a command line: shells offer it. */
-private[cli] enum Words:
+private[candela] enum Words:
   /** Files with these suffixes, or with any if there are none; and folders. */
   case Files(suffixes: Vector[String])
   case Folders
@@ -30,7 +30,7 @@ private[cli] enum Words:
     case Categories => Of(Language.categories.map(_.name.takeWhile(_ != ' ')).distinct)
     case other => other
 
-private[cli] object Words:
+private[candela] object Words:
   val shells: Vector[String] = Vector("bash", "zsh", "fish", "powershell")
 
   val scenes: Words = Files(SceneFormat.all.flatMap(_.suffixes).flatMap(s => Vector(s, s"$s.gz")))
@@ -39,8 +39,6 @@ private[cli] object Words:
   val images: Words =
     val written = OutputFormat.all.flatMap(f => f.suffix +: f.aliases)
     Files((written ++ Vector("hdr", "bmp", "gif", "ppm", "psd", FilmFile.Suffix)).distinct)
-
-  val suites: Words = Files(Vector("conf"))
 
   /** The value of an option, by what its help calls it; None: it has no value. */
   def of(option: OptionDef[?, Options]): Option[Words] = option.valueName.map:

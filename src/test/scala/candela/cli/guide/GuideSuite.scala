@@ -1,7 +1,7 @@
 package candela.cli.guide
 
 import candela.cli.Main
-import candela.cli.options.{CommandTable, OptionTable, PbrtOptions}
+import candela.cli.options.{CommandTable, PbrtOptions}
 import candela.testing.TempFolder
 
 import java.io.{ByteArrayOutputStream, PrintStream}
@@ -53,8 +53,7 @@ class GuideSuite extends AnyFunSuite:
       assert(page.text.startsWith(s"# ${i + 1}. "), page.name)
 
   test("options in the text are the program's, or pbrt's"):
-    val commands = CommandTable.rows.map(_.command.word)
-    val known = (commands.flatMap(OptionTable.names) ++ PbrtOptions.all.map(_.name)).toSet
+    val known = (CommandTable.rows.flatMap(_.names) ++ PbrtOptions.all.map(_.name)).toSet
     for page <- pages do
       val named = "`--([a-z][a-z-]*)".r.findAllMatchIn(page.text).map(_.group(1)).toSet
       assert(named.subsetOf(known), page.name)

@@ -2,11 +2,12 @@ package candela.cli.options
 
 import candela.aov.Layer
 import candela.base.Version
+import candela.bench.BenchOptions
+import candela.bench.suite.Work
 import candela.build.{LightGrouping, ReadSettings, RenderRegion}
 import candela.cli.terminal.ExitCode
 import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect
-import candela.suite.Work
 import candela.watch.WatchAddress
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -75,17 +76,17 @@ class CommandLineSuite extends AnyFunSuite:
         command = Command.Bench,
         files = Vector("s.conf"),
         reports = Vector("x.html"),
-        bench = BenchOptions(
+        module = Some(BenchOptions(
           work = Some(Work.Samples(Vector(1, 4))),
           seeds = Some(5),
           programs = Vector("a", "b"),
           scenes = Vector("c")
-        )
+        ))
       ),
     "bench s.conf --denoise --seconds 8,0.5" -> Options(
       command = Command.Bench,
       files = Vector("s.conf"),
-      bench = BenchOptions(work = Some(Work.Seconds(Vector(0.5, 8))), denoise = true)
+      module = Some(BenchOptions(work = Some(Work.Seconds(Vector(0.5, 8))), denoise = true))
     ),
     "compare a.exr b.exr" ->
       Options(command = Command.Compare, files = Vector("a.exr", "b.exr")),
@@ -202,7 +203,7 @@ class CommandLineSuite extends AnyFunSuite:
       for line <- Vector(s"help ${c.word}", s"${c.word} -h", s"${c.word} x --help") do
         assert(help(line) == text, line)
       val listed = text.flatMap("^  (?:-\\w, )?--([a-z-]+)".r.findFirstMatchIn(_)).map(_.group(1))
-      assert(listed.toSet == OptionTable.names(c.word).toSet + "help", c.word)
+      assert(listed.toSet == CommandTable.of(c).names.toSet + "help", c.word)
 
   test("help fits the terminal"):
     val lines = "help" +: Command.values.toVector.map(c => s"help ${c.word}")

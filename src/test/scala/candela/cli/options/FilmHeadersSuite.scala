@@ -57,7 +57,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     )
 
   test("every option of render is known to shape the image or not to"):
-    assert(OptionTable.names("render").toSet == shaping.keySet ++ others)
+    assert(CommandTable.of(Command.Render).names.toSet == shaping.keySet ++ others)
 
   private def options(words: Vector[String]) =
     CommandLine.parse("render" +: words :+ "s.pbrt").toOption.get

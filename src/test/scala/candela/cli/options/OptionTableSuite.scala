@@ -7,7 +7,7 @@ import org.scalatest.funsuite.AnyFunSuite
 /** Every option that the parser knows is explained to people. */
 class OptionTableSuite extends AnyFunSuite:
   private val known: Set[(String, String)] =
-    Command.values.toSet.flatMap(c => OptionTable.names(c.word).map(c.word -> _))
+    Command.values.toSet.flatMap(c => CommandTable.of(c).names.map(c.word -> _))
 
   test("the help of each command says what each of its options means"):
     val sections = Command.values.map: c =>

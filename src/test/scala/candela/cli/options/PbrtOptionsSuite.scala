@@ -29,7 +29,7 @@ final class PbrtOptionsSuite extends AnyFunSuite:
     assert((told.toSet -- known).isEmpty, "unknown to pbrt")
 
   test("options that are the same here are options of rendering"):
-    val ours = OptionTable.names("render").toSet + "help"
+    val ours = CommandTable.of(Command.Render).names.toSet + "help"
     for o <- PbrtOptions.all do
       o.here match
         case Here.Same(_) => assert(ours(o.name), o.name)
