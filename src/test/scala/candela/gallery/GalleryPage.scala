@@ -40,12 +40,10 @@ final class GalleryPage(exhibits: Vector[Exhibit]):
   private def type_(e: Exhibit): DescribedType =
     described.types(e.category)(e.category.recipes.all.indexOf(e.recipe))
 
-  /** Types without parameters have no separate heading. */
+  /** The type's heading in the reference. */
   def link(e: Exhibit): String =
     val words = type_(e)
-    val heading =
-      if words.parameters.isEmpty then e.category.name else s"${words.title}, ${words.dialects}"
-    s"REFERENCE.md#${GalleryPage.anchor(heading)}"
+    s"REFERENCE.md#${GalleryPage.anchor(s"${words.title}, ${words.dialects}")}"
 
 object GalleryPage:
   /** GitHub's anchor of a heading. */

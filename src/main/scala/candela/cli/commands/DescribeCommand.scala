@@ -222,23 +222,52 @@ final class ReferenceMarkdown(described: Described):
       (row("statement", "parameter", "in", "instead") +: rule(4) +: parameters)
 
   private def category(c: Category): Vector[String] =
-    val types = described.types(c)
-    val rows = types.map: t =>
-      val name = if t.name.isEmpty then t.title else t.name
-      val support = t.substitute.fold("")(instead => s"substituted: $instead")
-      row(s"`$name`", t.dialects, t.meaning, support)
-    val overview =
-      if types.size < 2 then Vector.empty
-      else "" +: row("type", "in", "meaning", "support") +: rule(4) +: rows
-    Vector("", s"## ${c.name}", "", c.meaning.capitalize + ".") ++ overview ++
-      types.filter(_.parameters.nonEmpty).flatMap(parameters)
+    val types = described.types(c).map: t =>
+      t.copy(parameters = t.parameters.map: p =>
+        if p.dialects == t.dialects then p.copy(dialects = "") else p)
+    val several = shared(types)
+    val title = s"${c.name}: several types"
+    val links = types.map: t =>
+      s"[`${if t.name.isEmpty then t.title else t.name}`](#${anchor(heading(t))})"
+    val index = if links.size < 2 then Vector.empty else Vector("", links.mkString(", ") + ".")
+    val common =
+      if several.isEmpty then Vector.empty
+      else "" +: s"### $title" +: "" +: table(several)
+    Vector("", s"## ${c.name}", "", c.meaning.capitalize + ".") ++ index ++ common ++
+      types.flatMap(parameters(_, several, anchor(title)))
 
-  private def parameters(t: DescribedType): Vector[String] =
-    val rows = t.parameters.map: p =>
-      row(s"`${p.name}`", p.typeName, p.default, p.dialects, p.meaning)
+  /** Parameters that at least three of the types have in the same form: of each name, the most
+    * frequent form.
+    */
+  private def shared(types: Vector[DescribedType]): Vector[DescribedParameter] =
+    val all = types.flatMap(_.parameters).filter(_.unsupported.isEmpty)
+    def uses(p: DescribedParameter) = all.count(_ == p)
+    val forms = all.distinct.groupBy(_.name).values.map(_.maxBy(uses)).toVector
+    forms.filter(uses(_) >= ReferenceMarkdown.Several).sortBy(all.indexOf)
+
+  private def heading(t: DescribedType): String = s"${t.title}, ${t.dialects}"
+
+  private def parameters(
+      t: DescribedType,
+      shared: Vector[DescribedParameter],
+      link: String
+  ): Vector[String] =
+    val (common, special) = t.parameters.partition(shared.contains)
     val support = t.substitute.map(instead => s" Substituted: $instead.").getOrElse("")
-    Vector("", s"### ${t.title}, ${t.dialects}", "", s"${t.meaning.capitalize}.$support", "") ++
-      (row("name", "type", "default", "in", "meaning") +: rule(5) +: rows)
+    val names = common.map(p => s"`${p.name}`").mkString(", ")
+    val rest =
+      if common.isEmpty then Vector.empty else Vector("", s"[Shared](#$link): $names.")
+    Vector("", s"### ${heading(t)}", "", s"${t.meaning.capitalize}.$support") ++
+      (if special.isEmpty then Vector.empty else "" +: table(special)) ++ rest
+
+  /** The address of a heading, as GitHub makes it. */
+  private def anchor(heading: String): String =
+    heading.toLowerCase.filter(c => c.isLetterOrDigit || "-_ ".contains(c)).replace(' ', '-')
+
+  private def table(parameters: Vector[DescribedParameter]): Vector[String] =
+    val rows = parameters.map: p =>
+      row(s"`${p.name}`", p.typeName, p.default, p.dialects, p.meaning)
+    row("name", "type", "default", "in", "meaning") +: rule(5) +: rows
 
   private def row(cells: String*): String =
     cells.map(_.replace("|", "\\|")).mkString("| ", " | ", " |")
@@ -246,6 +275,9 @@ final class ReferenceMarkdown(described: Described):
   private def rule(cells: Int): String = "|" + "---|" * cells
 
 private object ReferenceMarkdown:
+  /** From so many types on, a parameter is described once for its category. */
+  val Several = 3
+
   val Substitutes: String =
     "These types are replaced, with a warning at each use that says by what."
 
@@ -262,4 +294,5 @@ private object ReferenceMarkdown:
       |A parameter's type precedes its name: `"float radius" 2`. `float texture` and `spectrum
       |texture` accept a value or `"texture NAME" "TEXTURE"`. A `spectrum` is given as `rgb`,
       |`spectrum` or `blackbody`; in v2 and v3 also as `color` or `xyz`. Units are in
-      |brackets.""".stripMargin
+      |brackets. A parameter without an entry under *in* exists in all dialects of its type.
+      |Parameters that several types have are described once for each category.""".stripMargin

@@ -7,6 +7,7 @@ private[cli] object CommandsPage:
 
   def lines: Vector[String] =
     Introduction.linesIterator.toVector ++ overview ++ CommandTable.rows.flatMap(command) ++
+      ("" +: s"## $SharedTitle" +: "" +: table(Vector("option", "effect"), shared)) ++
       Manual.sections.flatMap(section)
 
   private def overview: Vector[String] =
@@ -26,10 +27,23 @@ private[cli] object CommandsPage:
 
   private def command(row: CommandRow): Vector[String] =
     val arguments = row.arguments.flatMap(_.toList).map(a => Vector(s"`${a.name}`", a.desc))
-    val options = row.options.map(o => Vector(name(o), OptionText.whole(o.desc)))
-    val all = arguments ++ options
+    val (common, special) = row.options.partition(o => shared.contains(described(o)))
+    val all = arguments ++ special.map(described)
+    val names = common.map(o => s"`--${o.name}`").mkString(", ")
+    val rest =
+      if common.isEmpty then Vector.empty
+      else Vector("", s"[Also](#${anchor(SharedTitle)}): $names.")
     Vector("", s"## candela ${row.command.word}", "", s"`${row.usage}`", "", row.page, "") ++
-      table(Vector(if options.isEmpty then "argument" else "option", "effect"), all)
+      table(Vector(if row.options.isEmpty then "argument" else "option", "effect"), all) ++ rest
+
+  /** Name and text. */
+  private def described(o: OptionDef[?, Options]): Vector[String] =
+    Vector(name(o), OptionText.whole(o.desc))
+
+  /** Options that at least three commands have in the same form. */
+  private lazy val shared: Vector[Vector[String]] =
+    val all = CommandTable.rows.flatMap(_.options.map(described))
+    all.distinct.filter(o => all.count(_ == o) >= 3)
 
   private def name(o: OptionDef[?, Options]): String =
     val value = o.valueName.fold("")(v => s" $v")
@@ -48,6 +62,8 @@ private[cli] object CommandsPage:
 
   private def row(cells: Vector[String]): String =
     cells.map(_.replace("|", "\\|")).mkString("| ", " | ", " |")
+
+  private val SharedTitle = "Options of several commands"
 
   private val Introduction: String =
     """# Commands
