@@ -62,8 +62,8 @@ final class Allowance(limits: Map[Limit, Long] = Map.empty, endsAt: Option[Long]
       throw Refusal(
         Code.LimitExceeded,
         at,
-        s"$what, where at most $most are allowed",
-        s"--limit ${limit.word}=N allows others"
+        s"$what; at most $most are allowed",
+        s"--limit ${limit.word}=N changes the limit"
       )
 
   /** Counts a file once, however often it is opened. */
@@ -101,7 +101,7 @@ object Allowance:
     val seconds = BigDecimal(limit) / 1000
     Problem.general(
       Code.LimitExceeded,
-      s"the time of ${seconds.bigDecimal.stripTrailingZeros.toPlainString} s is over; " +
+      s"the time limit of ${seconds.bigDecimal.stripTrailingZeros.toPlainString} s is reached; " +
         "no image is written",
-      Some("--limit time=T allows another; --time T ends a rendering in time, with its image")
+      Some("--limit time=T changes the limit; --time T ends a rendering with its image")
     )

@@ -64,7 +64,7 @@ object CheckedFile:
         val isMarked =
           try in.text() == mark
           catch case _: EOFException => false
-        if !isMarked then throw IOException("it begins with other bytes")
+        if !isMarked then throw IOException("its first bytes are wrong")
         body(channel, in)
 
   private def verify(channel: FileChannel): Unit = Buffers.lend: buffer =>

@@ -5,7 +5,7 @@ import java.nio.file.{Files, Path}
 
 import scala.util.Using
 
-/** What can be done with a file that is no scene. */
+/** Kinds of files that are not scenes, by their use. */
 enum ForeignKind:
   case Picture, Film, Suite, Triangles, MitsubaMesh, Model, Volume, Photometry, Packed, Mitsuba
   case Other
@@ -63,7 +63,7 @@ object ForeignFile:
     Mark("Candela film", Film, "a saved rendering", at = 4),
     Mark("ply\n", Triangles, "a PLY mesh"),
     Mark("ply\r", Triangles, "a PLY mesh"),
-    Mark("\u001c\u0004", MitsubaMesh, "a file of Mitsuba's meshes"),
+    Mark("\u001c\u0004", MitsubaMesh, "a Mitsuba mesh file"),
     Mark("glTF", Model, "a glTF model"),
     Mark("BLENDER", Model, "a Blender file"),
     Mark("PXR-USDC", Model, "a USD file"),
@@ -74,18 +74,18 @@ object ForeignFile:
     Mark("#VRML", Model, "a VRML file"),
     Mark("NanoVDB", Volume, "a NanoVDB volume"),
     Mark(" BDV", Other, "an OpenVDB volume"),
-    Mark("VOL\u0003", Volume, "a volume of Mitsuba's"),
+    Mark("VOL\u0003", Volume, "a Mitsuba volume"),
     Mark("IESNA", Photometry, "an IES photometric file"),
-    Mark("SCATFUN", Other, "a table of a BSDF"),
-    Mark("tensor_file\u0000", Other, "a table of a measured BSDF"),
+    Mark("SCATFUN", Other, "a BSDF table"),
+    Mark("tensor_file\u0000", Other, "a measured BSDF"),
     Mark("PK\u0003\u0004", Packed, "a ZIP archive"),
     Mark("PK\u0005\u0006", Packed, "a ZIP archive"),
     Mark("7z\u00bc\u00af", Packed, "a 7z archive"),
     Mark("Rar!", Packed, "a RAR archive"),
     Mark("ustar", Packed, "a TAR archive", at = 257),
-    Mark("\u00fd7zXZ", Packed, "a file packed by xz"),
-    Mark("BZh", Packed, "a file packed by bzip2"),
-    Mark("\u0028\u00b5\u002f\u00fd", Packed, "a file packed by zstd"),
+    Mark("\u00fd7zXZ", Packed, "an xz-compressed file"),
+    Mark("BZh", Packed, "a bzip2-compressed file"),
+    Mark("\u0028\u00b5\u002f\u00fd", Packed, "a zstd-compressed file"),
     Mark("%PDF-", Other, "a PDF file"),
     Mark("\u007fELF", Other, "a program"),
     Mark("MZ\u0090\u0000", Other, "a program"),
@@ -130,7 +130,7 @@ object ForeignFile:
       Some(if isModel then ForeignFile(Model, "a glTF model")
       else ForeignFile(Other, "a JSON file"))
     else if !text.startsWith("<") then None
-    else if text.contains("<scene") then Some(ForeignFile(Mitsuba, "a scene of Mitsuba's"))
+    else if text.contains("<scene") then Some(ForeignFile(Mitsuba, "a Mitsuba scene"))
     else if text.contains("<COLLADA") then Some(ForeignFile(Model, "a COLLADA file"))
     else if text.contains("<svg") then Some(ForeignFile(Other, "an SVG image"))
     else if text.toLowerCase.contains("<html") then Some(ForeignFile(Other, "an HTML page"))

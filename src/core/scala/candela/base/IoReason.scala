@@ -12,14 +12,14 @@ object IoReason:
     case w: WriteError => w.getMessage
     case _: EOFException => Early
     case z: ZipException => packed(Option(z.getMessage).getOrElse(""))
-    case _: CharacterCodingException => "it is not text in its encoding"
+    case _: CharacterCodingException => "it is not valid text in its encoding"
     case _: NoSuchFileException => "no such file"
     case _: FileAlreadyExistsException => "there is a file of this name"
     case _: NotDirectoryException => "it is a file, not a folder"
     case _: AccessDeniedException => "no read permission"
-    case _: FileSystemLoopException => "its links are a circle"
+    case _: FileSystemLoopException => "its symbolic links form a loop"
     case f: FileSystemException =>
-      Option(f.getReason).map(folder).getOrElse("the file system refuses it")
+      Option(f.getReason).map(folder).getOrElse("the file system rejects it")
     case other => Option(other.getMessage).filter(_.nonEmpty).fold("reading fails")(folder)
 
   /** In our words, if it is one. */
@@ -28,6 +28,6 @@ object IoReason:
 
   private val Early = "it ends too early"
 
-  /** Of zlib's and Java's messages, few say more. */
+  /** ZLIB's and Java's messages are rarely more specific. */
   private def packed(message: String): String =
     if message.contains("end of ZLIB") then Early else "its compression is damaged"

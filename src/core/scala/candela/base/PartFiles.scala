@@ -27,13 +27,13 @@ final class PartFiles(folder: CacheFolder):
     if now.nonEmpty then isTold = true
     now
 
-  /** What is in the file of this key; None if there is none, or none that is whole. */
+  /** The value in the file of this key; None if the file is missing or damaged. */
   def read[A](form: PartForm[A], key: String): Option[A] =
     val file = folder.file(mark(form, key), form.suffix)
     try
       val found = CheckedFile.make(folder.open(file), mark(form, key)): in =>
         val made = form.read(in)
-        if !in.isAtEnd then throw IOException("it has more than it should")
+        if !in.isAtEnd then throw IOException("it has surplus data")
         made
       folder.use(file)
       Some(found)

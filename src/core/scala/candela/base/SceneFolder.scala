@@ -27,8 +27,8 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
         throw Refusal(
           Code.Sandboxed,
           None,
-          s"`$file` is no regular file",
-          "--sandbox reads no others"
+          s"`$file` is not a regular file",
+          "--sandbox reads regular files only"
         )
 
   /** The regular file of a name, if there is one.
@@ -42,20 +42,20 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
       folders: Seq[Path] = Vector(path)
   ): Option[InputFile] = all(folders, name, at).find(_.isRegular)
 
-  /** What has this name in the first of several folders, regular or not. */
+  /** The file of this name in the first of several folders, regular or not. */
   def existing(folders: Seq[Path], name: String, at: Option[SourcePos]): Option[InputFile] =
     all(folders, name, at).nextOption()
 
   private def all(folders: Seq[Path], name: String, at: Option[SourcePos]) =
     folders.iterator.flatMap(SceneFolder.resolved(_, name)).flatMap(guard.open(_, at))
 
-  /** As `find`; but what may not be read is not there, and is not counted. */
+  /** As `find`, but without counting; files that the scene may not read are absent. */
   def belonging(name: String): Option[Path] =
     SceneFolder.resolved(path, name).filter(guard.mayOpen).filter(Files.isRegularFile(_))
 
-  /** What is said after `find` has found nothing, and what may help.
+  /** Message and help if `find` has no result.
     *
-    * @param nothing what is said if nothing has this name
+    * @param nothing message if no file has this name
     */
   def absence(
       name: String,
@@ -67,7 +67,7 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
       case Some(other) => (other.obstacle.fold(nothing)(w => s"`$name`: $w"), None)
       case None => (nothing, suggestion(name))
 
-  /** As `belonging`, to look at in passing. */
+  /** As `belonging`, for a look without counting. */
   def glance(name: String): Option[InputFile] =
     belonging(name).flatMap(_ => find(name, None))
 
@@ -134,13 +134,13 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
           Code.Sandboxed,
           at,
           s"expected a regular file, found a pipe or a device: `$path`",
-          "--sandbox reads no others"
+          "--sandbox reads regular files only"
         )
       allowance.countFile(place, at)
       def gate(count: Long) = allowance.countBytes(count, path, at)
       InputFile(path, place, gate, mayBePipe = false, shown = isInside(path))
 
-  /** What the user has named, whatever it is. */
+  /** A file that the user has named, of any kind. */
   def asked(path: Path): InputFile =
     InputFile(path, path, allowance.countBytes(_, path, None), mayBePipe = true, shown = true)
 

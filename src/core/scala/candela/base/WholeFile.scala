@@ -111,7 +111,7 @@ object WholeFile:
   /** As Linux. */
   private val MostLinks = 40
 
-  /** What went wrong, without the name of a file. */
+  /** The reason of a failure, without the file name. */
   def reason(e: IOException): String = e match
     case w: WriteError => w.why
     case _: AccessDeniedException => "no write permission"
@@ -202,7 +202,7 @@ object NextFile:
     catch
       case e: WriteError => throw e
       // The folder is there
-      case _: NoSuchFileException => throw WriteError(path, "its folder takes no new files")
+      case _: NoSuchFileException => throw WriteError(path, "no file can be created in its folder")
       case e: IOException => throw WriteError(path, WholeFile.reason(e))
 
   /** Moves a file in place of another one. */

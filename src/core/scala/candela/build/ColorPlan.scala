@@ -57,9 +57,9 @@ private[build] object ColorPlan:
           Wavelengths.covering(count, smooth, light, detector, uniform)
       ColorPlan(bases, s"spectral, three of ${3 * count} wavelengths a path: $why")
     mode(asked, context.description) match
-      case ColorMode.Spectral => spectral("as asked for")
+      case ColorMode.Spectral => spectral("as requested")
       case ColorMode.Rgb if asked == ColorMode.Rgb =>
-        ColorPlan(Vector.empty, "three numbers: as asked for")
+        ColorPlan(Vector.empty, "three numbers: as requested")
       case ColorMode.Rgb =>
         ColorPlan(Vector.empty, s"three numbers: as in ${context.rules.program}")
       case ColorMode.Auto if census.isDispersive => spectral("glass disperses light")

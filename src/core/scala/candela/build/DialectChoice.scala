@@ -19,7 +19,7 @@ object DialectChoice:
 
   /** @param asked the dialect that the user asked for, if any */
   def of(scene: SceneDescription, asked: Option[Dialect]): SceneDescription =
-    if asked.nonEmpty then scene.copy(dialectReason = "as asked for")
+    if asked.nonEmpty then scene.copy(dialectReason = "as requested")
     else
       val clues = scene.clues ++
         (if scene.dialect == Dialect.V4 then Vector.empty else parameters(scene))
@@ -36,7 +36,7 @@ object DialectChoice:
     val others = Dialect.ofPbrt.filter(_ != chosen)
     def lead(c: DialectClue) = c.weight(chosen) - others.map(c.weight).min
     val telling = clues.filter(lead(_) > 0).sortBy(c => -lead(c)).take(4)
-    if telling.isEmpty then "nothing in the file tells"
+    if telling.isEmpty then "the file has no clues"
     else "for " + telling.map(shown).mkString(", ")
 
   private def shown(c: DialectClue): String =

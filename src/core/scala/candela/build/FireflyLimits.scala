@@ -26,7 +26,7 @@ private[build] final class FireflyLimits(context: BuildContext, fireflies: Firef
     case Fireflies.Clamped(_) =>
       val why = method.withoutOutliers.filter(_ => !method.takesCameraSamples)
       refuse(why.getOrElse(
-        "this integrator does not tell indirect light; \"path\" and \"volpath\" do"
+        "this integrator does not separate indirect light; \"path\" and \"volpath\" do"
       ))
 
   private def refuse(why: String): Unit =

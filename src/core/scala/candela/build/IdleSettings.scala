@@ -27,7 +27,7 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
     idle("sampler", takesNone && isNamed)(chains)
     idle("disable-pixel-jitter", takesNone && settings.centers)(chains)
     idle("disable-wavelength-jitter", settings.oneColorSet && !world.color.isSpectral):
-      "colours are three numbers here; --color spectral takes wavelengths"
+      "rendering is RGB; --color spectral uses wavelengths"
     def isDisplaced = context.description.shapes.exists(_.shape.param("displacement").isDefined) ||
       context.description.objects.values.exists(_.exists(_.shape.param("displacement").isDefined))
     idle("displacement-edge-scale", settings.edgeScale.isDefined && !isDisplaced):

@@ -84,7 +84,7 @@ private[build] object RenderOrigin:
       RenderOrigin(
         snapped(point, eye.reach),
         s"at the camera, ${plain(eye.reach)} from the world's origin, Floats are $rounding " +
-          s"apart, and what it sees is ${plain(size)} large or away"
+          s"apart; the size or distance of visible shapes is ${plain(size)}"
       )
 
   /** Rounds to so few digits that frames of a sequence agree, while the rest is small. */

@@ -186,7 +186,7 @@ object SceneBuilder:
         context.problems.error(
           Code.IntegratorLacks,
           context.placeOf(description.integrator.orElse(description.renderer)),
-          s"this integrator does not divide light: AOVs ${divided.map(_.word).mkString(", ")} " +
+          s"this integrator does not separate light: AOVs ${divided.map(_.word).mkString(", ")} " +
             "need \"path\" or \"volpath\""
         )
 

@@ -258,9 +258,9 @@ private[build] final class WorldBuilder(
     problems.warn(
       Code.IntegratorLacks,
       surface.at,
-      s"\"$name\" lets no light sample pass this surface, though paths pass it: it casts a " +
-        s"shadow, as in $whose",
-      Some("\"volpath\" lets them pass")
+      s"\"$name\" blocks light samples at this surface, though paths pass through it: it casts " +
+        s"a shadow, as in $whose",
+      Some("\"volpath\" does not block them")
     )
 
   private def warnOfDarkness(scene: Scene, mediaGlow: Boolean): Unit =

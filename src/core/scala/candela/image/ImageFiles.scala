@@ -63,13 +63,13 @@ object ImageFiles:
       image
     catch case e: ImageError => throw ImageError(e.code, s"$path: ${e.getMessage}")
 
-  /** What an image file says of itself: its coding, windows and texts. Only EXR files do. */
+  /** Coding, windows and metadata of an EXR file; nothing for other formats. */
   def facts(path: Path): Vector[(String, String)] =
     // A pipe is read once
     val bytes = if Files.isRegularFile(path) then Files.readAllBytes(path) else Array.emptyByteArray
     if bytes.startsWith(ExrMark) then ExrHeader.parts(bytes).head.facts else Vector.empty
 
-  /** What pbrt-v4 makes of the file, if it is another image; or that pixels are missing. */
+  /** How pbrt-v4 reads the file differently, if it does; or that pixels are missing. */
   def remark(file: InputFile): Option[String] =
     val suffix = FileName.suffix(file.path)
     val found =
@@ -131,7 +131,7 @@ object ImageFiles:
       throw ImageError(
         Code.UnknownFormat,
         if readable.contains(extension) then
-          val found = other.fold("it begins with other bytes")(o => s"it is ${o.what}")
+          val found = other.fold("its first bytes are wrong")(o => s"it is ${o.what}")
           s"not a valid .$extension file: $found"
         else
           val what = other.map(_.what).orElse(Option.when(Scenes(extension))("a scene"))

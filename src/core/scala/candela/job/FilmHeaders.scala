@@ -75,7 +75,7 @@ object FilmHeaders:
 
   private def digest(file: Path): String =
     for why <- InputFile.obstacle(file) do
-      val message = s"can't tell `$file` again, for a saved rendering or one that is done: $why"
+      val message = s"a saved rendering must recognise `$file` later, but can't: $why"
       val help = Some("write the scene to a file first")
       throw SceneError(Problem.general(Code.Unreadable, message, help))
     Sha256.ofAll(Files.newInputStream(file))

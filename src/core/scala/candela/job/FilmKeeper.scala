@@ -145,9 +145,9 @@ object FilmKeeper:
         try open(path, warn)
         catch case e: SceneError => fail(Code.OtherRendering, e.problems.head.message, Remove)
       for difference <- now.difference(film.header) do
-        fail(Code.OtherRendering, s"`$path` is of another rendering: it has $difference", Remove)
+        fail(Code.OtherRendering, s"`$path` belongs to another rendering: $difference", Remove)
       if film.header.shards != now.shards then
-        fail(Code.OtherRendering, s"`$path` is of another shard: ${film.header.part}", Remove)
+        fail(Code.OtherRendering, s"`$path` belongs to another shard: ${film.header.part}", Remove)
       film
 
   private val Remove = "remove it, or name another file"

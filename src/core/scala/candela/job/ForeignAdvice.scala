@@ -11,7 +11,7 @@ import scala.util.Try
 private[job] object ForeignAdvice:
   import ForeignKind.*
 
-  /** What is wrong with a file that should be a scene, if it is another kind of file. */
+  /** The problem if a file of another kind was given as a scene. */
   def problem(file: Path): Option[Problem] =
     // A pipe can be read only once
     Option.when(Files.isRegularFile(file))(Source.read(InputFile.asked(file)))
@@ -25,7 +25,7 @@ private[job] object ForeignAdvice:
           Some(Problem.general(Code.NoScene, what, advice(found.kind, file)))
         case None =>
           Option.when(SceneFormat.named(file).isEmpty && !mayBeOurs(source)):
-            val what = s"`$file` is no scene: it begins with no directive of pbrt"
+            val what = s"`$file` is not a scene: its first word is not a pbrt directive"
             Problem.general(Code.NoScene, what, Some(Formats))
     finally source.close()
 
@@ -40,23 +40,23 @@ private[job] object ForeignAdvice:
         case _ => Some("")
     first.toOption.flatten.forall(Suggest.nearest(_, Directives.all.keys).isDefined)
 
-  private val Formats = s"scenes are of ${SceneFormat.inWords}"
+  private val Formats = s"supported scene formats: ${SceneFormat.inWords}"
 
   private def advice(kind: ForeignKind, file: Path): Option[String] = kind match
     case Picture => Some(s"`candela view $file` shows it")
-    case Film => Some(s"`candela resume $file` continues it; `candela info $file` tells of it")
+    case Film => Some(s"`candela resume $file` continues it; `candela info $file` describes it")
     case Suite => Some(s"`candela bench $file` runs it")
     case Triangles =>
       Some(s"Shape \"plymesh\" \"string filename\" \"$file\" in a scene shows it")
     case MitsubaMesh =>
-      Some("a scene of Mitsuba's shows it by <shape type=\"serialized\"> in an .xml file")
+      Some("load it by <shape type=\"serialized\"> in a Mitsuba scene")
     case Model =>
       Some(
         s"export it as a scene of ${SceneFormat.inWords}, for example from Blender; OBJ and " +
-          "PLY meshes may be shapes of Mitsuba's scenes"
+          "PLY meshes can be loaded by Mitsuba scenes"
       )
-    case Volume => Some("a scene shows it as a medium")
-    case Photometry => Some("a LightSource \"goniometric\" takes it as its \"string filename\"")
-    case Packed => Some("unpack it, and name the scene in it")
+    case Volume => Some("a scene can load it as a medium")
+    case Photometry => Some("LightSource \"goniometric\" \"string filename\" loads it")
+    case Packed => Some("unpack it, then render the scene inside")
     case Mitsuba => Some("its name must end with .xml")
     case Other => Some(Formats)

@@ -41,9 +41,9 @@ final class ReferenceFile(path: Path, of: RenderSettings, scene: String, perRun:
         catch case e: ImageError => throw SceneError(Problem.general(e.code, e.getMessage))
       val runs = facts.get(Runs).flatMap(_.toIntOption)
       val mean = runs.flatMap(ReferenceMean.of(stored, _))
-      val found = mean.getOrElse(throw other("is an image, but no reference that could go on"))
+      val found = mean.getOrElse(throw other("is an image, not a reference that can be continued"))
       if !facts.get(Identity).contains(identity(prepared)) then
-        throw other("is the reference of another scene, of other options or of another version")
+        throw other("is a reference of another scene, other options or another version")
       found
 
   /** Writes the file, whole or not at all.

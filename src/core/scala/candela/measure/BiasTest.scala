@@ -34,11 +34,11 @@ object Renderings:
   /** @throws ImageError if they are too few, of several sizes or channels, or the same */
   def seeds(images: Vector[TileSums]): Renderings =
     def fail(what: String) = throw ImageError(Code.DifferentImages, what)
-    if images.sizeIs < 2 then fail("noise shows between two or more images, found one")
+    if images.sizeIs < 2 then fail("a set needs at least two images, found one")
     for image <- images.tail do BiasTest.alike(image, images.head)
     // Of one seed, or of a program that has none
     for Vector(i, j) <- images.indices.toVector.combinations(2) if images(i).isSame(images(j)) do
-      fail(s"images ${i + 1} and ${j + 1} are the same; noise shows between different seeds")
+      fail(s"images ${i + 1} and ${j + 1} are identical; use different seeds")
     Seeds(images)
 
   /** @param variance of each value of the image

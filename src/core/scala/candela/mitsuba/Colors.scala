@@ -160,7 +160,7 @@ final class Colors(session: Session):
       session.warn(
         Code.Unsupported,
         at,
-        "negative light, which takes light away in Mitsuba, is not supported"
+        "negative emission is not supported"
       )
 
   /** Light of a constant colour, times a factor: of its spectrum, if it has one. pbrt-v4 scales

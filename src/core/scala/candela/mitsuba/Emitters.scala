@@ -50,7 +50,7 @@ final class Emitters(
         case "directional" => Some(directional(in))
         case "projector" => projector(in, around)
         case "area" =>
-          session.warn(Code.Nesting, in.at, "an emitter \"area\" outside a shape gives no light")
+          session.warn(Code.Nesting, in.at, "an emitter \"area\" outside a shape emits nothing")
           in.ignore("radiance")
           None
         case _ =>
@@ -133,7 +133,7 @@ final class Emitters(
           session.warn(
             Code.CorrectedValue,
             in.atOf("fov_axis"),
-            "only x can be the axis beside an image; using x"
+            "a projector with an image supports only the axis x; using x"
           )
         picture(t).map: (_, params) =>
           lit((Textures.rgb("I", scale, in.at) +: slides(params))*)
@@ -178,7 +178,7 @@ final class Emitters(
           session.warn(
             Code.CorrectedValue,
             in.atOf("raw"),
-            "images that emit are decoded if they have 8 bits"
+            "8-bit images of emitters are always decoded from sRGB"
           )
         for
           name <- in.text("filename")

@@ -107,14 +107,14 @@ final class Expansion(
     sources += file.path
     contents(root(file, e), file :: files)
 
-  /** What is outside of the scene's folder may be none of its, and is not shown if it is no scene.
+  /** Reads the root. Text of a file outside the scene's folder is shown only if that is a scene.
     */
   private def root(file: InputFile, include: Element): Element =
     def failed() = fail(
       Code.Nesting,
       include,
-      s"can't include `$file`: it is no scene: expected <scene>, found what is not shown here, " +
-        "as it is outside of the scene's folder"
+      s"can't include `$file`: it is not a scene: expected <scene> (the file is not shown: it " +
+        "is outside the scene's folder)"
     )
     if file.isShown then XmlFile.read(file, Some(include.at))
     else

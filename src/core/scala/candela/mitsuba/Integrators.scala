@@ -12,7 +12,7 @@ final class Integrators(session: Session):
       session.warn(
         Code.IdleParameter,
         in.atOf("rr_depth"),
-        s"`rr_depth` is $roulette; Mitsuba takes 1 and more only. It is ignored here"
+        s"`rr_depth` must be at least 1, found $roulette; it is ignored"
       )
     in.ignore("emitter_samples", "bsdf_samples", "shading_samples", "block_size",
       "samples_per_pass", "timeout", "use_nee", "sampling_integrator")
@@ -53,7 +53,7 @@ final class Integrators(session: Session):
       session.warn(
         Code.CorrectedValue,
         in.atOf("max_depth"),
-        s"`max_depth` is $depth; Mitsuba takes 0 and more, or -1 for no limit, which is used"
+        s"`max_depth` must be at least 0, or -1 for no limit, found $depth; using -1"
       )
     if depth == 0 then
       session.warn(

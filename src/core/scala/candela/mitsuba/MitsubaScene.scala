@@ -110,5 +110,5 @@ private final class Translation(session: Session, file: Path):
   /** Paths from lights find no coverage. */
   private def opaque(film: Declaration): Declaration =
     for p <- film.param("alpha") do
-      session.warn(Code.Unsupported, p.at, "\"ptracer\" gives no alpha here")
+      session.warn(Code.Unsupported, p.at, "\"ptracer\" does not support alpha")
     film.copy(params = film.params.filterNot(_.name == "alpha"))

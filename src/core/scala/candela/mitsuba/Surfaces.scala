@@ -5,7 +5,7 @@ import candela.scenefile.{Declaration, MaterialRef, Param, ParamType}
 
 import scala.collection.mutable
 
-/** What a BSDF becomes.
+/** A BSDF in terms of pbrt-v4.
   *
   * @param isOneSided whether it is black from behind
   * @param alpha      opacity, a parameter of shapes
@@ -116,7 +116,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       session.warn(
         Code.Nesting,
         p.at,
-        "Mitsuba refuses a bsdf \"twosided\" of one that light passes through"
+        "Mitsuba rejects \"twosided\" around a transmissive bsdf"
       )
     inner match
       case front :: back :: others =>
@@ -131,7 +131,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       session.warn(
         Code.Unsupported,
         alpha.at,
-        "a mask of one side alone is not supported; it is opaque"
+        "one-sided masks are not supported; this one is opaque"
       )
     val names = List(front, back).map(p => nameOf(p, apply(p)))
     Surface(
@@ -246,7 +246,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
         session.error(Code.MissingParameter, in.at, "blendbsdf must contain two bsdfs")
         basic.grey(in)
 
-/** What is known of materials by their declarations.
+/** Properties of materials, derived from their declarations.
   *
   * @param named the materials that others contain, by name
   */

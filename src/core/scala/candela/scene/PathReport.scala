@@ -27,8 +27,9 @@ final class PathReport(say: String => Unit):
     say(s"   normal ${at.geometricNormal}, shading normal ${at.frame.n}; u ${at.u}, v ${at.v}")
     ReportedBsdf(bsdf, this)
 
-  /** Reports light that passes a pane on its way to a vertex. */
-  def passes(at: ShadingPoint, part: Rgb): Unit = say(s"   a pane at ${at.p} lets through $part")
+  /** Reports light that a thin dielectric transmits to a vertex. */
+  def passes(at: ShadingPoint, part: Rgb): Unit =
+    say(s"   thin dielectric at ${at.p} transmits $part")
 
   def value(wo: Vec3, wi: Vec3, f: Rgb): Unit = say(s"   wo $wo, wi $wi: f $f")
 

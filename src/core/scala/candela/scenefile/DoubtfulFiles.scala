@@ -32,7 +32,7 @@ private[scenefile] final class DoubtfulFiles(to: Problem => Unit):
       case None => to(problem)
       case Some(_) if problem.severity == Severity.Warning => warnings += problem
       case Some(at) if justified.add(at.file) =>
-        val message = s"can't include `${at.file}`: it is no scene: expected a statement in line " +
-          s"${at.line}, found what is not shown here, as it is outside of the scene's folder"
+        val message = s"can't include `${at.file}`: it is not a scene: line " +
+          s"${at.line} is not a statement (not shown: the file is outside the scene's folder)"
         to(Problem.error(Code.NoScene, at.includedFrom.getOrElse(at), message))
       case _ => ()

@@ -40,7 +40,7 @@ object FromMitsuba:
       else if d.category == "Integrator" then
         without(d, "area lights and sky are visible", "hideemitters")
       else if d.category == "Shape" then
-        without(d, "the inside of open tubes is seen", "cullbackfaces")
+        without(d, "the inside of open tubes is visible", "cullbackfaces")
       else if d.category == "Medium" then
         if d.name.endsWith("grid") then
           warn(d, "pbrt's densities fall to 0 along the border of a grid, Mitsuba's do not")
@@ -51,7 +51,7 @@ object FromMitsuba:
           problems += Problem.warning(
             Code.Inexpressible,
             p.at,
-            "pbrt's normal maps lie on u and v as they are; `to_uv` of this one is lost"
+            "pbrt maps normal maps by u and v directly; `to_uv` of this one is dropped"
           )
         for p <- d.params if FromMitsuba.Reliefs(p.name) && isSoft(d) do
           problems += Problem.warning(
@@ -69,7 +69,7 @@ object FromMitsuba:
     private def areaLight(d: Declaration): Declaration =
       val isFiltered = d.param("filter").exists(_.strings.contains("point"))
       val filtered = without(d, if isFiltered then "it is smooth" else "", "filter")
-      without(without(filtered, "the image lies on u and v as they are", "imageuv"), "", "wrap")
+      without(without(filtered, "the image is mapped by u and v directly", "imageuv"), "", "wrap")
 
     /** pbrt's media scatter by Henyey and Greenstein: the mean cosine stays. */
     private def phased(d: Declaration): Declaration =
@@ -126,7 +126,7 @@ object FromMitsuba:
 
     /** pbrt's field of view is the shorter side's, not the width's. */
     private def projection(d: Declaration): Declaration =
-      warn(d, "pbrt's projected images get darker to their sides, Mitsuba's do not")
+      warn(d, "pbrt's projected images darken towards the edges, Mitsuba's do not")
       val sizes = d.param("mapname").flatMap(p => d.folder.find(p.strings.head, Some(p.valuesAt)))
         .flatMap(file => Try(ImageFiles.load(file)).toOption).map(i => i.width.toFloat / i.height)
       val narrow = Math.max(1f, sizes.getOrElse(1f))
@@ -146,7 +146,7 @@ object FromMitsuba:
       val mean = Array.tabulate(channels): c =>
         val own = values.indices.by(channels).map(i => values(i + c).toDouble)
         (own.sum / own.size).toFloat
-      warn(d, "pbrt has no textures that are grids or numbers of a mesh; using their mean")
+      warn(d, "pbrt has no grid or mesh attribute textures; using their mean")
       val kind = if channels == 3 then ParamType.Rgb else ParamType.Float
       d.copy(name = "constant", params = Vector(Param.floats(kind, "value", d.at, mean)))
 
@@ -167,9 +167,9 @@ object FromMitsuba:
       val named = scene.namedMaterials.toMap
       for s <- (scene.shapes ++ scene.objects.values.flatten) if s.shape.name == "disk" do
         if s.material.declared(named).exists(_.params.exists(_.paramType == ParamType.Texture)) then
-          warn(s.shape, "textures lie otherwise on pbrt's disks than on Mitsuba's; using pbrt's")
+          warn(s.shape, "pbrt maps textures on disks differently than Mitsuba; using pbrt's")
 
-    /** pbrt counts what a thin pane transmits as an event, Mitsuba's "volpath" does not. */
+    /** pbrt counts transmission through thin glass as an event, Mitsuba's "volpath" does not. */
     def panes(scene: SceneDescription): Unit =
       val own = scene.shapes.map(_.material).collect { case MaterialRef.Inline(d) => d }
       for
@@ -311,13 +311,13 @@ object FromMitsuba:
     private def front(d: Declaration): Declaration =
       val names = d.param("materials").orElse(d.param("material")).get.strings
       if names.distinct.length > 1 then
-        warn(d, "pbrt has no other material on the back; using that of the front for both")
+        warn(d, "pbrt has no separate material for the back; using that of the front for both")
       val reliefs = d.params.filter(p => FromMitsuba.Reliefs(p.name))
       val front = named(names.head)
       val takesMore =
         front.name != "mix" && !front.params.exists(p => FromMitsuba.Reliefs(p.name))
       if reliefs.nonEmpty && !takesMore then
-        warn(d, "pbrt has no bumps of a blend, or of bumps; these are lost")
+        warn(d, "pbrt has no bump maps on blended or bump-mapped materials; these are dropped")
       material(if takesMore then front.copy(params = front.params ++ reliefs) else front)
 
     /** A sheet that transmits as much, but spreads all of it. */

@@ -34,7 +34,7 @@ private[convert] object MitsubaInV4:
         Problem.warning(
           Code.Inexpressible,
           shape.shape.at,
-          "pbrt-v4 has no area lights that light passes; this one casts shadows",
+          "pbrt-v4 has no transparent area lights; this one casts shadows",
           Some(s"of the light at ${point.light.at}")
         )
     Converted(

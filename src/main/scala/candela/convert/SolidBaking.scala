@@ -59,7 +59,7 @@ final class SolidBaking(
           Code.Inexpressible,
           s.shape.at,
           if image.isDefined then s"$what; using ${baking.describe} for this shape"
-          else s"$what, and it can't be baked: u and v do not tell this shape's points apart"
+          else s"$what, and it can't be baked: its points do not have distinct u and v"
         )
         image
       }

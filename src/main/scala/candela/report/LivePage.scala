@@ -54,7 +54,7 @@ object LivePage:
     div(
       cls := "choice",
       button(id := "stop", "stop"),
-      button(id := "keep", attr("aria-pressed") := "false", "keep on"),
+      button(id := "keep", attr("aria-pressed") := "false", "add samples"),
       button(id := "save", "save"),
       button(id := "end", attr("hidden") := "", "end"),
       span(

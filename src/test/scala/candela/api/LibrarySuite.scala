@@ -188,7 +188,7 @@ class LibrarySuite extends AnyFunSuite:
       assert(second.image.values.sameElements(rendered(scene).image.values))
       val other = LibraryScenes.built(samples = 64).light("infinite", Parameters()).scene()
       val refused = intercept[SceneException](rendered(other, RenderSettings(), control))
-      assert(refused.problems.get(0).message.contains("of another rendering"))
+      assert(refused.problems.get(0).message.contains("to another rendering"))
 
   test("problems have severity, message, cure and place, and are values"):
     val scene = Candela.parse(LibraryScenes.text() + "Shape \"spher\" \"float radius\" 1\n")

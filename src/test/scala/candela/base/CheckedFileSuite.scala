@@ -59,9 +59,9 @@ class CheckedFileSuite extends AnyFunSuite:
 
   test("a file of another kind is refused"):
     withFile: file =>
-      assert(reason(file, "test 2") == "it begins with other bytes")
+      assert(reason(file, "test 2") == "its first bytes are wrong")
       Files.write(file, Array[Byte](1, 2, 3))
-      assert(reason(file) == "it begins with other bytes")
+      assert(reason(file) == "its first bytes are wrong")
 
   test("a file with any bit changed, or cut off anywhere, is refused before it is used"):
     withFile: file =>

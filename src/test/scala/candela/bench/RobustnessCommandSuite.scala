@@ -49,4 +49,5 @@ class RobustnessCommandSuite extends AnyFunSuite:
     assert(format == 1 && saidFormat.err.contains("reports are written as .html, .json or .md"))
     val (extra, saidExtra) = run("scene.pbrt")
     assert(extra == 2)
-    assert(saidExtra.err.contains("`candela robustness` takes options alone, found `scene.pbrt`"))
+    val unexpected = "`candela robustness` takes only options; unexpected argument `scene.pbrt`"
+    assert(saidExtra.err.contains(unexpected))

@@ -361,7 +361,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
     assert(told(
       room(glass),
       _.copy(fireflies = Fireflies.Clamped(2f))
-    ).contains("--caustics photons: photons do not divide light, as --fireflies clamp"))
+    ).contains("--caustics photons: photons do not separate light, as --fireflies clamp"))
     assert(
       told(room(glass), _.copy(guiding = Some(GuidingMode.On)))
         .contains("paths that take caustics from photons are not guided")

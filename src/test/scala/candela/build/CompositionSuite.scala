@@ -85,8 +85,8 @@ class CompositionSuite extends AnyFunSuite:
     test(s"$kind textures, $how, of the former one twice take no more time than one"):
       val _ = SceneTexts.mean(textures(kind, how, 60)(1, 1))
     test(s"$kind textures, $how, whose number doubles with each are refused from some number on"):
-      assert(errors(textures(kind, how, 60)(1, 2)).exists(_.contains("16384 are")))
+      assert(errors(textures(kind, how, 60)(1, 2)).exists(_.contains("the maximum is 16384")))
     test(s"long chains of $kind textures, $how, are rendered or refused, not an overflow"):
       val _ = SceneTexts.mean(textures(kind, how, 5000)(1, 3000000))
       val long = errors(textures(kind, how, 20000)(1, 3000000))
-      assert(long.exists(_.contains("16384 are possible")))
+      assert(long.exists(_.contains("the maximum is 16384")))

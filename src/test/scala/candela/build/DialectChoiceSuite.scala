@@ -46,7 +46,7 @@ final class DialectChoiceSuite extends AnyFunSuite:
 
   test("a dialect that is asked for is taken without weighing"):
     val scene = chosen(world + "WorldEnd\n", Some(Dialect.V3))
-    assert(scene.dialect == Dialect.V3 && scene.dialectReason == "as asked for")
+    assert(scene.dialect == Dialect.V3 && scene.dialectReason == "as requested")
 
   test("all scenes here are read as what their names say, without contradiction"):
     val files = Using.resource(Files.list(Path.of("scenes"))): found =>

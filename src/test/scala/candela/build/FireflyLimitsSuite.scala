@@ -38,7 +38,7 @@ class FireflyLimitsSuite extends AnyFunSuite:
     ))
     for integrator <- Vector("bdpt", "ambientocclusion", "sppm") do
       assert(problems(integrator, clamped) == Vector(
-        "--fireflies clamp: this integrator does not tell indirect light; \"path\" and " +
+        "--fireflies clamp: this integrator does not separate indirect light; \"path\" and " +
           "\"volpath\" do"
       ))
 

@@ -119,7 +119,7 @@ class FilmFilesSuite extends AnyFunSuite:
         f.fail(Vector("merge", "--outfile", f("x.exr")) ++ words).linesIterator.next
       assert(merge(f("0.film"), f("2.film")) == "error: shards 1/4, 3/4 are missing [E1005]")
       val twice = merge((0 to 3).map(i => f(s"$i.film")) :+ f("1.film")*)
-      assert(twice == s"error: shard 1/4 is there twice: `${f("1.film")}`, " +
+      assert(twice == s"error: shard 1/4 is given twice: `${f("1.film")}`, " +
         s"`${f("1.film")}` [E1005]")
       f.render("--shard", "3/4", "--seed", "5", "--outfile", f("seed.film"))
       val seeded = merge(f("0.film"), f("seed.film"))
@@ -178,7 +178,7 @@ class FilmFilesSuite extends AnyFunSuite:
       assert(f.bytes("a.exr") == image)
       val other =
         f.fail(Vector(f.scene, "--seed", "1", "--checkpoint", f("a.film"), "--outfile", f("a.exr")))
-      assert(other.contains("is of another rendering: it has options `` instead of `--seed 1`"))
+      assert(other.contains("belongs to another rendering: options `` instead of `--seed 1`"))
 
   test("a scene that has changed is refused, by the name of the file"):
     withScene(): f =>
@@ -187,7 +187,7 @@ class FilmFilesSuite extends AnyFunSuite:
       for command <- Vector(Vector("resume"), Vector("merge", "--outfile", f("b.exr"))) do
         val why = f.fail(command :+ f("a.film"))
         assert(
-          why.startsWith(s"error: the scene of `${f("a.film")}` has changed: another `part.pbrt`")
+          why.startsWith(s"error: the scene of `${f("a.film")}` has changed: `part.pbrt` differs")
         )
 
   test("a damaged film is replaced by its previous copy; without one it is refused"):

@@ -58,8 +58,8 @@ class ForeignSceneSuite extends AnyFunSuite:
       val notes = Files.writeString(folder.resolve("notes.txt"), "# mine\nto do: lights\n")
       for command <- commands do
         assert(refusal(command, s"$notes") == Vector(
-          s"error: `$notes` is no scene: it begins with no directive of pbrt [E0102]",
-          " scenes are of pbrt (.pbrt) or Mitsuba (.xml)"
+          s"error: `$notes` is not a scene: its first word is not a pbrt directive [E0102]",
+          " supported scene formats: pbrt (.pbrt) or Mitsuba (.xml)"
         ))
       val scene = "# mine\nCamera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
       val file = Files.writeString(folder.resolve("scene.txt"), scene)

@@ -49,7 +49,7 @@ class MergedFilmsSuite extends AnyFunSuite:
       val (code, captured) = f.captured(words ++ all)
       assert(code == 0, captured.err)
       assert(captured.err.startsWith(s"warning: can't read `${all(1)}`: it is damaged: "))
-      assert(captured.err.endsWith("; it is left out [E1001]\n"))
+      assert(captured.err.endsWith("; it is omitted [E1001]\n"))
       assert(f.bytes("x.exr") == f.bytes("two.exr"))
       for other <- Vector(0, 2) do
         val _ = Files.delete(Path.of(all(other)))
@@ -77,7 +77,7 @@ class MergedFilmsSuite extends AnyFunSuite:
       val why = f.fail(Vector("merge", f("m.film"), f("2.film"), "--outfile", f("x.exr")))
       val advice = "`candela resume` completes the film of each shard, from which it was merged"
       assert(why == "error: shards 0/3, 1/3 are unfinished, with 2 of 4 samples per pixel: " +
-        s"`${f("m.film")}` [E1005]\n $advice; --partial merges what there is\n")
+        s"`${f("m.film")}` [E1005]\n $advice; --partial merges the samples so far\n")
 
 private object MergedFilmsSuite:
   /** Changes values of a film file, whose checksum stays right. */

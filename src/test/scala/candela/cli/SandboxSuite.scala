@@ -95,10 +95,10 @@ class SandboxSuite extends AnyFunSuite:
         "a/../../x.exr" -> "expected an image in the scene's folder, found a path through `..`",
         s"${f.root}/x.exr" -> "expected an image in the scene's folder, found an absolute path",
         "/dev/null" -> "expected an image in the scene's folder, found an absolute path",
-        "link.exr" -> "expected a place for the image in the folder of the image",
-        "new.exr" -> "expected a place for the image in the folder of the image",
-        "up/x.exr" -> "expected a place for the image in the folder of the image",
-        "pipe.exr" -> "expected a place for the image in the folder of the image"
+        "link.exr" -> "the image must be in the folder of the image",
+        "new.exr" -> "the image must be in the folder of the image",
+        "up/x.exr" -> "the image must be in the folder of the image",
+        "pipe.exr" -> "the image must be in the folder of the image"
       )
       for (name, expected) <- named do
         val scene = f.scene("s.pbrt", film(name))

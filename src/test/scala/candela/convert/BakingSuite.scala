@@ -128,7 +128,7 @@ class BakingSuite extends AnyFunSuite:
       for shape <- Vector(twice, "Shape \"loopsubdiv\"") do
         val text = s"$marble Material \"diffuse\" \"texture reflectance\" \"m\" $shape"
         val made = converted(text, Dialect.V4, Dialect.V3, folder)
-        assert(made.warnings.exists(_.message.contains("u and v do not tell this shape's points")))
+        assert(made.warnings.exists(_.message.contains("its points do not have distinct u and v")))
         assert(shown(made.scene, "Kd") == "m")
 
   test("v2's marble is v4's, so nothing is said or painted"):

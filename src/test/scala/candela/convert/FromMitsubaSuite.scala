@@ -123,9 +123,9 @@ class FromMitsubaSuite extends AnyFunSuite:
     val (both, warnings) = converted(
       "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>"
     )
-    assert(both.name == "diffuse" && warnings.head.contains("on the back"))
+    assert(both.name == "diffuse" && warnings.head.contains("for the back"))
     val once = converted("<bsdf type=\"twosided\"><bsdf type=\"principled\"/></bsdf>")
-    assert(once._1.name == "disney" && !once._2.exists(_.contains("on the back")))
+    assert(once._1.name == "disney" && !once._2.exists(_.contains("for the back")))
 
   test("the mapping of a normal map is lost, with a warning"):
     val image = Files.createTempFile("candela-mitsuba", ".png")
@@ -135,7 +135,7 @@ class FromMitsubaSuite extends AnyFunSuite:
       val (d, warnings) =
         converted(s"<bsdf type=\"normalmap\">$map<bsdf type=\"diffuse\"/></bsdf>")
       assert(d.param("normalmapuv").isEmpty && d.param("normalmap").nonEmpty)
-      assert(warnings.exists(_.contains("`to_uv` of this one is lost")))
+      assert(warnings.exists(_.contains("`to_uv` of this one is dropped")))
     finally Files.delete(image)
 
   test("lights that differ in pbrt are reported with their place"):
@@ -162,7 +162,7 @@ class FromMitsubaSuite extends AnyFunSuite:
     val disk = s"<shape type=\"disk\">$squares</shape>"
     val done = FromMitsuba.converted(read("", disk))
     assert(done.warnings.map(_.message.takeWhile(_ != ';')) == Vector(
-      "textures lie otherwise on pbrt's disks than on Mitsuba's",
+      "pbrt maps textures on disks differently than Mitsuba",
       "pbrt has no `uskew` of \"checkerboard\"",
       "pbrt has no `vskew` of \"checkerboard\""
     ))
@@ -170,7 +170,7 @@ class FromMitsubaSuite extends AnyFunSuite:
     val group = s"<shape type=\"shapegroup\" id=\"g\">$disk</shape>" +
       "<shape type=\"instance\"><ref id=\"g\"/></shape>"
     val grouped = FromMitsuba.converted(read("", group)).warnings
-    assert(grouped.exists(_.message.startsWith("textures lie otherwise on pbrt's disks")))
+    assert(grouped.exists(_.message.startsWith("pbrt maps textures on disks differently")))
     assert(FromMitsuba.converted(read("", "<shape type=\"disk\"/>")).warnings.isEmpty)
     def glass(depth: Int) = FromMitsuba.converted(read(
       "<bsdf type=\"thindielectric\"/>",

@@ -41,7 +41,7 @@ class MitsubaInV4Suite extends AnyFunSuite:
     assert(material(done, 1).name == "interface" && done.warnings.isEmpty)
     val shaded = converted(s"\n$emitter\n<emitter type=\"point\"/>").warnings
     assert(shaded.map(_.message) ==
-      Vector("pbrt-v4 has no area lights that light passes; this one casts shadows"))
+      Vector("pbrt-v4 has no transparent area lights; this one casts shadows"))
     assert(shaded.head.at.map(_.line).contains(2) && shaded.head.help.get.contains(":3:1"))
 
   private def colored(light: String, wall: String) =

@@ -76,7 +76,7 @@ class ImageFilesSuite extends AnyFunSuite:
       val empty = file("empty.png", "")
       assert(error(ImageFiles.read(empty)) == s"$empty: the file is empty")
       val text = file("text.exr", "no picture")
-      val wanted = s"$text: not a valid .exr file: it begins with other bytes"
+      val wanted = s"$text: not a valid .exr file: its first bytes are wrong"
       assert(error(ImageFiles.read(text)) == wanted)
       assert(error(ImageFiles.read(file("a.tiff", "II*"))).contains("unknown format; EXR, PFM"))
       assert(error(ImageFiles.read(folder)).startsWith(s"$folder: can't be read"))

@@ -145,8 +145,8 @@ final class InterfacesSuite extends AnyFunSuite:
     for isV4 <- Seq(false, true); integrator <- Seq("path", "sppm") do
       assert(
         warnings(isV4, integrator) == Vector(
-          s"15: \"$integrator\" lets no light sample pass this surface, though paths pass it: it " +
-            "casts a shadow, as in pbrt"
+          s"15: \"$integrator\" blocks light samples at this surface, though paths pass through " +
+            "it: it casts a shadow, as in pbrt"
         )
       )
     assert(warnings(isV4 = true, "volpath").isEmpty && warnings(isV4 = true, "bdpt").isEmpty)

@@ -42,7 +42,7 @@ class IncludeSuite extends AnyFunSuite:
     val why = intercept[SceneError]:
       Parser.parseText("test", "WorldBegin Include \"/dev/zero\"", Path.of(""))
     assert(why.problems.head.message ==
-      "can't include `/dev/zero`: it is no regular file, but a pipe or a device")
+      "can't include `/dev/zero`: it is a pipe or a device, not a regular file")
 
   test("files that include the next one twice are read a limited number of times", Slow):
     val files = (0 to 30).map(i => s"$i.pbrt" -> s"Include \"${i + 1}.pbrt\" " * 2)

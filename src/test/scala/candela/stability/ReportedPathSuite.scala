@@ -129,7 +129,7 @@ class ReportedPathSuite extends AnyFunSuite:
     for y <- 0 until plan.height; x <- 0 until plan.width do
       val light = Renderer.trace(plan, x, y, 0, PathReport(line => lines += line))
       assert(light.contains(Rgb(image(x, y, 0), image(x, y, 1), image(x, y, 2))), s"at $x, $y")
-    assert(lines.exists(_.contains("a pane at")), lines.mkString("\n"))
+    assert(lines.exists(_.contains("thin dielectric at")), lines.mkString("\n"))
 
   test("a sample that is no number is none, and the first one is named with its material"):
     val bad = Seq(Float.NaN, Float.PositiveInfinity, Float.NegativeInfinity)

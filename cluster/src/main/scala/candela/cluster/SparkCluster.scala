@@ -92,7 +92,7 @@ private final class SparkRun(
       if lost.isEmpty || isCancelled then films :+ film
       else
         val names = lost.toVector.sorted.map(i => s"$i/$count").mkString(", ")
-        if left == 0 then throw ClusterFailure(s"shards $names arrive damaged, again and again")
+        if left == 0 then throw ClusterFailure(s"shards $names arrived damaged repeatedly")
         note(s"shards $names arrived damaged; rendering them again")
         round(lost, films :+ film, left - 1)
     round((0 until count).toSet, Vector.empty, Rounds)

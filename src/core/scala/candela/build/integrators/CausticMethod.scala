@@ -35,7 +35,7 @@ private object CausticMethod:
       isOut(scene, options) match
         case Some(why) if mode == CausticsMode.Photons => refuse(why, "write --caustics off", alone)
         case None if mode == CausticsMode.Photons && scene.lightGroups.isDefined =>
-          val why = "photons do not divide light, as --fireflies clamp and AOVs of light need"
+          val why = "photons do not separate light, as --fireflies clamp and AOVs of light need"
           refuse(why, "write --caustics on: light paths do", alone)
         case Some(why) => without(why, alone)
         case None =>

@@ -60,16 +60,16 @@ object RoughPlasticRecipe
     rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
   private val specular = rgbTexture("specular", "scale of the coat's reflection")(Rgb.White)
   private val nonlinear =
-    bool("nonlinear", "colour light again that the coat reflects back to the base")(false)
+    bool("nonlinear", "apply the base colour at each interreflection")(false)
   private val interreflection =
-    bool("interreflection", "light returns from the coat to the base, as in nature")(true)
+    bool("interreflection", "simulate interreflection between coat and base")(true)
   private val eta = float("eta", "index of refraction of the coating")(1.49f)
   protected def make()(using site: Site): Material =
     val rough = roughness()
     if !rough.isConstant && interreflection() then
       site.warn(
         Code.Unsupported,
-        "light below the coat of \"roughplastic\" is that of its roughness at (0, 0)"
+        "the interreflection of \"roughplastic\" uses its roughness at (0, 0)"
       )
     val under =
       if !interreflection() then Varnish.Once

@@ -96,9 +96,9 @@ abstract class MaterialRecipe(
     )
   private val pyramid = Once[MipLevel]()
   private val edges: Option[Field[Boolean]] = Option.when(bumps):
-    bool("softedges", "soften the edge of the shadow on bumps", onlyMitsuba)(true)
+    bool("softedges", "soften the terminator on bumps", onlyMitsuba)(true)
   private val turns: Option[Field[Boolean]] = Option.when(bumps):
-    bool("turnednormals", "turn normals that face away", onlyMitsuba)(true)
+    bool("turnednormals", "flip normals that face away", onlyMitsuba)(true)
 
   override protected def made(site: Site): Material =
     given Site = site

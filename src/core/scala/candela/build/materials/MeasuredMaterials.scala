@@ -55,7 +55,7 @@ abstract class MeasuredRecipe(
                       Code.Unsupported,
                       p.valuesAt,
                       s"`$name` gives red, green and blue only; they are taken as values at " +
-                        "the wavelengths of a path, which pales its colours",
+                        "the wavelengths of a path, which desaturates its colours",
                       Some("render with --color rgb")
                     )
                 Some(b)

@@ -36,9 +36,9 @@ private[recipe] final class Compositions(most: Int, deepest: Int):
       val isTooLarge = count > most || depth > deepest
       sizes((kind, name)) = if isTooLarge then Size(1, 1) else Size(count + 1, depth + 1)
       if count > most then
-        lighten(made, s"$count others, each counted as often as it is named; $most are possible")
+        lighten(made, s"$count others, each counted as often as it is named; the maximum is $most")
       else if depth > deepest then
-        lighten(made, s"$depth others within each other; $deepest are possible")
+        lighten(made, s"$depth others within each other; the maximum is $deepest")
       else Right(made)
     finally named = outer
 

@@ -35,11 +35,11 @@ object Spectra:
           warnOf(found, p, role, site)
         found.map(inBasis(_, role, site))
 
-  /** Of colours that pbrt-v4 refuses. */
+  /** Warnings about colours that pbrt-v4 rejects. */
   private def warnOf(found: Option[SpectralValue], p: Param, role: SpectrumRole, site: Site): Unit =
     def refused(what: String) =
       val shown = p.floats.mkString(" ")
-      val message = s"`${p.name}` has a component $what, which pbrt-v4 refuses: found $shown"
+      val message = s"`${p.name}` has a component $what, which pbrt-v4 rejects: found $shown"
       site.problems.warn(Code.ParameterValue, p.valuesAt, message)
     for case SpectralValue.Color(c, _) <- found do
       if c.r < 0f || c.g < 0f || c.b < 0f then refused("below 0")
@@ -185,7 +185,7 @@ object Spectra:
         site.problems.warn(
           Code.ParameterValue,
           p.valuesAt,
-          s"the wavelengths of `${p.name}` do not ascend, as pbrt-v4 asks for: they are sorted"
+          s"the wavelengths of `${p.name}` must ascend in pbrt-v4; sorting them"
         )
       val outside =
         if site.dialect == Dialect.V4 then Spectrum.Outside.Zero else Spectrum.Outside.Clamped

@@ -80,7 +80,7 @@ object FilmFile:
     catch case e: IOException => Left(reason(e))
 
   private def reason(e: IOException): String = e match
-    case _: EOFException => "it is damaged: it has fewer values than it says"
+    case _: EOFException => "it is damaged: values are missing"
     case other => IoReason(other)
 
   /** Numbers that can't be in a film file: its checksum is right, but it was not written by us. */

@@ -3,7 +3,7 @@ package candela.render.storage
 import candela.base.{CheckedInput, CheckedOutput}
 import candela.render.{RenderPlan, RenderState}
 
-/** What a saved rendering is a rendering of.
+/** Identifies a saved rendering.
   *
   * @param version  of the program
   * @param scene    the scene file, as it was named
@@ -65,7 +65,7 @@ final case class FilmHeader(
     val changed = files.toMap.keySet ++ other.files.toMap.keySet
     val file = changed.toVector.sorted.find(f => files.toMap.get(f) != other.files.toMap.get(f))
     differ("version", version, other.version)
-      .orElse(file.map(f => s"another `$f`"))
+      .orElse(file.map(f => s"`$f` differs"))
       .orElse(differ("options", s"`${words.mkString(" ")}`", s"`${other.words.mkString(" ")}`"))
       .orElse(differ("size", size, other.size))
       .orElse(differ("samples per pixel", samples, other.samples))

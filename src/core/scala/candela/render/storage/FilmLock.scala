@@ -30,7 +30,7 @@ object FilmLock:
     val file = target.resolveSibling(s".${target.getFileName}.lock")
     // A pipe would wait, and a link might lead anywhere
     if Files.exists(file, NOFOLLOW_LINKS) && !Files.isRegularFile(file, NOFOLLOW_LINKS) then
-      throw IOException(s"`$file` is no lock, but a link, a folder or a pipe")
+      throw IOException(s"`$file` is not a lock file, but a link, a folder or a pipe")
     val channel = FileChannel.open(file, CREATE, WRITE, NOFOLLOW_LINKS)
     val isOurs =
       try channel.tryLock() != null

@@ -119,7 +119,7 @@ private[commands] final case class ImageSet(name: String, files: Vector[Path]):
         else s"`$first` and ${Figures.count(more, "more image")} are"
       throw ImageError(
         Code.DifferentImages,
-        s"$which in both sets; each set needs images of seeds of its own"
+        s"$which in both sets; each set needs its own seeds"
       )
 
 private[commands] object ImageSet:
@@ -140,7 +140,7 @@ private[commands] object ImageSet:
     for twice <- files.diff(files.distinct).headOption do
       throw ImageError(
         Code.DifferentImages,
-        s"$name: `$twice` is named twice; noise shows between different seeds"
+        s"$name: `$twice` is given twice; use different seeds"
       )
     ImageSet(name, files)
 

@@ -74,7 +74,7 @@ final class MergeCommand(
     found.collect { case (film, Vector()) => film }
 
   private def leaveOut(bad: Vector[Problem]): Unit = report.warnings(
-    bad.map(p => p.copy(severity = Severity.Warning, message = s"${p.message}; it is left out")),
+    bad.map(p => p.copy(severity = Severity.Warning, message = s"${p.message}; it is omitted")),
     all = true
   )
 
@@ -132,7 +132,7 @@ final class MergeCommand(
       for first <- most.take(1); film <- films; why <- first.header.difference(film.header)
       yield Problem.general(
         Code.OtherRendering,
-        s"`${film.path}` is of another rendering than `${first.path}`: $why"
+        s"`${film.path}` and `${first.path}` belong to different renderings: $why"
       )
     (most, problems)
 
@@ -151,7 +151,7 @@ final class MergeCommand(
           problems +=
             Problem.general(
               Code.IncompleteShards,
-              s"shard $shard/${film.header.count} is there twice: $both"
+              s"shard $shard/${film.header.count} is given twice: $both"
             )
           false
     (films.filter(kept.contains), problems.result())
@@ -178,5 +178,5 @@ final class MergeCommand(
         Code.IncompleteShards,
         s"$which unfinished, with ${header.done} of ${header.samples} samples " +
           s"per pixel: `${film.path}`",
-        Some(s"$completed; --partial merges what there is")
+        Some(s"$completed; --partial merges the samples so far")
       )

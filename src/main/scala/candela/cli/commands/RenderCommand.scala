@@ -36,7 +36,7 @@ final class RenderCommand(
     val files = options.sceneCache
     if options.keepsScenes && files.isEmpty then
       val help = Some("name one: --scene-cache FOLDER")
-      val message = "--scene-cache needs a folder, and this system names none for caches"
+      val message = "--scene-cache needs a folder: this system has no cache folder"
       throw SceneError(Problem.general(Code.OptionMisfit, message, help))
     if files.nonEmpty || sequence.frames.size > 1 then Keep(files) else Keep.Nothing
   private lazy val denoising = Option.when(options.settings.output.denoise):

@@ -69,9 +69,9 @@ private[candela] final class FileRegister:
     for
       folders <- room
       if !place(file).exists(there => folders.exists(there.startsWith(_)))
-      message = s"expected a place for the ${output.kind} in the folder of the image, found `$file`"
+      message = s"the ${output.kind} must be in the folder of the image, found `$file`"
     yield
-      val help = Some("--sandbox lets files be written in that of --outfile or of the scene only")
+      val help = Some("--sandbox allows output only in the folder of --outfile or of the scene")
       Problem.error(Code.Sandboxed, output.at, message, help)
 
   /** A pipe would be written to for ever, if nobody reads it. */

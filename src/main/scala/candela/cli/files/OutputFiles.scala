@@ -39,7 +39,7 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
     def isPipe(path: Path) = Files.exists(path) && !Files.isRegularFile(path)
     val (lost, kept) = paths.drop(1).partition(path => isRead(path) || isPipe(path))
     val told = lost.map: path =>
-      val why = if isRead(path) then "an input file" else "no regular file"
+      val why = if isRead(path) then "an input file" else "not a regular file"
       Problem(
         Code.OutputConflict,
         Severity.Warning,

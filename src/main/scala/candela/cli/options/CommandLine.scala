@@ -54,7 +54,7 @@ object CommandLine:
     val named = commandOf(first)
     def mistyped(word: String) =
       val near = Suggest.nearest(word, Command.values.map(_.word) ++ Vector("help", "version"))
-      near.map(n => noCommand(s"`$word` is no command; did you mean `$n`?"))
+      near.map(n => noCommand(s"`$word` is not a command; did you mean `$n`?"))
     if args.exists(HelpWords) then Some(told(named))
     else if args.exists(VersionWords) || (first == "version" && args.size == 1) then
       Some(Answer(VersionText.lines()))
@@ -63,7 +63,7 @@ object CommandLine:
         case None => Some(told(None))
         case Some(word) =>
           commandOf(word).map(c => told(Some(c))).orElse(mistyped(word)).orElse:
-            Some(noCommand(s"`$word` is no command"))
+            Some(noCommand(s"`$word` is not a command"))
     else if named.isEmpty && isWord(first) then mistyped(first)
     else None
 

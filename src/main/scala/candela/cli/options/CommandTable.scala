@@ -137,7 +137,7 @@ private[cli] object CommandTable extends OptionRows:
         file(
           "reference",
           "its reference, or a folder of references by the same names; with " +
-            "--bias, what another program makes of the scene"
+            "--bias, another program's images of the scene"
         )
       ),
       Words.images,
@@ -169,7 +169,7 @@ private[cli] object CommandTable extends OptionRows:
     CommandRow(
       Command.Explain,
       "explain a problem: what it means, an example, the cure",
-      Vector(file("[E0123]...", "numbers of problems, as messages end with them (default: all)")
+      Vector(file("[E0123]...", "numbers of problems, which end messages (default: all)")
         .optional().unbounded()),
       Words.Of(Code.values.toVector.map(_.word)),
       Vector.empty,

@@ -70,17 +70,16 @@ private[cli] object FilmTable extends OptionRows:
   private def goals: Vector[Row] = Vector(
     opt[Double]("time")(using seconds).valueName("TIME")
       .text(OptionText(
-        "end after this time of rendering, e.g. 10m; --spp N, if given, is a ceiling",
-        "Times are like `90s`, `10m` and `2h`, and begin when the scene was read and built. " +
-          "With `--error`, too, whichever comes first ends it. The scene's own number of " +
-          "samples is no bound: [time and error](NOISE.md#time-and-error)."
+        "end after this rendering time, e.g. 90s, 10m or 2h; --spp N is then a maximum",
+        "Reading and building the scene don't count. With `--error`, whichever comes first ends " +
+          "it: [time and error](NOISE.md#time-and-error)."
       ))
       .action(setGoal((t, g) => g.copy(time = Some(t)))),
     opt[Double]("error")(using reading(TextForm.share)).valueName("X")
       .text(OptionText(
-        "end when the relative error, estimated from the noise, is below X, e.g. 0.02 or 2%",
-        "The relative error is the root of the relative MSE; `--spp N`, if given, is a ceiling: " +
-          "[how the error is estimated](NOISE.md#time-and-error)."
+        "end when the relative error, estimated from the noise, is below X, e.g. 0.02 or 2%; " +
+          "--spp N is then a maximum",
+        "[How the error is estimated](NOISE.md)."
       ))
       .action(setGoal((x, g) => g.copy(error = Some(x))))
   )
@@ -98,8 +97,8 @@ private[cli] object FilmTable extends OptionRows:
     every,
     opt[Shard]("shard").valueName("I/N")
       .text(OptionText(
-        "take the I-th of N parts of the samples, 0 <= I < N; needs --outfile FILE.film",
-        "`merge` adds the parts up: [several machines](FILMS.md#several-machines)."
+        "render part I of N of the samples, 0 <= I < N; needs --outfile FILE.film",
+        "`merge` combines the parts: [several machines](FILMS.md#several-machines)."
       ))
       .action((s, o) => change(o)(_.copy(shard = s))),
     opt[Range]("frames").valueName("FIRST-LAST")
@@ -114,7 +113,7 @@ private[cli] object FilmTable extends OptionRows:
         else failure(s"--frames must be at most ${FilmOptions.MostFrames} frames, found `$size`")
       .action((r, o) => change(o)(_.copy(frames = Some(r), skipDone = true))),
     opt[Unit]("skip-done")
-      .text("skip scenes whose images are whole, and of this scene and these options")
+      .text("skip scenes whose complete image, with the same options, exists")
       .action((_, o) => change(o)(_.copy(skipDone = true)))
   ) ++ goals
 
@@ -122,7 +121,7 @@ private[cli] object FilmTable extends OptionRows:
 
   def merge: Vector[Row] = Vector(
     opt[Unit]("partial")
-      .text("merge what there is, without films that are missing, damaged, doubled or foreign")
+      .text("merge the valid films, without missing, damaged, duplicate and foreign ones")
       .action((_, o) => change(o)(_.copy(partial = true)))
   ) ++ LimitTable.options
 

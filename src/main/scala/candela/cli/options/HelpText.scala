@@ -106,8 +106,8 @@ private[cli] object UsageErrors:
       case s"Unknown argument '$file'" =>
         val all = row.files.mkString(" and ")
         val message =
-          if row.files.isEmpty then s"$command takes options alone, found `$file`"
-          else s"$command takes $all, found `$file`, too"
+          if row.files.isEmpty then s"$command takes only options; unexpected argument `$file`"
+          else s"$command takes $all; unexpected argument `$file`"
         UsageError(Code.MoreArguments, message)
       case s"Missing argument $file" => missing(s"a file: $file")
       case s"Missing option --$name" => missing(s"--$name ${valueOf(name, row)}")

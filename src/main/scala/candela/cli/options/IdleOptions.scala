@@ -8,7 +8,7 @@ import java.nio.file.Path
 import scala.util.Try
 
 /** Options that can have no effect beside the others of a command line. What depends on the scene
-  * is told when it is built.
+  * is reported when it is built.
   */
 private[candela] object IdleOptions:
 
@@ -30,7 +30,7 @@ private[candela] object IdleOptions:
   private def scenes(o: Options): Vector[String] =
     val formats = o.files.flatMap(f => Try(SceneFormat.of(Path.of(f))).toOption).distinct
     val names = formats.map(_.name).mkString(" and ")
-    idle("dialect", s": scenes of $names's have none of pbrt's dialects")(
+    idle("dialect", s": $names scenes have no pbrt dialect")(
       formats.nonEmpty && !formats.exists(_.hasDialects) && o.settings.reading.dialect.isDefined
     )
 
@@ -56,7 +56,7 @@ private[candela] object IdleOptions:
     silent ++ interval(o, isFilm) ++
       idle("write-partial-images", ": only a film is written")(o.partialImages && isFilmAlone) ++
       idle("sample", " without --debug")(o.sample != 0 && !o.debug) ++
-      idle("store-time", s": ${listed(formats)} files store no texts")(
+      idle("store-time", s": ${listed(formats)} files store no metadata")(
         o.settings.output.storeTime && formats.nonEmpty && formats.forall(!_.keepsTexts)
       )
 
@@ -72,7 +72,7 @@ private[candela] object IdleOptions:
     val hasPicture = formats.isEmpty || isShown || formats.exists(_.contents == Contents.Display)
     val plain = DisplayTransform.Plain
     val d = o.display
-    val why = s": ${listed(formats)} files keep the light as it is"
+    val why = s": ${listed(formats)} files store linear light"
     def unseen(option: String, isGiven: Boolean) = idle(option, why)(!hasPicture && isGiven)
     unseen("tonemap", d.curve != plain.curve) ++
       unseen("exposure", d.exposure != Exposure.Stops(0f)) ++

@@ -43,15 +43,15 @@ private[cli] object LimitTable:
   def options: Vector[OParser[?, Options]] = Vector(
     opt[Unit]("sandbox")
       .text(OptionText(
-        "for scenes of strangers: they read files of their own folder only, images go there or " +
-          "beside --outfile, and the limits of --limit hold; see SECURITY.md",
-        "[What it promises](../SECURITY.md)."
+        "for untrusted scenes: read only files of the scene's folder, write only there or beside " +
+          "--outfile, and apply the limits of --limit",
+        "[What it guarantees](../SECURITY.md)."
       ))
       .action((_, o) => o.copy(limits = o.limits.copy(sandbox = true))),
     opt[Seq[Changed]]("limit").unbounded().valueName("NAME=N[,NAME=N]")
       .text(
-        s"end with an error at more than N $names, e.g. bytes=2GB,time=10m " +
-          s"(default: none; of --sandbox: ${defaults})"
+        s"fail at more than N $names, e.g. bytes=2GB,time=10m " +
+          s"(default: none; with --sandbox: ${defaults})"
       )
       .action: (all, o) =>
         val changed = o.limits.changed ++ all.map(c => c.limit -> c.most)

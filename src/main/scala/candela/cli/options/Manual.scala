@@ -51,7 +51,7 @@ private[cli] object Manual:
       |them with placeholders. Unknown shapes, materials, area lights, volumes and accelerators of
       |v2 and v3 scenes, many of them from forks of pbrt, are always warnings, and replaced as in
       |pbrt. Unsupported features are always reported: a warning names the feature, its location in
-      |the file and the fallback. Options that have no effect are warned of.
+      |the file and the fallback. Options without effect cause a warning.
       |
       |Messages are coloured on terminals only, and not if `NO_COLOR` is set. Control characters in
       |scenes, metadata and names of files are shown (`␛`, `<U+202E>`) instead of obeyed; a scene
@@ -77,8 +77,8 @@ private[cli] object Manual:
         Vector("`JAVA_OPTS`", "more options of the JVM, such as `-Xmx8g`"),
         Vector(
           "`CANDELA_ARCHIVE`",
-          "class-data archive for a fast start, made after the first run; `make` makes it now " +
-            "and exits, `none` neither makes nor uses it: [how start-up " +
+          "class archive for a fast start, written after the first run; `make`: write it now " +
+            "and exit; `none`: neither write nor use it: [how start-up " +
             "works](decisions/0014-start-up.md)"
         ),
         Vector(
@@ -92,7 +92,7 @@ private[cli] object Manual:
         ),
         Vector(
           "`CANDELA_PROGRESS`",
-          "`lines`: messages have the progress four times a second, for programs that show it"
+          "`lines`: print progress four times a second, for programs that display it"
         ),
         Vector(
           "`CANDELA_PARENT`",

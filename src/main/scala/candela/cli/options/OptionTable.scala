@@ -47,15 +47,14 @@ private[candela] object OptionTable extends OptionRows:
       .unbounded().valueName("NAME=VALUE")
       .text(OptionText(
         "set $NAME of a Mitsuba scene; also -DNAME=VALUE",
-        "[Mitsuba's scenes](MITSUBA.md) have such parameters."
+        "[Mitsuba scenes](MITSUBA.md)."
       ))
       .action(setReading((d, r) => r.copy(defines = r.defines + d)))
 
   private def color: Row = opt[ColorMode]("color").valueName("auto|rgb|spectral")
     .text(OptionText(
-      "what paths carry: three numbers or wavelengths (default: as accurate colours need)",
-      "`auto` takes three numbers where they are off by less than half a percent, and light at " +
-        "sampled wavelengths elsewhere."
+      "render RGB or sampled wavelengths (default auto: RGB where it is accurate)",
+      "`auto` uses RGB where its error is below half a percent."
     ))
     .action(set((mode, s) => s.copy(color = mode)))
 
@@ -99,19 +98,18 @@ private[candela] object OptionTable extends OptionRows:
     val words = PointChoice.all.map(_.word).mkString("|")
     opt[PointChoice]("sampler").valueName(words)
       .text(OptionText(
-        "sample points: those with the least noise instead of the scene's (best, the default), " +
-          "the scene's own, or these",
+        "sample points: those with the least noise (best, the default), the scene's own, or these",
         "`progressive` is the default with `--time` and `--error`; " +
-          "[which points have the least noise](SAMPLERS.md)."
+          "[measurements](SAMPLERS.md)."
       ))
       .action(set((p, s) => s.copy(points = Some(p))))
 
   private def fireflies: Row =
     opt[Fireflies]("fireflies").valueName("keep|reweight|clamp:X")
       .text(OptionText(
-        "less noise, but bias: leave out light that few samples have found, or limit each " +
-          "sample's indirect light to X (default: keep)",
-        "[What it brings and costs](NOISE.md#fireflies)."
+        "trade noise for bias: omit light that few samples have found, or limit each sample's " +
+          "indirect light to X (default: keep)",
+        "[Fireflies](NOISE.md#fireflies)."
       ))
       .action(set((f, s) => s.copy(fireflies = f)))
 
@@ -190,13 +188,13 @@ private[candela] object OptionTable extends OptionRows:
       .action((f, o) => o.copy(reference = Some(f))),
     opt[Option[WatchAddress]]("watch").valueName("[PORT]")
       .text(OptionText(
-        "serve a live page of the image, on this machine only (default: a usual port); with " +
-          "ADDRESS:PORT elsewhere, too, for those who have the link",
+        "serve a live page of the image, on this machine only; with ADDRESS:PORT, to anyone who " +
+          "has the link",
         "[The live page](WATCHING.md)."
       ))
       .action((a, o) => o.copy(watch = Some(a.getOrElse(WatchAddress(None, None))))),
     opt[Unit]("watch-after")
-      .text("keep the live page when rendering has ended, until Ctrl-C or its button `end`")
+      .text("keep the live page after rendering, until Ctrl-C or its button `end`")
       .action((_, o) => o.copy(watchAfter = true)),
     opt[(String, Int)]("display-server").valueName("HOST[:PORT]")
       .text(OptionText(
@@ -224,7 +222,7 @@ private[candela] object OptionTable extends OptionRows:
 
   val merge: Vector[Row] = Vector(
     opt[Seq[String]]('o', "outfile").required().unbounded().valueName("FILE[,FILE]")
-      .text(s"output image, ${OutputFormat.listed()}; or .film: the film of all")
+      .text(s"output image, ${OutputFormat.listed()}; or .film: the merged film")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f))
   ) ++ FilmTable.merge ++ Vector(quiet, verbose(""))
 
@@ -235,7 +233,7 @@ private[candela] object OptionTable extends OptionRows:
 
   val describe: Vector[Row] = Vector(
     opt[Unit]("pbrt-options")
-      .text("print the options of pbrt's command lines, and what they are here, as Markdown")
+      .text("print pbrt's options and their equivalents as a Markdown page")
       .action((_, o) => o.copy(pages = o.pages :+ Page.PbrtOptions)),
     opt[Unit]("commands")
       .text("print all commands and options as a Markdown page")

@@ -177,7 +177,7 @@ object PbrtOptions:
         case Same(note) => s"the same; $note"
         case As(words*) => s"`${words.mkString(" ")}`"
         case Ignored(reason, _, _) => s"accepted, without effect: $reason"
-        case Refused(instead) => s"refused: $instead"
+        case Refused(instead) => s"rejected: $instead"
       val versions = Dialect.ofPbrt.filter(o.dialects).map(Dialects.name).mkString(" ")
       s"| `${o.shown}` | $versions | $here |"
     (Introduction +: rows :+ "").mkString("\n")

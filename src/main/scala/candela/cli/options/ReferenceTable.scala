@@ -18,8 +18,8 @@ private[cli] object ReferenceTable extends OptionRows:
     opt[Double]("error")(using reading(TextForm.share)).valueName("X")
       .text(OptionText(
         "end when the reference's own relative error is below X, e.g. 0.002 or 0.2%",
-        s"At least ${ReferenceFile.FewestRuns} runs are made, from whose differences the error " +
-          "is known: [references](NOISE.md#references)."
+        s"The error is estimated from the differences between runs, at least " +
+          s"${ReferenceFile.FewestRuns}: [references](NOISE.md#references)."
       ))
       .action(setGoal((x, g) => g.copy(error = Some(x)))),
     opt[Double]("time")(using reading(TextForm.seconds)).valueName("TIME")
@@ -30,7 +30,7 @@ private[cli] object ReferenceTable extends OptionRows:
       .validate(atLeast("spp", 1))
       .action((n, o) => o.copy(taken = Some(n))),
     opt[Int]("seed").valueName("N")
-      .text("another reference, independent of that of other seeds (default 0)")
+      .text("random seed: references of different seeds are independent (default 0)")
       .action(set((n, s) => s.copy(seed = n)))
   )
 

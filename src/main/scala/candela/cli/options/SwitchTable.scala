@@ -39,13 +39,11 @@ private[cli] object SwitchTable extends OptionRows:
     )(_.copy(oneColorSet = true)),
     opt[GuidingMode]("guiding").valueName("auto|on|off")
       .text(OptionText(
-        "path guiding: where it reduces noise (auto, default with --time and --error), " +
-          "everywhere (on), or not at all (off, default with a number of samples)",
-        "Paths of `path` and `volpath` learn where light comes from, on surfaces and in media, " +
-          "for a quarter of the samples. Where a time or an error ends the rendering, or with " +
-          "`--sampler progressive`, `auto` learns until it brings no more, so samples can be " +
-          "added. A sample takes 1.2 to 16 times as long, with far less noise, so compare by " +
-          "time or error: [what it brings](decisions/0020-path-guiding.md)."
+        "path guiding: where it reduces noise (auto), everywhere (on), off " +
+          "(default: auto with --time or --error, else off)",
+        "`path` and `volpath` learn incident light, on surfaces and in media, from a quarter of " +
+          "the samples. A guided sample takes 1.2 to 16 times as long, with less noise, so " +
+          "compare by time or error: [measurements](decisions/0020-path-guiding.md)."
       ))
       .action(set((mode, s) => s.copy(guiding = Some(mode)))),
     opt[CausticsMode]("caustics").valueName("auto|on|off|photons")

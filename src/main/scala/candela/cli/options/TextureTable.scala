@@ -39,8 +39,8 @@ private[cli] object TextureTable extends OptionRows:
   def scenes: Vector[Row] = Vector(
     opt[Option[Path]]("scene-cache").valueName("[FOLDER]")
       .text(OptionText(
-        "keep meshes, hierarchies and tables of environment maps for later renderings, in the " +
-          "folder of the texture cache or another one",
+        "cache meshes, hierarchies and tables of environment maps for later renderings, in the " +
+          "texture cache's folder or another one",
         "The image is the same: [the scene cache](FILMS.md#the-scene-cache)."
       ))
       .action((folder, o) => o.copy(keepsScenes = true, sceneFolder = folder))
@@ -49,8 +49,8 @@ private[cli] object TextureTable extends OptionRows:
   def options: Vector[Row] = Vector(
     opt[Long]("texture-memory")(using reading(TextForm.size)).valueName("SIZE")
       .text(OptionText(
-        "memory for images of textures and environment maps, e.g. 500M or 2G: those that may " +
-          "take more are read in tiles, from a cache (default: an eighth of the heap, at most 1G)",
+        "memory for textures and environment maps, e.g. 500M or 2G; larger ones are read in " +
+          "tiles, from a cache (default: an eighth of the heap, at most 1G)",
         "The image is the same: [textures](TEXTURES.md)."
       ))
       .validate: n =>
@@ -68,9 +68,9 @@ private[cli] object TextureTable extends OptionRows:
       .action(kept((f, t) => t.copy(folder = Some(f)))),
     opt[Long]("texture-cache-size")(using reading(TextForm.size)).valueName("SIZE")
       .text(OptionText(
-        "size of the texture cache: files that were used least recently are deleted beyond it " +
+        "maximum size of the texture cache; the least recently used files are deleted " +
           "(default 20G)",
-        "Files that a run has written stay until the next file is written."
+        "Files of the current run stay until the next file is written."
       ))
       .action(kept((n, t) => t.copy(folderSize = n)))
   )

@@ -188,7 +188,7 @@ final class LightLayersSuite extends AnyFunSuite:
       val text = box(s"Integrator \"$integrator\"")
       assert(
         problems(text, LightGrouping.Types, Layer.Direct) == Vector(
-          "this integrator does not divide light: AOVs direct need \"path\" or \"volpath\""
+          "this integrator does not separate light: AOVs direct need \"path\" or \"volpath\""
         ),
         integrator
       )

@@ -66,12 +66,12 @@ final class SpectraSuite extends AnyFunSuite:
     import SpectrumRole.*
     for role <- SpectrumRole.values do
       assert(messages("0 0.5 1", role).isEmpty)
-      val refused = "`I` has a component below 0, which pbrt-v4 refuses: found 1.0 -0.5 0.0"
+      val refused = "`I` has a component below 0, which pbrt-v4 rejects: found 1.0 -0.5 0.0"
       assert(messages("1 -0.5 0", role) == Vector(refused))
       for dialect <- Seq(Dialect.V2, Dialect.V3) do
         assert(messages("1 -0.5 2", role, dialect).isEmpty)
     for role <- Seq(Unbounded, Emission) do assert(messages("1 2 3", role).isEmpty)
-    val refused = "`I` has a component above 1, which pbrt-v4 refuses: found 1.0 2.0 3.0"
+    val refused = "`I` has a component above 1, which pbrt-v4 rejects: found 1.0 2.0 3.0"
     assert(messages("1 2 3", Reflectance) == Vector(refused))
 
   test("wavelengths that do not ascend are sorted, and told of in v4, which refuses them"):
@@ -82,7 +82,7 @@ final class SpectraSuite extends AnyFunSuite:
     assert(nothing.isEmpty && mixed == sorted)
     assert(
       messages == Vector(
-        "the wavelengths of `I` do not ascend, as pbrt-v4 asks for: they are sorted"
+        "the wavelengths of `I` must ascend in pbrt-v4; sorting them"
       )
     )
     assert(read("500 3 400 1 600 2", Dialect.V3)._2.isEmpty)

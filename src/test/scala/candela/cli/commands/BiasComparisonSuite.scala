@@ -111,7 +111,7 @@ class BiasComparisonSuite extends AnyFunSuite:
       assert(none._1 == 1 && none._2.err.contains("expected images, found none"))
       val b = images(folder.resolve("b"), 2, 2)
       val same = run(b, s"$a/*.exr,${copy(Path.of(a))}")
-      assert(same._1 == 1 && same._2.err.contains("are the same"))
+      assert(same._1 == 1 && same._2.err.contains("are identical"))
       assert(run(a, a, "--max-mse", "1")._1 == 2)
       assert(run(a, a, "--difference", "d.exr")._1 == 2)
       assert(run(a, a, "--significance", "2")._1 == 2)
@@ -126,7 +126,7 @@ class BiasComparisonSuite extends AnyFunSuite:
       val one = run(a, s"$b/run-1.exr,$a/../a/run-2.exr")
       assert(one._1 == 1 && one._2.err.contains(s"`$a/run-2.exr` is in both"), one._2.err)
       val twice = run(b, s"$a/run-1.exr,$a/run-1.exr")
-      assert(twice._1 == 1 && twice._2.err.contains(s"`$a/run-1.exr` is named twice"))
+      assert(twice._1 == 1 && twice._2.err.contains(s"`$a/run-1.exr` is given twice"))
 
   test("a missing file or folder is told with a name like it"):
     TempFolder.use: folder =>

@@ -75,10 +75,10 @@ class ReferenceCommandSuite extends AnyFunSuite:
       def made(args: String*) = run((ball +: args) ++ Vector("--error", "50%", "--outfile", file)*)
       assert(made("--spp", "2")._1 == 0)
       val other = made("--spp", "4")
-      assert(other._1 == 1 && other._2.err.contains("is the reference of another scene"))
+      assert(other._1 == 1 && other._2.err.contains("is a reference of another scene"))
       ImageFiles.write(Path.of(file), Image.rgb(12, 8))
       val image = made("--spp", "2")
-      assert(image._1 == 1 && image._2.err.contains("is an image, but no reference"))
+      assert(image._1 == 1 && image._2.err.contains("is an image, not a reference"))
 
   test("compare tells the reference's own error, and the image's without it"):
     TempFolder.use: folder =>

@@ -134,10 +134,10 @@ class CommandLineSuite extends AnyFunSuite:
     "--spark fake --write-partial-images a.pbrt" ->
       "--spark can't be combined with --write-partial-images",
     "merge a.film" -> "`candela merge` needs --outfile FILE[,FILE]",
-    "rneder a.pbrt" -> "`rneder` is no command; did you mean `render`?",
-    "hlep" -> "`hlep` is no command; did you mean `help`?",
-    "help rendr" -> "`rendr` is no command; did you mean `render`?",
-    "help nothing" -> "`nothing` is no command",
+    "rneder a.pbrt" -> "`rneder` is not a command; did you mean `render`?",
+    "hlep" -> "`hlep` is not a command; did you mean `help`?",
+    "help rendr" -> "`rendr` is not a command; did you mean `render`?",
+    "help nothing" -> "`nothing` is not a command",
     "--spp 0 a.pbrt" -> "--spp must be at least 1, found `0`",
     "--spp many a.pbrt" -> "--spp must be a number, found `many`",
     "--nthreads 0 a.pbrt" -> "--nthreads must be at least 1, found `0`",
@@ -167,7 +167,7 @@ class CommandLineSuite extends AnyFunSuite:
     "--display-server x a.pbrt b.pbrt" -> "--display-server needs a single scene",
     "bench s.conf --seeds 0" -> "--seeds must be at least 1, found `0`",
     "compare a.exr" -> "reference",
-    "compare a.exr b.exr c.exr" -> "takes image and reference, found `c.exr`, too",
+    "compare a.exr b.exr c.exr" -> "takes image and reference; unexpected argument `c.exr`",
     "compare --max-relmse -1 a.exr b.exr" -> "--max-relmse must be at least 0, found `-1.0`",
     "compare --crop 1,2,3 a.exr b.exr" -> "--crop must be x0,x1,y0,y1 in pixels",
     "compare --heatmap-metric psnr a.exr b.exr" ->

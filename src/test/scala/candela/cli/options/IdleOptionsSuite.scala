@@ -22,17 +22,17 @@ class IdleOptionsSuite extends AnyFunSuite:
     "a.pbrt --pixelmaterial 1,1 --time 3s" ->
       "--time has no effect: --pixelmaterial renders no image",
     "a.xml --dialect v4" ->
-      "--dialect has no effect: scenes of Mitsuba's have none of pbrt's dialects",
+      "--dialect has no effect: Mitsuba scenes have no pbrt dialect",
     "a.pbrt -o x.film --write-partial-images" ->
       "--write-partial-images has no effect: only a film is written",
     "a.pbrt -o x.exr --tonemap aces" ->
-      "--tonemap has no effect: .exr files keep the light as it is",
+      "--tonemap has no effect: .exr files store linear light",
     "a.pbrt -o x.exr,x.pfm --exposure 2" ->
-      "--exposure has no effect: .exr and .pfm files keep the light as it is",
-    "a.pbrt -o x.exr --dither" -> "--dither has no effect: .exr files keep the light as it is",
+      "--exposure has no effect: .exr and .pfm files store linear light",
+    "a.pbrt -o x.exr --dither" -> "--dither has no effect: .exr files store linear light",
     "a.pbrt -o x.jpg --bits 16" -> "--bits has no effect: only .png files may have 16",
     "a.pbrt -o x.png --bits 16 --dither" -> "--dither has no effect on 16 bits",
-    "a.pbrt -o x.tga --store-time" -> "--store-time has no effect: .tga files store no texts",
+    "a.pbrt -o x.tga --store-time" -> "--store-time has no effect: .tga files store no metadata",
     "image a.exr -o x.png --half" -> "--half has no effect: only .exr files have it",
     "image a.exr -o x.png --colorspace rec2020" ->
       "--colorspace has no effect: only .exr files have it",
@@ -110,7 +110,7 @@ class IdleOptionsSuite extends AnyFunSuite:
 
   test("wavelengths and displacements that a scene has not are no matter of options"):
     val colors = warnings("\"path\"", "--disable-wavelength-jitter")
-    val note = "--disable-wavelength-jitter has no effect: colours are three"
+    val note = "--disable-wavelength-jitter has no effect: rendering is RGB"
     assert(colors.exists(_.startsWith(note)))
     assert(warnings("\"path\"", "--color", "spectral", "--disable-wavelength-jitter").isEmpty)
     val edges = warnings("\"path\"", "--displacement-edge-scale", "2")

@@ -38,7 +38,7 @@ class LimitsSuite extends AnyFunSuite:
   test("files: each counts once, however often it is read"):
     val include = "Include \"a.pbrt\"\n"
     val files = Vector("a", "b", "c").map(n => s"$n.pbrt" -> "Shape \"sphere\"\n")
-    refused("files=2", "`c.pbrt` is file number 3, where at most 2 are allowed", "s.pbrt:8:9")(
+    refused("files=2", "`c.pbrt` is file number 3; at most 2 are allowed", "s.pbrt:8:9")(
       ("s.pbrt" -> scene(s"$include${include}Include \"b.pbrt\"\nInclude \"c.pbrt\"\n")) +: files*
     )
 
@@ -53,7 +53,7 @@ class LimitsSuite extends AnyFunSuite:
 
   test("bytes: includes, images and meshes are read no further"):
     val comment = "# " + "x" * 5000 + "\n"
-    refused("bytes=4kB", "bytes are read, where at most 4000 are allowed")(
+    refused("bytes=4kB", "bytes are read; at most 4000 are allowed")(
       "s.pbrt" -> scene("Include \"a.pbrt\"\n"),
       "a.pbrt" -> comment
     )
@@ -104,7 +104,7 @@ class LimitsSuite extends AnyFunSuite:
 
   test("pixels: of the film with its layers, and of each image that is read"):
     val plain = scene("", "\"integer xresolution\" 100 \"integer yresolution\" 100")
-    refused("pixels=9999", "an image of 100×100 pixels, where at most 9999 are allowed", ":1:")(
+    refused("pixels=9999", "an image of 100×100 pixels; at most 9999 are allowed", ":1:")(
       "s.pbrt" -> plain
     )
     TempFolder.use: folder =>
@@ -122,13 +122,13 @@ class LimitsSuite extends AnyFunSuite:
           folder.resolve(name),
           scene(texture.replace("FILE", s"t.$kind"), Small)
         )
-        val expected = s"`t.$kind` has 300×200 pixels, where at most 59999 are allowed"
+        val expected = s"`t.$kind` has 300×200 pixels; at most 59999 are allowed"
         refused(folder, name, "pixels=59999", expected, s"$name:5:")
 
   test("depth: of includes, of paths, and of what is composed"):
     val files = (1 to 5).map(i => s"$i.pbrt" -> s"Include \"${i + 1}.pbrt\"\n") :+ ("6.pbrt" -> "")
     val nested = ("s.pbrt" -> scene("Include \"1.pbrt\"\n")) +: files
-    refused("depth=3", "includes are nested 4 deep, where at most 3 are allowed", "3.pbrt:1:9")(
+    refused("depth=3", "includes are nested 4 deep; at most 3 are allowed", "3.pbrt:1:9")(
       nested*
     )
     refused("depth=50", "paths of 51 scattering events", "s.pbrt:4:")(
@@ -145,7 +145,7 @@ class LimitsSuite extends AnyFunSuite:
 
   test("samples have a limit"):
     val many = scene("").replace("\"integer pixelsamples\" 1", "\"integer pixelsamples\" 65537")
-    refused("samples=65536", "65537 samples per pixel, where at most 65536 are allowed", ":2:9")(
+    refused("samples=65536", "65537 samples per pixel; at most 65536 are allowed", ":2:9")(
       "s.pbrt" -> many
     )
     TempFolder.use: folder =>
@@ -162,7 +162,7 @@ class LimitsSuite extends AnyFunSuite:
       // The whole rendering takes hours, and would replace the image
       val (code, captured) =
         Captured.run(file, "--limit", "time=0.5s", "--outfile", s"$image", "--checkpoint")
-      assert(code == 1 && captured.err.contains("the time of 0.5 s is over"), captured.err)
+      assert(code == 1 && captured.err.contains("the time limit of 0.5 s is reached"), captured.err)
       assert(Files.readString(before) == "before" && Files.exists(film))
 
   test("time: the statement that is read, or built, is named"):
@@ -170,7 +170,7 @@ class LimitsSuite extends AnyFunSuite:
       val over = Allowance(Map(Limit.Time -> 90_000L), endsAt = Some(System.nanoTime))
       def place(body: => Any): Option[SourcePos] =
         val refusal = intercept[Refusal](body)
-        assert(refusal.problem.message.contains("the time of 90 s is over"))
+        assert(refusal.problem.message.contains("the time limit of 90 s is reached"))
         refusal.problem.at
       val world = scene("Shape \"sphere\"\n")
       for (name, text) <- Vector("s.pbrt" -> world, "s.xml" -> xml("<shape type=\"sphere\"/>")) do
@@ -198,7 +198,7 @@ class LimitsSuite extends AnyFunSuite:
       val spheres = "Shape \"sphere\"\n".repeat(70_000)
       val file = Files.writeString(folder.resolve("s.pbrt"), scene(spheres))
       val (code, captured) = Captured.run("check", "--limit", "time=0.001s", file.toString)
-      assert(code == 1 && captured.err.contains("the time of 0.001 s is over"), captured.err)
+      assert(code == 1 && captured.err.contains("limit of 0.001 s is reached"), captured.err)
 
   test("the option takes units, several limits and `none`, and names what it does not know"):
     def limits(words: String*) =

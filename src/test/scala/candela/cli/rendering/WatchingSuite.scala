@@ -99,7 +99,7 @@ class WatchingSuite extends AnyFunSuite:
       assert(WebClient.get(s"${running.link}nonsense").code == 404)
       assert(WebClient.get(s"${running.link}pixel?x=40&y=0").code == 404)
 
-  test("keep on goes on beyond the planned samples, until it is stopped", Slow):
+  test("`add samples` goes on beyond the planned samples, until it is stopped", Slow):
     TempFolder.use: folder =>
       val gate = CountDownLatch(1)
       val endless = TinyPlan(spp = 16, filename = folder.resolve("a.exr").toString): (where, _) =>

@@ -39,7 +39,7 @@ class ForgedFilmSuite extends AnyFunSuite:
       CheckedFile.write(file, FilmFile.Mark): out =>
         Vector("1", "s.pbrt", "", "4x4").foreach(out.text)
         out.int(Int.MaxValue)
-      assert(intercept[IOException](FilmFile.open(file)).getMessage.contains("fewer values"))
+      assert(intercept[IOException](FilmFile.open(file)).getMessage.contains("values are missing"))
     finally Files.delete(file)
 
   test("runs of missing shards are named by their ends, many by the first"):
