@@ -1,4 +1,4 @@
-"""What the program says of a scene, as exceptions and warnings."""
+"""Errors and warnings of scenes, as exceptions."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Problem:
 
 
 class CandelaError(Exception):
-    """The program has ended without what was asked for.
+    """The program failed.
 
     ``problems`` are its errors; ``file``, ``line`` and ``column`` tell the place of the first,
     or are ``None``.

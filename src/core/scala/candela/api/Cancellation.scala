@@ -3,9 +3,7 @@ package candela.api
 /** Ends renderings early, from any thread. */
 final class Cancellation private (private[api] val of: candela.render.Cancellation):
 
-  /** Asks the renderings that have it to end. Each does so within a second, and returns what it has
-    * of its image.
-    */
+  /** Cancels all renderings with this object. Each returns its image so far within a second. */
   def cancel(): Unit = of.request()
   def isCancelled: Boolean = of.isRequested
 

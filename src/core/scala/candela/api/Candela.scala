@@ -6,26 +6,25 @@ import candela.job.{SceneFormat, SceneLoader}
 
 import java.nio.file.Path
 
-/** Renders scenes of pbrt and Mitsuba. This is where to begin:
+/** Renders scenes of pbrt and Mitsuba. Entry point of the library:
   * {{{
   * val scene = Candela.read(Path.of("scene.pbrt"))
   * Using.resource(scene.prepare(RenderSettings(samples = 64))): job =>
   *   job.render(threads = 8).image.save(Path.of("image.exr"))
   * }}}
   *
-  * Nothing here prints, exits, changes properties of the JVM, or keeps state that callers share:
-  * scenes and settings are immutable, and any number of jobs may be prepared and rendered at the
-  * same time.
+  * The library never prints, exits, or changes JVM properties. Scenes and settings are immutable;
+  * any number of jobs can be prepared and rendered at the same time.
   */
 object Candela:
 
-  /** Reads a scene: `.pbrt` of any version, `.xml` of Mitsuba, or either packed as `.gz`.
+  /** Reads a scene: `.pbrt` of any version, `.xml` of Mitsuba, or either compressed as `.gz`.
     *
-    * What is wrong with it is among [[Scene.problems]]; nothing is thrown.
+    * Throws nothing: [[Scene.problems]] lists all errors and warnings.
     */
   def read(file: Path): Scene = read(file, ReadSettings())
 
-  /** Reads a scene in another way than the usual one. */
+  /** Reads a scene with non-default settings. */
   def read(file: Path, how: ReadSettings): Scene =
     Scenes.read(file.toString, how):
       SceneLoader.refusing(SceneLoader.readable(SceneLoader.existing(file.toString), how.of))
@@ -37,9 +36,8 @@ object Candela:
 
   /** Reads a scene from a text.
     *
-    * @param name stands for the text in messages; no such file need exist. Its suffix tells the
-    *             format (`.xml` is Mitsuba's), and names of files in the text are relative to its
-    *             folder
+    * @param name name of the text in messages; the file need not exist. Its suffix determines the
+    *             format (`.xml`: Mitsuba); file names in the text are relative to its folder
     */
   def parse(text: String, name: Path, how: ReadSettings): Scene =
     Scenes.read(name.toString, how):
@@ -47,24 +45,22 @@ object Candela:
       val read = SceneLoader.refusing(SceneFormat.of(name).readText(name, text, folder, how.of))
       read.copy(unfiled = Vector(s"$name, a text" -> candela.base.Sha256.of(text)))
 
-  /** Begins a scene in code, statement by statement; file names in it are relative to the current
-    * folder.
-    */
+  /** Builds a scene in code; file names in it are relative to the current folder. */
   def build(): SceneBuilder = build(Path.of(""))
 
-  /** Begins a scene in code.
+  /** Builds a scene in code.
     *
-    * @param folder that file names in it are relative to
+    * @param folder base of relative file names
     */
   def build(folder: Path): SceneBuilder = SceneBuilder("scene", SceneFolder(folder), None)
 
   /** The version, as `0.1.0`. */
   def version: String = Version.current
 
-  /** Whether rays are traced by SIMD instructions, four or eight at a time; loads the JDK's Vector
-    * API if it can. Images are the same without, and take up to twice as long.
+  /** Whether rays are traced with SIMD instructions; loads the JDK's Vector API if possible.
+    * Without it, images are the same and take up to twice as long.
     *
-    * The API is there if the JVM is started by `--add-modules=jdk.incubator.vector`, or, which
-    * prints no warning, by `--add-exports=java.base/jdk.internal.module=ALL-UNNAMED`.
+    * It needs the JVM option `--add-modules=jdk.incubator.vector`, or, without the JDK's warning,
+    * `--add-exports=java.base/jdk.internal.module=ALL-UNNAMED`.
     */
   def isVectorized: Boolean = Hierarchies.hasVectors

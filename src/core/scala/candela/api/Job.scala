@@ -12,8 +12,8 @@ import java.util.{LinkedHashMap, List as JList, Map as JMap}
 
 import scala.collection.mutable.ArrayBuffer
 
-/** A scene that is ready to be rendered, any number of times, by several callers at once if need
-  * be. It holds all of the scene's memory. Its threads, which are daemons, end when it is closed.
+/** A prepared scene, which can be rendered any number of times, also concurrently. It holds the
+  * scene's memory. Closing it ends its daemon threads.
   */
 final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: Prepared)
     extends AutoCloseable:
@@ -22,25 +22,25 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   private val files = ImageFile(prepared.settings, scene.name, prepared)
   @volatile private var isClosed = false
 
-  /** Columns of the image, which may be a part of a larger one. */
+  /** Width of the image or crop window, in pixels. */
   def width: Int = plan.crop.width
 
-  /** Rows of the image. */
+  /** Height of the image or crop window, in pixels. */
   def height: Int = plan.crop.height
 
-  /** Samples per pixel that are planned. */
+  /** Planned samples per pixel. */
   def samplesPerPixel: Int = plan.samplesPerPixel
 
   /** Warnings of reading and building. */
   def problems: JList[Problem] = Problems.ofCore(prepared.warnings)
 
-  /** What the scene contains, and how it is rendered, in words: integrator, lights, triangles, … */
+  /** Describes the scene and its rendering: integrator, lights, triangles, … */
   def features: JMap[String, String] =
     val all = LinkedHashMap[String, String]()
     for (what, value) <- plan.features do all.put(what, value): Unit
     java.util.Collections.unmodifiableMap(all)
 
-  /** Renders by as many threads as there are processors. */
+  /** Renders with one thread per processor. */
   def render(): RenderResult = render(RenderControl())
 
   /** @param threads at least 1 */
@@ -57,10 +57,10 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   /** Renders, and returns when the image is complete, a goal is reached, or the rendering is
     * cancelled. The image does not depend on the threads.
     *
-    * @throws SceneException if the film file is of another rendering, or can't be read
+    * @throws SceneException if the film file belongs to another rendering, or can't be read
     * @throws RenderException if a sample fails
     * @throws java.util.concurrent.CancellationException if the calling thread is interrupted
-    * @throws java.lang.IllegalStateException if the job was closed before
+    * @throws java.lang.IllegalStateException if the job is closed
     */
   def render(control: RenderControl): RenderResult =
     if isClosed then throw IllegalStateException("the job was closed")

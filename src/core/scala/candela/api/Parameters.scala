@@ -6,7 +6,7 @@ import candela.scenefile.{Param, ParamType}
 import scala.annotation.varargs
 
 /** Parameters of a statement: names with values of a type, as in a file of pbrt-v4. Immutable: each
-  * method returns another value. Names and values are checked when the scene is read or prepared.
+  * method returns a new value. Names and values are checked when the scene is read or prepared.
   * {{{
   * Parameters().rgb("reflectance", 0.8, 0.2, 0.1).number("roughness", 0.3)
   * }}}
@@ -18,7 +18,7 @@ final class Parameters private (private val makers: Vector[SourcePos => Param]):
   private def floats(kind: ParamType, name: String, values: Array[Float]): Parameters =
     plus(Param.floats(kind, name, _, values))
 
-  /** Positions keep what Floats lack of large numbers. */
+  /** Positions keep Double precision. */
   private def doubles(kind: ParamType, name: String, values: Array[Double]): Parameters =
     val rounded = values.map(_.toFloat)
     val rests =

@@ -6,15 +6,15 @@ import java.util.Optional
 
 import scala.jdk.OptionConverters.*
 
-/** How grave a [[Problem]] is. */
+/** Severity of a [[Problem]]. */
 enum Severity extends java.lang.Enum[Severity]:
-  /** The scene is rendered all the same. */
+  /** The scene is rendered nevertheless. */
   case Warning
 
   /** The scene is not rendered. */
   case Error
 
-/** What is wrong with a scene, or with a setting. Immutable. */
+/** An error or warning about a scene or a setting. Immutable. */
 final class Problem private[api] (found: candela.base.Problem):
   private def at: Option[SourcePos] = found.at
 
@@ -22,25 +22,22 @@ final class Problem private[api] (found: candela.base.Problem):
     case candela.base.Severity.Warning => Severity.Warning
     case candela.base.Severity.Error => Severity.Error
 
-  /** What it is, as in `E0201`: one number for all with one meaning and one cure.
-    * `candela explain` prints both.
-    */
+  /** Identifies meaning and cure, such as `E0201`; `candela explain` prints both. */
   def number: String = found.code.word
 
-  /** Expected and found, on one line. */
+  /** The message, on one line. */
   def message: String = found.message
 
-  /** The cure, if one is known: what to write instead. */
+  /** The cure, if one is known. */
   def help: Optional[String] = found.help.toJava
 
-  /** The file, as it was named; of a scene made in code, the source file that made the statement.
-    */
+  /** The file, as it was named; in a scene built in code, the source file of the call. */
   def file: Optional[String] = at.map(_.file).toJava
 
   /** Line in the file, from 1; 0 if there is no file. */
   def line: Int = at.fold(0)(_.line)
 
-  /** Column in the line, from 1; 0 if there is no file. Of a scene made in code always 1. */
+  /** Column in the line, from 1; 0 if there is no file; 1 in a scene built in code. */
   def column: Int = at.fold(0)(_.column)
 
   /** The text of the line, if it is known. */
@@ -51,7 +48,7 @@ final class Problem private[api] (found: candela.base.Problem):
     val place = at.fold("")(p => s"$p: ")
     s"$place${severity.toString.toLowerCase}: $message${found.help.fold("")(h => s"; $h")}"
 
-/** A scene that can't be rendered, or a setting that means nothing. [[Candela.read]] and
+/** A scene that can't be rendered, or an invalid setting. [[Candela.read]] and
   * [[Scene.check]] return problems instead of throwing them.
   */
 final class SceneException private[api] (found: Vector[candela.base.Problem])

@@ -11,7 +11,7 @@ private[api] object Problems:
   def ofCore(found: Vector[candela.base.Problem]): java.util.List[Problem] =
     java.util.List.copyOf(found.map(Problem(_)).asJava)
 
-  /** Runs `body`; what it refuses is a [[SceneException]]. */
+  /** Runs `body` and turns its errors into a [[SceneException]]. */
   def thrown[A](body: => A): A =
     try body
     catch

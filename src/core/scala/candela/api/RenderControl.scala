@@ -5,7 +5,7 @@ import candela.base.Code
 import java.nio.file.Path
 import java.time.Duration
 
-/** How a job is rendered; the image is the same. Immutable: each method returns another value. */
+/** Controls a rendering without changing its image. Immutable: each method returns a new value. */
 final class RenderControl private (
     private[api] val threads: Int,
     private[api] val listener: RenderListener,
@@ -23,7 +23,7 @@ final class RenderControl private (
       every: Option[Duration] = every
   ): RenderControl = new RenderControl(threads, listener, cancellation, estimates, film, every)
 
-  /** @param count at least 1; without it, as many as there are processors */
+  /** @param count at least 1 (default: one per processor) */
   def withThreads(count: Int): RenderControl =
     if count < 1 then Problems.fail(Code.OptionValue, s"`threads` must be at least 1, found $count")
     copy(threads = count)
@@ -33,24 +33,23 @@ final class RenderControl private (
   def withCancellation(cancellation: Cancellation): RenderControl =
     copy(cancellation = cancellation)
 
-  /** Estimates the error of the image while it is rendered, which costs a few percent of the time.
-    */
+  /** Estimates the error during rendering, which costs a few percent of the time. */
   def withErrorEstimates: RenderControl = copy(estimates = true)
 
-  /** Keeps the rendering in a film file (`.film`), which `candela resume`, too, continues. If there
-    * is one of this very rendering, it goes on; the image is the same as if it had not been
-    * interrupted, bit for bit.
+  /** Saves the rendering in a film file (`.film`), which `candela resume` can continue, too. An
+    * existing film of this rendering is continued; the image is bit-identical to that of an
+    * uninterrupted rendering.
     */
   def withFilm(file: Path): RenderControl = copy(film = Some(file))
 
-  /** How often the film file is written, if not as often as is worth it; and at the end. */
+  /** Sets how often the film file is written; it is also written at the end. */
   def withFilmInterval(time: Duration): RenderControl = copy(every = Some(time))
 
 object RenderControl:
-  /** By all processors, unobserved. */
+  /** One thread per processor, no listener. */
   def apply(): RenderControl =
     val processors = Runtime.getRuntime.availableProcessors
     new RenderControl(processors, RenderListeners.Silent, Cancellation(), false, None, None)
 
-  /** By all processors, unobserved, for Java and Kotlin. */
+  /** One thread per processor, no listener, for Java and Kotlin. */
   def create(): RenderControl = apply()

@@ -9,13 +9,13 @@ import java.util.{Optional, OptionalDouble}
 
 import scala.jdk.OptionConverters.*
 
-/** Follows a rendering. It is called in the thread that renders, never in two at once; the image
-  * does not depend on it. Each method may be left out. What it throws ends the rendering, and is
-  * thrown by [[Job.render]].
+/** Observes a rendering. Its methods are called in the thread that called [[Job.render]]; the image
+  * doesn't depend on them. All methods are optional. If one throws, the rendering ends, and
+  * [[Job.render]] throws the exception.
   */
 trait RenderListener:
 
-  /** Called before the first sample. Any thread may look at `rendering` from then on. */
+  /** Called before the first sample. Any thread may use `rendering` from then on. */
   def started(rendering: LiveRendering): Unit = ()
 
   /** Called about ten times a second, and at the end. */
@@ -24,9 +24,7 @@ trait RenderListener:
   /** Whether [[passed]] is called; all workers pause meanwhile. */
   def wantsPasses: Boolean = false
 
-  /** Called after 1, 2, 4, 8, … samples per pixel, and at the end, when all pixels have equally
-    * many.
-    */
+  /** Called after 1, 2, 4, 8, … samples per pixel, and at the end. */
   def passed(pass: Pass): Unit = ()
 
 private[api] object RenderListeners:
@@ -35,28 +33,28 @@ private[api] object RenderListeners:
   def onProgress(act: Consumer[Progress]): RenderListener = new RenderListener:
     override def progressed(progress: Progress): Unit = act.accept(progress)
 
-/** How far a rendering is. Immutable. */
+/** Progress of a rendering. Immutable. */
 final class Progress private[api] (of: CoreProgress):
   /** Camera samples taken by this run, in all pixels. */
   def samples: Long = of.done
 
-  /** Camera samples to take; not known beforehand if a goal ends the rendering. */
+  /** Planned camera samples; unknown if a goal ends the rendering. */
   def planned: Long = of.total
 
-  /** How much is done, in [0, 1]; of a rendering that a goal ends, of its time. */
+  /** Completed fraction, in [0, 1]: of the samples, or of the time if a goal ends the rendering. */
   def part: Double = of.part
   def elapsed: Duration = Times.of(of.seconds)
 
-  /** Until the end, as far as can be told. */
+  /** Estimated time left. */
   def remaining: Optional[Duration] = of.outlook.left.map(Times.of).toJava
 
-  /** Camera samples per second, of late. */
+  /** Recent camera samples per second. */
   def samplesPerSecond: OptionalDouble = of.outlook.rate.toJavaPrimitive
 
   /** Root of the relative mean squared error, if it is estimated. */
   def error: OptionalDouble = of.outlook.error.toJavaPrimitive
 
-/** A part of a rendering after which all pixels have the same number of samples. Valid until
+/** A pass, after which all pixels have the same number of samples. Valid until
   * [[RenderListener.passed]] returns.
   */
 final class Pass private[api] (of: CorePass, develop: () => RenderedImage):
@@ -70,8 +68,7 @@ final class Pass private[api] (of: CorePass, develop: () => RenderedImage):
   /** The image so far. */
   def image: RenderedImage = develop()
 
-/** A rendering in progress, for observers in any thread. Looking at it costs the workers nothing.
-  */
+/** A rendering in progress, for observers in any thread. */
 final class LiveRendering private[api] (live: Live, develop: () => RenderedImage):
   /** The image at this moment; pixels may have different numbers of samples. */
   def image: RenderedImage = develop()
@@ -80,7 +77,7 @@ final class LiveRendering private[api] (live: Live, develop: () => RenderedImage
 private[api] object Times:
   def of(seconds: Double): Duration = Duration.ofNanos(Math.round(seconds * 1e9))
 
-/** What the core tells a listener. */
+/** Forwards the core's events to a listener. */
 private[api] final class Followed(
     to: RenderListener,
     develop: candela.render.Rendering => RenderedImage

@@ -7,7 +7,7 @@ import java.util.{List as JList, Optional, OptionalDouble}
 
 import scala.jdk.OptionConverters.*
 
-/** What [[Job.render]] returns. Immutable. */
+/** Result of [[Job.render]]. Immutable. */
 final class RenderResult private[api] (
     rendering: Rendering,
     val image: RenderedImage,
@@ -15,38 +15,38 @@ final class RenderResult private[api] (
     estimate: Option[RenderedImage],
     found: Vector[candela.base.Problem]
 ):
-  /** Whether all planned samples are taken, or a goal was reached: not if it was cancelled. */
+  /** Whether all planned samples were taken, or a goal was reached; false if cancelled. */
   def isComplete: Boolean = rendering.isComplete
 
-  /** Samples that every pixel has at least, with those of earlier runs. */
+  /** Minimum samples per pixel, including earlier runs. */
   def samplesPerPixel: Int = rendering.samplesDone
 
-  /** Of these, those of earlier runs, from a film file. */
+  /** Samples per pixel of earlier runs, from a film file. */
   def earlierSamplesPerPixel: Int = rendering.earlier
 
   /** Camera samples taken, in all pixels. */
   def samples: Long = rendering.samplesTaken
 
-  /** Rays of all kinds that were traced. */
+  /** Traced rays of all kinds. */
   def rays: Long = rendering.rays
 
-  /** Time of rendering, without that of preparing. */
+  /** Rendering time, without preparation. */
   def duration: Duration = Times.of(rendering.seconds)
 
-  /** Samples that were left out as they had no finite value. */
+  /** Samples discarded because their value was not finite. */
   def discarded: Long = rendering.refused.fold(0L)(_.count)
 
-  /** Estimated error of the image, the root of the relative mean squared error: 0.01 is 1 %. Known
-    * from 2 samples per pixel on, if [[RenderControl.withErrorEstimates]] or a goal asks for it.
+  /** Estimated error of the image, the root of the relative mean squared error: 0.01 is 1 %.
+    * Present from 2 samples per pixel on, with [[RenderControl.withErrorEstimates]] or a goal.
     */
   def error: OptionalDouble = relative.toJavaPrimitive
 
-  /** Estimated standard error of each value of the colours, likewise. */
+  /** Estimated standard error of each colour value, under the same conditions. */
   def errors: Optional[RenderedImage] = estimate.toJava
 
   /** Problems of rendering, such as a film file that could not be written. */
   def problems: JList[Problem] = Problems.ofCore(found)
 
-/** A fault of Candela's in a sample, or a lack of memory. */
+/** A bug in Candela, or a lack of memory. */
 final class RenderException private[api] (val x: Int, val y: Int, val sample: Int, cause: Throwable)
     extends RuntimeException(s"at pixel ($x, $y), sample $sample: $cause", cause)

@@ -11,21 +11,21 @@ import java.util.List as JList
 import scala.annotation.varargs
 import scala.jdk.CollectionConverters.*
 
-/** What is rendered of a scene. Immutable: each method returns another value. With the scene and
-  * the number of samples it determines every bit of the image.
+/** What to render. Immutable: each method returns a new value. Scene, settings and number of
+  * samples determine every bit of the image.
   */
 final class RenderSettings private (private[api] val of: CoreSettings):
   private def change(f: CoreSettings => CoreSettings): RenderSettings = RenderSettings(f(of))
   private def end(f: RenderGoal => RenderGoal): RenderSettings =
     change(s => s.copy(goal = f(s.goal)))
 
-  /** Samples per pixel, at least 1, instead of the scene's. With a goal, the most there may be. */
+  /** Samples per pixel, at least 1, instead of the scene's; a maximum if there is a goal. */
   def withSamples(perPixel: Int): RenderSettings = withOption("spp", perPixel.toString)
 
-  /** Seed of all random numbers: another one gives another noise. */
+  /** Random seed (default 0). */
   def withSeed(seed: Int): RenderSettings = change(_.copy(seed = seed))
 
-  /** Goal: ends the rendering at a time, with equally many samples in every pixel. */
+  /** Goal: ends the rendering after a time, with equally many samples in every pixel. */
   def withTime(time: Duration): RenderSettings =
     end(_.copy(time = Some(positive("the time", time.toNanos * 1e-9))))
 
@@ -37,7 +37,7 @@ final class RenderSettings private (private[api] val of: CoreSettings):
     end(_.copy(error = Some(positive("the error", relative))))
 
   /** Adds layers (AOVs) to the image: `albedo`, `normal`, `depth`, `direct`, `indirect`,
-    * `variance`, …; docs/LAYERS.md lists them. Their channels stand behind the colours.
+    * `variance`, …; docs/LAYERS.md lists them. Their channels follow the colours.
     */
   @varargs def withLayers(names: String*): RenderSettings =
     val added = names.toVector.map: name =>
@@ -48,19 +48,19 @@ final class RenderSettings private (private[api] val of: CoreSettings):
       val all = s.adding(added)
       all.copy(layers = all.layers.distinct)
 
-  /** Adds the light of each group of lights as layers: `statement` makes a group of each statement,
-    * `type` of each type of light, `key=point_12+spot_14,sky=infinite` names its own.
+  /** Adds a layer for each light group: `statement` makes a group of each statement, `type` of each
+    * type of light; `key=point_12+spot_14,sky=infinite` names custom groups.
     */
   def withLightGroups(groups: String): RenderSettings =
     withOption("light-groups", groups).withLayers(Layer.Lights.word)
 
-  /** Adds denoised colours, as the layer `Denoised`, by Intel's Open Image Denoise, which must be
-    * installed.
+  /** Adds denoised colours as the layer `Denoised`; requires Intel's Open Image Denoise.
+    * See docs/DENOISING.md.
     */
   def withDenoising: RenderSettings = change(_.denoised)
 
-  /** An option of the program's command line by its name, without `--`: `withOption("fireflies",
-    * "reweight")`. Those that shape the image and its files are known: `candela render --help`.
+  /** Sets a command-line option by its name, without `--`: `withOption("fireflies", "reweight")`.
+    * Available are the options of `candela render` that affect the image and its files.
     */
   def withOption(name: String, value: String): RenderSettings = put(name, Some(value))
 
@@ -94,13 +94,13 @@ final class RenderSettings private (private[api] val of: CoreSettings):
   override def toString: String = SettingsCodec.words(of).mkString("RenderSettings(", " ", ")")
 
 object RenderSettings:
-  /** What the scene says. */
+  /** The scene's own settings. */
   def apply(): RenderSettings = new RenderSettings(CoreSettings())
 
-  /** What the scene says, with another number of samples per pixel. */
+  /** The scene's own settings, with another number of samples per pixel. */
   def apply(samples: Int): RenderSettings = apply().withSamples(samples)
 
-  /** What the scene says, for Java and Kotlin. */
+  /** The scene's own settings, for Java and Kotlin. */
   def create(): RenderSettings = apply()
 
   private def apply(of: CoreSettings): RenderSettings = new RenderSettings(of)

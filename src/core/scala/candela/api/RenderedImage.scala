@@ -11,9 +11,8 @@ import java.util.List as JList
 
 import scala.jdk.CollectionConverters.*
 
-/** An image: some channels of Floats, in rows from the top. The first three are `R`, `G` and `B`,
-  * linear light in the film's colour space, which is linear sRGB unless the scene says otherwise;
-  * those of layers are behind them. Immutable.
+/** An image: channels of Floats, in rows from the top. The first three are `R`, `G` and `B`, linear
+  * light in the film's colour space (default: sRGB); channels of layers follow. Immutable.
   */
 final class RenderedImage private[api] (
     image: Image,
@@ -39,7 +38,7 @@ final class RenderedImage private[api] (
     check(channel, image.channels)
     image(x, y, channel)
 
-  /** A copy of all values: of each pixel those of its channels. */
+  /** A copy of all values, pixel by pixel. */
   def values: Array[Float] = image.data.clone()
 
   /** A copy of a channel's values.
@@ -72,8 +71,7 @@ final class RenderedImage private[api] (
     at
 
   /** Writes a file in the format of its name: `.exr` with all channels, `.pfm` with the colours,
-    * `.png`, `.jpg`, `.qoi` or `.tga` as shown on a screen. The file is written whole, or not at
-    * all.
+    * `.png`, `.jpg`, `.qoi` or `.tga` as shown on a screen. If it fails, an existing file stays.
     *
     * @throws SceneException if it can't be written
     */
@@ -83,7 +81,7 @@ final class RenderedImage private[api] (
   def png: Array[Byte] = Problems.thrown(ImageFiles.png(Denoising.shown(image), display))
 
 private[api] object RenderedImages:
-  /** The image of a rendering, whose files tell of it. */
+  /** The image of a rendering, whose files have its metadata. */
   def of(
       image: Image,
       display: DisplayTransform,

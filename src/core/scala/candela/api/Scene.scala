@@ -9,8 +9,7 @@ import java.util.List as JList
 
 import scala.jdk.CollectionConverters.*
 
-/** A scene as it was read or made, before its shapes, textures and lights are built. Immutable, and
-  * safe to use from several threads.
+/** A parsed scene, before its shapes, textures and lights are built. Immutable and thread-safe.
   */
 final class Scene private[api] (
     val name: String,
@@ -18,28 +17,28 @@ final class Scene private[api] (
     private val found: Vector[candela.base.Problem],
     private[api] val how: ReadSettings
 ):
-  /** What is wrong with it, as far as reading tells; [[check]] tells all. Empty if nothing is. */
+  /** Errors and warnings of reading; [[check]] returns all. */
   def problems: JList[Problem] = Problems.ofCore(found)
 
-  /** Whether an error keeps it from being rendered. */
+  /** Whether errors prevent rendering. */
   def hasErrors: Boolean = found.exists(_.severity == Grade.Error)
 
   /** `v2`, `v3` or `v4` of pbrt, or `mitsuba`; empty if it could not be read. */
   def dialect: String = description.fold("")(_.dialect.toString.toLowerCase)
 
-  /** The scene file, and those that it includes; empty if it is not from a file. */
+  /** The scene file and its includes; empty if it is not from a file. */
   def files: JList[Path] = java.util.List.copyOf(description.fold(Vector.empty)(_.sources).asJava)
 
-  /** Builds all of it, by as many threads as there are processors.
+  /** Builds the scene with one thread per processor.
     *
     * @throws SceneException if it has errors
     */
   def prepare(settings: RenderSettings): Job =
     prepare(settings, Runtime.getRuntime.availableProcessors)
 
-  /** Builds all of it: meshes are read, textures loaded, the acceleration structure made.
+  /** Builds the scene: reads meshes, loads textures, builds the acceleration structure.
     *
-    * @param threads that build it, at least 1
+    * @param threads at least 1
     * @throws SceneException if it has errors
     */
   def prepare(settings: RenderSettings, threads: Int): Job =
@@ -47,7 +46,7 @@ final class Scene private[api] (
       Problems.fail(Code.OptionValue, s"`threads` must be at least 1, found $threads")
     Job(this, settings, Problems.thrown(prepared(settings, threads, isRendered = true)))
 
-  /** All that is wrong with it, its files included: builds it, and throws the result away. */
+  /** All errors and warnings, also of the scene's files; builds the scene and discards it. */
   def check(settings: RenderSettings): JList[Problem] =
     try
       val threads = Runtime.getRuntime.availableProcessors
@@ -56,7 +55,7 @@ final class Scene private[api] (
       Problems.ofCore(ready.warnings)
     catch case e: SceneException => e.problems
 
-  /** Begins another scene that has all of this one, to which statements are added. */
+  /** Starts an edited copy of this scene. */
   def edit(): SceneBuilder =
     val base = readable
     SceneBuilder(name, base.folder, Some(this))

@@ -5,7 +5,7 @@ import candela.scenefile.{GivenStatement, InstanceList, Param, StatementRunner}
 
 import java.util.function.UnaryOperator
 
-/** A setting of a scene, of which there is one. */
+/** A statement that a scene has once. */
 enum SceneSetting extends java.lang.Enum[SceneSetting]:
   case Camera, Film, Sampler, Filter, Integrator
 
@@ -17,10 +17,9 @@ enum TextureValues extends java.lang.Enum[TextureValues]:
   /** Colours and spectra. */
   case Spectrum
 
-/** Makes a scene of the statements of pbrt-v4, or adds them to another scene. Names, parameters and
-  * values are those of a file (docs/REFERENCE.md lists them), and are checked as in a file, with
-  * the same messages: what is wrong is among the problems of [[scene]], and names the line of
-  * source code that called the builder.
+/** Builds a scene from statements of pbrt-v4, or edits another scene. Names, parameters and values
+  * are those of scene files (docs/REFERENCE.md), with the same checks and messages. Errors are in
+  * the problems of [[scene]], with the line of source code that called the builder.
   * {{{
   * val scene = Candela.build()
   *   .film("rgb", Parameters().integer("xresolution", 64).integer("yresolution", 48))
@@ -41,11 +40,11 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   // The image, before the world
 
-  /** What the camera is; it stands at the origin of the current transform, looking along z. */
+  /** The camera, at the origin of the current transform, looking along z. */
   def camera(kind: String, parameters: Parameters): SceneBuilder =
     named("Camera", kind, parameters)
 
-  /** The size of the image, and what it stores. */
+  /** The film: size and contents of the image. */
   def film(kind: String, parameters: Parameters): SceneBuilder = named("Film", kind, parameters)
 
   def sampler(kind: String, parameters: Parameters): SceneBuilder =
@@ -55,7 +54,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   def filter(kind: String, parameters: Parameters): SceneBuilder =
     named("PixelFilter", kind, parameters)
 
-  /** The method of rendering. */
+  /** The integrator. */
   def integrator(kind: String, parameters: Parameters): SceneBuilder =
     named("Integrator", kind, parameters)
 
@@ -114,27 +113,27 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   /** Names the current transform. */
   def coordinateSystem(name: String): SceneBuilder = words("CoordinateSystem", name)
 
-  /** Replaces the transform by a named one: `camera`, `world`, or one's own. */
+  /** Replaces the transform by a named one: `camera`, `world`, or your own. */
   def useCoordinateSystem(name: String): SceneBuilder = words("CoordSysTransform", name)
 
-  /** Which transform is changed from here on, of what moves: `All`, `StartTime` or `EndTime`. */
+  /** Selects the transforms that later calls change: `All`, `StartTime` or `EndTime`. */
   def activeTransform(which: String): SceneBuilder = words("ActiveTransform", which)
 
   // Blocks
 
-  /** Materials, transforms and all other state that `body` sets end with it. */
+  /** Restores materials, transforms and all other state after `body`. */
   def attributes(body: UnaryOperator[SceneBuilder]): SceneBuilder =
     plain("AttributeBegin")
     body(this): Unit
     plain("AttributeEnd")
 
-  /** The shapes of `body` become an object, which [[instance]] places any number of times. */
+  /** Defines an object of the shapes in `body`, for [[instance]]. */
   def define(name: String, body: UnaryOperator[SceneBuilder]): SceneBuilder =
     words("ObjectBegin", name)
     body(this): Unit
     plain("ObjectEnd")
 
-  /** Places an object, by the current transform. */
+  /** Places an object with the current transform. */
   def instance(name: String): SceneBuilder = words("ObjectInstance", name)
 
   // The world
@@ -144,11 +143,11 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   def light(kind: String, parameters: Parameters): SceneBuilder =
     named("LightSource", kind, parameters)
 
-  /** Makes the shapes that follow area lights, until the end of the block. */
+  /** Makes the following shapes of the block area lights. */
   def areaLight(kind: String, parameters: Parameters): SceneBuilder =
     named("AreaLightSource", kind, parameters)
 
-  /** The material of the shapes that follow, until the end of the block. */
+  /** Sets the material of the following shapes of the block. */
   def material(kind: String, parameters: Parameters): SceneBuilder =
     named("Material", kind, parameters)
 
@@ -158,7 +157,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   def useMaterial(name: String): SceneBuilder = words("NamedMaterial", name)
 
-  /** Names a texture, for the parameters that follow. */
+  /** Names a texture, for the following parameters. */
   def texture(
       name: String,
       values: TextureValues,
@@ -173,18 +172,18 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   def nameMedium(name: String, kind: String, parameters: Parameters): SceneBuilder =
     typed("MakeNamedMedium", name, kind, parameters)
 
-  /** The media inside and outside of the shapes that follow, and around the camera and the lights:
-    * names, or nothing.
+  /** Sets the media inside and outside of the following shapes, and around camera and lights:
+    * names, or "" for none.
     */
   def mediumInterface(inside: String, outside: String): SceneBuilder =
     words("MediumInterface", inside, outside)
 
   def reverseOrientation(): SceneBuilder = plain("ReverseOrientation")
 
-  /** The space of the colours that follow: `srgb`, `dci-p3`, `rec2020` or `aces2065-1`. */
+  /** Sets the space of the following colours: `srgb`, `dci-p3`, `rec2020` or `aces2065-1`. */
   def colorSpace(name: String): SceneBuilder = words("ColorSpace", name)
 
-  /** Parameters that the statements that follow have by default.
+  /** Sets default parameters of the following statements.
     *
     * @param target `shape`, `light`, `material`, `medium` or `texture`
     */
@@ -193,7 +192,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   // Changes of another scene
 
-  /** Changes parameters of what there is once, and keeps its others. */
+  /** Changes parameters of a statement that the scene has once, and keeps its others. */
   def change(setting: SceneSetting, parameters: Parameters): SceneBuilder =
     edited(s"change $setting", "", parameters)(SceneEdits.setting(setting, _))
 
@@ -205,13 +204,13 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   def changeTexture(name: String, parameters: Parameters): SceneBuilder =
     edited("change texture", name, parameters)(SceneEdits.texture(name, _))
 
-  /** Puts the camera, which keeps its parameters, where the current transform is. */
+  /** Moves the camera to the current transform; it keeps its parameters. */
   def placeCamera(): SceneBuilder =
     sum.add(GivenStatement("place camera", SourcePos.Nowhere))
     runner.placeCamera()
     this
 
-  /** Removes all lights but those of shapes. */
+  /** Removes all lights except area lights. */
   def removeLights(): SceneBuilder =
     edited("remove lights", "", Parameters())(_ => _.copy(lights = Vector.empty))
 
@@ -221,12 +220,12 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
       _.copy(shapes = Vector.empty, objects = Map.empty, instances = InstanceList.Empty)
     )
 
-  /** What the scene is called, in image files and messages. */
+  /** Names the scene in image files and messages. */
   def called(name: String): SceneBuilder =
     shownName = name
     this
 
-  /** The scene so far. The builder may go on, and make other scenes. */
+  /** The scene so far. The builder remains usable. */
   def scene(): Scene =
     val made = runner.result
     val whole = made.copy(folder = folder, unfiled = made.unfiled :+ ("statements" -> sum.digest))

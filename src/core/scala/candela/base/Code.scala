@@ -1,6 +1,6 @@
 package candela.base
 
-/** What a problem is: all with one meaning and one cure have one number, which no other ever gets.
+/** Kinds of problems. Problems with one meaning and cure share a number, which is never reused.
   *
   * [[ProblemGuide]] explains them; `candela explain E0201` prints that, docs/PROBLEMS.md has all.
   *
@@ -119,7 +119,7 @@ enum Code(val number: Int):
   case SuiteFile extends Code(1201)
   case NoProgram extends Code(1202)
 
-  /** As messages have it: `E0201`. */
+  /** The number as printed: `E0201`. */
   def word: String = f"E$number%04d"
 
 object Code:

@@ -28,9 +28,9 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles]):
     val latest = scenes.incrementAndGet()
     val _ = things.values.removeIf(k => k.isGone || k.last < latest - 1)
 
-  /** What was made of this key before; else what `make` makes.
+  /** The cached value of this key, or that of `make`.
     *
-    * @param key tells all that it is made from
+    * @param key identifies all inputs of `make`
     */
   def apply[A <: AnyRef](shelf: Shelf[A], key: => String)(make: => A): A =
     if !isKeeping then make
@@ -106,7 +106,7 @@ object Keep:
   /** Keeps nothing. */
   val Nothing: Keep = new Keep(false, None)
 
-  /** What things of one kind are kept on; each is itself alone.
+  /** A cache of values of one kind, compared by identity.
     *
     * @param form of their files, if they may be kept in files
     */

@@ -4,7 +4,7 @@ import java.nio.charset.StandardCharsets.UTF_8
 
 import scala.util.Using
 
-/** What a kind of problem means, and its cure.
+/** Meaning and cure of a kind of problem.
   *
   * @param title   in one line
   * @param meaning sentences of Markdown
@@ -19,7 +19,7 @@ final case class ProblemEntry(
     cure: String
 )
 
-/** What leads to a problem. */
+/** An example that causes a problem. */
 enum ProblemExample:
   /** A command line, without `candela` before it. */
   case Command(words: String)

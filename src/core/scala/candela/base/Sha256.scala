@@ -8,7 +8,7 @@ import java.util.HexFormat
 
 import scala.util.Using
 
-/** What tells contents from others: SHA-256 (FIPS 180-4), in 64 hexadecimal digits. */
+/** Digests of contents: SHA-256 (FIPS 180-4), in 64 hexadecimal digits. */
 object Sha256:
   def of(text: String): String = hex(bytesOf(text))
 
@@ -20,7 +20,7 @@ object Sha256:
     sum.update(bytes)
     hex(sum.digest)
 
-  /** Of all that a stream still has, which is closed then.
+  /** Digest of the rest of a stream, which is then closed.
     *
     * @throws java.io.IOException if it can't be read
     */

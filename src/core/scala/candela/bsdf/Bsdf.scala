@@ -32,7 +32,7 @@ abstract class Bsdf:
   def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     if isSpecular then sample(wo, choice, 0.5f, 0.5f) else BsdfSample.Absorbed
 
-  /** What light transport must know of it beside its values. */
+  /** Properties for light transport. */
   def flags: BsdfFlags
 
   /** Whether all scattering is perfectly specular, so that light sampling can't contribute. */
@@ -45,7 +45,7 @@ abstract class Bsdf:
   final def isPane: Boolean = flags.has(BsdfFlags.Pane)
   final def isNarrow: Boolean = flags.has(BsdfFlags.Narrow)
 
-  /** The part of the light that keeps its direction on its way through a pane. */
+  /** Transmittance of a thin dielectric for light that keeps its direction. */
   def straight(@unused wo: Vec3): Rgb = Rgb.Black
 
   /** The BSDF with specular and narrow lobes roughened, so that next-event estimation can sample
@@ -69,7 +69,7 @@ abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
   final override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     changed(wo, inner.sampleSpecular(wo, choice))
 
-  /** What becomes of a sample of `inner`. */
+  /** Transforms a sample of `inner`. */
   protected def changed(@unused wo: Vec3, sample: BsdfSample): BsdfSample = sample
 
   def flags: BsdfFlags = inner.flags

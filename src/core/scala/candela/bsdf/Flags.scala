@@ -1,6 +1,6 @@
 package candela.bsdf
 
-/** What light transport must know of a [[Bsdf]] beside its values: a set of flags.
+/** Properties of a [[Bsdf]] for light transport: a set of flags.
   *
   * That of a sum is the union of its parts', so no flag says that something is missing everywhere.
   * Whatever wraps a BSDF derives its own flags from the other's, and loses none by oversight, nor
@@ -50,7 +50,7 @@ object BsdfFlags:
 
   def All: BsdfFlags = new BsdfFlags(511)
 
-/** What must be known of a [[Material]] beforehand: what some of its BSDFs are, and more. */
+/** Properties of a [[Material]] that must be known before its BSDFs are evaluated. */
 final class MaterialFlags private (private val bits: Int) extends AnyVal:
   def |(other: MaterialFlags): MaterialFlags = new MaterialFlags(bits | other.bits)
   def only(these: MaterialFlags): MaterialFlags = new MaterialFlags(bits & these.bits)

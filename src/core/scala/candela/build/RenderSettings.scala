@@ -9,7 +9,7 @@ import candela.image.DisplayTransform
 import candela.integrators.CausticsMode
 import candela.scenefile.Dialect
 
-/** What is rendered of a scene. With the scene's files, these are the identity of a rendering:
+/** Settings that affect the image. With the scene's files, they identify a rendering:
   * `job.SettingsCodec` stores each of them.
   *
   * @param samples     per pixel, instead of the scene's
@@ -97,7 +97,7 @@ final case class RenderSettings(
       caustics = choices.caustics
     )
 
-/** What ends a rendering before its samples do.
+/** Time or error that ends a rendering.
   *
   * @param time  in seconds
   * @param error relative error
@@ -136,7 +136,7 @@ final case class ReadSettings(
     keepGoing: Boolean = false
 )
 
-/** What is written of an image.
+/** Output settings of an image.
   *
   * @param precisions whether layers are stored in 16 bits, where asked
   * @param denoise    whether a denoised image is added

@@ -7,9 +7,8 @@ import candela.image.ImageSize
 import candela.render.{Cost, CostKind}
 import candela.scenefile.{Declaration, Dialect, MaterialRef, SceneDescription, ShapeDescription}
 
-/** What a scene takes in memory, estimated before it is built: from the numbers in its statements
-  * and from the beginnings of its files. Parts that only building finds out, such as displaced
-  * triangles, are not in it.
+/** Estimates the memory of a scene before it is built, from its statements and the headers of its
+  * files. Displaced triangles, for example, are known only after building and not included.
   *
   * @param textures how images are kept
   */

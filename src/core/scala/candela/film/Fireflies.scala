@@ -1,7 +1,6 @@
 package candela.film
 
-/** What is done about fireflies: samples much brighter than those around them. Whatever is done
-  * trades noise for bias.
+/** Treatment of fireflies, samples much brighter than their neighbours. It trades noise for bias.
   */
 enum Fireflies(val word: String):
 

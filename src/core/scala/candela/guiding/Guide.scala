@@ -50,7 +50,7 @@ final class Guide(
     tallies :+= tally
     tally
 
-  /** What the paths since the last call have saved of second moments. */
+  /** Second moment saved by guiding since the last call. */
   def takeSaving(): Double = synchronized:
     val saving = tallies.map(_.saving).sum
     tallies.foreach(_.saving = 0.0)

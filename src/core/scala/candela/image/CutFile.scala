@@ -2,10 +2,10 @@ package candela.image
 
 import java.nio.{ByteBuffer, ByteOrder}
 
-/** Files that end before their pixels do, of formats whose decoder does not mind. */
+/** Detects truncated files of formats whose decoder does not. */
 private[image] object CutFile:
 
-  /** What is missing.
+  /** A message if the file is truncated.
     *
     * @param start the first bytes
     * @param end   the last ones
@@ -26,7 +26,7 @@ private[image] object CutFile:
     case "tga" => start.length >= TgaHeader && PackedTgas(start(2) & 0xff)
     case _ => false
 
-  /** What is missing of compressed pixels, which all have to be counted. */
+  /** A message if compressed pixels are truncated; counts all of them. */
   def packed(file: Array[Byte]): Option[String] =
     val isCut = if file.startsWith(QoiMark) then Qoi.isShort(file) else isShortTga(file)
     Option.when(isCut)(Missing)

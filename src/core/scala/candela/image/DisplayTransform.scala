@@ -54,7 +54,7 @@ final case class DisplayTransform(
       val encoding = if falseColor then Encoding.Srgb else Encoding.Linear
       Image(light.width, light.height, Image.RgbNames, data, encoding)
 
-  /** What was done, for the picture's metadata. */
+  /** The transform, as metadata of the picture. */
   def describe(image: Image): Vector[(String, String)] =
     if isPlain then Vector.empty
     else

@@ -241,7 +241,7 @@ private[image] object ExrHeader:
           s"tiles of ${t.width}×${t.height} pixels are not supported"
         )
 
-  /** What of this coding the decoder can't read. */
+  /** Why the decoder can't read this coding, if so. */
   private def obstacle(compression: Int, channels: Vector[ExrChannel]): Option[String] =
     val name = Compressions.lift(compression)
       .getOrElse(throw ImageError(

@@ -65,7 +65,7 @@ object Natives:
     classOf[org.lwjgl.PointerBuffer].getClassLoader.getResource(folder + file) != null ||
     onPath.exists(p => Try(Files.isRegularFile(Path.of(p, file))).getOrElse(false))
 
-  /** What is missing, and what to do, if that is why `e` was thrown. */
+  /** The missing library and the cure, if that is the cause of `e`. */
   def missing(e: Throwable): Option[(String, String)] = e match
     case l: LinkageError if isOfLwjgl(l) =>
       val place = sys.props.getOrElse(Place, s"lib/natives/$platform")

@@ -18,7 +18,7 @@ private[image] object Pnm:
 
   def read(file: Array[Byte]): StoredImage = Reader(file).image()
 
-  /** What pbrt-v4 makes of the file, if it is another image. */
+  /** How pbrt-v4 reads the file differently, if it does. */
   def remark(file: Array[Byte]): Option[String] =
     try
       Option.when(isMark(file))(Reader(file)).flatMap: reader =>

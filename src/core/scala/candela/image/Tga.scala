@@ -35,7 +35,7 @@ private[image] object Tga extends OutputFormat("tga", Contents.Display):
           val turned = source.map(floats.data(_)).toArray
           Image(image.width, image.height, image.channelNames, turned, floats.encoding)
 
-  /** What pbrt-v4 makes of the file, if it is another image. */
+  /** How pbrt-v4 reads the file differently, if it does. */
   def remark(file: Array[Byte]): Option[String] =
     if file.length < HeaderSize then None
     else if isFromRight(file) then Some("its columns run from the right; pbrt-v4 mirrors it")

@@ -17,7 +17,7 @@ abstract class Cluster extends AutoCloseable:
   /** Begins to render, or queues behind what was submitted before; returns at once. */
   def submit(work: ClusterWork): ClusterRun
 
-  /** What was used and sent, in one line. */
+  /** Resources used and data sent, in one line. */
   def summary: String
 
 /** A rendering to divide.

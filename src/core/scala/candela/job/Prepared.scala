@@ -89,7 +89,7 @@ final case class Prepared(
       def finish(): Unit = ()
     render(control.copy(checkpointer = Some(keeper)))
 
-  /** What saved states add up to.
+  /** The sum of saved states.
     *
     * @param load loads them
     */

@@ -4,9 +4,9 @@ import candela.base.{Allowance, Limit, SceneFolder}
 
 import java.nio.file.Path
 
-/** What scenes may do.
+/** Limits of scenes.
   *
-  * @param sandbox whether they are of strangers
+  * @param sandbox whether the scenes are untrusted
   * @param changed limits that differ; None lifts one
   * @param endsAt  when the time is over, in nanoseconds of the system's clock
   */

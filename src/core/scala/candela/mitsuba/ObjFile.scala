@@ -26,7 +26,7 @@ private final class ObjReader(in: ByteBuffer, file: InputFile, at: SourcePos):
   private val positions, normals, uvs = FloatBuffer()
   private val indices = IntBuffer()
 
-  /** What Floats lack of `p`, and which of its vertices those of the mesh are. */
+  /** Rounding errors of `p`, and the vertex of `p` of each vertex of the mesh. */
   private val missing = RestBuffer()
   private val vertices = IntBuffer()
 

@@ -1,6 +1,6 @@
 package candela.render
 
-/** What a rendering takes memory and time for. */
+/** Kinds of data that take memory and time. */
 enum CostKind(val word: String):
   /** Of the scene file, kept with it. */
   case Statements extends CostKind("statements")

@@ -2,7 +2,7 @@ package candela.render
 
 import candela.base.{ByteCount, Code, JavaHeap, Problem, SourcePos}
 
-/** What a rendering takes memory for. */
+/** Memory and time of a rendering, by kind. */
 final case class Costs(all: Vector[Cost] = Vector.empty):
   def bytes: Long = all.map(_.bytes).sum
 

@@ -4,7 +4,7 @@ import candela.aov.{Layer, LayerFilm}
 import candela.film.{Fireflies, SpectralBands}
 import candela.guiding.{GuideRecords, GuideSettings}
 
-/** What the film of a rendering takes in memory, and what is learnt for it. */
+/** Memory of the film and of guiding. */
 object FilmSize:
 
   /** Before the method is known.

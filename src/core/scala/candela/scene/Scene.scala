@@ -144,7 +144,7 @@ final class Scene(
   private val panes = materials.panes
   val hasPanes: Boolean = materials.hasPanes
 
-  /** The part of light on its way in direction `w` that keeps it at the pane `at`. */
+  /** Transmittance of the thin dielectric `at` for light in direction `w`. */
   def straight(at: ShadingPoint, w: Vec3): Rgb =
     val pane = materials(at.material).bsdf(at)
     val passed = pane.straight(at.frame.toLocal(w))

@@ -72,7 +72,7 @@ final class SceneMaterials private (
     make = null
     kept = 0
 
-  /** Which are interfaces, and which are panes. */
+  /** Which are interfaces, and which are thin dielectrics. */
   private[scene] def interfaces: Array[Boolean] = kinds.interfaces
   private[scene] def panes: Array[Boolean] = kinds.panes
 

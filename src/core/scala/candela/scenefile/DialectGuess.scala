@@ -16,7 +16,7 @@ final class DialectGuess:
       val names = seen.getOrElseUpdate(category, mutable.LinkedHashMap.empty)
       if !names.contains(name) then names(name) = at
 
-  /** What was found. */
+  /** The evidence so far. */
   def clues: Vector[DialectClue] =
     val found =
       for
@@ -29,7 +29,7 @@ final class DialectGuess:
 
   def dialect: Dialect = DialectGuess.of(clues)
 
-/** What speaks for some dialects.
+/** Evidence for some dialects.
   *
   * @param what as shown in messages
   */

@@ -16,7 +16,7 @@ enum Place:
 final class Directive(val name: String, val usage: String, val place: Place)(
     val run: (Arguments, SceneWriter) => Unit
 ):
-  /** What is wrong with it at a place before or behind the beginning of the world. */
+  /** The error if the directive is not allowed here, before or after `WorldBegin`. */
   def misplaced(worldBegin: Option[SourcePos]): Option[String] = place match
     case Place.Anywhere => None
     case Place.World =>

@@ -65,7 +65,7 @@ private[scenefile] final class ParserRun(
   /** The estimated dialect; valid after [[read]]. */
   def guess: Dialect = evidence.dialect
 
-  /** What the estimate is made of. */
+  /** The evidence for the guess. */
   def clues: Vector[DialectClue] = evidence.clues
 
   def read(): Unit =

@@ -27,7 +27,7 @@ final class Source private (val name: String, room: Int, input: Input):
   def bytes: Array[Byte] = window
   def limit: Int = end
 
-  /** What the file is by its beginning, which is in the window, if it is no text of ours. */
+  /** The kind of a file that is not a scene, recognised by its first bytes. */
   def foreign(file: Path): Option[ForeignFile] =
     ForeignFile.of(file, window.take(Math.min(end, ForeignFile.Head)))
 

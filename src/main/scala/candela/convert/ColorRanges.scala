@@ -5,7 +5,7 @@ import scala.collection.mutable
 import candela.base.{Code, Problem}
 import candela.scenefile.{Declaration, Param, ParamType}
 
-/** Clamps the colours that pbrt-v4 refuses: negative ones, and reflectances above 1. */
+/** Clamps the colours that pbrt-v4 rejects: negative ones, and reflectances above 1. */
 private[convert] object ColorRanges:
 
   def held(from: Converted): Converted =

@@ -93,7 +93,7 @@ object ToV3Materials:
 
   private val coats = Seq("thickness", "albedo", "g", "maxdepth", "nsamples")
 
-  /** Light transmitted by a pane passes through unscattered, which v3 expresses as opacity. Both
+  /** Light transmitted by a thin dielectric passes unscattered, which v3 expresses as opacity. Both
     * sides together reflect `2R / (1 + R)`.
     */
   private val pane = Step("`eta`", "`opacity` and `Kr`, exact at normal incidence"): s =>

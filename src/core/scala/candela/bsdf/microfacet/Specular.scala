@@ -80,10 +80,10 @@ final class SmoothDielectric(
       Dielectric(TrowbridgeReitz.RegularizedMirror, eta, reflectance, transmittance)
     else this
 
-/** A thin pane with two parallel smooth sides, including all internal reflections. Transmitted
-  * light keeps its direction.
+/** A thin dielectric slab with two parallel smooth sides, including all internal reflections.
+  * Transmitted light keeps its direction.
   *
-  * @param eta           index of refraction of the pane over that outside
+  * @param eta           index of refraction of the slab over that outside
   * @param reflectance   scale of the reflected light
   * @param transmittance scale of the transmitted light
   *
@@ -112,7 +112,7 @@ final class ThinDielectric(
     val once = Fresnel.dielectric(Math.abs(wo.z), eta)
     2f * once / (1f + once)
 
-/** A thin pane; its colours as in [[ThinDielectric]]. */
+/** A thin dielectric; colours as in [[ThinDielectric]]. */
 final class ThinDielectricMaterial(eta: Float, kr: RgbTexture, kt: RgbTexture)
     extends Material,
       Textured(kr, kt):

@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import candela.scenefile.Dialect
 
-/** What types of one dialect are called in another, for messages. */
+/** Names of types in other dialects, for messages. */
 private[build] object OtherNames:
   /** Category, old name and the nearest type of v4. */
   private val Pairs = Vector(
@@ -35,7 +35,7 @@ private[build] object OtherNames:
     "twosided" -> "mix"
   )
 
-  /** What a type of another dialect is called in this one. */
+  /** The name in this dialect of a type of another one. */
   def hint(category: String, name: String, dialect: Dialect): Option[String] =
     val other =
       if dialect == Dialect.V4 then

@@ -38,8 +38,8 @@ abstract class Recipe[A](
   /** Wraps `make` with the steps common to a category. */
   protected def made(site: Site): A = make()(using site)
 
-  /** What Candela renders instead of this type, and why. Its fields are declared all the same, so
-    * that errors are found and the reference is complete.
+  /** The substitute for this type, and why. Its fields are declared nevertheless, for error
+    * messages and the reference.
     */
   def substitute: Option[String] = None
 

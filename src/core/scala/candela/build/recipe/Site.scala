@@ -50,12 +50,12 @@ final class Site(
   def error(code: Code, message: String, help: => Option[String] = None): Unit =
     problems.error(code, declaration.at, message, help)
 
-  /** Reports a statement that pbrt-v4 refuses, and older ones skip after a message. */
+  /** Reports a statement that pbrt-v4 rejects and older versions skip with a message. */
   def unusable(code: Code, message: String, help: Option[String] = None): Unit =
     if dialect == Dialect.V4 then error(code, message, help)
     else warn(code, s"$message; ${StandIns.LeftOut}, as pbrt does", help)
 
-  /** Reports a value that pbrt-v4 refuses, and older ones do not find: they use the default. */
+  /** Reports a value that pbrt-v4 rejects; older versions use the default. */
   def unread(code: Code, p: Param, message: String, help: Option[String]): Unit =
     if dialect == Dialect.V4 then problems.error(code, p.at, message, help)
     else problems.warn(code, p.at, s"$message; it is ignored, as pbrt does", help)
@@ -175,7 +175,7 @@ object StandIns:
     case "shape" | "light" | "area light" => LeftOut
     case _ => Default
 
-  /** What pbrt-v2 and pbrt-v3 replace an unknown type with, after a warning. Forks of pbrt add
+  /** The substitute of pbrt-v2 and v3 for an unknown type, after a warning. Forks of pbrt add
     * types, and the originals render their scenes, too.
     */
   def ofPbrt(category: String, dialect: Dialect): Option[String] =

@@ -83,7 +83,7 @@ final class TextureStore private (
         (TextureStore.versioned(made), isSame)
     )
 
-  /** What tells the content of a file from others.
+  /** Digest of a file's content.
     *
     * @throws IOException if it can't be read
     */
@@ -98,9 +98,9 @@ final class TextureStore private (
       isSurely() || TextureStore.versioned(file.digest()) == digest
     catch case _: IOException => false
 
-  /** What is made of an image in tiles, of which there is a file, too.
+  /** A value derived from an image in tiles, stored in a file, too.
     *
-    * @param key tells all that it is made from
+    * @param key identifies all its inputs
     */
   def table[A](form: PartForm[A], key: String)(make: => A): A =
     def written(files: PartFiles) =
