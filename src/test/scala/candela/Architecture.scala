@@ -58,8 +58,8 @@ object Architecture:
 
   /** Between the towers: each may use both of them, too. */
   val bridge: Vector[String] = floors(
-    "build.recipe build.sampling build.film build.cameras build.textures build.media " +
-      "build.shapes build.lights build.materials build.integrators build.settings build"
+    "settings build.recipe build.sampling build.film build.cameras build.textures build.media " +
+      "build.shapes build.lights build.materials build.integrators build.options build"
   )
 
   private val measure = Set("base", "math", "color", "image")

@@ -2,9 +2,9 @@ package candela.api
 
 import candela.base.{Code, Keep}
 
-import candela.build.ReadSettings as CoreSettings
 import candela.job.{Preparation, TextForm}
 import candela.scenefile.Dialect
+import candela.settings.ReadSettings as CoreSettings
 
 import java.time.Duration
 

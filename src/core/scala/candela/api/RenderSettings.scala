@@ -2,8 +2,8 @@ package candela.api
 
 import candela.aov.Layer
 import candela.base.{Code, Suggest}
-import candela.build.{RenderGoal, RenderSettings as CoreSettings}
 import candela.job.{SettingsCodec, TextForm}
+import candela.settings.{RenderGoal, RenderSettings as CoreSettings}
 
 import java.time.Duration
 import java.util.List as JList

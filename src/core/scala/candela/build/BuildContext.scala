@@ -5,10 +5,11 @@ import java.util.IdentityHashMap
 import candela.base.{Code, Keep, Parallel, SceneFolder, SourcePos}
 import candela.build.lights.{AreaLightPlan, AreaLights}
 import candela.build.recipe.*
-import candela.build.settings.OptionRecipe
+import candela.build.options.OptionRecipe
 import candela.color.ColorBasis
 import candela.math.Transform
 import candela.scenefile.{AnimatedTransform, Declaration, Dialect, InstanceList, SceneDescription}
+import candela.settings.{ColorMode, RenderSettings}
 
 /** State shared by all stages of building: the description, around its render origin, its named
   * resources, and the problems found so far.
@@ -98,34 +99,31 @@ private[build] object BuildContext:
         "the camera's transform is singular; the image shows the background only, as in pbrt-v4"
       )
     val origin = RenderOrigin.of(description)
-    val there = origin.around(description)
     val mode = ColorPlan.mode(settings.colorMode, description)
-    def context(asked: Switches, store: TextureStore) =
-      val mayBeSpectral = mode != ColorMode.Rgb
-      val switches =
-        asked.copy(
-          rules = Option.when(description.dialect == Dialect.Mitsuba)(rules),
-          unfiltered = asked.unfiltered || !rules.filters,
-          origin = origin.at
-        )
-      val allowance = description.folder.allowance
-      val resources = new Resources(
-        basis,
-        pool,
-        settings.seed,
-        mayBeSpectral,
-        switches,
-        allowance,
-        store,
-        keep,
-        isReadable = description.errors.isEmpty
-      )
-      new BuildContext(there, origin, resources, problems)
-    val plain = context(Switches(), TextureStore.InMemory)
-    val statement = plain.unwritten("Option", "")
-      .copy(params = description.options, folder = description.folder)
-    val asked = settings.over(OptionRecipe.build(plain.site(statement)))
-    context(asked, TextureStore.of(description, textures, pool, keep))
+    val effective = settings.over(optionStatements(description, basis, problems))
+    val resources = new Resources(
+      basis,
+      pool,
+      settings.seed,
+      mayBeSpectral = mode != ColorMode.Rgb,
+      effective.copy(unfiltered = effective.unfiltered || !rules.filters),
+      rules = Option.when(description.dialect == Dialect.Mitsuba)(rules),
+      origin = origin.at,
+      description.folder.allowance,
+      TextureStore.of(description, textures, pool, keep),
+      keep,
+      isReadable = description.errors.isEmpty
+    )
+    new BuildContext(origin.around(description), origin, resources, problems)
+
+  /** What the scene's `Option` statements set. */
+  private def optionStatements(
+      scene: SceneDescription,
+      basis: ColorBasis,
+      problems: Findings
+  ): RenderSettings =
+    val statement = Declaration("Option", "", scene.options, start(scene), scene.folder)
+    OptionRecipe.build(Site(statement, scene.dialect.base, Resources(basis), problems))
 
   /** The start of the scene's file, if it has one. */
   private def start(scene: SceneDescription): SourcePos =

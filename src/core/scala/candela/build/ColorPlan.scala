@@ -5,10 +5,7 @@ import java.util.Locale
 import candela.build.recipe.Rules
 import candela.color.{CameraSensor, ColorError, SmoothSpectra, Wavelengths}
 import candela.scenefile.SceneDescription
-
-/** What paths carry: three numbers, or light at three wavelengths; the scene decides if `Auto`. */
-enum ColorMode:
-  case Auto, Rgb, Spectral
+import candela.settings.ColorMode
 
 /** What the paths of a scene carry, and why.
   *

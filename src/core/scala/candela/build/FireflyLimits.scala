@@ -4,6 +4,7 @@ import candela.base.Code
 
 import candela.film.Fireflies
 import candela.render.{Passes, RenderMethod}
+import candela.settings.RenderSettings
 
 /** Which methods of rendering have samples that fireflies can be taken from. */
 private[build] final class FireflyLimits(context: BuildContext, fireflies: Fireflies):

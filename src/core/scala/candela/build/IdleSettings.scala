@@ -1,9 +1,9 @@
 package candela.build
 
 import candela.base.{Code, SourcePos}
-import candela.build.sampling.PointChoice
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
+import candela.settings.{PointChoice, RenderSettings}
 
 /** Warns of options of the command line that the scene's integrator does not heed. */
 private[build] final class IdleSettings(context: BuildContext, settings: RenderSettings):

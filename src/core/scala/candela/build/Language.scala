@@ -8,7 +8,7 @@ import candela.build.materials.Materials
 import candela.build.media.{Media, Volumes}
 import candela.build.recipe.*
 import candela.build.sampling.Samplers
-import candela.build.settings.{Accelerators, ColorSpaces, OptionStatements}
+import candela.build.options.{Accelerators, ColorSpaces, OptionStatements}
 import candela.build.shapes.Shapes
 import candela.build.textures.Textures
 

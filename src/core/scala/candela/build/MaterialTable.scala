@@ -174,7 +174,7 @@ private[build] object MaterialTable:
   ): Material =
     material(context, ref, inPlace) match
       case made if made.isInterface => made
-      case made if context.resources.switches.diffuse =>
+      case made if context.resources.settings.diffuse =>
         integrator.finish(DiffuseEquivalent(made, transmits = true))
       case made => integrator.finish(made)
 

@@ -14,6 +14,7 @@ import candela.render.{ErrorFile, FilmSize, LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
 import candela.scenefile.SceneDescription
+import candela.settings.{Choices, LightGrouping, RenderSettings}
 
 /** How a scene is built and its rendering continued: none of it is an image's identity.
   *
@@ -62,7 +63,7 @@ object SceneBuilder:
     for layer <- image.layers if layer.needsFootprints do
       context.resources.askForFootprints(s"the image's ${layer.channels.mkString(" and ")}")
     def footprints =
-      val cone = Option.when(context.isV4 && !context.resources.switches.unfiltered):
+      val cone = Option.when(context.isV4 && !context.resources.settings.unfiltered):
         camera.cone(image, sampling.footprint)
       Footprints(integrator.followsSpecular, cone)
     val crop = image.crop(integrator.window, settings)
@@ -107,8 +108,8 @@ object SceneBuilder:
     (made, context.problems.result)
 
   private def footprint(context: BuildContext, sampling: SamplingSetup): Float =
-    val switches = context.resources.switches
-    if context.resources.footprintUses.isEmpty || switches.unfiltered then 0f
+    val isUnfiltered = context.resources.settings.unfiltered
+    if context.resources.footprintUses.isEmpty || isUnfiltered then 0f
     else sampling.footprint
 
   /** Whether arrays can have all values of the pixels, their layers and bands. */
@@ -210,7 +211,7 @@ object SceneBuilder:
       world: World
   ): RenderPlan =
     val method = world.method
-    val switches = context.resources.switches
+    val effective = context.resources.settings
     // pbrt-v4 scales images by the shutter time
     val exposure = if context.isV4 then camera.shutter.duration else 1f
     val film = if world.color.isSpectral then image.film.spectral(exposure) else image.film
@@ -219,7 +220,7 @@ object SceneBuilder:
       .map(_.over(world.color.bases))
     // AOVs belong to the pixel of the camera sample
     val shares =
-      image.layers.isEmpty && bands.isEmpty && method.canShareSamples && !switches.centers &&
+      image.layers.isEmpty && bands.isEmpty && method.canShareSamples && !effective.centers &&
         FilterReach.isUseful(image.filter)
     val usesSampler = method.takesCameraSamples
     val samples = taken.getOrElse(sampling.sampler.samplesPerPixel)
@@ -236,7 +237,7 @@ object SceneBuilder:
       // Markov chains ignore the sampler
       sampler =
         if usesSampler then
-          if switches.centers then CenteredSampler(sampling.sampler, moves) else sampling.sampler
+          if effective.centers then CenteredSampler(sampling.sampler, moves) else sampling.sampler
         else IndependentSampler(sampling.samples.getOrElse(1), settings.seed),
       method = method,
       basis = if world.color.isSpectral then ColorBasis.Srgb else context.resources.basis,
@@ -265,8 +266,9 @@ object SceneBuilder:
       ,
       sharesSamples = shares,
       bands = bands,
-      isCentered = switches.centers,
-      errors = for r <- switches.reference; f <- switches.errors yield ErrorFile(r, f),
+      isCentered = effective.centers,
+      errors =
+        for r <- effective.output.reference; f <- effective.output.errors yield ErrorFile(r, f),
       fireflies = if settings.preview then Fireflies.Kept else settings.fireflies,
       lights = world.scene.lights.length,
       built = world.costs,
@@ -282,7 +284,7 @@ object SceneBuilder:
       pixels: Long
   ): Option[(String, String)] =
     val why = if settings.choices.byGoal then s"; ${Choices.Why}" else ""
-    Option.when(context.resources.switches.guiding.isDefined):
+    Option.when(context.resources.settings.learning.isDefined):
       "guiding" -> (method.guide match
         case Some(_) if method.pilot.exists(_.blurs) => s"none: ${IdleSettings.PhotonPaths}"
         case Some(learning) => Guide(learning, samples, pixels).describe + why
@@ -290,7 +292,7 @@ object SceneBuilder:
 
   /** What is said of caustics before the pilot, if they are looked for. */
   private def caustics(context: BuildContext, world: World): Vector[(String, String)] =
-    if context.resources.switches.caustics == CausticsMode.Off then Vector.empty
+    if context.resources.settings.choices.caustics == CausticsMode.Off then Vector.empty
     else if world.method.pilot.isDefined then world.caustics.features
     else Vector("caustics" -> s"none: ${IdleSettings.NoCaustics}")
 

@@ -10,6 +10,7 @@ import candela.cameras.{Camera, FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.film.{Filter, PixelBounds}
 import candela.math.*
 import candela.sampling.Sampler
+import candela.settings.{RenderRegion, RenderSettings}
 
 /** The image to render.
   *
@@ -122,8 +123,8 @@ private[build] object SamplingSetup:
   ): SamplingSetup =
     val samples =
       settings.samples.orElse(Option.when(settings.quick)(1)).orElse(integrator.samples)
-    val switches = context.resources.switches
-    val request = SamplerRequest(samples, settings.seed ^ switches.seed)
+    val effective = context.resources.settings
+    val request = SamplerRequest(samples, effective.seed)
     val default = context.defaults.sampler
     val asked = context.made(context.description.sampler, Samplers.all, default)(request)
     val chosen = asked.points(settings.choices.points)
@@ -141,7 +142,7 @@ private[build] object SamplingSetup:
       sampler,
       if points == chosen then asked.describe(settings.choices.points) else points.meaning,
       samples,
-      if switches.centers then 1f
+      if effective.centers then 1f
       else if footprint.isDefined then footprint.get
       else if context.isV4 then Math.max(SharpestV4, density)
       else density,

@@ -7,6 +7,7 @@ import candela.geometry.ShadingPoint
 import candela.math.Vec3
 import candela.base.SourcePos
 import candela.scenefile.{Param, ParamType, SceneDescription}
+import candela.settings.{ColorMode, RenderSettings}
 import candela.textures.{GrayTexture, RgbTexture}
 
 /** Textures of a description, by themselves: not filtered, as three numbers. */

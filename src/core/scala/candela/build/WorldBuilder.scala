@@ -8,7 +8,7 @@ import candela.accel.{Accelerator, Instances, Primitives}
 import candela.aov.Cryptomatte
 import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{LightPlan, Lights, SkySampling}
-import candela.build.settings.{Accelerators, BvhRecipe}
+import candela.build.options.{Accelerators, BvhRecipe}
 import candela.build.textures.Textures
 import candela.cameras.Shutter
 import candela.color.{CameraSensor, ColorBasis}
@@ -18,6 +18,7 @@ import candela.lights.LightSelection
 import candela.render.{Cost, CostKind, RenderMethod}
 import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}
 import candela.scenefile.{Declaration, Dialect, LightDescription, ShapeDescription}
+import candela.settings.{ColorMode, LightGrouping}
 
 /** The world, ready to render, with a description of its features. */
 private[build] final class World(
@@ -126,7 +127,7 @@ private[build] final class WorldBuilder(
       sidesByGeometry = !context.isV4,
       Option.when(context.resources.footprintUses.nonEmpty)(footprints),
       lightGroups =
-        grouping.map(LightGrouping.groups(_, lights.map(_.statement), media.isEmissive))
+        grouping.map(LightGroupBuilder.groups(_, lights.map(_.statement), media.isEmissive))
     )
     warnOfDarkness(scene, media.glows(materials))
     for s <- (world +: objects).flatMap(_.shadowing).headOption if scene.lights.nonEmpty do
@@ -138,7 +139,7 @@ private[build] final class WorldBuilder(
     val (surroundings, inMedia) = around(media, scene)
     val plain = integrator.methodIn(surroundings, scene, samples)
     val found = ColorPlan.of(context, mode, sensor)
-    val color = if context.resources.switches.oneColorSet then found.ofOneSet else found
+    val color = if context.resources.settings.oneColorSet then found.ofOneSet else found
     if color.isSpectral then context.resources.census.sayOfSpectral()
     def inBasis(basis: ColorBasis) = context.in(basis)(defineTextures)
     val disperses = color.bases.headOption.map(inBasis).exists: first =>
@@ -211,7 +212,7 @@ private[build] final class WorldBuilder(
   /** What light samples must find of skies. */
   private def skySampling(materials: MaterialTable): SkySampling =
     val leavesToPhotons = integrator.looksForCaustics && materials.ofScene.hasCasters &&
-      context.resources.switches.caustics == CausticsMode.Photons
+      context.resources.settings.choices.caustics == CausticsMode.Photons
     // If geometry decides the side, light sampling reaches directions that BSDF sampling misses
     if !integrator.samplesBsdf || !context.isV4 then SkySampling.All
     // Photons begin where light is sampled, and have no other technique beside them. What media

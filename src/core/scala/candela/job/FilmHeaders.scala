@@ -1,11 +1,11 @@
 package candela.job
 
 import candela.base.{Code, InputFile, Problem, SceneError, Sha256, Version}
-import candela.build.{RenderGoal, RenderSettings}
 import candela.film.PixelBounds
 import candela.render.{RenderPlan, Shard}
 import candela.render.storage.FilmHeader
 import candela.scenefile.{SceneDescription, SceneFiles}
+import candela.settings.{RenderGoal, RenderSettings}
 
 import java.nio.file.{Files, Path}
 

@@ -1,9 +1,9 @@
 package candela.job
 
-import candela.build.RenderGoal
 import candela.film.Film
 import candela.measure.Interval
 import candela.render.{ExpectedEnd, Looks, Pass, Rendering, SampleRange, StoppingRule}
+import candela.settings.RenderGoal
 
 /** Stops a rendering at a time, or at an error, whichever comes first, with a whole number of
   * samples in every pixel. Without either, it measures the error.

@@ -2,12 +2,12 @@ package candela.job
 
 import candela.aov.Layer
 import candela.base.Version
-import candela.build.RenderSettings
 import candela.film.{Fireflies, PixelBounds, SpectralBands}
 import candela.image.{
   Contents, Image, ImageEdits, ImageFiles, ImageWindow, OutputFormat, WriteOptions
 }
 import candela.render.{Rendering, RenderPlan}
+import candela.settings.RenderSettings
 
 import java.nio.file.Path
 import java.util.Locale

@@ -1,7 +1,6 @@
 package candela.job
 
 import candela.base.{JavaHeap, Keep, Problem, SceneError}
-import candela.build.RenderSettings
 import candela.build.recipe.TextureControl
 import candela.color.Rgb
 import candela.render.{
@@ -11,6 +10,7 @@ import candela.render.{
 import candela.render.storage.{FilmHeader, FilmWriter}
 import candela.scene.PathReport
 import candela.scenefile.SceneDescription
+import candela.settings.RenderSettings
 
 import java.nio.file.Path
 

@@ -1,11 +1,10 @@
 package candela.job
 
 import candela.base.{Code, Problem, SceneError, Sha256}
-import candela.build.sampling.PointChoice
-import candela.build.{RenderGoal, RenderSettings}
 import candela.image.{ImageError, ImageFiles}
 import candela.measure.ReferenceMean
 import candela.render.Rendering
+import candela.settings.{PointChoice, RenderGoal, RenderSettings}
 
 import java.nio.file.{Files, Path}
 

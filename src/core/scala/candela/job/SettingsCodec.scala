@@ -1,10 +1,10 @@
 package candela.job
 
 import candela.aov.Layer
-import candela.build.{
+import candela.image.DisplayTransform
+import candela.settings.{
   Choices, OutputSettings, ReadSettings, RenderGoal, RenderRegion, RenderSettings
 }
-import candela.image.DisplayTransform
 
 /** [[RenderSettings]] as words, as film files store them: `--seed 7 --quick`. Each setting has the
   * name that its option has. A setting without words has its default: so a new setting changes

@@ -1,14 +1,13 @@
 package candela.job
 
 import candela.aov.Layer
-import candela.build.{ColorMode, LightGrouping, RenderRegion}
-import candela.build.sampling.PointChoice
 import candela.color.ToneCurve
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.image.Exposure
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, LightGrouping, PointChoice, RenderRegion}
 
 /** A value as text, in film files and on command lines.
   *

@@ -3,13 +3,13 @@ package candela.aov
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.bsdf.Lambert
-import candela.build.RenderSettings
 import candela.color.{ColorSpace, Rgb}
 import candela.film.Development
 import candela.geometry.{Frame, Ray}
 import candela.image.Image
 import candela.math.Vec3
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 object LayerFilmSuite:

@@ -1,11 +1,12 @@
 package candela.bidirectional
 
-import candela.build.{BuildControl, ColorMode, RenderSettings}
+import candela.build.BuildControl
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
 import candela.render.{Renderer, RenderPlan, ThreadPool}
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -3,10 +3,10 @@ package candela.bidirectional
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.build.{RenderRegion, RenderSettings}
 import candela.color.Rgb
 import candela.render.Renderer
 import candela.scenefile.Dialect
+import candela.settings.{RenderRegion, RenderSettings}
 import candela.testing.SceneTexts
 
 /** All strategies together find the light that each path tracer finds, and light that no path from

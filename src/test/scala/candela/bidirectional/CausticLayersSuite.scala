@@ -1,13 +1,13 @@
 package candela.bidirectional
 
 import candela.aov.Layer
-import candela.build.{ColorMode, LightGrouping, RenderSettings}
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
 import candela.render.{Renderer, RenderPlan, SplattedTiles}
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, LightGrouping, RenderSettings}
 import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.Assertion

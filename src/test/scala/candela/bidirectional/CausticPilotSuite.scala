@@ -1,8 +1,8 @@
 package candela.bidirectional
 
-import candela.build.RenderSettings
 import candela.integrators.CausticsMode
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 import org.scalatest.funsuite.AnyFunSuite

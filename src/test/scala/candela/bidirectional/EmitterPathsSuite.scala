@@ -1,12 +1,12 @@
 package candela.bidirectional
 
-import candela.build.{ColorMode, RenderSettings}
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
 import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite

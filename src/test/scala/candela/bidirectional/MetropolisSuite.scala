@@ -4,10 +4,10 @@ import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
 import candela.aov.Layer
-import candela.build.{ColorMode, RenderRegion, RenderSettings}
 import candela.color.Rgb
 import candela.render.{RenderControl, Cancellation, Renderer}
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderRegion, RenderSettings}
 import candela.testing.SceneTexts
 
 /** Chains come to the same picture as the paths that they walk among. */

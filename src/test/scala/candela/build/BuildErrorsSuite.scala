@@ -7,6 +7,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import candela.base.{Problem, SceneError, Severity}
 import candela.image.{Image, ImageFiles}
 import candela.scenefile.{Dialect, Parser}
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 /** What the builder says about scenes that ask for something that is not there. */

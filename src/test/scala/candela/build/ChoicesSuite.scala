@@ -1,9 +1,10 @@
 package candela.build
 
-import candela.build.sampling.{PointChoice, PointSet}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
+import candela.sampling.PointSet
 import candela.scenefile.Dialect
+import candela.settings.{Choices, PointChoice, RenderGoal, RenderSettings}
 import candela.testing.SceneTexts
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -7,6 +7,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import candela.base.{Refusal, SceneError, SceneFolder}
 import candela.build.recipe.Support
 import candela.scenefile.{Dialect, Parser}
+import candela.settings.RenderSettings
 import candela.testing.TempFolder
 
 /** Every parameter of every recipe that names a file asks the scene's folder for it. A new string

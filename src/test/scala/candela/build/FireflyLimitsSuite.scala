@@ -2,6 +2,7 @@ package candela.build
 
 import candela.film.Fireflies
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -9,6 +9,7 @@ import candela.image.{Image, ImageFiles, Samples}
 import candela.mitsuba.MitsubaScene
 import candela.render.Renderer
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 final class ImageDecodingSuite extends AnyFunSuite:

@@ -4,6 +4,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.SceneTexts
 
 final class MaterialTableSuite extends AnyFunSuite:

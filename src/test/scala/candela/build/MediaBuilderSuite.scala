@@ -4,6 +4,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{SceneError, Severity}
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 final class MediaBuilderSuite extends AnyFunSuite:

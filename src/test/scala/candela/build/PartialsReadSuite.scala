@@ -8,6 +8,7 @@ import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.Vec3
 import candela.scene.{Footprints, Scene}
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.SceneTexts
 
 /** Meshes have partial derivatives and footprints only where something reads them. */

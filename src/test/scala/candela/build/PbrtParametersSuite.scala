@@ -3,7 +3,7 @@ package candela.build
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.recipe.*
-import candela.build.settings.OptionRecipe
+import candela.build.options.OptionRecipe
 import candela.scenefile.{Dialect, SceneOptions}
 
 /** The recipes against what pbrt's sources read. */

@@ -25,7 +25,7 @@ abstract class RecipeLaws[A](
     Site(
       Declaration(recipes.category, name, Vector.empty, place, SceneFolder.Nowhere),
       dialect.base,
-      Resources(ColorBasis.Srgb, switches = Switches(rules = Some(Rules.of(dialect)))),
+      Resources(ColorBasis.Srgb, rules = Some(Rules.of(dialect))),
       Findings()
     )
 

@@ -10,8 +10,7 @@ import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights, SkySa
 import candela.build.materials.Materials
 import candela.build.media.{Media, Volumes}
 import candela.build.sampling.{SamplerPlan, SamplerRequest, Samplers}
-import candela.build.recipe.Switches
-import candela.build.settings.{AcceleratorPlan, Accelerators, ColorSpaces, OptionStatements}
+import candela.build.options.{AcceleratorPlan, Accelerators, ColorSpaces, OptionStatements}
 import candela.build.shapes.{ShapePlan, Shapes}
 import candela.build.textures.Textures
 import candela.color.ColorSpace
@@ -19,6 +18,7 @@ import candela.film.Filter
 import candela.math.Transform
 import candela.media.{Medium, Region}
 import candela.scenefile.Directives
+import candela.settings.RenderSettings
 import candela.textures.{FloatTexture, RgbTexture}
 
 final class FilmRecipesSuite extends RecipeLaws[FilmSettings](Films.all)
@@ -84,7 +84,7 @@ final class RendererRecipesSuite extends RecipeLaws[Option[IntegratorPlan]](Rend
 
 final class VolumeIntegratorRecipesSuite extends RecipeLaws[VolumeMethod](VolumeIntegrators.all)
 
-final class OptionRecipesSuite extends RecipeLaws[Switches](OptionStatements.all)
+final class OptionRecipesSuite extends RecipeLaws[RenderSettings](OptionStatements.all)
 
 final class AcceleratorRecipesSuite
     extends RecipeLaws[AcceleratorPlan](Accelerators.all)

@@ -8,11 +8,11 @@ import candela.color.{ColorSpace, Rgb}
 import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
 import candela.integrators.{DirectLighting, Integrator, PathTracer}
 import candela.render.{RenderPlan, Renderer, ThreadPool, Tiles}
-import candela.build.sampling.{PointChoice, PointSet}
 import candela.sampling.{
-  HaltonSampler, IndependentSampler, OwenSobolSampler, StratifiedSampler, ZSobolSampler
+  HaltonSampler, IndependentSampler, OwenSobolSampler, PointSet, StratifiedSampler, ZSobolSampler
 }
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, PointChoice, RenderRegion, RenderSettings}
 import candela.testing.SceneTexts
 
 final class SceneBuilderSuite extends AnyFunSuite:

@@ -6,6 +6,7 @@ import candela.image.{Image, ImageFiles}
 import candela.math.Position
 import candela.render.{CostKind, Renderer}
 import candela.scenefile.{Dialect, SceneDescription}
+import candela.settings.RenderSettings
 import candela.testing.{SceneTexts, TempFolder}
 
 import java.nio.file.{Files, Path}

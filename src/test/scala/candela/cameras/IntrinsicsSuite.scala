@@ -3,10 +3,11 @@ package candela.cameras
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.mitsuba.MitsubaScene
 import candela.render.{RenderPlan, Renderer}
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 import java.nio.file.Files

@@ -3,10 +3,10 @@ package candela.color
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.build.{ColorMode, RenderSettings}
 import candela.color.Colorimetry.White
 import candela.render.Renderer
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.SceneTexts
 
 final class PbrtColorsSuite extends AnyFunSuite:

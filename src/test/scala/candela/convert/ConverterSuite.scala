@@ -1,9 +1,10 @@
 package candela.convert
 
-import candela.build.{ColorMode, RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.image.Image
 import candela.render.{ReferenceScenes, Renderer}
 import candela.scenefile.*
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.{Blocks, TempFolder}
 import org.scalatest.funsuite.AnyFunSuite
 

@@ -9,12 +9,13 @@ import scala.jdk.CollectionConverters.*
 import scala.util.Random
 
 import candela.base.{InputFile, SceneError, Severity}
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.build.media.{NanoVdbError, NanoVdbFile}
 import candela.build.shapes.PlyFile
 import candela.image.{Image, ImageError, ImageFiles, OutputFormat}
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.Parser
+import candela.settings.RenderSettings
 import candela.testing.{NanoVdb, VdbGrid}
 
 /** Broken files, each read in its own way.

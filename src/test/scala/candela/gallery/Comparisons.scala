@@ -1,8 +1,9 @@
 package candela.gallery
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.render.{ReferenceScenes, RenderPlan}
 import candela.scenefile.Parser
+import candela.settings.RenderSettings
 
 /** Scenes of the repository that the gallery shows beside pbrt's images of them.
   *

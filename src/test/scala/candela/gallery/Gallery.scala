@@ -4,12 +4,13 @@ import java.nio.file.{Files, Path}
 
 import candela.aov.Layer
 import candela.base.Problem
-import candela.build.{Category, RenderSettings, SceneBuilder}
+import candela.build.{Category, SceneBuilder}
 import candela.build.recipe.Recipe
 import candela.image.{Image, ImageFiles, Oidn}
 import candela.job.Denoising
 import candela.render.{ReferenceScenes, Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser}
+import candela.settings.RenderSettings
 
 /** One type of the gallery.
   *

@@ -6,9 +6,9 @@ import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
 import candela.base.SceneError
-import candela.build.RenderSettings
 import candela.image.{DisplayTransform, Image, ImageFiles}
 import candela.render.{ReferenceScenes, Renderer}
+import candela.settings.RenderSettings
 import candela.testing.Blocks
 
 /** Checks that the gallery shows every type. */

@@ -1,10 +1,11 @@
 package candela.gallery
 
 import candela.aov.Layer
-import candela.build.{LightGrouping, RenderRegion, RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.image.{ContactSheet, DisplayTransform, Image, ImageFiles}
 import candela.color.ToneCurve
 import candela.scenefile.Parser
+import candela.settings.{LightGrouping, RenderRegion, RenderSettings}
 
 import java.nio.file.{Files, Path}
 

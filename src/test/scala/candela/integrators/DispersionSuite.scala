@@ -2,10 +2,10 @@ package candela.integrators
 
 import candela.bsdf.{Bsdf, BsdfLaws, Lambert, Lobes, Scaled, SentThrough}
 import candela.bsdf.microfacet.{Dielectric, Dispersive, TrowbridgeReitz}
-import candela.build.{ColorMode, RenderSettings}
 import candela.color.{Rgb, SmoothSpectra, Wavelengths}
 import candela.math.lerp
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.SceneTexts
 import org.scalatest.tagobjects.Slow
 

@@ -1,11 +1,11 @@
 package candela.integrators
 
-import candela.build.RenderSettings
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.render.{RenderControl, Cancellation, Renderer, RenderListener, RenderPlan}
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.{Blocks, FileKeeper, SceneTexts}
 
 import java.nio.file.{Files, Path}

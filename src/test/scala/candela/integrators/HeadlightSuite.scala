@@ -1,10 +1,10 @@
 package candela.integrators
 
-import candela.build.RenderSettings
 import candela.color.Rgb
 import candela.image.Image
 import candela.render.Renderer
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -5,8 +5,9 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.mitsuba.MitsubaScene
 import candela.render.Renderer
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 import java.nio.file.Files

@@ -1,9 +1,9 @@
 package candela.integrators
 
-import candela.build.{ColorMode, RenderSettings}
 import candela.image.Image
 import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -3,9 +3,9 @@ package candela.integrators
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.aov.Layer
-import candela.build.RenderSettings
 import candela.render.Renderer
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 /** pbrt-v4's integrators for teaching: `simplepath`, `randomwalk`, `simplevolpath`, `lightpath`. */

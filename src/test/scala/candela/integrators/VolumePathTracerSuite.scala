@@ -3,10 +3,11 @@ package candela.integrators
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.color.Rgb
 import candela.render.Renderer
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 final class VolumePathTracerSuite extends AnyFunSuite:

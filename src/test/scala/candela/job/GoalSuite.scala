@@ -1,10 +1,10 @@
 package candela.job
 
-import candela.build.RenderGoal
 import candela.color.Rgb
 import candela.film.{Development, Film}
 import candela.image.Image
 import candela.render.{RenderControl, Pass, Renderer, Rendering, TinyPlan}
+import candela.settings.RenderGoal
 
 import org.scalatest.funsuite.AnyFunSuite
 

@@ -1,7 +1,7 @@
 package candela.job
 
-import candela.build.RenderSettings
 import candela.render.RenderControl
+import candela.settings.RenderSettings
 import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite

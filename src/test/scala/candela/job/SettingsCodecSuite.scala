@@ -1,14 +1,16 @@
 package candela.job
 
 import candela.aov.Layer
-import candela.build.*
-import candela.build.sampling.PointChoice
 import candela.color.ToneCurve
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.image.{DisplayTransform, Exposure}
 import candela.scenefile.Dialect
+import candela.settings.{
+  ColorMode, LightGrouping, OutputSettings, PointChoice, ReadSettings, RenderGoal, RenderRegion,
+  RenderSettings
+}
 
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite

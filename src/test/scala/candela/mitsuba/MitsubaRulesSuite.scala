@@ -1,9 +1,10 @@
 package candela.mitsuba
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.image.{Image, ImageFiles}
 import candela.render.Renderer
 import candela.scenefile.SceneDescription
+import candela.settings.RenderSettings
 
 import java.nio.file.Files
 

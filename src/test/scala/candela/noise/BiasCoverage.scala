@@ -1,10 +1,10 @@
 package candela.noise
 
-import candela.build.RenderSettings
-import candela.build.sampling.{PointChoice, PointSet}
 import candela.guiding.GuidingMode
 import candela.measure.{BiasTest, Renderings, TileSums}
 import candela.render.Renderer
+import candela.sampling.PointSet
+import candela.settings.{PointChoice, RenderSettings}
 
 import java.util.SplittableRandom
 

@@ -1,13 +1,12 @@
 package candela.noise
 
-import candela.build.RenderSettings
-import candela.build.sampling.PointChoice
 import candela.cli.rendering.RenderRecorder
 import candela.measure.{Interval, Metrics}
 import candela.render.{RenderControl, Looks, Pass, Renderer, RenderListener}
 import candela.film.Film
 import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
+import candela.settings.{PointChoice, RenderSettings}
 
 import java.nio.file.{Files, Path}
 

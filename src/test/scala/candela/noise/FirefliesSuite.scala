@@ -1,11 +1,12 @@
 package candela.noise
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.film.Fireflies
 import candela.image.{Image, ImageFiles}
 import candela.measure.Metrics
 import candela.render.Renderer
 import candela.scenefile.Parser
+import candela.settings.RenderSettings
 
 import java.nio.file.Path
 

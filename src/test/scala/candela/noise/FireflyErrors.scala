@@ -1,12 +1,11 @@
 package candela.noise
 
 import candela.base.loop
-import candela.build.RenderSettings
-import candela.build.sampling.PointChoice
 import candela.film.Fireflies
 import candela.image.Image
 import candela.measure.Metrics
 import candela.render.{Renderer, RenderPlan}
+import candela.settings.{PointChoice, RenderSettings}
 
 /** Measures what `--fireflies` brings and costs, for docs/NOISE.md: the relative MSE of single
   * images, and that of the mean of several, which is their bias.

@@ -1,10 +1,10 @@
 package candela.noise
 
 import candela.bench.statistics.*
-import candela.build.RenderSettings
 import candela.image.Image
 import candela.measure.*
 import candela.render.Renderer
+import candela.settings.RenderSettings
 
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path, StandardOpenOption}

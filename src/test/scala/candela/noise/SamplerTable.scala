@@ -1,11 +1,11 @@
 package candela.noise
 
 import candela.base.loop
-import candela.build.RenderSettings
-import candela.build.sampling.{PointChoice, PointSet}
 import candela.image.Image
 import candela.measure.{LogLogFit, Metrics}
 import candela.render.Renderer
+import candela.sampling.PointSet
+import candela.settings.{PointChoice, RenderSettings}
 
 import java.lang.management.ManagementFactory
 

@@ -1,8 +1,9 @@
 package candela.noise
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.render.RenderPlan
 import candela.scenefile.{Declaration, Param, Parser, SceneDescription}
+import candela.settings.RenderSettings
 
 import java.nio.file.Path
 

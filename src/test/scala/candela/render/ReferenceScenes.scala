@@ -5,10 +5,10 @@ import java.nio.file.{Files, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-import candela.build.RenderSettings
 import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
 import candela.integrators.CausticsMode
+import candela.settings.RenderSettings
 
 /** A scene of the `scenes` folder with the image that pbrt, or Mitsuba, makes of it.
   *

@@ -1,11 +1,11 @@
 package candela.render
 
-import candela.build.sampling.PointChoice
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.measure.{BiasTest, Renderings, TileSums}
 import candela.scenefile.Parser
+import candela.settings.{PointChoice, RenderSettings}
 
 import java.nio.file.Path
 

@@ -2,9 +2,9 @@ package candela.shapes
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.RenderSettings
 import candela.math.*
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 import java.nio.file.Path

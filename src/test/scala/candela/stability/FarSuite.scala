@@ -5,12 +5,13 @@ import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.image.Image
 import candela.math.Position
 import candela.mitsuba.MitsubaScene
 import candela.render.Renderer
 import candela.scenefile.{Dialect, SceneDescription}
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 /** Scenes at georeferenced coordinates render as at the origin. */

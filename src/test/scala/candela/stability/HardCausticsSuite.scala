@@ -1,11 +1,11 @@
 package candela.stability
 
 import candela.bidirectional.CausticTracerSuite
-import candela.build.{ColorMode, RenderSettings}
 import candela.image.Image
 import candela.integrators.CausticsMode
 import candela.render.Renderer
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.{BlockMeans, SceneTexts}
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -2,10 +2,11 @@ package candela.stability
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.image.Image
 import candela.render.Renderer
 import candela.scenefile.{Dialect, Parser}
+import candela.settings.RenderSettings
 
 /** The scenes that other programs are compared with, of a quarter of the pixels. */
 class HardScenesSuite extends AnyFunSuite:

@@ -1,8 +1,8 @@
 package candela.stability
 
-import candela.build.{ColorMode, RenderSettings}
 import candela.guiding.GuidingMode
 import candela.render.Renderer
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.SceneTexts
 
 /** A way to render a scene. What pbrt's own integrators leave out is not compared:

@@ -7,13 +7,14 @@ import scala.collection.mutable.ArrayBuffer
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.build.{RenderRegion, RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.color.Rgb
 import candela.integrators.LitPlane
 import candela.render.{Renderer, TinyPlan}
 import candela.scene.PathReport
 import candela.scenefile.Dialect
 import candela.scenefile.Dialect.{V3, V4}
+import candela.settings.{RenderRegion, RenderSettings}
 import candela.testing.SceneTexts
 
 /** What is no number never reaches the film, and one can see where it is from. */

@@ -3,11 +3,12 @@ package candela.stability
 import java.nio.file.{Files, Path}
 import java.util.concurrent.TimeUnit
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.convert.{Converter, SceneText}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.render.Renderer
 import candela.scenefile.{Dialect, Parser}
+import candela.settings.RenderSettings
 
 /** A program that renders a scene.
   *

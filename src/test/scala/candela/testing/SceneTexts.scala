@@ -3,10 +3,11 @@ package candela.testing
 import java.nio.file.Path
 
 import candela.base.{Problem, SceneError}
-import candela.build.{BuildControl, RenderSettings, SceneBuilder}
+import candela.build.{BuildControl, SceneBuilder}
 import candela.color.Rgb
 import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser, SceneDescription}
+import candela.settings.RenderSettings
 
 /** Scenes written in a test: to plans, problems and pictures. */
 object SceneTexts:

@@ -27,7 +27,7 @@ private object CausticMethod:
   def apply(scene: Scene, limits: PathLimits, options: WalkOptions, media: Option[SceneMedia])(
       tracer: Tracer
   )(using site: Site): RenderMethod =
-    val mode = site.resources.switches.caustics
+    val mode = site.resources.settings.choices.caustics
     val alone = GuidedMethod(scene)((over, guide, parts) => tracer(over, options, guide, parts))
     if mode == CausticsMode.Off then alone
     else if !scene.mayHaveCasters then without("no surface casts caustics", alone)
@@ -130,7 +130,7 @@ private object CausticMethod:
         SplattedTiles(
           makers(_, None),
           beside = true,
-          site.resources.switches.guiding.map(GuidedSplats(
+          site.resources.settings.learning.map(GuidedSplats(
             _,
             (view, guide) => makers(view, Some(guide))
           )),

@@ -73,7 +73,7 @@ private object GuidedMethod:
       using site: Site
   ): RenderMethod =
     val unguided = WorkerIntegrators(scene)(tracer(_, null, null))
-    site.resources.switches.guiding match
+    site.resources.settings.learning match
       case None => Tiles(unguided)
       case Some(settings) =>
         GuidedTiles(

@@ -12,7 +12,7 @@ private object Places:
   /** The point in Double, if that makes a difference. */
   def far(name: String)(using site: Site): Option[Position] =
     val p = site.declaration.param(name).filter(_.floats.length == 3)
-    val isMoved = !site.resources.switches.origin.isOrigin
+    val isMoved = !site.resources.origin.isOrigin
     p.filter(q => isMoved || q.rests.length > 0).map(_.position(0))
 
   def exact(p: Vec3): Position = Position(p.x, p.y, p.z)

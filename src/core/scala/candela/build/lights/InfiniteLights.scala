@@ -112,7 +112,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
 
   /** Corners of the portal, around the render origin. */
   private def corners()(using site: Site): Vector[Vec3] =
-    val origin = site.resources.switches.origin
+    val origin = site.resources.origin
     val numbers = portal()
     val written = site.declaration.param("portal").filter(_.rests.length == numbers.length)
     def number(i: Int) = written.fold(numbers(i).toDouble)(_.number(i))

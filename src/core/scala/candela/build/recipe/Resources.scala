@@ -6,14 +6,16 @@ import candela.base.{Allowance, Code, Keep, Limit, Parallel, SourcePos, Suggest}
 import candela.bsdf.Material
 import candela.bsdf.composite.{ChosenMaterial, MixedMaterial}
 import candela.color.ColorBasis
+import candela.math.Position
 import candela.scenefile.{Declaration, NameKind, Param}
+import candela.settings.RenderSettings
 import candela.textures.{FloatTexture, RgbTexture}
 
 /** What statements of a scene file refer to: textures, materials and files.
   *
   * @param basis colour basis of the runtime scene
   * @param pool  executes divisible work
-  * @param seed  random seed, except of samplers
+  * @param seed  the user's random seed; samplers have that of `settings`
   * @param plainBasis the three numbers of the scene, from which what all bases share is made
   */
 final class Resources private (
@@ -29,7 +31,9 @@ final class Resources private (
       pool: Parallel = Parallel.Alone,
       seed: Int = 0,
       mayBeSpectral: Boolean = false,
-      switches: Switches = Switches(),
+      settings: RenderSettings = RenderSettings(),
+      rules: Option[Rules] = None,
+      origin: Position = Position.Origin,
       allowance: Allowance = Allowance(),
       textures: TextureStore = TextureStore.InMemory,
       keep: Keep = Keep.Nothing,
@@ -38,7 +42,18 @@ final class Resources private (
     basis,
     pool,
     seed,
-    SharedResources(basis, mayBeSpectral, switches, allowance, textures, keep, isReadable, pool),
+    SharedResources(
+      basis,
+      mayBeSpectral,
+      settings,
+      rules,
+      origin,
+      allowance,
+      textures,
+      keep,
+      isReadable,
+      pool
+    ),
     basis,
     NamedMaterials.Statements()
   )

@@ -16,8 +16,10 @@ import candela.color.{ColorBasis, Encoding, Rgb}
 import candela.bsdf.layered.Coats
 import candela.bsdf.subsurface.ProfileTables
 import candela.image.{ExrLevels, ImageBands, ImageError, ImageFiles, StoredImage}
+import candela.math.Position
 import candela.render.CostKind
 import candela.scenefile.{Declaration, Param}
+import candela.settings.RenderSettings
 import candela.textures.{
   CachedImage, FileLevels, MadeTexels, MipLevel, OddTexel, TexelFacts, Texels, TileCache, Wrap
 }
@@ -26,7 +28,9 @@ import candela.textures.{
   * threads: bases are made in parallel.
   *
   * @param mayBeSpectral whether rendering may be spectral
-  * @param switches      settings of the whole scene
+  * @param settings      the user's, over those of the scene's `Option` statements
+  * @param rules         for all statements; else those of each statement's dialect
+  * @param origin        where the origin of what is built lies in the scene's world
   * @param allowance     how much the scene may use
   * @param textures      how image textures are kept
   * @param keep          has what other scenes have made
@@ -36,7 +40,9 @@ import candela.textures.{
 final class SharedResources(
     basis: ColorBasis,
     val mayBeSpectral: Boolean,
-    val switches: Switches,
+    val settings: RenderSettings,
+    val rules: Option[Rules],
+    val origin: Position,
     val allowance: Allowance,
     val textures: TextureStore,
     val keep: Keep = Keep.Nothing,
@@ -64,7 +70,7 @@ final class SharedResources(
   def footprintUses: Vector[String] = footprints
 
   def footprintsInWords: String =
-    if switches.unfiltered then "none: textures are not filtered"
+    if settings.unfiltered then "none: textures are not filtered"
     else if footprints.isEmpty then "none: no texture needs them"
     else footprints.mkString("for ", ", ", "")
 

@@ -23,7 +23,7 @@ final class Site(
     val toWorld: Transform = Transform.Identity
 ):
   /** How the program of this dialect renders. */
-  val rules: Rules = resources.switches.rules.getOrElse(Rules.of(dialect))
+  val rules: Rules = resources.rules.getOrElse(Rules.of(dialect))
 
   /** Is any of these the dialect here? */
   def speaks(dialects: Set[Dialect]): Boolean = dialects(dialect) || dialects(rules.dialect)

@@ -3,6 +3,7 @@ package candela.build.sampling
 import candela.base.Code
 
 import candela.build.recipe.*
+import candela.sampling.{PointSet, Strata}
 import candela.scenefile.Dialect
 
 /** Independent random samples. In pbrt's scenes somebody has chosen them; Mitsuba's have them where

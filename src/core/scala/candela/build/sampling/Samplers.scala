@@ -3,6 +3,7 @@ package candela.build.sampling
 import candela.base.Code
 
 import candela.build.recipe.*
+import candela.sampling.PointSet
 import candela.scenefile.Dialect
 
 /** What the command line and the integrator ask of samplers. */

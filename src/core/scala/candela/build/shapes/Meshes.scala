@@ -83,7 +83,7 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
   private def displaced(mesh: PlyMesh, toWorld: Transform)(using
       site: Site
   ): Option[ShapeGeometry] =
-    val longest = edge() * site.resources.switches.edgeScale.getOrElse(1f)
+    val longest = edge() * site.resources.settings.edgeScale.getOrElse(1f)
     if mesh.uvs.isEmpty then
       site.error(Code.MissingParameter, "a displaced mesh needs texture coordinates, as in pbrt")
       None

@@ -147,7 +147,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
 
   /** Images that are not filtered are neither enlarged nor reduced. */
   private def isPlain(using site: Site): Boolean =
-    !site.rules.filters && !site.resources.switches.meanImages
+    !site.rules.filters && !site.resources.settings.meanImages
 
   /** pbrt-v4 stores 8-bit images with 8 bits. */
   private def most(isBytes: Boolean)(using site: Site): Float =
@@ -160,7 +160,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     val kind =
       if isV4 then filter().toLowerCase else if trilinear() then "trilinear" else "ewa"
     site.resources.askForFootprints(s"$kind image textures")
-    val pyramid = if site.resources.switches.meanImages then MipMap.ofMean(all) else all
+    val pyramid = if site.resources.settings.meanImages then MipMap.ofMean(all) else all
     kind match
       case "point" => LevelLookup(pyramid, interpolates = false, bottomUp, turned = !isV4)
       case "bilinear" => LevelLookup(pyramid, interpolates = true, bottomUp, turned = !isV4)

@@ -25,9 +25,9 @@ abstract class MappedRecipe[A](name: String, meaning: String, dialects: Set[Dial
     case "cylindrical" =>
       CylindricalMapping(site.toWorld, onUnitSphere = site.dialect != Dialect.V4)
     case "planar" =>
-      val world = site.resources.switches.origin.toOrigin
+      val world = site.resources.origin.toOrigin
       val space = if site.dialect == Dialect.V4 then site.toWorld else world
-      if site.resources.switches.origin.isOrigin then
+      if site.resources.origin.isOrigin then
         PlanarMapping(space, axis1(), axis2(), udelta(), vdelta())
       else
         // Whole periods are dropped in Double: s and t may be as far out as the scene
@@ -58,14 +58,14 @@ private[build] object Solid:
 
   /** For a texture that repeats after `period` along each axis: whole periods may be left out. */
   def repeating(period: Double)(using site: Site): Mapping3D =
-    if site.resources.switches.origin.isOrigin then mapping
+    if site.resources.origin.isOrigin then mapping
     else
       val far = worldToTexture.position(Position.Origin)
       def whole(x: Double) = period * Math.rint(x / period)
       Mapping3D(Position(whole(far.x), whole(far.y), whole(far.z)).toOrigin * worldToTexture)
 
   private def worldToTexture(using site: Site): Transform =
-    val origin = site.resources.switches.origin
+    val origin = site.resources.origin
     if site.dialect == Dialect.V4 then site.toWorld.inverse
     else if origin.isOrigin then site.toWorld
     else origin.fromOrigin * site.toWorld * origin.fromOrigin
@@ -73,7 +73,7 @@ private[build] object Solid:
   /** Requests ray differentials, which limit the number of octaves. */
   def filtered(using site: Site): Mapping3D =
     site.resources.askForFootprints("solid textures")
-    if site.resources.switches.origin.isOrigin then mapping
+    if site.resources.origin.isOrigin then mapping
     else
       val far = worldToTexture.position(Position.Origin)
       Mapping3D(far.toOrigin * worldToTexture, far)

@@ -1,12 +1,12 @@
 package candela.cli.commands
 
 import candela.base.FileName
-import candela.build.RenderGoal
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal, Thumbnail}
 import candela.image.OutputFormat
 import candela.job.SceneLoader
+import candela.settings.RenderGoal
 
 /** `candela preview`: a first look at scenes, within seconds: few pixels, headlight shading, and
   * placeholders for what is missing.

@@ -1,7 +1,6 @@
 package candela.cli.commands
 
 import candela.base.{Code, FileName, Problem, SceneError, Severity}
-import candela.build.RenderSettings
 import candela.cli.files.{FileRegister, FilmKeeping, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Figures, ProgressLine, Report, Terminal}
@@ -11,6 +10,7 @@ import candela.measure.ReferenceMean
 import candela.render.storage.FilmFile
 import candela.render.{Cancellation, RenderControl, Rendering, RenderListener}
 import candela.scenefile.SceneFiles
+import candela.settings.RenderSettings
 
 import java.nio.file.{Files, Path}
 

@@ -1,7 +1,6 @@
 package candela.cli.commands
 
 import candela.base.{Code, InputFile, Keep, Problem, SceneError}
-import candela.build.RenderRegion
 import candela.cli.files.{FileRegister, FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.rendering.{CostRows, ImageWriter, RenderOutputs, SceneRun, Summary}
@@ -11,6 +10,7 @@ import candela.job.{Denoising, FilmKeeper, Prepared, SceneLoader}
 import candela.render.{Cancellation, RenderPlan, Rendering}
 import candela.render.storage.FilmFile
 import candela.scene.PathReport
+import candela.settings.RenderRegion
 
 import java.nio.file.Path
 

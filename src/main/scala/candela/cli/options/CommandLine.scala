@@ -5,12 +5,12 @@ import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 import candela.aov.Layer
 import candela.base.{CacheFolder, Code, PartFiles, Problem, Suggest}
 import candela.build.recipe.TextureControl
-import candela.build.{RenderRegion, RenderSettings}
 import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
 import candela.convert.Baking
 import candela.image.DisplayTransform
 import candela.job.{Preparation, SceneLimits}
 import candela.scenefile.Dialect
+import candela.settings.{RenderRegion, RenderSettings}
 import candela.watch.WatchAddress
 
 import java.nio.file.{Files, Path}

@@ -1,7 +1,7 @@
 package candela.cli.options
 
-import candela.build.{OutputSettings, ReadSettings, RenderGoal, RenderRegion, RenderSettings}
 import candela.job.TextForm
+import candela.settings.{OutputSettings, ReadSettings, RenderGoal, RenderRegion, RenderSettings}
 
 import scopt.{OParser, Read}
 

@@ -1,13 +1,12 @@
 package candela.cli.options
 
 import candela.aov.Layer
-import candela.build.{ColorMode, LightGrouping, RenderRegion, RenderSettings}
-import candela.build.sampling.PointChoice
 import candela.convert.Baking
 import candela.film.Fireflies
 import candela.image.{Contents, OutputFormat}
 import candela.job.TextForm
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, LightGrouping, PointChoice, RenderRegion, RenderSettings}
 import candela.watch.{TevDisplay, WatchAddress}
 
 import scopt.{OParser, Read}

@@ -1,8 +1,8 @@
 package candela.cli.options
 
-import candela.build.{RenderRegion, RenderSettings}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
+import candela.settings.{RenderRegion, RenderSettings}
 
 import scopt.OParser
 

@@ -4,13 +4,13 @@ import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
 
 import candela.base.{Code, FileName, Problem, SceneError, Version, WholeFile}
-import candela.build.RenderRegion
 import candela.cli.files.{Denoised, FileRegister, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.Figures
 import candela.job.{Denoising, ImageFile, Prepared, TextForm}
 import candela.render.Rendering
 import candela.report.{Machine, Picture, RenderData, RenderPage, RenderReport, Span}
+import candela.settings.RenderRegion
 
 /** Report about one rendering: checked before rendering starts, written when it ends. */
 final class Reporting(options: Options, scene: String, loaded: Prepared):

@@ -5,11 +5,12 @@ import java.nio.file.Path
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.aov.{Cryptomatte, Layer}
-import candela.build.{ColorMode, RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.image.{Image, ImageFiles}
 import candela.math.square
 import candela.render.Renderer
 import candela.scenefile.{Dialect, Parser}
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.SceneTexts
 
 /** Layers of whole scenes. */

@@ -5,10 +5,11 @@ import java.nio.file.{Files, Path}
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.aov.Layer
-import candela.build.{ColorMode, LightGrouping, RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.image.Image
 import candela.render.{RenderPlan, Renderer}
 import candela.scenefile.{Dialect, Parser}
+import candela.settings.{ColorMode, LightGrouping, RenderSettings}
 import candela.testing.{SceneTexts, TempFolder}
 
 /** Layers of divided light, of whole scenes. */

@@ -2,11 +2,11 @@ package candela.build.integrators
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{RenderRegion, RenderSettings}
 import candela.color.Rgb
 import candela.film.PixelBounds
 import candela.render.Renderer
 import candela.scenefile.Dialect
+import candela.settings.{RenderRegion, RenderSettings}
 import candela.testing.SceneTexts
 
 /** What integrators can be told beside how far to follow light. */

@@ -7,8 +7,8 @@ import java.nio.file.Files
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.bsdf.measured.{FourierBsdf, FourierTable, FourierTables}
-import candela.build.{ColorMode, RenderSettings}
 import candela.color.Rgb
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.{Draws, SceneTexts}
 
 class BsdfFileSuite extends AnyFunSuite:

@@ -2,8 +2,9 @@ package candela.build.materials
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.SceneTexts
 
 /** A material is as constant as the textures it names: a parameter that it forgot to name would

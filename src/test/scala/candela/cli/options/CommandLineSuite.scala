@@ -4,10 +4,10 @@ import candela.aov.Layer
 import candela.base.Version
 import candela.bench.BenchOptions
 import candela.bench.suite.Work
-import candela.build.{LightGrouping, ReadSettings, RenderRegion}
 import candela.cli.terminal.ExitCode
 import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect
+import candela.settings.{LightGrouping, ReadSettings, RenderRegion}
 import candela.watch.WatchAddress
 
 import org.scalatest.funsuite.AnyFunSuite

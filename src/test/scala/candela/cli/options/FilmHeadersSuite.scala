@@ -1,9 +1,9 @@
 package candela.cli.options
 
-import candela.build.RenderSettings
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.job.SettingsCodec
+import candela.settings.RenderSettings
 
 import org.scalatest.funsuite.AnyFunSuite
 

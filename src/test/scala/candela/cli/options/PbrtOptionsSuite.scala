@@ -1,11 +1,11 @@
 package candela.cli.options
 
-import candela.build.{OutputSettings, RenderRegion, RenderSettings}
 import candela.build.recipe.Dialects
 import candela.cli.{Captured, Main}
 import candela.cli.terminal.ExitCode
 import candela.film.PixelBounds
 import candela.scenefile.Dialect
+import candela.settings.{OutputSettings, RenderRegion, RenderSettings}
 
 import java.nio.file.{Files, Path}
 

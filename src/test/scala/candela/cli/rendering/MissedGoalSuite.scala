@@ -1,10 +1,10 @@
 package candela.cli.rendering
 
-import candela.build.RenderGoal
 import candela.color.Rgb
 import candela.film.Development
 import candela.job.{ErrorRecorder, Goal}
 import candela.render.{RenderControl, Renderer, TinyPlan}
+import candela.settings.RenderGoal
 
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow

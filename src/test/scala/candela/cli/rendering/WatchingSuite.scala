@@ -1,12 +1,12 @@
 package candela.cli.rendering
 
 import candela.aov.Layer
-import candela.build.RenderSettings
 import candela.cli.Watched
 import candela.color.Rgb
 import candela.image.ImageFiles
 import candela.render.{TinyPlan, Where}
 import candela.scenefile.Dialect
+import candela.settings.RenderSettings
 import candela.testing.Eventually.eventually
 import candela.testing.{SceneTexts, TempFolder, WebClient}
 

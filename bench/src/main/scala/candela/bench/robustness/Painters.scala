@@ -6,11 +6,12 @@ import java.nio.file.Path
 import candela.base.WholeFile
 import candela.bench.report.RobustProgram
 import candela.bench.suite.{Absent, Commands, Installed, Outcome, Present}
-import candela.build.{RenderSettings, SceneBuilder}
+import candela.build.SceneBuilder
 import candela.convert.{Converter, SceneText}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.render.{RenderControl, Cancellation, Renderer}
 import candela.scenefile.{Dialect, Parser, SceneDescription}
+import candela.settings.RenderSettings
 
 /** What a program renders: a scene of [[PeerScene]], or one in pbrt-v3's words alone. */
 final case class PeerInput(v3: String, mitsuba: Option[(String, Map[String, String])])

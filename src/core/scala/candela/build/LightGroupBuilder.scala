@@ -3,21 +3,10 @@ package candela.build
 import candela.base.{Code, Problem, SceneError, Suggest}
 import candela.lights.LightGroups
 import candela.scenefile.Declaration
+import candela.settings.LightGrouping
 
-/** How the layer `lights` groups the lights of a scene. pbrt's lights have no names: those of their
-  * statements are made of type and line, such as `point_12`.
-  */
-enum LightGrouping:
-  /** One group for each statement; an area light statement may have many shapes. */
-  case Statements
-
-  /** One group for each type. */
-  case Types
-
-  /** Groups with these names and statements or types; other lights are in the group `default`. */
-  case Named(groups: Vector[(String, Vector[String])])
-
-object LightGrouping:
+/** The light groups of a scene. */
+object LightGroupBuilder:
   /** Each group has three channels, and scenes may have thousands of lights. */
   val MaxGroups = 100
 

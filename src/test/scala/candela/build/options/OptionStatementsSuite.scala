@@ -1,10 +1,11 @@
-package candela.build
+package candela.build.options
 
-import candela.build.recipe.Switches
+import candela.build.SceneBuilder
 import candela.color.Rgb
 import candela.image.{Image, ImageFiles}
 import candela.render.Renderer
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.SceneTexts
 
 import java.nio.file.{Files, Path}
@@ -12,7 +13,7 @@ import java.nio.file.{Files, Path}
 import org.scalatest.funsuite.AnyFunSuite
 
 /** What pbrt-v4's options change in a picture; those of samples are tested by `PbrtHabitsSuite`. */
-final class SwitchesSuite extends AnyFunSuite:
+final class OptionStatementsSuite extends AnyFunSuite:
 
   /** A surface that fills the view, seen under a slant. */
   private def surface(light: String, material: String, spp: Int = 16): String =
@@ -55,7 +56,7 @@ final class SwitchesSuite extends AnyFunSuite:
     assert(greys(filtered.copy(unfiltered = true)) == 2)
 
   test("image textures become their mean"):
-    val folder = Files.createTempDirectory("candela-switches")
+    val folder = Files.createTempDirectory("candela-options")
     val file = folder.resolve("t.exr")
     try
       val texels = Array(1f, 0f, 0f, 0f, 1f, 0f, 0f, 0f, 1f, .2f, .2f, .2f)
@@ -109,9 +110,9 @@ final class SwitchesSuite extends AnyFunSuite:
     assert(lit(RenderSettings()).grouped(3).map(_.toVector).toSet.size > 10)
 
   test("the user's settings go before the scene's, and seeds are combined"):
-    val scene = Switches(seed = 3, diffuse = true, edgeScale = Some(2f))
-    val asked = RenderSettings(centers = true, edgeScale = Some(4f))
-    assert(asked.over(scene) == scene.copy(centers = true, edgeScale = Some(4f)))
+    val scene = RenderSettings(seed = 3, diffuse = true, edgeScale = Some(2f))
+    val user = RenderSettings(seed = 5, centers = true, edgeScale = Some(4f))
+    assert(user.over(scene) == scene.copy(seed = 6, centers = true, edgeScale = Some(4f)))
     assert(RenderSettings().over(scene) == scene)
 
   test("a scale of edges that is not above 0 is an error"):

@@ -1,6 +1,5 @@
-package candela.build
+package candela.settings
 
-import candela.build.sampling.PointChoice
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 
@@ -15,7 +14,7 @@ final case class Choices(
     caustics: CausticsMode,
     byGoal: Boolean = false
 ):
-  private[build] def in(s: RenderSettings): RenderSettings =
+  private[settings] def in(s: RenderSettings): RenderSettings =
     s.copy(points = Some(points), guiding = Some(guiding), caustics = Some(caustics))
 
 object Choices:
@@ -28,10 +27,11 @@ object Choices:
   private val ForGoal =
     Choices(PointChoice.Progressive, GuidingMode.Auto, CausticsMode.Auto)
 
-  private[build] val Why =
+  /** Why paths are guided, in messages. */
+  val Why =
     "chosen as a time or an error ends the rendering (--guiding off takes none)"
 
-  private[build] def of(s: RenderSettings): Choices =
+  private[settings] def of(s: RenderSettings): Choices =
     val isByGoal = s.goal.isGiven && !s.preview
     val usual = if isByGoal then ForGoal else OfScene
     Choices(

@@ -1,8 +1,6 @@
-package candela.build
+package candela.settings
 
 import candela.aov.Layer
-import candela.build.recipe.Switches
-import candela.build.sampling.PointChoice
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.{GuideSettings, GuidingMode}
 import candela.image.DisplayTransform
@@ -77,25 +75,29 @@ final case class RenderSettings(
   def chosen: RenderSettings = choices.in(this)
 
   /** A preview shows albedos, for which three numbers do. */
-  private[build] def colorMode: ColorMode = if preview then ColorMode.Rgb else color
+  def colorMode: ColorMode = if preview then ColorMode.Rgb else color
 
-  /** Both these and what the scene's own `Option` statements set; where they differ, these. */
-  private[build] def over(scene: Switches): Switches =
-    scene.copy(
-      centers = centers || scene.centers,
-      unfiltered = unfiltered || scene.unfiltered,
-      meanImages = meanImages || scene.meanImages,
-      oneColorSet = oneColorSet || scene.oneColorSet,
-      diffuse = diffuse || scene.diffuse,
-      edgeScale = edgeScale.orElse(scene.edgeScale),
-      reference = output.reference.orElse(scene.reference),
-      errors = output.errors.orElse(scene.errors),
-      guiding = GuideSettings.of(
-        choices.guiding,
-        endsOpen = isEndless || choices.points == PointChoice.Progressive
-      ),
-      caustics = choices.caustics
+  /** How paths learn where light comes from, if they do. */
+  def learning: Option[GuideSettings] =
+    val chosen = choices
+    val endsOpen = isEndless || chosen.points == PointChoice.Progressive
+    GuideSettings.of(chosen.guiding, endsOpen)
+
+  /** Both these and what the scene's own `Option` statements set; where they differ, these. Seeds
+    * are combined.
+    */
+  def over(scene: RenderSettings): RenderSettings = copy(
+    seed = seed ^ scene.seed,
+    centers = centers || scene.centers,
+    unfiltered = unfiltered || scene.unfiltered,
+    oneColorSet = oneColorSet || scene.oneColorSet,
+    diffuse = diffuse || scene.diffuse,
+    edgeScale = edgeScale.orElse(scene.edgeScale),
+    output = output.copy(
+      reference = output.reference.orElse(scene.output.reference),
+      errors = output.errors.orElse(scene.output.errors)
     )
+  )
 
 /** Time or error that ends a rendering.
   *

@@ -1,4 +1,4 @@
-package candela.build.settings
+package candela.build.options
 
 import candela.accel.{Accelerator, Primitives}
 import candela.accel.tracing.{Grid, Hierarchies}

@@ -1,11 +1,12 @@
-package candela.build.settings
+package candela.build.options
 
 import candela.base.{Code, SceneFolder, SourcePos}
 import candela.build.recipe.*
 import candela.color.ColorSpace
+import candela.settings.{OutputSettings, RenderSettings}
 
 /** v4's options, as parameters in lower case, which is how the reader passes them. */
-object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", onlyV4):
+object OptionRecipe extends Recipe[RenderSettings]("", "settings of the whole scene", onlyV4):
   private val seed = integer("seed", "random seed, if the sampler sets none")(0)
   private val centers = bool(
     "disablepixeljitter",
@@ -39,7 +40,7 @@ object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", 
     bool("wavefront", "use the wavefront renderer")(false)
   )
 
-  protected def make()(using site: Site): Switches =
+  protected def make()(using site: Site): RenderSettings =
     val _ = space() // `Motions` reads it from the description
     val scale = edgeScale.given_()
     for s <- scale if !(s > 0f) do
@@ -47,17 +48,19 @@ object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", 
     for (one, other) <- Seq(reference -> errors, errors -> reference) do
       if one().nonEmpty && other().isEmpty then
         site.error(Code.ExclusiveParameters, s"option `${one.name}` needs `${other.name}`, too")
-    Switches(
-      seed(),
-      centers(),
-      unfiltered(),
+    RenderSettings(
+      seed = seed(),
+      centers = centers(),
+      unfiltered = unfiltered(),
       oneColorSet = oneColorSet(),
       diffuse = diffuse(),
       edgeScale = scale,
-      reference = placed(reference)((folder, name, at) =>
-        folder.find(name, Some(at)).fold(folder.path.resolve(name))(_.path).toString
-      ),
-      errors = placed(errors)((folder, name, _) => folder.path.resolve(name).toString)
+      output = OutputSettings(
+        reference = placed(reference)((folder, name, at) =>
+          folder.find(name, Some(at)).fold(folder.path.resolve(name))(_.path).toString
+        ),
+        errors = placed(errors)((folder, name, _) => folder.path.resolve(name).toString)
+      )
     )
 
   /** The name of a file, as pbrt relative to the current folder; of a confined scene, to its own.
@@ -74,7 +77,7 @@ object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", 
       else name
 
 object OptionStatements:
-  val all: Recipes[Switches] = Recipes("option", Vector(OptionRecipe))
+  val all: Recipes[RenderSettings] = Recipes("option", Vector(OptionRecipe))
 
 /** Colour spaces of v4's `ColorSpace`. */
 object ColorSpaces:
