@@ -27,7 +27,8 @@ object Candela:
   /** Reads a scene with non-default settings. */
   def read(file: Path, how: ReadSettings): Scene =
     Scenes.read(file.toString, how):
-      SceneLoader.refusing(SceneLoader.readable(SceneLoader.existing(file.toString), how.of))
+      SceneLoader.refusing:
+        SceneLoader.readable(SceneLoader.existing(file.toString), how.of, how.control)
 
   /** Reads a scene of pbrt's format from a text; file names in it are relative to the current
     * folder.
@@ -41,7 +42,7 @@ object Candela:
     */
   def parse(text: String, name: Path, how: ReadSettings): Scene =
     Scenes.read(name.toString, how):
-      val folder = how.of.limits.folder(name)
+      val folder = how.control.limits.folder(name)
       val read = SceneLoader.refusing(SceneFormat.of(name).readText(name, text, folder, how.of))
       read.copy(unfiled = Vector(s"$name, a text" -> candela.base.Sha256.of(text)))
 

@@ -65,10 +65,9 @@ final class Scene private[api] (
 
   private def prepared(settings: RenderSettings, threads: Int, isRendered: Boolean): Prepared =
     val known = description.getOrElse(throw SceneError(found))
-    val reading = how.of.settings.reading
-    val all = settings.of.copy(reading = reading)
-    val to = how.of.copy(settings = all, threads = threads, isRendered = isRendered)
-    SceneLoader.refusing(SceneLoader.built(known, to))
+    val all = settings.of.copy(reading = how.of)
+    val control = how.control.copy(threads = threads, isRendered = isRendered)
+    SceneLoader.refusing(SceneLoader.built(known, all, control))
 
 private[api] object Scenes:
 

@@ -2,14 +2,14 @@ package candela.build
 
 import java.util.IdentityHashMap
 
-import candela.base.{Code, Keep, Parallel, SceneFolder, SourcePos}
+import candela.base.{Code, Parallel, SceneFolder, SourcePos}
 import candela.build.lights.{AreaLightPlan, AreaLights}
 import candela.build.recipe.*
 import candela.build.options.OptionRecipe
 import candela.color.ColorBasis
 import candela.math.Transform
 import candela.scenefile.{AnimatedTransform, Declaration, Dialect, InstanceList, SceneDescription}
-import candela.settings.{ColorMode, RenderSettings}
+import candela.settings.{BuildControl, ColorMode, RenderSettings}
 
 /** State shared by all stages of building: the description, around its render origin, its named
   * resources, and the problems found so far.
@@ -82,9 +82,8 @@ private[build] object BuildContext:
   def apply(
       whole: SceneDescription,
       settings: RenderSettings,
-      pool: Parallel = Parallel.Alone,
-      textures: TextureControl = TextureControl(),
-      keep: Keep = Keep.Nothing
+      control: BuildControl = BuildControl(),
+      pool: Parallel = Parallel.Alone
   ): BuildContext =
     val isBlind = whole.dialect.base == Dialect.V4 && whole.worldToCamera.start.isFlat
     val description = if isBlind then background(whole) else whole
@@ -110,8 +109,8 @@ private[build] object BuildContext:
       rules = Option.when(description.dialect == Dialect.Mitsuba)(rules),
       origin = origin.at,
       description.folder.allowance,
-      TextureStore.of(description, textures, pool, keep),
-      keep,
+      TextureStore.of(description, control.textures, pool, control.cache),
+      control.cache,
       isReadable = description.errors.isEmpty
     )
     new BuildContext(origin.around(description), origin, resources, problems)

@@ -2,8 +2,7 @@ package candela.build
 
 import candela.accel.tracing.Hierarchies
 import candela.aov.{Layer, LayerFilm, ScreenMotion, VisibleSurface}
-import candela.base.{Code, JavaHeap, Keep, Limit, Parallel, Problem}
-import candela.build.recipe.TextureControl
+import candela.base.{Code, JavaHeap, Limit, Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
 import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands}
@@ -14,27 +13,7 @@ import candela.render.{ErrorFile, FilmSize, LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
 import candela.scenefile.SceneDescription
-import candela.settings.{Choices, LightGrouping, RenderSettings}
-
-/** How a scene is built and its rendering continued: none of it is an image's identity.
-  *
-  * @param pool      executes divisible work
-  * @param taken     samples per pixel to take, if not as many as the points are made for
-  * @param footprint size of a sample's footprint, in pixels, if not that of their number
-  * @param textures  how image textures are kept
-  * @param keep      has what other scenes have made
-  * @param heap      bytes that the scene may take
-  * @param isRendered whether it needs a film
-  */
-final case class BuildControl(
-    pool: Parallel = Parallel.Alone,
-    taken: Option[Int] = None,
-    footprint: Option[Float] = None,
-    textures: TextureControl = TextureControl(),
-    keep: Keep = Keep.Nothing,
-    heap: Long = JavaHeap.limit,
-    isRendered: Boolean = true
-)
+import candela.settings.{BuildControl, Choices, LightGrouping, RenderSettings}
 
 /** Builds a render plan from a description. Connects scene files to rendering.
   *
@@ -46,15 +25,20 @@ object SceneBuilder:
 
   /** Returns the plan and warnings about unsupported features. Throws [[SceneError]] with all
     * errors, including those of the description.
+    *
+    * @param pool executes divisible work
+    * @param heap bytes that the scene may take
     */
   def build(
       description: SceneDescription,
       settings: RenderSettings = RenderSettings(),
-      control: BuildControl = BuildControl()
+      control: BuildControl = BuildControl(),
+      pool: Parallel = Parallel.Alone,
+      heap: Long = JavaHeap.limit
   ): (RenderPlan, Vector[Problem]) =
-    val context = BuildContext(description, settings, control.pool, control.textures, control.keep)
+    val context = BuildContext(description, settings, control, pool)
     val image = ImageSetup.of(context, settings)
-    val taken = control.taken.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
+    val taken = control.samples.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
     def integratorIn(context: BuildContext) =
       if settings.preview then Preview.integrator(context) else integratorPlan(context)
     val integrator = integratorIn(context)
@@ -78,9 +62,9 @@ object SceneBuilder:
     val perPixel = taken.getOrElse(sampling.sampler.samplesPerPixel)
     val film = Option.when(control.isRendered):
       FilmSize.least(crop.pixels, perPixel, image.layers, image.film.development.bands)
-    val memory = MemoryCheck(control.heap, film, context)
+    val memory = MemoryCheck(heap, film, context)
     val samples = crop.pixels * perPixel
-    Hierarchies.expect(samples, control.pool, context.resources.warmUps)
+    Hierarchies.expect(samples, pool, context.resources.warmUps)
     val world =
       WorldBuilder(
         context,
@@ -103,7 +87,7 @@ object SceneBuilder:
     context.problems.stopAtErrors()
     val made = plan(context, settings, taken, image, crop, integrator, sampling, camera, world)
     checkSize(context, made)
-    for why <- control.keep.save() do
+    for why <- control.cache.save() do
       context.problems.warn(Code.Unwritable, None, s"$why; the scene cache gets no more files")
     (made, context.problems.result)
 

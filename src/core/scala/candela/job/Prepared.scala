@@ -1,7 +1,6 @@
 package candela.job
 
-import candela.base.{JavaHeap, Keep, Problem, SceneError}
-import candela.build.recipe.TextureControl
+import candela.base.{JavaHeap, Problem, SceneError}
 import candela.color.Rgb
 import candela.render.{
   Checkpointer, RenderControl, Renderer, RenderFailure, Rendering, RenderPlan, RenderState,
@@ -13,31 +12,6 @@ import candela.scenefile.SceneDescription
 import candela.settings.RenderSettings
 
 import java.nio.file.Path
-
-/** How a scene is prepared for rendering.
-  *
-  * @param limits     what it may do
-  * @param threads    that build it
-  * @param isRendered whether it is rendered, for which a thread prepares
-  * @param taken      samples per pixel to take, if not as many as the points are made for
-  * @param footprint  size of a sample's footprint, in pixels, if not that of their number
-  * @param world      which of the file's worlds, from 0
-  * @param isFirst    whether the others are not looked at, which is then told
-  * @param textures   how image textures are kept
-  * @param keep       has what other scenes have made
-  */
-final case class Preparation(
-    settings: RenderSettings = RenderSettings(),
-    limits: SceneLimits = SceneLimits(),
-    threads: Int = 1,
-    isRendered: Boolean = true,
-    taken: Option[Int] = None,
-    footprint: Option[Float] = None,
-    world: Int = 0,
-    isFirst: Boolean = false,
-    textures: TextureControl = TextureControl(),
-    keep: Keep = Keep.Nothing
-)
 
 /** A scene that is ready to be rendered: a job of its own, beside which others may be prepared and
   * rendered in one process. Its threads end when it is closed.

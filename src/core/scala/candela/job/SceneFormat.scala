@@ -4,6 +4,7 @@ import candela.base.{Code, FileName, Problem, SceneError, SceneFolder, Severity}
 import candela.build.DialectChoice
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Parser, SceneDescription}
+import candela.settings.ReadSettings
 
 import java.nio.file.{Files, Path}
 
@@ -20,20 +21,33 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
   /** Whether its meshes usually come from other files. */
   def keepsMeshesApart: Boolean
 
-  /** The readable part of a scene; see [[SceneDescription.errors]]. */
-  def read(file: Path, within: SceneFolder, how: Preparation): SceneDescription
+  /** The readable part of a scene; see [[SceneDescription.errors]].
+    *
+    * @param world as [[candela.settings.BuildControl]] has it
+    */
+  def read(
+      file: Path,
+      within: SceneFolder,
+      reading: ReadSettings,
+      world: Option[Int]
+  ): SceneDescription
 
   /** The readable part of a scene in a string.
     *
     * @param name in messages
     */
-  def readText(name: Path, text: String, within: SceneFolder, how: Preparation): SceneDescription
+  def readText(
+      name: Path,
+      text: String,
+      within: SceneFolder,
+      reading: ReadSettings
+  ): SceneDescription
 
   /** The image that a scene names, if that can be told before it is read.
     *
     * @return none: it can't; a missing file name: it names none
     */
-  def imageName(file: Path, within: SceneFolder, how: Preparation): Option[Option[String]]
+  def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]]
 
 object SceneFormat:
   val all: Vector[SceneFormat] = Vector(Pbrt, Mitsuba)
@@ -60,13 +74,17 @@ object SceneFormat:
     def hasDialects: Boolean = true
     def keepsMeshesApart: Boolean = false
 
-    def read(file: Path, within: SceneFolder, how: Preparation): SceneDescription =
-      val reading = how.settings.reading
-      checkDefines(file, how)
+    def read(
+        file: Path,
+        within: SceneFolder,
+        reading: ReadSettings,
+        world: Option[Int]
+    ): SceneDescription =
+      checkDefines(file, reading)
       val read =
-        Parser.readable(file, reading.dialect, reading.keepGoing, how.world, Some(within))
+        Parser.readable(file, reading.dialect, reading.keepGoing, world.getOrElse(0), Some(within))
       val scene = DialectChoice.of(read, reading.dialect)
-      if !scene.isFollowed || !how.isFirst then scene
+      if !scene.isFollowed || world.isDefined then scene
       else
         scene.copy(warnings =
           scene.warnings :+ Problem(Code.SeveralWorlds, Severity.Warning, None, FirstOnly)
@@ -76,16 +94,15 @@ object SceneFormat:
         name: Path,
         text: String,
         within: SceneFolder,
-        how: Preparation
+        reading: ReadSettings
     ): SceneDescription =
-      val reading = how.settings.reading
-      checkDefines(name, how)
+      checkDefines(name, reading)
       val dialect = reading.dialect
       val read = Parser.readableText(name.toString, text, within, dialect, reading.keepGoing)
       DialectChoice.of(read, dialect)
 
-    private def checkDefines(file: Path, how: Preparation): Unit =
-      if how.settings.reading.defines.nonEmpty then
+    private def checkDefines(file: Path, reading: ReadSettings): Unit =
+      if reading.defines.nonEmpty then
         val help = "-D sets parameters of Mitsuba's XML files"
         throw SceneError(Problem.general(
           Code.SceneParameter,
@@ -93,10 +110,10 @@ object SceneFormat:
           Some(help)
         ))
 
-    def imageName(file: Path, within: SceneFolder, how: Preparation): Option[Option[String]] =
+    def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
       if !Files.isRegularFile(file) then None // it can be read once
       else
-        Parser.film(file, how.settings.reading.dialect, within).flatMap(_.param("filename")) match
+        Parser.film(file, reading.dialect, within).flatMap(_.param("filename")) match
           case Some(name) => name.strings.headOption.map(Some(_))
           case None => Some(None)
 
@@ -106,18 +123,21 @@ object SceneFormat:
     def hasDialects: Boolean = false
     def keepsMeshesApart: Boolean = true
 
-    def read(file: Path, within: SceneFolder, how: Preparation): SceneDescription =
-      val reading = how.settings.reading
+    def read(
+        file: Path,
+        within: SceneFolder,
+        reading: ReadSettings,
+        world: Option[Int]
+    ): SceneDescription =
       MitsubaScene.readable(file, reading.defines, reading.keepGoing, Some(within))
 
     def readText(
         name: Path,
         text: String,
         within: SceneFolder,
-        how: Preparation
+        reading: ReadSettings
     ): SceneDescription =
-      val reading = how.settings.reading
       MitsubaScene.readable(name, reading.defines, reading.keepGoing, Some(within), Some(text))
 
-    def imageName(file: Path, within: SceneFolder, how: Preparation): Option[Option[String]] =
+    def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
       Some(None)

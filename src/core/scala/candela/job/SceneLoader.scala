@@ -1,9 +1,10 @@
 package candela.job
 
-import candela.base.{Code, Keep, Problem, Refusal, SceneError, Suggest}
-import candela.build.{BuildControl, SceneBuilder}
+import candela.base.{Code, Problem, Refusal, SceneError, Suggest}
+import candela.build.SceneBuilder
 import candela.render.ThreadPool
 import candela.scenefile.{Excerpts, SceneDescription}
+import candela.settings.{BuildControl, ReadSettings, RenderSettings}
 
 import java.nio.file.{Files, InvalidPathException, Path}
 
@@ -14,10 +15,14 @@ import scala.util.{Try, Using}
 abstract class SceneLoader:
 
   /** @throws SceneError if the scene has errors */
-  def load(scene: String, how: Preparation): Prepared
+  def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared
 
   /** The name of a scene's image before it is loaded, if it can be told. */
-  def imageName(scene: String, how: Preparation): Option[ImageName] = None
+  def imageName(
+      scene: String,
+      reading: ReadSettings,
+      control: BuildControl
+  ): Option[ImageName] = None
 
 /** The image that a scene names.
   *
@@ -29,48 +34,53 @@ final case class ImageName(file: Option[String], folder: Path)
 object SceneLoader:
 
   object FromFile extends SceneLoader:
-    def load(scene: String, how: Preparation): Prepared = refusing:
+    def load(
+        scene: String,
+        settings: RenderSettings,
+        control: BuildControl
+    ): Prepared = refusing:
       val file = existing(scene)
       val started = System.nanoTime
-      val description = readable(file, how)
+      val description = readable(file, settings.reading, control)
       val seconds = (System.nanoTime - started) * 1e-9
-      built(description, how).copy(readSeconds = seconds)
+      built(description, settings, control).copy(readSeconds = seconds)
 
-    override def imageName(scene: String, how: Preparation): Option[ImageName] =
+    override def imageName(
+        scene: String,
+        reading: ReadSettings,
+        control: BuildControl
+    ): Option[ImageName] =
       // A refusal is told when the scene is loaded
-      Try(refusing(named(existing(scene), how))).toOption.flatten
+      Try(refusing(named(existing(scene), reading, control))).toOption.flatten
 
-    private def named(file: Path, how: Preparation): Option[ImageName] =
-      val within = how.limits.folder(file)
+    private def named(
+        file: Path,
+        reading: ReadSettings,
+        control: BuildControl
+    ): Option[ImageName] =
+      val within = control.limits.folder(file)
       val folder = if within.isConfined then within.path else Path.of("")
-      SceneFormat.of(file).imageName(file, within, how).map(ImageName(_, folder))
+      SceneFormat.of(file).imageName(file, within, reading).map(ImageName(_, folder))
 
   /** A description, ready to be rendered.
     *
     * @throws SceneError if the scene has errors
     */
-  def built(description: SceneDescription, how: Preparation): Prepared =
+  def built(
+      description: SceneDescription,
+      settings: RenderSettings,
+      control: BuildControl
+  ): Prepared =
     val started = System.nanoTime
-    val pool = ThreadPool(how.threads, worksAside = how.isRendered)
+    val pool = ThreadPool(control.threads, worksAside = control.isRendered)
     try
-      // Scenes of strangers write nothing that their user did not ask for
-      val textures = how.textures.copy(isShared = !how.limits.sandbox)
-      // What a limited scene may use is counted as it is made
-      val keep = if how.limits.all.isEmpty then how.keep else Keep.Nothing
-      keep.begin()
-      val control = BuildControl(
-        pool,
-        how.taken,
-        how.footprint,
-        textures,
-        keep,
-        isRendered = how.isRendered
-      )
-      val (built, warnings) = SceneBuilder.build(description, how.settings, control)
-      val plan = if how.isRendered then built.piloted else built
+      val limited = control.limited
+      limited.cache.begin()
+      val (built, warnings) = SceneBuilder.build(description, settings, limited, pool)
+      val plan = if control.isRendered then built.piloted else built
       val seconds = (System.nanoTime - started) * 1e-9
       val all = description.warnings ++ warnings
-      Prepared(description, plan, all, 0, seconds, pool, how.settings)
+      Prepared(description, plan, all, 0, seconds, pool, settings)
     catch
       case e: Throwable =>
         pool.close()
@@ -80,8 +90,8 @@ object SceneLoader:
   def refusing[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)
 
   /** The readable part of a scene, of any format. */
-  def readable(file: Path, how: Preparation): SceneDescription =
-    try SceneFormat.of(file).read(file, how.limits.folder(file), how)
+  def readable(file: Path, reading: ReadSettings, control: BuildControl): SceneDescription =
+    try SceneFormat.of(file).read(file, control.limits.folder(file), reading, control.world)
     catch case e: SceneError => throw ForeignAdvice.problem(file).fold(e)(SceneError(_))
 
   /** The path of an existing scene file. */

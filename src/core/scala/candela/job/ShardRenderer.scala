@@ -3,6 +3,7 @@ package candela.job
 import candela.base.{Code, Keep, Problem, SceneError}
 import candela.render.{RenderControl, Rendering}
 import candela.render.storage.{FilmFile, FilmHeader}
+import candela.settings.BuildControl
 
 import java.io.IOException
 import java.nio.file.Path
@@ -25,7 +26,11 @@ final class ShardRenderer(
 ) extends AutoCloseable:
   private val settings = FilmHeaders.settings(header)
   private val prepared =
-    SceneLoader.FromFile.load(scene.toString, Preparation(settings, threads = threads, keep = keep))
+    SceneLoader.FromFile.load(
+      scene.toString,
+      settings,
+      BuildControl(threads = threads, cache = keep)
+    )
 
   def close(): Unit = prepared.close()
 

@@ -12,18 +12,18 @@ private[cli] object TimeLimit:
 
   /** Runs a command within the time of its options. */
   def during(options: Options, terminal: Terminal)(run: (Options, Terminal) => ExitCode): ExitCode =
-    options.limits.all.get(Limit.Time) match
+    options.control.limits.all.get(Limit.Time) match
       case None => run(options, terminal)
       case Some(limit) =>
         val nanos = limit * 1_000_000
         val timed = TimedInterrupts(terminal.interrupts, Allowance.outOfTime(limit))
-        val limits = options.limits.copy(endsAt = Some(System.nanoTime + nanos))
+        val limits = options.control.limits.copy(endsAt = Some(System.nanoTime + nanos))
         def quit() =
           ProblemText.print(timed.problem, terminal.err, terminal.hasColor)
           terminal.err.flush()
           terminal.interrupts.quit(ExitCode.BadInput)
         Deadline.during(nanos, grace(options))(timed.expire(), quit()):
-          run(options.copy(limits = limits), terminal.interruptedBy(timed))
+          run(options.controlling(_.copy(limits = limits)), terminal.interruptedBy(timed))
 
   /** Nanoseconds for an orderly end; a film that was asked for may have to wait for its disk. */
   private def grace(options: Options): Long =

@@ -1,6 +1,5 @@
 package candela.bidirectional
 
-import candela.build.BuildControl
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.integrators.CausticsMode
@@ -34,8 +33,8 @@ final class AimPilotSuite extends AnyFunSuite:
       caustics = Some(mode),
       guiding = Some(guiding)
     )
-    val control = BuildControl(pool = ThreadPool(threads))
-    SceneTexts.plan(text, Dialect.V4, settings, control)
+    val pool = ThreadPool(threads)
+    SceneTexts.plan(text, Dialect.V4, settings, pool)
 
   private def image(
       mode: CausticsMode,

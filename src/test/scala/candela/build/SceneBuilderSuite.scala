@@ -76,7 +76,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     def made(pool: Parallel) =
       val options = RenderSettings(color = ColorMode.Spectral)
       val description = SceneTexts.parse(scene, Dialect.V4)
-      val (plan, problems) = SceneBuilder.build(description, options, BuildControl(pool))
+      val (plan, problems) = SceneBuilder.build(description, options, pool = pool)
       val image = Renderer.render(plan, threads = 1).image(plan.development)
       (image.data.toVector, problems.map(_.message))
     val alone = made(Parallel.Alone)
@@ -203,8 +203,8 @@ final class SceneBuilderSuite extends AnyFunSuite:
         s"Integrator \"path\"\nWorldBegin $world Shape \"sphere\""
       val scene = SceneTexts.parse(text, Dialect.V4)
       // Such a film would not fit the heap of the tests either
-      val control = BuildControl(heap = Long.MaxValue)
-      intercept[SceneError](SceneBuilder.build(scene, RenderSettings(layers = layers), control))
+      val settings = RenderSettings(layers = layers)
+      intercept[SceneError](SceneBuilder.build(scene, settings, heap = Long.MaxValue))
         .problems.filter(_.severity == Severity.Error).map(_.message)
     val all = Layer.values.toVector.filterNot(_.dividesLight)
     val why = "can't render 9000×9000 pixels with all their"

@@ -1,12 +1,12 @@
 package candela.build
 
 import candela.base.{Code, Parallel, SceneError}
-import candela.build.recipe.{Findings, TextureControl, TextureStore}
+import candela.build.recipe.{Findings, TextureStore}
 import candela.image.{Image, ImageFiles}
 import candela.math.Position
 import candela.render.{CostKind, Renderer}
 import candela.scenefile.{Dialect, SceneDescription}
-import candela.settings.RenderSettings
+import candela.settings.{BuildControl, RenderSettings, TextureControl}
 import candela.testing.{SceneTexts, TempFolder}
 
 import java.nio.file.{Files, Path}
@@ -209,7 +209,7 @@ class SceneSizeSuite extends AnyFunSuite:
       val scene = parsed(Sky + "Shape \"plymesh\" \"string filename\" \"a.ply\"\n", folder)
       def refused(heap: Long): SceneError =
         intercept[SceneError]:
-          SceneBuilder.build(scene, RenderSettings(), BuildControl(heap = heap))
+          SceneBuilder.build(scene, RenderSettings(), heap = heap)
       val problem = refused(100_000_000).problems.head
       assert(problem.code == Code.OutOfMemory)
       assert(problem.message.contains("limited to 100 MB: hierarchies 112 MB"), problem.message)
@@ -221,8 +221,8 @@ class SceneSizeSuite extends AnyFunSuite:
     val text = Head.replace("32", "8000").replace("24", "8000") + Sky + "Shape \"sphere\"\n"
     val scene = SceneTexts.parse(text, Dialect.V4)
     def build(heap: Long, isRendered: Boolean = true) =
-      val control = BuildControl(heap = heap, isRendered = isRendered)
-      SceneBuilder.build(scene, RenderSettings(samples = Some(4)), control)
+      val control = BuildControl(isRendered = isRendered)
+      SceneBuilder.build(scene, RenderSettings(samples = Some(4)), control, heap = heap)
     val problem = intercept[SceneError](build(3_000_000_000L)).problems.head
     assert(problem.message.contains("film 4.9 GB"), problem.message)
     assert(problem.help.exists(_.contains("--cropwindow")), problem.help)

@@ -2,9 +2,10 @@ package candela.cli
 
 import candela.cli.rendering.PartialImages
 import candela.image.{Image, ImageFiles}
-import candela.job.{Preparation, SceneLoader}
+import candela.job.SceneLoader
 import candela.measure.Metrics
 import candela.render.{RenderControl, Renderer}
+import candela.settings.{BuildControl, RenderSettings}
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
@@ -124,7 +125,7 @@ final class PbrtHabitsSuite extends AnyFunSuite:
   test("partial images are written before the last, which is the same as without them"):
     TempFolder.use: folder =>
       val plain = rendered(folder, "")
-      val plan = SceneLoader.FromFile.load(scene(folder), Preparation()).plan
+      val plan = SceneLoader.FromFile.load(scene(folder), RenderSettings(), BuildControl()).plan
       var written = 0
       val partly = PartialImages(_ => written += 1)
       val _ = Renderer.render(plan, RenderControl(threads = 1, listener = partly))

@@ -1,9 +1,10 @@
 package candela.cli
 
 import candela.base.Problem
-import candela.job.{Preparation, Prepared, SceneLoader}
+import candela.job.{Prepared, SceneLoader}
 import candela.render.RenderPlan
 import candela.scenefile.{Dialect, SceneDescription}
+import candela.settings.{BuildControl, RenderSettings}
 import candela.testing.Eventually.eventually
 
 import java.util.concurrent.atomic.AtomicReference
@@ -19,7 +20,7 @@ final class Watched(plan: RenderPlan, scene: String, warnings: Vector[Problem], 
   private val code = AtomicReference[Option[Int]](None)
 
   private object Loader extends SceneLoader:
-    def load(scene: String, how: Preparation): Prepared =
+    def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
       Prepared(SceneDescription(Dialect.V4), plan, warnings, 0.5, 0.25)
 
   private val thread = Thread: () =>

@@ -1,7 +1,7 @@
 package candela.job
 
 import candela.render.RenderControl
-import candela.settings.RenderSettings
+import candela.settings.{BuildControl, RenderSettings}
 import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -30,8 +30,7 @@ class JobsSuite extends AnyFunSuite:
 
   /** All values of the image. */
   private def image(scene: Path, settings: RenderSettings)(atOnce: => Unit): Vector[Float] =
-    val how = Preparation(settings, threads = 2)
-    val prepared = SceneLoader.FromFile.load(scene.toString, how)
+    val prepared = SceneLoader.FromFile.load(scene.toString, settings, BuildControl(threads = 2))
     try
       atOnce
       val rendering = prepared.render(RenderControl(threads = 2))

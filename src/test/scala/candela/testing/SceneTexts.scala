@@ -2,8 +2,8 @@ package candela.testing
 
 import java.nio.file.Path
 
-import candela.base.{Problem, SceneError}
-import candela.build.{BuildControl, SceneBuilder}
+import candela.base.{Parallel, Problem, SceneError}
+import candela.build.SceneBuilder
 import candela.color.Rgb
 import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser, SceneDescription}
@@ -19,8 +19,8 @@ object SceneTexts:
       text: String,
       dialect: Dialect = Dialect.V3,
       options: RenderSettings = RenderSettings(),
-      control: BuildControl = BuildControl()
-  ): RenderPlan = SceneBuilder.build(parse(text, dialect), options, control)._1.piloted
+      pool: Parallel = Parallel.Alone
+  ): RenderPlan = SceneBuilder.build(parse(text, dialect), options, pool = pool)._1.piloted
 
   /** All that building has to say, warnings or errors. */
   def problems(

@@ -76,7 +76,7 @@ object ClusterScaling:
     val options =
       CommandLine.parse(words).fold(e => throw IllegalArgumentException(e.err), identity)
     val begin = cpu()
-    val loaded = SceneLoader.FromFile.load(o("scene"), options.preparation)
+    val loaded = SceneLoader.FromFile.load(o("scene"), options.sceneSettings, options.building)
     val building = cpu() - begin
     val plan = loaded.plan
     val count = o("shards").toInt

@@ -10,23 +10,8 @@ import candela.base.{
 }
 import candela.image.ImageSize
 import candela.scenefile.{Declaration, Dialect, SceneDescription}
+import candela.settings.TextureControl
 import candela.textures.{TileCache, TileMemory}
-
-/** How image textures are kept; the image is the same.
-  *
-  * @param memory    for image textures, in bytes, if not a share of the heap
-  * @param folder    of the files of tiles, if not the user's
-  * @param folderSize bytes that these may take
-  * @param isShared  whether the user's folder may be used
-  */
-final case class TextureControl(
-    memory: Option[Long] = None,
-    folder: Option[Path] = None,
-    folderSize: Long = CacheFolder.UsualSize,
-    isShared: Boolean = true
-):
-  /** The folder of files, if there is one. */
-  def cache: Option[Path] = folder.orElse(if isShared then CacheFolder.usual() else None)
 
 /** Keeps the images of a scene: in memory, or in tiles if they may not fit.
   *

@@ -40,7 +40,7 @@ final class CheckCommand(
     terminal.out.println(s"${codes.size} scenes: ${counts.mkString(", ")}")
 
   private def check(scene: String): ExitCode =
-    Using.resource(loader.load(scene, options.preparation))(check(scene, _))
+    Using.resource(loader.load(scene, options.sceneSettings, options.building))(check(scene, _))
 
   private def check(scene: String, read: Prepared): ExitCode =
     val film = FilmName.problem(read.description)

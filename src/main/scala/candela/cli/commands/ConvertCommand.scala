@@ -24,13 +24,14 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     val output = Output(out.toVector, "scene", options.files.head)
     val register = FileRegister()
     val folder =
-      if out.isEmpty && options.limits.sandbox then folderOf(OutputFiles.path(options.files.head))
+      if out.isEmpty && options.control.limits.sandbox then
+        folderOf(OutputFiles.path(options.files.head))
       else out.fold(Path.of(""))(folderOf)
-    if options.limits.sandbox then register.confine(Vector(folder))
+    if options.control.limits.sandbox then register.confine(Vector(folder))
     register.read(options.files.map(OutputFiles.path))
     register.check(output)
     val file = SceneLoader.existing(options.files.head)
-    val scene = Parser.whole(SceneLoader.readable(file, options.preparation))
+    val scene = Parser.whole(SceneLoader.readable(file, options.settings.reading, options.building))
     // The output keeps neither comments nor includes.
     register.read(SceneFiles.of(scene))
     register.write(output)

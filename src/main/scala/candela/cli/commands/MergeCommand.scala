@@ -26,7 +26,7 @@ final class MergeCommand(
       val outfiles = OutputFiles.asked(options.outfiles)
       outfiles.check()
       val register = FileRegister()
-      if options.limits.sandbox then
+      if options.control.limits.sandbox then
         val folders = options.outfiles.map(OutputFiles.path).map(_.toAbsolutePath.getParent)
         register.confine(folders.distinct)
       register.read(films.flatMap(f => Vector(f.path, FilmFile.previous(f.path))))
@@ -35,7 +35,7 @@ final class MergeCommand(
         merged.map(Output.film(_, first.path.toString))
       outputs.foreach(register.check)
       val saved = FilmInput.options(first, options)
-      Using.resource(loader.load(saved.files.head, saved.preparation)): loaded =>
+      Using.resource(loader.load(saved.files.head, saved.sceneSettings, saved.building)): loaded =>
         merge(films, loaded, saved, outfiles, outputs, register)
 
   private def merge(

@@ -42,7 +42,7 @@ final class PreviewCommand(
         if options.outfiles.nonEmpty then options.outfiles
         else
           val name = s"${FileName.stem(picture)}-preview.${OutputFormat.preview.suffix}"
-          val isConfined = options.limits.sandbox
+          val isConfined = options.control.limits.sandbox
           Vector(
             if isConfined then OutputFiles.path(scene).resolveSibling(name).toString else name
           )

@@ -26,14 +26,14 @@ final class ReferenceCommand(
   private val cancellation = Cancellation()
   private val goal = options.settings.goal
   private val scene = options.files.head
-  private val perRun = options.taken.getOrElse(ReferenceFile.UsualSamples)
+  private val perRun = options.control.samples.getOrElse(ReferenceFile.UsualSamples)
   private lazy val path = output
   private lazy val file = ReferenceFile(path, options.settings, scene, perRun)
   private var seconds, ofLast = 0.0
 
   def run(): ExitCode = report.guarded:
     val register = FileRegister()
-    if options.limits.sandbox then
+    if options.control.limits.sandbox then
       register.confine(Vector(Option(path.getParent).getOrElse(Path.of(""))))
     register.read(Vector(OutputFiles.path(scene)))
     register.check(Output(Vector(path), "reference", scene, isRewritten = true))
@@ -61,8 +61,8 @@ final class ReferenceCommand(
     asked
 
   private def loaded[A](run: Int)(body: Prepared => A): A =
-    val how = options.setting(_ => settings(run)).copy(taken = Some(perRun)).preparation
-    Using.resource(loader.load(scene, how))(body)
+    val control = options.building.copy(samples = Some(perRun))
+    Using.resource(loader.load(scene, settings(run), control))(body)
 
   private def settings(run: Int): RenderSettings = file.settings(run)
 
@@ -105,7 +105,7 @@ final class ReferenceCommand(
       keeper =>
         val shown = Option.when(!options.quiet)(RenderListener.onProgress(progress.update))
         val control = RenderControl(
-          options.threadCount,
+          options.control.threads,
           cancellation,
           RenderListener.all(shown),
           checkpointer = Some(keeper.checkpointer(() => false))

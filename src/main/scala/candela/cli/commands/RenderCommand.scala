@@ -40,7 +40,7 @@ final class RenderCommand(
       throw SceneError(Problem.general(Code.OptionMisfit, message, help))
     if files.nonEmpty || sequence.frames.size > 1 then Keep(files) else Keep.Nothing
   private lazy val denoising = Option.when(options.settings.output.denoise):
-    Denoising(Oidn.load(terminal.environment), options.threadCount)
+    Denoising(Oidn.load(terminal.environment), options.control.threads)
 
   def run(): ExitCode =
     val code = report.guarded:
@@ -82,7 +82,8 @@ final class RenderCommand(
     files.check(scene, outfiles)
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
-    val prepared = loader.load(scene, options.preparation.copy(world = world, keep = keep))
+    val control = options.building.copy(world = Some(world), cache = keep)
+    val prepared = loader.load(scene, options.sceneSettings, control)
     // A first look ignores most of what warnings are about.
     val isBrief = options.settings.preview && !options.verbose
     val told = if isBrief then prepared.warnings.filter(_.standIn.nonEmpty) else prepared.warnings

@@ -42,8 +42,6 @@ final class ResumeCommand(
     val now = options.settings.samples match
       case Some(samples) => saved.setting(_.copy(samples = Some(samples)))
       case None =>
-        saved.copy(
-          taken = Some(taken),
-          footprint = Option(header.footprint).filter(_ > 0)
-        )
+        val footprint = Option(header.footprint).filter(_ > 0)
+        saved.controlling(_.copy(samples = Some(taken), footprint = footprint))
     RenderCommand(now, terminal, report, loader, Some(film)).run()

@@ -25,7 +25,7 @@ private[cli] object FilmInput:
   def options(film: FilmFile, now: Options): Options =
     val scene = at(film, film.header.scene)
     val file = OutputFiles.path(scene)
-    if now.limits.sandbox then
+    if now.control.limits.sandbox then
       val folder = SceneFolder.of(film.path, isConfined = true)
       val _ = SceneLoader.refusing(folder.scene(file))
     // The film names it, and its user may not know it
@@ -34,11 +34,9 @@ private[cli] object FilmInput:
     Options(
       files = Vector(scene),
       settings = FilmHeaders.settings(film.header).copy(goal = now.settings.goal),
-      limits = now.limits,
-      textures = now.textures,
+      control = now.control,
       keepsScenes = now.keepsScenes,
       sceneFolder = now.sceneFolder,
-      threads = now.threads,
       quiet = now.quiet,
       verbose = now.verbose,
       film = now.film

@@ -4,13 +4,11 @@ import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.aov.Layer
 import candela.base.{CacheFolder, Code, PartFiles, Problem, Suggest}
-import candela.build.recipe.TextureControl
 import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
 import candela.convert.Baking
 import candela.image.DisplayTransform
-import candela.job.{Preparation, SceneLimits}
 import candela.scenefile.Dialect
-import candela.settings.{RenderRegion, RenderSettings}
+import candela.settings.{BuildControl, RenderRegion, RenderSettings}
 import candela.watch.WatchAddress
 
 import java.nio.file.{Files, Path}
@@ -183,8 +181,7 @@ enum Page(val option: String):
   * @param outfiles output images, instead of the file named by the scene
   * @param settings what is rendered of the scenes
   * @param regions parts of the image that were asked for, of which there may be one
-  * @param taken samples per pixel to take, if not those for which the points are made
-  * @param footprint size of a sample's footprint in pixels, if not that of `spp` samples
+  * @param control how they are read and built
   * @param sample the sample of the pixel that `debug` traces, instead of rendering
   * @param pixelMaterial pixel whose material is printed, instead of rendering
   * @param partialImages whether to write the image of each pass
@@ -204,8 +201,8 @@ enum Page(val option: String):
   * @param watchAfter whether the page stays when rendering has ended
   * @param compare options of `compare`
   * @param image options of `image` and `average`
-  * @param limits what scenes may do
-  * @param textures how image textures are kept
+  * @param keepsScenes whether prepared scenes are cached
+  * @param sceneFolder of these, if not that of the texture cache
   * @param module options of a command that another module brings
   */
 final case class Options(
@@ -214,9 +211,7 @@ final case class Options(
     outfiles: Vector[String] = Vector.empty,
     settings: RenderSettings = RenderSettings(),
     regions: Vector[RenderRegion] = Vector.empty,
-    threads: Option[Int] = None,
-    taken: Option[Int] = None,
-    footprint: Option[Float] = None,
+    control: BuildControl = BuildControl(threads = Runtime.getRuntime.availableProcessors),
     quiet: Boolean = false,
     verbose: Boolean = false,
     explain: Boolean = false,
@@ -240,41 +235,35 @@ final case class Options(
     to: Option[Dialect] = None,
     toPly: Option[Int] = None,
     bake: Option[Int] = None,
-    limits: SceneLimits = SceneLimits(),
-    textures: TextureControl = TextureControl(),
     keepsScenes: Boolean = false,
     sceneFolder: Option[Path] = None,
     module: Option[ModuleOptions] = None
 ):
   /** Where prepared scenes are kept, if they are to be. */
   def sceneCache: Option[PartFiles] = Option.when(keepsScenes):
-    sceneFolder.orElse(textures.cache).map(f => PartFiles(CacheFolder(f, textures.folderSize)))
+    sceneFolder.orElse(control.textures.cache).map: folder =>
+      PartFiles(CacheFolder(folder, control.textures.folderSize))
   .flatten
 
   def setting(change: RenderSettings => RenderSettings): Options = copy(settings = change(settings))
 
-  /** How the scenes are prepared. */
-  def preparation: Preparation =
+  def controlling(change: BuildControl => BuildControl): Options = copy(control = change(control))
+
+  /** What is rendered, with what is looked at. */
+  def sceneSettings: RenderSettings =
     // A traced pixel is one of the whole image
     val region = if debug then RenderRegion.Whole else settings.region
     val shown = if pixelMaterial.isEmpty then Vector.empty else Layer.cryptomatte
-    val asked = settings.copy(region = region, layers = (settings.layers ++ shown).distinct)
-    Preparation(
-      asked,
-      limits,
-      threadCount,
-      isRendered = command != Command.Check,
-      taken,
-      footprint,
-      isFirst = command != Command.Render,
-      textures = textures
-    )
+    settings.copy(region = region, layers = (settings.layers ++ shown).distinct)
+
+  /** How the command reads and builds its scenes. */
+  def building: BuildControl = control.copy(
+    isRendered = command != Command.Check,
+    world = Option.when(command == Command.Render)(0)
+  )
 
   /** How pictures show linear light: those of renderings, and of images that are there. */
   def display: DisplayTransform = settings.output.display
 
   /** Whether anything follows the rendering. */
   def isWatched: Boolean = watch.isDefined || displayServer.isDefined
-
-  /** The requested number of threads, or else the number of processors. */
-  def threadCount: Int = threads.getOrElse(Runtime.getRuntime.availableProcessors)

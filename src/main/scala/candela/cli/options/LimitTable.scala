@@ -2,6 +2,7 @@ package candela.cli.options
 
 import candela.base.Limit
 import candela.job.TextForm
+import candela.settings.SceneLimits
 
 import scopt.{OParser, Read}
 
@@ -40,6 +41,9 @@ private[cli] object LimitTable:
   private def milliseconds(text: String): Option[Long] =
     TextForm.seconds.read(text).map(s => Math.max(1L, (s * 1000).toLong))
 
+  private def limiting(o: Options)(change: SceneLimits => SceneLimits): Options =
+    o.controlling(c => c.copy(limits = change(c.limits)))
+
   def options: Vector[OParser[?, Options]] = Vector(
     opt[Unit]("sandbox")
       .text(OptionText(
@@ -47,15 +51,14 @@ private[cli] object LimitTable:
           "--outfile, and apply the limits of --limit",
         "[What it guarantees](../SECURITY.md)."
       ))
-      .action((_, o) => o.copy(limits = o.limits.copy(sandbox = true))),
+      .action((_, o) => limiting(o)(_.copy(sandbox = true))),
     opt[Seq[Changed]]("limit").unbounded().valueName("NAME=N[,NAME=N]")
       .text(
         s"fail at more than N $names, e.g. bytes=2GB,time=10m " +
           s"(default: none; with --sandbox: ${defaults})"
       )
       .action: (all, o) =>
-        val changed = o.limits.changed ++ all.map(c => c.limit -> c.most)
-        o.copy(limits = o.limits.copy(changed = changed))
+        limiting(o)(l => l.copy(changed = l.changed ++ all.map(c => c.limit -> c.most)))
   )
 
   /** Those of the sandbox, as the option takes them. */

@@ -77,7 +77,7 @@ private[candela] object OptionTable extends OptionRows:
     .validate: n =>
       if n <= MostThreads then success
       else failure(s"--nthreads must be at most $MostThreads, found `$n`")
-    .action((n, o) => o.copy(threads = Some(n)))
+    .action((n, o) => o.controlling(_.copy(threads = n)))
 
   private def samples(text: String): Row = opt[Int]("spp").valueName("N")
     .text(text)

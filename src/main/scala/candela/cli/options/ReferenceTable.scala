@@ -28,7 +28,7 @@ private[cli] object ReferenceTable extends OptionRows:
     opt[Int]("spp").valueName("N")
       .text(s"samples per pixel of each run (default ${ReferenceFile.UsualSamples})")
       .validate(atLeast("spp", 1))
-      .action((n, o) => o.copy(taken = Some(n))),
+      .action((n, o) => o.controlling(_.copy(samples = Some(n)))),
     opt[Int]("seed").valueName("N")
       .text("random seed: references of different seeds are independent (default 0)")
       .action(set((n, s) => s.copy(seed = n)))

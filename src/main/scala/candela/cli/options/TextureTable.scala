@@ -3,8 +3,8 @@ package candela.cli.options
 import java.nio.file.{Files, InvalidPathException, Path}
 
 import candela.base.ByteCount
-import candela.build.recipe.TextureControl
 import candela.job.{SceneFormat, TextForm}
+import candela.settings.TextureControl
 
 import scala.util.Try
 
@@ -27,7 +27,7 @@ private[cli] object TextureTable extends OptionRows:
   private val MinBytes = 1_000_000L
 
   private def kept[A](change: (A, TextureControl) => TextureControl): (A, Options) => Options =
-    (value, o) => o.copy(textures = change(value, o.textures))
+    (value, o) => o.controlling(c => c.copy(textures = change(value, c.textures)))
 
   /** Whether a word after `--scene-cache` is its folder, and not a scene or an option. */
   def isFolder(word: String): Boolean =

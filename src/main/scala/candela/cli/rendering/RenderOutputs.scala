@@ -30,7 +30,9 @@ private[cli] final class RenderOutputs(
       for Frame(scene, outfiles) <- frames if Files.exists(OutputFiles.path(scene)) do
         val images =
           if outfiles.nonEmpty then Some(OutputFiles.asked(outfiles))
-          else loader.imageName(scene, options.preparation).map(OutputFiles.named(scene, _))
+          else
+            loader.imageName(scene, options.settings.reading, options.building)
+              .map(OutputFiles.named(scene, _))
         for files <- images do together.note(Output(files.paths, "image", scene))
         for film <- outfiles.find(FilmOptions.isFilm) do
           together.note(Output.film(OutputFiles.path(film), scene))
@@ -41,7 +43,7 @@ private[cli] final class RenderOutputs(
     */
   def check(scene: String, outfiles: Vector[String]): Unit =
     val images = OutputFiles.asked(outfiles)
-    if options.limits.sandbox then register.confine(folders(scene, outfiles))
+    if options.control.limits.sandbox then register.confine(folders(scene, outfiles))
     images.check()
     register.read((scene +: (options.reference ++ options.settings.output.reference).toVector)
       .map(OutputFiles.path))

@@ -71,7 +71,7 @@ private[cli] final class SceneRun(
     val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
     val listeners = shown ++ errorLog ++ images ++ followed
     val control = RenderControl(
-      options.threadCount,
+      options.control.threads,
       cancellation,
       RenderListener.all(listeners),
       options.film.shard,
@@ -127,7 +127,7 @@ private[cli] final class SceneRun(
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
     for log <- errorLog; remark <- log.remark if told do terminal.err.println(remark)
-    val threads = options.threadCount
+    val threads = options.control.threads
     val (pages, failures) = reporting.fold((Vector.empty, Vector.empty)):
       _.write(rendering, threads, developSeconds, writeSeconds, denoised)
     for path <- pages if told do terminal.out.println(s"wrote $path")

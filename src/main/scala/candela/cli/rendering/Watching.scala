@@ -34,7 +34,7 @@ final class Watching(
   /** Begins to follow a rendering. */
   def start(live: Live): Unit =
     def isWatched = viewers.count > 0 || display.exists(_.isConnected)
-    val observer = Observer(plan, reference, options.threadCount, live, () => isWatched)
+    val observer = Observer(plan, reference, options.control.threads, live, () => isWatched)
     this.observer = Some(observer)
     display = options.displayServer.map: (host, port) =>
       TevDisplay(host, port, scene, observer, e => cannotReach(host, port, e))

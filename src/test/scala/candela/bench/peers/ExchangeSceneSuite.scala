@@ -2,8 +2,9 @@ package candela.bench.peers
 
 import candela.base.Parallel
 import candela.image.{Image, ImageFiles}
-import candela.job.{Preparation, SceneLoader}
+import candela.job.SceneLoader
 import candela.render.RenderControl
+import candela.settings.{BuildControl, RenderSettings}
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
@@ -60,7 +61,7 @@ class ExchangeSceneSuite extends AnyFunSuite:
     PeerScenes.of(file, folder.resolve("out"))
 
   private def rendered(file: Path): Image =
-    val loaded = SceneLoader.FromFile.load(file.toString, Preparation())
+    val loaded = SceneLoader.FromFile.load(file.toString, RenderSettings(), BuildControl())
     try loaded.render(RenderControl()).image(loaded.plan.development, Parallel.Alone)
     finally loaded.close()
 

@@ -3,9 +3,10 @@ package candela.cli.commands
 import candela.cli.{Captured, Main}
 import candela.color.Rgb
 import candela.image.ImageFiles
-import candela.job.{Preparation, Prepared, SceneLoader}
+import candela.job.{Prepared, SceneLoader}
 import candela.render.TinyPlan
 import candela.scenefile.{Dialect, SceneDescription}
+import candela.settings.{BuildControl, RenderSettings}
 import candela.testing.TempFolder
 
 import java.nio.file.Files
@@ -59,7 +60,7 @@ class PreviewCommandSuite extends AnyFunSuite:
       object Sick extends SceneLoader:
         private val plan = TinyPlan(): (where, _) =>
           if where.x == 3 && where.sample == 2 then Rgb(Float.NaN, 0f, 0f) else Rgb.White
-        def load(scene: String, how: Preparation): Prepared =
+        def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
           Prepared(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
       val captured = Captured()
       val words = Seq("preview", "s.pbrt", "--outfile", s"$folder/a.png")
@@ -75,7 +76,7 @@ class PreviewCommandSuite extends AnyFunSuite:
           // The minute ends this test alone, if a preview waits for its samples
           if where.x > 0 then ended.await(1, TimeUnit.MINUTES): Unit
           Rgb.White
-        def load(scene: String, how: Preparation): Prepared =
+        def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
           Prepared(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
       val captured = Captured()
       val words = Seq("preview", "s.pbrt", "--outfile", s"$folder/a.png", "--nthreads", "1")

@@ -6,9 +6,10 @@ import candela.cli.{Captured, Main}
 import candela.cli.terminal.Interrupts
 import candela.color.Rgb
 import candela.image.ImageFiles
-import candela.job.{Denoising, Preparation, Prepared, SceneLoader}
+import candela.job.{Denoising, Prepared, SceneLoader}
 import candela.render.{Cancellation, RenderPlan, TinyPlan}
 import candela.scenefile.{Dialect, SceneDescription}
+import candela.settings.{BuildControl, RenderSettings}
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
@@ -22,7 +23,7 @@ class RenderCommandSuite extends AnyFunSuite:
   /** Knows scenes by name; writes nothing but where it is told. */
   private final class Known(scenes: (String, RenderPlan)*) extends SceneLoader:
     var loaded = Vector.empty[String]
-    def load(scene: String, how: Preparation): Prepared =
+    def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
       loaded :+= scene
       def unknown = SceneError(Problem.general(Code.NoSuchScene, s"no $scene"))
       val plan = scenes.toMap.getOrElse(scene, throw unknown)
@@ -88,8 +89,7 @@ class RenderCommandSuite extends AnyFunSuite:
       def render(words: String*) =
         val captured = Captured()
         (Main.run(scene.toString +: words, captured.terminal), captured)
-      val (code, _) = render("--aov", "depth,samples", "--outfile", s"$folder/a.exr,$folder/a.png")
-      assert(code == 0)
+      assert(render("--aov", "depth,samples", "--outfile", s"$folder/a.exr,$folder/a.png")._1 == 0)
       val names = ImageFiles.read(folder.resolve("a.exr")).channelNames
       assert(names == Vector("R", "G", "B", "Z", "samples"))
       val (refused, captured) = render("--film", "gbuffer", "--outfile", s"$folder/b.png")

@@ -34,8 +34,8 @@ class CommandLineSuite extends AnyFunSuite:
     "--spp 16 a.pbrt" -> one.setting(_.copy(samples = Some(16))),
     "a.pbrt --spp=16" -> one.setting(_.copy(samples = Some(16))),
     "a.pbrt --seed -3" -> one.setting(_.copy(seed = -3)),
-    "a.pbrt --nthreads 3" -> one.copy(threads = Some(3)),
-    "a.pbrt -j 3" -> one.copy(threads = Some(3)),
+    "a.pbrt --nthreads 3" -> one.controlling(_.copy(threads = 3)),
+    "a.pbrt -j 3" -> one.controlling(_.copy(threads = 3)),
     "a.pbrt --quick --quiet --verbose --explain" ->
       one.setting(_.copy(quick = true)).copy(quiet = true, verbose = true, explain = true),
     "a.pbrt --outfile x.exr" -> one.copy(outfiles = Vector("x.exr")),

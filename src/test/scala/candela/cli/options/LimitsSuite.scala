@@ -204,7 +204,7 @@ class LimitsSuite extends AnyFunSuite:
     def limits(words: String*) =
       CommandLine.parse(Vector("check") ++ words :+ "s.pbrt").fold(
         answer => fail(answer.err),
-        _.limits.all
+        _.control.limits.all
       )
     assert(limits() == Map.empty)
     assert(limits("--sandbox") == Limit.values.map(l => l -> l.inSandbox).toMap)

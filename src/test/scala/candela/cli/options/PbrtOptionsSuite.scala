@@ -49,10 +49,11 @@ final class PbrtOptionsSuite extends AnyFunSuite:
 
   private val understood = Vector(
     "--ncores 3 a.pbrt --quick --quiet --verbose" ->
-      switched(RenderSettings(quick = true)).copy(threads = Some(3), quiet = true, verbose = true),
-    "--ncores=3 a.pbrt" -> one.copy(threads = Some(3)),
+      switched(RenderSettings(quick = true)).copy(quiet = true, verbose = true)
+        .controlling(_.copy(threads = 3)),
+    "--ncores=3 a.pbrt" -> one.controlling(_.copy(threads = 3)),
     "-nthreads 2 -outfile b.exr a.pbrt" ->
-      one.copy(threads = Some(2), outfiles = Vector("b.exr")),
+      one.controlling(_.copy(threads = 2)).copy(outfiles = Vector("b.exr")),
     "--cropwindow 0 .5 .25 1 a.pbrt" ->
       in(RenderRegion.Window(0f, 0.5f, 0.25f, 1f)),
     "--cropwindow=0,.5,.25,1 a.pbrt" ->

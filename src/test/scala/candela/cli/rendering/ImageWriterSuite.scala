@@ -4,9 +4,10 @@ import candela.cli.{Captured, Main}
 import candela.cli.terminal.Interrupts
 import candela.color.Rgb
 import candela.image.ImageFiles
-import candela.job.{Preparation, Prepared, SceneLoader}
+import candela.job.{Prepared, SceneLoader}
 import candela.render.{Cancellation, TinyPlan}
 import candela.scenefile.{Dialect, SceneDescription}
+import candela.settings.{BuildControl, RenderSettings}
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
@@ -29,8 +30,8 @@ class ImageWriterSuite extends AnyFunSuite:
         current = cancellation
         body
 
-    def load(scene: String, how: Preparation): Prepared =
-      val plan = TinyPlan(spp = how.settings.samples.getOrElse(5)): (where, _) =>
+    def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
+      val plan = TinyPlan(spp = settings.samples.getOrElse(5)): (where, _) =>
         if where.sample == 4 then fifth(scene, current)
         Rgb.White
       Prepared(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)

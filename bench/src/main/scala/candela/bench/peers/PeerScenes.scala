@@ -2,8 +2,9 @@ package candela.bench.peers
 
 import candela.base.{SceneError, WholeFile}
 import candela.convert.{Converter, SceneText, SideFiles}
-import candela.job.{Preparation, SceneLoader}
+import candela.job.SceneLoader
 import candela.scenefile.*
+import candela.settings.{BuildControl, ReadSettings}
 
 import java.io.StringWriter
 import java.nio.charset.StandardCharsets.UTF_8
@@ -31,7 +32,7 @@ object PeerScenes:
     * @throws SceneError if the scene can't be read
     */
   def of(source: Path, folder: Path): PeerFiles =
-    val read = Parser.whole(SceneLoader.readable(source, Preparation(isRendered = false)))
+    val read = Parser.whole(SceneLoader.readable(source, ReadSettings(), BuildControl()))
     val own = read.dialect.base
     val scene = normal(read)
     Files.createDirectories(folder): Unit

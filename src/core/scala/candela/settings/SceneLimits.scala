@@ -1,4 +1,4 @@
-package candela.job
+package candela.settings
 
 import candela.base.{Allowance, Limit, SceneFolder}
 

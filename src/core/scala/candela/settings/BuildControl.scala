@@ -1,0 +1,33 @@
+package candela.settings
+
+import candela.base.Keep
+
+/** How a scene is read and built: none of it is an image's identity.
+  *
+  * @param limits     what the scene may do
+  * @param threads    that build it
+  * @param isRendered whether it is rendered, for which it needs a film, and a thread prepares
+  * @param samples    per pixel to take, if not as many as the points are made for
+  * @param footprint  size of a sample's footprint, in pixels, if not that of their number
+  * @param world      which of the file's worlds, from 0; none: the first, with a warning if there
+  *                   are others
+  * @param textures   how image textures are cached
+  * @param cache      has the meshes, textures and tables of other scenes
+  */
+final case class BuildControl(
+    limits: SceneLimits = SceneLimits(),
+    threads: Int = 1,
+    isRendered: Boolean = true,
+    samples: Option[Int] = None,
+    footprint: Option[Float] = None,
+    world: Option[Int] = Some(0),
+    textures: TextureControl = TextureControl(),
+    cache: Keep = Keep.Nothing
+):
+  /** As the limits allow. */
+  def limited: BuildControl = copy(
+    // Scenes of strangers write nothing that their user did not ask for
+    textures = textures.copy(isShared = !limits.sandbox),
+    // What a limited scene may use is counted as it is made
+    cache = if limits.all.isEmpty then cache else Keep.Nothing
+  )
