@@ -2,9 +2,8 @@ package candela.api
 
 import candela.base.{Code, Keep}
 
-import candela.job.TextForm
 import candela.scenefile.Dialect
-import candela.settings.{BuildControl, ReadSettings as CoreSettings}
+import candela.settings.{BuildControl, ReadSettings as CoreSettings, TextForm}
 
 import java.time.Duration
 

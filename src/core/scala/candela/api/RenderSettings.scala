@@ -2,8 +2,9 @@ package candela.api
 
 import candela.aov.Layer
 import candela.base.{Code, Suggest}
-import candela.job.{SettingsCodec, TextForm}
-import candela.settings.{RenderGoal, RenderSettings as CoreSettings}
+import candela.settings.{
+  RenderGoal, RenderSettings as CoreSettings, SettingsCodec, SettingsTable, TextForm
+}
 
 import java.time.Duration
 import java.util.List as JList
@@ -52,7 +53,7 @@ final class RenderSettings private (private[api] val of: CoreSettings):
     * type of light; `key=point_12+spot_14,sky=infinite` names custom groups.
     */
   def withLightGroups(groups: String): RenderSettings =
-    withOption("light-groups", groups).withLayers(Layer.Lights.word)
+    withOption("light-groups", groups)
 
   /** Adds denoised colours as the layer `Denoised`; requires Intel's Open Image Denoise.
     * See docs/DENOISING.md.
@@ -68,16 +69,16 @@ final class RenderSettings private (private[api] val of: CoreSettings):
   def withOption(name: String): RenderSettings = put(name, None)
 
   private def put(name: String, value: Option[String]): RenderSettings =
-    val known = SettingsCodec.all.find(_.name == name).getOrElse:
-      val help = Suggest.help(name, SettingsCodec.all.map(_.name))
+    val known = SettingsTable.named(name).getOrElse:
+      val help = Suggest.help(name, SettingsTable.all.map(_.name))
       Problems.fail(Code.UnknownEntry, s"unknown setting `$name`", help)
     if known.takesValue != value.isDefined then
       val found = if value.isDefined then "found one" else "found none"
       val wanted = if known.takesValue then "a value" else "no value"
       Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $found")
     val text = value.getOrElse("")
-    known.put(of, text) match
-      case Some(settings) => RenderSettings(settings)
+    known.change(text) match
+      case Some(changed) => change(changed)
       case None => Problems.fail(Code.OptionValue, s"wrong value of `$name`: `$text`")
 
   private def positive(what: String, value: Double): Double =

@@ -5,7 +5,7 @@ import candela.film.PixelBounds
 import candela.render.{RenderPlan, Shard}
 import candela.render.storage.FilmHeader
 import candela.scenefile.{SceneDescription, SceneFiles}
-import candela.settings.{RenderGoal, RenderSettings}
+import candela.settings.{RenderGoal, RenderSettings, SettingsCodec}
 
 import java.nio.file.{Files, Path}
 

@@ -8,7 +8,7 @@ import candela.integrators.CausticsMode
 import candela.scenefile.Dialect
 
 /** Settings that affect the image. With the scene's files, they identify a rendering:
-  * `job.SettingsCodec` stores each of them.
+  * [[SettingsCodec]] stores each of them.
   *
   * @param samples     per pixel, instead of the scene's
   * @param goal        what ends the rendering before its samples do

@@ -239,7 +239,7 @@ class LibrarySuite extends AnyFunSuite:
     )
     val two = RenderSettings(samples = 2).withOption("color", "spectral")
     assert(two == RenderSettings(samples = 2).withOption("color", "spectral"))
-    assert(two.words.asScala == Vector("--color", "spectral", "--spp", "2"))
+    assert(two.words.asScala == Vector("--spp", "2", "--color", "spectral"))
 
 object LibrarySuite:
   private val mitsuba =

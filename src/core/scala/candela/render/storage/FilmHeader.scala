@@ -9,7 +9,7 @@ import candela.render.{RenderPlan, RenderState}
   * @param scene    the scene file, as it was named
   * @param folder   the folder that file names are relative to: itself relative to the film file
   * @param words    settings that shape the image, without the samples per pixel: what
-  *                 `job.SettingsCodec` makes of them
+  *                 `settings.SettingsCodec` makes of them
   * @param outfiles image files to write; none if it is a part of an image
   * @param files    SHA-256 of each file of the scene, by name
   * @param size     of the image, and which part of it

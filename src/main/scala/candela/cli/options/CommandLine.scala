@@ -114,7 +114,8 @@ object CommandLine:
         def refused(texts: Vector[String]) =
           refusal(UsageErrors.explained(texts, command), command)
         options.toRight(refused(errors.toVector)).flatMap: read =>
-          CommandTable.problem(read).map(text => refused(Vector(text))).toLeft(read)
+          CommandTable.problem(read).orElse(CommandTable.problem(words))
+            .map(text => refused(Vector(text))).toLeft(read)
 
   /** Whether it is a word whose parts scopt would all take for short options: their size is that of
     * the word, squared.
@@ -180,7 +181,6 @@ enum Page(val option: String):
   *   reference; for `describe`, category and type
   * @param outfiles output images, instead of the file named by the scene
   * @param settings what is rendered of the scenes
-  * @param regions parts of the image that were asked for, of which there may be one
   * @param control how they are read and built
   * @param sample the sample of the pixel that `debug` traces, instead of rendering
   * @param pixelMaterial pixel whose material is printed, instead of rendering
@@ -210,7 +210,6 @@ final case class Options(
     files: Vector[String] = Vector.empty,
     outfiles: Vector[String] = Vector.empty,
     settings: RenderSettings = RenderSettings(),
-    regions: Vector[RenderRegion] = Vector.empty,
     control: BuildControl = BuildControl(threads = Runtime.getRuntime.availableProcessors),
     quiet: Boolean = false,
     verbose: Boolean = false,

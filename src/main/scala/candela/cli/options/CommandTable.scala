@@ -1,6 +1,8 @@
 package candela.cli.options
 
 import candela.base.Code
+import candela.guiding.GuidingMode
+import candela.settings.{RenderRegion, RenderSettings}
 
 import scopt.{OParser, OptionDef}
 
@@ -211,7 +213,7 @@ private[cli] object CommandTable extends OptionRows:
     def needed(text: String, isMissing: Boolean) = Option.when(isMissing)(text)
     val rendered = Set(Command.Render, Command.Preview)(o.command)
     needsSingle("outfile", rendered && o.outfiles.nonEmpty)
-      .orElse(SwitchTable.problem(o))
+      .orElse(rendering(o))
       .orElse(needsSingle("report", isRender && o.reports.nonEmpty))
       .orElse(needed("--columns needs several images", o.columns.isDefined && !isSeveral))
       .orElse(if isRender then FilmTable.problem(o).orElse(ClusterTable.problem(o)) else None)
@@ -224,3 +226,30 @@ private[cli] object CommandTable extends OptionRows:
       .orElse(needed("--watch-after needs --watch", o.watchAfter && o.watch.isEmpty))
       .orElse(CompareTable.problem(o))
       .orElse(ReferenceTable.problem(o))
+
+  /** Was it asked for? A goal that chooses it can't be divided itself, and is refused as such. */
+  private def guides(s: RenderSettings): Boolean = s.guiding.exists(_ != GuidingMode.Off)
+
+  private def rendering(o: Options): Option[String] =
+    val s = o.settings
+    val isPixel = s.region match
+      case RenderRegion.Pixel(_, _) => true
+      case _ => false
+    if s.output.reference.isDefined != s.output.errors.isDefined then
+      Some("--mse-reference-image and --mse-reference-out must be given together")
+    else if s.output.errors.isDefined && o.files.size > 1 then
+      Some("--mse-reference-out needs a single scene, found several")
+    else if guides(s) && !o.film.shard.isWhole then
+      Some("--guiding can't be divided by --shard: paths learn from those of all samples")
+    else if guides(s) && o.cluster.master.isDefined then
+      Some("--guiding can't be divided by --spark: paths learn from those of all samples")
+    else if o.debug && !isPixel then Some("--debug needs --pixel x,y")
+    else None
+
+  /** What is wrong with the words of a command line, of which one may name a part of the image. */
+  def problem(words: Seq[String]): Option[String] =
+    val parts = words.map(_.takeWhile(c => c != '=' && c != ':')).filter(Regions)
+    Option.when(parts.size > 1):
+      "only one of --cropwindow, --pixelbounds and --pixel can be given"
+
+  private val Regions = Set("--cropwindow", "--pixelbounds", "--pixel")

@@ -1,8 +1,8 @@
 package candela.cli.options
 
-import candela.job.TextForm
 import candela.render.Shard
 import candela.render.storage.FilmFile
+import candela.settings.TextForm
 
 import java.util.Locale
 
@@ -67,23 +67,6 @@ private[cli] object FilmTable extends OptionRows:
     .text("time between two checkpoints, e.g. 10s or 5m (default 60s)")
     .action((s, o) => change(o)(_.copy(every = Some(s))))
 
-  private def goals: Vector[Row] = Vector(
-    opt[Double]("time")(using seconds).valueName("TIME")
-      .text(OptionText(
-        "end after this rendering time, e.g. 90s, 10m or 2h; --spp N is then a maximum",
-        "Reading and building the scene don't count. With `--error`, whichever comes first ends " +
-          "it: [time and error](NOISE.md#time-and-error)."
-      ))
-      .action(setGoal((t, g) => g.copy(time = Some(t)))),
-    opt[Double]("error")(using reading(TextForm.share)).valueName("X")
-      .text(OptionText(
-        "end when the relative error, estimated from the noise, is below X, e.g. 0.02 or 2%; " +
-          "--spp N is then a maximum",
-        "[How the error is estimated](NOISE.md)."
-      ))
-      .action(setGoal((x, g) => g.copy(error = Some(x))))
-  )
-
   def render: Vector[Row] = Vector(
     opt[String]("checkpoint").valueName("[FILE.film]")
       .text(OptionText(
@@ -115,9 +98,7 @@ private[cli] object FilmTable extends OptionRows:
     opt[Unit]("skip-done")
       .text("skip scenes whose complete image, with the same options, exists")
       .action((_, o) => change(o)(_.copy(skipDone = true)))
-  ) ++ goals
-
-  def resume: Vector[Row] = (every +: goals) ++ LimitTable.options
+  )
 
   def merge: Vector[Row] = Vector(
     opt[Unit]("partial")

@@ -1,8 +1,7 @@
 package candela.cli.options
 
 import candela.base.Limit
-import candela.job.TextForm
-import candela.settings.SceneLimits
+import candela.settings.{SceneLimits, TextForm}
 
 import scopt.{OParser, Read}
 

@@ -1,7 +1,6 @@
 package candela.cli.options
 
-import candela.job.TextForm
-import candela.settings.{OutputSettings, ReadSettings, RenderGoal, RenderRegion, RenderSettings}
+import candela.settings.{RenderSettings, Setting, SettingsTable, TextForm}
 
 import scopt.{OParser, Read}
 
@@ -19,30 +18,28 @@ private[candela] trait OptionRows:
   protected final given read[A](using form: TextForm[A]): Read[A] = reading(form)
 
   protected final def reading[A](form: TextForm[A]): Read[A] = Read.reads: text =>
-    form.read(text).getOrElse(throw IllegalArgumentException(s"expected ${form.expected}"))
+    form.read(text).getOrElse(throw IllegalArgumentException(s"expected ${form.wanted(text)}"))
 
-  /** The action of a row: it changes what is rendered. */
-  protected final def set[A](
-      change: (A, RenderSettings) => RenderSettings
-  ): (A, Options) => Options = (value, o) => o.setting(change(value, _))
+  /** The row of a setting.
+    *
+    * @param help instead of that of the table
+    */
+  protected final def setting(name: String, help: String = ""): Row =
+    row(SettingsTable.named(name).get, help)
 
-  /** Likewise: how the scene's files are read. */
-  protected final def setReading[A](
-      change: (A, ReadSettings) => ReadSettings
-  ): (A, Options) => Options = set((value, s) => s.copy(reading = change(value, s.reading)))
+  protected final def settings(names: String*): Vector[Row] = names.toVector.map(setting(_))
 
-  /** Likewise: what is written of the image. */
-  protected final def setOutput[A](
-      change: (A, OutputSettings) => OutputSettings
-  ): (A, Options) => Options = set((value, s) => s.copy(output = change(value, s.output)))
-
-  /** Likewise: what ends the rendering. */
-  protected final def setGoal[A](change: (A, RenderGoal) => RenderGoal): (A, Options) => Options =
-    set((value, s) => s.copy(goal = change(value, s.goal)))
-
-  /** Likewise: the part of the image. */
-  protected final def setRegion[R <: RenderRegion]: (R, Options) => Options = (region, o) =>
-    o.setting(_.copy(region = region)).copy(regions = o.regions :+ region)
+  protected final def row(of: Setting, help: String = ""): Row =
+    val text = if help.isEmpty then OptionText(of.help, of.more) else help
+    if of.takesValue then
+      val read: Read[RenderSettings => RenderSettings] = Read.reads: value =>
+        of.change(value).getOrElse:
+          throw IllegalArgumentException(s"expected ${of.wanted(value)}")
+      val plain = b.opt[RenderSettings => RenderSettings](of.name)(using read)
+        .valueName(of.valueName).text(text).action((change, o) => o.setting(change))
+      val lettered = of.letter.fold(plain)(letter => plain.abbr(letter.toString))
+      if of.isRepeatable then lettered.unbounded() else lettered
+    else b.opt[Unit](of.name).text(text).action((_, o) => of.change("").fold(o)(o.setting))
 
   /** Of a list, as of `,`, nothing may be left. */
   protected final def some(option: String)(all: Seq[?]): Either[String, Unit] =

@@ -5,7 +5,8 @@ package candela.cli.options
   */
 private[cli] object OptionText:
 
-  def apply(short: String, more: String): String = s"$short\n$more"
+  def apply(short: String, more: String): String =
+    if more.isEmpty then short else s"$short\n$more"
 
   /** What `--help` prints of the text of a row. */
   def short(text: String): String = text.takeWhile(_ != '\n')

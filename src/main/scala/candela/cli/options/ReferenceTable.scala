@@ -1,6 +1,6 @@
 package candela.cli.options
 
-import candela.job.{ReferenceFile, TextForm}
+import candela.job.ReferenceFile
 
 import scopt.OParser
 
@@ -15,23 +15,20 @@ private[cli] object ReferenceTable extends OptionRows:
     opt[String]('o', "outfile").valueName("FILE.exr")
       .text("the reference (default: the scene's name with -reference.exr, in this folder)")
       .action((f, o) => o.copy(outfiles = Vector(f))),
-    opt[Double]("error")(using reading(TextForm.share)).valueName("X")
-      .text(OptionText(
+    setting(
+      "error",
+      OptionText(
         "end when the reference's own relative error is below X, e.g. 0.002 or 0.2%",
         s"The error is estimated from the differences between runs, at least " +
           s"${ReferenceFile.FewestRuns}: [references](NOISE.md#references)."
-      ))
-      .action(setGoal((x, g) => g.copy(error = Some(x)))),
-    opt[Double]("time")(using reading(TextForm.seconds)).valueName("TIME")
-      .text("end with the run that ends nearest to this time of rendering, e.g. 2h")
-      .action(setGoal((t, g) => g.copy(time = Some(t)))),
+      )
+    ),
+    setting("time", "end with the run that ends nearest to this time of rendering, e.g. 2h"),
     opt[Int]("spp").valueName("N")
       .text(s"samples per pixel of each run (default ${ReferenceFile.UsualSamples})")
       .validate(atLeast("spp", 1))
       .action((n, o) => o.controlling(_.copy(samples = Some(n)))),
-    opt[Int]("seed").valueName("N")
-      .text("random seed: references of different seeds are independent (default 0)")
-      .action(set((n, s) => s.copy(seed = n)))
+    setting("seed", "random seed: references of different seeds are independent (default 0)")
   )
 
   /** What is wrong with the options of `reference`, if anything. */

@@ -3,8 +3,8 @@ package candela.cli.options
 import java.nio.file.{Files, InvalidPathException, Path}
 
 import candela.base.ByteCount
-import candela.job.{SceneFormat, TextForm}
-import candela.settings.TextureControl
+import candela.job.SceneFormat
+import candela.settings.{TextForm, TextureControl}
 
 import scala.util.Try
 

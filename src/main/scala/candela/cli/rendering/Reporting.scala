@@ -7,10 +7,10 @@ import candela.base.{Code, FileName, Problem, SceneError, Version, WholeFile}
 import candela.cli.files.{Denoised, FileRegister, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.Figures
-import candela.job.{Denoising, ImageFile, Prepared, TextForm}
+import candela.job.{Denoising, ImageFile, Prepared}
 import candela.render.Rendering
 import candela.report.{Machine, Picture, RenderData, RenderPage, RenderReport, Span}
-import candela.settings.RenderRegion
+import candela.settings.{RenderRegion, TextForm}
 
 /** Report about one rendering: checked before rendering starts, written when it ends. */
 final class Reporting(options: Options, scene: String, loaded: Prepared):

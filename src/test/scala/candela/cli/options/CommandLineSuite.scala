@@ -19,7 +19,7 @@ class CommandLineSuite extends AnyFunSuite:
   private val one = Options(files = Vector("a.pbrt"))
 
   private def in(region: RenderRegion) =
-    one.setting(_.copy(region = region)).copy(regions = Vector(region))
+    one.setting(_.copy(region = region))
 
   private def as(dialect: Dialect) =
     one.setting(_.copy(reading = ReadSettings(dialect = Some(dialect))))

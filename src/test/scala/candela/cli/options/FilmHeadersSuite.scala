@@ -2,8 +2,7 @@ package candela.cli.options
 
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
-import candela.job.SettingsCodec
-import candela.settings.RenderSettings
+import candela.settings.{RenderSettings, SettingsCodec}
 
 import org.scalatest.funsuite.AnyFunSuite
 

@@ -45,7 +45,7 @@ final class PbrtOptionsSuite extends AnyFunSuite:
   private val one = Options(files = Vector("a.pbrt"))
   private def switched(s: RenderSettings) = one.copy(settings = s)
   private def in(region: RenderRegion) =
-    one.setting(_.copy(region = region)).copy(regions = Vector(region))
+    one.setting(_.copy(region = region))
 
   private val understood = Vector(
     "--ncores 3 a.pbrt --quick --quiet --verbose" ->

@@ -1,4 +1,4 @@
-package candela.job
+package candela.settings
 
 import candela.aov.Layer
 import candela.color.ToneCurve
@@ -7,23 +7,37 @@ import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.image.Exposure
 import candela.scenefile.Dialect
-import candela.settings.{ColorMode, LightGrouping, PointChoice, RenderRegion}
+
+import scala.util.Try
 
 /** A value as text, in film files and on command lines.
   *
   * @param expected what messages say of other text, after "expected"
   * @param read     None: it is no such value
   * @param show     what `read` reads as the same value
+  * @param wanted   what messages say of a text that is no such value, after "must be"
   */
-final class TextForm[A](val expected: String, val read: String => Option[A], val show: A => String):
-
+final class TextForm[A] private (
+    val expected: String,
+    val read: String => Option[A],
+    val show: A => String,
+    val wanted: String => String
+):
   def map[B](to: A => B)(from: B => A): TextForm[B] =
-    TextForm(expected, read(_).map(to), b => show(from(b)))
+    new TextForm[B](expected, read(_).map(to), b => show(from(b)), wanted)
 
   def filter(rule: String)(fits: A => Boolean): TextForm[A] =
-    TextForm(rule, read(_).filter(fits), show)
+    new TextForm[A](
+      rule,
+      read(_).filter(fits),
+      show,
+      text => if read(text).isDefined then rule else wanted(text)
+    )
 
 object TextForm:
+  def apply[A](expected: String, read: String => Option[A], show: A => String): TextForm[A] =
+    new TextForm(expected, read, show, _ => expected)
+
   private def named[A](all: Seq[A], name: A => String, expected: String): TextForm[A] =
     TextForm(expected, text => all.find(name(_).equalsIgnoreCase(text)), name)
 
@@ -37,7 +51,14 @@ object TextForm:
     val all = text.split(",", -1).toVector.map(n => read(n.trim))
     Option.when(all.forall(_.isDefined))(all.flatten)
 
-  val int: TextForm[Int] = TextForm("a number", _.toIntOption, _.toString)
+  val int: TextForm[Int] = new TextForm(
+    "a number",
+    _.toIntOption,
+    _.toString,
+    text =>
+      Try(BigInt(text)).toOption.fold("a number"): n =>
+        if n > 0 then s"at most ${Int.MaxValue}" else s"at least ${Int.MinValue}"
+  )
   val float: TextForm[Float] = TextForm("a number", _.toFloatOption, _.toString)
   val double: TextForm[Double] = TextForm("a number", _.toDoubleOption, _.toString)
   val string: TextForm[String] = TextForm("a name", Some(_), identity)

@@ -1,4 +1,4 @@
-package candela.job
+package candela.settings
 
 import candela.aov.Layer
 import candela.color.ToneCurve
@@ -7,10 +7,6 @@ import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.image.{DisplayTransform, Exposure}
 import candela.scenefile.Dialect
-import candela.settings.{
-  ColorMode, LightGrouping, OutputSettings, PointChoice, ReadSettings, RenderGoal, RenderRegion,
-  RenderSettings
-}
 
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
