@@ -3,7 +3,7 @@ package candela.job
 import candela.base.GivenUp
 import candela.film.{Development, Film}
 import candela.image.Image
-import candela.measure.{CurvePoint, ErrorEstimate, Errors, Interval}
+import candela.measure.{CurvePoint, ErrorEstimate, Errors, HalfScatter, Interval}
 import candela.render.{Looks, Pass, Rendering, RenderListener}
 
 /** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
@@ -11,11 +11,14 @@ import candela.render.{Looks, Pass, Rendering, RenderListener}
   * @param reference same size as the image; None: errors are estimated from the noise
   */
 class ErrorRecorder(development: Development, reference: Option[Image]) extends RenderListener:
-  private val foundPoints = Vector.newBuilder[CurvePoint]
-  private val estimate = ErrorEstimate()
+  private val curve = Vector.newBuilder[CurvePoint]
+  private val scatter = HalfScatter()
   private var spent = 0.0
 
-  def points: Vector[CurvePoint] = foundPoints.result()
+  def points: Vector[CurvePoint] = curve.result()
+
+  /** The latest; None before the first, and with a reference. */
+  def estimate: Option[ErrorEstimate] = scatter.estimate
 
   /** Time spent on measuring, in seconds. */
   def seconds: Double = spent
@@ -23,7 +26,7 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
   /** The estimated error of each value of the image after so many samples per pixel: squared, in
     * the order of its data.
     */
-  def squares(samples: Double): Option[Array[Float]] = estimate.squares(samples)
+  def squares(samples: Double): Option[Array[Float]] = scatter.squares(samples)
 
   /** The estimate compares parts of the samples. */
   override def looks: Looks = if reference.isEmpty then Looks.Waves else Looks.Doublings
@@ -31,30 +34,27 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
   override def begins(samples: Int, film: Film): Unit =
     if reference.isEmpty && samples > 0 then
       val weights = new Array[Float](film.width * film.height)
-      val _ = estimate.add(samples, development(film, Some(weights)), weights, isLast = false)
+      val _ = scatter.add(samples, development(film, Some(weights)), weights, isLast = false)
 
   /** The relative error after so many samples per pixel, as far as known: the root of the relative
     * MSE.
     */
   def errorAt(samples: Double): Option[Double] =
     val errors =
-      if reference.isEmpty then estimate.at(samples) else points.lastOption.map(_.errors)
+      if reference.isEmpty then estimate.map(_.at(samples)) else points.lastOption.map(_.errors)
     errors.map(e => Math.sqrt(e.relativeMse))
 
   /** The estimated relative MSE after so many samples per pixel, with its 95 % interval. */
   def interval(samples: Double): Option[Interval] =
-    if reference.isEmpty then estimate.interval(samples) else None
+    estimate.map(_.interval(samples))
 
-  /** Whether few pixels have nearly all of the estimated error. */
-  def isOfFew: Boolean = reference.isEmpty && estimate.isOfFew
-
-  /** Samples per pixel with which the relative error is at most this, by its trend, and with which
-    * it will be seen to be, with 95 %: at doublings where it is measured; where it is estimated, at
-    * any number, beyond the next doubling as the geometric mean of several estimates.
+  /** Samples per pixel with which the relative error is at most this, with the 95 % interval: any
+    * number where it is estimated, doublings where it is measured.
     */
   def samplesUntil(error: Double): Option[Interval] =
     val relativeMse = error * error
-    if reference.isEmpty then estimate.samplesUntil(relativeMse)
+    if reference.isEmpty then
+      estimate.filterNot(_.relative.isNaN).map(_.samplesUntil(relativeMse))
     else
       // Of an image without a number in common with the reference, no error is known
       points.lastOption.filterNot(_.errors.relativeMse.isNaN).map: p =>
@@ -76,9 +76,9 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
     if samples > 0 && points.lastOption.forall(_.samples < samples) then
       val errors = reference match
         case Some(r) => Some(Errors.against(r)(development(rendering.film)))
-        case None => estimate.at(samples)
+        case None => estimate.map(_.at(samples))
       for e <- errors do
-        foundPoints += CurvePoint(samples, rendering.seconds, e, interval(samples))
+        curve += CurvePoint(samples, rendering.seconds, e, interval(samples))
 
   /** Called with the image of each pass that was measured. */
   protected def measured(pass: Pass, image: Image): Unit = ()
@@ -89,8 +89,8 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
     val errors = reference match
       case Some(r) => Option.when(pass.isMain)(Errors.against(r)(image))
       case None =>
-        val anew = estimate.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
-        anew.orElse(Option.when(pass.isLast)(estimate.at(pass.samples)).flatten)
+        val latest = scatter.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
+        latest.orElse(estimate.filter(_ => pass.isLast)).map(_.at(pass.samples))
     val interval = this.interval(pass.samples)
-    errors.foreach(e => foundPoints += CurvePoint(pass.samples, pass.end, e, interval))
+    errors.foreach(e => curve += CurvePoint(pass.samples, pass.end, e, interval))
     image

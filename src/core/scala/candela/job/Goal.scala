@@ -40,9 +40,9 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     // Where an error is looked at, and so where it ends, must not depend on the time
     if pass.isWhole then
       recorder.passed(watched, film)
-      val found = options.error.flatMap(recorder.samplesUntil)
-      end = found.map(f => Goal.whole(f.estimate))
-      expected = found.flatMap(Goal.range)
+      val samples = options.error.flatMap(recorder.samplesUntil)
+      end = samples.map(s => Goal.whole(s.estimate))
+      expected = samples.flatMap(Goal.range)
     if end.exists(_ <= pass.samples) || pass.isLast && isLow(pass.samples) then hasReached = true
     val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - seen)
     // The first ones are slow: the JVM compiles meanwhile
@@ -54,9 +54,9 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     if options.time.exists(t => !isWorthMore(t - now)) then hasReached = true
     if hasReached && !pass.isWhole then recorder.passed(watched.copy(isLast = true), film)
 
-  /** Whether the error is low enough, though all samples are taken before the next eighth. */
+  /** Whether the error is low enough, though all samples are taken before the next look. */
   private def isLow(samples: Int): Boolean =
-    samples >= Goal.Fewest &&
+    samples >= Goal.MinSamples &&
       options.error.exists(most => recorder.errorAt(samples).exists(_ <= most))
 
   /** Whether the shortest part that there is ends nearer to the time than now, and not late. */
@@ -105,15 +105,15 @@ object Goal:
   private val Warm = Vector(0.25, 0.5, 1.0)
 
   /** Fewer samples per pixel say little about an error. */
-  val Fewest = 4
+  val MinSamples = 4
 
   /** The samples with which a goal may be reached, if they are known. */
-  private[candela] def range(found: Interval): Option[SampleRange] =
-    Option.when(found.isKnown)(SampleRange(
-      whole(found.estimate),
-      whole(found.low),
-      whole(found.high)
+  private[candela] def range(samples: Interval): Option[SampleRange] =
+    Option.when(samples.isKnown)(SampleRange(
+      whole(samples.estimate),
+      whole(samples.low),
+      whole(samples.high)
     ))
 
   private[candela] def whole(samples: Double): Int =
-    Math.max(Fewest, Math.min(Math.ceil(samples), Int.MaxValue).toInt)
+    Math.max(MinSamples, Math.min(Math.ceil(samples), Int.MaxValue).toInt)

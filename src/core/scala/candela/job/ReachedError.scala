@@ -4,14 +4,14 @@ import candela.film.{Development, Film}
 import candela.render.{Looks, Pass}
 
 /** Estimates the error that a rendering of a known number of samples has reached, from the last
-  * four doublings only. Where a look at a large image takes long, there is no estimate.
+  * three powers of two only. Where a look at a large image takes long, there is no estimate.
   *
   * @param planned samples per pixel
   */
 final class ReachedError(development: Development, planned: Int)
     extends ErrorRecorder(development, None):
   import ReachedError.*
-  private val first = Integer.highestOneBit(planned) / LastDoublings
+  private val first = Integer.highestOneBit(planned) / 4
   private var isGivenUp = false
 
   override def looks: Looks = Looks.Doublings
@@ -21,25 +21,22 @@ final class ReachedError(development: Development, planned: Int)
     super.begins(samples, film)
 
   override def passed(pass: Pass, film: Film): Unit =
-    val isWanted = pass.samples >= first && Integer.bitCount(pass.samples) == 1
+    val isDue = pass.samples >= first && Integer.bitCount(pass.samples) == 1
     isGivenUp ||= takesLong(seconds, pass.clock * planned / pass.samples)
-    if isWanted && !isGivenUp then super.passed(pass, film)
+    if isDue && !isGivenUp then super.passed(pass, film)
 
   /** None if too little is known. */
   override def errorAt(samples: Double): Option[Double] =
-    super.errorAt(samples).filter(e => !isGivenUp && samples >= Goal.Fewest && !e.isNaN)
+    super.errorAt(samples).filter(e => !isGivenUp && samples >= Goal.MinSamples && !e.isNaN)
 
 object ReachedError:
-  /** None if so few samples are planned that no error will be told. */
+  /** None if too few samples are planned for an estimate. */
   def of(development: Development, planned: Int): Option[ReachedError] =
-    Option.when(planned >= Goal.Fewest)(ReachedError(development, planned))
+    Option.when(planned >= Goal.MinSamples)(ReachedError(development, planned))
 
-  /** Its trend is told by three estimates, of twice as many samples each. */
-  private val LastDoublings = 8
-
-  /** What it may take of a rendering, and in seconds of a short one. */
-  private val MostPart = 0.01
-  private val Unnoticed = 0.2
+  /** The share of a rendering that it may take, and the seconds of a short one. */
+  private val MaxShare = 0.01
+  private val FreeSeconds = 0.2
 
   /** Has it taken too much of a rendering that is expected to last so long? The first look is slow,
     * as it is compiled meanwhile, and the rendering young.
@@ -47,4 +44,4 @@ object ReachedError:
     * @param spent and `whole` in seconds
     */
   private[job] def takesLong(spent: Double, whole: Double): Boolean =
-    spent > Unnoticed && spent > MostPart * whole
+    spent > FreeSeconds && spent > MaxShare * whole

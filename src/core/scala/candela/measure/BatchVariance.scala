@@ -54,12 +54,12 @@ final class BatchVariance(pixels: Int, channels: Int):
     loop(data.length)(i => data(i) = Math.sqrt(this(i / channels, i % channels)).toFloat)
     Image(width, pixels / width, names, data)
 
-  /** The expected errors of the last state. */
-  def errors: Errors =
-    var absolute, relative = 0.0
-    loop(means.length): i =>
-      val variance = this(i / channels, i % channels).toDouble
-      val mean = means(i) + Metrics.RelativeEpsilon
-      absolute += variance
-      relative += variance / (mean * mean)
-    Errors(absolute / means.length, relative / means.length, None, None, None, Vector.empty)
+  /** The expected errors of the last state.
+    *
+    * @param image its image
+    */
+  def errors(image: Image): Errors =
+    val variances = Array.tabulate(means.length)(i => this(i / channels, i % channels))
+    val absolute = variances.map(_.toDouble).sum / means.length
+    val relative = LocalMeans(image, variances).relativeMse
+    Errors(absolute, relative, None, None, None, Vector.empty)

@@ -33,10 +33,7 @@ final class ReferenceMean private (val runs: Int, val image: Image, val variance
 
   /** Its relative error, as `--error` has it: the root of the expected relative MSE. */
   def relativeError: Option[Double] = variance.map: v =>
-    val means = QuietMeans(image, v.data)
-    var sum = 0.0
-    loop(v.data.length)(i => sum += v.data(i).toDouble * means.weight(i))
-    Math.sqrt(sum / v.data.length)
+    Math.sqrt(LocalMeans(image, v.data).relativeMse)
 
   /** The image with its [[ErrorLayer]]. */
   def stored: Image = variance.fold(image)(ErrorLayer.behind(image, _))

@@ -94,7 +94,7 @@ final class Observer(
     noise = Option.when(variance.isKnown)(variance.noise(colors.channelNames, colors.width))
     val errors = reference match
       case Some(r) => Some(Errors.quickly(r)(colors))
-      case None => Option.when(variance.isKnown)(variance.errors)
+      case None => Option.when(variance.isKnown)(variance.errors(colors))
     val average = Math.round(state.samplesTaken.toDouble / plan.sampled.pixels).toInt
     val samples = Math.max(state.samplesDone, average)
     errors.foreach(e => curve :+= CurvePoint(samples, state.seconds, e))

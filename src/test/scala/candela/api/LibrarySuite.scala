@@ -160,8 +160,8 @@ class LibrarySuite extends AnyFunSuite:
     val errors = result.errors.get
     val off = result.image.values.zip(truth).map((a, b) => Math.pow(a - b, 2)).sum
     val told = errors.values.map(e => e.toDouble * e).sum
-    // Two halves of 64 samples tell a variance within a factor
-    assert(result.error.getAsDouble > 0 && told > off / 4 && told < off * 4, s"$told, $off")
+    // The scene is smooth, and estimates err upwards
+    assert(result.error.getAsDouble > 0 && told > off / 2 && told < off * 8, s"$told, $off")
     assert(rendered(scene).error.isEmpty && rendered(scene).errors.isEmpty)
 
   test("a goal ends a rendering, with whole passes"):

@@ -34,7 +34,10 @@ class BatchVarianceSuite extends AnyFunSuite:
         val truth = (c + 1) * (c + 1) / 12.0 / counts.last
         // 2000 pixels with at least two degrees of freedom: 2.2 %; four times that
         assert(Math.abs(mean(variance, c) / truth - 1) < 0.09, s"$counts, channel $c")
-      assert(Math.abs(variance.errors.mse / ((1 + 4 + 9) / 36.0 / counts.last) - 1) < 0.09)
+      assert(Math.abs(variance.errors(Image.rgb(
+        width,
+        height
+      )).mse / ((1 + 4 + 9) / 36.0 / counts.last) - 1) < 0.09)
 
   test("weights count only relative to each other"):
     val (plain, scaled) = (estimated(Seq(1, 2, 5)), estimated(Seq(1, 2, 5), scaled = 0.25f))

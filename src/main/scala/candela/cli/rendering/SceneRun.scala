@@ -122,7 +122,7 @@ private[cli] final class SceneRun(
     val after = Vector(develops -> developSeconds, "write" -> writeSeconds)
     val noise =
       for r <- recorder if !isPreview; error <- r.errorAt(rendering.samplesDone)
-      yield Summary.noise(error, r.isOfFew, r.interval(rendering.samplesDone))
+      yield Summary.noise(error, r.interval(rendering.samplesDone))
     Summary.print(options, terminal, files, prepared, rendering, after, isLate, noise.getOrElse(""))
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)

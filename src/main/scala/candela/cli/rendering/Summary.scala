@@ -46,25 +46,19 @@ object Summary:
         else s"$done sample"
       s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r)}$missing"
 
-  /** `error 4.6 % (3.3 to 5.2 %)`: with the interval, where that is wider than 15 %. Where few
-    * pixels have nearly all of it, the interval has a lower limit alone.
+  /** `error 4.6 % (3.3 to 5.2 %)`: with the interval, where that is wider than 15 %.
     *
     * @param error    relative error
-    * @param isOfFew  whether few pixels have nearly all of it
     * @param interval of the relative MSE, which is the error's square; with 95 % confidence
     */
-  def noise(error: Double, isOfFew: Boolean, interval: Option[Interval] = None): String =
+  def noise(error: Double, interval: Option[Interval]): String =
     val limits = interval.filter(_.isKnown).map(i => (Math.sqrt(i.low), Math.sqrt(i.high)))
     def isWide(limit: Double) = Math.abs(limit / error - 1) > MaxOmitted
     val range = limits match
-      case Some((low, _)) if isOfFew => s" (${Figures.percentage(low)} or more, $OfFew)"
-      case None if isOfFew => s" (or more, $OfFew)"
       case Some((low, high)) if isWide(low) || isWide(high) =>
         s" (${Figures.percentage(low).stripSuffix(" %")} to ${Figures.percentage(high)})"
       case _ => ""
     s"error ${Figures.percentage(error)}$range"
-
-  private val OfFew = "as few pixels have nearly all of it"
 
   /** An interval whose limits differ less from the error is not shown. */
   private val MaxOmitted = 0.15

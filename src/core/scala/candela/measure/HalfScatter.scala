@@ -1,0 +1,113 @@
+package candela.measure
+
+import candela.base.{GivenUp, loop}
+import candela.image.Image
+
+/** Estimates the error of an image that gets ever more samples: from the scatter between halves of
+  * its samples after 2, 4, 8, … per pixel.
+  *
+  * Relative errors divide by [[LocalMeans]]: a rare bright path makes its own pixel bright, too,
+  * and would hide its error. Light that no path has found is unknown.
+  */
+final class HalfScatter:
+  import HalfScatter.{Scatters, State}
+  private var former = Option.empty[State]
+  private var scatters = Option.empty[Scatters]
+  private var latest = Option.empty[ErrorEstimate]
+
+  /** The latest; None before the first. */
+  def estimate: Option[ErrorEstimate] = latest
+
+  /** The squared error of each value of the image after so many samples per pixel. */
+  def squares(samples: Double): Option[Array[Float]] =
+    for e <- latest; s <- scatters
+    yield
+      val factor = e.factor * e.falloff(samples)
+      s.values.map(v => (v * factor).toFloat)
+
+  /** Adds the state of the image after so many samples per pixel, more than before. Uses those
+    * after 2ᵏ, and of a continued rendering the first.
+    *
+    * @param weights of each pixel's samples
+    * @param isStopped whether to give up; then nothing changes
+    * @return the estimate, if it is new
+    */
+  def add(
+      samples: Int,
+      image: Image,
+      weights: Array[Float],
+      isLast: Boolean,
+      isStopped: () => Boolean = GivenUp.Never
+  ): Option[ErrorEstimate] =
+    val state = State(samples, image, weights)
+    former match
+      case None =>
+        former = Some(state)
+        None
+      case Some(half) if Integer.bitCount(samples) == 1 || (isLast && latest.isEmpty) =>
+        val values = HalfScatter.scatter(half, state, isStopped)
+        // A single sample fills no pixel evenly, so V(1) and D(2) are those of independent ones
+        val earlier = scatters.filter(_ => samples == 2 * half.samples && samples > 4)
+        val estimate = HalfScatter.estimate(state, values, earlier, isStopped)
+        former = Some(state)
+        scatters = Some(Scatters(values, state.weight))
+        latest = Some(estimate)
+        latest
+      case _ => None
+
+object HalfScatter:
+  private final case class State(samples: Int, image: Image, weights: Array[Float]):
+    lazy val weight: Double =
+      var sum = 0.0
+      loop(weights.length)(i => sum += weights(i))
+      sum
+
+  /** Of each value, between two halves of samples of this weight. */
+  private final case class Scatters(values: Array[Float], weight: Double)
+
+  /** (A − B)² times both shares of the weight, which is (A − B)² / 4 for equal halves. */
+  private def scatter(half: State, now: State, isStopped: () => Boolean): Array[Float] =
+    val values = new Array[Float](now.image.data.length)
+    val channels = now.image.channels
+    loop(now.weights.length): pixel =>
+      GivenUp.check(isStopped, pixel)
+      val before = half.weights(pixel).toDouble
+      val all = now.weights(pixel).toDouble
+      val after = all - before
+      if before * after > 0 then
+        loop(channels): c =>
+          val i = pixel * channels + c
+          // A − B is this over the share of B, as the image is the weighted mean of both
+          val change = half.image.data(i).toDouble - now.image.data(i)
+          values(i) = (change * change * before / after).toFloat
+    values
+
+  private def estimate(
+      now: State,
+      values: Array[Float],
+      earlier: Option[Scatters],
+      isStopped: () => Boolean
+  ): ErrorEstimate =
+    val image = now.image
+    val means = LocalMeans(image, values)
+    var absolute, relative, lowest, squares, before = 0.0
+    loop(image.height): y =>
+      GivenUp.check(isStopped)
+      loop(image.width): x =>
+        var pixel = 0.0
+        loop(image.channels): c =>
+          val i = (y * image.width + x) * image.channels + c
+          val mean = means(x, y, c)
+          val weight = LocalMeans.weight(mean)
+          absolute += values(i)
+          pixel += values(i) * weight
+          lowest += values(i) * LocalMeans.weight(Math.max(mean, image.data(i)))
+          for e <- earlier do before += e.values(i) * weight
+        relative += pixel
+        squares += pixel * pixel
+    // As if all samples had the same weight: those of guided paths count more
+    val decay = earlier.filter(_ => relative > 0).map: e =>
+      before / relative * 2 * e.weight / now.weight
+    val pixels = if squares > 0 then relative * relative / squares else values.length.toDouble
+    val count = values.length
+    ErrorEstimate(now.samples, absolute / count, relative / count, lowest / count, decay, pixels)
