@@ -2,7 +2,7 @@ package candela.api
 
 import candela.accel.tracing.Hierarchies
 import candela.base.{SceneFolder, Version}
-import candela.job.{SceneFormat, SceneLoader}
+import candela.job.{Render, SceneFormat, SceneName}
 
 import java.nio.file.Path
 
@@ -27,8 +27,8 @@ object Candela:
   /** Reads a scene with non-default settings. */
   def read(file: Path, how: ReadSettings): Scene =
     Scenes.read(file.toString, how):
-      SceneLoader.refusing:
-        SceneLoader.readable(SceneLoader.existing(file.toString), how.of, how.control)
+      Render.withinLimits:
+        Render.read(SceneName.existing(file.toString), how.of, how.control)
 
   /** Reads a scene of pbrt's format from a text; file names in it are relative to the current
     * folder.
@@ -43,7 +43,7 @@ object Candela:
   def parse(text: String, name: Path, how: ReadSettings): Scene =
     Scenes.read(name.toString, how):
       val folder = how.control.limits.folder(name)
-      val read = SceneLoader.refusing(SceneFormat.of(name).readText(name, text, folder, how.of))
+      val read = Render.withinLimits(SceneFormat.of(name).readText(name, text, folder, how.of))
       read.copy(unfiled = Vector(s"$name, a text" -> candela.base.Sha256.of(text)))
 
   /** Builds a scene in code; file names in it are relative to the current folder. */

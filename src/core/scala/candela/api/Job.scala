@@ -2,7 +2,7 @@ package candela.api
 
 import candela.base.SceneError
 import candela.image.{Image, Oidn}
-import candela.job.{Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared}
+import candela.job.{Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared, Render}
 import candela.render.{RenderControl as CoreControl, RenderFailure, Rendering, StoppingRule}
 
 import java.nio.file.Path
@@ -104,7 +104,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     val how =
       CoreControl(control.threads, stop, followed, checkpointer = checkpoints, rule = rule)
     val rendering =
-      try prepared.render(how)
+      try Render.render(prepared, how)
       catch
         case e: RenderFailure =>
           throw RenderException(e.x, e.y, e.sample, Option(e.getCause).getOrElse(e))
@@ -112,15 +112,14 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
         case _: InterruptedException =>
           Thread.currentThread.interrupt()
           throw CancellationException("the rendering thread was interrupted")
-    val noisy = rendering.image(plan.development, prepared.pool)
     val denoising =
       Option.when(settings.of.output.denoise)(Denoising(Oidn.load(), control.threads))
-    val done = denoising.fold(noisy)(_(noisy))
+    val developed = Render.develop(prepared, rendering, denoising)
     RenderResult(
       rendering,
-      image(rendering, done, denoising.map(_.describe)),
+      image(rendering, developed, denoising.map(_.describe)),
       recorder.flatMap(_.errorAt(rendering.samplesDone)).filter(!_.isNaN),
-      recorder.flatMap(_.squares(rendering.samplesDone)).map(errors(_, noisy)),
+      recorder.flatMap(_.squares(rendering.samplesDone)).map(errors(_, developed)),
       problems.toVector
     )
 

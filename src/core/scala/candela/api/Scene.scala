@@ -1,7 +1,7 @@
 package candela.api
 
 import candela.base.{Code, SceneError, Severity as Grade}
-import candela.job.{Prepared, SceneLoader}
+import candela.job.{Prepared, Render}
 import candela.scenefile.SceneDescription
 
 import java.nio.file.Path
@@ -67,7 +67,7 @@ final class Scene private[api] (
     val known = description.getOrElse(throw SceneError(found))
     val all = settings.of.copy(reading = how.of)
     val control = how.control.copy(threads = threads, isRendered = isRendered)
-    SceneLoader.refusing(SceneLoader.built(known, all, control))
+    Render.withinLimits(Render.build(known, all, control))
 
 private[api] object Scenes:
 

@@ -1,10 +1,9 @@
 package candela.job
 
-import candela.base.{JavaHeap, Problem, SceneError}
+import candela.base.Problem
 import candela.color.Rgb
 import candela.render.{
-  Checkpointer, RenderControl, Renderer, RenderFailure, Rendering, RenderPlan, RenderState,
-  ThreadPool
+  Checkpointer, RenderControl, Renderer, Rendering, RenderPlan, RenderState, ThreadPool
 }
 import candela.render.storage.{FilmHeader, FilmWriter}
 import candela.scene.PathReport
@@ -34,14 +33,7 @@ final case class Prepared(
   /** Number of missing items replaced by placeholders. */
   def standIns: Int = warnings.distinct.count(_.standIn.nonEmpty)
 
-  /** @throws SceneError if the heap is full, with what takes it */
-  def render(control: RenderControl): Rendering =
-    try Renderer.render(plan, control)
-    catch
-      case e: Throwable if Prepared.isOfMemory(e) =>
-        throw SceneError(plan.costs.problem(JavaHeap.limit, None))
-
-  /** Traces a single sample, identical to that of [[render]].
+  /** Traces a single sample, identical to that of [[Render.render]].
     *
     * @return its light; none if it was discarded
     */
@@ -61,7 +53,7 @@ final case class Prepared(
         Prepared.write(header.of(Set(part.index), part.count, state), state, to)
       def lose(): Unit = ()
       def finish(): Unit = ()
-    render(control.copy(checkpointer = Some(keeper)))
+    Render.render(this, control.copy(checkpointer = Some(keeper)))
 
   /** The sum of saved states.
     *
@@ -70,11 +62,6 @@ final case class Prepared(
   def gather(load: RenderState => Unit): Rendering = Renderer.gather(plan, load)
 
 object Prepared:
-  private def isOfMemory(e: Throwable): Boolean = e match
-    case _: OutOfMemoryError => true
-    case f: RenderFailure => f.getCause.isInstanceOf[OutOfMemoryError]
-    case _ => false
-
   /** Writes a film file. */
   def write(header: FilmHeader, state: RenderState, to: Path): Unit =
     val writer = FilmWriter(to)

@@ -1,9 +1,6 @@
 package candela.job
 
-import candela.base.{Code, Problem, Refusal, SceneError, Suggest}
-import candela.build.SceneBuilder
-import candela.render.ThreadPool
-import candela.scenefile.{Excerpts, SceneDescription}
+import candela.base.{Code, Problem, SceneError, Suggest}
 import candela.settings.{BuildControl, ReadSettings, RenderSettings}
 
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -34,16 +31,8 @@ final case class ImageName(file: Option[String], folder: Path)
 object SceneLoader:
 
   object FromFile extends SceneLoader:
-    def load(
-        scene: String,
-        settings: RenderSettings,
-        control: BuildControl
-    ): Prepared = refusing:
-      val file = existing(scene)
-      val started = System.nanoTime
-      val description = readable(file, settings.reading, control)
-      val seconds = (System.nanoTime - started) * 1e-9
-      built(description, settings, control).copy(readSeconds = seconds)
+    def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
+      Render.prepare(scene, settings, control)
 
     override def imageName(
         scene: String,
@@ -51,9 +40,10 @@ object SceneLoader:
         control: BuildControl
     ): Option[ImageName] =
       // A refusal is told when the scene is loaded
-      Try(refusing(named(existing(scene), reading, control))).toOption.flatten
+      val name = Try(Render.withinLimits(imageName(SceneName.existing(scene), reading, control)))
+      name.toOption.flatten
 
-    private def named(
+    private def imageName(
         file: Path,
         reading: ReadSettings,
         control: BuildControl
@@ -62,37 +52,8 @@ object SceneLoader:
       val folder = if within.isConfined then within.path else Path.of("")
       SceneFormat.of(file).imageName(file, within, reading).map(ImageName(_, folder))
 
-  /** A description, ready to be rendered.
-    *
-    * @throws SceneError if the scene has errors
-    */
-  def built(
-      description: SceneDescription,
-      settings: RenderSettings,
-      control: BuildControl
-  ): Prepared =
-    val started = System.nanoTime
-    val pool = ThreadPool(control.threads, worksAside = control.isRendered)
-    try
-      val limited = control.limited
-      limited.cache.begin()
-      val (built, warnings) = SceneBuilder.build(description, settings, limited, pool)
-      val plan = if control.isRendered then built.piloted else built
-      val seconds = (System.nanoTime - started) * 1e-9
-      val all = description.warnings ++ warnings
-      Prepared(description, plan, all, 0, seconds, pool, settings)
-    catch
-      case e: Throwable =>
-        pool.close()
-        throw e
-
-  /** Makes an error of what a scene must not do. */
-  def refusing[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)
-
-  /** The readable part of a scene, of any format. */
-  def readable(file: Path, reading: ReadSettings, control: BuildControl): SceneDescription =
-    try SceneFormat.of(file).read(file, control.limits.folder(file), reading, control.world)
-    catch case e: SceneError => throw ForeignAdvice.problem(file).fold(e)(SceneError(_))
+/** Names of scene files. */
+object SceneName:
 
   /** The path of an existing scene file. */
   def existing(scene: String): Path =

@@ -26,7 +26,7 @@ final class ShardRenderer(
 ) extends AutoCloseable:
   private val settings = FilmHeaders.settings(header)
   private val prepared =
-    SceneLoader.FromFile.load(
+    Render.prepare(
       scene.toString,
       settings,
       BuildControl(threads = threads, cache = keep)

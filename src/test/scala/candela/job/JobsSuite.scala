@@ -33,7 +33,7 @@ class JobsSuite extends AnyFunSuite:
     val prepared = SceneLoader.FromFile.load(scene.toString, settings, BuildControl(threads = 2))
     try
       atOnce
-      val rendering = prepared.render(RenderControl(threads = 2))
+      val rendering = Render.render(prepared, RenderControl(threads = 2))
       assert(rendering.isComplete)
       rendering.image(prepared.plan.development).data.toVector
     finally prepared.close()

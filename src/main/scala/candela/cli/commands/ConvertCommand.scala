@@ -6,7 +6,7 @@ import candela.cli.files.{FileRegister, FilmName, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
 import candela.convert.{Baking, Converter, SceneText, SideFiles}
-import candela.job.{SceneFormat, SceneLoader}
+import candela.job.{Render, SceneFormat, SceneName}
 import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription, SceneFiles}
 
 import java.io.{BufferedWriter, OutputStreamWriter, Writer}
@@ -17,7 +17,7 @@ import java.nio.file.Path
 /** `candela convert`: writes a scene in another dialect, or reformats it in its own. */
 final class ConvertCommand(options: Options, terminal: Terminal, report: Report):
 
-  def run(): ExitCode = report.guarded(SceneLoader.refusing(convert()))
+  def run(): ExitCode = report.guarded(Render.withinLimits(convert()))
 
   private def convert(): ExitCode =
     val out = options.outfiles.headOption.map(OutputFiles.path)
@@ -30,8 +30,8 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     if options.control.limits.sandbox then register.confine(Vector(folder))
     register.read(options.files.map(OutputFiles.path))
     register.check(output)
-    val file = SceneLoader.existing(options.files.head)
-    val scene = Parser.whole(SceneLoader.readable(file, options.settings.reading, options.building))
+    val file = SceneName.existing(options.files.head)
+    val scene = Parser.whole(Render.read(file, options.settings.reading, options.building))
     // The output keeps neither comments nor includes.
     register.read(SceneFiles.of(scene))
     register.write(output)

@@ -5,7 +5,7 @@ import candela.cli.files.{FileRegister, FilmKeeping, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Figures, ProgressLine, Report, Terminal}
 import candela.image.OutputFormat
-import candela.job.{FilmHeaders, FilmKeeper, Prepared, ReferenceFile, SceneLoader}
+import candela.job.{FilmHeaders, FilmKeeper, Prepared, ReferenceFile, Render, SceneLoader}
 import candela.measure.ReferenceMean
 import candela.render.storage.FilmFile
 import candela.render.{Cancellation, RenderControl, Rendering, RenderListener}
@@ -111,7 +111,7 @@ final class ReferenceCommand(
           checkpointer = Some(keeper.checkpointer(() => false))
         )
         val rendering =
-          try prepared.render(control)
+          try Render.render(prepared, control)
           finally progress.finish()
         ofLast = rendering.seconds
         seconds += ofLast

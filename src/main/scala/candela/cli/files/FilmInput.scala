@@ -3,7 +3,7 @@ package candela.cli.files
 import candela.base.{Code, InputFile, SceneFolder}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
-import candela.job.{FilmHeaders, FilmKeeper, SceneLoader}
+import candela.job.{FilmHeaders, FilmKeeper, Render}
 import candela.render.storage.FilmFile
 
 import java.nio.file.Path
@@ -27,7 +27,7 @@ private[cli] object FilmInput:
     val file = OutputFiles.path(scene)
     if now.control.limits.sandbox then
       val folder = SceneFolder.of(film.path, isConfined = true)
-      val _ = SceneLoader.refusing(folder.scene(file))
+      val _ = Render.withinLimits(folder.scene(file))
     // The film names it, and its user may not know it
     for why <- InputFile.obstacle(file) do
       FilmKeeper.fail(Code.Unreadable, s"can't read `$scene`, the scene of `${film.path}`: $why")

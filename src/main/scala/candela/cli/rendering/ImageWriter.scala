@@ -4,7 +4,7 @@ import candela.cli.files.{OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
 import candela.image.Image
-import candela.job.{Denoising, FilmHeaders, ImageFile, Prepared}
+import candela.job.{Denoising, FilmHeaders, ImageFile, Prepared, Render}
 import candela.render.Rendering
 
 import java.nio.file.{Files, Path}
@@ -22,7 +22,6 @@ private[cli] final class ImageWriter(
     prepared: Prepared,
     val paths: Vector[Path]
 ):
-  private val plan = prepared.plan
   private val files = ImageFile(options.settings, name, prepared)
 
   /** The digest of the rendering, if what is done is to be skipped. */
@@ -35,9 +34,7 @@ private[cli] final class ImageWriter(
   def isDone: Boolean = digest.exists(Sequence.isDone(paths, _))
 
   /** The image, denoised too if asked. */
-  def image(rendering: Rendering): Image =
-    val noisy = rendering.image(plan.development, prepared.pool)
-    denoising.fold(noisy)(_(noisy))
+  def image(rendering: Rendering): Image = Render.develop(prepared, rendering, denoising)
 
   /** An image without samples must not replace another one. */
   def writable(rendering: Rendering): Vector[Path] =

@@ -5,7 +5,7 @@ import candela.cli.files.Denoised
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
-import candela.job.{Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, ReachedError}
+import candela.job.{Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, ReachedError, Render}
 import candela.render.{Cancellation, RenderControl, Rendering, RenderListener, StoppingRule}
 import candela.render.storage.Checkpoints
 
@@ -78,7 +78,7 @@ private[cli] final class SceneRun(
       checkpoints,
       goal.getOrElse(StoppingRule.Never)
     )
-    try prepared.render(control)
+    try Render.render(prepared, control)
     finally progress.finish()
 
   /** What was rendered, and the files of it.

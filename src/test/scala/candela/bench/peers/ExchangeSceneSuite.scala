@@ -2,7 +2,7 @@ package candela.bench.peers
 
 import candela.base.Parallel
 import candela.image.{Image, ImageFiles}
-import candela.job.SceneLoader
+import candela.job.{Render, SceneLoader}
 import candela.render.RenderControl
 import candela.settings.{BuildControl, RenderSettings}
 import candela.testing.TempFolder
@@ -62,7 +62,7 @@ class ExchangeSceneSuite extends AnyFunSuite:
 
   private def rendered(file: Path): Image =
     val loaded = SceneLoader.FromFile.load(file.toString, RenderSettings(), BuildControl())
-    try loaded.render(RenderControl()).image(loaded.plan.development, Parallel.Alone)
+    try Render.render(loaded, RenderControl()).image(loaded.plan.development, Parallel.Alone)
     finally loaded.close()
 
   test("Candela renders what it writes for other programs as it renders the scene"):

@@ -2,7 +2,7 @@ package candela.bench.peers
 
 import candela.base.{SceneError, WholeFile}
 import candela.convert.{Converter, SceneText, SideFiles}
-import candela.job.SceneLoader
+import candela.job.Render
 import candela.scenefile.*
 import candela.settings.{BuildControl, ReadSettings}
 
@@ -32,7 +32,7 @@ object PeerScenes:
     * @throws SceneError if the scene can't be read
     */
   def of(source: Path, folder: Path): PeerFiles =
-    val read = Parser.whole(SceneLoader.readable(source, ReadSettings(), BuildControl()))
+    val read = Parser.whole(Render.read(source, ReadSettings(), BuildControl()))
     val own = read.dialect.base
     val scene = normal(read)
     Files.createDirectories(folder): Unit

@@ -1,0 +1,89 @@
+package candela.job
+
+import candela.base.{JavaHeap, Refusal, SceneError}
+import candela.build.SceneBuilder
+import candela.image.Image
+import candela.render.{RenderControl, Renderer, RenderFailure, Rendering, ThreadPool}
+import candela.scenefile.{Excerpts, SceneDescription}
+import candela.settings.{BuildControl, ReadSettings, RenderSettings}
+
+import java.nio.file.Path
+
+/** What happens from a scene file to its images, in this order: [[read]] it, [[build]] a plan,
+  * which its pilot completes, [[render]] the plan, [[develop]] the film, and write the image
+  * ([[ImageFile]]). The command line, the library and Spark's executors call these stages, and do
+  * between them what is theirs: messages, film files, live pages.
+  */
+object Render:
+
+  /** The stages before rendering: reads, builds, and runs the pilot.
+    *
+    * @throws SceneError if there is no such scene, or it has errors
+    */
+  def prepare(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
+    withinLimits:
+      val (description, seconds) =
+        timed(read(SceneName.existing(scene), settings.reading, control))
+      build(description, settings, control).copy(readSeconds = seconds)
+
+  /** Parses a file of any format, and those that it includes.
+    *
+    * @return the readable part of the scene; see [[SceneDescription.errors]]
+    * @throws SceneError if nothing is readable
+    */
+  def read(file: Path, reading: ReadSettings, control: BuildControl): SceneDescription =
+    try SceneFormat.of(file).read(file, control.limits.folder(file), reading, control.world)
+    catch case e: SceneError => throw ForeignAdvice.problem(file).fold(e)(SceneError(_))
+
+  /** Builds the objects that render the scene, each the simplest that does, and chooses the method.
+    *
+    * @throws SceneError if the scene has errors
+    */
+  def build(
+      description: SceneDescription,
+      settings: RenderSettings,
+      control: BuildControl
+  ): Prepared =
+    val pool = ThreadPool(control.threads, worksAside = control.isRendered)
+    try
+      val limited = control.limited
+      limited.cache.begin()
+      val ((plan, warnings), seconds) = timed:
+        val (plan, warnings) = SceneBuilder.build(description, settings, limited, pool)
+        (if control.isRendered then plan.piloted else plan, warnings)
+      val all = description.warnings ++ warnings
+      Prepared(description, plan, all, buildSeconds = seconds, pool = pool, settings = settings)
+    catch
+      case e: Throwable =>
+        pool.close()
+        throw e
+
+  /** Takes samples until all are taken, the rule stops them, or the rendering is cancelled.
+    *
+    * @throws RenderFailure if a sample fails
+    * @throws SceneError if the heap is full, with what takes it
+    */
+  def render(prepared: Prepared, control: RenderControl): Rendering =
+    try Renderer.render(prepared.plan, control)
+    catch
+      case e: Throwable if isOfMemory(e) =>
+        throw SceneError(prepared.plan.costs.problem(JavaHeap.limit, None))
+
+  /** The image of the film: colours, layers, bands, and denoised colours if there is a denoiser. */
+  def develop(prepared: Prepared, rendering: Rendering, denoising: Option[Denoising]): Image =
+    val noisy = rendering.image(prepared.plan.development, prepared.pool)
+    denoising.fold(noisy)(_(noisy))
+
+  /** Makes a [[SceneError]] of what a scene must not do. */
+  def withinLimits[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)
+
+  private def isOfMemory(e: Throwable): Boolean = e match
+    case _: OutOfMemoryError => true
+    case f: RenderFailure => f.getCause.isInstanceOf[OutOfMemoryError]
+    case _ => false
+
+  /** A result, and the seconds that it took. */
+  private def timed[A](body: => A): (A, Double) =
+    val start = System.nanoTime
+    val result = body
+    (result, (System.nanoTime - start) * 1e-9)
