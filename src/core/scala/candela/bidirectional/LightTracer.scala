@@ -4,7 +4,7 @@ import candela.cameras.Camera
 import candela.color.Rgb
 import candela.film.Splats
 import candela.geometry.Ray
-import candela.integrators.{Integrator, LightTransport, SurfaceWalk}
+import candela.integrators.{LightTransport, SurfaceWalk}
 import candela.sampling.Sampler
 import candela.scene.Scene
 
@@ -14,7 +14,7 @@ import candela.scene.Scene
   *
   * @param splats   receives the splats
   * @param maxDepth scattering events of a path, at most
-  * @param countsPassed as in [[candela.integrators.WalkOptions]]
+  * @param countsPassed as in [[candela.integrators.PathOptions]]
   * @param showsSky does the camera see the sky where nothing is before it?
   *
   * Source: Arvo, "Backward Ray Tracing", SIGGRAPH 1986 course notes; PBRT 4th ed., §16.1.
@@ -26,7 +26,7 @@ final class LightTracer(
     maxDepth: Int,
     countsPassed: Boolean = false,
     showsSky: Boolean = false
-) extends Integrator:
+) extends SurfaceWalk(scene):
   private val paths = LightPaths(
     scene,
     maxDepth,
@@ -36,17 +36,15 @@ final class LightTracer(
     countsPassed = countsPassed
   )
   private val camera = CameraConnection(scene, imageCamera, splats)
-  private val walk = SurfaceWalk(scene)
 
-  def raysTraced: Long = walk.raysTraced + paths.raysTraced + camera.raysTraced
-  override def lastMaterial: Int = walk.vertex.at.material
+  override def raysTraced: Long = super.raysTraced + paths.raysTraced + camera.raysTraced
 
-  def radiance(ray: Ray, sampler: Sampler): Rgb =
-    camera.begin(ray.time)
-    paths.trace(ray.time, sampler)
+  def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
+    camera.begin(cameraRay.time)
+    paths.trace(cameraRay.time, sampler)
     camera.connect(paths, isWeighted = false, sampler)
-    walk.begin(ray, sampler)
+    begin(cameraRay, sampler)
     // As connections to the camera, which interfaces block
-    if walk.intersect() then walk.addEmission()
-    else if showsSky then walk.addEnvironment()
-    walk.radiance
+    if intersect() then addEmission()
+    else if showsSky then addEnvironment()
+    L.toRgb

@@ -2,7 +2,7 @@ package candela.bidirectional
 
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.integrators.{Interfaces, LightTransport, PassIntegrator, SurfaceWalk, WalkOptions}
+import candela.integrators.{Interfaces, LightTransport, PassIntegrator, SurfaceWalk}
 import candela.sampling.Sampler
 import candela.scene.Scene
 
@@ -30,11 +30,11 @@ private[bidirectional] final class PhotonMapper(
     settings: PhotonSettings,
     passes: PhotonPasses,
     interfaces: Interfaces = Interfaces.Open
-) extends PassIntegrator:
+) extends SurfaceWalk(scene, interfaces = interfaces)
+    with PassIntegrator:
   import PhotonMapper.Sharp
 
   private val tracer = WholePhotons(scene, settings)
-  private val walk = SurfaceWalk(scene, options = WalkOptions(interfaces = interfaces))
   private val looksBeyond = scene.hasInterfaces && interfaces == Interfaces.Weighed
   private var photons = PhotonMap(Array.empty, paths = 1, radius = 1f) // none yet
 
@@ -43,25 +43,23 @@ private[bidirectional] final class PhotonMapper(
     for map <- prepared do photons = map
     prepared.isDefined
 
-  def raysTraced: Long = walk.raysTraced + tracer.raysTraced
-  override def lastMaterial: Int = walk.vertex.at.material
+  override def raysTraced: Long = super.raysTraced + tracer.raysTraced
 
-  def radiance(ray: Ray, sampler: Sampler): Rgb =
-    val vertex = walk.vertex
-    walk.begin(ray, sampler)
+  def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
+    begin(cameraRay, sampler)
     // Photons of dispersive scenes have one wavelength
-    if scene.isDispersive then walk.path.keepHero()
+    if scene.isDispersive then path.terminateSecondary()
     var hasGathered = false
-    while walk.goesOn do
-      if !walk.intersect() then walk.addEnvironment()
+    while goesOn do
+      if !intersect() then addEnvironment()
       else
-        val isPassed = vertex.isInterface
-        if !isPassed || !interfaces.stopsLight then walk.addEmission()
-        if isPassed then walk.passThrough()
-        else if walk.depth == maxDepth || hasGathered then walk.end()
+        val isInterface = vertex.isInterface
+        if !isInterface || !interfaces.stopsLight then addEmission()
+        if isInterface then passThrough()
+        else if path.depth == maxDepth || hasGathered then end()
         else
-          walk.evaluate()
-          val isLast = walk.depth == maxDepth - 1
+          evaluate()
+          val isLast = path.depth == maxDepth - 1
           val follows =
             if settings.gathersGloss || vertex.bsdf.isDiffuse then Sharp
             else 0f
@@ -69,24 +67,24 @@ private[bidirectional] final class PhotonMapper(
           // Beyond the last event paths find emission only
           val limit = if isLast && !settings.gathersGloss then Float.PositiveInfinity else follows
           if !vertex.bsdf.isSpecular && limit > 0f then
-            walk.addScattered(photons.gather(vertex, limit))
-          walk.scatter(sampler)
-          walk.leave()
+            addScattered(photons.gather(vertex, limit))
+          scatter(sampler)
+          leave()
           if !(vertex.bounce.isSpecular || vertex.bounce.pdf > follows) then
-            if looksBeyond then hasGathered = true else walk.end()
-    walk.radiance
+            if looksBeyond then hasGathered = true else end()
+    L.toRgb
 
   /** Next-event estimation, without MIS for directions in which paths end.
     *
     * @param follows pdf above which directions are followed
     */
   private def addOneLight(follows: Float, sampler: Sampler): Unit =
-    if walk.sampleLight(sampler) then
-      walk.connectBy(weight =
+    if sampleLight(sampler) then
+      connectBy(weight =
         wi =>
-          val pdf = walk.vertex.localPdf(wi)
+          val pdf = vertex.localPdf(wi)
           val competes = pdf > follows || looksBeyond
-          if competes then LightTransport.powerHeuristic(walk.connection.pdf, pdf)
+          if competes then LightTransport.powerHeuristic(connection.pdf, pdf)
           else 1f
       )
 

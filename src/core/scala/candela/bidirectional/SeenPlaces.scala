@@ -2,11 +2,13 @@ package candela.bidirectional
 
 import candela.base.Parallel
 import candela.cameras.CameraRays
+import candela.color.Rgb
 import candela.film.View
-import candela.geometry.Ray
-import candela.integrators.{PathLimits, PhotonLight, SurfaceWalk, VolumeWalk, Walk, WalkOptions}
+import candela.geometry.{Ray, ShadingPoint}
+import candela.integrators.{PhotonLight, SurfaceWalk}
 import candela.math.*
-import candela.sampling.IndependentSampler
+import candela.media.{MediumWork, SceneMedia}
+import candela.sampling.{IndependentSampler, Sampler}
 import candela.scene.{CasterLearning, Scene}
 
 import scala.collection.mutable.ArrayBuffer
@@ -91,16 +93,12 @@ private[bidirectional] final class SeenPlaces(
     of(p.x) << 42 | of(p.y) << 21 | of(p.z)
 
   /** Follows some of the paths. */
-  private final class Look(from: Int, until: Int):
+  private final class Look(from: Int, until: Int) extends SurfaceWalk(scene):
     val found = ArrayBuffer[Vec3]()
     val sizes = ArrayBuffer[Float]()
     private val sampler = IndependentSampler(1, CausticPilot.Seed)
-    private val limits = PathLimits(light.maxDepth)
-    private val walk: Walk = light.media match
-      case Some(media) if !onlyBehind =>
-        VolumeWalk(scene, media, WalkOptions(samplesLights = false))
-      case _ => SurfaceWalk(scene)
-    private val rays = CameraRays(view.camera, view.shutter, 0f)
+    private val around = if onlyBehind then None else light.media.map(MediumAround(_))
+    private val cameraRays = CameraRays(view.camera, view.shutter, 0f)
     private val beside = CameraRays(view.camera, view.shutter, 0f)
     private val spread = SpreadPlaces(view)
     private var isWanted = false
@@ -109,47 +107,79 @@ private[bidirectional] final class SeenPlaces(
       val x = spread.x(k).toFloat
       val y = spread.y(k).toFloat
       sampler.start(k, 0, 0)
-      val weight = rays.next(x, y, sampler)
+      val weight = cameraRays.next(x, y, sampler)
       sampler.start(k, 0, 0)
-      if weight > 0f && beside.next(x + 1f, y, sampler) > 0f then follow(rays.ray)
+      if weight > 0f && beside.next(x + 1f, y, sampler) > 0f then
+        radiance(cameraRays.ray, sampler): Unit
 
-    private def follow(ray: Ray): Unit =
+    def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
       // Walking moves the ray
-      val (eye, direction) = (ray.origin, ray.direction.normalized)
+      val (eye, direction) = (cameraRay.origin, cameraRay.direction.normalized)
       var isFirst = true
       isWanted = !onlyBehind
       def see(p: Vec3): Unit =
         if isFirst then sizes += size(eye, direction, (p - eye).length)
         found += p
         isFirst = false
-      walk.begin(ray, sampler)
-      while walk.goesOn do
-        val isHit = walk.trace()
-        if !walk.travel(limits, sampler) then
-          if walk.goesOn then see(walk.path.lastP.toVec3)
-          walk.end()
-        else if !isHit then walk.addEnvironment()
+      begin(cameraRay, sampler)
+      for medium <- around do medium.begin(sampler)
+      while goesOn do
+        val isHit = intersect()
+        val t = around.fold(-1f)(_.follow(ray, sampler))
+        if around.exists(_.isDark) then end()
+        else if t >= 0f then
+          if path.depth < light.maxDepth then see(ray.at(t))
+          end()
+        else if !isHit then end()
         else
-          walk.meetSurface()
-          if walk.isAtInterface then walk.passThrough()
-          else if walk.hasHad(light.maxDepth) then walk.end()
+          if isPassed then passThrough()
+          else if path.depth == light.maxDepth then end()
           else scatter(see)
+          for medium <- around do medium.leave(vertex.at, ray, path.isAlone)
+      L.toRgb
 
     private def scatter(see: Vec3 => Unit): Unit =
-      walk.evaluate()
-      val receives = PhotonLight.receives(scene, walk.vertex)
-      if receives && isWanted then see(walk.vertex.at.p.toVec3)
-      if receives && !onlyBehind then walk.end()
+      evaluate()
+      val receives = PhotonLight.receives(scene, vertex)
+      if receives && isWanted then see(vertex.at.p.toVec3)
+      if receives && !onlyBehind then end()
       else
-        walk.scatter(sampler)
-        if onlyBehind && walk.depth == 1 then isWanted = walk.vertex.bounce.isSpecular
-        walk.leave()
-        if onlyBehind && !isWanted then walk.end()
+        scatter(sampler)
+        if onlyBehind && path.depth == 1 then isWanted = vertex.bounce.isSpecular
+        leave()
+        if onlyBehind && !isWanted then end()
 
     /** Of a pixel, so far away. */
     private def size(eye: Vec3, direction: Vec3, distance: Float): Float =
       val other = beside.ray.origin + beside.ray.direction.normalized * distance
       (eye + direction * distance - other).length
+
+/** The medium around a path. Mutable.
+  *
+  * @param media of the scene
+  */
+private final class MediumAround(media: SceneMedia):
+  private val work = MediumWork()
+  private var medium = -1
+
+  /** A path begins at the camera. */
+  def begin(sampler: Sampler): Unit =
+    work.start(hero = if media.isChromatic then (sampler.next1D() * 3f).toInt else 0)
+    work.random.seed(sampler.next1D(), sampler.next1D())
+    medium = media.camera
+
+  /** The ray's parameter of a scattering event; −1: none. */
+  def follow(ray: Ray, sampler: Sampler): Float =
+    if medium < 0 then -1f
+    else media.media(medium).follow(ray, sampler.next1D(), emits = true, work)
+
+  /** Does no light come through the media that the path has crossed? */
+  def isDark: Boolean = work.weights.isDead
+
+  /** The ray has left the surface, alone: with the hero wavelength only. */
+  def leave(at: ShadingPoint, ray: Ray, isAlone: Boolean): Unit =
+    if isAlone && !work.weights.isAlone then work.weights.keepHero()
+    medium = media.beyond(at, ray.direction, medium)
 
 private object SeenPlaces:
   /** Number of parallel tasks that trace the paths; results do not depend on threads. */

@@ -31,30 +31,28 @@ final case class Occlusion(
   * Rendering 1998.
   */
 final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch | Null = null)
-    extends Integrator:
-  import rule.*
+    extends SurfaceWalk(scene, volumes):
+  import rule.{cosine, open, samples, showsSky, weighs}
 
-  private val walk = SurfaceWalk(scene, volumes)
   private val shadowRay = Ray()
   private val shadowHit = Hit()
   private var shadowRays = 0L
 
-  def raysTraced: Long = walk.raysTraced + shadowRays
-  override def lastMaterial: Int = walk.vertex.at.material
+  override def raysTraced: Long = super.raysTraced + shadowRays
 
-  def radiance(ray: Ray, sampler: Sampler): Rgb =
-    shadowRay.time = ray.time
-    walk.begin(ray, sampler)
-    while walk.goesOn do
-      val isHit = walk.intersect()
-      walk.marchThroughVolumes(sampler)
-      if isHit && walk.vertex.isInterface then walk.passThrough()
+  def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
+    shadowRay.time = cameraRay.time
+    begin(cameraRay, sampler)
+    while goesOn do
+      val isHit = intersect()
+      marchThroughVolumes(sampler)
+      if isHit && vertex.isInterface then passThrough()
       else if isHit then
-        walk.addScattered(open * openness(walk.vertex, sampler))
-        walk.end()
-      else if showsSky then walk.addEnvironment()
-      else walk.end()
-    walk.radiance
+        addScattered(open * openness(vertex, sampler))
+        end()
+      else if showsSky then addEnvironment()
+      else end()
+    L.toRgb
 
   /** Of the hemisphere around the geometric normal. */
   private def openness(vertex: SurfaceVertex, sampler: Sampler): Float =
@@ -68,7 +66,7 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
     while i < samples do
       val w = if cosine then Warp.cosineHemisphere(u1, u2) else Warp.uniformHemisphere(u1, u2)
       val wi = frame.toWorld(w)
-      shadowRay.set(point.offsetOrigin(wi) + wi * start, wi, end - start)
+      shadowRay.set(point.offsetOrigin(wi) + wi * rule.start, wi, rule.end - rule.start)
       shadowRays += 1
       // By the cosine, over its mean: 1 is a half of its density
       if !scene.isOccluded(shadowRay, shadowHit) then

@@ -28,5 +28,6 @@ private[integrators] final class Branches(newPath: () => PathState):
 
 private[integrators] object Branches:
   final class Branch(val path: PathState):
+    val history: PathHistory = PathHistory(path)
     val departure: Departure = Departure()
     val mark: Guidance.Mark = Guidance.Mark()

@@ -8,23 +8,24 @@ import candela.scene.{Casters, Scene}
 /** Weights of what camera paths find against what light paths find that begin at casters, and reach
   * the camera by a vertex that is not specular. Immutable.
   *
-  * Along a path, [[PathState.rival]] is the ratio of both densities, as far as it is known: at
-  * each vertex, the density with which the light path would have come here by that with which the
-  * camera's has. All densities are those of BSDFs and phase functions alone, guided or not, and
-  * those of distances in media are left out: they only weigh, and are the same on both sides.
+  * Along a path, [[PathHistory.densityRatio]] is the ratio of both densities, as far as it is
+  * known: at each vertex, the density with which the light path would have come here by that with
+  * which the camera's has. All densities are those of BSDFs and phase functions alone, guided or
+  * not, and those of distances in media are left out: they only weigh, and are the same on both
+  * sides.
   *
   * What the camera's path finds by either of its techniques is multiplied by one minus the light
   * path's weight, (p₀² + p₁²) / (p₀² + p₁² + p²): p₀ is the density of the path itself, p₁ that of
   * a light sample at its last vertex, and p that of the light path.
   *
   * Others begin at emitters, and bring what does not meet a caster first, and was scattered more
-  * than once or in a medium. Of each path, one kind of light paths competes.
+  * than once or in a medium. Each path is weighted against one kind of light paths.
   *
   * @param camera     that light paths are connected to
   * @param perSample  light paths from casters per camera sample
   * @param ofEmitters those from emitters; 0: there are none
   *
-  * Source: Veach 1997, §10.2; the recursion as in Georgiev 2012, for one competitor.
+  * Source: Veach 1997, §10.2; the recursion as in Georgiev 2012, for one other technique.
   */
 final class CausticWeights(
     scene: Scene,
@@ -37,62 +38,63 @@ final class CausticWeights(
     if ofEmitters > 0f then CausticWeights.emitters(scene) else null
 
   /** The path has met a surface, and its BSDF is known. */
-  def arrive(eye: Vec3, vertex: SurfaceVertex, path: PathState): Unit =
+  def arrive(eye: Vec3, vertex: SurfaceVertex, path: PathHistory): Unit =
     val cosine = vertex.cosine(vertex.wo)
-    if path.depth == 1 then path.rival = begun(eye, vertex.at.p, cosine)
-    else if path.rival > 0.0 then path.rival = if cosine > 0f then path.rival / cosine else 0.0
+    if path.depth == 1 then path.densityRatio = begun(eye, vertex.at.p, cosine)
+    else if path.densityRatio > 0.0 then
+      path.densityRatio = if cosine > 0f then path.densityRatio / cosine else 0.0
 
   /** The path leaves for `wi`, by `vertex.bounce`.
     *
     * @param ray how it came to the vertex
     */
-  def leave(vertex: SurfaceVertex, ray: Ray, hit: Hit, wi: Vec3, path: PathState): Unit =
-    path.rivalAtLight = 0.0
-    path.rivalOfEmitter = 0.0
-    if path.rival > 0.0 then
+  def leave(vertex: SurfaceVertex, ray: Ray, hit: Hit, wi: Vec3, path: PathHistory): Unit =
+    path.casterRatio = 0.0
+    path.emitterRatio = 0.0
+    if path.densityRatio > 0.0 then
       val bounce = vertex.bounce
       val pdf = if bounce.isSpecular then 0f else vertex.localPdf(bounce.wi)
-      path.ownPdf = pdf
+      path.bsdfPdf = pdf
       if path.depth == 1 then
-        path.rival = if pdf > 0f then path.rival * (vertex.cosine(wi) / pdf) else 0.0
+        path.densityRatio = if pdf > 0f then path.densityRatio * (vertex.cosine(wi) / pdf) else 0.0
       else
         val reverse =
           if bounce.isSpecular then 1.0
           else vertex.bsdf.pdf(bounce.wi, vertex.localWo).toDouble / pdf
         val begins = startDensity(vertex, ray, hit)
-        path.rivalAtLight = path.rival * reverse * begins
-        path.rival *= reverse * vertex.cosine(wi)
-        if begins == 0f then path.rivalOfEmitter = path.rival
-      if !(path.rival < Double.PositiveInfinity) then path.rival = 0.0
-      if !(path.rivalAtLight < Double.PositiveInfinity) then path.rivalAtLight = 0.0
-      if !(path.rivalOfEmitter < Double.PositiveInfinity) then path.rivalOfEmitter = 0.0
+        path.casterRatio = path.densityRatio * reverse * begins
+        path.densityRatio *= reverse * vertex.cosine(wi)
+        if begins == 0f then path.emitterRatio = path.densityRatio
+      if !(path.densityRatio < Double.PositiveInfinity) then path.densityRatio = 0.0
+      if !(path.casterRatio < Double.PositiveInfinity) then path.casterRatio = 0.0
+      if !(path.emitterRatio < Double.PositiveInfinity) then path.emitterRatio = 0.0
 
   /** Density with which light paths begin where the ray has met the vertex, per area. */
   private def startDensity(vertex: SurfaceVertex, ray: Ray, hit: Hit): Float =
     if scene.isCaster(vertex.at) then casters.density(ray, hit, vertex.at) else 0f
 
   /** The path is about to be scattered at `p` in a medium. */
-  def arriveInMedium(eye: Vec3, p: Vec3, path: PathState): Unit =
-    if path.depth == 1 then path.rival = begun(eye, p, 1f)
+  def arriveInMedium(eye: Vec3, p: Vec3, path: PathHistory): Unit =
+    if path.depth == 1 then path.densityRatio = begun(eye, p, 1f)
 
   /** The path is scattered in a medium.
     *
     * @param pdf of the phase function
     */
-  def scatterInMedium(pdf: Float, path: PathState): Unit =
-    path.rivalAtLight = 0.0
-    path.ownPdf = pdf
+  def scatterInMedium(pdf: Float, path: PathHistory): Unit =
+    path.casterRatio = 0.0
+    path.bsdfPdf = pdf
     // Phase functions are symmetric: farther on, both densities are the same
-    if path.depth == 1 then path.rival = if pdf > 0f then path.rival / pdf else 0.0
-    path.rivalOfEmitter = path.rival
+    if path.depth == 1 then path.densityRatio = if pdf > 0f then path.densityRatio / pdf else 0.0
+    path.emitterRatio = path.densityRatio
 
   private def begun(eye: Vec3, p: Vec3, cosine: Float): Double =
     val density = camera.density(eye, p)
     if density > 0f && cosine > 0f then 1.0 / (density.toDouble * cosine) else 0.0
 
-  /** Does a light path compete with what the path meets of emitters? */
-  def competes(path: PathState): Boolean =
-    path.rivalAtLight > 0.0 || emitters != null && path.rivalOfEmitter > 0.0
+  /** May a light path find what the path meets of emitters, too? */
+  def hasRatio(path: PathHistory): Boolean =
+    path.casterRatio > 0.0 || emitters != null && path.emitterRatio > 0.0
 
   /** Factor of what the camera's path finds where it has met an emitter.
     *
@@ -100,29 +102,29 @@ final class CausticWeights(
     * @param emitted density with which the emitter sends light along the path, over the cosine
     *   there
     */
-  inline def ofEmission(light: Int, pdf: Float, inline emitted: Float, path: PathState): Float =
-    if path.rivalAtLight > 0.0 then ofEmissionFromCaster(light, pdf, path)
+  inline def ofEmission(light: Int, pdf: Float, inline emitted: Float, path: PathHistory): Float =
+    if path.casterRatio > 0.0 then ofEmissionFromCaster(light, pdf, path)
     else ofEmissionFromEmitter(light, pdf, emitted, path)
 
-  def ofEmissionFromEmitter(light: Int, pdf: Float, emitted: Float, path: PathState): Float =
+  def ofEmissionFromEmitter(light: Int, pdf: Float, emitted: Float, path: PathHistory): Float =
     val begins = emitters
     if begins == null || !(emitted > 0f) || !scene.lights(light).isCausticSource then 1f
     else
-      val rival = path.rivalOfEmitter * begins.chance(light) * emitted * ofEmitters
-      ownShare(ofSampled(light, pdf, path), rival)
+      val ratio = path.emitterRatio * begins.chance(light) * emitted * ofEmitters
+      weight(ofSampled(light, pdf, path), ratio)
 
-  def ofEmissionFromCaster(light: Int, pdf: Float, path: PathState): Float =
+  def ofEmissionFromCaster(light: Int, pdf: Float, path: PathHistory): Float =
     if !scene.lights(light).isCausticSource then 1f
     else
       val p = path.lastP
       val chosen = scene.selection.probability(p, Vec3.Zero, light)
-      ownShare(ofSampled(light, pdf, path), path.rivalAtLight * chosen * pdf * perSample)
+      weight(ofSampled(light, pdf, path), path.casterRatio * chosen * pdf * perSample)
 
   /** Squared densities of the path itself and of a light sample, relative to its own. */
-  private def ofSampled(light: Int, pdf: Float, path: PathState): Double =
-    if path.ownPdf > 0f then
+  private def ofSampled(light: Int, pdf: Float, path: PathHistory): Double =
+    if path.bsdfPdf > 0f then
       val chosen = scene.selection.probability(path.lastP, path.lastN, light)
-      1.0 + square(chosen.toDouble * pdf / path.ownPdf)
+      1.0 + square(chosen.toDouble * pdf / path.bsdfPdf)
     else 1.0
 
   /** Factor of a light sample at the vertex.
@@ -135,7 +137,7 @@ final class CausticWeights(
       localWi: Vec3,
       ray: Ray,
       hit: Hit,
-      path: PathState
+      path: PathHistory
   ): Float =
     if !scene.lights(connection.index).isCausticSource then 1f
     else
@@ -148,20 +150,20 @@ final class CausticWeights(
           else
             val chosen = scene.selection.probability(vertex.at.p, Vec3.Zero, connection.index)
             begins * chosen.toDouble * perSample / connection.probability
-        val rival = path.rival * vertex.reversePdf(wi) * lightDensity
-        ownShare(ofMet(connection, vertex.localPdf(localWi)), rival)
+        val ratio = path.densityRatio * vertex.reversePdf(wi) * lightDensity
+        weight(ofMet(connection, vertex.localPdf(localWi)), ratio)
 
   /** Factor of a light sample at a place in a medium.
     *
     * @param pdf of the phase function
     */
-  def ofSampleInMedium(connection: LightConnection, p: Vec3, pdf: Float, path: PathState): Float =
-    if emitters == null || path.rival == 0.0 ||
+  def ofSampleInMedium(connection: LightConnection, p: Vec3, pdf: Float, path: PathHistory): Float =
+    if emitters == null || path.densityRatio == 0.0 ||
       !scene.lights(connection.index).isCausticSource
     then 1f
     else
       val reverse = if path.depth == 1 then 1f else pdf
-      ownShare(ofMet(connection, pdf), path.rival * reverse * fromEmitter(connection, p))
+      weight(ofMet(connection, pdf), path.densityRatio * reverse * fromEmitter(connection, p))
 
   /** Squared densities of a light sample and of the path itself, relative to the first.
     *
@@ -180,7 +182,8 @@ final class CausticWeights(
       begins.chance(connection.index).toDouble * connection.emissionPdf * ofEmitters /
         (connection.probability.toDouble * connection.spread(p))
 
-  private def ownShare(own: Double, rival: Double): Float = (own / (own + square(rival))).toFloat
+  private def weight(camera: Double, light: Double): Float =
+    (camera / (camera + square(light))).toFloat
 
   private def square(x: Double): Double = x * x
 

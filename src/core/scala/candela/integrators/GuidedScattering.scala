@@ -4,65 +4,75 @@ import candela.base.loop
 import candela.guiding.{Guide, PhotonField}
 import candela.sampling.Sampler
 
-/** How guided walks scatter, on surfaces and in media: [[Guidance]] samples the directions, and
+/** How guided paths scatter, on surfaces and in media: [[Guidance]] samples the directions, and
   * says in how many branches the path leaves a vertex. Branches are followed one after the other.
-  * Mutable, one per walk.
+  * Mutable, one per path tracer.
   */
-private[integrators] final class GuidedScattering(
+private final class GuidedScattering(
     guide: Guide,
-    walk: Walk,
+    tracer: CameraPath,
+    history: PathHistory,
     photons: PhotonField | Null
 ):
-  private val guidance = Guidance(guide, walk.vertex, photons)
-  private val branches = Branches(() => walk.path.another())
+  private val guidance = Guidance(guide, tracer.vertex, photons)
+  private val branches = Branches(() => tracer.path.another())
 
   export guidance.{begin, leaveAlone, meet, pdf, roulette}
 
   /** The vertex has its BSDF. Photons aim at light that light paths don't find. */
-  def arrive(): Unit = guidance.arrive(isAimed = photons != null && walk.path.rival == 0.0)
+  def arrive(): Unit = guidance.arrive(isAimed = photons != null && history.densityRatio == 0.0)
 
   /** Samples the next direction, and leaves in all branches but one, unless there is one only. */
   def scatter(sampler: Sampler): Unit =
-    walk.path.scale(guidance.survival(walk.path.throughput.average, sampler))
+    tracer.path.scale(guidance.survival(tracer.path.throughput.average, sampler))
     if guidance.branches == 1 then scatterOnce(0)
     else
       leaveInBranches()
-      walk.path.absorb()
+      tracer.path.absorb()
 
   private def scatterOnce(branch: Int): Unit =
-    guidance.scatter(walk.path.throughput.average, found, branch)
-    walk.path.scale(walk.vertex.bounce.weight)
+    guidance.scatter(tracer.path.throughput.average, radiance, branch)
+    tracer.path.scale(tracer.vertex.bounce.weight)
 
-  /** Light found so far, in all branches: the average of the colours. */
-  private def found: Float = walk.radiance.average
+  /** Radiance so far, in all branches: the average of the colours. */
+  private def radiance: Float = tracer.radianceSoFar.average
 
   /** Leaves the vertex in all branches, which wait then. */
   private def leaveInBranches(): Unit =
-    keep(branches.origin)
+    save(branches.origin)
     loop(guidance.branches): i =>
-      restore(branches.origin, Stage.Scattered)
+      restore(branches.origin)
       scatterOnce(i)
-      walk.leave()
-      if walk.goesOn then
+      tracer.leave()
+      if tracer.goesOn then
         val branch = branches.push()
-        keep(branch)
+        save(branch)
         guidance.keepPosition(i, branch.mark)
-    walk.restore(branches.origin, Stage.Scattered)
+    restorePath(branches.origin)
 
-  private def keep(branch: Branches.Branch): Unit =
-    walk.keep(branch)
+  private def save(branch: Branches.Branch): Unit =
+    branch.path.set(tracer.path)
+    branch.history.set(history)
+    branch.departure.set(tracer.ray)
     guidance.keep(branch.mark)
 
-  private def restore(branch: Branches.Branch, stage: Stage): Unit =
-    walk.restore(branch, stage)
-    guidance.follow(branch.mark, found)
+  /** Goes on with the path as it was; its radiance so far stays. */
+  private def restore(branch: Branches.Branch): Unit =
+    restorePath(branch)
+    guidance.follow(branch.mark, radiance)
 
-  /** Goes on with a branch that waits; false: there is none, and all light of the path is found. */
+  private def restorePath(branch: Branches.Branch): Unit =
+    tracer.path.set(branch.path)
+    history.set(branch.history)
+    branch.departure.restore(tracer.ray)
+    tracer.goesOn = true
+
+  /** Goes on with a branch that waits; false: there is none, and the path is complete. */
   def followNext(sampler: Sampler): Boolean =
     val waits = !branches.isEmpty
     if waits then
       val branch = branches.pop()
-      restore(branch, Stage.Departed)
+      restore(branch)
       sampler.goTo(branch.mark.position)
-    else guidance.finish(found)
+    else guidance.finish(radiance)
     waits

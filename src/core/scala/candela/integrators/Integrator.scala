@@ -44,13 +44,6 @@ object WorkerIntegrators:
       lazy val divideLight: Boolean =
         scene.lightGroups.isDefined && make(None).lightParts != null
 
-/** Base of integrators that follow one unidirectional path per sample. */
-abstract class CameraPathIntegrator extends Integrator:
-  protected def walk: Walk
-  final def raysTraced: Long = walk.raysTraced
-  override final def lastMaterial: Int = walk.vertex.at.material
-  override final def lightParts: LightParts | Null = walk.parts
-
 /** The passes of one rendering, shared by all workers: sample k of every pixel uses what pass k has
   * prepared. At most [[SharedPasses.MaxOpen]] passes are in use at a time.
   */

@@ -40,13 +40,13 @@ object LightTransport:
   /** Radiance of the environment along a ray that left the scene, each light times `weight` of its
     * index and itself.
     *
-    * @param found is told each light's index and share
+    * @param contribution receives each light's index and contribution
     */
   inline def environment(
       scene: Scene,
       ray: Ray,
       inline weight: (Int, EnvironmentLight) => Float,
-      inline found: (Int, Rgb) => Unit = (_, _) => ()
+      inline contribution: (Int, Rgb) => Unit = (_, _) => ()
   ): Rgb =
     var r, g, b = 0f
     var i = 0
@@ -57,6 +57,6 @@ object LightTransport:
       r += arriving.r * w
       g += arriving.g * w
       b += arriving.b * w
-      found(scene.environmentIndex(i), arriving * w)
+      contribution(scene.environmentIndex(i), arriving * w)
       i += 1
     Rgb(r, g, b)

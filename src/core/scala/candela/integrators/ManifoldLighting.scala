@@ -54,7 +54,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
   def arrive(): Unit = isSeeded = false
 
   /** Looks for light that `vertex` scatters to its `wo`. The sampler stays where it is. */
-  def finds(vertex: SurfaceVertex, path: PathState, time: Float, sampler: Sampler): Boolean =
+  def finds(vertex: SurfaceVertex, path: PathHistory, time: Float, sampler: Sampler): Boolean =
     val position = sampler.position
     random.seed(sampler.next1D(), sampler.next1D())
     sampler.goTo(position)
@@ -123,7 +123,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     else chain.find(random)
 
   /** Computes what the chain brings: false if nothing. */
-  private def lights(vertex: SurfaceVertex, path: PathState): Boolean =
+  private def lights(vertex: SurfaceVertex, path: PathHistory): Boolean =
     val wi = chain.direction
     val localWi = vertex.at.frame.toLocal(wi)
     val f = if isTaken(vertex, localWi) then vertex.received(wi, localWi) else Rgb.Black
@@ -179,7 +179,7 @@ private[integrators] final class ManifoldLighting(scene: Scene, manifolds: Manif
     count.toFloat
 
   /** The path leaves the vertex by `vertex.bounce`. */
-  def leave(vertex: SurfaceVertex, hit: Hit, path: PathState): Unit =
+  def leave(vertex: SurfaceVertex, hit: Hit, path: PathHistory): Unit =
     manifolds.leave(vertex, hit, path, coverage, isSeeded)
 
 private object ManifoldLighting:

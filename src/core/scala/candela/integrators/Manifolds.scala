@@ -50,7 +50,7 @@ final class Manifolds(
   def isEmpty: Boolean = points == null && surfaces == null || scene.casters.isEmpty
 
   /** Do the walks look for light at the vertex? */
-  private[integrators] def suits(vertex: SurfaceVertex, path: PathState): Boolean =
+  private[integrators] def suits(vertex: SurfaceVertex, path: PathHistory): Boolean =
     path.chain != Manifolds.NoWalks && path.depth > 1 && path.depth < maxDepth &&
       !vertex.bsdf.isSpecular
 
@@ -59,7 +59,7 @@ final class Manifolds(
     if light < usual then light / usual else 1f
 
   /** Do they find what the path meets of an area light? */
-  private[integrators] def finds(light: Int, path: PathState): Boolean =
+  private[integrators] def finds(light: Int, path: PathHistory): Boolean =
     path.chain > Manifolds.Started && path.chain <= Manifolds.Longest && {
       val emitters = surfaces
       emitters != null && emitters.probability(light) > 0f
@@ -72,7 +72,7 @@ final class Manifolds(
   private[integrators] def leave(
       vertex: SurfaceVertex,
       hit: Hit,
-      path: PathState,
+      path: PathHistory,
       coverage: Coverage,
       isLooked: Boolean
   ): Unit =

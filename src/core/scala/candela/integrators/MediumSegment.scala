@@ -17,8 +17,8 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
   /** Index of the medium. */
   var medium: Int = -1
 
-  /** Radiance found, towards the begin of the segment. */
-  val found: MutableRgb = MutableRgb()
+  /** Scattered radiance, towards the begin of the segment. */
+  val radiance: MutableRgb = MutableRgb()
 
   /** The segment: up to `tMax`. */
   def ray: Ray = along
@@ -27,7 +27,7 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
     this.along = along
     this.medium = medium
     reached = 0f
-    found.set(Rgb.Black)
+    radiance.set(Rgb.Black)
     work.shadow.start(work.weights.hero, 1f)
 
   /** Goes on to the parameter `t` of the ray, which is at least that of the last step; false if no
@@ -64,6 +64,6 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
     if density > 0f then
       val toPath = -(wx * along.dx + wy * along.dy + wz * along.dz)
       val factor = media.media(medium).phase.value(toPath / along.direction.length) / density
-      found.r += s.r * r * factor
-      found.g += s.g * g * factor
-      found.b += s.b * b * factor
+      radiance.r += s.r * r * factor
+      radiance.g += s.g * g * factor
+      radiance.b += s.b * b * factor

@@ -2,13 +2,14 @@ package candela.integrators
 
 import candela.color.{MutableRgb, Rgb}
 import candela.math.*
+import candela.media.PathWeights
 
 /** What a path from the camera carries from vertex to vertex: all that its next steps depend on,
-  * but its ray. Mutable. A walk has one, and each branch that waits has a copy.
+  * but its ray. Mutable. A path tracer has one, and each branch that waits has a copy.
   *
-  * The estimate of a path is the sum of β · w · L over all light that it finds: light of radiance L
-  * that its ray meets, or that is sampled at one of its vertices. It is unbiased, its mean is the
-  * radiance that arrives at the camera:
+  * The estimate of a path is the sum of β · w · L over all light that it meets or samples: light of
+  * radiance L that its ray meets, or that is sampled at one of its vertices. It is unbiased, its
+  * mean is the radiance that arrives at the camera:
   *
   *   - β, the [[throughput]], is the product of f·|cos|/p over the vertices so far, where p is the
   *     density with which the direction was sampled. The mean of β · L over all directions is
@@ -16,17 +17,17 @@ import candela.math.*
   *     integrand is. The same holds for everything else that is decided at random: the factor is
   *     divided by the probability. Russian roulette goes on with β/q in q of all cases, and
   *     otherwise with 0.
-  *   - Light that is found in two ways, because the path may go there by itself, counts with the
-  *     weights w of multiple importance sampling. Those of both ways add up to 1. Each needs both
+  *   - Light that two techniques sample, because the path may go there by itself, counts with the
+  *     weights w of multiple importance sampling. Those of both add up to 1. Each needs both
   *     densities, but a ray that meets an emitter has left the vertex where the emitter could have
-  *     been sampled. So the path remembers the density of its direction, and the place of that
-  *     vertex.
+  *     been sampled. So the path remembers the density of its direction, and the position and
+  *     normal of that vertex.
   *
   * Between surfaces one density is enough ([[SurfacePath]]). In media each colour has its own
   * ([[VolumePath]]).
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9.2 and §10; PBRT 4th
-  * ed., §13.2 and §14.2, where β is `beta`.
+  * ed., §13.2 and §14.2, whose names these are.
   */
 abstract class PathState:
   /** Scattering events so far. */
@@ -39,28 +40,6 @@ abstract class PathState:
     * radiance scaling, so Russian roulette sees the energy.
     */
   final var etaScale: Float = 1f
-
-  /** Has the path been scattered other than by specular surfaces? Followed only if paths are
-    * regularized: from there on BSDFs are roughened.
-    */
-  final var isSpread: Boolean = false
-
-  /** As long as a light path may have made the path: the ratio of the density with which it would
-    * have come to the vertex to the path's own, and what is known of it for an emitter that its ray
-    * meets; else 0. Light paths of the first kind begin at the last vertex, a caster, those of the
-    * second at the emitter. See [[CausticWeights]].
-    */
-  final var rival, rivalAtLight, rivalOfEmitter: Double = 0.0
-
-  /** The solid-angle density of the current direction, without guiding, where one of the last two
-    * is above 0; 0: it is specular.
-    */
-  final var ownPdf: Float = 0f
-
-  /** What manifold walks may look for from here, or what is left to photons: a number of
-    * [[Manifolds]] or of [[PhotonLight]].
-    */
-  final var chain: Int = 0
 
   /** Where the current direction was sampled, and the normal with which light sampling chose a
     * light there; zero where light may come from all sides.
@@ -78,24 +57,18 @@ abstract class PathState:
   def absorb(): Unit
 
   /** Is the throughput 0? */
-  def isDead: Boolean
-
-  /** Largest of β's colours. */
-  def largest: Float
+  def isBlack: Boolean
 
   /** β · w · L. */
-  def carried(radiance: Rgb, weight: Float): Rgb
+  def carried(radiance: Rgb, weight: Float = 1f): Rgb
 
-  /** Adds it to `sum`, where it need not be an object. */
-  def addTo(sum: MutableRgb, radiance: Rgb, weight: Float): Unit
-
-  /** Does light sampling at the last vertex find what the current direction meets? It doesn't if
-    * the direction is the camera's, or specular.
+  /** Does light sampling miss what the current direction meets? So it does if the direction is
+    * specular, or the camera's.
     */
-  def competes: Boolean
+  def specularBounce: Boolean
 
-  /** Weight of light that the path meets, if light sampling competes: the path's own density
-    * against that of light sampling. Power heuristic.
+  /** Weight of light that the path meets, if light sampling may sample it, too: the path's own
+    * density against that of light sampling. Power heuristic.
     *
     * @param choice probability with which light sampling would have chosen the light
     * @param pdf    solid-angle density with which it would have sampled the point
@@ -105,7 +78,7 @@ abstract class PathState:
   /** Leaves `p` in a sampled direction.
     *
     * @param n   normal for the choice of lights there
-    * @param pdf solid-angle density of the direction; 0 if light sampling does not compete with it
+    * @param pdf solid-angle density of the direction; 0 if light sampling misses what it meets
     */
   final def turn(p: Vec3, n: Vec3, pdf: Float): Unit =
     lastP.set(p)
@@ -118,18 +91,13 @@ abstract class PathState:
   def isAlone: Boolean
 
   /** Goes on with the hero wavelength in place of all three: dispersion has parted them. */
-  def keepHero(): Unit
+  def terminateSecondary(): Unit
 
   /** Starts a path at the camera. */
   def start(): Unit =
     depth = 0
     passed = 0
     etaScale = 1f
-    isSpread = false
-    rival = 0.0
-    rivalAtLight = 0.0
-    rivalOfEmitter = 0.0
-    chain = Manifolds.SpecularFromCamera
 
   /** A new one of the same kind. */
   def another(): PathState
@@ -139,11 +107,98 @@ abstract class PathState:
     depth = from.depth
     passed = from.passed
     etaScale = from.etaScale
-    isSpread = from.isSpread
-    rival = from.rival
-    rivalAtLight = from.rivalAtLight
-    rivalOfEmitter = from.rivalOfEmitter
-    ownPdf = from.ownPdf
-    chain = from.chain
     lastP.set(from.lastP)
     lastN.set(from.lastN)
+
+/** What a path between surfaces carries: one density for all colours. Mutable. */
+final class SurfacePath extends PathState:
+  val beta: MutableRgb = MutableRgb()
+  private var alone = false
+
+  /** Solid-angle density of the current direction (`p_b`); 0 if light sampling misses what it
+    * meets; [[SurfacePath.Lost]] if what it meets counts nothing.
+    */
+  private var bsdfPdf = 0f
+
+  def throughput: Rgb = beta.toRgb
+  def scale(factor: Rgb): Unit = beta.scale(factor)
+  def scale(factor: Float): Unit = beta.scale(factor)
+  def absorb(): Unit = beta.set(Rgb.Black)
+  def isBlack: Boolean = beta.isBlack
+  def carried(radiance: Rgb, weight: Float): Rgb = beta.toRgb * radiance * weight
+  def specularBounce: Boolean = bsdfPdf == 0f
+
+  def emissionWeight(choice: Float, pdf: Float): Float =
+    if bsdfPdf > 0f then LightTransport.powerHeuristic(bsdfPdf, choice * pdf) else 0f
+
+  protected def turn(pdf: Float): Unit = bsdfPdf = pdf
+
+  /** Passes an interface. If light samples end there, either the path alone finds what is behind
+    * it, or nothing does.
+    */
+  def pass(interfaces: Interfaces): Unit =
+    if bsdfPdf > 0f then
+      interfaces match
+        case Interfaces.Closed => bsdfPdf = 0f
+        case Interfaces.Lossy => bsdfPdf = SurfacePath.Lost
+        case Interfaces.Open | Interfaces.Weighed => ()
+
+  def isAlone: Boolean = alone
+
+  def terminateSecondary(): Unit =
+    alone = true
+    beta.scale(LightTransport.Hero)
+
+  override def start(): Unit =
+    super.start()
+    beta.set(Rgb.White)
+    alone = false
+    bsdfPdf = 0f
+
+  def another(): SurfacePath = SurfacePath()
+
+  override def set(from: PathState): Unit =
+    super.set(from)
+    val same = from.asInstanceOf[SurfacePath]
+    beta.set(same.throughput)
+    alone = same.alone
+    bsdfPdf = same.bsdfPdf
+
+private object SurfacePath:
+  inline val Lost = -1f
+
+/** What a path through media carries: throughput, and two kinds of densities, for each colour.
+  * Media scatter colours at different distances, so a path that one colour has sampled is weighted
+  * against those of the others ([[candela.media.PathWeights]]). Mutable.
+  *
+  * @param weights which media change on the way
+  */
+final class VolumePath(val weights: PathWeights = PathWeights()) extends PathState:
+
+  /** Index of the medium around the path, −1: none. */
+  var medium: Int = -1
+
+  def throughput: Rgb = weights.throughput
+  def scale(factor: Rgb): Unit = weights.scale(factor)
+  def scale(factor: Float): Unit = weights.scale(factor)
+  def absorb(): Unit = weights.scale(0f)
+  def isBlack: Boolean = weights.isDead
+  def carried(radiance: Rgb, weight: Float): Rgb = weights.throughput * (radiance * weight)
+  def specularBounce: Boolean = !(weights.lightDensity > 0f)
+
+  /** Densities are in units of the path's own. */
+  def emissionWeight(choice: Float, pdf: Float): Float =
+    LightTransport.powerHeuristic(1f, weights.lightDensity * choice * pdf)
+
+  protected def turn(pdf: Float): Unit = weights.turn(pdf)
+
+  def isAlone: Boolean = weights.isAlone
+  def terminateSecondary(): Unit = weights.keepHero()
+
+  def another(): VolumePath = VolumePath()
+
+  override def set(from: PathState): Unit =
+    super.set(from)
+    val same = from.asInstanceOf[VolumePath]
+    weights.set(same.weights)
+    medium = same.medium

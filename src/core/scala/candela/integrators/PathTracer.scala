@@ -1,109 +1,187 @@
 package candela.integrators
 
 import candela.aov.LightParts
-import candela.color.Rgb
-import candela.geometry.Ray
+import candela.color.{MutableRgb, Rgb}
+import candela.geometry.{Hit, Ray}
 import candela.guiding.Guide
-import candela.media.SceneMedia
+import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** Unidirectional path tracing with next-event estimation, multiple importance sampling and Russian
-  * roulette, over surfaces or through participating media, guided or not.
+/** A path from the camera: where it is, and what it has gathered. [[PathState]] says why its estimate
+  * is unbiased. Mutable, one per worker.
+  */
+abstract class CameraPath(
+    scene: Scene,
+    final val path: PathState,
+    final val connection: LightConnection,
+    extend: CameraPath => PathExtension
+) extends Integrator:
+  /** Where the path is. */
+  final val vertex: SurfaceVertex = SurfaceVertex(scene)
+
+  /** The ray to the next vertex, and the surface that it has met. */
+  final var ray: Ray = Ray()
+  final val hit: Hit = Hit()
+
+  /** Radiance so far. */
+  final val L: MutableRgb = MutableRgb()
+
+  /** Has the path not ended yet? */
+  final var goesOn: Boolean = false
+
+  protected final var rays = 0L
+  protected final val extension: PathExtension = extend(this)
+
+  /** [[L]], with what media have emitted. */
+  def radianceSoFar: Rgb = L.toRgb
+
+  protected final def begin(cameraRay: Ray): Unit =
+    ray = cameraRay
+    L.set(Rgb.Black)
+    path.start()
+    goesOn = true
+
+  /** Leaves the vertex in its sampled direction, or ends. */
+  def leave(): Unit =
+    extension.leave()
+    val bounce = vertex.bounce
+    path.turn(vertex.at.p, vertex.lightNormal, pdf = if bounce.isSpecular then 0f else bounce.pdf)
+    path.etaScale *= square(bounce.eta)
+    val isOpen = vertex.leave(ray)
+    goesOn = isOpen && !path.isBlack
+
+  def raysTraced: Long = rays + extension.raysTraced
+  override def lastMaterial: Int = vertex.at.material
+  override def lightParts: LightParts | Null = extension.lightParts
+
+  /** Weight of light that the path meets against light sampling.
+    *
+    * @param pdf solid-angle density with which light sampling would have sampled the point
+    */
+  protected inline def emissionWeight(light: Int, inline pdf: Float): Float =
+    if path.specularBounce then 1f
+    else path.emissionWeight(scene.selection.probability(path.lastP, path.lastN, light), pdf)
+
+/** Path tracing over surfaces, with next-event estimation, multiple importance sampling and Russian
+  * roulette. [[PathExtension]] has what only some scenes need.
+  *
+  * [[Interfaces]] say whether light samples end at surfaces that paths pass.
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed.,
-  * §13.4; in media also [[candela.media.PathWeights]]. Both kinds of densities are combined by the
-  * power heuristic, where Miller, Georgiev and Jarosz 2019 use the balance heuristic.
+  * §13.4.
   */
-final class PathTracer private[integrators] (
+final class PathTracer private (
     scene: Scene,
     limits: PathLimits,
-    protected val walk: Walk
-) extends CameraPathIntegrator:
+    options: PathOptions,
+    surfacePath: SurfacePath,
+    lights: LightConnection,
+    extend: CameraPath => PathExtension
+) extends CameraPath(scene, surfacePath, lights, extend):
+  import surfacePath.beta
+  private val hasLights = scene.lights.length > 0
 
-  def radiance(ray: Ray, sampler: Sampler): Rgb =
-    walk.begin(ray, sampler)
-    while
-      follow(sampler)
-      walk.followNext(sampler)
-    do ()
-    walk.radiance
+  override def raysTraced: Long = super.raysTraced + lights.raysTraced
 
-  /** Follows the path, or a branch of it, to its end. Scattering is apart: together they are more
-    * than the JIT compiler inlines, and it would leave calls in the midst of either.
-    */
-  private inline def follow(sampler: Sampler): Unit =
-    while walk.goesOn do
-      val isHit = walk.trace()
-      if !walk.travel(limits, sampler) then survive(sampler)
-      else if !isHit then walk.addEnvironment()
+  def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
+    begin(cameraRay)
+    lights.begin(ray.time)
+    extension.begin(sampler)
+    while goesOn || extension.nextBranch(sampler) do
+      // Trace the ray to the next surface
+      rays += 1
+      val isHit = scene.closest(ray, hit)
+      extension.travel(sampler)
+      if !isHit then
+        // Add light of the environment
+        val Le = LightTransport.environment(
+          scene,
+          ray,
+          weight = (i, light) =>
+            emissionWeight(i, light.pdf(path.lastP, ray.direction)) *
+              extension.emissionFactor(i, light),
+          contribution = extension.meetEnvironment
+        )
+        L.addProduct(beta, Le, 1f)
+        extension.meetEnvironments(Le)
+        goesOn = false
       else
-        walk.meetSurface()
-        walk.addEmission()
-        if walk.isPassed then walk.passThrough(limits.maxDepth)
-        else if walk.isAtPane then scatterAtPane(sampler)
-        else if walk.hasHad(limits.maxDepth) then walk.end()
-        else scatter(sampler)
+        vertex.hit(ray, hit)
+        val at = vertex.at
+        // Add light that the surface emits
+        if at.areaLight >= 0 then
+          val light = scene.surfaceLight(at)
+          val Le = light.radiance(at, vertex.wo)
+          if !Le.isBlack then
+            val misWeight =
+              if light.isShownOnly && !path.specularBounce then 0f
+              else emissionWeight(at.areaLight, light.pdf(path.lastP, at))
+            val weight = misWeight * extension.emissionFactor(at.areaLight, light)
+            L.addProduct(beta, Le, weight)
+            extension.meetSurface(at.areaLight, Le, weight)
+        if scene.isPassed(ray, hit, at) || extension.isHidden then skipIntersection()
+        else if hasHad(limits.maxDepth) then goesOn = false
+        else
+          surfacePath.depth += 1
+          vertex.evaluate()
+          extension.arrive()
+          // Scatter, and once more where light emerges from beneath the surface
+          while
+            // Sample direct light
+            if hasLights && !vertex.bsdf.isSpecular then
+              val u = sampler.next1D(matters = lights.isRandom)
+              sampler.next2D()
+              if lights.choose(at.p, vertex.lightNormal, u) &&
+                lights.samplePoint(at.p, sampler.x, sampler.y) && extension.samples &&
+                lights.scatters(
+                  vertex,
+                  weight = wi =>
+                    val bsdfPdf = extension.directionPdf(wi, vertex.localPdf(wi))
+                    LightTransport.powerHeuristic(lights.pdf, bsdfPdf)
+                )
+              then
+                lights.arrived.scale(extension.sampleFactor(lights.localWi))
+                L.addProduct(beta, lights.arrived)
+                extension.recordSample(beta.toRgb * lights.arrived.toRgb)
+            extension.addCaustics(sampler)
+            // Sample the BSDF for the next direction
+            if !extension.scatters(sampler) then
+              vertex.draw(sampler)
+              beta.scale(vertex.bounce.weight)
+            extension.emerges(sampler)
+          do ()
+          leave()
+          // End faint paths by Russian roulette
+          if goesOn && surfacePath.depth > limits.rouletteAfter then
+            val rrBeta = beta.largest * surfacePath.etaScale
+            beta.scale(extension.roulette(rrBeta, limits.rouletteThreshold, sampler))
+            goesOn = !beta.isBlack
+    L.toRgb
 
-  private def scatter(sampler: Sampler): Unit =
-    walk.evaluate()
-    addDirect(limits.seesThrough && scene.isSubsurface(walk.vertex.at.material), sampler)
-    walk.addCaustics(sampler)
-    walk.scatter(sampler)
-    val inside = walk.beneath
-    if inside != null && walk.emerge(inside, sampler) then
-      addDirect(isBoundary = false, sampler)
-      walk.scatter(sampler)
-    walk.leave()
-    survive(sampler)
+  private def hasHad(events: Int): Boolean = surfacePath.depth + surfacePath.passed == events
 
-  /** Scattering is an event only if the path does not cross the pane. */
-  private def scatterAtPane(sampler: Sampler): Unit =
-    walk.evaluate(isGuided = false)
-    if !walk.vertex.bsdf.isSpecular && walk.depth <= limits.maxDepth then
-      addDirect(isBoundary = false, sampler)
-    walk.crossPane(sampler)
-    if walk.depth > limits.maxDepth then walk.end()
-    survive(sampler)
-
-  /** Adds light of one light.
-    *
-    * @param isBoundary does light sampling alone find light straight through the surface?
-    */
-  private def addDirect(isBoundary: Boolean, sampler: Sampler): Unit =
-    if walk.sampleLight(sampler) then walk.connect(isBoundary)
-
-  private def survive(sampler: Sampler): Unit =
-    if walk.goesOn && walk.depth > limits.rouletteAfter then
-      walk.roulette(limits.rouletteThreshold, sampler)
+  /** Goes on behind the surface, unless the path has had as many events as it may. */
+  private def skipIntersection(): Unit =
+    if options.countsPassed && !extension.isHidden then
+      if hasHad(limits.maxDepth) then goesOn = false else surfacePath.passed += 1
+    vertex.passThrough(ray)
+    surfacePath.pass(options.interfaces)
 
 object PathTracer:
-  /** Over surfaces.
-    *
+  /** @param volumes pbrt-v2's volumes, if any
     * @param guide   null: paths are not guided
-    * @param parts   as in [[Walk]]
+    * @param parts   where to divide the light, if another integrator does it there, too
     */
   def apply(
       scene: Scene,
       limits: PathLimits,
-      options: WalkOptions = WalkOptions(),
+      options: PathOptions = PathOptions(),
       volumes: VolumeMarch | Null = null,
       guide: Guide | Null = null,
       parts: LightParts | Null = null
   ): PathTracer =
-    val walk = SurfaceWalk(scene, volumes, options = options, guide = guide, sharedParts = parts)
-    new PathTracer(scene, limits, walk)
-
-/** Path tracing through participating media. Not with [[PathTracer]]'s own: a JVM should load the
-  * one kind of walk that it needs.
-  */
-object VolumePathTracer:
-  def apply(
-      scene: Scene,
-      media: SceneMedia,
-      limits: PathLimits,
-      options: WalkOptions = WalkOptions(),
-      guide: Guide | Null = null,
-      parts: LightParts | Null = null
-  ): PathTracer =
-    new PathTracer(scene, limits, VolumeWalk(scene, media, options, guide, parts))
+    val crosses = !options.interfaces.stopsLight
+    val lights = LightConnection(scene, volumes, crosses = crosses)
+    val extend = PathTechniques.of(scene, limits, options, guide, parts, volumes)
+    new PathTracer(scene, limits, options, SurfacePath(), lights, extend)

@@ -46,23 +46,23 @@ abstract class PhotonLight(
   ): Unit
 
   /** Adds what the medium scatters to the path. */
-  private[integrators] final def scatter(segment: MediumSegment, path: PathState): Unit =
+  private[integrators] final def scatter(segment: MediumSegment, path: PathHistory): Unit =
     val events = maxDepth - path.depth
     if events > 0 then along(segment, events, path.isAlone, isSeen = path.chain < Started)
 
   /** The path leaves a place in a medium. */
-  private[integrators] final def leaveMedium(path: PathState): Unit = path.chain = Started
+  private[integrators] final def leaveMedium(path: PathHistory): Unit = path.chain = Started
 
   /** What the vertex reflects towards the path. */
-  private[integrators] final def reflected(vertex: SurfaceVertex, path: PathState): Rgb =
+  private[integrators] final def reflected(vertex: SurfaceVertex, path: PathHistory): Rgb =
     val events = maxDepth - path.depth
     if events > 0 && gathers(vertex, path) then around(vertex, events, path.isAlone) else Rgb.Black
 
-  private def gathers(vertex: SurfaceVertex, path: PathState): Boolean =
+  private def gathers(vertex: SurfaceVertex, path: PathHistory): Boolean =
     receives(scene, vertex) && (path.chain < Started || !scene.isCaster(vertex.at))
 
   /** Do they bring what the path meets at the emitter? */
-  private[integrators] final def brings(light: Int, path: PathState): Boolean =
+  private[integrators] final def brings(light: Int, path: PathHistory): Boolean =
     path.chain == MayBeginPhoton && isBrought(light)
 
   /** Do they bring what a light sample finds at the vertex, which the ray has met? */
@@ -71,7 +71,7 @@ abstract class PhotonLight(
       vertex: SurfaceVertex,
       ray: Ray,
       hit: Hit,
-      path: PathState
+      path: PathHistory
   ): Boolean =
     path.chain >= Started && isBrought(light) && canBegin(vertex, ray, hit)
 
@@ -83,7 +83,7 @@ abstract class PhotonLight(
       vertex: SurfaceVertex,
       ray: Ray,
       hit: Hit,
-      path: PathState
+      path: PathHistory
   ): Unit =
     val before = path.chain
     path.chain =

@@ -1,5 +1,6 @@
 package candela.integrators
 
+import candela.aov.LightParts
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.sampling.Sampler
@@ -27,35 +28,31 @@ final class SimplePathTracer(
     samplesLights: Boolean,
     onward: Onward,
     crosses: Boolean = true
-) extends CameraPathIntegrator:
-  protected val walk: SurfaceWalk = SurfaceWalk(
-    scene,
-    options = WalkOptions(
-      samplesLights = samplesLights,
-      interfaces = Interfaces.Closed,
-      countsPassed = true
-    )
-  )
+) extends SurfaceWalk(scene, interfaces = Interfaces.Closed):
+  override def lightParts: LightParts | Null = extension.lightParts
 
-  def radiance(ray: Ray, sampler: Sampler): Rgb =
-    walk.begin(ray, sampler)
-    while walk.goesOn do
-      val isHit = walk.intersect()
-      val isSampled = walk.path.competes
+  def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
+    begin(cameraRay, sampler)
+    while goesOn do
+      val isHit = intersect()
+      val isSampled = !path.specularBounce
       if isHit then
-        if !isSampled then walk.addEmission()
-        if walk.vertex.isInterface then
-          if crosses then walk.passThrough(maxDepth) else walk.end()
-        else if walk.hasHad(maxDepth) then walk.end()
+        if !isSampled then addEmission()
+        val isLast = path.depth + path.passed == maxDepth
+        if isLast || vertex.isInterface && !crosses then end()
+        else if vertex.isInterface then
+          path.passed += 1
+          passThrough()
         else
-          walk.evaluate()
-          if walk.sampleLight(sampler) then walk.connectBy(weight = _ => 1f)
+          evaluate()
+          if samplesLights && sampleLight(sampler) then connectBy(weight = _ => 1f)
           onward match
-            case Onward.Bsdf => walk.scatter(sampler)
+            case Onward.Bsdf => scatter(sampler)
             case Onward.Hemisphere =>
-              walk.scatterUniformly(walk.vertex.bsdf.isTransmissive, sampler)
-            case Onward.Sphere => walk.scatterUniformly(bothSides = true, sampler)
-          walk.leave()
-      else if isSampled then walk.end()
-      else walk.addEnvironment()
-    walk.radiance
+              scatterUniformly(vertex.bsdf.isTransmissive, sampler)
+            case Onward.Sphere => scatterUniformly(bothSides = true, sampler)
+          leave()
+          if !samplesLights then path.turn(path.lastP, path.lastN, pdf = 0f)
+      else if isSampled then end()
+      else addEnvironment()
+    L.toRgb

@@ -19,10 +19,7 @@ abstract class SpecularWalk(
     volumes: VolumeMarch | Null,
     steps: Float = VolumeMarch.StepsToLights,
     interfaces: Interfaces = Interfaces.Open
-) extends Integrator:
-  protected val walk: SurfaceWalk =
-    SurfaceWalk(scene, volumes, steps, WalkOptions(interfaces = interfaces))
-  protected val connection: LightConnection = walk.connection
+) extends SurfaceWalk(scene, volumes, steps, interfaces):
 
   /** Direct light that `vertex`, which is not specular alone, scatters to its `wo`. */
   protected def direct(vertex: SurfaceVertex, sampler: Sampler): Rgb
@@ -31,21 +28,18 @@ abstract class SpecularWalk(
   protected def gathered(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     if vertex.bsdf.isSpecular then Rgb.Black else direct(vertex, sampler)
 
-  def raysTraced: Long = walk.raysTraced
-  override def lastMaterial: Int = walk.vertex.at.material
-
-  def radiance(ray: Ray, sampler: Sampler): Rgb =
-    walk.begin(ray, sampler)
-    while walk.goesOn do
-      val isHit = walk.intersect()
-      walk.marchThroughVolumes(sampler)
-      if !isHit then walk.addEnvironment()
+  def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
+    begin(cameraRay, sampler)
+    while goesOn do
+      val isHit = intersect()
+      marchThroughVolumes(sampler)
+      if !isHit then addEnvironment()
       else
-        val passes = walk.vertex.isInterface
-        if !passes || !interfaces.stopsLight then walk.addEmission()
-        if passes then walk.passThrough()
+        val passes = vertex.isInterface
+        if !passes || !interfaces.stopsLight then addEmission()
+        if passes then passThrough()
         else
-          walk.evaluate()
-          walk.addScattered(gathered(walk.vertex, sampler))
-          if walk.depth == maxDepth then walk.end() else walk.leaveSpecularly(sampler)
-    walk.radiance
+          evaluate()
+          addScattered(gathered(vertex, sampler))
+          if path.depth == maxDepth then end() else leaveSpecularly(sampler)
+    L.toRgb

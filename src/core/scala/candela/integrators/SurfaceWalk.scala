@@ -2,129 +2,142 @@ package candela.integrators
 
 import candela.aov.LightParts
 import candela.color.Rgb
-import candela.guiding.Guide
+import candela.geometry.Ray
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** A [[Walk]] over surfaces, with nothing between them, or with pbrt-v2's volumes. Mutable.
+/** An integrator that follows a path over surfaces, other than the path tracers: it is an order of
+  * these steps. Mutable, one per worker.
   *
-  * [[Interfaces]] say whether light samples end at surfaces that paths pass. If so, a path that has
-  * passed one no longer competes with them.
+  * At each vertex: [[intersect]] gets there; [[addEnvironment]] or [[addEmission]] adds what the
+  * ray has met; [[evaluate]] prepares the vertex; [[sampleLight]] and [[connectBy]] add light of an
+  * emitter; [[scatter]] samples the next direction, and [[leave]] takes it.
   *
-  * @param volumes pbrt-v2's volumes, if any: the camera ray gathers what they emit and scatter, and
-  *                they attenuate all other light
-  * @param steps   their step size towards lights, in units of that towards the camera
+  * @param volumes    pbrt-v2's volumes, if any: the camera ray gathers what they emit and scatter,
+  *                   and they attenuate all other light
+  * @param steps      their step size towards lights, in units of that towards the camera
+  * @param interfaces what they are to light sampling
   */
-final class SurfaceWalk private (
+abstract class SurfaceWalk(
     scene: Scene,
-    volumes: VolumeMarch | Null,
-    steps: Float,
-    options: WalkOptions,
-    surfacePath: SurfacePath,
-    guide: Guide | Null,
-    sharedParts: LightParts | Null
-) extends Walk(
+    volumes: VolumeMarch | Null = null,
+    steps: Float = VolumeMarch.StepsToLights,
+    interfaces: Interfaces = Interfaces.Open,
+    surfacePath: SurfacePath = SurfacePath()
+) extends CameraPath(
       scene,
-      options,
       surfacePath,
-      LightConnection(scene, volumes, steps, crosses = !options.interfaces.stopsLight),
-      guide,
-      sharedParts
+      LightConnection(scene, volumes, steps, crosses = !interfaces.stopsLight),
+      PathTechniques.of(scene, PathLimits(maxDepth = 0), PathOptions(), null, null)
     ):
-  private val interfaces = options.interfaces
+  /** Its users divide light only if they say so. */
+  override def lightParts: LightParts | Null = null
 
-  protected def otherRays: Long =
-    connection.raysTraced + (if volumes == null then 0L else volumes.raysTraced)
+  override def raysTraced: Long =
+    super.raysTraced + connection.raysTraced + (if volumes == null then 0L else volumes.raysTraced)
 
-  protected def start(sampler: Sampler): Unit =
+  /** Starts a path along a camera ray, which the walk overwrites. */
+  protected final def begin(cameraRay: Ray, sampler: Sampler): Unit =
+    begin(cameraRay)
     connection.begin(ray.time)
     if volumes != null then volumes.start(ray, sampler)
+    extension.begin(sampler)
+
+  protected final def end(): Unit = goesOn = false
 
   /** Traces the ray to the next surface and computes the vertex; false if it leaves the scene. */
-  def intersect(): Boolean =
-    val isHit = trace()
-    if isHit then meetSurface()
+  protected final def intersect(): Boolean =
+    rays += 1
+    val isHit = scene.closest(ray, hit)
+    if isHit then vertex.hit(ray, hit)
     isHit
 
-  def travel(limits: PathLimits, sampler: Sampler): Boolean =
-    if volumes != null then
-      if depth == 0 then marchThroughVolumes(sampler)
-      else path.scale(volumes.transmittance(ray, steps))
-    true
-
   /** Adds what volumes emit and scatter along the ray just traced, and attenuates the path. */
-  def marchThroughVolumes(sampler: Sampler): Unit =
+  protected final def marchThroughVolumes(sampler: Sampler): Unit =
     val march = volumes
     if march != null then
-      march.march(ray, sampler, parts)
-      found.add(path.throughput * march.added)
+      march.march(ray, sampler, extension.lightParts)
+      addScattered(march.added)
       path.scale(march.transmitted)
 
-  protected def afterPassing(): Unit =
-    interfaces match
-      case Interfaces.Closed => surfacePath.leaveLightSampling(isLost = false)
-      case Interfaces.Lossy => surfacePath.leaveLightSampling(isLost = true)
-      case _ => ()
-
-  protected def afterLeaving(): Unit = ()
-
-  protected def drawsAlways: Boolean = false
-
-  def connect(isBoundary: Boolean): Unit =
-    connectBy(weight =
-      wi => LightTransport.powerHeuristic(connection.pdf, competingPdf(wi, isBoundary))
+  /** Adds the environment's radiance and ends the path. */
+  protected final def addEnvironment(): Unit =
+    val Le = LightTransport.environment(
+      scene,
+      ray,
+      weight = (i, light) => emissionWeight(i, light.pdf(path.lastP, ray.direction)),
+      contribution = extension.meetEnvironment
     )
+    L.addProduct(surfacePath.beta, Le, 1f)
+    end()
+
+  /** Adds what the surface emits. */
+  protected final def addEmission(): Unit =
+    val at = vertex.at
+    if at.areaLight >= 0 then
+      val light = scene.surfaceLight(at)
+      val Le = light.radiance(at, vertex.wo)
+      if !Le.isBlack then
+        val weight =
+          if light.isShownOnly && !path.specularBounce then 0f
+          else emissionWeight(at.areaLight, light.pdf(path.lastP, at))
+        L.addProduct(surfacePath.beta, Le, weight)
+        extension.meetSurface(at.areaLight, Le, weight)
+
+  /** Does light pass here unscattered? */
+  protected final def isPassed: Boolean = scene.isPassed(ray, hit, vertex.at)
+
+  /** Continues through an interface. */
+  protected final def passThrough(): Unit =
+    vertex.passThrough(ray)
+    surfacePath.pass(interfaces)
+
+  /** Evaluates the BSDF of the vertex: a scattering event. */
+  protected final def evaluate(): Unit =
+    path.depth += 1
+    vertex.evaluate()
+    extension.arrive()
+
+  /** Chooses one light and samples a point on it; false if it contributes nothing. */
+  protected final def sampleLight(sampler: Sampler): Boolean =
+    scene.lights.length > 0 && !vertex.bsdf.isSpecular && {
+      val u = sampler.next1D(matters = connection.isRandom)
+      sampler.next2D()
+      val p = vertex.at.p
+      connection.choose(p, vertex.lightNormal, u) && connection.samplePoint(p, sampler.x, sampler.y)
+    }
 
   /** Adds the light sample, if it is visible.
     *
     * @param weight of multiple importance sampling, as in [[LightConnection.scattered]]
     */
-  inline def connectBy(inline weight: Vec3 => Float): Unit =
-    order.step(to = Stage.Evaluated, Stage.Sampled)
-    if caustics == null || path.rival == 0.0 || depth == 1 then
-      if connection.scatters(vertex, weight) then addArrived()
-    else connectBeside(caustics.nn, weight)
+  protected inline def connectBy(inline weight: Vec3 => Float): Unit =
+    if connection.scatters(vertex, weight) then addArrived()
 
-  /** Likewise, where light paths compete. */
-  private inline def connectBeside(rivals: CausticWeights, inline weight: Vec3 => Float): Unit =
-    if connection.scatters(vertex, weight) then
-      connection.arrived
-        .scale(rivals.ofSample(connection, vertex, connection.localWi, ray, hit, path))
-      addArrived()
-
-  private def addArrived(): Unit =
-    surfacePath.addTo(found, connection.arrived)
-    if parts != null then
-      parts.addLight(connection.index, depth, path.throughput * connection.arrived.toRgb)
+  protected final def addArrived(): Unit =
+    L.addProduct(surfacePath.beta, connection.arrived)
+    extension.recordSample(path.throughput * connection.arrived.toRgb)
 
   /** Adds light that leaves the vertex towards the path. */
-  def addScattered(radiance: Rgb): Unit = found.add(path.throughput * radiance)
+  protected final def addScattered(radiance: Rgb): Unit = L.add(path.throughput * radiance)
 
-  /** Samples a direction in place of the BSDF: `vertex.bounce`.
+  /** Samples the next direction: `vertex.bounce`. */
+  protected final def scatter(sampler: Sampler): Unit =
+    vertex.draw(sampler)
+    path.scale(vertex.bounce.weight)
+
+  /** Likewise, in place of the BSDF.
     *
     * @param bothSides of the surface, with equal density; else of the side where the path came from
     */
-  def scatterUniformly(bothSides: Boolean, sampler: Sampler): Unit =
-    order.step(to = Stage.Scattered, Stage.Evaluated)
+  protected final def scatterUniformly(bothSides: Boolean, sampler: Sampler): Unit =
     vertex.drawUniformly(bothSides, sampler)
     path.scale(vertex.bounce.weight)
 
-  /** Samples a specular direction and leaves in it, or ends. Light sampling never competes. */
-  def leaveSpecularly(sampler: Sampler): Unit =
-    order.step(to = Stage.Departed, Stage.Evaluated)
+  /** Samples a specular direction and leaves in it, or ends. */
+  protected final def leaveSpecularly(sampler: Sampler): Unit =
     val sample = vertex.bsdf.sampleSpecular(vertex.localWo, sampler.next1D())
     path.scale(sample.weight)
-    goOn()
     vertex.leave(ray, sample.wi, sample.isSpecular, sample.eta): Unit
-
-object SurfaceWalk:
-  def apply(
-      scene: Scene,
-      volumes: VolumeMarch | Null = null,
-      steps: Float = VolumeMarch.StepsToLights,
-      options: WalkOptions = WalkOptions(),
-      guide: Guide | Null = null,
-      sharedParts: LightParts | Null = null
-  ): SurfaceWalk =
-    new SurfaceWalk(scene, volumes, steps, options, SurfacePath(), guide, sharedParts)
+    goesOn = !path.isBlack

@@ -22,9 +22,9 @@ private object CausticMethod:
   /** Makes the integrator of a worker: with these options, guided or not, and dividing light in a
     * given place or its own.
     */
-  type Tracer = (Scene, WalkOptions, Guide | Null, LightParts | Null) => Integrator
+  type Tracer = (Scene, PathOptions, Guide | Null, LightParts | Null) => Integrator
 
-  def apply(scene: Scene, limits: PathLimits, options: WalkOptions, media: Option[SceneMedia])(
+  def apply(scene: Scene, limits: PathLimits, options: PathOptions, media: Option[SceneMedia])(
       tracer: Tracer
   )(using site: Site): RenderMethod =
     val mode = site.resources.settings.choices.caustics
@@ -65,7 +65,7 @@ private object CausticMethod:
     alone
 
   /** Why light paths would find other light than the camera's, if they would. */
-  private def isOut(scene: Scene, options: WalkOptions): Option[String] =
+  private def isOut(scene: Scene, options: PathOptions): Option[String] =
     if options.regularizes then Some("\"regularize\" roughens the surfaces that cast caustics")
     else if scene.hasInterfaces && options.interfaces.stopsLight then
       Some("\"path\" stops light at interfaces of media; \"volpath\" does not")
@@ -77,7 +77,7 @@ private object CausticMethod:
 
   private final class Beside(
       scene: Scene,
-      options: WalkOptions,
+      options: PathOptions,
       light: CausticLight,
       tracer: Tracer
   )(using site: Site):
@@ -116,7 +116,7 @@ private object CausticMethod:
           (both, s"light paths: $told; $guiding, with ${both.fold("")(_.paths)}")
 
     def method(choice: CausticChoice): RenderMethod =
-      def aimed(own: WalkOptions)(over: Scene, guide: Guide | Null, parts: LightParts | Null) =
+      def aimed(own: PathOptions)(over: Scene, guide: Guide | Null, parts: LightParts | Null) =
         sees(over, own, choice.aim, guide, parts)
       if !choice.hasLightPaths then GuidedMethod(scene)(aimed(options))
       else
@@ -158,7 +158,7 @@ private object CausticMethod:
     /** Paths that look for light which specular surfaces show. */
     private def sees(
         over: Scene,
-        own: WalkOptions,
+        own: PathOptions,
         aim: Option[SeenLight],
         guide: Guide | Null,
         parts: LightParts | Null
@@ -181,5 +181,5 @@ private object CausticMethod:
         )
         Option.unless(walks.isEmpty)(walks)
 
-    private def weighed(weights: CausticWeights): WalkOptions =
+    private def weighed(weights: CausticWeights): PathOptions =
       options.copy(caustics = Some(weights))

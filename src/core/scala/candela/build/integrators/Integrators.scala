@@ -179,7 +179,7 @@ trait PathInstead extends Recipe[IntegratorPlan]:
     val limits =
       PathLimits(most, rouletteAfter = 1, seesThrough = site.dialect == Dialect.V3)
     val interfaces = IntegratorPlan.interfaces
-    val options = WalkOptions(interfaces = interfaces)
+    val options = PathOptions(interfaces = interfaces)
     IntegratorPlan(
       (scene, _) => RenderMethod.tiles(scene)(PathTracer(_, limits, options)),
       samplesBsdf = true,

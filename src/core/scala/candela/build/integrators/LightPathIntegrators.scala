@@ -6,7 +6,7 @@ import candela.bidirectional.*
 import candela.build.recipe.*
 import candela.film.{Splats, View}
 import candela.integrators.{
-  Interfaces, PathLimits, PathTracer, VolumePathTracer, WalkOptions, WorkerIntegrators
+  Interfaces, PathLimits, PathTracer, VolumePathTracer, PathOptions, WorkerIntegrators
 }
 import candela.integrators.LightTransport.RouletteAfter
 import candela.media.SceneMedia
@@ -172,7 +172,7 @@ private[build] object BidirectionalPlans:
       s"\"$name\" does not support $what yet; using \"volpath\", which $Lack"
     )
     val limits = PathLimits(depth, seesThrough = site.dialect == Dialect.V3)
-    val options = WalkOptions(regularizes, subsurface = scene.hasSubsurface)
+    val options = PathOptions(regularizes, subsurface = scene.hasSubsurface)
     RenderMethod.tiles(scene)(VolumePathTracer(_, media, limits, options))
 
   private def tracers(

@@ -32,7 +32,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     windowed(IntegratorPlan(
       (scene, _) =>
         val beneath = goesBeneath && scene.hasSubsurface
-        val options = WalkOptions(
+        val options = PathOptions(
           regularizes,
           beneath,
           hidesEmitters = hides(),
@@ -52,7 +52,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       hasVeils = countsPassed,
       looksForCaustics = true,
       throughMedia = Option.when(name == "volpath"): (scene, media) =>
-        val options = WalkOptions(
+        val options = PathOptions(
           regularizes,
           scene.hasSubsurface,
           crossesPanes = crossesPanes,
@@ -103,7 +103,7 @@ object SimpleVolPathRecipe
     ):
   protected def make()(using Site): IntegratorPlan =
     val most = events()
-    val options = WalkOptions(samplesLights = false)
+    val options = PathOptions(samplesLights = false)
     SimplePlans
       .plan(name, most, samplesLights = false, Onward.Bsdf)
       .copy(throughMedia =

@@ -2,7 +2,7 @@ package candela.integrators
 
 import candela.guiding.PhotonField
 
-/** Which optional steps a path takes.
+/** What a path tracer does beside the steps of every path.
   *
   * @param regularizes   roughen BSDFs after the first non-specular bounce
   * @param subsurface    does light travel beneath surfaces?
@@ -17,7 +17,7 @@ import candela.guiding.PhotonField
   * @param photons       what photons bring in place of paths, if anything; not with manifold walks
   * @param aim           photons that guide paths, if any do; the walk then has a guide
   */
-final case class WalkOptions(
+final case class PathOptions(
     regularizes: Boolean = false,
     subsurface: Boolean = false,
     samplesLights: Boolean = true,
@@ -29,7 +29,11 @@ final case class WalkOptions(
     manifolds: Option[Manifolds] = None,
     photons: Option[PhotonLight] = None,
     aim: Option[PhotonField] = None
-)
+):
+  /** Does any of these need [[PathTechniques]]? */
+  private[integrators] def extendsPaths: Boolean =
+    regularizes || subsurface || hidesEmitters ||
+      caustics.isDefined || manifolds.isDefined || photons.isDefined || aim.isDefined
 
 /** Limits of a path tracer's paths.
   *

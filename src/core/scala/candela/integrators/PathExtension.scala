@@ -1,0 +1,96 @@
+package candela.integrators
+
+import candela.aov.LightParts
+import candela.color.Rgb
+import candela.lights.{EnvironmentLight, SurfaceLight}
+import candela.math.Vec3
+import candela.sampling.Sampler
+
+import scala.annotation.unused
+
+/** What may be added to the steps of [[PathTracer]] and [[VolumePathTracer]], in their order: here
+  * nothing. A scene that needs more has a [[PathTechniques]].
+  */
+class PathExtension:
+  /** A path begins along the camera's ray. */
+  def begin(sampler: Sampler): Unit = ()
+
+  /** The ray was traced to the next surface. */
+  def travel(sampler: Sampler): Unit = ()
+
+  /** Likewise, in a medium; true if the path goes straight through it, attenuated. */
+  def crosses(medium: Int): Boolean = false
+
+  /** Factor of what the path has met of a light: of how much of it is left to other techniques. */
+  def emissionFactor(index: Int, light: EnvironmentLight): Float = 1f
+  def emissionFactor(index: Int, light: SurfaceLight): Float = 1f
+
+  /** The path has met light: of one of the environments, of all, of a surface. Of media it is the
+    * sum so far.
+    */
+  def meetEnvironment(light: Int, Le: Rgb): Unit = ()
+  def meetEnvironments(Le: Rgb): Unit = ()
+  def meetSurface(light: Int, Le: Rgb, weight: Float): Unit = ()
+  def meetMedia(sum: Rgb): Unit = ()
+
+  /** Does the path see through the emitter that it has met? */
+  def isHidden: Boolean = false
+
+  /** The path has come to a scattering event. On a surface the BSDF is known.
+    *
+    * @param isGuided may the direction be guided?
+    */
+  def arrive(isGuided: Boolean = true): Unit = ()
+  def arriveInMedium(p: Vec3, wo: Vec3, medium: Int): Unit = ()
+
+  /** Is the light sample of the connection left to the path? */
+  def samples: Boolean = true
+
+  /** Solid-angle density with which the path takes the direction of the light sample.
+    *
+    * @param pdf of the BSDF or phase function
+    */
+  def directionPdf(@unused localWi: Vec3, pdf: Float): Float = pdf
+
+  /** Factor of the light sample.
+    *
+    * @param pdf of the phase function
+    */
+  def sampleFactor(localWi: Vec3): Float = 1f
+  def sampleFactorInMedium(p: Vec3, pdf: Float): Float = 1f
+
+  /** The path carries `Ld` of the light sample. */
+  def recordSample(Ld: Rgb): Unit = ()
+
+  /** Adds caustics that the vertex scatters to the path. */
+  def addCaustics(sampler: Sampler): Unit = ()
+
+  /** Samples the next direction in place of the BSDF or phase function; false: it doesn't. */
+  def scatters(sampler: Sampler): Boolean = false
+
+  /** Does light that was refracted into the surface emerge elsewhere? The vertex is there then, as
+    * part of the same scattering event.
+    */
+  def emerges(sampler: Sampler): Boolean = false
+
+  /** The path is about to leave the vertex.
+    *
+    * @param pdf of the phase function, for the direction
+    */
+  def leave(): Unit = ()
+  def leaveInMedium(pdf: Float): Unit = ()
+
+  /** Russian roulette: factor of the throughput.
+    *
+    * @param rrBeta largest of the throughput's colours, without the radiance scaling of refraction
+    */
+  def roulette(rrBeta: Float, threshold: Float, sampler: Sampler): Float =
+    LightTransport.roulette(rrBeta, threshold, sampler)
+
+  /** Goes on with another branch of the path; false: there is none. */
+  def nextBranch(sampler: Sampler): Boolean = false
+
+  /** The light of the last path, divided; null: the scene doesn't ask for it. */
+  def lightParts: LightParts | Null = null
+
+  def raysTraced: Long = 0L

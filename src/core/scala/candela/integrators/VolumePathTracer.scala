@@ -1,0 +1,245 @@
+package candela.integrators
+
+import candela.aov.LightParts
+import candela.color.Rgb
+import candela.geometry.Ray
+import candela.guiding.Guide
+import candela.math.*
+import candela.media.{MediumWork, SceneMedia}
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** Path tracing through participating media, which scatter the path, and attenuate light samples on
+  * their way, also through interfaces. [[PathExtension]] has what only some scenes need.
+  *
+  * Sources: as [[PathTracer]]; PBRT 4th ed., §14.2.3; [[candela.media.PathWeights]], whose `u` are
+  * the book's `r_u`, and `l` its `r_l`. Both are combined by the power heuristic, where Miller,
+  * Georgiev and Jarosz 2019 use the balance heuristic.
+  */
+final class VolumePathTracer private (
+    scene: Scene,
+    media: SceneMedia,
+    limits: PathLimits,
+    options: PathOptions,
+    work: MediumWork,
+    volumePath: VolumePath,
+    lights: LightConnection,
+    extend: CameraPath => PathExtension
+) extends CameraPath(scene, volumePath, lights, extend):
+  import options.samplesLights
+  private val crossesPanes = options.crossesPanes && scene.hasPanes
+  private val visibility = MediumVisibility(scene, media, work, crossesPanes)
+
+  /** Do photons bring all that media scatter, so that paths go straight through them? */
+  private val goesStraight = options.photons.exists(_.bringsAll)
+  private val hasLights = samplesLights && scene.lights.length > 0
+
+  override def raysTraced: Long = super.raysTraced + visibility.raysTraced
+
+  override def radianceSoFar: Rgb = L.toRgb + emitted
+
+  /** What media emitted towards the camera. */
+  private def emitted: Rgb = Rgb(work.glowR, work.glowG, work.glowB)
+
+  def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
+    begin(cameraRay)
+    work.start(hero = if media.isChromatic then (sampler.next1D() * 3f).toInt else 0)
+    work.random.seed(sampler.next1D(), sampler.next1D())
+    visibility.start(ray.time)
+    volumePath.medium = media.camera
+    extension.begin(sampler)
+    while goesOn || extension.nextBranch(sampler) do
+      // Sample a scattering event before the next surface
+      rays += 1
+      val isHit = scene.closest(ray, hit)
+      val t = if volumePath.medium < 0 then -1f else sampleMedium(sampler)
+      if volumePath.isBlack then goesOn = false
+      else if t >= 0f then
+        if hasHad(limits.maxDepth) then goesOn = false
+        else
+          scatterInMedium(t, sampler)
+          survive(sampler)
+      else if !isHit then
+        // Add light of the environment
+        val Le = LightTransport.environment(
+          scene,
+          ray,
+          weight = (i, light) =>
+            emissionWeight(i, light.pdf(path.lastP, ray.direction)) *
+              extension.emissionFactor(i, light),
+          contribution = extension.meetEnvironment
+        )
+        L.add(volumePath.carried(Le))
+        extension.meetEnvironments(Le)
+        goesOn = false
+      else
+        vertex.hit(ray, hit)
+        val at = vertex.at
+        // Add light that the surface emits
+        if at.areaLight >= 0 then
+          val light = scene.surfaceLight(at)
+          val Le = light.radiance(at, vertex.wo)
+          if !Le.isBlack then
+            val misWeight =
+              if light.isShownOnly && !path.specularBounce then 0f
+              else emissionWeight(at.areaLight, light.pdf(path.lastP, at))
+            val weight = misWeight * extension.emissionFactor(at.areaLight, light)
+            L.add(volumePath.carried(Le, weight))
+            extension.meetSurface(at.areaLight, Le, weight)
+        val isPane = crossesPanes && scene.isPane(at)
+        if scene.isPassed(ray, hit, at) || extension.isHidden then skipIntersection()
+        else if !isPane && hasHad(limits.maxDepth) then goesOn = false
+        else
+          volumePath.depth += 1
+          vertex.evaluate()
+          extension.arrive(isGuided = !isPane)
+          // Scatter, and once more where light emerges from beneath the surface
+          while
+            // Sample direct light. Random numbers are drawn at all surfaces but panes
+            val isSampled = !vertex.bsdf.isSpecular && volumePath.depth <= limits.maxDepth
+            if isSampled || !isPane then
+              val u = sampler.next1D(matters = lights.isRandom)
+              sampler.next2D()
+              if isSampled && hasLights && lights.choose(at.p, vertex.lightNormal, u) &&
+                lights.samplePoint(at.p, sampler.x, sampler.y) && extension.samples
+              then addDirect()
+            extension.addCaustics(sampler)
+            // Sample the BSDF for the next direction
+            if !extension.scatters(sampler) then
+              vertex.draw(sampler)
+              volumePath.scale(vertex.bounce.weight)
+            extension.emerges(sampler)
+          do ()
+          // What goes straight through a pane is no scattering event
+          if isPane && vertex.isStraight then
+            volumePath.depth -= 1
+            skipIntersection()
+            goesOn = !volumePath.isBlack
+          else leave()
+          if volumePath.depth > limits.maxDepth then goesOn = false
+          survive(sampler)
+    radianceSoFar
+
+  private def hasHad(events: Int): Boolean = volumePath.depth == events
+
+  /** Samples a collision with the medium before the end of the ray, and attenuates the path up to
+    * there.
+    *
+    * @return the ray's parameter of a scattering event; −1: none
+    */
+  private def sampleMedium(sampler: Sampler): Float =
+    if extension.crosses(volumePath.medium) then -1f
+    else
+      // The last event may be in a medium that shines, if paths find light only where they meet it
+      val emits = volumePath.depth < limits.maxDepth || !samplesLights
+      val t = media.media(volumePath.medium).follow(ray, sampler.next1D(), emits, work)
+      extension.meetMedia(emitted)
+      t
+
+  /** A whole scattering event at parameter `t` of the ray. */
+  private def scatterInMedium(t: Float, sampler: Sampler): Unit =
+    volumePath.depth += 1
+    val p = ray.at(t)
+    val wo = -ray.direction
+    val phase = media.media(volumePath.medium).phase
+    extension.arriveInMedium(p, wo, volumePath.medium)
+    if hasLights then
+      val u = sampler.next1D(matters = lights.isRandom)
+      sampler.next2D()
+      if lights.choose(p, Vec3.Zero, u) && lights.samplePoint(p, sampler.x, sampler.y) then
+        val f = phase.value(wo, lights.wi)
+        if visibility.reaches(p, lights.sample, volumePath.medium) then
+          val arriving = sampled(extension.directionPdf(Vec3.Z, f)) * f
+          addSample(arriving * extension.sampleFactorInMedium(p, f))
+    if extension.scatters(sampler) then leave()
+    else
+      sampler.next2D()
+      val wi = phase.sample(wo, sampler.x, sampler.y)
+      val pdf = phase.value(wo, wi)
+      extension.leaveInMedium(pdf)
+      leaveInMedium(p, wi, pdf)
+
+  override def leave(): Unit =
+    if vertex.isInMedium then
+      val bounce = vertex.bounce
+      extension.leaveInMedium(vertex.localPdf(bounce.wi))
+      leaveInMedium(vertex.at.p, vertex.at.frame.toWorld(bounce.wi), bounce.pdf)
+    else
+      super.leave()
+      if !samplesLights then volumePath.weights.turn(0f)
+      volumePath.medium = media.beyond(vertex.at, ray.direction, volumePath.medium)
+
+  /** @param pdf solid-angle density of the direction */
+  private def leaveInMedium(p: Vec3, wi: Vec3, pdf: Float): Unit =
+    volumePath.turn(p, Vec3.Zero, if samplesLights then pdf else 0f)
+    ray.set(p, wi, Float.PositiveInfinity)
+    ray.differential.isKnown = false
+    goesOn = !volumePath.isBlack
+
+  /** Goes on behind the surface. */
+  private def skipIntersection(): Unit =
+    vertex.passThrough(ray)
+    volumePath.medium = media.beyond(vertex.at, ray.direction, volumePath.medium)
+
+  /** Ends faint paths by Russian roulette. */
+  private def survive(sampler: Sampler): Unit =
+    if goesOn && volumePath.depth > limits.rouletteAfter then
+      val rrBeta = volumePath.throughput.largest * volumePath.etaScale
+      volumePath.scale(extension.roulette(rrBeta, limits.rouletteThreshold, sampler))
+      goesOn = !volumePath.isBlack
+
+  /** Adds the light sample at a surface, if it is visible. */
+  private def addDirect(): Unit =
+    val wi = lights.wi
+    val localWi = vertex.at.frame.toLocal(wi)
+    val f = vertex.received(wi, localWi)
+    if !f.isBlack then
+      val beyond = media.beyond(vertex.at, wi, volumePath.medium)
+      if visibility.reaches(vertex.at.offsetOrigin(wi), lights.sample, beyond) then
+        val arriving = sampled(extension.directionPdf(localWi, vertex.localPdf(localWi)))
+        addSample(arriving * f * (Math.abs(localWi.z) * extension.sampleFactor(localWi)))
+
+  private def addSample(Ld: Rgb): Unit =
+    L.add(Ld)
+    extension.recordSample(Ld)
+
+  /** What arrives of the light sample, over its density, times the path's throughput and the weight
+    * of multiple importance sampling. Both densities are in units of the path's own, and averages
+    * over the colours, each of which might have sampled this path.
+    *
+    * @param pdf solid-angle density with which the path takes the direction to the light
+    */
+  private def sampled(pdf: Float): Rgb =
+    val w = volumePath.weights
+    val s = work.shadow
+    val passing = w.ur * s.lr + w.ug * s.lg + w.ub * s.lb
+    val byLight = lights.pdf * passing * (1f / 3f)
+    val byPath =
+      if lights.isDelta then 0f
+      else
+        // A path that goes straight passes media as a light sample does
+        val unscattered =
+          if goesStraight then passing else w.ur * s.ur + w.ug * s.ug + w.ub * s.ub
+        pdf * unscattered * (1f / 3f)
+    if !(byLight > 0f) then Rgb.Black
+    else
+      val weight = LightTransport.powerHeuristic(byLight, byPath) / byLight
+      w.throughput * s.throughput * lights.sample.radiance.toRgb * weight
+
+object VolumePathTracer:
+  /** @param guide,parts as in [[PathTracer$]] */
+  def apply(
+      scene: Scene,
+      media: SceneMedia,
+      limits: PathLimits,
+      options: PathOptions = PathOptions(),
+      guide: Guide | Null = null,
+      parts: LightParts | Null = null
+  ): VolumePathTracer =
+    val work = MediumWork()
+    val lights = LightConnection(scene)
+    val extend =
+      PathTechniques.of(scene, limits, options, guide, parts, within = Some((media, work)))
+    new VolumePathTracer(
+      scene, media, limits, options, work, VolumePath(work.weights), lights, extend
+    )
