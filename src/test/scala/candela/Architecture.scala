@@ -51,7 +51,7 @@ object Architecture:
   val runtime: Vector[String] = floors(
     "base math color geometry sampling image textures shapes bsdf bsdf.microfacet bsdf.layered " +
       "bsdf.measured bsdf.subsurface bsdf.composite lights media cameras film accel " +
-      "accel.building accel.tracing scene aov guiding manifold integrators bidirectional " +
+      "accel.building accel.tracing scene aov guiding integrators bidirectional " +
       "render render.storage"
   )
   val file: Vector[String] = floors("base math scenefile")

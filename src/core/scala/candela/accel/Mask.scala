@@ -18,9 +18,6 @@ abstract class Mask:
     */
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean
 
-  /** Do rays pass by chance? */
-  def isRandom: Boolean = false
-
   /** The mask in two parts: that of rays of all kinds, and a veil's, whose openings stop light
     * samples.
     */
@@ -44,14 +41,12 @@ final class HoleMask(alpha: FloatTexture, shadowAlpha: FloatTexture) extends Mas
   * hashed thresholds.
   */
 final class StochasticMask(alpha: FloatTexture) extends Mask:
-  override def isRandom: Boolean = true
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
     val a = alpha(at)
     a < 1f && (!(a > 0f) || StochasticMask.threshold(ray, primitive) >= a)
 
 /** Also open to rays that meet the surface from behind. */
 final class FrontMask(within: Mask) extends Mask:
-  override def isRandom: Boolean = within.isRandom
   override def veiled: (Mask, Mask) = (FrontMask(SolidMask), within)
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
     (ray.direction dot at.geometricNormal) > 0f || within.isHole(at, ray, primitive, shadow)
@@ -76,7 +71,6 @@ final class Masks(val ofMesh: Array[Mask], val ofShape: Array[Mask]):
   val meshes: Int = count(ofMesh)
   val shapes: Int = count(ofShape)
   def isEmpty: Boolean = meshes == 0 && shapes == 0
-  def isRandom: Boolean = ofMesh.exists(_.isRandom) || ofShape.exists(_.isRandom)
 
 object Masks:
   val Empty: Masks = Masks(Array.empty, Array.empty)

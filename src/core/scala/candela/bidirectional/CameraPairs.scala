@@ -17,18 +17,24 @@ private final class CameraPairs(view: View, seed: Int):
 
   /** Follows the pairs `from` to `until`, and adds them to the blocks of their pixels.
     *
-    * @param integrator a new one
-    * @param after called after each pair with its pixel
+    * @param first,second follow the paths of each pair
     */
-  def follow(from: Int, until: Int, integrator: Integrator, blocks: PilotBlocks)(
-      after: (Int, Int) => Unit
+  def follow(
+      from: Int,
+      until: Int,
+      first: Integrator,
+      second: Integrator,
+      blocks: PilotBlocks
   ): Unit =
     loop(from, until): k =>
-      val first = radiance(integrator, 2 * k, k)
-      val second = radiance(integrator, 2 * k + 1, k)
-      blocks.addPair(pixelX(k), pixelY(k), first, second)
-      after(pixelX(k), pixelY(k))
-    blocks.rays += integrator.raysTraced
+      blocks.addPair(
+        pixelX(k),
+        pixelY(k),
+        radiance(first, 2 * k, k),
+        radiance(second, 2 * k + 1, k)
+      )
+    blocks.rays += first.raysTraced
+    if second ne first then blocks.rays += second.raysTraced
 
   def pixelX(k: Int): Int = Math.min(spread.x(k).toInt, view.width - 1)
   def pixelY(k: Int): Int = Math.min(spread.y(k).toInt, view.height - 1)
@@ -46,30 +52,21 @@ private object CameraPairs:
 
   /** Follows the pairs `from` to `until`, in parts that threads share.
     *
-    * @param begin gives a new integrator for a part, and what is called after each of its pairs,
-    *              with the pixel
+    * @param integrators new ones for a part: of the first path of each pair, and of the second
     */
   def followed(view: View, seed: Int, pool: Parallel, from: Int, until: Int)(
-      begin: PilotBlocks => (Integrator, (Int, Int) => Unit)
+      integrators: () => (Integrator, Integrator)
   ): PilotBlocks =
-    val (all, _) = counted(view, seed, pool, from, until): part =>
-      val (integrator, after) = begin(part)
-      (integrator, after, ())
-    all
-
-  /** Likewise, with what each part has counted, in their order. */
-  def counted[A](view: View, seed: Int, pool: Parallel, from: Int, until: Int)(
-      begin: PilotBlocks => (Integrator, (Int, Int) => Unit, A)
-  ): (PilotBlocks, Vector[A]) =
     val all = PilotBlocks(view)
-    val parts = pool.map((until - from) / OfPart): i =>
-      val part = PilotBlocks(view)
-      val (integrator, after, count) = begin(part)
-      val start = from + i * OfPart
-      CameraPairs(view, seed).follow(start, start + OfPart, integrator, part)(after)
-      (part, count)
-    for (part, _) <- parts do all.add(part)
-    (all, parts.map(_._2).toVector)
+    pool
+      .map((until - from) / OfPart): i =>
+        val part = PilotBlocks(view)
+        val start = from + i * OfPart
+        val (first, second) = integrators()
+        CameraPairs(view, seed).follow(start, start + OfPart, first, second, part)
+        part
+      .foreach(all.add)
+    all
 
   /** Starts the path `k` of a pilot. */
   def start(view: View, sampler: Sampler, k: Int): Unit =

@@ -1,7 +1,7 @@
 package candela.bidirectional
 
 import candela.color.Rgb
-import candela.geometry.{Frame, Hit, Ray}
+import candela.geometry.{Hit, Ray}
 import candela.integrators.{LightConnection, LightTransport, PhotonLight}
 import candela.math.*
 import candela.sampling.Sampler
@@ -39,7 +39,6 @@ private[bidirectional] final class CausticPaths(
   private val point = CasterPoint()
   private val ray = Ray()
   private val hit = Hit()
-  private val origin = MutableVec3()
   private var rays = 0L
 
   def raysTraced: Long = rays
@@ -47,12 +46,8 @@ private[bidirectional] final class CausticPaths(
   /** Where the path begins, among all places of casters, from 0 to 1. */
   def place: Double = point.place
 
-  /** Traces a new path, replacing the last.
-    *
-    * @param aside,across distances, across its first ray, by which the path is moved: it takes the
-    *                     same random numbers, but begins beside where it would
-    */
-  def trace(time: Float, sampler: Sampler, aside: Float = 0f, across: Float = 0f): Unit =
+  /** Traces a new path, replacing the last. */
+  def trace(time: Float, sampler: Sampler): Unit =
     clear()
     ray.time = time
     path.throughput = Rgb.White
@@ -67,30 +62,21 @@ private[bidirectional] final class CausticPaths(
       val light = scene.lights(emitter)
       if light.isCausticSource && connection.samplePoint(point.p, sampler.x, sampler.y) then
         val vertex = next()
-        if arrive(vertex, aside, across, sampler) then follow(vertex, light.isDelta, sampler)
+        if arrive(vertex, sampler) then follow(vertex, light.isDelta, sampler)
 
-  /** Traces the ray from the emitter to the sampled point, or beside it; false if something is in
-    * the way.
-    */
-  private def arrive(vertex: PathVertex, aside: Float, across: Float, sampler: Sampler): Boolean =
+  /** Traces the ray from the emitter to the sampled point; false if something is in the way. */
+  private def arrive(vertex: PathVertex, sampler: Sampler): Boolean =
     val sample = connection.sample
     val origin =
       if sample.isInfinite then point.p + connection.wi * (CausticPaths.Beyond * scene.ball.radius)
       else LightConnection.end(sample)
     ray.differential.isKnown = false
-    val isMoved = aside != 0f || across != 0f
-    val target = if isMoved then beside(origin, aside, across) else point.p.toVec3
-    ray.set(origin, (target - origin).normalized, Float.PositiveInfinity)
+    ray.set(origin, (point.p - origin).normalized, Float.PositiveInfinity)
     val within = media
     if within != null then
       val hero = (sampler.next1D() * 3f).toInt
       within.begin(hero, within.around(connection.index, ray), ray.time, sampler)
-    travel(vertex, sampler) && !vertex.isInMedium &&
-    (if isMoved then scene.isCaster(vertex.at) else casters.isMet(point, hit, vertex.at))
-
-  private def beside(origin: Vec3, aside: Float, across: Float): Vec3 =
-    val frame = Frame.around((point.p - origin).normalized)
-    point.p + frame.toWorld(Vec3(aside, across, 0f))
+    travel(vertex, sampler) && !vertex.isInMedium && casters.isMet(point, hit, vertex.at)
 
   /** Traces the ray to where it is scattered next; false if it is nowhere. */
   private def travel(vertex: PathVertex, sampler: Sampler): Boolean =
@@ -139,7 +125,6 @@ private[bidirectional] final class CausticPaths(
     var edges = 1
     while alive do
       edges += 1
-      origin.set(last.at.p)
       if within != null then within.medium = within.towards(last, ray.direction)
       val vertex = next()
       alive = travel(vertex, sampler)
@@ -151,7 +136,6 @@ private[bidirectional] final class CausticPaths(
         if alive then
           if within != null then within.mark(vertex)
           if isRecorded(vertex) then
-            vertex.from.set(origin)
             keep(vertex, path, within)
           alive = edges < maxEdges && goesOn(vertex) && scatter(vertex, sampler)
           last = vertex

@@ -121,6 +121,7 @@ private final class CausticGatherer(
   * @param radius of the first pass
   * @param bringsAll as for [[candela.integrators.PhotonLight]]
   * @param tracer takes caustics from the photons
+  * @param paths  light paths of a pass; 0: one per pixel
   *
   * Sources: Jensen, "Global Illumination using Photon Maps", EGWR 1996: its caustics map;
   * [[PhotonMaps]] for the radius.
@@ -132,8 +133,9 @@ final class CausticPasses(
     bringsAll: Boolean,
     seed: Int,
     view: View,
-    tracer: (Scene, PhotonLight) => Integrator
-) extends PhotonMaps(radius, asked = 0, view):
+    tracer: (Scene, PhotonLight) => Integrator,
+    paths: Int = 0
+) extends PhotonMaps(radius, asked = paths, view):
 
   def integrator(report: Option[PathReport]): PassIntegrator =
     val over = report.fold(scene)(scene.reported)

@@ -5,7 +5,7 @@ import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.View
 import candela.geometry.Ray
-import candela.integrators.{CausticWeights, Integrator, LightTransport}
+import candela.integrators.Integrator
 import candela.media.SceneMedia
 import candela.sampling.{IndependentSampler, Sampler}
 import candela.scene.{Casters, Scene}
@@ -59,28 +59,14 @@ final case class CausticLight(
   private[bidirectional] def paths(scene: Scene, within: PathMedia | Null): CausticPaths =
     CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, within)
 
-  /** May light paths begin at emitters, too? In fog without end, those from infinity would begin
-    * closer than where light samples do. What they bring may be scattered once; where light is
-    * divided, or limited if it was scattered more often, what light paths bring is not told apart.
+  /** May photons begin at all emitters? In fog without end, those from infinity would begin closer
+    * than where light samples do.
     */
-  private[candela] def beginsAtEmitters(scene: Scene): Boolean =
-    !beneath && scene.lightGroups.isEmpty && media.exists: all =>
+  private[bidirectional] def beginsAtEmitters(scene: Scene): Boolean =
+    !beneath && media.exists: all =>
       lazy val isEndless = PathMedia.beyondAll(scene, all) >= 0
       !scene.lights.indices.exists: i =>
         scene.lights(i).isInfinite && (all.lights(i) >= 0 || isEndless)
-
-  /** Paths of all light that does not meet a caster first. */
-  private[bidirectional] def emitterPaths(scene: Scene, within: PathMedia | Null): LightPaths =
-    LightPaths(
-      scene,
-      maxDepth,
-      LightTransport.RouletteAfter,
-      compresses,
-      weighsAll = false,
-      media = within,
-      casters = casters,
-      beside = LightPaths.Beside(CausticWeights.emitters(scene), findsAll)
-    )
 
 object CausticLight:
   private inline val CameraRaysLooked = 64
@@ -89,9 +75,8 @@ object CausticLight:
   * scatter, and that a surface or a medium before the camera sends on. Where both find the same
   * light, both are weighted by multiple importance sampling.
   *
-  * @param tracer     weighs what it finds by [[candela.integrators.CausticWeights]]
-  * @param perSample  light paths from casters per camera sample, on average
-  * @param ofEmitters the same of those from emitters
+  * @param tracer    weighs what it finds by [[candela.integrators.CausticWeights]]
+  * @param perSample light paths per camera sample, on average
   *
   * Source: Veach 1997, §10: light tracing is his strategy t = 1, of which only caustics are taken.
   */
@@ -100,16 +85,13 @@ final class CausticTracer(
     tracer: Integrator,
     view: View,
     light: CausticLight,
-    perSample: Float,
-    ofEmitters: Float
+    perSample: Float
 ) extends Integrator:
   private val within = light.within(scene)
   private val paths = light.paths(scene, within)
-  private val emitterPaths = if ofEmitters > 0f then light.emitterPaths(scene, within) else null
   private val camera = CameraConnection(scene, view.camera, view.splats, within)
 
   def raysTraced: Long = tracer.raysTraced + paths.raysTraced + camera.raysTraced +
-    (if emitterPaths == null then 0L else emitterPaths.raysTraced) +
     (if within == null then 0L else within.raysTraced)
 
   override def lastMaterial: Int = tracer.lastMaterial
@@ -124,12 +106,6 @@ final class CausticTracer(
     while isNext(left, sampler) do
       paths.trace(time, sampler)
       camera.connect(paths, isWeighted = true, sampler, perSample)
-      left -= 1f
-    val more = emitterPaths
-    left = if more == null then 0f else ofEmitters
-    while more != null && isNext(left, sampler) do
-      more.trace(time, sampler, hero = (sampler.next1D() * 3f).toInt)
-      camera.connect(more, isWeighted = true, sampler, ofEmitters)
       left -= 1f
     found
 

@@ -19,8 +19,6 @@ import candela.scene.{Casters, Scene}
   * @param startsAlone whether the hero wavelength alone is of interest from the start
   * @param countsPassed whether passing an interface counts as an edge
   * @param casters     tell [[PathVertex.isCaustic]], if it is of interest
-  * @param beside      if they are traced beside paths from the camera, and [[CausticPaths]]: their
-  *   weights are then as for these, and what the others bring is left out
   */
 private[bidirectional] final class LightPaths(
     scene: Scene,
@@ -32,16 +30,13 @@ private[bidirectional] final class LightPaths(
     startsAlone: Boolean = false,
     media: PathMedia | Null = null,
     countsPassed: Boolean = false,
-    casters: Casters | Null = null,
-    beside: LightPaths.Beside | Null = null
+    casters: Casters | Null = null
 ) extends LightVertices(scene):
-  private val choice =
-    if beside != null then beside.emitters
-    else EmitterChoice(scene, l => !(weighsAll && l.isContrary))
+  private val choice = EmitterChoice(scene, l => !(weighsAll && l.isContrary))
   private val start = EmittedRay()
   private val ray = Ray()
   private val hit = Hit()
-  private val path = Subpath(carriesLight = true, compresses, rouletteAfter, beside != null)
+  private val path = Subpath(carriesLight = true, compresses, rouletteAfter)
   private val lastP = MutableVec3()
 
   var raysTraced: Long = 0L
@@ -111,25 +106,10 @@ private[bidirectional] final class LightPaths(
           vertex.isCaustic = isByCasters && edges > 1
           isByCasters &&= casts(vertex, isFirst = edges == 1)
           if alive then
-            if !vertex.bsdf.isSpecular && !isLeft(vertex) then keep(vertex, path, within)
+            if !vertex.bsdf.isSpecular then keep(vertex, path, within)
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
-            val others = beside
-            if others != null then
-              // None of the strategies that connect vertices
-              path.weights.near = 0.0
-              alive &&= !isByCasters && (others.findsAll || !isDeltaByMirror(light, vertex))
             lastP.set(vertex.at.p)
             if within != null then within.medium = within.towards(vertex, ray.direction)
-
-  /** Is the vertex left to others? Light samples find well what is lit directly, but for what a
-    * medium close to an emitter scatters.
-    */
-  private def isLeft(vertex: PathVertex): Boolean =
-    beside != null && vertex.edges == 1 && !vertex.isInMedium
-
-  /** Is it light that no path from the camera finds? */
-  private def isDeltaByMirror(light: Int, vertex: PathVertex): Boolean =
-    vertex.edges == 1 && vertex.bounce.isSpecular && scene.lights(light).isDelta
 
   /** May the vertex, which the ray has met, be one of a path of [[CausticPaths]]? */
   private def casts(vertex: PathVertex, isFirst: Boolean): Boolean =
@@ -150,14 +130,6 @@ private[bidirectional] final class LightPaths(
     path.weights.far =
       if source.isDelta then 0.0
       else PartialWeights.mis((if start.isInfinite then 1f else start.cosine) / emitted)
-
-private[bidirectional] object LightPaths:
-  /** What light paths are to be beside others.
-    *
-    * @param emitters where they begin
-    * @param findsAll also trace light that paths from the camera cannot find
-    */
-  final case class Beside(emitters: EmitterChoice, findsAll: Boolean)
 
 /** The vertices of a light path that can be connected to a camera subpath. */
 private[bidirectional] abstract class LightVertices(scene: Scene):

@@ -2,38 +2,43 @@ package candela.bidirectional
 
 import candela.base.Parallel
 import candela.film.View
+import candela.integrators.{Integrator, PhotonLight}
 import candela.scene.Scene
 
-/** Finds out which photons arrive where the camera sees them, and how large a pixel is there.
-  * Depends on the scene and its camera alone, as [[CausticPilot]].
+/** Finds out which photons arrive where the camera sees them, and how large a pixel is there; and
+  * whether they pay, if that is asked. Depends on the scene and its camera alone, as
+  * [[CausticPilot]].
+  *
+  * @param trial the camera's paths, without photons or with them, if photons are only taken where
+  *              they pay
   */
 private[candela] final class PhotonPilot(
     scene: Scene,
     view: View,
     light: CausticLight,
-    pool: Parallel
+    pool: Parallel,
+    trial: Option[Option[PhotonLight] => Integrator]
 ):
   import PhotonPilot.*
 
-  /** @return the choice, if there are such photons; and what is done, or why nothing is */
-  def run(): (Option[CausticChoice], String) =
+  def run(): PilotResult =
     if light.isCameraWhereItSays(scene, view) then look()
-    else (None, CausticPilot.CameraElsewhere)
+    else PilotResult.none(CausticPilot.CameraElsewhere)
 
-  private def look(): (Option[CausticChoice], String) =
-    val places = SeenPlaces(scene, view, light, pool, CameraPaths, onlyBehind = false)
-    if places.isEmpty then (None, s"none: the camera sees no $receivers that receives photons")
+  private def look(): PilotResult =
+    val places = SeenPlaces(scene, view, light, pool, CameraPaths)
+    if places.isEmpty then PilotResult.none(s"the camera sees no $receivers that receives photons")
     else
       val learning = places.learn()
-      if learning.isEmpty then (None, "none: no photons arrive where the camera sees them")
+      if learning.isEmpty then PilotResult.none("no photons arrive where the camera sees them")
       else
-        val radius = Pixels * places.footprint
-        val aimed = light.casters.aimed(learning.aim)
         val all = mayBringAll && places.othersOfPath() > LeastOthers
-        val told =
-          f"photon maps bring ${brought(all)}, with a radius of $radius%.3g in the first pass, " +
-            "and less in each that follows; the image is biased"
-        (Some(CausticChoice(aimed, 1f, radius = radius, bringsAll = all)), told)
+        val radius = Pixels * places.footprint
+        val choice =
+          PhotonChoice(light.casters.aimed(learning.aim), radius, all, brought(all))
+        trial match
+          case None => PilotResult(Some(choice), 0.0, pays = true, choice.toString)
+          case Some(paths) => PhotonTrial(scene, view, light, choice, pool, paths).run()
 
   /** May photons bring all that media scatter? They can't begin at skies behind portals. */
   private def mayBringAll: Boolean =

@@ -21,10 +21,10 @@ private final class PilotBlocks(view: View):
   private val rows = Math.ceil(view.height / size).toInt
   private val count = columns * rows
   private val pairs = new Array[Int](count)
-  private val sum, spread, splat, saved = new Array[Double](count)
+  private val sum, spread, splat = new Array[Double](count)
 
-  /** Second moments of each kind of light paths. */
-  private val own = Array.fill(LightKind.values.length)(new Array[Double](count))
+  /** Second moments of light paths. */
+  private val own = new Array[Double](count)
 
   // Of each block, by the magnitude of what a path from the camera finds
   private val whole, more = new Array[Double](count * Magnitudes)
@@ -36,11 +36,6 @@ private final class PilotBlocks(view: View):
 
   def contains(x: Float, y: Float): Boolean =
     x >= 0f && y >= 0f && x < view.width && y < view.height
-
-  /** Adds by how much the second moments of a pair of guided samples are below those of unguided
-    * ones.
-    */
-  def addSaving(x: Int, y: Int, moment: Double): Unit = saved(block(x + 0.5f, y + 0.5f)) += moment
 
   private def block(x: Float, y: Float): Int =
     Math.min((y / size).toInt, rows - 1) * columns + Math.min((x / size).toInt, columns - 1)
@@ -58,7 +53,22 @@ private final class PilotBlocks(view: View):
     loop(count)(i => pairs(i) += other.pairs(i))
     for (mine, their) <- all.zip(other.all) do loop(mine.length)(i => mine(i) += their(i))
 
-  private def all = Vector(sum, spread, splat, saved, whole, more) ++ own
+  private def all = Vector(sum, spread, splat, own, whole, more)
+
+  /** Calls `use` with each block that has pairs. */
+  def foreach(use: Int => Unit): Unit = loop(count)(i => if pairs(i) > 0 then use(i))
+
+  /** Samples of the block. */
+  def samples(block: Int): Int = 2 * pairs(block)
+
+  /** Mean of the block's samples. */
+  def mean(block: Int): Double = sum(block) / pairs(block)
+
+  /** Mean of all samples. */
+  def meanOfAll: Double = sum.sum / pairs.sum
+
+  /** Variance of a sample of the block among those of its pixel. */
+  def variance(block: Int): Double = spread(block) / pairs(block)
 
   /** Adds light of a light path.
     *
@@ -66,17 +76,10 @@ private final class PilotBlocks(view: View):
     * @param unweighted the same, if the camera's paths left it to light paths
     * @param ratio  density of the light path to that of the same path from the camera
     */
-  def addSplat(
-      x: Float,
-      y: Float,
-      kind: LightKind,
-      light: Double,
-      unweighted: Double,
-      ratio: Double
-  ): Unit =
+  def addSplat(x: Float, y: Float, light: Double, unweighted: Double, ratio: Double): Unit =
     val i = block(x, y)
     splat(i) += light
-    own(kind.ordinal)(i) += square(light)
+    own(i) += square(light)
     val magnitude = Math.getExponent(unweighted * ratio) - Dimmest
     val at = i * Magnitudes + Math.max(0, Math.min(magnitude, Magnitudes - 1))
     whole(at) += unweighted
@@ -90,12 +93,11 @@ private final class PilotBlocks(view: View):
     * mean is a speck where it is found. Most images of as many samples have none: so its variance
     * counts no more than if this light was missing there.
     *
-    * @param lightPaths of each kind, how many there were
+    * @param lightPaths how many there were
     * @param usual      samples of a pixel
     */
   def variances(lightPaths: Int, usual: Double): Variances =
-    var byPaths, without = 0.0
-    val byLight = new Array[Double](own.length)
+    var byPaths, without, byLight = 0.0
     each(lightPaths): (i, mean, unit, pixels, scale) =>
       if pairs(i) > 0 then byPaths += unit * pixels * spread(i) / pairs(i)
       val specks = Math.getExponent(usual * mean) - Dimmest
@@ -108,17 +110,8 @@ private final class PilotBlocks(view: View):
         else rest += more(at)
       val missing = usual * square(scale * light) / pixels
       without += unit * (scale * rest + Math.min(scale * seldom, missing))
-      loop(own.length)(k => byLight(k) += unit * scale * own(k)(i))
-    Variances(byPaths, without, byLight.toVector)
-
-  /** Likewise of guided paths, and what unguided ones have more. */
-  def savings(): (Double, Double) =
-    var guided, unguided = 0.0
-    each(1): (i, _, unit, pixels, _) =>
-      if pairs(i) > 0 then
-        guided += unit * pixels * spread(i) / pairs(i)
-        unguided += unit * pixels * saved(i) / (2 * pairs(i))
-    (guided, unguided)
+      byLight += unit * scale * own(i)
+    Variances(byPaths, without, byLight)
 
   /** Calls `use` with each block, its mean, the weight of its variance, its size in pixels, and
     * what a light path stands for.
@@ -136,18 +129,14 @@ private final class PilotBlocks(view: View):
 
   private def square(x: Double): Double = x * x
 
-/** Light paths, by where they begin. */
-private enum LightKind:
-  case OfCasters, OfEmitters
-
 private object PilotBlocks:
   /** Relative variances.
     *
     * @param byPaths of paths from the camera beside light paths
     * @param without what they have more without these
-    * @param byLight of each kind of light paths, one for a sample
+    * @param byLight of light paths, one for a sample
     */
-  final case class Variances(byPaths: Double, without: Double, byLight: Vector[Double])
+  final case class Variances(byPaths: Double, without: Double, byLight: Double)
 
   /** Along the longer side. */
   inline val Across = 12.0

@@ -16,17 +16,14 @@ import scala.collection.mutable.ArrayBuffer
 /** Where paths from the camera come to surfaces that receive photons, or are scattered in media.
   * Mutable.
   *
-  * @param looks      paths from the camera
-  * @param onlyBehind only surfaces that the camera sees by way of specular ones, and what paths
-  *                   meet from there on; else the first such place of each path
+  * @param looks paths from the camera
   */
 private[bidirectional] final class SeenPlaces(
     scene: Scene,
     view: View,
     light: CausticLight,
     pool: Parallel,
-    looks: Int,
-    onlyBehind: Boolean
+    looks: Int
 ):
   import SeenPlaces.*
   private val parts = pool.map(Tasks)(i => Look(i * looks / Tasks, (i + 1) * looks / Tasks))
@@ -77,7 +74,7 @@ private[bidirectional] final class SeenPlaces(
 
   private def learn(from: Int, until: Int): CasterLearning =
     val learning = CasterLearning()
-    val paths = light.photonPaths(scene, if onlyBehind then null else light.within(scene))
+    val paths = light.photonPaths(scene, light.within(scene))
     val sampler = IndependentSampler(1, CausticPilot.Seed + 1)
     for k <- from until until do
       sampler.start(k, 0, 0)
@@ -97,11 +94,10 @@ private[bidirectional] final class SeenPlaces(
     val found = ArrayBuffer[Vec3]()
     val sizes = ArrayBuffer[Float]()
     private val sampler = IndependentSampler(1, CausticPilot.Seed)
-    private val around = if onlyBehind then None else light.media.map(MediumAround(_))
+    private val around = light.media.map(MediumAround(_))
     private val cameraRays = CameraRays(view.camera, view.shutter, 0f)
     private val beside = CameraRays(view.camera, view.shutter, 0f)
     private val spread = SpreadPlaces(view)
-    private var isWanted = false
 
     for k <- from until until do
       val x = spread.x(k).toFloat
@@ -115,12 +111,9 @@ private[bidirectional] final class SeenPlaces(
     def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
       // Walking moves the ray
       val (eye, direction) = (cameraRay.origin, cameraRay.direction.normalized)
-      var isFirst = true
-      isWanted = !onlyBehind
       def see(p: Vec3): Unit =
-        if isFirst then sizes += size(eye, direction, (p - eye).length)
+        sizes += size(eye, direction, (p - eye).length)
         found += p
-        isFirst = false
       begin(cameraRay, sampler)
       for medium <- around do medium.begin(sampler)
       while goesOn do
@@ -140,14 +133,12 @@ private[bidirectional] final class SeenPlaces(
 
     private def scatter(see: Vec3 => Unit): Unit =
       evaluate()
-      val receives = PhotonLight.receives(scene, vertex)
-      if receives && isWanted then see(vertex.at.p.toVec3)
-      if receives && !onlyBehind then end()
+      if PhotonLight.receives(scene, vertex) then
+        see(vertex.at.p.toVec3)
+        end()
       else
         scatter(sampler)
-        if onlyBehind && path.depth == 1 then isWanted = vertex.bounce.isSpecular
         leave()
-        if onlyBehind && !isWanted then end()
 
     /** Of a pixel, so far away. */
     private def size(eye: Vec3, direction: Vec3, distance: Float): Float =

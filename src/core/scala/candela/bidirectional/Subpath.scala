@@ -91,9 +91,6 @@ private[bidirectional] final class PathVertex(scene: Scene) extends SurfaceVerte
   /** As [[Subpath.isAlone]]. */
   var isAlone: Boolean = false
 
-  /** The vertex before, as far as it is of interest. */
-  val from: MutableVec3 = MutableVec3()
-
   /** Index of the medium where the subpath came from, −1: none. */
   var medium: Int = -1
 

@@ -3,6 +3,7 @@ package candela.build
 import candela.base.{Code, SourcePos}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
+import candela.render.Passes
 import candela.settings.{PointChoice, RenderSettings}
 
 /** Warns of options of the command line that the scene's integrator does not heed. */
@@ -46,7 +47,7 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
 
 private[build] object IdleSettings:
   /** Why paths are not guided beside photon maps. */
-  val PhotonPaths = "paths that take caustics from photons are not guided"
+  val PhotonPaths: String = Passes.Unguided
 
   /** Why light paths don't look for caustics. */
   val NoCaustics: String = "only \"path\" and \"volpath\" look for caustics"

@@ -212,7 +212,7 @@ private[build] final class WorldBuilder(
   /** What light samples must find of skies. */
   private def skySampling(materials: MaterialTable): SkySampling =
     val leavesToPhotons = integrator.looksForCaustics && materials.ofScene.hasCasters &&
-      context.resources.settings.choices.caustics == CausticsMode.Photons
+      takesPhotons(context.resources.settings.choices.caustics)
     // If geometry decides the side, light sampling reaches directions that BSDF sampling misses
     if !integrator.samplesBsdf || !context.isV4 then SkySampling.All
     // Photons begin where light is sampled, and have no other technique beside them. What media
@@ -220,6 +220,9 @@ private[build] final class WorldBuilder(
     else if leavesToPhotons then
       if description.media.nonEmpty then SkySampling.All else SkySampling.Uneven
     else SkySampling.Bright
+
+  private def takesPhotons(mode: CausticsMode) =
+    mode == CausticsMode.Photons || mode == CausticsMode.Auto
 
   private def light(
       l: LightDescription,

@@ -11,14 +11,8 @@ import candela.sampling.SampleHash
   *
   * @param planned samples per pixel
   * @param pixels  of the image
-  * @param learns  else nothing is learnt, and photons alone guide paths
   */
-final class Guide(
-    val settings: GuideSettings,
-    planned: Int,
-    pixels: Long,
-    learns: Boolean = true
-):
+final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
   import Guide.*
   private val samples = if settings.learnsOn then Int.MaxValue else planned
 
@@ -28,9 +22,7 @@ final class Guide(
   private var learning: GuideLearning | Null = null
   private var progress = GuideProgress()
   private val memory = GuideMemory()
-  @volatile private var current =
-    if learns then newPass(GuideField.Start, 0, UsualEvents, lit = 1.0)
-    else Pass(GuideField.Start, 0, part = 1f, null)
+  @volatile private var current = newPass(GuideField.Start, 0, UsualEvents, lit = 1.0)
   @volatile private var learnt = 0.0
   private var tallies = Vector.empty[GuideTally]
 
@@ -49,12 +41,6 @@ final class Guide(
     val tally = GuideTally()
     tallies :+= tally
     tally
-
-  /** Second moment saved by guiding since the last call. */
-  def takeSaving(): Double = synchronized:
-    val saving = tallies.map(_.saving).sum
-    tallies.foreach(_.saving = 0.0)
-    saving
 
   /** What will be learnt. */
   def describe: String =
@@ -211,10 +197,6 @@ final class Guide(
     current = Pass(field, begun, part, records)
 
 object Guide:
-  /** One that learns nothing: photons alone guide paths. */
-  def unlearning: Guide =
-    Guide(GuideSettings(adapts = false), 1, 1, learns = false)
-
   /** A pass of training.
     *
     * @param begun   its first sample

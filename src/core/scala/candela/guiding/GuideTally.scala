@@ -7,8 +7,3 @@ final class GuideTally:
 
   /** Of these, those that were guided. */
   var guided = 0L
-
-  /** By how much the second moments of light met by way of specular surfaces are below those that
-    * unguided paths would have.
-    */
-  var saving = 0.0

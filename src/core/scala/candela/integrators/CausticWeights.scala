@@ -18,24 +18,12 @@ import candela.scene.{Casters, Scene}
   * path's weight, (p₀² + p₁²) / (p₀² + p₁² + p²): p₀ is the density of the path itself, p₁ that of
   * a light sample at its last vertex, and p that of the light path.
   *
-  * Others begin at emitters, and bring what does not meet a caster first, and was scattered more
-  * than once or in a medium. Each path is weighted against one kind of light paths.
-  *
-  * @param camera     that light paths are connected to
-  * @param perSample  light paths from casters per camera sample
-  * @param ofEmitters those from emitters; 0: there are none
+  * @param camera    that light paths are connected to
+  * @param perSample light paths per camera sample
   *
   * Source: Veach 1997, §10.2; the recursion as in Georgiev 2012, for one other technique.
   */
-final class CausticWeights(
-    scene: Scene,
-    casters: Casters,
-    camera: Camera,
-    perSample: Float,
-    ofEmitters: Float = 0f
-):
-  private val emitters: EmitterChoice | Null =
-    if ofEmitters > 0f then CausticWeights.emitters(scene) else null
+final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSample: Float):
 
   /** The path has met a surface, and its BSDF is known. */
   def arrive(eye: Vec3, vertex: SurfaceVertex, path: PathHistory): Unit =
@@ -50,7 +38,6 @@ final class CausticWeights(
     */
   def leave(vertex: SurfaceVertex, ray: Ray, hit: Hit, wi: Vec3, path: PathHistory): Unit =
     path.casterRatio = 0.0
-    path.emitterRatio = 0.0
     if path.densityRatio > 0.0 then
       val bounce = vertex.bounce
       val pdf = if bounce.isSpecular then 0f else vertex.localPdf(bounce.wi)
@@ -64,10 +51,8 @@ final class CausticWeights(
         val begins = startDensity(vertex, ray, hit)
         path.casterRatio = path.densityRatio * reverse * begins
         path.densityRatio *= reverse * vertex.cosine(wi)
-        if begins == 0f then path.emitterRatio = path.densityRatio
       if !(path.densityRatio < Double.PositiveInfinity) then path.densityRatio = 0.0
       if !(path.casterRatio < Double.PositiveInfinity) then path.casterRatio = 0.0
-      if !(path.emitterRatio < Double.PositiveInfinity) then path.emitterRatio = 0.0
 
   /** Density with which light paths begin where the ray has met the vertex, per area. */
   private def startDensity(vertex: SurfaceVertex, ray: Ray, hit: Hit): Float =
@@ -86,34 +71,16 @@ final class CausticWeights(
     path.bsdfPdf = pdf
     // Phase functions are symmetric: farther on, both densities are the same
     if path.depth == 1 then path.densityRatio = if pdf > 0f then path.densityRatio / pdf else 0.0
-    path.emitterRatio = path.densityRatio
 
   private def begun(eye: Vec3, p: Vec3, cosine: Float): Double =
     val density = camera.density(eye, p)
     if density > 0f && cosine > 0f then 1.0 / (density.toDouble * cosine) else 0.0
 
-  /** May a light path find what the path meets of emitters, too? */
-  def hasRatio(path: PathHistory): Boolean =
-    path.casterRatio > 0.0 || emitters != null && path.emitterRatio > 0.0
-
-  /** Factor of what the camera's path finds where it has met an emitter.
+  /** Factor of what the camera's path finds where it has met an emitter by way of a caster.
     *
     * @param pdf solid-angle density of the point of the emitter, seen from the last vertex
-    * @param emitted density with which the emitter sends light along the path, over the cosine
-    *   there
     */
-  inline def ofEmission(light: Int, pdf: Float, inline emitted: Float, path: PathHistory): Float =
-    if path.casterRatio > 0.0 then ofEmissionFromCaster(light, pdf, path)
-    else ofEmissionFromEmitter(light, pdf, emitted, path)
-
-  def ofEmissionFromEmitter(light: Int, pdf: Float, emitted: Float, path: PathHistory): Float =
-    val begins = emitters
-    if begins == null || !(emitted > 0f) || !scene.lights(light).isCausticSource then 1f
-    else
-      val ratio = path.emitterRatio * begins.chance(light) * emitted * ofEmitters
-      weight(ofSampled(light, pdf, path), ratio)
-
-  def ofEmissionFromCaster(light: Int, pdf: Float, path: PathHistory): Float =
+  def ofEmission(light: Int, pdf: Float, path: PathHistory): Float =
     if !scene.lights(light).isCausticSource then 1f
     else
       val p = path.lastP
@@ -142,28 +109,12 @@ final class CausticWeights(
     if !scene.lights(connection.index).isCausticSource then 1f
     else
       val begins = startDensity(vertex, ray, hit)
-      if begins == 0f && emitters == null then 1f
+      if begins == 0f then 1f
       else
-        val wi = connection.wi
-        val lightDensity =
-          if begins == 0f then fromEmitter(connection, vertex.at.p) * vertex.cosine(wi)
-          else
-            val chosen = scene.selection.probability(vertex.at.p, Vec3.Zero, connection.index)
-            begins * chosen.toDouble * perSample / connection.probability
-        val ratio = path.densityRatio * vertex.reversePdf(wi) * lightDensity
+        val chosen = scene.selection.probability(vertex.at.p, Vec3.Zero, connection.index)
+        val lightDensity = begins * chosen.toDouble * perSample / connection.probability
+        val ratio = path.densityRatio * vertex.reversePdf(connection.wi) * lightDensity
         weight(ofMet(connection, vertex.localPdf(localWi)), ratio)
-
-  /** Factor of a light sample at a place in a medium.
-    *
-    * @param pdf of the phase function
-    */
-  def ofSampleInMedium(connection: LightConnection, p: Vec3, pdf: Float, path: PathHistory): Float =
-    if emitters == null || path.densityRatio == 0.0 ||
-      !scene.lights(connection.index).isCausticSource
-    then 1f
-    else
-      val reverse = if path.depth == 1 then 1f else pdf
-      weight(ofMet(connection, pdf), path.densityRatio * reverse * fromEmitter(connection, p))
 
   /** Squared densities of a light sample and of the path itself, relative to the first.
     *
@@ -172,21 +123,7 @@ final class CausticWeights(
   private def ofMet(connection: LightConnection, pdf: Float): Double =
     1.0 + (if connection.isDelta then 0.0 else square(pdf.toDouble / connection.pdf))
 
-  /** Density with which paths from the emitter arrive at `p`, across their way, to that of the
-    * light sample.
-    */
-  private def fromEmitter(connection: LightConnection, p: Vec3): Double =
-    val begins = emitters
-    if begins == null then 0.0
-    else
-      begins.chance(connection.index).toDouble * connection.emissionPdf * ofEmitters /
-        (connection.probability.toDouble * connection.spread(p))
-
   private def weight(camera: Double, light: Double): Float =
     (camera / (camera + square(light))).toFloat
 
   private def square(x: Double): Double = x * x
-
-object CausticWeights:
-  /** Where light paths begin that do so at emitters. */
-  def emitters(scene: Scene): EmitterChoice = EmitterChoice(scene, _.isCausticSource)

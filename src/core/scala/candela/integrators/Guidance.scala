@@ -14,14 +14,9 @@ import candela.sampling.Sampler
   *
   * Throughputs and light are averages of the colours.
   *
-  * @param vertex  where the path is
-  * @param photons where light for caustics comes from, if it is known
+  * @param vertex where the path is
   */
-private[integrators] final class Guidance(
-    guide: Guide,
-    vertex: SurfaceVertex,
-    photons: PhotonField | Null
-):
+private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   import Guidance.*
   private val path = GuidePath()
   private var pass = guide.pass
@@ -30,7 +25,6 @@ private[integrators] final class Guidance(
   /** Where the path records; null: nowhere. */
   private var part = ownPart
   private val mixture = GuideMixture()
-  private val aim = PhotonMixture()
   private val tally = guide.newTally()
 
   /** Density of the path over that of BSDF sampling: its throughput times this is the one that BSDF
@@ -48,8 +42,6 @@ private[integrators] final class Guidance(
   private var isFitted = false
   private var share = 1f
 
-  /** Of the directions that the BSDF doesn't sample, the part that photons give. */
-  private var aimed = 0f
   private val wi, localWi = MutableVec3()
   private var side, region = -1
 
@@ -97,15 +89,12 @@ private[integrators] final class Guidance(
     splits = 1f
     measurement = 0f
 
-  /** The vertex has its BSDF.
-    *
-    * @param isAimed may photons guide the path? Not where light paths find their light
-    */
-  def arrive(isAimed: Boolean): Unit =
+  /** The vertex has its BSDF. */
+  def arrive(): Unit =
     val field = pass.field
     leaveAlone()
     path.step()
-    isKept = (part != null || field.guides || isAimed) && !vertex.bsdf.isSpecular
+    isKept = (part != null || field.guides) && !vertex.bsdf.isSpecular
     if isKept then
       side =
         if vertex.isInMedium then GuideField.Medium
@@ -114,17 +103,8 @@ private[integrators] final class Guidance(
       region = mixture.region(field, vertex.at.p, side)
       share = if ratio < LeastRatio then 1f else field.shares(region)
       isFitted = field.isFitted(region)
-      if isAimed && photons != null && ratio >= LeastRatio then aimAt(photons)
       isKept = part != null || share < 1f
       if isKept && isFitted then mixture.locate(field, region, vertex.at.p)
-
-  /** Photons give a part of the directions, if there are any here. */
-  private def aimAt(field: PhotonField): Unit =
-    if aim.locate(field, vertex.at.p, side) then
-      val otherShare = 1f - PhotonField.Share
-      val learnt = otherShare * (1f - share)
-      share *= otherShare
-      aimed = PhotonField.Share / (PhotonField.Share + learnt)
 
   /** The vertex is neither guided nor recorded. */
   def leaveAlone(): Unit =
@@ -132,29 +112,17 @@ private[integrators] final class Guidance(
     isFitted = false
     region = -1
     share = 1f
-    aimed = 0f
 
   /** Density of the directions that are taken. */
   def pdf(local: Vec3, world: Vec3, byBsdf: Float): Float =
     if share == 1f || byBsdf == 0f then byBsdf
     else share * byBsdf + (1f - share) * fieldPdf(local, world)
 
-  /** Density of the directions that the BSDF doesn't sample. */
-  private def fieldPdf(local: Vec3, world: Vec3): Float =
-    val learnt = if aimed == 1f then 0f else learntPdf(local, world)
-    if aimed == 0f then learnt else (1f - aimed) * learnt + aimed * aim.pdf(world)
-
   /** Density of the field's directions. */
-  private def learntPdf(local: Vec3, world: Vec3): Float =
+  private def fieldPdf(local: Vec3, world: Vec3): Float =
     if crosses(local) then 0f else mixture.pdf(world)
 
   private def crosses(local: Vec3) = !vertex.isInMedium && vertex.crosses(local)
-
-  /** The path has met an emitter, or the sky, by way of a specular surface: light that nothing else
-    * finds.
-    */
-  def meet(light: Float): Unit =
-    tally.saving += light.toDouble * light * (Math.min(ratio, MostRatio) - 1.0)
 
   /** The path is over, and found `light` in all. */
   def finish(light: Float): Unit =
@@ -200,10 +168,9 @@ private[integrators] final class Guidance(
 
   /** Likewise. */
   private def drawField(x: Float, y: Float): Float =
-    if x < aimed then aim.sample(belowOne(x / aimed), y, wi)
-    else mixture.sample(belowOne((x - aimed) / (1f - aimed)), y, wi)
+    mixture.sample(x, y, wi)
     vertex.at.frame.toLocal(wi, localWi)
-    val byBsdf = if aimed == 0f && crosses(localWi) then 0f else vertex.localPdf(localWi)
+    val byBsdf = if crosses(localWi) then 0f else vertex.localPdf(localWi)
     if byBsdf == 0f then vertex.bounce.absorb()
     else
       val cosine = if vertex.isInMedium then 1f else Math.abs(localWi.z)
@@ -216,7 +183,7 @@ private[integrators] final class Guidance(
     */
   private def turn(byBsdf: Float, throughput: Float, found: Float): Unit =
     val bounce = vertex.bounce
-    val byField = if isFitted || aimed > 0f then fieldPdf(bounce.wi, wi) else 0f
+    val byField = if isFitted then fieldPdf(bounce.wi, wi) else 0f
     val pdf = share * byBsdf + (1f - share) * byField
     bounce.set(bounce.wi, bounce.weight * (1f / pdf), pdf, isSpecular = false, bounce.eta)
     ratio *= pdf / byBsdf
@@ -301,6 +268,3 @@ private object Guidance:
     * their light counts.
     */
   inline val LeastRatio = 0.1f
-
-  /** What one path finds must not decide alone. */
-  inline val MostRatio = 1e6f

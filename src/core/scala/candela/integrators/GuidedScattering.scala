@@ -1,26 +1,18 @@
 package candela.integrators
 
 import candela.base.loop
-import candela.guiding.{Guide, PhotonField}
+import candela.guiding.Guide
 import candela.sampling.Sampler
 
 /** How guided paths scatter, on surfaces and in media: [[Guidance]] samples the directions, and
   * says in how many branches the path leaves a vertex. Branches are followed one after the other.
   * Mutable, one per path tracer.
   */
-private final class GuidedScattering(
-    guide: Guide,
-    tracer: CameraPath,
-    history: PathHistory,
-    photons: PhotonField | Null
-):
-  private val guidance = Guidance(guide, tracer.vertex, photons)
+private final class GuidedScattering(guide: Guide, tracer: CameraPath, history: PathHistory):
+  private val guidance = Guidance(guide, tracer.vertex)
   private val branches = Branches(() => tracer.path.another())
 
-  export guidance.{begin, leaveAlone, meet, pdf, roulette}
-
-  /** The vertex has its BSDF. Photons aim at light that light paths don't find. */
-  def arrive(): Unit = guidance.arrive(isAimed = photons != null && history.densityRatio == 0.0)
+  export guidance.{arrive, begin, leaveAlone, pdf, roulette}
 
   /** Samples the next direction, and leaves in all branches but one, unless there is one only. */
   def scatter(sampler: Sampler): Unit =

@@ -25,11 +25,10 @@ class PathExtension:
   def emissionFactor(index: Int, light: EnvironmentLight): Float = 1f
   def emissionFactor(index: Int, light: SurfaceLight): Float = 1f
 
-  /** The path has met light: of one of the environments, of all, of a surface. Of media it is the
-    * sum so far.
+  /** The path has met light: of one of the environments, of a surface. Of media it is the sum so
+    * far.
     */
   def meetEnvironment(light: Int, Le: Rgb): Unit = ()
-  def meetEnvironments(Le: Rgb): Unit = ()
   def meetSurface(light: Int, Le: Rgb, weight: Float): Unit = ()
   def meetMedia(sum: Rgb): Unit = ()
 
@@ -52,18 +51,14 @@ class PathExtension:
     */
   def directionPdf(@unused localWi: Vec3, pdf: Float): Float = pdf
 
-  /** Factor of the light sample.
-    *
-    * @param pdf of the phase function
-    */
+  /** Factor of the light sample at a surface. */
   def sampleFactor(localWi: Vec3): Float = 1f
-  def sampleFactorInMedium(p: Vec3, pdf: Float): Float = 1f
 
   /** The path carries `Ld` of the light sample. */
   def recordSample(Ld: Rgb): Unit = ()
 
   /** Adds caustics that the vertex scatters to the path. */
-  def addCaustics(sampler: Sampler): Unit = ()
+  def addCaustics(): Unit = ()
 
   /** Samples the next direction in place of the BSDF or phase function; false: it doesn't. */
   def scatters(sampler: Sampler): Boolean = false

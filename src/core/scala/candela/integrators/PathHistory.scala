@@ -14,39 +14,35 @@ private[candela] final class PathHistory(path: PathState):
     */
   var densityRatio: Double = 0.0
 
-  /** Likewise at an emitter that the ray may meet, as far as it is known before: of light paths
-    * that begin at the last vertex, a caster, and of those that begin at the emitter.
+  /** Likewise at an emitter that the ray may meet, as far as it is known before, if the last vertex
+    * is a caster, where light paths begin; else 0.
     */
-  var casterRatio, emitterRatio: Double = 0.0
+  var casterRatio: Double = 0.0
 
-  /** The solid-angle density of the current direction, without guiding, where one of the last two
-    * is above 0; 0: it is specular.
+  /** The solid-angle density of the current direction, without guiding, where the last is above 0;
+    * 0: it is specular.
     */
   var bsdfPdf: Float = 0f
 
-  /** What manifold walks may look for from here, or what is left to photons: a number of
-    * [[Manifolds]] or of [[PhotonLight]].
-    */
-  var chain: Int = 0
+  /** What is left to photons: a number of [[PhotonLight]]. */
+  var chain: Int = PhotonLight.NotGathered
 
   def start(): Unit =
     anyNonSpecularBounces = false
     densityRatio = 0.0
     casterRatio = 0.0
-    emitterRatio = 0.0
-    chain = Manifolds.SpecularFromCamera
+    chain = PhotonLight.NotGathered
 
-  /** The path has emerged from beneath a surface: no light path competes, and no walks begin. */
+  /** The path has emerged from beneath a surface: no light path competes, and no photon begins. */
   def emerge(): Unit =
     anyNonSpecularBounces = true
     densityRatio = 0.0
-    chain = Manifolds.NoWalks
+    chain = PhotonLight.NotGathered
 
   /** Becomes a copy. */
   def set(from: PathHistory): Unit =
     anyNonSpecularBounces = from.anyNonSpecularBounces
     densityRatio = from.densityRatio
     casterRatio = from.casterRatio
-    emitterRatio = from.emitterRatio
     bsdfPdf = from.bsdfPdf
     chain = from.chain

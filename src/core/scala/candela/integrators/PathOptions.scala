@@ -1,7 +1,5 @@
 package candela.integrators
 
-import candela.guiding.PhotonField
-
 /** What a path tracer does beside the steps of every path.
   *
   * @param regularizes   roughen BSDFs after the first non-specular bounce
@@ -13,9 +11,7 @@ import candela.guiding.PhotonField
   * @param interfaces    what interfaces are to light sampling; in media they are open
   * @param countsPassed  is passing an interface one of the events that a path may have?
   * @param caustics      weights against light paths, if there are any
-  * @param manifolds     what manifold walks find beside paths, or in their place, if anything
-  * @param photons       what photons bring in place of paths, if anything; not with manifold walks
-  * @param aim           photons that guide paths, if any do; the walk then has a guide
+  * @param photons       what photons bring in place of paths, if anything
   */
 final case class PathOptions(
     regularizes: Boolean = false,
@@ -26,14 +22,11 @@ final case class PathOptions(
     interfaces: Interfaces = Interfaces.Open,
     countsPassed: Boolean = false,
     caustics: Option[CausticWeights] = None,
-    manifolds: Option[Manifolds] = None,
-    photons: Option[PhotonLight] = None,
-    aim: Option[PhotonField] = None
+    photons: Option[PhotonLight] = None
 ):
   /** Does any of these need [[PathTechniques]]? */
   private[integrators] def extendsPaths: Boolean =
-    regularizes || subsurface || hidesEmitters ||
-      caustics.isDefined || manifolds.isDefined || photons.isDefined || aim.isDefined
+    regularizes || subsurface || hidesEmitters || caustics.isDefined || photons.isDefined
 
 /** Limits of a path tracer's paths.
   *

@@ -27,11 +27,8 @@ private final class PathTechniques(
   import tracer.{connection, hit, path, vertex}
   private val history = PathHistory(path)
   private val guiding: GuidedScattering | Null =
-    if guide == null then null else GuidedScattering(guide, tracer, history, options.aim.orNull)
+    if guide == null then null else GuidedScattering(guide, tracer, history)
   private val weights: CausticWeights | Null = options.caustics.orNull
-  private val manifolds: Manifolds | Null = options.manifolds.orNull
-  private val chains: ManifoldLighting | Null =
-    if manifolds == null then null else ManifoldLighting(scene, manifolds)
   private val photons: PhotonLight | Null = options.photons.orNull
   private val probe: SubsurfaceProbe | Null =
     if options.subsurface then SubsurfaceProbe(scene) else null
@@ -80,35 +77,17 @@ private final class PathTechniques(
 
   override def emissionFactor(index: Int, light: EnvironmentLight): Float =
     if isLeftOut(index) || hidesEmission then 0f
-    else if weights == null || !weights.hasRatio(history) then 1f
-    else
-      val d = tracer.ray.direction
-      val pdf = light.pdf(path.lastP, d)
-      weights.ofEmission(
-        index,
-        pdf,
-        light.emissionPdf(scene.ball, path.lastP, Vec3.Zero, -d),
-        history
-      )
+    else if weights == null || history.casterRatio == 0.0 then 1f
+    else weights.ofEmission(index, light.pdf(path.lastP, tracer.ray.direction), history)
 
   override def emissionFactor(index: Int, light: SurfaceLight): Float =
     if isLeftOut(index) || hidesEmission then 0f
-    else if weights == null || light.isShownOnly || !weights.hasRatio(history) then 1f
-    else
-      val at = vertex.at
-      val wo = vertex.wo
-      val pdf = light.pdf(path.lastP, at)
-      weights.ofEmission(
-        index,
-        pdf,
-        light.emissionPdf(scene.ball, at.p, at.geometricNormal, wo) / vertex.cosine(wo),
-        history
-      )
+    else if weights == null || light.isShownOnly || history.casterRatio == 0.0 then 1f
+    else weights.ofEmission(index, light.pdf(path.lastP, vertex.at), history)
 
-  /** Is what the path meets of the emitter left to manifold walks or photons? */
+  /** Is what the path meets of the emitter left to photons? */
   private def isLeftOut(light: Int): Boolean =
-    (manifolds != null && manifolds.finds(light, history)) ||
-      (photons != null && photons.brings(light, history))
+    photons != null && photons.brings(light, history)
 
   private def hidesEmission = options.hidesEmitters && path.depth == 0
 
@@ -118,11 +97,7 @@ private final class PathTechniques(
     if parts != null && !hidesEmission then
       parts.addEnvironment(light, path.depth, path.carried(Le))
 
-  override def meetEnvironments(Le: Rgb): Unit =
-    if guiding != null && path.specularBounce then guiding.meet(path.carried(Le).average)
-
   override def meetSurface(light: Int, Le: Rgb, weight: Float): Unit =
-    if guiding != null && path.specularBounce then guiding.meet(path.carried(Le, weight).average)
     if parts != null then parts.addLight(light, path.depth, path.carried(Le, weight))
 
   override def meetMedia(sum: Rgb): Unit =
@@ -135,7 +110,6 @@ private final class PathTechniques(
     if scene.isDispersive && !path.isAlone && vertex.bsdf.isDispersive then
       path.terminateSecondary()
     if weights != null then weights.arrive(eye, vertex, history)
-    if chains != null then chains.arrive()
     if guiding != null then if isGuided then guiding.arrive() else guiding.leaveAlone()
     isBoundary = limits.seesThrough && scene.isSubsurface(vertex.at.material)
 
@@ -158,21 +132,11 @@ private final class PathTechniques(
     if weights == null || history.densityRatio == 0.0 || path.depth == 1 then 1f
     else weights.ofSample(connection, vertex, localWi, tracer.ray, hit, history)
 
-  override def sampleFactorInMedium(p: Vec3, pdf: Float): Float =
-    if weights == null then 1f else weights.ofSampleInMedium(connection, p, pdf, history)
-
   override def recordSample(Ld: Rgb): Unit =
     if parts != null then parts.addLight(connection.index, path.depth, Ld)
 
-  override def addCaustics(sampler: Sampler): Unit =
+  override def addCaustics(): Unit =
     if photons != null then tracer.L.add(path.carried(photons.reflected(vertex, history)))
-    val walks = chains
-    if walks != null && manifolds != null && manifolds.suits(vertex, history) &&
-      walks.finds(vertex, history, tracer.ray.time, sampler)
-    then
-      val radiance = path.carried(walks.arrived.toRgb)
-      tracer.L.add(radiance)
-      if parts != null then parts.addLight(walks.index, path.depth, radiance)
 
   override def scatters(sampler: Sampler): Boolean =
     guiding != null && {
@@ -198,7 +162,6 @@ private final class PathTechniques(
     if weights != null then
       val wi = vertex.at.frame.toWorld(bounce.wi.toVec3)
       weights.leave(vertex, tracer.ray, hit, wi, history)
-    if chains != null then chains.leave(vertex, hit, history)
     if photons != null then photons.leave(vertex, tracer.ray, hit, history)
 
   override def leaveInMedium(pdf: Float): Unit =
@@ -217,7 +180,6 @@ private final class PathTechniques(
 
   override def raysTraced: Long =
     (if probe == null then 0L else probe.raysTraced) +
-      (if chains == null then 0L else chains.raysTraced) +
       (if volumes == null then 0L else volumes.raysTraced)
 
 private object PathTechniques:

@@ -104,7 +104,6 @@ final class PathTracer private (
           contribution = extension.meetEnvironment
         )
         L.addProduct(beta, Le, 1f)
-        extension.meetEnvironments(Le)
         goesOn = false
       else
         vertex.hit(ray, hit)
@@ -144,7 +143,7 @@ final class PathTracer private (
                 lights.arrived.scale(extension.sampleFactor(lights.localWi))
                 L.addProduct(beta, lights.arrived)
                 extension.recordSample(beta.toRgb * lights.arrived.toRgb)
-            extension.addCaustics(sampler)
+            extension.addCaustics()
             // Sample the BSDF for the next direction
             if !extension.scatters(sampler) then
               vertex.draw(sampler)

@@ -99,7 +99,7 @@ private[candela] object PhotonLight:
     */
   inline val Started = 1
   inline val MayBeginPhoton = 2
-  inline val NotGathered = Manifolds.NoWalks
+  inline val NotGathered = -1
 
   /** Are photons stored at such a vertex? Not where they would be found in a narrow lobe, or would
     * go on beneath the surface.

@@ -70,7 +70,6 @@ final class VolumePathTracer private (
           contribution = extension.meetEnvironment
         )
         L.add(volumePath.carried(Le))
-        extension.meetEnvironments(Le)
         goesOn = false
       else
         vertex.hit(ray, hit)
@@ -103,7 +102,7 @@ final class VolumePathTracer private (
               if isSampled && hasLights && lights.choose(at.p, vertex.lightNormal, u) &&
                 lights.samplePoint(at.p, sampler.x, sampler.y) && extension.samples
               then addDirect()
-            extension.addCaustics(sampler)
+            extension.addCaustics()
             // Sample the BSDF for the next direction
             if !extension.scatters(sampler) then
               vertex.draw(sampler)
@@ -150,7 +149,7 @@ final class VolumePathTracer private (
         val f = phase.value(wo, lights.wi)
         if visibility.reaches(p, lights.sample, volumePath.medium) then
           val arriving = sampled(extension.directionPdf(Vec3.Z, f)) * f
-          addSample(arriving * extension.sampleFactorInMedium(p, f))
+          addSample(arriving)
     if extension.scatters(sampler) then leave()
     else
       sampler.next2D()

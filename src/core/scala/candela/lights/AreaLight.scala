@@ -4,7 +4,7 @@ import candela.color.Rgb
 import candela.geometry.{Ball, Bounds3, Frame, ShadingPoint}
 import candela.math.*
 import candela.sampling.Warp
-import candela.shapes.{SurfaceSample, SurfaceSampler}
+import candela.shapes.SurfaceSampler
 
 /** Diffuse area light: uniform `emitted` radiance from each point on the outside (`twoSided`: from
   * both sides).
@@ -42,9 +42,6 @@ final class AreaLight(
         out.isInfinite = false
 
   def pdf(from: Vec3, at: ShadingPoint): Float = surface.pdf(from, at.p, at.geometricNormal)
-
-  def samplePlace(u1: Float, u2: Float, out: SurfaceSample): Unit =
-    surface.sampleArea(u1, u2, out)
 
   private val watts: Float = emitted.max * surface.area * Pi * (if twoSided then 2f else 1f)
 
@@ -88,7 +85,6 @@ final class ShownLight(light: SurfaceLight) extends SurfaceLight, WrappedLight(l
   def radiance(at: ShadingPoint, w: Vec3): Rgb = light.radiance(at, w)
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit = out.pdf = 0f
   def pdf(from: Vec3, at: ShadingPoint): Float = 0f
-  def samplePlace(u1: Float, u2: Float, out: SurfaceSample): Unit = out.pdf = 0f
   def bounds: Option[LightBounds] = None
   override def power(scene: Ball): Float = 0f
   override def emit(

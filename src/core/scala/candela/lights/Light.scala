@@ -3,7 +3,6 @@ package candela.lights
 import candela.color.{MutableRgb, Rgb}
 import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
 import candela.math.*
-import candela.shapes.SurfaceSample
 
 /** A light source. Immutable. */
 abstract class Light:
@@ -142,9 +141,6 @@ abstract class SurfaceLight extends Light:
 
   /** Pdf with which `sample` at `from` samples the point `at`, per solid angle. */
   def pdf(from: Vec3, at: ShadingPoint): Float
-
-  /** Samples a point of the whole surface, visible or not; `out.pdf` is per area, 0 for none. */
-  def samplePlace(u1: Float, u2: Float, out: SurfaceSample): Unit
 
 /** An infinite light: the radiance of rays that escape the scene. */
 abstract class EnvironmentLight extends Light:

@@ -3,7 +3,7 @@ package candela.lights
 import candela.color.Rgb
 import candela.geometry.{Ball, ShadingPoint}
 import candela.math.*
-import candela.shapes.{SurfaceSample, SurfaceSampler}
+import candela.shapes.SurfaceSampler
 import candela.textures.{Mapping2D, UvMapping}
 
 /** An area light with spatially varying emission: the emission of `even`, scaled at each point.
@@ -30,8 +30,6 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler)
       else out.pdf = 0f
 
   def pdf(from: Vec3, at: ShadingPoint): Float = even.pdf(from, at)
-
-  def samplePlace(u1: Float, u2: Float, out: SurfaceSample): Unit = even.samplePlace(u1, u2, out)
 
   override def power(scene: Ball): Float = even.power(scene) * strength
 

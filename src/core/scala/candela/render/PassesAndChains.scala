@@ -53,6 +53,9 @@ final class Passes(passes: View => SharedPasses, override val bias: Option[Strin
   private def in(view: View): SharedPasses = passes(view)
 
 object Passes:
+  /** What is said of guiding where photons bring caustics. */
+  val Unguided: String = "paths that take caustics from photons are not guided"
+
   /** Why no sample is an outlier of brightness. */
   val WithoutOutliers: String =
     "a photon brightens many samples alike, none of which is an outlier"

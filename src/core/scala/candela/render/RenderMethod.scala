@@ -117,10 +117,10 @@ object RenderMethod:
 
 /** Chooses, by a few paths, a method that finds caustics where that reduces the noise.
   *
-  * @param run      decides on light paths, and says why
-  * @param method   with light paths
-  * @param connects whether these connect to the camera
-  * @param blurs    whether these bring photons instead, which blur
+  * @param run      decides on light paths or photons, and says why
+  * @param method   with these
+  * @param connects whether it takes light paths, which connect to the camera, if it may
+  * @param blurs    whether it takes nothing but photons, which blur
   */
 final class MethodPilot(
     val run: View => (Option[CausticChoice], String),

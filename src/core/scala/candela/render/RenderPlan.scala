@@ -73,16 +73,16 @@ final case class RenderPlan(
     */
   def piloted: RenderPlan = method.pilot.fold(this): pilot =>
     val whole = PixelBounds(0, 0, width, height)
-    val (choice, why) =
-      if pilot.connects && !camera.isTraceable then
-        (None, "none: light paths can't reach this camera")
-      else pilot.run(view(Splats.Discarded).copy(crop = whole))
+    val (choice, why) = pilot.run(view(Splats.Discarded).copy(crop = whole))
     val chosen = choice.fold(method.withoutPilot)(pilot.method)
     copy(
       method = chosen,
       sharesSamples = sharesSamples && chosen.canShareSamples,
       layers = layers.map(l => if chosen.dividesLight then l else l.copy(groups = None)),
-      facts = facts :+ ("caustics" -> why)
+      facts = facts.map {
+        case ("guiding", _) if chosen.blurs => "guiding" -> s"none: ${Passes.Unguided}"
+        case other => other
+      } :+ ("caustics" -> why)
     )
 
   /** Samples per pixel to take. */

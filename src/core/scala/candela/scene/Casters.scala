@@ -36,9 +36,6 @@ final class Casters private (
 ):
   private val total = world.area + placed.area
 
-  /** Of all surfaces. */
-  def area: Double = total
-
   /** The same, with another aim. */
   def aimed(aim: CasterAim): Casters = new Casters(world, objects, placed, aim)
 

@@ -4,7 +4,6 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.lights.*
 import candela.math.Vec3
-import candela.shapes.SurfaceSample
 
 /** Decorates lights to report their queries to a [[PathReport]]; otherwise unchanged. */
 private[scene] object ReportedLights:
@@ -35,8 +34,6 @@ private[scene] object ReportedLights:
       report.found(index, emitted)
       emitted
     def pdf(from: Vec3, at: ShadingPoint): Float = light.pdf(from, at)
-    def samplePlace(u1: Float, u2: Float, out: SurfaceSample): Unit =
-      light.samplePlace(u1, u2, out)
 
   private final class Around(light: EnvironmentLight, index: Int, report: PathReport)
       extends EnvironmentLight

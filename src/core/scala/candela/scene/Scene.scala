@@ -84,25 +84,6 @@ final class Scene(
     else instanced.fill(primitive - firstInstance, ray, hit, at)
     if rule != null && at.hasPartials then rule.find(ray, at)
 
-  /** Computes the geometry of the hit with the partial derivatives of point and normal, those of
-    * the unit normal that rays see, by any two parameters: on triangles by `hit.u` and `hit.v`. The
-    * point must want partials, always.
-    */
-  def bend(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
-    val primitive = hit.primitive
-    at.begin(followed = true)
-    if primitive < firstInstance then surfaces.fillBent(primitive, ray, hit, at)
-    else instanced.fillBent(primitive - firstInstance, ray, hit, at)
-
-  /** Does [[bend]] know the derivatives there? */
-  def isBent(hit: Hit): Boolean =
-    if hit.primitive < firstInstance then surfaces.isBent(hit.primitive)
-    else instanced.isBent(hit.primitive - firstInstance, hit)
-
-  def isTriangle(hit: Hit): Boolean =
-    if hit.primitive < firstInstance then hit.primitive < surfaces.soup.count
-    else instanced.isTriangle(hit.primitive - firstInstance, hit)
-
   /** Computes the place of a hit at the ray's time, as it is at `time`. */
   def surfaceAt(ray: Ray, hit: Hit, time: Float, at: ShadingPoint): Unit =
     val primitive = hit.primitive
@@ -121,9 +102,6 @@ final class Scene(
   private val interfaces = materials.interfaces
 
   private val hasVeils = !surfaces.veils.isEmpty || instanced.hasVeils
-
-  /** Do all rays of the same path meet the same surfaces? */
-  def isSolid: Boolean = !hasVeils && !surfaces.masks.isRandom && !instanced.hasRandomMasks
 
   /** Whether paths pass the surface that `ray` just hit, at `at`, unscattered. */
   def isPassed(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =

@@ -47,20 +47,6 @@ final class Surfaces(
       at.areaLight = solids.light(i)
       if solids.isInverted(i) then at.invert()
 
-  /** As [[fill]], but the partial derivatives are by any two parameters of the surface, and those
-    * of the normal of the unit normal that rays see.
-    */
-  def fillBent(primitive: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
-    fill(primitive, ray, hit, at)
-    if primitive < soup.count then soup.bend(primitive, hit, at)
-    else if solids.isInverted(primitive - soup.count) then
-      at.dndu = -at.dndu
-      at.dndv = -at.dndv
-
-  /** Does [[fillBent]] know the derivatives? */
-  def isBent(primitive: Int): Boolean =
-    primitive < soup.count || solids.groups(primitive - soup.count).bendsAsSeen
-
 /** The instances of a scene, with the surfaces of their objects.
   *
   * @param objects surfaces of each object, in the numbering of `instances`
@@ -72,18 +58,7 @@ final class Instanced(val objects: Array[Surfaces], val instances: Instances):
     objects(instances.objectOf(i)).fill(hit.inner, instances.enter(i, ray), hit, at)
     instances.locate(i, ray, at)
 
-  /** Likewise, as [[Surfaces.fillBent]]. */
-  def fillBent(i: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
-    objects(instances.objectOf(i)).fillBent(hit.inner, instances.enter(i, ray), hit, at)
-    instances.locate(i, ray, at)
-
-  def isBent(i: Int, hit: Hit): Boolean = objects(instances.objectOf(i)).isBent(hit.inner)
-
-  def isTriangle(i: Int, hit: Hit): Boolean =
-    hit.inner < objects(instances.objectOf(i)).soup.count
-
   val hasVeils: Boolean = objects.exists(!_.veils.isEmpty)
-  def hasRandomMasks: Boolean = objects.exists(_.masks.isRandom)
 
   /** Does the ray, which just hit instance `i`, meet an opening of a veil? */
   def isOpen(i: Int, ray: Ray, hit: Hit, at: ShadingPoint): Boolean =

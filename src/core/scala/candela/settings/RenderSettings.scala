@@ -22,7 +22,7 @@ import candela.scenefile.Dialect
   * @param points      which sample points to take, if asked for: else [[Choices]]
   * @param fireflies   what is done about them
   * @param guiding     whether paths learn where light comes from, likewise
-  * @param caustics    whether light paths look for caustics, likewise
+  * @param caustics    whether light paths or photons look for caustics, likewise
   * @param centers     take all samples at the pixel centre, the middle of lens and shutter
   * @param unfiltered  point-sample textures
   * @param meanImages  replace image textures by their mean

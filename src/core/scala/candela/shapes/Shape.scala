@@ -23,9 +23,6 @@ trait ShapeGroup:
   /** The surface alone; where many share their data, made for the caller. */
   def shape(number: Int): Shape
 
-  /** Are the normals' partial derivatives those of the unit normals that rays see? */
-  def bendsAsSeen: Boolean = false
-
 object ShapeGroup:
   // Most groups are single shapes, which rays ask without a call in between
 

@@ -25,8 +25,6 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, like: Transform) ex
   protected def widest: Double
   protected def reach: Double
 
-  override def bendsAsSeen: Boolean = true
-
   /** Largest error, per component, of a point in a box of this half extent around the origin of
     * object space, caused by Double arithmetic on the way to world space and back: some 2⁶ rounding
     * errors of the largest number involved. It matters for points close to the world's origin, as

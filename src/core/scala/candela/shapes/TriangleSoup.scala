@@ -123,29 +123,6 @@ final class TriangleSoup(
         val i = triangle - mesh.firstTriangle
         mesh.firstLight + (if mesh.paired then i >> 1 else i)
 
-  /** Replaces the partial derivatives of point and normal by those by `hit.u` and `hit.v`, of the
-    * unit normal that [[surface]] has found.
-    */
-  def bend(triangle: Int, hit: Hit, at: ShadingPoint): Unit =
-    val mesh = meshes(meshOf(triangle))
-    val p0 = vertex(triangle, 0)
-    at.dpdu = vertex(triangle, 1) - p0
-    at.dpdv = vertex(triangle, 2) - p0
-    at.dndu = Vec3.Zero
-    at.dndv = Vec3.Zero
-    if mesh.normals.length > 0 then
-      val n0 = normal(mesh, indices(3 * triangle))
-      val along1 = normal(mesh, indices(3 * triangle + 1)) - n0
-      val along2 = normal(mesh, indices(3 * triangle + 2)) - n0
-      val n = n0 + along1 * hit.u.toFloat + along2 * hit.v.toFloat
-      if n.lengthSquared > 0f && n.lengthSquared < Float.PositiveInfinity then
-        at.dndu = ShadingPoint.turn(n, along1)
-        at.dndv = ShadingPoint.turn(n, along2)
-
-  private def normal(mesh: Mesh, vertex: Int): Vec3 =
-    val i = (vertex - mesh.firstVertex) * 3
-    Vec3(mesh.normals(i), mesh.normals(i + 1), mesh.normals(i + 2))
-
   /** Computes the point and its error bound; `j0` … are the offsets of the corners' coordinates.
     */
   private def place(j0: Int, j1: Int, j2: Int, b1: Double, b2: Double, at: ShadingPoint): Unit =

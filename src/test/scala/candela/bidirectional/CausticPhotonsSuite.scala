@@ -310,7 +310,7 @@ final class CausticPhotonsSuite extends AnyFunSuite:
     assert(of(mist.replace(
       ".5",
       ".02"
-    )).contains("photon maps bring caustics at surfaces and in media"))
+    )).contains("photon maps, which bring caustics at surfaces and in media"))
     assert(!of(s"$thick \"rgb Le\" [.2 .1 .1]").contains(all))
 
   test("nor where a sky is behind a portal, or light from infinity begins in fog", Slow):

@@ -3,11 +3,11 @@ package candela.build.integrators
 import candela.aov.LightParts
 import candela.base.Code
 import candela.bidirectional.{
-  AimPilot, CausticChoice, CausticLight, CausticPasses, CausticPilot, CausticTracer, PhotonPilot,
-  SeenLight
+  CausticChoice, CausticLight, CausticPasses, CausticPilot, CausticTracer, LightPathChoice,
+  PhotonChoice, PhotonPilot, PilotResult
 }
 import candela.build.recipe.*
-import candela.film.View
+import candela.film.{Fireflies, View}
 import candela.guiding.Guide
 import candela.integrators.*
 import candela.media.SceneMedia
@@ -48,12 +48,16 @@ private object CausticMethod:
             media
           )
           val beside = Beside(scene, options, light, tracer)
-          if mode == CausticsMode.Photons then
-            val pool = site.resources.pool
-            def run(view: View) = PhotonPilot(scene, view, light, pool).run()
-            Piloted(alone, MethodPilot(run, beside.photons, connects = false, blurs = true))
-          else
-            Piloted(alone, MethodPilot(beside.pilot, beside.method, connects = true, blurs = false))
+          val takesPhotons = mode == CausticsMode.Photons
+          Piloted(
+            alone,
+            MethodPilot(
+              beside.pilot(mode, _).result,
+              beside.method,
+              connects = !takesPhotons,
+              blurs = takesPhotons
+            )
+          )
 
   private def without(why: String, alone: RenderMethod): RenderMethod =
     Piloted(alone, MethodPilot.without(why))
@@ -81,70 +85,55 @@ private object CausticMethod:
       light: CausticLight,
       tracer: Tracer
   )(using site: Site):
-    /** Light paths, and photons that guide the camera's, where they pay. */
-    def pilot(view: View): (Option[CausticChoice], String) =
-      val pilot = CausticPilot(
-        scene,
-        view,
-        light,
-        site.resources.pool,
-        (weights, aim) => sees(scene, weighed(weights), aim, null, null)
-      )
-      val (found, told) = pilot.run()
-      val beside = found.fold(options): choice =>
-        weighed(choice.weights(scene, view))
-      val (aim, expected) = AimPilot(
-        scene,
-        view,
-        light,
-        site.resources.pool,
-        (field, guide) => tracer(scene, beside.copy(aim = field), guide, null),
-        walks => tracer(scene, beside.copy(manifolds = Some(walks)), null, null)
-      ).run()
-      val how =
-        if aim.exists(_.walked.isDefined) then "manifold walks find" else "photons guide paths to"
-      val guiding = s"$how light seen by way of specular surfaces: $expected"
-      aim match
-        case None => (found, s"$told; $expected")
-        case _ if found.isEmpty =>
-          (
-            Some(CausticChoice(light.casters, perSample = 0f, aim = aim)),
-            s"$guiding; light paths: $told"
-          )
-        case _ =>
-          val both = found.map(choice => pilot.balanced(choice.copy(aim = aim)))
-          (both, s"light paths: $told; $guiding, with ${both.fold("")(_.paths)}")
+    def pilot(mode: CausticsMode, view: View): PilotResult = mode match
+      case CausticsMode.On => byLightPaths(view)
+      case CausticsMode.Photons => byPhotons(view, mustPay = false)
+      // Photons neither divide light nor have outliers
+      case _ if scene.lightGroups.isDefined || site.resources.settings.fireflies == Fireflies.Reweighted =>
+        byLightPaths(view)
+      case _ => byLightPaths(view).orElse(byPhotons(view, mustPay = true), PhotonMargin)
 
-    def method(choice: CausticChoice): RenderMethod =
-      def aimed(own: PathOptions)(over: Scene, guide: Guide | Null, parts: LightParts | Null) =
-        sees(over, own, choice.aim, guide, parts)
-      if !choice.hasLightPaths then GuidedMethod(scene)(aimed(options))
-      else
-        def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): over =>
-          val chosen = light.copy(casters = choice.casters)
-          val own = aimed(weighed(choice.weights(over, view)))
-          val paths = guide match
-            case None => own(over, null, null)
-            case Some(by) => PartlyGuided(over, by, own(over, by, _), own(over, null, _))
-          CausticTracer(over, paths, view, chosen, choice.perSample, choice.ofEmitters)
-        SplattedTiles(
-          makers(_, None),
-          beside = true,
-          site.resources.settings.learning.map(GuidedSplats(
-            _,
-            (view, guide) => makers(view, Some(guide))
-          )),
-          Option.when(light.findsAll && scene.lights.exists(_.isDelta)):
-            "also delta lights, through and off smooth surfaces"
-        )
+    private def byLightPaths(view: View): PilotResult =
+      def paths(weights: CausticWeights) = tracer(scene, weighed(weights), null, null)
+      if !view.camera.isTraceable then PilotResult.none("light paths can't reach this camera")
+      else CausticPilot(scene, view, light, site.resources.pool, paths).run()
+
+    /** @param mustPay are photons only taken where they pay? */
+    private def byPhotons(view: View, mustPay: Boolean): PilotResult =
+      def paths(photons: Option[PhotonLight]) =
+        tracer(scene, options.copy(photons = photons), null, null)
+      PhotonPilot(scene, view, light, site.resources.pool, Option.when(mustPay)(paths)).run()
+
+    def method(choice: CausticChoice): RenderMethod = choice match
+      case paths: LightPathChoice => beside(paths)
+      case photons: PhotonChoice => gathering(photons)
+
+    /** Paths of the camera, beside light paths. */
+    private def beside(choice: LightPathChoice): RenderMethod =
+      def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): over =>
+        val chosen = light.copy(casters = choice.casters)
+        val own = weighed(choice.weights(over, view))
+        val paths = guide match
+          case None => tracer(over, own, null, null)
+          case Some(by) => PartlyGuided(over, by, tracer(over, own, by, _), tracer(over, own, null, _))
+        CausticTracer(over, paths, view, chosen, choice.perSample)
+      SplattedTiles(
+        makers(_, None),
+        beside = true,
+        site.resources.settings.learning.map(GuidedSplats(
+          _,
+          (view, guide) => makers(view, Some(guide))
+        )),
+        Option.when(light.findsAll && scene.lights.exists(_.isDelta)):
+          "also delta lights, through and off smooth surfaces"
+      )
 
     /** Paths of the camera that take caustics from photons. */
-    def photons(choice: CausticChoice): RenderMethod =
-      val chosen = light.copy(casters = choice.casters)
+    private def gathering(choice: PhotonChoice): RenderMethod =
       Passes(
         CausticPasses(
           scene,
-          chosen,
+          light.copy(casters = choice.casters),
           choice.radius,
           // The choice is that of another basis, in which a medium may not shine
           choice.bringsAll && light.suitsPhotons,
@@ -155,31 +144,8 @@ private object CausticMethod:
         bias = Some("photon maps of shrinking radius (Knaus, Zwicker 2011)")
       )
 
-    /** Paths that look for light which specular surfaces show. */
-    private def sees(
-        over: Scene,
-        own: PathOptions,
-        aim: Option[SeenLight],
-        guide: Guide | Null,
-        parts: LightParts | Null
-    ): Integrator =
-      val field = aim.flatMap(_.guiding)
-      val learns = if guide == null && field.isDefined then Guide.unlearning else guide
-      tracer(over, own.copy(manifolds = walked(over, aim), aim = field), learns, parts)
-
-    /** Manifold walks between surfaces; media would attenuate the chains. */
-    private def walked(over: Scene, aim: Option[SeenLight]): Option[Manifolds] =
-      val asked = aim.flatMap(_.walked)
-      if light.media.isDefined || !light.findsAll && asked.isEmpty then None
-      else
-        val walks = Manifolds(
-          over,
-          light.maxDepth,
-          i => if over.lights(i).isDelta then light.findsAll else asked.exists(_.emitters(i)),
-          aim.flatMap(_.seeding).orNull,
-          usual = asked.fold(0f)(_.usual)
-        )
-        Option.unless(walks.isEmpty)(walks)
-
     private def weighed(weights: CausticWeights): PathOptions =
       options.copy(caustics = Some(weights))
+
+  /** By how much photons must be better than light paths, which have no bias, and can be guided. */
+  private val PhotonMargin = 2.0
