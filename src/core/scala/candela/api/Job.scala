@@ -2,7 +2,9 @@ package candela.api
 
 import candela.base.SceneError
 import candela.image.{Image, Oidn}
-import candela.job.{Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared, Render}
+import candela.job.{
+  Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared, Render
+}
 import candela.render.{RenderControl as CoreControl, RenderFailure, Rendering, StoppingRule}
 
 import java.nio.file.Path

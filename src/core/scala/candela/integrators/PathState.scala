@@ -116,7 +116,7 @@ final class SurfacePath extends PathState:
   private var alone = false
 
   /** Solid-angle density of the current direction (`p_b`); 0 if light sampling misses what it
-    * meets; [[SurfacePath.Lost]] if what it meets counts nothing.
+    * meets; [[SurfacePath.DensityOfLoss]] if what it meets counts nothing.
     */
   private var bsdfPdf = 0f
 
@@ -140,7 +140,7 @@ final class SurfacePath extends PathState:
     if bsdfPdf > 0f then
       interfaces match
         case Interfaces.Closed => bsdfPdf = 0f
-        case Interfaces.Lossy => bsdfPdf = SurfacePath.Lost
+        case Interfaces.Lossy => bsdfPdf = SurfacePath.DensityOfLoss
         case Interfaces.Open | Interfaces.Weighed => ()
 
   def isAlone: Boolean = alone
@@ -165,7 +165,7 @@ final class SurfacePath extends PathState:
     bsdfPdf = same.bsdfPdf
 
 private object SurfacePath:
-  inline val Lost = -1f
+  inline val DensityOfLoss = -1f
 
 /** What a path through media carries: throughput, and two kinds of densities, for each colour.
   * Media scatter colours at different distances, so a path that one colour has sampled is weighted

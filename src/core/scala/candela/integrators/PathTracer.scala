@@ -8,8 +8,8 @@ import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** A path from the camera: where it is, and what it has gathered. [[PathState]] says why its estimate
-  * is unbiased. Mutable, one per worker.
+/** A path from the camera: where it is, and what it has gathered. [[PathState]] says why its
+  * estimate is unbiased. Mutable, one per worker.
   */
 abstract class CameraPath(
     scene: Scene,

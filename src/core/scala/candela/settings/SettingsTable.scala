@@ -187,9 +187,10 @@ object SettingsTable:
     option(
       "caustics",
       "auto|on|off|photons",
-      "find caustics, on surfaces and in media: by light paths or photon maps, where these reduce " +
-        "the noise (auto); by light paths, also those of delta lights (on); by photon maps, which " +
-        "blur them and thick fog a little (photons); or not (off, default with a number of samples)"
+      "find caustics, on surfaces and in media: by light paths or photon maps, where these " +
+        "reduce the noise (auto); by light paths, also those of delta lights (on); by photon " +
+        "maps, which blur them and thick fog a little (photons); or not (off, default with a " +
+        "number of samples)"
     )(_.caustics)((s, c) => s.copy(caustics = Some(c))).explained(
       "`auto` is the default with `--time` and `--error`. [What it brings](CAUSTICS.md)."
     ),

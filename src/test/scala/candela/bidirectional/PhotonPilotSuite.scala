@@ -1,12 +1,12 @@
 package candela.bidirectional
 
 import candela.aov.Layer
-import candela.build.{BuildControl, ColorMode, RenderSettings}
 import candela.film.Fireflies
 import candela.image.Image
 import candela.integrators.CausticsMode
 import candela.render.{Renderer, RenderPlan, ThreadPool}
 import candela.scenefile.Dialect
+import candela.settings.{ColorMode, RenderSettings}
 import candela.testing.SceneTexts
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -19,7 +19,7 @@ final class PhotonPilotSuite extends AnyFunSuite:
     RenderSettings(Some(spp), seed, color = ColorMode.Rgb, caustics = Some(mode))
 
   private def plan(text: String, settings: RenderSettings, threads: Int = 2): RenderPlan =
-    SceneTexts.plan(text, Dialect.V4, settings, BuildControl(pool = ThreadPool(threads)))
+    SceneTexts.plan(text, Dialect.V4, settings, ThreadPool(threads))
 
   private def plan(text: String, mode: CausticsMode): RenderPlan = plan(text, settings(mode))
 

@@ -85,12 +85,13 @@ private object CausticMethod:
       light: CausticLight,
       tracer: Tracer
   )(using site: Site):
+    private def reweights = site.resources.settings.fireflies == Fireflies.Reweighted
+
     def pilot(mode: CausticsMode, view: View): PilotResult = mode match
       case CausticsMode.On => byLightPaths(view)
       case CausticsMode.Photons => byPhotons(view, mustPay = false)
       // Photons neither divide light nor have outliers
-      case _ if scene.lightGroups.isDefined || site.resources.settings.fireflies == Fireflies.Reweighted =>
-        byLightPaths(view)
+      case _ if scene.lightGroups.isDefined || reweights => byLightPaths(view)
       case _ => byLightPaths(view).orElse(byPhotons(view, mustPay = true), PhotonMargin)
 
     private def byLightPaths(view: View): PilotResult =
@@ -115,7 +116,8 @@ private object CausticMethod:
         val own = weighed(choice.weights(over, view))
         val paths = guide match
           case None => tracer(over, own, null, null)
-          case Some(by) => PartlyGuided(over, by, tracer(over, own, by, _), tracer(over, own, null, _))
+          case Some(by) =>
+            PartlyGuided(over, by, tracer(over, own, by, _), tracer(over, own, null, _))
         CausticTracer(over, paths, view, chosen, choice.perSample)
       SplattedTiles(
         makers(_, None),
