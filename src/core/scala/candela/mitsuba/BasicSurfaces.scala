@@ -8,13 +8,13 @@ import candela.scenefile.Param
 /** Translates BSDFs that contain no others. */
 private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, textures: Textures):
 
-  def apply(in: Asked): Surface = in.plugin.name match
+  def apply(in: Properties): Surface = in.plugin.name match
     case "diffuse" =>
-      made(in, "diffuse", isOneSided = true)(color(in, "reflectance", 0.5f, "reflectance"))
+      surface(in, "diffuse", isOneSided = true)(color(in, "reflectance", 0.5f, "reflectance"))
     case "dielectric" => dielectric(in, isRough = false)
     case "roughdielectric" => dielectric(in, isRough = true)
     case "thindielectric" =>
-      made(in, "thindielectric", isOneSided = false)(
+      surface(in, "thindielectric", isOneSided = false)(
         (Param.float("eta", in.at, Indices.relative(in, "bk7").toFloat) +: tints(in))*
       )
     case "conductor" => conductor(in, isRough = false)
@@ -26,11 +26,11 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     case "retarder" => filter(in, 1f)
     case "principled" | "principledthin" => principled(in, in.plugin.name == "principledthin")
     case "hair" => hair(in)
-    case "null" => made(in, "interface", isOneSided = false)()
+    case "null" => surface(in, "interface", isOneSided = false)()
     case "measured" =>
       val file = in.text("filename").flatMap(session.file(_, in.atOf("filename"), "using grey"))
       file.fold(grey(in)): path =>
-        made(in, "measured", isOneSided = true)(
+        surface(in, "measured", isOneSided = true)(
           Param.string("filename", in.atOf("filename"), session.named(path))
         )
     case _ =>
@@ -38,18 +38,18 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       in.ignore(in.plugin.properties.map(_.name)*)
       grey(in)
 
-  def grey(in: Asked): Surface =
-    made(in, "diffuse", isOneSided = true)(Textures.rgb("reflectance", Textures.Fallback, in.at))
+  def grey(in: Properties): Surface =
+    surface(in, "diffuse", isOneSided = true)(Textures.rgb("reflectance", Textures.Fallback, in.at))
 
   /** The same model as pbrt's. */
-  private def hair(in: Asked): Surface =
+  private def hair(in: Properties): Surface =
     val scale = in.number("scale", 1).toFloat
     val pigments = Seq("eumelanin" -> 1.3, "pheomelanin" -> 0.2)
-    val inside =
-      if !in.has("sigma_a") then
+    val absorption =
+      if !in.contains("sigma_a") then
         pigments.map((name, default) => Param.float(name, in.at, in.number(name, default).toFloat))
       else
-        for (name, _) <- pigments if in.has(name) do
+        for (name, _) <- pigments if in.contains(name) do
           session.error(
             Code.MissingParameter,
             in.atOf(name),
@@ -57,12 +57,12 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
           )
         val shade = colors.shade(in, "sigma_a", Rgb.Black, Role.Unbounded)
         Seq(textures.color("sigma_a", shade, in.atOf("sigma_a"), scale))
-    if scale != 1f && !in.has("sigma_a") then
+    if scale != 1f && !in.contains("sigma_a") then
       session.warn(Code.IdleParameter, in.atOf("scale"), "`scale` is for `sigma_a`; it is ignored")
     def number(name: String, property: String, default: Double) =
       Param.float(name, in.atOf(property), in.number(property, default).toFloat)
-    made(in, "hair", isOneSided = false)(
-      inside ++ Seq(
+    surface(in, "hair", isOneSided = false)(
+      absorption ++ Seq(
         Param.float("eta", in.at, Indices.relative(in, "amber").toFloat),
         number("beta_m", "longitudinal_roughness", 0.3),
         number("beta_n", "azimuthal_roughness", 0.3),
@@ -70,44 +70,44 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       )*
     )
 
-  private def made(in: Asked, name: String, isOneSided: Boolean)(
+  private def surface(in: Properties, name: String, isOneSided: Boolean)(
       params: Param*
   ): Surface =
     Surface(session.declare("Material", name, in.at, params), isOneSided)
 
-  private def color(in: Asked, property: String, default: Float, name: String): Param =
+  private def color(in: Properties, property: String, default: Float, name: String): Param =
     val shade = colors.shade(in, property, Rgb.gray(default), Role.Reflectance)
     textures.color(name, shade, in.atOf(property))
 
   /** Alpha as it is, in both directions. */
-  private def roughness(in: Asked): Vector[Param] =
+  private def roughness(in: Properties): Vector[Param] =
     val distribution = in.word("distribution", "beckmann", "beckmann", "ggx")
     in.ignore("sample_visible")
-    val along =
+    val perAxis =
       for
-        (axis, name) <- Vector("u" -> "alpha_u", "v" -> "alpha_v") if in.has(name)
+        (axis, name) <- Vector("u" -> "alpha_u", "v" -> "alpha_v") if in.contains(name)
       yield textures.number(s"${axis}roughness", in, name, 0.1)
-    val all = if along.nonEmpty then along else both(in)
-    all ++ Vector(
+    val roughnesses = if perAxis.nonEmpty then perAxis else isotropic(in)
+    roughnesses ++ Vector(
       Param.bool("remaproughness", in.at, false),
       Param.string("distribution", in.atOf("distribution"), distribution)
     )
 
-  private def both(in: Asked): Vector[Param] =
+  private def isotropic(in: Properties): Vector[Param] =
     Vector("uroughness", "vroughness").map(textures.number(_, in, "alpha", 0.1))
 
   /** Colours that scale reflection and transmission, unless they are white. */
-  private def scales(in: Asked, names: (String, String)*): Vector[Param] =
+  private def scales(in: Properties, names: (String, String)*): Vector[Param] =
     for
       (property, name) <- names.toVector
-      shade <- colors.given_(in, property, Role.Reflectance)
+      shade <- colors.givenShade(in, property, Role.Reflectance)
       if !shade.constant.contains(Rgb.White)
     yield textures.color(name, shade, in.atOf(property))
 
-  private def dielectric(in: Asked, isRough: Boolean): Surface =
+  private def dielectric(in: Properties, isRough: Boolean): Surface =
     val eta = Indices.relative(in, "bk7").toFloat
     val rough = if isRough then roughness(in) else Vector.empty
-    made(in, "dielectric", isOneSided = false)(
+    surface(in, "dielectric", isOneSided = false)(
       (Param.float("eta", in.at, eta) +: (tints(in) ++ rough))*
     )
 
@@ -115,27 +115,27 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     *
     * @param share of the light that it lets pass, times its transmittance
     */
-  private def filter(in: Asked, share: Float): Surface =
-    val passed = colors.shade(in, "transmittance", Rgb.White, Role.Reflectance)
+  private def filter(in: Properties, share: Float): Surface =
+    val transmittance = colors.shade(in, "transmittance", Rgb.White, Role.Reflectance)
     in.ignore("theta", "delta", "polarizing", "left_handed")
-    made(in, "thindielectric", isOneSided = false)(
+    surface(in, "thindielectric", isOneSided = false)(
       Param.float("eta", in.at, 1f),
-      textures.color("transmittance", passed, in.atOf("transmittance"), share)
+      textures.color("transmittance", transmittance, in.atOf("transmittance"), share)
     )
 
-  private def tints(in: Asked): Vector[Param] = scales(
+  private def tints(in: Properties): Vector[Param] = scales(
     in,
     "specular_reflectance" -> "reflectance",
     "specular_transmittance" -> "transmittance"
   )
 
-  private def conductor(in: Asked, isRough: Boolean): Surface =
+  private def conductor(in: Properties, isRough: Boolean): Surface =
     val rough = if isRough then roughness(in) else Vector.empty
     val material = in.text("material", "none")
     val tint = scales(in, "specular_reflectance" -> "scale")
     in.ignore("ext_eta")
     val params =
-      if material == "none" && !in.has("eta") then
+      if material == "none" && !in.contains("eta") then
         // A perfect mirror, of which roughness is a blur
         in.ignore("k")
         Vector(Textures.rgb("eta", Rgb.Black, in.at), Textures.rgb("k", Rgb.White, in.at))
@@ -145,24 +145,24 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
           Indices.metal(material, in)
         Vector("eta" -> eta, "k" -> k).map: (name, default) =>
           textures.color(name, colors.shade(in, name, default, Role.Unbounded), in.atOf(name))
-    made(in, "conductor", isOneSided = true)((params ++ tint ++ rough)*)
+    surface(in, "conductor", isOneSided = true)((params ++ tint ++ rough)*)
 
   /** A coat on a diffuse base. */
-  private def plastic(in: Asked, others: Vector[Param]): Surface =
-    val own = if in.plugin.name == "pplastic" then in.number("eta") else None
-    val eta = own.getOrElse(Indices.relative(in, "polypropylene")).toFloat
-    made(in, "roughplastic", isOneSided = true)(
+  private def plastic(in: Properties, extra: Vector[Param]): Surface =
+    val explicitEta = if in.plugin.name == "pplastic" then in.number("eta") else None
+    val eta = explicitEta.getOrElse(Indices.relative(in, "polypropylene")).toFloat
+    surface(in, "roughplastic", isOneSided = true)(
       (Vector(
         color(in, "diffuse_reflectance", 0.5f, "reflectance"),
         Param.float("eta", in.at, eta)
-      ) ++ scales(in, "specular_reflectance" -> "specular") ++ others)*
+      ) ++ scales(in, "specular_reflectance" -> "specular") ++ extra)*
     )
 
-  private def nonlinear(in: Asked): Param =
+  private def nonlinear(in: Properties): Param =
     Param.bool("nonlinear", in.at, in.flag("nonlinear", false))
 
   /** Burley's BSDF, or that of a thin sheet. */
-  private def principled(in: Asked, isThin: Boolean): Surface =
+  private def principled(in: Properties, isThin: Boolean): Surface =
     val eta =
       if isThin then textures.number("eta", in, "eta", 1.5)
       else
@@ -170,14 +170,14 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
           2 / (1 - Math.sqrt(0.08 * in.number("specular", 0.5))) - 1
         Param.float("eta", in.at, index.toFloat)
     val numbers = BasicSurfaces.Principled
-      .filter((property, _, default) => in.has(property) || default.isDefined)
+      .filter((property, _, default) => in.contains(property) || default.isDefined)
       .map((property, name, default) => textures.number(name, in, property, default.getOrElse(0.0)))
     in.ignore(
       "main_specular_sampling_rate", "clearcoat_sampling_rate",
       "diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
       "diffuse_transmittance_sampling_rate", "specular_transmittance_sampling_rate"
     )
-    made(in, "principled", !isThin && !in.has("spec_trans"))(
+    surface(in, "principled", !isThin && !in.contains("spec_trans"))(
       (color(in, "base_color", 0.5f, "color") +: eta +:
         Param.bool("thin", in.at, isThin) +: numbers)*
     )

@@ -37,10 +37,10 @@ enum Shade:
 /** Reads colours. */
 final class Colors(session: Session):
 
-  def shade(in: Asked, name: String, default: Rgb, role: Role): Shade =
-    given_(in, name, role).getOrElse(Shade.Constant(default))
+  def shade(in: Properties, name: String, default: Rgb, role: Role): Shade =
+    givenShade(in, name, role).getOrElse(Shade.Constant(default))
 
-  def given_(in: Asked, name: String, role: Role): Option[Shade] =
+  def givenShade(in: Properties, name: String, role: Role): Option[Shade] =
     in.property(name).flatMap: p =>
       p.value match
         case Value.Number(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
@@ -54,79 +54,80 @@ final class Colors(session: Session):
           session.error(
             Code.ParameterValue,
             p.at,
-            s"`$name` must be a colour or a texture, found ${other.shown}"
+            s"`$name` must be a colour or a texture, found ${other.description}"
           )
           None
 
-  private def ofPlugin(p: Plugin, role: Role, in: Asked, name: String): Option[Shade] =
+  private def ofPlugin(p: Plugin, role: Role, in: Properties, name: String): Option[Shade] =
     if p.kind != "texture" && p.kind != "spectrum" then
       session.error(
         Code.ParameterValue,
         p.at,
-        s"`$name` of ${in.plugin.shown} must be a colour or a texture"
+        s"`$name` of ${in.plugin.description} must be a colour or a texture"
       )
       None
-    else if p.name == "irregular" then Some(session.of(p)(in => measured(irregular(in), role)))
-    else if p.name == "regular" then Some(session.of(p)(in => measured(regular(in), role)))
+    else if p.name == "irregular" then
+      Some(session.translate(p)(in => measured(irregular(in), role)))
+    else if p.name == "regular" then Some(session.translate(p)(in => measured(regular(in), role)))
     else Some(constant(p, role).fold(Shade.Textured(p))(Shade.Constant(_)))
 
   /** The colour of a spectrum; None for textures. */
   private def constant(p: Plugin, role: Role): Option[Rgb] =
     p.name match
-      case "srgb" => Some(session.of(p)(in => fixed(in, "color", Rgb.gray(0.5f), role)))
-      case "uniform" => Some(session.of(p)(in => Rgb.gray(in.number("value", 1).toFloat)))
+      case "srgb" => Some(session.translate(p)(in => fixed(in, "color", Rgb.gray(0.5f), role)))
+      case "uniform" => Some(session.translate(p)(in => Rgb.gray(in.number("value", 1).toFloat)))
       case "d65" =>
-        Some(session.of(p): in =>
+        Some(session.translate(p): in =>
           fixed(in, "color", Rgb.White, role) * in.number("scale", 1).toFloat)
       case "blackbody" =>
-        Some(session.of(p): in =>
+        Some(session.translate(p): in =>
           in.ignore("wavelength_min", "wavelength_max")
           blackbody(in.number("temperature", 5000).toFloat, in.at) *
             in.number("scale", 1).toFloat)
-      case "rawconstant" => Some(session.of(p)(raw))
+      case "rawconstant" => Some(session.translate(p)(raw))
       case "volume" =>
-        val asked = Asked(p, session)
-        asked.objectNamed("volume") match
+        val properties = Properties(p, session)
+        properties.objectNamed("volume") match
           case Some(v) if v.kind == "volume" && v.name == "constvolume" =>
             Some(everywhere(v, Rgb.gray(0.75f), role))
           case Some(v) if v.kind == "volume" => None
-          case _ => Some(session.of(p)(fixed(_, "volume", Rgb.gray(0.75f), role)))
+          case _ => Some(session.translate(p)(fixed(_, "volume", Rgb.gray(0.75f), role)))
       case _ => None
 
   /** Of a constant volume. */
   def everywhere(v: Plugin, default: Rgb, role: Role): Rgb =
-    session.of(v): of =>
-      of.ignore("to_world")
-      fixed(of, "value", default, role)
+    session.translate(v): in =>
+      in.ignore("to_world")
+      fixed(in, "value", default, role)
 
   /** A number or three. */
-  private def raw(in: Asked): Rgb = in.property("value").map(_.value) match
+  private def raw(in: Properties): Rgb = in.property("value").map(_.value) match
     case Some(Value.Triple(x, y, z)) => Rgb(x.toFloat, y.toFloat, z.toFloat)
     case None =>
-      session.error(Code.MissingParameter, in.at, s"${in.plugin.shown} must have a `value`")
+      session.error(Code.MissingParameter, in.at, s"${in.plugin.description} must have a `value`")
       Rgb.White
     case _ => Rgb.gray(in.number("value", 1).toFloat)
 
   /** A constant colour. */
-  def fixed(in: Asked, name: String, default: Rgb, role: Role): Rgb =
+  def fixed(in: Properties, name: String, default: Rgb, role: Role): Rgb =
     uniform(in, name, default, role).c
 
   /** A constant colour, with its spectrum. */
-  def uniform(in: Asked, name: String, default: Rgb, role: Role): Shade.Constant =
+  def uniform(in: Properties, name: String, default: Rgb, role: Role): Shade.Constant =
     shade(in, name, default, role) match
       case c: Shade.Constant => c
       case Shade.Textured(t) =>
         session.warn(
           Code.CorrectedValue,
           t.at,
-          s"`$name` of ${in.plugin.shown} must be constant here; using the default"
+          s"`$name` of ${in.plugin.description} must be constant here; using the default"
         )
         Shade.Constant(default)
 
-  private def list(in: Asked, name: String): Vector[Double] =
+  private def list(in: Properties, name: String): Vector[Double] =
     in.text(name).fold(Vector.empty)(Values.numbers(_, in.atOf(name)))
 
-  private def irregular(in: Asked): Spectrum =
+  private def irregular(in: Properties): Spectrum =
     in.text("filename") match
       case Some(name) => session.values.file(name, in.at)
       case None =>
@@ -139,7 +140,7 @@ final class Colors(session: Session):
           )
         Values.spectrum(lambda.zip(values).flatMap((l, v) => Vector(l, v)), in.at)
 
-  private def regular(in: Asked): Spectrum =
+  private def regular(in: Properties): Spectrum =
     val (from, to) = (in.number("wavelength_min", 360), in.number("wavelength_max", 830))
     val values = list(in, "values")
     val step = (to - from) / (values.size - 1).max(1)

@@ -17,14 +17,14 @@ final case class CurvePoints(
     radii: Vector[Float],
     origin: Position = Position.Origin
 ):
-  def place: Transform = origin.fromOrigin
+  def placement: Transform = origin.fromOrigin
 
   /** Has the tube of its spline an open end? */
-  def isOpen: Boolean = Seq(0 -> 0.0, points.size - 4 -> 1.0).exists: (first, t) =>
-    Spline.at(this, first, t).radius > 0f
+  def isOpen: Boolean = Seq(0 -> 0.0, points.size - 4 -> 1.0).exists: (segment, t) =>
+    Spline.ring(this, segment, t).radius > 0f
 
   private def moved(toWorld: Transform, to: Position): CurvePoints =
-    val map = to.toOrigin * toWorld * place
+    val map = to.toOrigin * toWorld * placement
     copy(points = points.map(map.point(_)), origin = to)
 
 object CurvePoints:
@@ -33,14 +33,14 @@ object CurvePoints:
 
   /** In world space; Mitsuba's radii are not scaled. */
   def placed(curves: Vector[CurvePoints], toWorld: Transform): Vector[CurvePoints] =
-    val map = toWorld * curves.head.place
-    def there(p: Vec3) = map.position(Position(p.x, p.y, p.z))
-    val first = there(curves.head.points.head)
-    val size = curves.iterator.flatMap(_.points).map(p => there(p).distance(first)).max
-    val isFar = first.reach > Far * size
+    val map = toWorld * curves.head.placement
+    def inWorld(p: Vec3) = map.position(Position(p.x, p.y, p.z))
+    val anchor = inWorld(curves.head.points.head)
+    val size = curves.iterator.flatMap(_.points).map(p => inWorld(p).distance(anchor)).max
+    val isFar = anchor.reach > Far * size
     if !isFar && curves.head.origin.isOrigin then
       curves.map(c => c.copy(points = c.points.map(toWorld.point(_))))
-    else curves.map(_.moved(toWorld, if isFar then first else Position.Origin))
+    else curves.map(_.moved(toWorld, if isFar then anchor else Position.Origin))
 
 /** Reads Mitsuba's files of curves: a control point and its radius in each line, empty lines
   * between curves.
@@ -49,20 +49,24 @@ object CurveFile:
   /** Coordinates beyond this overflow when they are squared. */
   private val Far = 1e15f
 
-  /** @param least control points of a curve */
-  def read(file: InputFile, least: Int, at: SourcePos): Vector[CurvePoints] =
-    def fail(why: String) =
-      Values.fail(Code.DamagedMesh, at, s"can't read the curves `${file.path.getFileName}`: $why")
+  /** @param minPoints control points of a curve */
+  def read(file: InputFile, minPoints: Int, at: SourcePos): Vector[CurvePoints] =
+    def fail(reason: String) =
+      Values.fail(
+        Code.DamagedMesh,
+        at,
+        s"can't read the curves `${file.path.getFileName}`: $reason"
+      )
     val lines =
       try file.lines()
       catch case e: IOException => fail(IoReason(e))
-    val curves = Vector.newBuilder[(Vector[Position], Vector[Float])]
+    val builder = Vector.newBuilder[(Vector[Position], Vector[Float])]
     val points = ArrayBuffer.empty[Position]
     val radii = ArrayBuffer.empty[Float]
     def finish(line: Int): Unit =
-      if points.nonEmpty && points.size < least then
-        fail(s"the curve before line $line has ${points.size} points; it needs $least")
-      if points.nonEmpty then curves += points.toVector -> radii.toVector
+      if points.nonEmpty && points.size < minPoints then
+        fail(s"the curve before line $line has ${points.size} points; it needs $minPoints")
+      if points.nonEmpty then builder += points.toVector -> radii.toVector
       points.clear()
       radii.clear()
     for (line, i) <- lines.zipWithIndex do
@@ -73,23 +77,23 @@ object CurveFile:
         if words.length != 4 || numbers.length != 4 || numbers.exists(Math.abs(_) > Far) ||
           numbers(3) < 0f
         then
-          val found = file.quoted(line.trim.take(60))
-          fail(s"line ${i + 1} must have x, y, z and a radius, found $found")
+          val quoted = file.quoted(line.trim.take(60))
+          fail(s"line ${i + 1} must have x, y, z and a radius, found $quoted")
         points += Position(words(0).toDouble, words(1).toDouble, words(2).toDouble)
         radii += numbers(3)
     finish(lines.size + 1)
-    val made = curves.result()
-    if made.isEmpty then fail("it has no curve")
-    val first = made.head._1.head
-    val size = made.iterator.flatMap(_._1).map(_.distance(first)).max
-    val origin = if first.reach > CurvePoints.Far * size then first else Position.Origin
-    made.map: (points, radii) =>
-      def near(p: Position) = Vec3(
+    val curves = builder.result()
+    if curves.isEmpty then fail("it has no curve")
+    val anchor = curves.head._1.head
+    val size = curves.iterator.flatMap(_._1).map(_.distance(anchor)).max
+    val origin = if anchor.reach > CurvePoints.Far * size then anchor else Position.Origin
+    curves.map: (points, radii) =>
+      def relative(p: Position) = Vec3(
         (p.x - origin.x).toFloat,
         (p.y - origin.y).toFloat,
         (p.z - origin.z).toFloat
       )
-      CurvePoints(points.map(near), radii, origin)
+      CurvePoints(points.map(relative), radii, origin)
 
 /** A curve of pbrt's: a B-spline whose width changes evenly. */
 private[mitsuba] final case class Fibre(points: Vector[Vec3], width0: Float, width1: Float):
@@ -111,8 +115,8 @@ private[mitsuba] object Fibres:
   def of(c: CurvePoints): Vector[Fibre] =
     val segments = c.points.size - 3
     val widths = Vector.tabulate(segments + 1): i =>
-      val (first, t) = if i < segments then (i, 0.0) else (segments - 1, 1.0)
-      2f * Spline.at(c, first, t).radius
+      val (segment, t) = if i < segments then (i, 0.0) else (segments - 1, 1.0)
+      2f * Spline.ring(c, segment, t).radius
     val isEven = widths.indices.forall: i =>
       val expected = lerp(i.toFloat / segments, widths.head, widths.last)
       Math.abs(widths(i) - expected) <= 0.01f * widths.max

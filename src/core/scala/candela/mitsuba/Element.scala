@@ -34,26 +34,34 @@ object XmlFile:
 
   /** @param open its bytes */
   def read(name: String, open: => InputStream, includedFrom: Option[SourcePos]): Element =
-    def place(l: Location) =
+    def sourcePos(l: Location) =
       SourcePos(name, l.getLineNumber.max(1), l.getColumnNumber.max(1), includedFrom)
     try
       Refusal.placed(SourcePos(name, 1, 1, includedFrom)):
         Using.resource(open): in =>
           val reader = factory.createXMLStreamReader(text(in))
-          try Document(reader, place).root()
+          try Document(reader, sourcePos).root()
           finally reader.close()
     catch
       case e: XMLStreamException =>
-        val at = Option(e.getLocation).fold(SourcePos(name, 1, 1, includedFrom))(place)
-        throw SceneError(Problem.error(Code.MalformedXml, at, s"malformed XML: ${message(e)}"))
+        val position = Option(e.getLocation).fold(SourcePos(name, 1, 1, includedFrom))(sourcePos)
+        throw SceneError(Problem.error(
+          Code.MalformedXml,
+          position,
+          s"malformed XML: ${message(e)}"
+        ))
       case e: SceneError => throw e
       // The JDK's parser has faults of its own with damaged document types
       case e: RuntimeException =>
-        val at = SourcePos(name, 1, 1, includedFrom)
-        throw SceneError(Problem.error(Code.MalformedXml, at, s"malformed XML: ${message(e)}"))
+        val position = SourcePos(name, 1, 1, includedFrom)
+        throw SceneError(Problem.error(
+          Code.MalformedXml,
+          position,
+          s"malformed XML: ${message(e)}"
+        ))
       case e: IOException =>
-        val why = s"can't read `$name`: ${IoReason(e)}"
-        throw SceneError(Problem.error(Code.Unreadable, includedFrom, why, None))
+        val message = s"can't read `$name`: ${IoReason(e)}"
+        throw SceneError(Problem.error(Code.Unreadable, includedFrom, message, None))
 
   /** Decoded here, as the JDK's parser prints what it can't decode. The encoding is that of the
     * byte order mark or of the declaration, else UTF-8.
@@ -80,56 +88,60 @@ object XmlFile:
   private val Encoding = """^(?:\u00EF\u00BB\u00BF)?<\?xml[^>]*encoding\s*=\s*["']([\w.:-]+)""".r
 
   private def factory: XMLInputFactory =
-    val made = XMLInputFactory.newDefaultFactory()
-    made.setProperty(XMLInputFactory.SUPPORT_DTD, false)
-    made.setProperty(XMLInputFactory.IS_SUPPORTING_EXTERNAL_ENTITIES, false)
-    made
+    val inputFactory = XMLInputFactory.newDefaultFactory()
+    inputFactory.setProperty(XMLInputFactory.SUPPORT_DTD, false)
+    inputFactory.setProperty(XMLInputFactory.IS_SUPPORTING_EXTERNAL_ENTITIES, false)
+    inputFactory
 
   /** The parser repeats the position before its message, and names its own properties after it. */
   private def message(e: Exception): String = e match
     case x: XMLStreamException if x.getNestedException.isInstanceOf[CharacterCodingException] =>
       "the text is not of its encoding, which is UTF-8 unless the file declares another"
     case _ =>
-      val all = Option(e.getMessage).getOrElse(e.toString)
-      all.split("Message: ", 2).last.linesIterator.nextOption.getOrElse("unreadable").trim
+      val description = Option(e.getMessage).getOrElse(e.toString)
+      description.split("Message: ", 2).last.linesIterator.nextOption.getOrElse("unreadable").trim
 
   /** More than any scene has; fewer than a stack has room for. */
-  private val Deepest = 100
+  private val MaxDepth = 100
 
-  private final class Document(reader: XMLStreamReader, place: Location => SourcePos):
+  private final class Document(reader: XMLStreamReader, sourcePos: Location => SourcePos):
 
     def root(): Element =
-      var at = place(reader.getLocation)
-      while reader.next() != START do at = place(reader.getLocation)
-      val found = element(at, 1)
+      var start = sourcePos(reader.getLocation)
+      while reader.next() != START do start = sourcePos(reader.getLocation)
+      val rootElement = element(start, 1)
       while reader.hasNext do
         val _ = reader.next()
-      found
+      rootElement
 
     /** The current element. The position of an event is its end: that of a tag's start is the end
       * of the event before.
       */
     private def element(at: SourcePos, depth: Int): Element =
-      if depth > Deepest then
+      if depth > MaxDepth then
         throw SceneError(Problem.error(
           Code.Circle,
           at,
-          s"more than $Deepest elements within each other"
+          s"more than $MaxDepth elements within each other"
         ))
       val tag = reader.getLocalName
       val attributes = (0 until reader.getAttributeCount)
         .map(i => reader.getAttributeLocalName(i) -> reader.getAttributeValue(i)).toMap
       val children = ArrayBuffer.empty[Element]
-      var before = place(reader.getLocation)
+      var eventStart = sourcePos(reader.getLocation)
       var event = reader.next()
       while event != END do
-        if event == START then children += element(before, depth + 1)
+        if event == START then children += element(eventStart, depth + 1)
         else if event == ENTITY then
           val name = reader.getLocalName
-          throw SceneError(Problem.error(Code.MalformedXml, before, s"unknown entity `&$name;`"))
-        val end = place(reader.getLocation)
+          throw SceneError(Problem.error(
+            Code.MalformedXml,
+            eventStart,
+            s"unknown entity `&$name;`"
+          ))
+        val end = sourcePos(reader.getLocation)
         // The parser knows that text ends once it has read the character after it
-        before = if event == TEXT then end.copy(column = (end.column - 1).max(1)) else end
+        eventStart = if event == TEXT then end.copy(column = (end.column - 1).max(1)) else end
         event = reader.next()
       Element(tag, attributes, children.toVector, at)
 

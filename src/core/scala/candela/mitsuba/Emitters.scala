@@ -18,10 +18,14 @@ final class Emitters(
   /** The area light of a shape. */
   def area(p: Plugin): Option[Declaration] =
     if p.name != "area" then
-      session.error(Code.Nesting, p.at, s"a shape can't contain an ${p.shown}; expected \"area\"")
+      session.error(
+        Code.Nesting,
+        p.at,
+        s"a shape can't contain an ${p.description}; expected \"area\""
+      )
       None
     else
-      session.of(p): in =>
+      session.translate(p): in =>
         in.ignore("sampling_weight")
         val params = colors.shade(in, "radiance", Rgb.White, Role.Emission) match
           case c: Shade.Constant => Some(colors.light("L", c, in.at))
@@ -30,25 +34,25 @@ final class Emitters(
 
   /** A light of its own. */
   def apply(p: Plugin): Option[LightDescription] = session.attempt:
-    session.of(p): in =>
+    session.translate(p): in =>
       in.ignore("sampling_weight")
-      val around = in.nested("medium").headOption.fold("")(medium)
+      val mediumName = in.nested("medium").headOption.fold("")(medium)
       p.name match
         case "constant" =>
           val c = colors.uniform(in, "radiance", Rgb.White, Role.Emission)
-          Some(light(in, "infinite", Transform.Identity, around)(colors.light("L", c, in.at)*))
+          Some(light(in, "infinite", Transform.Identity, mediumName)(colors.light("L", c, in.at)*))
         case "envmap" => environment(in)
         case "sunsky" | "timed_sunsky" =>
           val toWorld = in.transform("to_world")
           Some(LightDescription(skies(in, toWorld), GraphicsState.still(toWorld), ""))
         case "point" =>
           val c = colors.uniform(in, "intensity", Rgb.White, Role.Emission)
-          val at = in.triple("position").fold(in.transform("to_world")): (x, y, z) =>
+          val toWorld = in.triple("position").fold(in.transform("to_world")): (x, y, z) =>
             Transform.translate(x, y, z)
-          Some(light(in, "point", at, around)(colors.light("I", c, in.at)*))
-        case "spot" => spot(in, around)
+          Some(light(in, "point", toWorld, mediumName)(colors.light("I", c, in.at)*))
+        case "spot" => spot(in, mediumName)
         case "directional" => Some(directional(in))
-        case "projector" => projector(in, around)
+        case "projector" => projector(in, mediumName)
         case "area" =>
           session.warn(Code.Nesting, in.at, "an emitter \"area\" outside a shape emits nothing")
           in.ignore("radiance")
@@ -60,7 +64,7 @@ final class Emitters(
   .flatten
 
   private def light(
-      in: Asked,
+      in: Properties,
       name: String,
       toWorld: Transform,
       medium: String,
@@ -70,7 +74,7 @@ final class Emitters(
     LightDescription(d, GraphicsState.still(toWorld), medium)
 
   /** pbrt's poles are ±z, Mitsuba's ±y, and pbrt's azimuth begins at x, Mitsuba's at −z. */
-  private def environment(in: Asked): Option[LightDescription] =
+  private def environment(in: Properties): Option[LightDescription] =
     val axes = Transform.fromRows(Vector(0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, 0, 1)).get
     in.ignore("mis_compensation")
     val scale = in.number("scale", 1).toFloat
@@ -86,7 +90,7 @@ final class Emitters(
         Textures.rgb("L", Rgb.gray(scale), in.at)
       )
 
-  private def spot(in: Asked, around: String): Option[LightDescription] =
+  private def spot(in: Properties, mediumName: String): Option[LightDescription] =
     val c = colors.uniform(in, "intensity", Rgb.White, Role.Emission)
     val cutoff = in.number("cutoff_angle", 20)
     val beam = in.number("beam_width", cutoff * 0.75)
@@ -95,7 +99,7 @@ final class Emitters(
         Param.float("coneangle", in.at, cutoff.toFloat),
         Param.float("conedeltaangle", in.at, (cutoff - beam).toFloat)
       )
-      Some(light(in, "spot", in.transform("to_world"), around)((params ++ slide)*))
+      Some(light(in, "spot", in.transform("to_world"), mediumName)((params ++ slide)*))
     colors.shade(in, "texture", Rgb.White, Role.Reflectance) match
       case Shade.Constant(tint, _) =>
         lit(if tint == Rgb.White then c else Shade.Constant(c.c * tint), Vector.empty)
@@ -105,25 +109,25 @@ final class Emitters(
   private def slides(params: Seq[Param]): Seq[Param] =
     params.map(p => Param.string("mapname", p.at, p.strings.head))
 
-  private def directional(in: Asked): LightDescription =
+  private def directional(in: Properties): LightDescription =
     val c = colors.uniform(in, "irradiance", Rgb.White, Role.Emission)
     val (x, y, z) = in.triple("direction").getOrElse((0.0, 0.0, 1.0))
-    val way = Seq("from" -> Array(0f, 0f, 0f), "to" -> Array(x.toFloat, y.toFloat, z.toFloat))
+    val endpoints = Seq("from" -> Array(0f, 0f, 0f), "to" -> Array(x.toFloat, y.toFloat, z.toFloat))
     light(in, "distant", in.transform("to_world"), "")(
       (colors.light("L", c, in.at) ++
-        way.map((name, p) => Param.floats(ParamType.Point3, name, in.at, p)))*
+        endpoints.map((name, p) => Param.floats(ParamType.Point3, name, in.at, p)))*
     )
 
   /** Irradiance of the plane at distance 1, by an image or a colour; the intensity of pbrt-v3's
     * projection is a π-th of it, without a cosine.
     */
-  private def projector(in: Asked, around: String): Option[LightDescription] =
+  private def projector(in: Properties, mediumName: String): Option[LightDescription] =
     val scale = Rgb.gray((in.number("scale", 1) * Math.PI).toFloat)
     def lit(params: Param*) =
       // The width's, as of a square; what shows the image knows its height
       val fov = Param.float("fov", in.atOf("fov"), FieldOfView.shorter(in, 1).toFloat)
       val upright = in.transform("to_world") * Transform.scale(-1, -1, 1).get
-      light(in, "projection", upright, around, Some(Dialect.V3))((params :+ fov)*)
+      light(in, "projection", upright, mediumName, Some(Dialect.V3))((params :+ fov)*)
     colors.shade(in, "irradiance", Rgb.White, Role.Emission) match
       case Shade.Constant(c, _) =>
         colors.warnOfNegative(c * scale, in.at)
@@ -146,7 +150,7 @@ final class Emitters(
         val filter = in.word("filter_type", "bilinear", "bilinear", "nearest")
         val wrap = in.word("wrap_mode", "repeat", "repeat", "mirror", "clamp")
         val mapping = textures.imageMapping(in)
-        val place = Option.when(mapping != Textures.Upright):
+        val uvMapping = Option.when(mapping != Textures.Upright):
           Param.floats(ParamType.Float, "imageuv", in.atOf("to_uv"), mapping.toArray)
         Seq(
           Param.string("wrap", in.atOf("wrap_mode"), wrap),
@@ -156,24 +160,24 @@ final class Emitters(
               in.atOf("filter_type"),
               if filter == "nearest" then "point" else filter
             )
-        ) ++ place
+        ) ++ uvMapping
     ).map((_, params) => params)
 
   /** The file of a bitmap that emits.
     *
-    * @param more parameters of its own
+    * @param extra further parameters of the texture
     */
   private def picture(
       p: Plugin,
-      more: Asked => Seq[Param] = whole
+      extra: Properties => Seq[Param] = plainParams
   ): Option[(String, Seq[Param])] =
     if p.name != "bitmap" then
-      session.warn(Code.Unsupported, p.at, s"${p.shown} can't emit here; using nothing")
+      session.warn(Code.Unsupported, p.at, s"${p.description} can't emit here; using nothing")
       None
     else
-      session.of(p): in =>
+      session.translate(p): in =>
         in.ignore("format", "accel")
-        val others = more(in)
+        val extraParams = extra(in)
         if in.flag("raw", false) then
           session.warn(
             Code.CorrectedValue,
@@ -183,9 +187,12 @@ final class Emitters(
         for
           name <- in.text("filename")
           path <- session.file(name, in.atOf("filename"), "skipped")
-        yield (name, Param.string("filename", in.atOf("filename"), session.named(path)) +: others)
+        yield (
+          name,
+          Param.string("filename", in.atOf("filename"), session.named(path)) +: extraParams
+        )
 
-  private def whole(in: Asked): Seq[Param] =
+  private def plainParams(in: Properties): Seq[Param] =
     in.ignore("filter_type", "wrap_mode")
-    in.lose("ignored", "to_uv")
+    in.warnUnsupported("ignored", "to_uv")
     Seq.empty

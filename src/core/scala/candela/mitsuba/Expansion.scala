@@ -35,21 +35,21 @@ final class Expansion(
     text: Option[String] = None
 ):
   private val values = mutable.HashMap.from(defines)
-  private val used = mutable.HashSet.empty[String]
+  private val referenced = mutable.HashSet.empty[String]
   private val aliases = mutable.HashMap.empty[String, String]
   private val paths = mutable.LinkedHashSet.empty[Path]
   private val sources = mutable.ArrayBuffer.from(Option.when(text.isEmpty)(file))
-  private var room = Expansion.MostText
+  private var remainingLength = Expansion.MaxTextLength
 
   def result(): Expanded =
     val elements = text match
-      case Some(all) =>
-        def bytes = ByteArrayInputStream(all.getBytes(UTF_8))
+      case Some(content) =>
+        def bytes = ByteArrayInputStream(content.getBytes(UTF_8))
         contents(XmlFile.read(file.toString, bytes, None), Nil)
       case None =>
         val main = folder.scene(file)
         contents(XmlFile.read(main, None), List(main))
-    val unused = defines.keySet -- used
+    val unused = defines.keySet -- referenced
     if unused.nonEmpty then
       val name = unused.min
       val help = Suggest.help(name, values.keySet.toSet -- unused)
@@ -72,7 +72,7 @@ final class Expansion(
         case "default" =>
           val e = substituted(child)
           val (name, value) = (required(e, "name"), required(e, "value"))
-          used += name
+          referenced += name
           if !values.contains(name) then values(name) = value
           Vector.empty
         case "include" => included(substituted(child), files)
@@ -100,10 +100,10 @@ final class Expansion(
     folder.allowance.check(Limit.Depth, files.size, Some(e.at)):
       s"includes are nested ${files.size} deep"
     if files.exists(_.isSame(file)) then fail(Code.IncludeCircle, e, s"`$name` includes itself")
-    else if files.size > Expansion.MostIncludes then
-      fail(Code.IncludeCircle, e, s"more than ${Expansion.MostIncludes} files include each other")
-    else if sources.size > Expansion.MostFiles then
-      fail(Code.IncludeCircle, e, s"more than ${Expansion.MostFiles} files are included")
+    else if files.size > Expansion.MaxIncludes then
+      fail(Code.IncludeCircle, e, s"more than ${Expansion.MaxIncludes} files include each other")
+    else if sources.size > Expansion.MaxFiles then
+      fail(Code.IncludeCircle, e, s"more than ${Expansion.MaxFiles} files are included")
     sources += file.path
     contents(root(file, e), file :: files)
 
@@ -139,9 +139,9 @@ final class Expansion(
   private def substituted(text: String, at: SourcePos): String =
     Expansion.Variable.replaceAllIn(
       text,
-      found =>
-        val name = found.group(1)
-        used += name
+      variable =>
+        val name = variable.group(1)
+        referenced += name
         val value = values.getOrElse(
           name,
           throw SceneError(
@@ -155,9 +155,10 @@ final class Expansion(
             )
           )
         )
-        room -= value.length
-        if room < 0 then
-          val message = s"values of parameters add up to more than ${Expansion.MostText} characters"
+        remainingLength -= value.length
+        if remainingLength < 0 then
+          val message =
+            s"values of parameters add up to more than ${Expansion.MaxTextLength} characters"
           throw SceneError(Problem.error(Code.TooLarge, at, message))
         java.util.regex.Matcher.quoteReplacement(value)
     )
@@ -172,11 +173,11 @@ final class Expansion(
 
 object Expansion:
   private val Variable = raw"\$$(\w+)".r
-  private val MostIncludes = 15
-  private val MostFiles = 10_000
+  private val MaxIncludes = 15
+  private val MaxFiles = 10_000
 
   /** Put in place of names; values of values may be exponentially long. */
-  private val MostText = 20_000_000
+  private val MaxTextLength = 20_000_000
 
 /** Names of Mitsuba 0.6, which Mitsuba 3 upgrades in files of a version before 2. */
 private[mitsuba] object OldNames:
@@ -187,9 +188,9 @@ private[mitsuba] object OldNames:
       case other => other
     val children = e.children.map(upgraded)
     val tag = if e.tag == "lookAt" then "lookat" else e.tag
-    val (moved, others) = children.partition(c => Moved(c("name").getOrElse("")))
+    val (moved, remaining) = children.partition(c => Moved(c("name").getOrElse("")))
     val isTexture = tag == "texture" && moved.nonEmpty
-    Element(tag, attributes, if isTexture then others :+ toUv(moved, e) else children, e.at)
+    Element(tag, attributes, if isTexture then remaining :+ toUv(moved, e) else children, e.at)
 
   private val Moved = Set("uoffset", "voffset", "uscale", "vscale")
 

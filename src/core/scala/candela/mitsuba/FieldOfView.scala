@@ -9,14 +9,14 @@ private[mitsuba] object FieldOfView:
     *
     * @param aspect width over height
     */
-  def shorter(in: Asked, aspect: Double): Double =
+  def shorter(in: Properties, aspect: Double): Double =
     val axis = in.word("fov_axis", "x", "x", "y", "diagonal", "smaller", "larger")
     import in.session
     val focal = in.property("focal_length").map(p => (p.value, p.at))
     val diagonal = Math.sqrt(1 + 1 / (aspect * aspect))
     def tan(degrees: Double) = Math.tan(Math.toRadians(degrees) / 2)
     // Half of the width at distance 1
-    val half = (in.number("fov"), focal) match
+    val halfWidth = (in.number("fov"), focal) match
       case (Some(degrees), _) =>
         if !(degrees > 0 && degrees < 180) then
           session.error(
@@ -30,11 +30,11 @@ private[mitsuba] object FieldOfView:
           case "diagonal" => tan(degrees) / diagonal
           case "smaller" => tan(degrees) * Math.max(1, aspect)
           case _ => tan(degrees) * Math.min(1, aspect)
-      case (None, given_) =>
+      case (None, focalLength) =>
         // On film of 36 × 24 mm, along the diagonal
-        val millimetres = given_ match
+        val millimetres = focalLength match
           case Some((Value.Text(text), at)) => Values.number(text.trim.stripSuffix("mm"), at)
           case Some((Value.Number(x), _)) => x
           case _ => 50.0
         Math.sqrt(36.0 * 36 + 24 * 24) / (2 * millimetres) / diagonal
-    Math.toDegrees(2 * Math.atan(half / Math.max(1, aspect)))
+    Math.toDegrees(2 * Math.atan(halfWidth / Math.max(1, aspect)))

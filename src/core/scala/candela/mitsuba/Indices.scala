@@ -80,7 +80,7 @@ object Indices:
     .toMap
 
   /** Index of refraction and absorption; copper's if unknown. */
-  def metal(name: String, in: Asked): (Rgb, Rgb) =
+  def metal(name: String, in: Properties): (Rgb, Rgb) =
     metals.getOrElse(
       name.stripSuffix("_palik"), {
         val help = Suggest.help(name, metals.keys)
@@ -90,7 +90,7 @@ object Indices:
     )
 
   /** A property that is a number or the name of a material. */
-  def index(in: Asked, name: String, default: String): Double =
+  def index(in: Properties, name: String, default: String): Double =
     in.property(name).map(_.value) match
       case Some(Value.Text(material)) =>
         dielectrics.getOrElse(
@@ -109,5 +109,5 @@ object Indices:
       case None => dielectrics(default)
 
   /** Index of the inside relative to the outside. */
-  def relative(in: Asked, inside: String): Double =
+  def relative(in: Properties, inside: String): Double =
     index(in, "int_ior", inside) / index(in, "ext_ior", "air")

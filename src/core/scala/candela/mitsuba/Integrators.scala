@@ -6,7 +6,7 @@ import candela.scenefile.{Declaration, Param}
 /** Translates integrators. */
 final class Integrators(session: Session):
 
-  def apply(p: Plugin): Declaration = session.of(p): in =>
+  def apply(p: Plugin): Declaration = session.translate(p): in =>
     val roulette = in.integer("rr_depth", 5)
     if roulette < 1 then
       session.warn(
@@ -20,7 +20,7 @@ final class Integrators(session: Session):
       case "path" | "prb" | "prb_basic" => limited(in, "path", hiding(in)*)
       case "volpath" | "volpathmis" | "prbvolpath" => limited(in, "volpath", hiding(in)*)
       case "ptracer" =>
-        in.lose("area lights are visible", "hide_emitters")
+        in.warnUnsupported("area lights are visible", "hide_emitters")
         limited(in, "lightpath")
       case "direct" => session.declare(
           "Integrator",
@@ -40,13 +40,13 @@ final class Integrators(session: Session):
           )
         in.nested("integrator").headOption.fold(Integrators.default(session, in.at))(apply)
       case _ =>
-        val depth = "using \"path\""
-        Plugins.unsupported(p, depth, session)
+        val fallback = "using \"path\""
+        Plugins.unsupported(p, fallback, session)
         in.ignore(p.properties.map(_.name)*)
         Integrators.default(session, in.at)
 
   /** Mitsuba counts the edges of a path, pbrt the surfaces between. */
-  private def limited(in: Asked, name: String, more: Param*): Declaration =
+  private def limited(in: Properties, name: String, extra: Param*): Declaration =
     val depth = in.integer("max_depth", -1)
     val edges = if depth < 0 then Integrators.unlimited(session) else Math.max(0, depth - 1)
     if depth < -1 then
@@ -65,12 +65,12 @@ final class Integrators(session: Session):
       "Integrator",
       name,
       in.at,
-      Param.int("maxdepth", in.atOf("max_depth"), edges) +: more
+      Param.int("maxdepth", in.atOf("max_depth"), edges) +: extra
     )
 
-  private def hiding(in: Asked): Seq[Param] =
-    val at = in.atOf("hide_emitters")
-    Option.when(in.flag("hide_emitters", false))(Param.bool("hideemitters", at, true)).toSeq
+  private def hiding(in: Properties): Seq[Param] =
+    val position = in.atOf("hide_emitters")
+    Option.when(in.flag("hide_emitters", false))(Param.bool("hideemitters", position, true)).toSeq
 
 object Integrators:
   /** Whether its paths have no edge: they see nothing, not even lights. */

@@ -10,38 +10,38 @@ import scala.collection.mutable
 /** Translates participating media, each once. */
 final class Media(session: Session, colors: Colors):
   private val volumes = Volumes(session)
-  private val made = mutable.LinkedHashMap.empty[Plugin, MediumDescription]
+  private val media = mutable.LinkedHashMap.empty[Plugin, MediumDescription]
 
-  def result(): Vector[MediumDescription] = made.values.toVector
+  def result(): Vector[MediumDescription] = media.values.toVector
 
   /** The name of a medium, which is defined at its first use. */
   def apply(p: Plugin): String =
-    made.getOrElseUpdate(p, session.of(p)(translated)).name
+    media.getOrElseUpdate(p, session.translate(p)(translated)).name
 
-  private def fresh(in: Asked): String =
+  private def fresh(in: Properties): String =
     val wanted = in.plugin.id.getOrElse("medium")
-    val taken = made.values.map(_.name).toSet
-    (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!taken(_)).get
+    val usedNames = media.values.map(_.name).toSet
+    (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!usedNames(_)).get
 
-  private def translated(in: Asked): MediumDescription =
+  private def translated(in: Properties): MediumDescription =
     val phase = in.nested("phase").headOption.fold(Phase.Isotropic)(phaseOf)
     in.ignore("sample_emitters", "has_spectral_extinction", "majorant_resolution_factor")
     val scale = in.number("scale", 1).toFloat
     in.plugin.name match
-      case "homogeneous" => even(in, phase, scale)
+      case "homogeneous" => uniformExtinction(in, phase, scale)
       case "heterogeneous" =>
         in.objectNamed("sigma_t").filter(_.kind == "volume").map(v => (v, v.name)) match
           case Some((v, "gridvolume")) =>
-            session.of(v)(grid(in, _, phase, scale)).getOrElse(empty(in))
-          case _ if albedoGrid(in).nonEmpty => even(in, phase, scale)
-          case found => boxed(in, found.map(_._1), phase, scale)
+            session.translate(v)(grid(in, _, phase, scale)).getOrElse(empty(in))
+          case _ if albedoGrid(in).nonEmpty => uniformExtinction(in, phase, scale)
+          case volume => boxed(in, volume.map(_._1), phase, scale)
       case _ =>
         Plugins.unsupported(in.plugin, "ignored", session)
         in.ignore(in.plugin.properties.map(_.name)*)
         empty(in)
 
   /** Of constant extinction. */
-  private def even(in: Asked, phase: Phase, scale: Float): MediumDescription =
+  private def uniformExtinction(in: Properties, phase: Phase, scale: Float): MediumDescription =
     albedoGrid(in) match
       case Some(v) => shares(in, v, phase, scale).getOrElse(empty(in))
       case None =>
@@ -50,40 +50,45 @@ final class Media(session: Session, colors: Colors):
   /** Of constant extinction, which Mitsuba's heterogeneous media have in a box only: that of the
     * volume's unit cube, along the axes of the world.
     */
-  private def boxed(in: Asked, v: Option[Plugin], phase: Phase, scale: Float): MediumDescription =
+  private def boxed(
+      in: Properties,
+      v: Option[Plugin],
+      phase: Phase,
+      scale: Float
+  ): MediumDescription =
     val sigmaT = fixed(in, "sigma_t", 1f)
     val albedo = fixed(in, "albedo", 0.75f)
-    val toWorld = v.fold(Transform.Identity)(Asked(_, session).transform("to_world"))
+    val toWorld = v.fold(Transform.Identity)(Properties(_, session).transform("to_world"))
     val corners =
       for x <- Seq(0f, 1f); y <- Seq(0f, 1f); z <- Seq(0f, 1f) yield toWorld.point(Vec3(x, y, z))
-    def bound(least: Seq[Float] => Float) =
-      Array(least(corners.map(_.x)), least(corners.map(_.y)), least(corners.map(_.z)))
-    val at = in.at
+    def bound(extremum: Seq[Float] => Float) =
+      Array(extremum(corners.map(_.x)), extremum(corners.map(_.y)), extremum(corners.map(_.z)))
+    val position = in.at
     // More cells than one, since pbrt's densities fall to 0 in the outermost
-    val density = Array.fill(Boxed * Boxed * Boxed)(1f)
-    val place = Seq("nx", "ny", "nz").map(Param.int(_, at, Boxed)) ++ Seq(
-      Param.floats(ParamType.Point3, "p0", at, bound(_.min)),
-      Param.floats(ParamType.Point3, "p1", at, bound(_.max)),
-      Param.floats(ParamType.Float, "density", at, density)
+    val density = Array.fill(BoxResolution * BoxResolution * BoxResolution)(1f)
+    val gridParams = Seq("nx", "ny", "nz").map(Param.int(_, position, BoxResolution)) ++ Seq(
+      Param.floats(ParamType.Point3, "p0", position, bound(_.min)),
+      Param.floats(ParamType.Point3, "p1", position, bound(_.max)),
+      Param.floats(ParamType.Float, "density", position, density)
     )
-    val parts = coefficients(in, sigmaT * (Rgb.White - albedo), sigmaT * albedo, phase, scale)
+    val scattering = coefficients(in, sigmaT * (Rgb.White - albedo), sigmaT * albedo, phase, scale)
     MediumDescription(
       fresh(in),
-      session.declare("Medium", "uniformgrid", at, parts ++ place),
+      session.declare("Medium", "uniformgrid", position, scattering ++ gridParams),
       GraphicsState.Identity
     )
 
   /** Cells of such a box along each axis. */
-  private val Boxed = 8
+  private val BoxResolution = 8
 
-  private def albedoGrid(in: Asked): Option[Plugin] =
+  private def albedoGrid(in: Properties): Option[Plugin] =
     in.objectNamed("albedo").filter(v => v.kind == "volume" && v.name == "gridvolume")
 
-  private def empty(in: Asked): MediumDescription =
+  private def empty(in: Properties): MediumDescription =
     homogeneous(in, Phase.Isotropic, 1f, Rgb.Black, Rgb.Black)
 
   /** A colour, which may be given as a constant volume. */
-  private def fixed(in: Asked, name: String, default: Float): Rgb =
+  private def fixed(in: Properties, name: String, default: Float): Rgb =
     in.objectNamed(name).filter(_.kind == "volume") match
       case Some(v) if v.name == "constvolume" =>
         colors.everywhere(v, Rgb.gray(default), Role.Unbounded)
@@ -91,15 +96,15 @@ final class Media(session: Session, colors: Colors):
         session.warn(
           Code.Unsupported,
           v.at,
-          s"${v.shown} is not supported as `$name`; using $default"
+          s"${v.description} is not supported as `$name`; using $default"
         )
         Rgb.gray(default)
       case None => colors.fixed(in, name, Rgb.gray(default), Role.Reflectance)
 
-  private def homogeneous(in: Asked, phase: Phase, scale: Float, albedo: Rgb, sigmaT: Rgb) =
+  private def homogeneous(in: Properties, phase: Phase, scale: Float, albedo: Rgb, sigmaT: Rgb) =
     // Coefficients may be given instead of albedo and extinction
     val (a, s) =
-      if in.has("sigma_a") || in.has("sigma_s") then
+      if in.contains("sigma_a") || in.contains("sigma_s") then
         (fixed(in, "sigma_a", 0f), fixed(in, "sigma_s", 0f))
       else (sigmaT * (Rgb.White - albedo), sigmaT * albedo)
     MediumDescription(
@@ -108,44 +113,50 @@ final class Media(session: Session, colors: Colors):
       GraphicsState.Identity
     )
 
-  private def coefficients(in: Asked, a: Rgb, s: Rgb, phase: Phase, scale: Float): Seq[Param] = Seq(
-    Textures.rgb("sigma_a", a, in.at),
-    Textures.rgb("sigma_s", s, in.at),
-    Param.float("scale", in.at, scale)
-  ) ++ phase.params(in.at)
+  private def coefficients(in: Properties, a: Rgb, s: Rgb, phase: Phase, scale: Float): Seq[Param] =
+    Seq(
+      Textures.rgb("sigma_a", a, in.at),
+      Textures.rgb("sigma_s", s, in.at),
+      Param.float("scale", in.at, scale)
+    ) ++ phase.params(in.at)
 
   /** Extinction by a grid; the albedo may be another. */
   private def grid(
-      in: Asked,
-      volume: Asked,
+      in: Properties,
+      volume: Properties,
       phase: Phase,
       scale: Float
   ): Option[MediumDescription] =
     for
       sigmaT <- volumes(volume)
       albedo <- albedoGrid(in) match
-        case Some(v) => session.of(v)(volumes(_)).map(Left(_))
+        case Some(v) => session.translate(v)(volumes(_)).map(Left(_))
         case None => Some(Right(fixed(in, "albedo", 0.75f)))
     yield
       val file = sigmaT.file
-      val at = volume.at
+      val position = volume.at
       val (kind, params) = albedo match
         case Right(a) if file.channels == 1 =>
-          val density = Param.floats(ParamType.Float, "density", at, file.values)
+          val density = Param.floats(ParamType.Float, "density", position, file.values)
           ("uniformgrid", coefficients(in, Rgb.White - a, a, phase, scale) :+ density)
         case _ =>
-          ("rgbgrid", cells(in, sigmaT.parted(albedo), at, phase, scale))
-      placed(in, kind, params, sigmaT, at)
+          ("rgbgrid", cells(in, sigmaT.parted(albedo), position, phase, scale))
+      placed(in, kind, params, sigmaT, position)
 
   /** A grid of albedos alone: empty beyond its box, unlike Mitsuba's. */
-  private def shares(in: Asked, v: Plugin, phase: Phase, scale: Float): Option[MediumDescription] =
-    session.of(v)(volumes(_)).map: albedo =>
+  private def shares(
+      in: Properties,
+      v: Plugin,
+      phase: Phase,
+      scale: Float
+  ): Option[MediumDescription] =
+    session.translate(v)(volumes(_)).map: albedo =>
       session.warn(Code.CorrectedValue, v.at, "the medium ends at the box of its albedos")
       val parted = albedo.sharing(fixed(in, "sigma_t", 1f))
       placed(in, "rgbgrid", cells(in, parted, v.at, phase, scale), albedo, v.at)
 
   private def cells(
-      in: Asked,
+      in: Properties,
       coefficients: (Array[Float], Array[Float]),
       at: SourcePos,
       phase: Phase,
@@ -159,7 +170,7 @@ final class Media(session: Session, colors: Colors):
     ) ++ phase.params(in.at)
 
   private def placed(
-      in: Asked,
+      in: Properties,
       kind: String,
       params: Seq[Param],
       grid: PlacedGrid,
@@ -167,7 +178,7 @@ final class Media(session: Session, colors: Colors):
   ): MediumDescription =
     MediumDescription(
       fresh(in),
-      session.declare("Medium", kind, in.at, params ++ grid.place(at)),
+      session.declare("Medium", kind, in.at, params ++ grid.params(at)),
       GraphicsState.still(grid.toWorld)
     )
 

@@ -20,18 +20,24 @@ final class Mesh(
   def placed(toWorld: Transform): Mesh =
     if toWorld.isIdentity then this
     else
-      def place(i: Int) = toWorld.position(point(i))
-      val there = new Array[Float](positions.length)
+      def inWorld(i: Int) = toWorld.position(point(i))
+      val worldPositions = new Array[Float](positions.length)
       val missing = RestBuffer()
-      def put(i: Int, x: Double): Unit =
-        there(i) = x.toFloat
-        if RestBuffer.isCoarse(there(i)) then missing.note(i, x, there(i))
+      def store(i: Int, x: Double): Unit =
+        worldPositions(i) = x.toFloat
+        if RestBuffer.isCoarse(worldPositions(i)) then missing.note(i, x, worldPositions(i))
       loop(positions.length / 3): i =>
-        val p = place(i)
-        put(3 * i, p.x)
-        put(3 * i + 1, p.y)
-        put(3 * i + 2, p.z)
-      Mesh(there, mapped(normals)(toWorld.normal), uvs, indices, missing.take(there.length))
+        val p = inWorld(i)
+        store(3 * i, p.x)
+        store(3 * i + 1, p.y)
+        store(3 * i + 2, p.z)
+      Mesh(
+        worldPositions,
+        mapped(normals)(toWorld.normal),
+        uvs,
+        indices,
+        missing.take(worldPositions.length)
+      )
 
   /** A vertex, with all its digits. */
   private def point(i: Int): Position =
@@ -40,13 +46,13 @@ final class Mesh(
     Position(exact(3 * i), exact(3 * i + 1), exact(3 * i + 2))
 
   private def mapped(values: Array[Float])(f: Vec3 => Vec3): Array[Float] =
-    val made = new Array[Float](values.length)
+    val result = new Array[Float](values.length)
     loop(values.length / 3): i =>
       val v = f(Vec3(values(3 * i), values(3 * i + 1), values(3 * i + 2)))
-      made(3 * i) = v.x
-      made(3 * i + 1) = v.y
-      made(3 * i + 2) = v.z
-    made
+      result(3 * i) = v.x
+      result(3 * i + 1) = v.y
+      result(3 * i + 2) = v.z
+    result
 
   /** With coordinates where it has none, Mitsuba's: the weights of each triangle's second and third
     * corner.
@@ -54,9 +60,9 @@ final class Mesh(
   def onTriangles: Mesh =
     if uvs.nonEmpty then this
     else
-      def apart(of: Array[Float]) =
-        if of.isEmpty then of
-        else Array.tabulate(3 * indices.length)(i => of(3 * indices(i / 3) + i % 3))
+      def apart(values: Array[Float]) =
+        if values.isEmpty then values
+        else Array.tabulate(3 * indices.length)(i => values(3 * indices(i / 3) + i % 3))
       val corners = Array(0f, 0f, 1f, 0f, 0f, 1f)
       Mesh(
         apart(positions),
@@ -79,14 +85,14 @@ final class Mesh(
 
   /** Its vertices around the first of them. */
   private def centred: Array[Float] =
-    val first = point(0)
-    val made = new Array[Float](positions.length)
+    val anchor = point(0)
+    val result = new Array[Float](positions.length)
     loop(positions.length / 3): i =>
       val p = point(i)
-      made(3 * i) = (p.x - first.x).toFloat
-      made(3 * i + 1) = (p.y - first.y).toFloat
-      made(3 * i + 2) = (p.z - first.z).toFloat
-    made
+      result(3 * i) = (p.x - anchor.x).toFloat
+      result(3 * i + 1) = (p.y - anchor.y).toFloat
+      result(3 * i + 2) = (p.z - anchor.z).toFloat
+    result
 
   /** With vertex normals, if it has none: those of the triangles, weighted by their angles at the
     * vertex.
@@ -98,8 +104,8 @@ final class Mesh(
     if normals.nonEmpty then this
     else
       val sums = new Array[Float](positions.length)
-      val near = if isFar then centred else positions
-      def point(i: Int) = Vec3(near(3 * i), near(3 * i + 1), near(3 * i + 2))
+      val local = if isFar then centred else positions
+      def point(i: Int) = Vec3(local(3 * i), local(3 * i + 1), local(3 * i + 2))
       loop(indices.length / 3): t =>
         val corners = Array(indices(3 * t), indices(3 * t + 1), indices(3 * t + 2))
         val p = corners.map(point)
@@ -111,10 +117,10 @@ final class Mesh(
             val b = (p((c + 2) % 3) - p(c)).normalized
             val angle = Math.acos(Math.max(-1.0, Math.min(1.0, a.dot(b).toDouble))).toFloat
             if angle.isFinite then
-              val at = 3 * corners(c)
-              sums(at) += unit.x * angle
-              sums(at + 1) += unit.y * angle
-              sums(at + 2) += unit.z * angle
+              val offset = 3 * corners(c)
+              sums(offset) += unit.x * angle
+              sums(offset + 1) += unit.y * angle
+              sums(offset + 2) += unit.z * angle
       Mesh(positions, sums, uvs, indices, rests).unit
 
   private def unit: Mesh =

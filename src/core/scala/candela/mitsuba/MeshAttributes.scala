@@ -25,19 +25,19 @@ final class MeshAttributes(ply: PlyMesh):
   def grid(name: String): Option[(Int, Array[Float])] =
     groups.get(name).map: channels =>
       val count = channels.size
-      val made = new Array[Float](width * height * count)
+      val texels = new Array[Float](width * height * count)
       loop(triangles): t =>
         loop(count): c =>
           val values = channels(c)
           def corner(k: Int) =
             if name.startsWith("face") then values(t) else values(ply.indices(3 * t + k))
           val (p, q, r) = (corner(0), corner(1), corner(2))
-          val first = cell(t)
-          made(first * count + c) = p
-          made((first + 1) * count + c) = q
-          made((first + width) * count + c) = r
-          made((first + width + 1) * count + c) = q + r - p
-      (count, made)
+          val base = cell(t)
+          texels(base * count + c) = p
+          texels((base + 1) * count + c) = q
+          texels((base + width) * count + c) = r
+          texels((base + width + 1) * count + c) = q + r - p
+      (count, texels)
 
   private def cell(triangle: Int): Int =
     triangle / across * 2 * width + triangle % across * 2
@@ -50,8 +50,8 @@ final class MeshAttributes(ply: PlyMesh):
       else Array.tabulate(count * corners)(i => values(count * mesh.indices(i / count) + i % count))
     val uvs = new Array[Float](2 * corners)
     loop(corners): i =>
-      val first = cell(i / 3)
-      val (x, y) = (first % width + (if i % 3 == 1 then 1 else 0), first / width + i % 3 / 2)
+      val base = cell(i / 3)
+      val (x, y) = (base % width + (if i % 3 == 1 then 1 else 0), base / width + i % 3 / 2)
       uvs(2 * i) = (x + 0.5f) / width
       uvs(2 * i + 1) = (y + 0.5f) / height
     Mesh(
@@ -77,7 +77,7 @@ object MeshAttributes:
       s"${kind}_color" -> c.takeWhile(byName.contains).map(byName)
     val prefixes = properties.map(_._1).filter(_.contains("_"))
       .map(name => name.take(name.lastIndexOf('_'))).distinct
-    val others = prefixes.flatMap: prefix =>
+    val prefixed = prefixes.flatMap: prefix =>
       Numbered.map(_.map(s => s"${prefix}_$s").takeWhile(byName.contains)).find(_.nonEmpty)
-        .map(found => s"${kind}_$prefix" -> found.map(byName))
-    colors ++ others
+        .map(components => s"${kind}_$prefix" -> components.map(byName))
+    colors ++ prefixed

@@ -29,11 +29,11 @@ object MitsubaScene:
       catch case e: SceneError => throw SceneError(Excerpts.fill(e.problems))
     val session = Session(expanded, folder, keepGoing)
     val scene = Translation(session, file).result()
-    val (errors, warnings) = Excerpts.fill(session.found).partition(_.severity == Severity.Error)
+    val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
     scene.copy(
       warnings = warnings,
       errors = errors,
-      sources = expanded.sources ++ session.read,
+      sources = expanded.sources ++ session.filesRead,
       folder = folder
     )
 
@@ -47,26 +47,28 @@ private final class Translation(session: Session, file: Path):
   private val shapes = Shapes(session, surfaces, emitters, media)
   private val views = Views(session, media, file)
 
-  private val all = session.objects.map(_.value).collect { case Value.Nested(p) => p }
-  private def of(kind: String) = all.filter(_.kind == kind)
+  private val objects = session.objects.map(_.value).collect { case Value.Nested(p) => p }
+  private def objectsOf(kind: String) = objects.filter(_.kind == kind)
 
   /** When the first sensor's shutter opens and closes. */
   private def shutter: (Double, Double) =
     def time(name: String) =
-      of("sensor").headOption.flatMap(_.properties.findLast(_.name == name)).map(_.value).collect:
+      objectsOf(
+        "sensor"
+      ).headOption.flatMap(_.properties.findLast(_.name == name)).map(_.value).collect:
         case Value.Number(x) => x
     (time("shutter_open").getOrElse(0), time("shutter_close").getOrElse(0))
 
   def result(): SceneDescription =
-    of("shape").foreach(shapes.add)
+    objectsOf("shape").foreach(shapes.add)
     // Errors of BSDFs that no shape uses are errors, too
     // Those that need a mesh are translated with it
-    of("bsdf").filterNot(surfaces.textureTypes(_)("mesh_attribute"))
+    objectsOf("bsdf").filterNot(surfaces.textureTypes(_)("mesh_attribute"))
       .foreach(p => session.attempt(surfaces(p)))
-    val lights = of("emitter").flatMap(emitters(_))
+    val lights = objectsOf("emitter").flatMap(emitters(_))
     val start = SourcePos(file.toString, 1, 1)
     val scene = SceneDescription(Dialect.Mitsuba)
-    val seen = of("sensor").toList match
+    val framed = objectsOf("sensor").toList match
       case Nil =>
         session.error(
           Code.Nesting,
@@ -75,21 +77,21 @@ private final class Translation(session: Session, file: Path):
           Some("add <sensor type=\"perspective\">")
         )
         scene
-      case first :: others =>
-        others.foreach(o =>
+      case first :: surplus =>
+        surplus.foreach(o =>
           session.warn(
             Code.Unsupported,
             o.at,
             "only the first sensor is rendered; this one is ignored"
           )
         )
-        session.attempt(views.seen(first, scene)).getOrElse(scene)
+        session.attempt(views.addSensor(first, scene)).getOrElse(scene)
     val integrator =
-      of("integrator").headOption.flatMap(p => session.attempt(Integrators(session)(p)))
+      objectsOf("integrator").headOption.flatMap(p => session.attempt(Integrators(session)(p)))
     val tracer = integrator.getOrElse(Integrators.default(session, start))
-    val whole = seen.copy(
+    val complete = framed.copy(
       integrator = Some(tracer),
-      film = if tracer.name == "lightpath" then seen.film.map(opaque) else seen.film,
+      film = if tracer.name == "lightpath" then framed.film.map(opaque) else framed.film,
       textures = textures.result(),
       namedMaterials = surfaces.result(),
       lights = lights,
@@ -98,9 +100,9 @@ private final class Translation(session: Session, file: Path):
       instances = shapes.instances,
       media = media.result()
     )
-    if !of("integrator").headOption.exists(Integrators.isBlack) then whole
+    if !objectsOf("integrator").headOption.exists(Integrators.isBlack) then complete
     else
-      whole.copy(
+      complete.copy(
         lights = Vector.empty,
         shapes = Vector.empty,
         objects = Map.empty,

@@ -36,8 +36,8 @@ private final class ObjReader(in: ByteBuffer, file: InputFile, at: SourcePos):
   private var hasNormals, hasUvs = true
   private val token = StringBuilder()
 
-  private def fail(why: String): Nothing =
-    Values.fail(Code.DamagedMesh, at, s"mesh `$file`, line $line: $why")
+  private def fail(reason: String): Nothing =
+    Values.fail(Code.DamagedMesh, at, s"mesh `$file`, line $line: $reason")
 
   def read(flipped: Boolean): Mesh =
     while in.hasRemaining do
@@ -90,15 +90,15 @@ private final class ObjReader(in: ByteBuffer, file: InputFile, at: SourcePos):
       to += x
 
   private def face(): Unit =
-    val first = corner(word())
-    var last = corner(word())
+    val apex = corner(word())
+    var previous = corner(word())
     var text = word()
     while text.nonEmpty do
-      val next = corner(text)
-      indices += first
-      indices += last
-      indices += next
-      last = next
+      val current = corner(text)
+      indices += apex
+      indices += previous
+      indices += current
+      previous = current
       text = word()
 
   private def cornerless(text: String): String =
@@ -106,14 +106,14 @@ private final class ObjReader(in: ByteBuffer, file: InputFile, at: SourcePos):
 
   /** `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or back from the last. */
   private def corner(text: String): Int =
-    val parts = text.split('/')
+    val fields = text.split('/')
     def index(i: Int, count: Int): Int =
-      if i >= parts.length || parts(i).isEmpty then -1
+      if i >= fields.length || fields(i).isEmpty then -1
       else
-        val k = parts(i).toIntOption.getOrElse(fail(cornerless(text)))
-        val found = if k < 0 then count + k else k - 1
-        if found < 0 || found >= count then fail(s"the index $k is not one of 1 to $count")
-        found
+        val k = fields(i).toIntOption.getOrElse(fail(cornerless(text)))
+        val resolved = if k < 0 then count + k else k - 1
+        if resolved < 0 || resolved >= count then fail(s"the index $k is not one of 1 to $count")
+        resolved
     val key = (index(0, p.length / 3), index(1, t.length / 2), index(2, n.length / 3))
     if key._1 < 0 then fail(cornerless(text))
     corners.getOrElseUpdate(

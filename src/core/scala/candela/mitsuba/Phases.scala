@@ -4,63 +4,66 @@ import candela.base.{Code, SourcePos}
 import candela.scenefile.{Param, ParamType}
 
 /** A phase function, as parameters of a medium. */
-final case class Phase(parts: Vector[Phase.Part]):
-  def params(at: SourcePos): Seq[Param] = parts match
-    case Vector(Phase.Part("hg", _, Vector(g))) => Seq(Param.float("g", at, g))
+final case class Phase(lobes: Vector[Phase.Lobe]):
+  def params(at: SourcePos): Seq[Param] = lobes match
+    case Vector(Phase.Lobe("hg", _, Vector(g))) => Seq(Param.float("g", at, g))
     case _ =>
-      val weights = parts.map(_.weight).toArray
-      val values = parts.flatMap(_.values).toArray
+      val weights = lobes.map(_.weight).toArray
+      val values = lobes.flatMap(_.values).toArray
       Seq(
-        Param(ParamType.String, "phases", at, at, strings = parts.map(_.kind)),
+        Param(ParamType.String, "phases", at, at, strings = lobes.map(_.kind)),
         Param.floats(ParamType.Float, "phaseweights", at, weights),
         Param.floats(ParamType.Float, "phasevalues", at, values)
       )
 
 object Phase:
   /** @param values as [[candela.sampling.PhaseFunction.of]] takes them */
-  final case class Part(kind: String, weight: Float, values: Vector[Float])
+  final case class Lobe(kind: String, weight: Float, values: Vector[Float])
 
   val Isotropic: Phase = of("hg", Vector(0f))
-  private def of(kind: String, values: Vector[Float]): Phase = Phase(Vector(Part(kind, 1f, values)))
+  private def of(kind: String, values: Vector[Float]): Phase = Phase(Vector(Lobe(kind, 1f, values)))
 
   /** @param number the value of a constant volume, by property */
-  def translated(p: Plugin, session: Session)(number: (Asked, String) => Float): Phase =
+  def translated(p: Plugin, session: Session)(number: (Properties, String) => Float): Phase =
     p.name match
       case "isotropic" => Isotropic
-      case "hg" => session.of(p)(in => of("hg", Vector(in.number("g", 0.8).toFloat)))
+      case "hg" => session.translate(p)(in => of("hg", Vector(in.number("g", 0.8).toFloat)))
       case "rayleigh" => of("rayleigh", Vector.empty)
-      case "tabphase" => session.of(p)(tabulated)
-      case "blendphase" => session.of(p)(blended(_, session)(number))
+      case "tabphase" => session.translate(p)(tabulated)
+      case "blendphase" => session.translate(p)(blended(_, session)(number))
       case _ =>
         Plugins.unsupported(p, "using \"isotropic\"", session)
         Isotropic
 
-  private def tabulated(in: Asked): Phase =
-    val found = in.text("values").fold(Vector.empty)(Values.numbers(_, in.atOf("values")))
-    val values = found.map(_.toFloat)
+  private def tabulated(in: Properties): Phase =
+    val numbers = in.text("values").fold(Vector.empty)(Values.numbers(_, in.atOf("values")))
+    val values = numbers.map(_.toFloat)
     if values.size > 1 && values.forall(_ >= 0f) && values.exists(_ > 0f) then
       of("tabulated", values.size.toFloat +: values)
     else
       in.session.error(
         Code.ParameterValue,
         in.atOf("values"),
-        s"`values` of ${in.plugin.shown} must be two numbers or more, at least 0, and not all 0, " +
-          s"found ${values.size}: ${values.take(8).mkString(", ")}"
+        s"`values` of ${in.plugin.description} must be two numbers or more, at least 0, and " +
+          s"not all 0, found ${values.size}: ${values.take(8).mkString(", ")}"
       )
       Isotropic
 
-  private def blended(in: Asked, session: Session)(number: (Asked, String) => Float): Phase =
+  private def blended(
+      in: Properties,
+      session: Session
+  )(number: (Properties, String) => Float): Phase =
     val weight = Math.max(0f, Math.min(number(in, "weight"), 1f))
     in.nested("phase").map(translated(_, session)(number)) match
       case Vector(first, second) =>
         val shares = Seq(first -> (1f - weight), second -> weight)
         Phase(shares.toVector.flatMap((phase, share) =>
-          phase.parts.map(part => part.copy(weight = part.weight * share))
+          phase.lobes.map(lobe => lobe.copy(weight = lobe.weight * share))
         ))
-      case found =>
+      case phases =>
         session.error(
           Code.ParameterValue,
           in.at,
-          s"${in.plugin.shown} must have two phase functions, found ${found.size}"
+          s"${in.plugin.description} must have two phase functions, found ${phases.size}"
         )
         Isotropic

@@ -5,7 +5,7 @@ import candela.color.{Rgb, Spectrum}
 import candela.math.Transform
 
 /** A value of a property. */
-enum Value(val shown: String):
+enum Value(val description: String):
   case Number(x: Double) extends Value("a number")
   case Flag(isSet: Boolean) extends Value("a boolean")
   case Text(text: String) extends Value("a string")
@@ -34,4 +34,4 @@ final class Plugin(
     val at: SourcePos,
     val properties: Vector[Property]
 ):
-  def shown: String = s"$kind \"$name\""
+  def description: String = s"$kind \"$name\""

@@ -34,7 +34,7 @@ object Plugins:
   val volumes: Vector[String] = Vector("constvolume", "gridvolume")
 
   /** Types that exist in Mitsuba 3, but are not read. */
-  val others: Map[String, Vector[String]] = Map(
+  val unsupportedTypes: Map[String, Vector[String]] = Map(
     "bsdf" -> Vector("acousticbsdf", "measured_polarized"),
     "shape" -> Vector("ellipsoids", "ellipsoidsmesh", "sdfgrid"),
     "emitter" -> Vector("directionalarea", "volumelight"),
@@ -63,13 +63,13 @@ object Plugins:
 
   /** Reports a type that is not read: a warning if Mitsuba has it. */
   def unsupported(p: Plugin, instead: String, session: Session): Unit =
-    if others.getOrElse(p.kind, Vector.empty).contains(p.name) then
-      session.warn(Code.Unsupported, p.at, s"${p.shown} is not supported; $instead")
+    if unsupportedTypes.getOrElse(p.kind, Vector.empty).contains(p.name) then
+      session.warn(Code.Unsupported, p.at, s"${p.description} is not supported; $instead")
     else
       session.missing(
         Code.UnknownType,
         p.at,
-        s"unknown ${p.shown}",
+        s"unknown ${p.description}",
         instead,
         candela.base.Suggest.help(p.name, read.getOrElse(p.kind, Vector.empty))
       )

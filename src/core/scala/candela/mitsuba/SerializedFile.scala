@@ -16,13 +16,14 @@ object SerializedFile:
     * @param at    position of the reference in the scene
     */
   def read(from: InputFile, index: Int, at: SourcePos): Mesh =
-    def fail(why: String) = Values.fail(Code.DamagedMesh, at, s"can't read the mesh `$from`: $why")
+    def fail(reason: String) =
+      Values.fail(Code.DamagedMesh, at, s"can't read the mesh `$from`: $reason")
     try
       val file = from.map().order(ByteOrder.LITTLE_ENDIAN)
       if file.limit() < 8 || file.getShort(0) != Magic then fail("it is not a serialized mesh")
       val version = file.getShort(2).toInt
       if version != 3 && version != 4 then fail(s"version $version is not known")
-      val (start, end) = place(file, index, if version == 4 then 8 else 4, fail)
+      val (start, end) = meshRange(file, index, if version == 4 then 8 else 4, fail)
       val bytes = new Array[Byte](end - start - 4)
       file.position(start + 4).get(bytes): Unit
       new SerializedReader(bytes, version, from.unpacks, fail).read()
@@ -32,16 +33,21 @@ object SerializedFile:
   private val Magic: Short = 0x041c
 
   /** Where a mesh begins and ends. */
-  private def place(file: ByteBuffer, index: Int, width: Int, fail: String => Nothing): (Int, Int) =
+  private def meshRange(
+      file: ByteBuffer,
+      index: Int,
+      width: Int,
+      fail: String => Nothing
+  ): (Int, Int) =
     val count = file.getInt(file.limit() - 4)
     val table = file.limit() - 4 - count.toLong * width
     if count < 1 || table < 4 then fail("its list of meshes is damaged")
     if index < 0 || index >= count then fail(s"it has $count meshes; there is no number $index")
     def offset(i: Int): Long =
-      val at = (table + i.toLong * width).toInt
+      val position = (table + i.toLong * width).toInt
       if i == count then table
-      else if width == 8 then file.getLong(at)
-      else file.getInt(at) & 0xffffffffL
+      else if width == 8 then file.getLong(position)
+      else file.getInt(position) & 0xffffffffL
     val (from, to) = (offset(index), offset(index + 1))
     if from < 0 || to - from < 4 || to > table then fail("its list of meshes is damaged")
     (from.toInt, to.toInt)
@@ -62,22 +68,23 @@ private final class SerializedReader(
     val isDouble = (flags & 0x2000) != 0
     val perVertex = 3 + (if (flags & 1) != 0 then 3 else 0) + (if (flags & 2) != 0 then 2 else 0)
     val size = vertices.toLong * perVertex * (if isDouble then 8 else 4) + triangles * 12L
-    if size > SerializedReader.Free && size > bytes.length * SerializedReader.MostPacked then
+    if size > SerializedReader.TrustedSize && size > bytes.length * SerializedReader.MaxCompression
+    then
       fail(s"it claims $vertices vertices and $triangles triangles, more than it can hold")
     unpacks(size)
     val rests = RestBuffer()
-    def values(n: Long, isThere: Boolean, missing: RestBuffer | Null = null) =
-      val made = FloatBuffer()
+    def values(n: Long, isPresent: Boolean, missing: RestBuffer | Null = null) =
+      val floats = FloatBuffer()
       var i = 0L
-      while isThere && i < n do
+      while isPresent && i < n do
         if isDouble then
-          val x = take(8).getDouble
+          val x = buffered(8).getDouble
           if missing != null && RestBuffer.isCoarse(x.toFloat) then
-            missing.note(made.length, x, x.toFloat)
-          made += x.toFloat
-        else made += take(4).getFloat
+            missing.note(floats.length, x, x.toFloat)
+          floats += x.toFloat
+        else floats += buffered(4).getFloat
         i += 1
-      made.take()
+      floats.take()
     val positions = values(3L * vertices, true, rests)
     val normals = values(3L * vertices, (flags & 1) != 0)
     val uvs = values(2L * vertices, (flags & 2) != 0)
@@ -95,18 +102,18 @@ private final class SerializedReader(
 
   private def skipName(): Unit =
     var length = 0
-    while take(1).get != 0 do
+    while buffered(1).get != 0 do
       length += 1
       if length > 10000 then fail("its name has no end")
 
-  private def int(): Int = take(4).getInt
+  private def int(): Int = buffered(4).getInt
 
   private def count(): Int =
-    val n = take(8).getLong
+    val n = buffered(8).getLong
     if n < 1 || n > Int.MaxValue / 3 then fail(s"it claims $n vertices or triangles")
     n.toInt
 
-  private def take(size: Int): ByteBuffer =
+  private def buffered(size: Int): ByteBuffer =
     if buffer.remaining < size then
       buffer.compact()
       var read = 0
@@ -119,7 +126,7 @@ private final class SerializedReader(
 
 private object SerializedReader:
   /** Size in bytes below which any compression is believed. */
-  private val Free = 64L << 20
+  private val TrustedSize = 64L << 20
 
   /** Meshes compress 2 to 10 times. */
-  private val MostPacked = 100L
+  private val MaxCompression = 100L

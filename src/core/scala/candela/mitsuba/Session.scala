@@ -13,13 +13,13 @@ import scala.collection.mutable
   * found so far.
   */
 final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean):
-  private val problems = Problems()
+  private val collected = Problems()
   private val files = mutable.LinkedHashSet.empty[Path]
-  private val seen = mutable.LinkedHashSet.empty[Problem]
+  private val reported = mutable.LinkedHashSet.empty[Problem]
 
   /** Reads values of elements. */
   val values: Values = Values(
-    (name, at) => found(name, at).map(noted),
+    (name, at) => locate(name, at).map(noted),
     name => folder.suggestion(name),
     report
   )
@@ -31,25 +31,29 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
       else values.plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.at))
 
   private val byId: Map[String, Plugin] =
-    val all = mutable.HashMap.empty[String, Plugin]
+    val plugins = mutable.HashMap.empty[String, Plugin]
     def collect(p: Plugin): Unit =
       for id <- p.id do
-        if all.contains(id) then
-          error(Code.Redefined, p.at, s"the id `$id` is repeated; the first is at ${all(id).at}")
-        else all(id) = p
+        if plugins.contains(id) then
+          error(
+            Code.Redefined,
+            p.at,
+            s"the id `$id` is repeated; the first is at ${plugins(id).at}"
+          )
+        else plugins(id) = p
       p.properties.map(_.value).foreach:
         case Value.Nested(inner) => collect(inner)
         case _ => ()
     objects.map(_.value).foreach:
       case Value.Nested(p) => collect(p)
       case _ => ()
-    all.toMap
+    plugins.toMap
 
-  def report(p: Problem): Unit = if seen.add(p) then problems.add(p)
+  def report(p: Problem): Unit = if reported.add(p) then collected.add(p)
   def warn(code: Code, at: SourcePos, message: String, help: => Option[String] = None): Unit =
-    report(Problem.warning(code, at, message).withHelp(shown(help)))
+    report(Problem.warning(code, at, message).withHelp(limitedHelp(help)))
   def error(code: Code, at: SourcePos, message: String, help: => Option[String] = None): Unit =
-    report(Problem.error(code, at, message).withHelp(shown(help)))
+    report(Problem.error(code, at, message).withHelp(limitedHelp(help)))
   def missing(
       code: Code,
       at: SourcePos,
@@ -57,37 +61,37 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
       standIn: String,
       help: => Option[String]
   ): Unit =
-    report(Problem.missing(code, at, message, standIn, keepGoing).withHelp(shown(help)))
+    report(Problem.missing(code, at, message, standIn, keepGoing).withHelp(limitedHelp(help)))
 
   /** Not looked for in scenes where everything is missing. */
-  private def shown(help: => Option[String]): Option[String] =
-    if seen.size < Problems.MostHelped then help else None
+  private def limitedHelp(help: => Option[String]): Option[String] =
+    if reported.size < Problems.MaxHelped then help else None
 
-  def found: Vector[Problem] = problems.result()
+  def problems: Vector[Problem] = collected.result()
 
   /** How much the scene may use. */
   def allowance: Allowance = folder.allowance
 
   /** Files read so far, other than XML. */
-  def read: Vector[Path] = files.toVector
+  def filesRead: Vector[Path] = files.toVector
 
   /** The object with this id, if there is one. */
-  def known(id: String): Option[Plugin] =
+  def lookup(id: String): Option[Plugin] =
     byId.get(id).orElse(expanded.aliases.get(id).flatMap(byId.get))
 
   def plugin(id: String, at: SourcePos): Option[Plugin] =
-    val there = known(id)
-    if there.isEmpty then
+    val target = lookup(id)
+    if target.isEmpty then
       error(
         Code.Undefined,
         at,
         s"no object has the id `$id`",
         Suggest.help(id, byId.keySet.view ++ expanded.aliases.keySet)
       )
-    there
+    target
 
   /** A file, in the first folder that has it. */
-  private def found(name: String, at: SourcePos): Option[InputFile] =
+  private def locate(name: String, at: SourcePos): Option[InputFile] =
     folder.find(name, Some(at), expanded.folders)
 
   /** The file, which becomes part of the scene. */
@@ -101,12 +105,12 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
       missing(Code.NoSuchFile, at, s"`$name` is not a valid file name", standIn, None)
       None
     else
-      val there = found(name, at).map(noted)
-      if there.isEmpty then
+      val existing = locate(name, at).map(noted)
+      if existing.isEmpty then
         val nothing = s"no such file: `$name`"
         val (message, help) = folder.absence(name, Some(at), nothing, expanded.folders)
         missing(Code.NoSuchFile, at, message, standIn, help)
-      there
+      existing
 
   /** The name of a file for a parameter, relative to the folder of the scene. */
   def named(file: InputFile): String =
@@ -122,12 +126,12 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
       dialect: Option[Dialect] = None
   ): Declaration = Declaration(category, name, params.toVector, at, folder, "srgb", dialect)
 
-  /** Runs `body` on the properties of an object, then reports those that it did not ask for. */
-  def of[A](p: Plugin)(body: Asked => A): A =
+  /** Runs `body` on the properties of an object, then reports those that it did not query. */
+  def translate[A](p: Plugin)(body: Properties => A): A =
     allowance.checkTime(Some(p.at))
-    val asked = Asked(p, this)
-    val result = body(asked)
-    asked.finish()
+    val properties = Properties(p, this)
+    val result = body(properties)
+    properties.finish()
     result
 
   /** As `body`, or None after reporting an error. */
@@ -140,4 +144,4 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
 
 object Session:
   /** References through references, at most. */
-  val Deepest = 50
+  val MaxDepth = 50

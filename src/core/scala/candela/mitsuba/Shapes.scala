@@ -21,51 +21,51 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   def instances: InstanceList = placed.result()
 
   def add(p: Plugin): Unit =
-    session.attempt(parts(p)).foreach(world ++= _)
+    session.attempt(descriptions(p)).foreach(world ++= _)
 
-  private def parts(p: Plugin): Vector[ShapeDescription] = p.name match
+  private def descriptions(p: Plugin): Vector[ShapeDescription] = p.name match
     case "shapegroup" =>
       group(p)
       Vector.empty
     case "instance" =>
-      session.of(p): in =>
+      session.translate(p): in =>
         for g <- in.nested("shape").headOption do
-          val place = GraphicsState.still(in.transform("to_world"))
+          val placement = GraphicsState.still(in.transform("to_world"))
           if g.name != "shapegroup" then
             session.error(
               Code.MissingParameter,
               in.at,
               "an instance must contain a shapegroup, or refer to one"
             )
-          else placed += InstanceDescription(group(g), in.at, place)
+          else placed += InstanceDescription(group(g), in.at, placement)
       Vector.empty
     case "merge" =>
       depth += 1
-      if depth > Session.Deepest then
-        Values.fail(Code.Circle, p.at, s"more than ${Session.Deepest} shapes within each other")
-      try session.of(p)(_.nested("shape").flatMap(parts))
+      if depth > Session.MaxDepth then
+        Values.fail(Code.Circle, p.at, s"more than ${Session.MaxDepth} shapes within each other")
+      try session.translate(p)(_.nested("shape").flatMap(descriptions))
       finally depth -= 1
-    case _ => session.of(p)(one)
+    case _ => session.translate(p)(shape)
 
   /** The name of a group of shapes. */
   private def group(p: Plugin): String =
     groups.getOrElseUpdate(
       p, {
-        val taken = groups.values.map(_._1).toSet
+        val usedNames = groups.values.map(_._1).toSet
         val wanted = p.id.getOrElse("group")
         val name =
-          (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!taken(_)).get
-        val inner = session.of(p)(_.nested("shape"))
+          (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!usedNames(_)).get
+        val inner = session.translate(p)(_.nested("shape"))
         val flat = inner.filterNot: s =>
           val isNested = s.name == "instance" || s.name == "shapegroup"
           if isNested then
-            session.error(Code.Nesting, s.at, s"a shapegroup can't contain an ${s.shown}")
+            session.error(Code.Nesting, s.at, s"a shapegroup can't contain an ${s.description}")
           isNested
-        (name, flat.flatMap(parts))
+        (name, flat.flatMap(descriptions))
       }
     )._1
 
-  private def one(in: Asked): Vector[ShapeDescription] =
+  private def shape(in: Properties): Vector[ShapeDescription] =
     in.ignore("silhouette_sampling_weight", "filename_id")
     val emitter = in.nested("emitter").headOption
     val bsdf = in.nested("bsdf")
@@ -75,9 +75,9 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val attributes = bsdf.headOption.flatMap(attributesFor(in, _))
     val (surface, material) = bsdf.headOption match
       case Some(p) =>
-        val s = attributes.fold(surfaces(p))(surfaces.on(_, p))
+        val s = attributes.fold(surfaces(p))(surfaces.onMesh(_, p))
         // Masks don't dim emitters
-        val lit = if emitter.isDefined && s.alpha.isDefined then surfaces.whole(s) else s
+        val lit = if emitter.isDefined && s.alpha.isDefined then surfaces.inlineMask(s) else s
         (lit, if lit eq s then surfaces.ref(p, s) else MaterialRef.Inline(lit.material))
       case None =>
         val s = bare(in, emitter.isDefined)
@@ -100,7 +100,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       )
 
   /** Without a BSDF, emitters are black. */
-  private def bare(in: Asked, emits: Boolean): Surface =
+  private def bare(in: Properties, emits: Boolean): Surface =
     val grey = candela.color.Rgb.gray(if emits then 0f else 0.5f)
     val material =
       session.declare("Material", "diffuse", in.at, Seq(Textures.rgb("reflectance", grey, in.at)))
@@ -114,7 +114,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   )
 
   /** Of the mesh, if its surface uses them. */
-  private def attributesFor(in: Asked, bsdf: Plugin): Option[MeshAttributes] =
+  private def attributesFor(in: Properties, bsdf: Plugin): Option[MeshAttributes] =
     val types = surfaces.textureTypes(bsdf)
     if !types("mesh_attribute") || in.plugin.name != "ply" then None
     else
@@ -128,7 +128,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         MeshAttributes(PlyFile.read(file, Some(in.at), keepsAll = true))
       )
 
-  private def form(in: Asked, attributes: Option[MeshAttributes]): Option[Form] =
+  private def form(in: Properties, attributes: Option[MeshAttributes]): Option[Form] =
     val toWorld = in.transform("to_world")
     val isFlipped = in.flag("flip_normals", false)
     def number(name: String, x: Double) = Param.float(name, in.atOf(name), x.toFloat)
@@ -139,16 +139,16 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         val size = Seq(number("radius", in.number("radius", 1)))
         Some(Form("sphere", size, toWorld * centre, isFlipped))
       case "cylinder" =>
-        for (place, length) <- axis(in, toWorld) yield
+        for (axisToWorld, length) <- axis(in, toWorld) yield
           // Upside down, so that v runs as on Mitsuba's; emitters have none, and pbrt's light of
           // reflected ones is not consistent
           val isEven =
             in.nested("emitter").nonEmpty && !in.nested("emitter").exists(isMapped)
           val down = if isEven then Transform.Identity else Transform.scale(1, 1, -1).get
-          val whole = place * down
+          val toWorld = axisToWorld * down
           val ends = if down.isIdentity then Seq(0.0, length) else Seq(-length, 0.0)
           val size = Seq("radius" -> in.number("radius", 1)) ++ Seq("zmin", "zmax").zip(ends)
-          Form("cylinder", size.map(number(_, _)), whole, isFlipped != whole.swapsHandedness)
+          Form("cylinder", size.map(number(_, _)), toWorld, isFlipped != toWorld.swapsHandedness)
       case "disk" =>
         // pbrt turns the normals of all reflected quadrics
         Some(Form("disk", Seq(number("radius", 1)), toWorld, isFlipped != toWorld.swapsHandedness))
@@ -174,15 +174,15 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         val index = in.integer("shape_index", 0)
         in.ignore("flip_tex_coords")
         mesh(in, toWorld, isFlipped)(SerializedFile.read(_, index, in.at))
-      case "bsplinecurve" => curves(in, least = 4, isFlipped)(Tubes.splines)
-      case "linearcurve" => curves(in, least = 2, isFlipped)(Tubes.capsules)
+      case "bsplinecurve" => curves(in, minPoints = 4, isFlipped)(Tubes.splines)
+      case "linearcurve" => curves(in, minPoints = 2, isFlipped)(Tubes.capsules)
       case _ =>
         Plugins.unsupported(in.plugin, "skipped", session)
         in.ignore(in.plugin.properties.map(_.name)*)
         None
 
   /** The place and length of a cylinder along z. */
-  private def axis(in: Asked, toWorld: Transform): Option[(Transform, Double)] =
+  private def axis(in: Properties, toWorld: Transform): Option[(Transform, Double)] =
     val (x0, y0, z0) = in.triple("p0").getOrElse((0.0, 0.0, 0.0))
     val (x1, y1, z1) = in.triple("p1").getOrElse((0.0, 0.0, 1.0))
     val (dx, dy, dz) = (x1 - x0, y1 - y0, z1 - z0)
@@ -194,7 +194,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       (toWorld * Transform.translate(x0, y0, z0) * frame, length)
 
   private def mesh(
-      in: Asked,
+      in: Properties,
       toWorld: Transform,
       isFlipped: Boolean,
       attributes: Option[MeshAttributes] = None
@@ -204,43 +204,52 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     in.ignore("optimize_meshes", "use_inverse_transform", "is_alembic")
     fileOf(in).map(file => meshForm(in, read(file), isFlipped, toWorld, attributes))
 
-  private def fileOf(in: Asked): Option[InputFile] = in.text("filename") match
+  private def fileOf(in: Properties): Option[InputFile] = in.text("filename") match
     case None =>
-      session.error(Code.MissingParameter, in.at, s"${in.plugin.shown} must have a `filename`")
+      session.error(
+        Code.MissingParameter,
+        in.at,
+        s"${in.plugin.description} must have a `filename`"
+      )
       None
     case Some(name) => session.file(name, in.atOf("filename"), "skipped")
 
-  private def read(in: Asked, least: Int): Option[Vector[CurvePoints]] =
+  private def read(in: Properties, minPoints: Int): Option[Vector[CurvePoints]] =
     val toWorld = in.transform("to_world")
     fileOf(in).map(file =>
-      CurvePoints.placed(CurveFile.read(file, least, in.atOf("filename")), toWorld)
+      CurvePoints.placed(CurveFile.read(file, minPoints, in.atOf("filename")), toWorld)
     )
 
-  private def curves(in: Asked, least: Int, isFlipped: Boolean)(
-      made: Vector[CurvePoints] => Mesh
+  private def curves(in: Properties, minPoints: Int, isFlipped: Boolean)(
+      tessellate: Vector[CurvePoints] => Mesh
   ): Option[Form] =
-    read(in, least).map: found =>
+    read(in, minPoints).map: curvePoints =>
       // Through an open end, the far side is not seen from within
-      val isOpen = least == 4 && found.exists(_.isOpen)
+      val isOpen = minPoints == 4 && curvePoints.exists(_.isOpen)
       val culls = Option.when(isOpen)(Param.bool("cullbackfaces", in.at, true))
-      Form("trianglemesh", params(made(found), in) ++ culls, found.head.place, isFlipped)
+      Form(
+        "trianglemesh",
+        params(tessellate(curvePoints), in) ++ culls,
+        curvePoints.head.placement,
+        isFlipped
+      )
 
   /** pbrt's curves: light that is transmitted does not meet the far side. */
-  private def fibres(in: Asked): Vector[Form] =
+  private def fibres(in: Properties): Vector[Form] =
     in.ignore("flip_normals")
     for curve <- read(in, 4).toVector.flatten; fibre <- Fibres.of(curve)
-    yield Form("curve", fibre.params(in.at), curve.place, isReversed = false)
+    yield Form("curve", fibre.params(in.at), curve.placement, isReversed = false)
 
   private def meshForm(
-      in: Asked,
+      in: Properties,
       mesh: Mesh,
       isFlipped: Boolean,
       toWorld: Transform,
       attributes: Option[MeshAttributes] = None
   ): Form =
-    val there = mesh.placed(toWorld)
-    val whole = if in.flag("face_normals", false) then there.faceted else there.smooth
-    val laid = attributes.fold(whole)(_.laidOut(whole))
+    val inWorld = mesh.placed(toWorld)
+    val withNormals = if in.flag("face_normals", false) then inWorld.faceted else inWorld.smooth
+    val laid = attributes.fold(withNormals)(_.laidOut(withNormals))
     val shaded = if in.nested("bsdf").headOption.exists(isMapped) then laid.onTriangles else laid
     Form("trianglemesh", params(shaded, in), Transform.Identity, isFlipped)
 
@@ -248,7 +257,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   private def isMapped(bsdf: Plugin): Boolean =
     surfaces.textureTypes(bsdf).exists(Set("bitmap", "checkerboard"))
 
-  private def params(m: Mesh, in: Asked): Seq[Param] =
+  private def params(m: Mesh, in: Properties): Seq[Param] =
     val uvs = m.uvs.clone
     loop(uvs.length / 2)(i => uvs(2 * i + 1) = 1 - uvs(2 * i + 1))
     Seq(

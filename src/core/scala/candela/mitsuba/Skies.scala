@@ -13,15 +13,15 @@ import candela.scenefile.{Declaration, Param, ParamType}
 final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)):
 
   /** A light, to be placed by the emitter's transform. */
-  def apply(in: Asked, toWorld: Transform): Declaration =
+  def apply(in: Properties, toWorld: Transform): Declaration =
     val toSun = in.triple("sun_direction").filter(_ => in.plugin.name == "sunsky") match
       case Some((x, y, z)) =>
-        val both = Skies.Times.filter(in.has)
-        if both.nonEmpty then
+        val conflicting = Skies.Times.filter(in.contains)
+        if conflicting.nonEmpty then
           session.error(
             Code.ExclusiveParameters,
-            in.atOf(both.head),
-            s"`sun_direction` and `${both.head}` are mutually exclusive"
+            in.atOf(conflicting.head),
+            s"`sun_direction` and `${conflicting.head}` are mutually exclusive"
           )
         toWorld.inverse.vector(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
       case None => SunPosition(if in.plugin.name == "sunsky" then fixed(in) else timed(in))
@@ -46,13 +46,13 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
     )
     session.declare("LightSource", "sunsky", in.at, params)
 
-  private def number(in: Asked, name: String, ours: String, default: Double, range: String)(
+  private def number(in: Properties, name: String, ours: String, default: Double, range: String)(
       isIn: Double => Boolean
   ): Param =
     val x = checked(in, name, default, range)(isIn)
     Param.float(ours, in.atOf(name), x.toFloat)
 
-  private def checked(in: Asked, name: String, default: Double, range: String)(
+  private def checked(in: Properties, name: String, default: Double, range: String)(
       isIn: Double => Boolean
   ): Double =
     val x = in.number(name, default)
@@ -61,16 +61,16 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
       session.error(Code.ParameterValue, in.atOf(name), s"`$name` must be $range, found $x")
       default
 
-  private def fixed(in: Asked): PlaceAndTime =
+  private def fixed(in: Properties): PlaceAndTime =
     val hour = in.number("hour", 15) +
       (in.number("minute", 0) + in.number("second", 0) / 60) / 60
-    at(in, in.integer("year", 2010), in.integer("month", 7), in.integer("day", 10), hour)
+    placeAndTime(in, in.integer("year", 2010), in.integer("month", 7), in.integer("day", 10), hour)
 
   /** Each day of a period is the window between two hours. */
-  private def timed(in: Asked): PlaceAndTime =
+  private def timed(in: Properties): PlaceAndTime =
     val (year, month, day) =
       (in.integer("start_year", 2025), in.integer("start_month", 1), in.integer("start_day", 1))
-    val end = at(
+    val end = placeAndTime(
       in,
       in.integer("end_year", year + 1),
       in.integer("end_month", month),
@@ -93,7 +93,7 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
         in.atOf("shutter_close"),
         "`shutter_close` must be after `shutter_open`"
       )
-    val count = SunPosition.days(end) - SunPosition.days(at(in, year, month, day, 0))
+    val count = SunPosition.days(end) - SunPosition.days(placeAndTime(in, year, month, day, 0))
     if count < 0 then
       session.error(
         Code.ParameterValue,
@@ -108,10 +108,16 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
         "the sun can't move while the shutter is open; using its position at the middle of the time"
       )
     val passed = (0.5 * (first + last) - open) / (close - open) * Math.max(count, 1)
-    val whole = Math.floor(passed)
-    at(in, year, month, day + whole.toInt, from + (to - from) * (passed - whole))
+    val wholeDays = Math.floor(passed)
+    placeAndTime(in, year, month, day + wholeDays.toInt, from + (to - from) * (passed - wholeDays))
 
-  private def at(in: Asked, year: Int, month: Int, day: Int, hour: Double): PlaceAndTime =
+  private def placeAndTime(
+      in: Properties,
+      year: Int,
+      month: Int,
+      day: Int,
+      hour: Double
+  ): PlaceAndTime =
     PlaceAndTime(
       year,
       month,

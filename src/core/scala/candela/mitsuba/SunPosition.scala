@@ -49,11 +49,11 @@ object SunPosition:
       -Math.sin(hourAngle),
       Math.tan(declination) * Math.cos(latitude) - Math.sin(latitude) * Math.cos(hourAngle)
     ) - Math.PI
-    val seen = zenith + EarthRadius / SunDistance * Math.sin(zenith)
+    val apparentZenith = zenith + EarthRadius / SunDistance * Math.sin(zenith)
     Vec3(
-      (Math.sin(seen) * Math.cos(azimuth)).toFloat,
-      (Math.sin(seen) * Math.sin(azimuth)).toFloat,
-      Math.cos(seen).toFloat
+      (Math.sin(apparentZenith) * Math.cos(azimuth)).toFloat,
+      (Math.sin(apparentZenith) * Math.sin(azimuth)).toFloat,
+      Math.cos(apparentZenith).toFloat
     )
 
   private val EarthRadius = 6371.01 // km

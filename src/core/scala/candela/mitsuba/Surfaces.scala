@@ -17,14 +17,14 @@ final case class Surface(
 )
 
 /** Bumps of a surface: a height, or the file of a normal map with the affine map of u and v. */
-private[mitsuba] enum Relief:
+private[mitsuba] enum Bump:
   case Flat
   case Height(texture: Plugin, scale: Float)
   case Normals(file: String, mapping: Vector[Float])
 
 /** Translates BSDFs, each once. */
 final class Surfaces(session: Session, colors: Colors, textures: Textures):
-  private val made = mutable.HashMap.empty[(Plugin, Option[MeshAttributes]), Surface]
+  private val cache = mutable.HashMap.empty[(Plugin, Option[MeshAttributes]), Surface]
   private val named = mutable.LinkedHashMap.empty[String, Declaration]
   private val names = mutable.HashMap.empty[Declaration, String]
   private val basic = BasicSurfaces(session, colors, textures)
@@ -35,36 +35,36 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   def result(): Vector[(String, Declaration)] = named.toVector
 
   def apply(p: Plugin): Surface =
-    made.getOrElse(
+    cache.getOrElse(
       (p, textures.mesh), {
         depth += 1
-        if depth > Session.Deepest then
-          Values.fail(Code.Circle, p.at, s"more than ${Session.Deepest} BSDFs refer to each other")
+        if depth > Session.MaxDepth then
+          Values.fail(Code.Circle, p.at, s"more than ${Session.MaxDepth} BSDFs refer to each other")
         val surface =
-          try session.of(p)(translated)
+          try session.translate(p)(translated)
           finally depth -= 1
-        made((p, textures.mesh)) = surface
+        cache((p, textures.mesh)) = surface
         surface
       }
     )
 
   /** On a mesh with attributes. */
-  def on(mesh: MeshAttributes, p: Plugin): Surface =
+  def onMesh(mesh: MeshAttributes, p: Plugin): Surface =
     textures.mesh = Some(mesh)
     try apply(p)
     finally textures.mesh = None
 
   /** Types of textures that a BSDF uses. */
   def textureTypes(p: Plugin): Set[String] =
-    val seen = mutable.HashSet.empty[Plugin]
+    val visited = mutable.HashSet.empty[Plugin]
     def visit(p: Plugin): Unit =
-      if seen.add(p) then
+      if visited.add(p) then
         p.properties.map(_.value).foreach:
           case Value.Nested(inner) => visit(inner)
-          case Value.Reference(id) => session.known(id).foreach(visit)
+          case Value.Reference(id) => session.lookup(id).foreach(visit)
           case _ => ()
     visit(p)
-    seen.iterator.filter(_.kind == "texture").map(_.name).toSet
+    visited.iterator.filter(_.kind == "texture").map(_.name).toSet
 
   /** The material of a shape: by name if the BSDF has an id. */
   def ref(p: Plugin, s: Surface): MaterialRef =
@@ -83,7 +83,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       }
     )
 
-  private def translated(in: Asked): Surface = in.plugin.name match
+  private def translated(in: Properties): Surface = in.plugin.name match
     case "twosided" => twoSided(in)
     case "mask" => masked(in)
     case "bumpmap" => bumped(in)
@@ -92,25 +92,25 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     case _ => basic(in)
 
   /** The only BSDF within another. */
-  private def child(in: Asked): Surface =
+  private def child(in: Properties): Surface =
     in.nested("bsdf").toList match
       case only :: Nil => apply(only)
       case Nil =>
-        session.error(Code.MissingParameter, in.at, s"${in.plugin.shown} must contain a bsdf")
+        session.error(Code.MissingParameter, in.at, s"${in.plugin.description} must contain a bsdf")
         basic.grey(in)
-      case first :: others =>
-        surplus(in, others)
+      case first :: surplus =>
+        warnSurplus(in, surplus)
         apply(first)
 
-  private def surplus(in: Asked, others: List[Plugin]): Unit =
-    for p <- others do
+  private def warnSurplus(in: Properties, surplus: List[Plugin]): Unit =
+    for p <- surplus do
       session.warn(
         Code.Nesting,
         p.at,
-        s"${in.plugin.shown} has one bsdf too many; this one is ignored"
+        s"${in.plugin.description} has one bsdf too many; this one is ignored"
       )
 
-  private def twoSided(in: Asked): Surface =
+  private def twoSided(in: Properties): Surface =
     val inner = in.nested("bsdf").toList
     for p <- inner.find(p => kinds.isTransmissive(apply(p))) do
       session.warn(
@@ -119,14 +119,15 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
         "Mitsuba rejects \"twosided\" around a transmissive bsdf"
       )
     inner match
-      case front :: back :: others =>
-        surplus(in, others)
+      case front :: back :: surplus =>
+        warnSurplus(in, surplus)
         sides(in, front, back)
-      case only :: Nil if !kinds.isTransmissive(apply(only)) && kinds.tellsSides(apply(only)) =>
+      case only :: Nil
+          if !kinds.isTransmissive(apply(only)) && kinds.hasDistinctSides(apply(only)) =>
         sides(in, only, only).copy(alpha = apply(only).alpha)
       case _ => child(in).copy(isOneSided = false)
 
-  private def sides(in: Asked, front: Plugin, back: Plugin): Surface =
+  private def sides(in: Properties, front: Plugin, back: Plugin): Surface =
     for p <- List(front, back).distinct; alpha <- apply(p).alpha if front ne back do
       session.warn(
         Code.Unsupported,
@@ -146,20 +147,20 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
 
   private def nameOf(p: Plugin, s: Surface): String = name(p.id.getOrElse(p.name), s.material)
 
-  private def masked(in: Asked): Surface =
+  private def masked(in: Properties): Surface =
     val opacity = textures.number("alpha", in, "opacity", 0.5)
     val inner = child(in)
     // What a mask within another one lets through is a part of its BSDF
-    (if inner.alpha.isDefined then whole(inner) else inner).copy(alpha = Some(opacity))
+    (if inner.alpha.isDefined then inlineMask(inner) else inner).copy(alpha = Some(opacity))
 
   /** A surface whose mask is a part of its BSDF, as within others: a blend with nothing. */
-  def whole(s: Surface): Surface =
-    val there =
+  def inlineMask(s: Surface): Surface =
+    val surface =
       if s.material.name == "interface" then s.copy(material = clear(s.material.at)) else s
-    there.alpha match
-      case None => there
+    surface.alpha match
+      case None => surface
       case Some(opacity) =>
-        val Seq(first, second) = Seq(clear(opacity.at), one(there).material).map: d =>
+        val Seq(first, second) = Seq(clear(opacity.at), blackBehind(surface).material).map: d =>
           name(d.name, d)
         mixed(opacity.at, first, second, opacity.renamed("amount"))
 
@@ -168,7 +169,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     session.declare("Material", "thindielectric", at, Seq(Param.float("eta", at, 1f)))
 
   /** With a material that is black from behind by itself, if the surface is. */
-  private def one(s: Surface): Surface =
+  private def blackBehind(s: Surface): Surface =
     if !s.isOneSided then s
     else
       val side = Param.bool("onesided", s.material.at, true)
@@ -180,67 +181,67 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     session.declare("Material", "nested", d.at, inner +: changes)
 
   private def mixed(at: SourcePos, first: String, second: String, amount: Param): Surface =
-    val parts = Param.string("materials", at, first, second)
-    Surface(session.declare("Material", "mix", at, Seq(parts, amount)), isOneSided = false)
+    val materials = Param.string("materials", at, first, second)
+    Surface(session.declare("Material", "mix", at, Seq(materials, amount)), isOneSided = false)
 
-  private def bumped(in: Asked): Surface =
+  private def bumped(in: Properties): Surface =
     val scale = in.number("scale", 1).toFloat
     val texture = in.nested("texture").headOption
-    raised(child(in), texture.fold(Relief.Flat)(Relief.Height(_, scale)), seen(in))
+    raised(child(in), texture.fold(Bump.Flat)(Bump.Height(_, scale)), normalOptions(in))
 
   /** How normals that are perturbed are seen. */
-  private def seen(in: Asked): Seq[Param] =
+  private def normalOptions(in: Properties): Seq[Param] =
     for
       (theirs, ours) <-
         Seq("use_shadowing_function" -> "softedges", "flip_invalid_normals" -> "turnednormals")
       if !in.flag(theirs, true)
     yield Param.bool(ours, in.atOf(theirs), false)
 
-  private def mapped(in: Asked): Surface =
+  private def mapped(in: Properties): Surface =
     val maps = in.nested("texture", "normalmap") ++ in.nested("texture")
     val file = maps.headOption.flatMap: t =>
       if t.name != "bitmap" then
         session.warn(Code.Unsupported, t.at, "only bitmaps can be normal maps; this one is ignored")
         None
       else
-        session.of(t): of =>
-          of.ignore("raw", "filter_type", "wrap_mode", "format", "accel")
-          val mapping = textures.imageMapping(of)
-          of.text("filename").flatMap(session.file(_, of.atOf("filename"), "ignored"))
-            .map(path => Relief.Normals(session.named(path), mapping))
-    raised(child(in), file.getOrElse(Relief.Flat), seen(in))
+        session.translate(t): bitmap =>
+          bitmap.ignore("raw", "filter_type", "wrap_mode", "format", "accel")
+          val mapping = textures.imageMapping(bitmap)
+          bitmap.text("filename").flatMap(session.file(_, bitmap.atOf("filename"), "ignored"))
+            .map(path => Bump.Normals(session.named(path), mapping))
+    raised(child(in), file.getOrElse(Bump.Flat), normalOptions(in))
 
-  private def raised(s: Surface, relief: Relief, seen: Seq[Param]): Surface =
+  private def raised(s: Surface, bump: Bump, normalOptions: Seq[Param]): Surface =
     val d = s.material
     val isV4 = d.dialect.isEmpty
     def plain =
-      val own = if kinds.takesRelief(d) then d else nested(d, Vector.empty)
-      if isV4 then own.copy(params = own.params ++ seen) else own
-    val material = relief match
-      case Relief.Flat => d
+      val base = if kinds.takesBump(d) then d else nested(d, Vector.empty)
+      if isV4 then base.copy(params = base.params ++ normalOptions) else base
+    val material = bump match
+      case Bump.Flat => d
       case _ if d.name == "interface" => d
-      case Relief.Height(texture, scale) =>
+      case Bump.Height(texture, scale) =>
         val name = if isV4 then "displacement" else "bumpmap"
         val shade = Shade.Textured(texture)
         plain.copy(params = plain.params :+ textures.number(name, shade, d.at, scale))
-      case Relief.Normals(file, mapping) if isV4 =>
-        val place = Option.when(mapping != Textures.Upright):
+      case Bump.Normals(file, mapping) if isV4 =>
+        val uvMapping = Option.when(mapping != Textures.Upright):
           Param.floats(ParamType.Float, "normalmapuv", d.at, mapping.toArray)
-        plain.copy(params = (plain.params :+ Param.string("normalmap", d.at, file)) ++ place)
-      case Relief.Normals(_, _) =>
+        plain.copy(params = (plain.params :+ Param.string("normalmap", d.at, file)) ++ uvMapping)
+      case Bump.Normals(_, _) =>
         session.warn(Code.Unsupported, d.at, "normal maps of this BSDF are not supported; ignored")
         d
     s.copy(material = material)
 
-  private def blended(in: Asked): Surface =
+  private def blended(in: Properties): Surface =
     val weight = textures.number("amount", in, "weight", 0.5)
     in.nested("bsdf").toList match
-      case a :: b :: others =>
-        surplus(in, others)
-        val parts = List(a, b).map(p => whole(apply(p)))
-        val isOneSided = parts.forall(_.isOneSided)
-        val Seq(first, second) = List(a, b).zip(parts).map: (p, s) =>
-          nameOf(p, if isOneSided then s else one(s))
+      case a :: b :: surplus =>
+        warnSurplus(in, surplus)
+        val surfaces = List(a, b).map(p => inlineMask(apply(p)))
+        val isOneSided = surfaces.forall(_.isOneSided)
+        val Seq(first, second) = List(a, b).zip(surfaces).map: (p, s) =>
+          nameOf(p, if isOneSided then s else blackBehind(s))
         mixed(in.at, first, second, weight).copy(isOneSided = isOneSided)
       case _ =>
         session.error(Code.MissingParameter, in.at, "blendbsdf must contain two bsdfs")
@@ -251,26 +252,26 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   * @param named the materials that others contain, by name
   */
 private final class SurfaceKinds(named: String => Option[Declaration]):
-  private def within(d: Declaration): Iterator[Declaration] =
+  private def children(d: Declaration): Iterator[Declaration] =
     for
       p <- d.params.iterator if p.name == "materials" || p.name == "material"
       name <- p.strings.iterator
       inner <- named(name)
     yield inner
 
-  private def isFlat(d: Declaration) = !d.params.exists(p => SurfaceKinds.Reliefs(p.name))
+  private def isFlat(d: Declaration) = !d.params.exists(p => SurfaceKinds.BumpParams(p.name))
 
   /** Whether bumps can be added to it. */
-  def takesRelief(d: Declaration): Boolean = d.name != "mix" && isFlat(d)
+  def takesBump(d: Declaration): Boolean = d.name != "mix" && isFlat(d)
 
   /** Whether the back does not look like the front: it is black, or has bumps. */
-  def tellsSides(s: Surface): Boolean = tellsSides(s.material)
+  def hasDistinctSides(s: Surface): Boolean = hasDistinctSides(s.material)
 
-  private def tellsSides(d: Declaration): Boolean = d.name match
+  private def hasDistinctSides(d: Declaration): Boolean = d.name match
     case _ if !isFlat(d) => true
     case "principled" => !d.param("thin").exists(_.bools.contains(true))
     case "nested" if d.param("onesided").exists(_.bools.contains(true)) => true
-    case "mix" | "nested" => within(d).exists(tellsSides)
+    case "mix" | "nested" => children(d).exists(hasDistinctSides)
     case _ => false
 
   /** Whether light passes through it. */
@@ -280,8 +281,8 @@ private final class SurfaceKinds(named: String => Option[Declaration]):
     case "interface" | "dielectric" | "thindielectric" | "hair" => true
     case "principled" => Seq("spectrans", "difftrans").flatMap(d.param).exists: p =>
         p.strings.nonEmpty || p.floats.exists(_ > 0f)
-    case "mix" | "nested" => within(d).exists(isTransmissive)
+    case "mix" | "nested" => children(d).exists(isTransmissive)
     case _ => false
 
 private object SurfaceKinds:
-  private val Reliefs = Set("displacement", "bumpmap", "normalmap", "normalmapuv")
+  private val BumpParams = Set("displacement", "bumpmap", "normalmap", "normalmapuv")

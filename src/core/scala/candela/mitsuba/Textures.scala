@@ -14,14 +14,14 @@ import scala.collection.mutable
   * pbrt's v, 1 − v of Mitsuba's.
   */
 final class Textures(session: Session, colors: Colors):
-  private val made = Vector.newBuilder[TextureDescription]
+  private val descriptions = Vector.newBuilder[TextureDescription]
   private val names =
     mutable.HashMap.empty[(Plugin, String, Float, Option[MeshAttributes]), Option[String]]
-  private val taken = mutable.HashSet.empty[String]
+  private val usedNames = mutable.HashSet.empty[String]
   private val volumes = Volumes(session)
   private var depth = 0
 
-  def result(): Vector[TextureDescription] = made.result()
+  def result(): Vector[TextureDescription] = descriptions.result()
 
   /** The attributes of the mesh whose surface is being translated, if it uses any. */
   var mesh: Option[MeshAttributes] = None
@@ -34,7 +34,7 @@ final class Textures(session: Session, colors: Colors):
         Param.texture(name, at, _)
 
   /** A number or texture. */
-  def number(name: String, in: Asked, property: String, default: Double): Param =
+  def number(name: String, in: Properties, property: String, default: Double): Param =
     number(
       name,
       colors.shade(in, property, Rgb.gray(default.toFloat), Role.Reflectance),
@@ -52,11 +52,11 @@ final class Textures(session: Session, colors: Colors):
     names.getOrElseUpdate(
       (p, valueType, scale, mesh), {
         depth += 1
-        if depth > Session.Deepest then
+        if depth > Session.MaxDepth then
           Values.fail(
             Code.Circle,
             p.at,
-            s"more than ${Session.Deepest} textures refer to each other"
+            s"more than ${Session.MaxDepth} textures refer to each other"
           )
         try define(p, valueType, scale)
         finally depth -= 1
@@ -65,19 +65,19 @@ final class Textures(session: Session, colors: Colors):
 
   private def define(p: Plugin, valueType: String, scale: Float): Option[String] =
     val parameters = p.name match
-      case "bitmap" => session.of(p)(bitmap).map((_, GraphicsState.Identity))
+      case "bitmap" => session.translate(p)(bitmap).map((_, GraphicsState.Identity))
       case "checkerboard" =>
-        session.of(p)(checkerboard(_, valueType)).map((_, GraphicsState.Identity))
-      case "volume" => session.of(p)(volume(_, valueType))
+        session.translate(p)(checkerboard(_, valueType)).map((_, GraphicsState.Identity))
+      case "volume" => session.translate(p)(volume(_, valueType))
       case "mesh_attribute" =>
-        session.of(p)(attribute(_, valueType)).map((_, GraphicsState.Identity))
+        session.translate(p)(attribute(_, valueType)).map((_, GraphicsState.Identity))
       case _ =>
         Plugins.unsupported(p, s"using ${Textures.Fallback.r}", session)
         None
-    parameters.map: (typed, place) =>
+    parameters.map: (typed, toWorld) =>
       val (name, params) = typed
       val t = session.declare("Texture", name, p.at, params)
-      val plain = add(p.id.getOrElse("texture"), valueType, t, place)
+      val plain = add(p.id.getOrElse("texture"), valueType, t, toWorld)
       if scale == 1f then plain
       else
         val scaled = session.declare(
@@ -92,14 +92,14 @@ final class Textures(session: Session, colors: Colors):
       name: String,
       valueType: String,
       t: Declaration,
-      place: AnimatedTransform = GraphicsState.Identity
+      toWorld: AnimatedTransform = GraphicsState.Identity
   ): String =
-    val unique = (Iterator(name) ++ Iterator.from(2).map(i => s"$name $i")).find(taken.add).get
-    made += TextureDescription(unique, valueType, t, place)
+    val unique = (Iterator(name) ++ Iterator.from(2).map(i => s"$name $i")).find(usedNames.add).get
+    descriptions += TextureDescription(unique, valueType, t, toWorld)
     unique
 
-  private def bitmap(in: Asked): Option[(String, Seq[Param])] =
-    val at = in.at
+  private def bitmap(in: Properties): Option[(String, Seq[Param])] =
+    val position = in.at
     val filter = in.word("filter_type", "bilinear", "bilinear", "nearest")
     val wrap = in.word("wrap_mode", "repeat", "repeat", "mirror", "clamp")
     val isRaw = in.flag("raw", false)
@@ -107,17 +107,17 @@ final class Textures(session: Session, colors: Colors):
     val mapping = coordinates(in, flipped = true)
     for
       name <- in.text("filename").orElse:
-        session.error(Code.MissingParameter, at, "a bitmap must have a `filename`")
+        session.error(Code.MissingParameter, position, "a bitmap must have a `filename`")
         None
       path <- session.file(name, in.atOf("filename"), s"using ${Textures.Fallback.r}")
     yield "imagemap" -> (Seq(
       Param.string("filename", in.atOf("filename"), session.named(path)),
-      Param.string("filter", at, if filter == "nearest" then "point" else "bilinear"),
-      Param.string("wrap", at, wrap),
-      Param.string("encoding", at, if isRaw then "linear" else "sRGB")
+      Param.string("filter", position, if filter == "nearest" then "point" else "bilinear"),
+      Param.string("wrap", position, wrap),
+      Param.string("encoding", position, if isRaw then "linear" else "sRGB")
     ) ++ mapping)
 
-  private def checkerboard(in: Asked, valueType: String): Option[(String, Seq[Param])] =
+  private def checkerboard(in: Properties, valueType: String): Option[(String, Seq[Param])] =
     def square(ours: String, name: String, default: Float): Param =
       val shade = colors.shade(in, name, Rgb.gray(default), Role.Reflectance)
       if valueType == "float" then number(ours, shade, in.atOf(name))
@@ -131,7 +131,7 @@ final class Textures(session: Session, colors: Colors):
 
   /** A grid in the world. */
   private def volume(
-      in: Asked,
+      in: Properties,
       valueType: String
   ): Option[((String, Seq[Param]), AnimatedTransform)] =
     for
@@ -139,28 +139,28 @@ final class Textures(session: Session, colors: Colors):
         session.error(
           Code.MissingParameter,
           in.at,
-          s"${in.plugin.shown} must have a `volume` of type \"gridvolume\""
+          s"${in.plugin.description} must have a `volume` of type \"gridvolume\""
         )
         None
-      grid <- session.of(v)(volumes(_))
+      grid <- session.translate(v)(volumes(_))
     yield
       val values = if valueType == "float" then grid.numbers else grid.colors
-      val params = grid.place(v.at) :+ Param.floats(ParamType.Float, "values", v.at, values)
+      val params = grid.params(v.at) :+ Param.floats(ParamType.Float, "values", v.at, values)
       (("grid", params), GraphicsState.still(grid.toWorld))
 
   /** A number or a colour at each point of the mesh. */
-  private def attribute(in: Asked, valueType: String): Option[(String, Seq[Param])] =
+  private def attribute(in: Properties, valueType: String): Option[(String, Seq[Param])] =
     val name = in.text("name", "")
     val scale = in.number("scale", 1).toFloat
-    val found = mesh.flatMap(_.grid(name))
-    if found.isEmpty then
+    val grid = mesh.flatMap(_.grid(name))
+    if grid.isEmpty then
       session.warn(
         Code.CorrectedValue,
         in.atOf("name"),
         s"the mesh has no attribute `$name`; using ${Textures.Fallback.r}",
         mesh.flatMap(m => Suggest.help(name, m.names.toVector))
       )
-    for m <- mesh; (channels, values) <- found yield
+    for m <- mesh; (channels, values) <- grid yield
       val wanted = if valueType == "float" then 1 else 3
       val cells = m.width * m.height
       def value(cell: Int, c: Int) =
@@ -170,29 +170,29 @@ final class Textures(session: Session, colors: Colors):
         else
           Rgb(values(cell * channels), values(cell * channels + 1), values(cell * channels + 2))
             .luminance
-      val all = Array.tabulate(cells * wanted)(i => value(i / wanted, i % wanted) * scale)
-      val at = in.at
+      val texels = Array.tabulate(cells * wanted)(i => value(i / wanted, i % wanted) * scale)
+      val position = in.at
       (
         "grid",
         Seq(
-          Param.int("nx", at, m.width),
-          Param.int("ny", at, m.height),
-          Param.string("mapping", at, "uv"),
-          Param.floats(ParamType.Float, "values", at, all)
+          Param.int("nx", position, m.width),
+          Param.int("ny", position, m.height),
+          Param.string("mapping", position, "uv"),
+          Param.floats(ParamType.Float, "values", position, texels)
         )
       )
 
   /** @param flipped whether the texture's own v has its origin at the top, as images have */
-  private def coordinates(in: Asked, flipped: Boolean, factor: Float = 1f): Seq[Param] =
+  private def coordinates(in: Properties, flipped: Boolean, factor: Float = 1f): Seq[Param] =
     Seq("uscale", "uskew", "udelta", "vskew", "vscale", "vdelta").zip(mapping(in, flipped))
       .map((name, x) => (name, x * factor))
       .filter((name, x) => if name.endsWith("scale") then x != 1f else x != 0f)
       .map((name, x) => Param.float(name, in.at, x))
 
   /** Of an image, by pbrt's u, v and 1: two rows of three factors. */
-  def imageMapping(in: Asked): Vector[Float] = mapping(in, flipped = true)
+  def imageMapping(in: Properties): Vector[Float] = mapping(in, flipped = true)
 
-  private def mapping(in: Asked, flipped: Boolean): Vector[Float] =
+  private def mapping(in: Properties, flipped: Boolean): Vector[Float] =
     val m = in.transform("to_uv").m
     // With v = 1 − ours
     val (su, skewU, du) = (m(0), -m(1), m(1) + m(3))

@@ -11,25 +11,25 @@ object Tubes:
   def splines(curves: Vector[CurvePoints]): Mesh =
     val segments = curves.map(_.points.size - 3).sum
     val builder = TubeBuilder(segments, ringsOfSegment = 16)
-    var first = 0
+    var firstSegment = 0
     for c <- curves do
-      builder.begin()
-      val own = c.points.size - 3
-      for s <- 0 until own; step <- 0 to builder.steps if step > 0 || s == 0 do
+      builder.beginTube()
+      val segmentCount = c.points.size - 3
+      for s <- 0 until segmentCount; step <- 0 to builder.steps if step > 0 || s == 0 do
         val t = step.toDouble / builder.steps
-        val v = (first + s + t) / segments
-        builder.ring(Spline.at(c, s, t), v.toFloat)
-      first += own
+        val v = (firstSegment + s + t) / segments
+        builder.ring(Spline.ring(c, s, t), v.toFloat)
+      firstSegment += segmentCount
     builder.mesh
 
   /** Straight segments between balls, each a capsule. */
   def capsules(curves: Vector[CurvePoints]): Mesh =
     val segments = curves.map(_.points.size - 1).sum
     val builder = TubeBuilder(segments, ringsOfSegment = 18)
-    var first = 0
+    var firstSegment = 0
     for c <- curves do
       for s <- 0 until c.points.size - 1 do
-        builder.begin()
+        builder.beginTube()
         val (p, q) = (c.points(s), c.points(s + 1))
         val length = (q - p).length
         val axis = if length > 0f then (q - p) * (1f / length) else Vec3.Z
@@ -37,17 +37,17 @@ object Tubes:
         val border = Math.asin(clamp(slope, -1f, 1f).toDouble)
         val caps = Math.max(2, builder.steps / 2)
         for end <- 0 to 1; step <- 0 to caps do
-          val part = step.toDouble / caps
+          val t = step.toDouble / caps
           val tilt =
-            if end == 0 then lerp(part, -Math.PI / 2, border) else lerp(part, border, Math.PI / 2)
-          val (up, out) = (Math.sin(tilt).toFloat, Math.max(0.0, Math.cos(tilt)).toFloat)
+            if end == 0 then lerp(t, -Math.PI / 2, border) else lerp(t, border, Math.PI / 2)
+          val (axial, radial) = (Math.sin(tilt).toFloat, Math.max(0.0, Math.cos(tilt)).toFloat)
           val r = c.radii(s + end)
-          val middle = c.points(s + end) + axis * (r * up)
+          val middle = c.points(s + end) + axis * (r * axial)
           builder.ring(
-            Ring(middle, axis, r * out, out, axis * up),
-            (first + end).toFloat / segments
+            Ring(middle, axis, r * radial, radial, axis * axial),
+            (firstSegment + end).toFloat / segments
           )
-        first += 1
+        firstSegment += 1
     builder.mesh
 
   private def lerp(t: Double, a: Double, b: Double): Double = (1 - t) * a + t * b
@@ -68,11 +68,11 @@ private[mitsuba] final case class Ring(
 /** Segments of uniform cubic B-splines. */
 private[mitsuba] object Spline:
   /** The circle at `t`, 0 to 1, of the segment that begins with the control point `first`. */
-  def at(c: CurvePoints, first: Int, t: Double): Ring =
+  def ring(c: CurvePoints, segment: Int, t: Double): Ring =
     val s = 1 - t
-    def of(w: Seq[Double]) = w.zip(c.points.slice(first, first + 4))
+    def blended(w: Seq[Double]) = w.zip(c.points.slice(segment, segment + 4))
       .map((w, p) => p * w.toFloat).reduce(_ + _)
-    def radius(w: Seq[Double]) = w.zip(c.radii.slice(first, first + 4)).map(_ * _).sum.toFloat
+    def radius(w: Seq[Double]) = w.zip(c.radii.slice(segment, segment + 4)).map(_ * _).sum.toFloat
     val value = Seq(
       s * s * s,
       3 * t * t * t - 6 * t * t + 4,
@@ -81,19 +81,19 @@ private[mitsuba] object Spline:
     ).map(_ / 6)
     val slope = Seq(-s * s, 3 * t * t - 4 * t, -3 * t * t + 2 * t + 1, t * t).map(_ / 2)
     val bend = Seq(s, 3 * t - 2, 1 - 3 * t, t)
-    val (d, r) = (of(slope), radius(value))
+    val (d, r) = (blended(slope), radius(value))
     val length2 = d.lengthSquared
     // Where the tube widens, its normal leans back (the derivative of the radius)
     if length2 > 0f then
       Ring(
-        of(value),
+        blended(value),
         d.normalized,
         r,
         1f,
         d * (-radius(slope) / length2),
-        of(bend) * (1f / length2)
+        blended(bend) * (1f / length2)
       )
-    else Ring(of(value), Vec3.Z, r, 1f, Vec3.Zero)
+    else Ring(blended(value), Vec3.Z, r, 1f, Vec3.Zero)
 
 /** Joins rings by triangles.
   *
@@ -118,7 +118,7 @@ private[mitsuba] final class TubeBuilder(segments: Int, ringsOfSegment: Int):
   private var isFirst = true
 
   /** The next ring begins a tube. */
-  def begin(): Unit = isFirst = true
+  def beginTube(): Unit = isFirst = true
 
   def ring(r: Ring, v: Float): Unit =
     val (x, y) = TubeBuilder.axes(r.tangent)
@@ -132,14 +132,14 @@ private[mitsuba] final class TubeBuilder(segments: Int, ringsOfSegment: Int):
       val angle = Math.atan2((side dot y).toDouble, (side dot x).toDouble) / (2 * Math.PI)
       turn = angle + Math.rint(turn - angle)
     tangent = r.tangent
-    val up = tangent cross side
+    val bitangent = tangent cross side
     loop(sides + 1): k =>
       val phi = 2 * Math.PI * (k % sides) / sides
-      val out = side * Math.cos(phi).toFloat + up * Math.sin(phi).toFloat
-      push(positions, r.middle + out * (r.radius * swell))
+      val outward = side * Math.cos(phi).toFloat + bitangent * Math.sin(phi).toFloat
+      push(positions, r.middle + outward * (r.radius * swell))
       // The normal of a bent tube leans by the radius
-      val lean = 1f - r.radius * (out dot r.bend)
-      push(normals, (out * (r.across * lean) + r.along).normalized)
+      val lean = 1f - r.radius * (outward dot r.bend)
+      push(normals, (outward * (r.across * lean) + r.along).normalized)
       uvs ++= Seq((turn + k.toDouble / sides).toFloat, v)
     if !isFirst then
       loop(sides): k =>

@@ -85,15 +85,15 @@ final class Values(
       case "spectrum" => spectrum(e)
       case "blackbody" =>
         val kelvin = number(e("temperature").getOrElse(text).stripSuffix("K"), e.at)
-        val at = e.at
+        val position = e.at
         Value.Nested(
           Plugin(
             "spectrum",
             "blackbody",
             None,
-            at,
+            position,
             Vector(
-              Property("temperature", Value.Number(kelvin), at)
+              Property("temperature", Value.Number(kelvin), position)
             )
           )
         )
@@ -131,7 +131,8 @@ final class Values(
       numbers(text, at).map(_.toFloat) match
         case Vector(v) => Rgb.gray(v)
         case Vector(r, g, b) => Rgb(r, g, b)
-        case more => fail(Code.ParameterCount, at, s"expected three numbers, found ${more.size}")
+        case components =>
+          fail(Code.ParameterCount, at, s"expected three numbers, found ${components.size}")
 
   /** One number, or pairs `wavelength:value`, or those of a file. */
   private def spectrum(e: Element): Value =
@@ -144,8 +145,8 @@ final class Values(
         fail(Code.SpectrumFile, e.at, "<spectrum> must have the attribute `value` or `filename`")
 
   def file(name: String, at: SourcePos): Spectrum =
-    def fails(why: String) =
-      fail(Code.SpectrumFile, at, s"can't read the spectrum `$name`: $why", suggest(name))
+    def fails(reason: String) =
+      fail(Code.SpectrumFile, at, s"can't read the spectrum `$name`: $reason", suggest(name))
     if !SceneFolder.isName(name) then
       fail(Code.SpectrumFile, at, s"can't read the spectrum `$name`")
     val file = find(name, at).getOrElse(fails("no such file"))
@@ -231,7 +232,7 @@ private[mitsuba] object Transforms:
       Vector(m(0), m(4), m(8))
 
   private def step(e: Element): Transform =
-    def or(name: String, default: Double) = e(name).fold(default)(number(_, e.at))
+    def component(name: String, default: Double) = e(name).fold(default)(number(_, e.at))
     def list(name: String) =
       e(name).map(numbers(_, e.at)).filter(_.size == 3)
         .getOrElse(fail(
@@ -239,14 +240,15 @@ private[mitsuba] object Transforms:
           e.at,
           s"<${e.tag}> must have the attribute `$name`, of three numbers"
         ))
-    def regular(t: Option[Transform], why: String) =
-      t.getOrElse(fail(Code.Transform, e.at, s"transform can't be inverted: $why"))
+    def regular(t: Option[Transform], reason: String) =
+      t.getOrElse(fail(Code.Transform, e.at, s"transform can't be inverted: $reason"))
     def axes(default: Double) =
       e("value").map(numbers(_, e.at)) match
         case Some(Vector(s)) => Vector(s, s, s)
         case Some(v) if v.size == 3 => v
         case Some(v) => fail(Code.ParameterCount, e.at, s"expected three numbers, found ${v.size}")
-        case None => Vector(or("x", default), or("y", default), or("z", default))
+        case None =>
+          Vector(component("x", default), component("y", default), component("z", default))
     e.tag match
       case "translate" =>
         val v = axes(0)
@@ -264,11 +266,11 @@ private[mitsuba] object Transforms:
           number(_, e.at)
         regular(rotation(degrees, v), "axis of length 0, or far from 1")
       case "lookat" =>
-        val why = "origin equals target, or up is parallel to the view direction"
+        val reason = "origin equals target, or up is parallel to the view direction"
         val (origin, target) = (list("origin"), list("target"))
         val stated = if e("up").isDefined then list("up") else Vector(0.0, 0.0, 0.0)
         val up = if stated.forall(_ == 0.0) then across(origin, target) else stated
-        regular(Transform.lookAt(origin, target, up), why).inverse
+        regular(Transform.lookAt(origin, target, up), reason).inverse
       case "matrix" =>
         val m = numbers(e("value").getOrElse(""), e.at)
         val rows = m.size match
@@ -278,10 +280,10 @@ private[mitsuba] object Transforms:
           case n => fail(Code.ParameterCount, e.at, s"expected 16 numbers, found $n")
         regular(Transform.fromRows(rows), "matrix of determinant 0")
       case other =>
-        val known = List("lookat", "matrix", "rotate", "scale", "translate")
+        val steps = List("lookat", "matrix", "rotate", "scale", "translate")
         fail(
           Code.UnknownElement,
           e.at,
           s"unknown element <$other>",
-          candela.base.Suggest.help(other, known)
+          candela.base.Suggest.help(other, steps)
         )

@@ -10,13 +10,13 @@ import java.nio.file.Path
 final class Views(session: Session, media: Media, scene: Path):
 
   /** The scene as seen by a sensor. */
-  def seen(p: Plugin, from: SceneDescription): SceneDescription =
-    session.of(p): in =>
+  def addSensor(p: Plugin, from: SceneDescription): SceneDescription =
+    session.translate(p): in =>
       val (width, height, film) = in.nested("film").headOption match
-        case Some(f) => session.of(f)(filmOf)
-        case None => filmOf(Asked(plain("film", "hdrfilm", in.at), session))
+        case Some(f) => session.translate(f)(filmOf)
+        case None => filmOf(Properties(plain("film", "hdrfilm", in.at), session))
       val filter = in.nested("film").headOption
-        .flatMap(f => Asked(f, session).nested("rfilter").headOption)
+        .flatMap(f => Properties(f, session).nested("rfilter").headOption)
         .getOrElse(plain("rfilter", "gaussian", in.at))
       val sampler =
         in.nested("sampler").headOption.getOrElse(plain("sampler", "independent", in.at))
@@ -30,14 +30,14 @@ final class Views(session: Session, media: Media, scene: Path):
         worldToCamera = GraphicsState.still(toCamera),
         cameraMedium = medium,
         film = Some(film),
-        filter = Some(session.of(filter)(filterOf)),
-        sampler = Some(session.of(sampler)(samplerOf))
+        filter = Some(session.translate(filter)(filterOf)),
+        sampler = Some(session.translate(sampler)(samplerOf))
       )
 
   private def plain(kind: String, name: String, at: SourcePos): Plugin =
     Plugin(kind, name, None, at, Vector.empty)
 
-  private def camera(in: Asked, width: Int, height: Int): Declaration =
+  private def camera(in: Properties, width: Int, height: Int): Declaration =
     val shutter = Seq("shutter_open" -> "shutteropen", "shutter_close" -> "shutterclose").flatMap:
       (name, ours) => in.number(name).map(x => Param.float(ours, in.atOf(name), x.toFloat))
     val clips = Seq("near_clip" -> "nearclip", "far_clip" -> "farclip").flatMap: (name, ours) =>
@@ -76,7 +76,7 @@ final class Views(session: Session, media: Media, scene: Path):
         session.declare("Camera", "perspective", in.at, view ++ lens ++ always)
 
   /** Width and height in pixels, and the film. */
-  private def filmOf(in: Asked): (Int, Int, Declaration) =
+  private def filmOf(in: Properties): (Int, Int, Declaration) =
     if !Plugins.films.contains(in.plugin.name) then
       Plugins.unsupported(in.plugin, "using \"hdrfilm\"", session)
     val (width, height) = (in.integer("width", 768), in.integer("height", 576))
@@ -88,27 +88,27 @@ final class Views(session: Session, media: Media, scene: Path):
       "tonemap_method", "attach_log", "exposure", "key", "burn", "high_quality_edges"
     )
     val crop = Seq("crop_offset_x", "crop_offset_y", "crop_width", "crop_height")
-    val bounds = Option.when(crop.exists(in.has)):
+    val bounds = Option.when(crop.exists(in.contains)):
       val (x, y) = (in.integer("crop_offset_x", 0), in.integer("crop_offset_y", 0))
       val (w, h) = (in.integer("crop_width", width), in.integer("crop_height", height))
       Param.int("pixelbounds", in.at, x, x + w, y, y + h)
     val format = in.text("pixel_format", "rgb").toLowerCase
-    val at = in.atOf("pixel_format")
+    val formatPosition = in.atOf("pixel_format")
     if !Views.PixelFormats.contains(format) then
       session.error(
         Code.UnknownType,
-        at,
+        formatPosition,
         s"unknown pixel_format `$format`",
         candela.base.Suggest.help(format, Views.PixelFormats)
       )
     else if !format.startsWith("rgb") then
       session.warn(
         Code.Unsupported,
-        at,
+        formatPosition,
         s"pixel_format `$format` is not supported; red, green and blue are written"
       )
     val alpha =
-      Option.when(format.endsWith("a"))(Param.bool("alpha", at, true))
+      Option.when(format.endsWith("a"))(Param.bool("alpha", formatPosition, true))
     val isHalf = in.text("component_format", "float16").toLowerCase == "float16"
     val params = Seq(
       Param.int("xresolution", in.atOf("width"), width),
@@ -118,10 +118,10 @@ final class Views(session: Session, media: Media, scene: Path):
     ) ++ bounds ++ alpha
     (width, height, session.declare("Film", "rgb", in.at, params))
 
-  private def filterOf(in: Asked): Declaration =
-    def filter(name: String, radius: Double, more: Param*) =
+  private def filterOf(in: Properties): Declaration =
+    def filter(name: String, radius: Double, extra: Param*) =
       val size = Seq("xradius", "yradius").map(Param.float(_, in.at, radius.toFloat))
-      session.declare("PixelFilter", name, in.at, size ++ more)
+      session.declare("PixelFilter", name, in.at, size ++ extra)
     def number(name: String, x: Double) = Param.float(name, in.at, x.toFloat)
     in.plugin.name match
       case "box" => filter("box", 0.5)
@@ -142,22 +142,26 @@ final class Views(session: Session, media: Media, scene: Path):
         val sigma = in.number("stddev", 0.5)
         filter("gaussian", 4 * sigma, number("sigma", sigma))
 
-  private def samplerOf(in: Asked): Declaration =
+  private def samplerOf(in: Properties): Declaration =
     in.ignore("seed", "jitter", "strength")
     val count = in.integer("sample_count", 4)
     if count < 1 then
       Values.fail(Code.ParameterValue, in.atOf("sample_count"), "`sample_count` must be at least 1")
     def sampler(name: String, params: Param*) = session.declare("Sampler", name, in.at, params)
-    val at = in.atOf("sample_count")
+    val countPosition = in.atOf("sample_count")
     in.plugin.name match
-      case "ldsampler" => sampler("paddedsobol", Param.int("pixelsamples", at, count))
+      case "ldsampler" => sampler("paddedsobol", Param.int("pixelsamples", countPosition, count))
       case "stratified" | "multijitter" | "orthogonal" =>
         val x = Math.ceil(Math.sqrt(count)).toInt
-        sampler("stratified", Param.int("xsamples", at, x), Param.int("ysamples", at, x))
+        sampler(
+          "stratified",
+          Param.int("xsamples", countPosition, x),
+          Param.int("ysamples", countPosition, x)
+        )
       case other =>
         if other != "independent" then
           Plugins.unsupported(in.plugin, "using \"independent\"", session)
-        sampler("independent", Param.int("pixelsamples", at, count))
+        sampler("independent", Param.int("pixelsamples", countPosition, count))
 
 private object Views:
   private val PixelFormats =

@@ -8,7 +8,7 @@ import candela.scenefile.{Param, ParamType}
 /** Reads `gridvolume`s. */
 private[mitsuba] final class Volumes(session: Session):
 
-  def apply(in: Asked): Option[PlacedGrid] =
+  def apply(in: Properties): Option[PlacedGrid] =
     in.ignore("raw", "accel")
     if in.word("filter_type", "trilinear", "trilinear", "nearest") == "nearest" then
       session.warn(
@@ -58,17 +58,20 @@ private[mitsuba] final class PlacedGrid(
   def sharing(sigmaT: Rgb): (Array[Float], Array[Float]) =
     parted((cell, _) => (sigmaT, cellColor(cell)))
 
-  /** @param of extinction and albedo of a cell, given its index and its centre */
-  private def parted(of: (Int, () => Vec3) => (Rgb, Rgb)): (Array[Float], Array[Float]) =
+  /** @param extinctionAndAlbedo of a cell, given its index and its centre */
+  private def parted(extinctionAndAlbedo: (Int, () => Vec3) => (
+      Rgb,
+      Rgb
+  )): (Array[Float], Array[Float]) =
     val absorbed, scattered = new Array[Float](3 * values.length / channels)
     loop(size(2)): k =>
       loop(size(1)): j =>
         loop(size(0)): i =>
           val cell = (k * size(1) + j) * size(0) + i
-          val (sigmaT, share) = of(cell, () => centre(i, j, k))
-          val scatters = sigmaT * share
-          val rest = sigmaT - scatters
-          Seq(scatters -> scattered, rest -> absorbed).foreach: (c, to) =>
+          val (sigmaT, albedo) = extinctionAndAlbedo(cell, () => centre(i, j, k))
+          val sigmaS = sigmaT * albedo
+          val sigmaA = sigmaT - sigmaS
+          Seq(sigmaS -> scattered, sigmaA -> absorbed).foreach: (c, to) =>
             to(3 * cell) = Math.max(0f, c.r)
             to(3 * cell + 1) = Math.max(0f, c.g)
             to(3 * cell + 2) = Math.max(0f, c.b)
@@ -84,7 +87,7 @@ private[mitsuba] final class PlacedGrid(
     else Array.tabulate(values.length / 3)(cellColor(_).luminance)
 
   /** Cells and box, as parameters. */
-  def place(at: SourcePos): Seq[Param] =
+  def params(at: SourcePos): Seq[Param] =
     Seq("nx", "ny", "nz").zip(size).map(Param.int(_, at, _)) ++ Seq(
       Param.floats(ParamType.Point3, "p0", at, box.take(3)),
       Param.floats(ParamType.Point3, "p1", at, box.drop(3))
@@ -101,17 +104,18 @@ private[mitsuba] final class PlacedGrid(
   /** The trilinear interpolation at a point in world space; beyond the box as at its border. */
   private def color(p: Vec3): Rgb =
     val q = toGrid.point(p)
-    def place(axis: Int, x: Float): (Int, Float) =
+    def cellAndWeight(axis: Int, x: Float): (Int, Float) =
       val length = box(axis + 3) - box(axis)
       val inUnit = if length > 0f then (x - box(axis)) / length else 0.5f
       val cells = clamp(inUnit * size(axis) - 0.5f, 0f, size(axis) - 1f)
       (cells.toInt, cells - cells.toInt)
-    val ((i, x), (j, y), (k, z)) = (place(0, q.x), place(1, q.y), place(2, q.z))
+    val ((i, x), (j, y), (k, z)) =
+      (cellAndWeight(0, q.x), cellAndWeight(1, q.y), cellAndWeight(2, q.z))
     var sum = Rgb.Black
     loop(8): corner =>
-      def next(n: Int, axis: Int) =
+      def neighbour(n: Int, axis: Int) =
         Math.min(n + (corner >> axis & 1), size(axis) - 1)
       def share(t: Float, axis: Int) = if (corner >> axis & 1) == 1 then t else 1f - t
-      val cell = (next(k, 2) * size(1) + next(j, 1)) * size(0) + next(i, 0)
+      val cell = (neighbour(k, 2) * size(1) + neighbour(j, 1)) * size(0) + neighbour(i, 0)
       sum = sum + cellColor(cell) * (share(x, 0) * share(y, 1) * share(z, 2))
     sum

@@ -13,15 +13,15 @@ abstract class Arguments(directive: Directive, val at: SourcePos, val report: Pr
 
   private def usage = s"usage: ${directive.name} ${directive.usage}".trim
 
-  protected final def wrongNumber(at: SourcePos, count: Int, i: Int, found: String): Nothing =
-    fail(at, s"${directive.name} expects $count numbers; number ${i + 1} is $found")
+  protected final def wrongNumber(at: SourcePos, count: Int, i: Int, actual: String): Nothing =
+    fail(at, s"${directive.name} expects $count numbers; number ${i + 1} is $actual")
 
-  protected final def notQuoted(at: SourcePos, what: String, found: String): Nothing =
-    fail(at, s"${directive.name} expects $what in quotes, found $found")
+  protected final def notQuoted(at: SourcePos, expected: String, actual: String): Nothing =
+    fail(at, s"${directive.name} expects $expected in quotes, found $actual")
 
-  protected final def notOneOf(at: SourcePos, choices: Seq[String], found: String): Nothing =
-    val known = choices.mkString("`", "`, `", "`")
-    fail(at, s"${directive.name} expects one of $known, found $found")
+  protected final def notOneOf(at: SourcePos, choices: Seq[String], actual: String): Nothing =
+    val quotedChoices = choices.mkString("`", "`, `", "`")
+    fail(at, s"${directive.name} expects one of $quotedChoices, found $actual")
 
   /** Runs the statements of another file in place.
     *
@@ -36,7 +36,7 @@ abstract class Arguments(directive: Directive, val at: SourcePos, val report: Pr
   def matrix(): Array[Double]
 
   /** A quoted string and its position. */
-  def quoted(what: String): (String, SourcePos)
+  def quoted(expected: String): (String, SourcePos)
 
   /** A quoted string, if one is next. */
   def another: Option[String]
@@ -47,8 +47,8 @@ abstract class Arguments(directive: Directive, val at: SourcePos, val report: Pr
   def params(): Vector[Param]
 
   /** A quoted name and parameters. */
-  final def named(what: String = "a name"): Named =
-    val (name, at) = quoted(what)
+  final def named(expected: String = "a name"): Named =
+    val (name, at) = quoted(expected)
     Named(name, at, params())
 
   /** One value without a preceding `"type name"`. */
@@ -73,8 +73,8 @@ private[scenefile] final class WrittenArguments(
     val values = new Array[Double](count)
     val read = in.readDoubles(values)
     if read < count then
-      val found = if in.current == Token.End then "missing: the file ends here" else in.shown
-      wrongNumber(in.at, count, read, found)
+      val actual = if in.current == Token.End then "missing: the file ends here" else in.description
+      wrongNumber(in.at, count, read, actual)
     values
 
   /** With or without brackets. */
@@ -84,12 +84,12 @@ private[scenefile] final class WrittenArguments(
     val values = numbers(16)
     if isList then
       if in.current != Token.Close then
-        fail(in.at, s"${directive.name} expects `]` after 16 numbers, found ${in.shown}")
+        fail(in.at, s"${directive.name} expects `]` after 16 numbers, found ${in.description}")
       in.advance()
     values
 
-  def quoted(what: String): (String, SourcePos) =
-    if in.current != Token.Text then notQuoted(in.at, what, in.shown)
+  def quoted(expected: String): (String, SourcePos) =
+    if in.current != Token.Text then notQuoted(in.at, expected, in.description)
     val text = (in.text, in.at)
     in.advance()
     text
@@ -103,7 +103,7 @@ private[scenefile] final class WrittenArguments(
   /** Without quotes. */
   def word(choices: String*): String =
     if in.current != Token.Word || !choices.contains(in.text) then
-      notOneOf(in.at, choices, in.shown)
+      notOneOf(in.at, choices, in.description)
     val text = in.text
     in.advance()
     text

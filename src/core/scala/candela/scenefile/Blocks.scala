@@ -9,7 +9,7 @@ import candela.base.{Code, Problem, SceneError, SourcePos}
   * @param warn receives warnings about unbalanced blocks in v2 and v3
   */
 final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
-  private var open = List.empty[OpenBlock]
+  private var openBlocks = List.empty[OpenBlock]
 
   /** The current graphics state. */
   var state = GraphicsState()
@@ -17,15 +17,15 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
   /** Whether a statement was skipped, which may itself unbalance the blocks. */
   var isDoubtful = false
 
-  def begin(directive: String, at: SourcePos): Unit =
-    open = OpenBlock(directive, at, state) :: open
+  def start(directive: String, at: SourcePos): Unit =
+    openBlocks = OpenBlock(directive, at, state) :: openBlocks
 
   /** Closes the innermost block, which should be a `begin`. */
   def end(begin: String, at: SourcePos): Unit =
-    open match
-      case block :: rest if block.begin == begin =>
+    openBlocks match
+      case block :: outer if block.begin == begin =>
         close(block)
-        open = rest
+        openBlocks = outer
       case _ => recover(begin, at)
 
   /** Closes what it can, and reports the mismatch: an error in v4, a warning in v2 and v3. */
@@ -36,18 +36,18 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
     val ends =
       if isOld && begin != "TransformBegin" then Set("AttributeBegin", "ObjectBegin")
       else Set(begin)
-    val (inner, rest) = open.span(b => !ends(b.begin))
-    rest.headOption.foreach: block =>
+    val (inner, outer) = openBlocks.span(b => !ends(b.begin))
+    outer.headOption.foreach: block =>
       close(block)
-      open = rest.tail
+      openBlocks = outer.tail
     if !isDoubtful then
-      val crossed = inner.headOption.orElse(rest.headOption).filter(_ => rest.nonEmpty)
+      val crossed = inner.headOption.orElse(outer.headOption).filter(_ => outer.nonEmpty)
       val message = crossed match
         case Some(block) => s"$name, but the ${block.begin} at ${block.at} is still open"
         case None => s"$name without $begin"
       val help = crossed.map(block => s"write ${block.end} first")
       if !isOld then throw SceneError(Problem.error(Code.OpenBlock, at, message, help))
-      val done = rest.headOption.fold("ignored")(b => s"closing the ${b.begin} at ${b.at}")
+      val done = outer.headOption.fold("ignored")(b => s"closing the ${b.begin} at ${b.at}")
       warn(Problem.warning(Code.OpenBlock, at, s"$message; $done", help))
 
   private def close(block: OpenBlock): Unit =
@@ -59,7 +59,7 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
   def unclosed: Vector[Problem] =
     if isDoubtful then Vector.empty
     else
-      open.reverse.toVector.map: block =>
+      openBlocks.reverse.toVector.map: block =>
         val help = Some(s"add a matching ${block.end}")
         val message = s"${block.begin} is never closed"
         if isV4() then Problem.error(Code.OpenBlock, block.at, message, help)
@@ -67,11 +67,11 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
 
   /** Runs `body` with an empty block stack, then restores stack and state. */
   def isolated(body: => Unit): Vector[Problem] =
-    val (savedOpen, savedState) = (open, state)
-    open = Nil
+    val (savedOpen, savedState) = (openBlocks, state)
+    openBlocks = Nil
     try
       body
       unclosed
     finally
-      open = savedOpen
+      openBlocks = savedOpen
       state = savedState

@@ -111,7 +111,7 @@ final class Param(
     copy(floats = values, colorSpace = None, rests = Array.emptyFloatArray)
 
   /** With the first `count` of its numbers. */
-  def first(count: Int): Param = copy(floats = floats.take(count), rests = rests.take(count))
+  def truncated(count: Int): Param = copy(floats = floats.take(count), rests = rests.take(count))
 
   /** With another name and type of numbers, in the colour space of the declaration. */
   def renamed(other: String, otherType: ParamType): Param =

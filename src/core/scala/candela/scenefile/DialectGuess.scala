@@ -8,26 +8,26 @@ import candela.base.SourcePos
   * estimate.
   */
 final class DialectGuess:
-  private val seen = mutable.HashMap.empty[String, mutable.LinkedHashMap[String, SourcePos]]
+  private val occurrences = mutable.HashMap.empty[String, mutable.LinkedHashMap[String, SourcePos]]
 
   /** Records a directive, parameter type, or implementation of a category. */
   def uses(category: String, name: String, at: SourcePos): Unit =
     if name.nonEmpty then
-      val names = seen.getOrElseUpdate(category, mutable.LinkedHashMap.empty)
+      val names = occurrences.getOrElseUpdate(category, mutable.LinkedHashMap.empty)
       if !names.contains(name) then names(name) = at
 
   /** The evidence so far. */
   def clues: Vector[DialectClue] =
-    val found =
+    val evidence =
       for
         e <- DialectGuess.Table
-        names <- seen.get(e.category)
+        names <- occurrences.get(e.category)
         (name, at) <- names.find((n, _) => e.names(n))
-      yield DialectClue(DialectGuess.shown(e.category, name), Some(at), e.v2, e.v3, e.v4)
-    val hasEnd = seen.get("directive").exists(_.contains("WorldEnd"))
-    found.toVector ++ Option.unless(hasEnd)(DialectGuess.NoWorldEnd)
+      yield DialectClue(DialectGuess.description(e.category, name), Some(at), e.v2, e.v3, e.v4)
+    val hasEnd = occurrences.get("directive").exists(_.contains("WorldEnd"))
+    evidence.toVector ++ Option.unless(hasEnd)(DialectGuess.NoWorldEnd)
 
-  def dialect: Dialect = DialectGuess.of(clues)
+  def dialect: Dialect = DialectGuess.likeliest(clues)
 
 /** Evidence for some dialects.
   *
@@ -47,12 +47,12 @@ private final case class Evidence(category: String, names: Set[String], v2: Int,
 
 object DialectGuess:
   /** The dialect with the highest total weight; ties go to the newest. */
-  def of(clues: Vector[DialectClue]): Dialect =
+  def likeliest(clues: Vector[DialectClue]): Dialect =
     Dialect.ofPbrt.reverse.maxBy(d => clues.map(_.weight(d)).sum)
 
   private val NoWorldEnd = DialectClue("no WorldEnd", None, 0, 0, 6)
 
-  private def shown(category: String, name: String): String = category match
+  private def description(category: String, name: String): String = category match
     case "directive" => name
     case "type" => s"the type \"$name\""
     case _ => s"$category \"$name\""

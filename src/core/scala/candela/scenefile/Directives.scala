@@ -6,29 +6,29 @@ import candela.base.{Code, Problem, SceneError, SourcePos, Suggest}
 import candela.math.Transform
 
 /** Valid position of a directive: before `WorldBegin`, after it, or both. */
-enum Place:
+enum Section:
   case Options, World, Anywhere
 
 /** A directive.
   *
   * @param usage arguments, for messages
   */
-final class Directive(val name: String, val usage: String, val place: Place)(
+final class Directive(val name: String, val usage: String, val section: Section)(
     val run: (Arguments, SceneWriter) => Unit
 ):
   /** The error if the directive is not allowed here, before or after `WorldBegin`. */
-  def misplaced(worldBegin: Option[SourcePos]): Option[String] = place match
-    case Place.Anywhere => None
-    case Place.World =>
+  def misplaced(worldBegin: Option[SourcePos]): Option[String] = section match
+    case Section.Anywhere => None
+    case Section.World =>
       if worldBegin.isEmpty then Some(s"$name must be after WorldBegin") else None
-    case Place.Options =>
+    case Section.Options =>
       worldBegin.map: begin =>
         if name == "WorldBegin" then s"WorldBegin is repeated; the first is at $begin"
         else s"$name must be before WorldBegin (at $begin)"
 
 /** All directives of all dialects. */
 object Directives:
-  import Place.*
+  import Section.*
 
   private val NameAndParams = "\"name\" parameters"
 
@@ -132,12 +132,12 @@ object Directives:
     Transform.Identity
 
   /** pbrt accepts transforms that flatten meshes, and some scenes use them. */
-  private def orFlat(in: Arguments, why: String)(t: Option[Transform])(
+  private def orFlat(in: Arguments, reason: String)(t: Option[Transform])(
       flat: => Transform
   ): Transform =
     t.getOrElse:
       val message =
-        s"singular transform ($why); meshes are flattened, everything else it places is ignored"
+        s"singular transform ($reason); meshes are flattened, everything else it places is ignored"
       in.report(Problem.warning(Code.Transform, in.at, message))
       flat
 
@@ -148,10 +148,10 @@ object Directives:
 
   private val blocks: List[Directive] = List(
     Directive("AttributeBegin", "", World): (in, scene) =>
-      scene.blocks.begin("AttributeBegin", in.at),
+      scene.blocks.start("AttributeBegin", in.at),
     Directive("AttributeEnd", "", World)((in, scene) => scene.blocks.end("AttributeBegin", in.at)),
     Directive("TransformBegin", "", World): (in, scene) =>
-      scene.blocks.begin("TransformBegin", in.at),
+      scene.blocks.start("TransformBegin", in.at),
     Directive("TransformEnd", "", World)((in, scene) => scene.blocks.end("TransformBegin", in.at)),
     Directive("ObjectBegin", "\"name\"", World): (in, scene) =>
       scene.beginObject(in.quoted("a name")._1, in.at),
@@ -199,10 +199,10 @@ object Directives:
   /** Names of colour spaces, in lower case. */
   private[candela] val ColorSpaces: List[String] = List("srgb", "dci-p3", "rec2020", "aces2065-1")
 
-  private val others: List[Directive] = List(
+  private val miscellaneous: List[Directive] = List(
     Directive("Attribute", "\"target\" parameters", Anywhere): (in, scene) =>
-      val from = in.named("a target")
-      scene.attribute(from.name, from.at, from.params)
+      val defaults = in.named("a target")
+      scene.attribute(defaults.name, defaults.at, defaults.params)
     ,
     Directive("ColorSpace", "\"name\"", Anywhere): (in, scene) =>
       val (name, at) = in.quoted("a name")
@@ -232,7 +232,7 @@ object Directives:
   )
 
   val all: Map[String, Directive] =
-    (options ++ transforms ++ blocks ++ world ++ others).map(d => d.name -> d).toMap
+    (options ++ transforms ++ blocks ++ world ++ miscellaneous).map(d => d.name -> d).toMap
 
   private val byName = java.util.HashMap(all.asJava)
 

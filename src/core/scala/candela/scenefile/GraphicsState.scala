@@ -83,15 +83,15 @@ object Scope:
 
 /** Names in use, by kind. */
 final class UniqueNames:
-  private val taken = mutable.HashMap.empty[String, mutable.HashSet[String]]
+  private val used = mutable.HashMap.empty[String, mutable.HashSet[String]]
 
   private val counts = mutable.HashMap.empty[String, Int]
 
   /** Reserves the name; false if already in use. */
-  def take(kind: String, name: String): Boolean =
-    taken.getOrElseUpdate(kind, mutable.HashSet.empty).add(name)
+  def reserve(kind: String, name: String): Boolean =
+    used.getOrElseUpdate(kind, mutable.HashSet.empty).add(name)
 
-  def isTaken(kind: String, name: String): Boolean = taken.get(kind).exists(_(name))
+  def isTaken(kind: String, name: String): Boolean = used.get(kind).exists(_(name))
 
   /** A name like `name` that is unused in all the kinds. */
   def fresh(kinds: List[String], name: String): String =

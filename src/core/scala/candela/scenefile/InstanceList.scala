@@ -9,19 +9,19 @@ import candela.math.{Motion, MotionRow, MotionRows}
 /** Instances, of which there may be millions, in flat arrays: each is made when it is asked for.
   *
   * @param store which is not added to
-  * @param which numbers in the store, those of this list from `from` on; null: all that there are
+  * @param selection numbers in the store, those of this list from `from` on; null: all of them
   */
 final class InstanceList private (
     private val store: InstanceStore,
-    private val which: Array[Int] | Null,
+    private val selection: Array[Int] | Null,
     from: Int,
     val length: Int
 ) extends scala.collection.immutable.AbstractSeq[InstanceDescription]
     with IndexedSeq[InstanceDescription]:
 
   private def number(i: Int): Int =
-    val some = which
-    if some == null then i else some(from + i)
+    val numbers = selection
+    if numbers == null then i else numbers(from + i)
 
   def apply(i: Int): InstanceDescription =
     if i < 0 || i >= length then throw IndexOutOfBoundsException(i)
@@ -43,14 +43,14 @@ final class InstanceList private (
     * @param make makes these
     */
   def motions(make: AnimatedTransform => Motion): IndexedSeqView[Motion] =
-    val found = IntBuffer()
-    loop(length)(i => if !isPlain(i) then found += i)
-    val others = found.take()
-    val made = others.map(i => make(store.other(number(i))))
+    val nonPlainBuilder = IntBuffer()
+    loop(length)(i => if !isPlain(i) then nonPlainBuilder += i)
+    val nonPlain = nonPlainBuilder.take()
+    val nonPlainMotions = nonPlain.map(i => make(store.generalTransform(number(i))))
     (0 until length).view.map: i =>
       val row = store.row(number(i))
       if row >= 0 then MotionRow(store.rows, row)
-      else made(java.util.Arrays.binarySearch(others, i))
+      else nonPlainMotions(java.util.Arrays.binarySearch(nonPlain, i))
 
   /** The instances of each object, by its name. */
   def ofEach: Vector[(String, InstanceList)] =
@@ -62,12 +62,12 @@ final class InstanceList private (
     val starts = new Array[Int](sorted.size + 1)
     loop(length)(i => starts(rankOf(store.origin(number(i))) + 1) += 1)
     loop(sorted.size)(k => starts(k + 1) += starts(k))
-    val next = starts.clone
+    val offsets = starts.clone
     val numbers = new Array[Int](length)
     loop(length): i =>
       val k = rankOf(store.origin(number(i)))
-      numbers(next(k)) = number(i)
-      next(k) += 1
+      numbers(offsets(k)) = number(i)
+      offsets(k) += 1
     sorted.indices.toVector.collect:
       case k if starts(k) < starts(k + 1) =>
         val count = starts(k + 1) - starts(k)
@@ -77,11 +77,11 @@ final class InstanceList private (
   override def partition(
       holds: InstanceDescription => Boolean
   ): (InstanceList, InstanceList) =
-    val (in, out) = (IntBuffer(), IntBuffer())
-    loop(length)(i => (if holds(this(i)) then in else out) += number(i))
-    (some(in.take()), some(out.take()))
+    val (accepted, rejected) = (IntBuffer(), IntBuffer())
+    loop(length)(i => (if holds(this(i)) then accepted else rejected) += number(i))
+    (subset(accepted.take()), subset(rejected.take()))
 
-  private def some(numbers: Array[Int]): InstanceList =
+  private def subset(numbers: Array[Int]): InstanceList =
     new InstanceList(store, numbers, 0, numbers.length)
 
   /** All of them, changed. */
@@ -103,19 +103,19 @@ object InstanceList:
     /** Whether a list has the store, too. */
     private var isGiven = false
 
-    def addOne(one: InstanceDescription): this.type =
+    def addOne(instance: InstanceDescription): this.type =
       if isGiven then
         store = store.continued
         isGiven = false
-      store.add(one)
+      store.add(instance)
       this
 
-    override def addAll(more: IterableOnce[InstanceDescription]): this.type = more match
-      case list: InstanceList if store.length == 0 && list.which == null =>
+    override def addAll(instances: IterableOnce[InstanceDescription]): this.type = instances match
+      case list: InstanceList if store.length == 0 && list.selection == null =>
         store = list.store
         isGiven = true
         this
-      case _ => super.addAll(more)
+      case _ => super.addAll(instances)
 
     def clear(): Unit =
       store = InstanceStore.empty
@@ -128,18 +128,18 @@ object InstanceList:
 /** What is known of instances. It is added to until a list has it: lists are read by any thread.
   *
   * @param numbers of each: its origin, line, column
-  * @param others  those whose transform is not a row, in order; the rest have the rows in theirs
+  * @param general those whose transform is not a row, in order; the rest have the rows in theirs
   */
 private final class InstanceStore private (
     val rows: MotionRows,
     numbers: IntBuffer,
     private var origins: Vector[InstanceStore.Origin],
-    private var others: Vector[InstanceStore.Other]
+    private var general: Vector[InstanceStore.GeneralTransform]
 ):
   import InstanceStore.*
 
   private val numberOf = mutable.HashMap.empty[Origin, Int]
-  private var last = Origin("", "", None)
+  private var lastOrigin = Origin("", "", None)
   private var lastNumber = -1
 
   private inline val NumbersPerInstance = 3
@@ -148,27 +148,29 @@ private final class InstanceStore private (
 
   /** The same instances, to which others can be added; most memory is shared. */
   def continued: InstanceStore =
-    new InstanceStore(rows.continued, numbers.continued, origins, others)
+    new InstanceStore(rows.continued, numbers.continued, origins, general)
 
-  def add(one: InstanceDescription): Unit =
-    place(one.instanceToWorld)
-    numbers += originOf(one)
-    numbers += one.at.line
-    numbers += one.at.column
+  def add(instance: InstanceDescription): Unit =
+    addTransform(instance.instanceToWorld)
+    numbers += originOf(instance)
+    numbers += instance.at.line
+    numbers += instance.at.column
 
-  private def originOf(one: InstanceDescription): Int =
-    val at = one.at
-    val isLast = lastNumber >= 0 && (last.name == one.name) && (last.file eq at.file) &&
-      (last.includedFrom eq at.includedFrom)
+  private def originOf(instance: InstanceDescription): Int =
+    val position = instance.at
+    val isLast =
+      lastNumber >= 0 && (lastOrigin.name == instance.name) && (lastOrigin.file eq position.file) &&
+        (lastOrigin.includedFrom eq position.includedFrom)
     if !isLast then
-      last = Origin(one.name, at.file, at.includedFrom)
-      lastNumber = numberOf.getOrElseUpdate(last, { origins :+= last; origins.size - 1 })
+      lastOrigin = Origin(instance.name, position.file, position.includedFrom)
+      lastNumber =
+        numberOf.getOrElseUpdate(lastOrigin, { origins :+= lastOrigin; origins.size - 1 })
     lastNumber
 
-  private def place(t: AnimatedTransform): Unit =
+  private def addTransform(t: AnimatedTransform): Unit =
     val map = t.start
     if (map eq t.end) && !map.isFlat && MotionRows.canHold(map) then rows.add(map): Unit
-    else others :+= Other(length, t)
+    else general :+= GeneralTransform(length, t)
 
   /** The names of all origins. */
   def names: Vector[String] = origins.map(_.name)
@@ -180,37 +182,38 @@ private final class InstanceStore private (
 
   /** The number of the row; −1 − that of another transform. */
   def row(i: Int): Int =
-    val before = othersBefore(i)
-    if before < others.size && others(before).number == i then -1 - before else i - before
+    val generalBefore = countGeneralBefore(i)
+    if generalBefore < general.size && general(generalBefore).number == i then -1 - generalBefore
+    else i - generalBefore
 
   /** How many before `i` have no row. */
-  private def othersBefore(i: Int): Int =
-    var (low, high) = (0, others.size)
+  private def countGeneralBefore(i: Int): Int =
+    var (low, high) = (0, general.size)
     while low < high do
       val middle = (low + high) >>> 1
-      if others(middle).number < i then low = middle + 1 else high = middle
+      if general(middle).number < i then low = middle + 1 else high = middle
     low
 
   /** The transform of an instance that is not plain. */
-  def other(i: Int): AnimatedTransform = others(-1 - row(i)).toWorld
+  def generalTransform(i: Int): AnimatedTransform = general(-1 - row(i)).toWorld
 
   def apply(i: Int): InstanceDescription =
     val Origin(name, file, includedFrom) = origins(origin(i))
-    val at = SourcePos(
+    val position = SourcePos(
       file,
       numbers(NumbersPerInstance * i + 1),
       numbers(NumbersPerInstance * i + 2),
       includedFrom
     )
     val toWorld =
-      if isPlain(i) then GraphicsState.still(rows.transform(row(i))) else other(i)
-    InstanceDescription(name, at, toWorld)
+      if isPlain(i) then GraphicsState.still(rows.transform(row(i))) else generalTransform(i)
+    InstanceDescription(name, position, toWorld)
 
 private object InstanceStore:
   final case class Origin(name: String, file: String, includedFrom: Option[SourcePos])
 
   /** The transform of the instance of a number. */
-  final case class Other(number: Int, toWorld: AnimatedTransform)
+  final case class GeneralTransform(number: Int, toWorld: AnimatedTransform)
 
   def empty: InstanceStore =
     new InstanceStore(MotionRows(), IntBuffer(), Vector.empty, Vector.empty)

@@ -13,14 +13,14 @@ import java.nio.charset.StandardCharsets.ISO_8859_1
   * the JDK's parser.
   */
 final class NumberReader(source: Source):
-  private var from = 0
-  private var until = 0
+  private var tokenStart = 0
+  private var tokenEnd = 0
   private var sign = 0
   private var mantissa = 0L
   private var exponent = 0
 
   /** End of the last scan: offset of the first byte that is not part of a number. */
-  def stop: Int = until
+  def stop: Int = tokenEnd
 
   /** Scans the number at `at`; the conversions below return the last number scanned. Returns the
     * offset after it, or −1 if there is no number or it isn't followed by a delimiter.
@@ -29,24 +29,24 @@ final class NumberReader(source: Source):
     val bytes = source.bytes
     if source.limit - at < NumberReader.Ahead then scanSlowly(at)
     else
-      val first = bytes(at)
-      sign = if first == '-' then 1 else 0
-      val whole = at + sign
-      val word = NumberReader.eight(bytes, whole)
+      val firstByte = bytes(at)
+      sign = if firstByte == '-' then 1 else 0
+      val digitsStart = at + sign
+      val word = NumberReader.eight(bytes, digitsStart)
       val n = NumberReader.digits(word)
-      val point = whole + n
+      val point = digitsStart + n
       val stop = bytes(point)
-      from = at
+      tokenStart = at
       if n > 0 && NumberReader.isDelimiter(stop) && n < 8 then
         mantissa = NumberReader.value(word, n)
         exponent = 0
-        until = point
+        tokenEnd = point
         point
       else if n > 0 && n < 8 && stop == '.' then
         mantissa = NumberReader.value(word, n)
         exponent = 0
         val end = fraction(bytes, point + 1)
-        until = end
+        tokenEnd = end
         if end > point + 1 && NumberReader.isDelimiter(bytes(end)) then end else scanSlowly(at)
       else scanSlowly(at)
 
@@ -57,10 +57,10 @@ final class NumberReader(source: Source):
     if n > 0 then append(word, n)
     if n < 8 then at + n
     else
-      val rest = NumberReader.eight(bytes, at + 8)
-      val more = NumberReader.digits(rest).min(3)
-      if more > 0 then append(rest, more)
-      at + 8 + more
+      val nextWord = NumberReader.eight(bytes, at + 8)
+      val extraDigits = NumberReader.digits(nextWord).min(3)
+      if extraDigits > 0 then append(nextWord, extraDigits)
+      at + 8 + extraDigits
 
   private inline def append(word: Long, count: Int): Unit =
     mantissa = mantissa * NumberReader.Tens(count) + NumberReader.value(word, count)
@@ -78,11 +78,11 @@ final class NumberReader(source: Source):
     // Digits after the 18th change the value by a factor below 1e-17, far less than a Double's ulp.
     var m = 0L
     var e = 0
-    val whole = i
+    val digitsStart = i
     while i < end && isDigit(bytes(i)) do
       if m < EighteenDigits then m = m * 10 + (bytes(i) - '0') else e += 1
       i += 1
-    var digits = i - whole
+    var digits = i - digitsStart
     if i < end && bytes(i) == '.' then
       i += 1
       val fraction = i
@@ -92,10 +92,10 @@ final class NumberReader(source: Source):
           e -= 1
         i += 1
       digits += i - fraction
-    from = at
+    tokenStart = at
     mantissa = m
     exponent = e
-    until = i
+    tokenEnd = i
     if digits == 0 then -1
     else
       if i < end && (bytes(i) == 'e' || bytes(i) == 'E') then i = scanExponent(i + 1)
@@ -107,14 +107,14 @@ final class NumberReader(source: Source):
     var i = at
     val negative = i < end && bytes(i) == '-'
     if i < end && (negative || bytes(i) == '+') then i += 1
-    val first = i
+    val digitsStart = i
     var value = 0
     while i < end && isDigit(bytes(i)) do
       if value < 10000 then value = value * 10 + (bytes(i) - '0')
       i += 1
     exponent += (if negative then -value else value)
-    until = i
-    if i == first then -1 else i
+    tokenEnd = i
+    if i == digitsStart then -1 else i
 
   def toFloat: Float =
     if exponent < -LargestPower || exponent > LargestPower then slowFloat
@@ -151,7 +151,8 @@ final class NumberReader(source: Source):
     if exponent != 0 then toDouble.toInt else (mantissa.toInt ^ -sign) + sign
 
   private def slowFloat: Float = digits.toFloat
-  private def digits: String = new String(source.bytes, from, until - from, ISO_8859_1)
+  private def digits: String =
+    new String(source.bytes, tokenStart, tokenEnd - tokenStart, ISO_8859_1)
 
   private inline def isDigit(c: Byte): Boolean = c >= '0' && c <= '9'
   private inline val EighteenDigits = 100000000000000000L

@@ -25,7 +25,7 @@ final class Parameters(
   private var outer = List.empty[Tokenizer]
 
   /** Runs `body`, which reads a file included by that of `in`. */
-  def within(in: Tokenizer)(body: => Unit): Unit =
+  def withOuter(in: Tokenizer)(body: => Unit): Unit =
     outer = in :: outer
     try body
     finally outer = outer.tail
@@ -58,19 +58,19 @@ final class Parameters(
 
   private def parametersHere(in: Tokenizer, params: ParamList): Unit =
     while in.current == Token.Text do
-      val at = in.at
+      val position = in.at
       val key = keys.getOrElseUpdate(in.text, keyHere(in))
       in.advance()
-      val param = values.read(key.paramType, key.name, at, in)
+      val param = values.read(key.paramType, key.name, position, in)
       params.find(param.name) match
         case None => params.add(param)
         case Some(earlier) =>
-          val (ignored, used) =
+          val (ignored, effective) =
             if isTexture(earlier) && !isTexture(param) && !isV4() then (param, earlier)
             else (earlier, param)
-          val message = s"`${param.name}` is repeated at ${used.at}; this value is ignored"
+          val message = s"`${param.name}` is repeated at ${effective.at}; this value is ignored"
           warn(Problem.warning(Code.Redefined, ignored.at, message))
-          params.replace(earlier, used)
+          params.replace(earlier, effective)
 
   private def isTexture(param: Param): Boolean = param.paramType == ParamType.Texture
 
@@ -89,9 +89,9 @@ final class Parameters(
       case Array(spelling, _, _*) =>
         fail(s"unknown parameter type `$spelling`", Suggest.help(spelling, types.keys).get)
       case Array(word) if types.contains(word) =>
-        fail(s"${in.shown} is a parameter type without a name", s"for example \"$word name\"")
+        fail(s"${in.description} is a parameter type without a name", s"for example \"$word name\"")
       case Array(word) =>
-        fail(s"parameter ${in.shown} must have a type", s"for example \"float $word\"")
+        fail(s"parameter ${in.description} must have a type", s"for example \"float $word\"")
       case _ => fail("expected a parameter, found an empty string", "for example \"float fov\" 45")
 
 object Parameters:
@@ -108,32 +108,32 @@ object Parameters:
 
 /** Parameters, of each name one. */
 private final class ParamList:
-  private var few = Vector.empty[Param]
-  private var many: mutable.LinkedHashMap[String, Param] | Null = null
+  private var params = Vector.empty[Param]
+  private var table: mutable.LinkedHashMap[String, Param] | Null = null
 
   def find(name: String): Option[Param] =
-    val all = many
-    if all == null then few.find(_.name == name) else all.get(name)
+    val byName = table
+    if byName == null then params.find(_.name == name) else byName.get(name)
 
   def add(param: Param): Unit =
-    val all = many
-    if all != null then all(param.name) = param
+    val byName = table
+    if byName != null then byName(param.name) = param
     else
-      few = few :+ param
-      if few.size > ParamList.MaxSearched then
-        many = mutable.LinkedHashMap.from(few.map(p => p.name -> p))
+      params = params :+ param
+      if params.size > ParamList.MaxSearched then
+        table = mutable.LinkedHashMap.from(params.map(p => p.name -> p))
 
   /** What is used is the last of all. */
-  def replace(earlier: Param, used: Param): Unit =
-    val all = many
-    if all == null then few = few.filterNot(_ eq earlier) :+ used
+  def replace(earlier: Param, effective: Param): Unit =
+    val byName = table
+    if byName == null then params = params.filterNot(_ eq earlier) :+ effective
     else
-      all.remove(used.name): Unit
-      all(used.name) = used
+      byName.remove(effective.name): Unit
+      byName(effective.name) = effective
 
   def result: Vector[Param] =
-    val all = many
-    if all == null then few else all.values.toVector
+    val byName = table
+    if byName == null then params else byName.values.toVector
 
 private object ParamList:
   /** Up to this number, a linear search is faster than a table. */

@@ -12,7 +12,7 @@ object Parser:
     * @param dialect dialect of the file; None: auto-detected
     */
   def parse(file: Path, dialect: Option[Dialect] = None): SceneDescription =
-    whole(readable(file, dialect, keepGoing = false))
+    validated(readable(file, dialect, keepGoing = false))
 
   /** Parses the readable part of a scene; see [[SceneDescription.errors]].
     *
@@ -32,10 +32,10 @@ object Parser:
     val opened = folder.scene(file)
     Refusal.placed(start(file))(Source.read(opened)) match
       case Right(source) => read(source, folder, Some(opened), dialect, keepGoing, world)
-      case Left(why) =>
+      case Left(reason) =>
         throw SceneError(Problem.general(
           Code.Unreadable,
-          s"can't read the scene file `$file`: $why"
+          s"can't read the scene file `$file`: $reason"
         ))
 
   private def start(file: Path) = SourcePos(file.toString, 1, 1)
@@ -69,8 +69,8 @@ object Parser:
       keepGoing: Boolean = false,
       world: Int = 0
   ): SceneDescription =
-    val here = SceneFolder(folder)
-    whole(read(Source.fromText(name, text), here, None, dialect, keepGoing, world))
+    val sceneFolder = SceneFolder(folder)
+    validated(read(Source.fromText(name, text), sceneFolder, None, dialect, keepGoing, world))
 
   /** The readable part of a scene in a string; see [[SceneDescription.errors]]. */
   def readableText(
@@ -83,7 +83,7 @@ object Parser:
     read(Source.fromText(name, text), within, None, dialect, keepGoing, world = 0)
 
   /** The scene, if it has no errors. */
-  def whole(scene: SceneDescription): SceneDescription =
+  def validated(scene: SceneDescription): SceneDescription =
     if scene.errors.isEmpty then scene
     else throw SceneError(scene.errors ++ scene.warnings)
 
@@ -98,13 +98,13 @@ object Parser:
     attempt(source, folder, file, dialect, keepGoing, world) match
       case Right(scene) => scene
       case Left(better) =>
-        val once = source.again.getOrElse:
+        val reopened = source.again.getOrElse:
           throw SceneError(Problem.general(
             Code.Unreadable,
             s"can't read `${source.name}` a second time"
           ))
         folder.allowance.readAgain()
-        attempt(once, folder, file, Some(better), keepGoing, world).toOption.get
+        attempt(reopened, folder, file, Some(better), keepGoing, world).toOption.get
 
   /** The scene; or the dialect to parse it with again: the few statements that v4 treats
     * differently were parsed as v3's.
@@ -120,5 +120,5 @@ object Parser:
     val run = ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3), keepGoing, world)
     run.read()
     val guess = dialect.getOrElse(run.guess)
-    if dialect.isEmpty && run.askedDialect && guess == Dialect.V4 then Left(guess)
+    if dialect.isEmpty && run.queriedDialect && guess == Dialect.V4 then Left(guess)
     else Right(run.result(guess).copy(clues = run.clues))

@@ -37,7 +37,7 @@ private[scenefile] final class ParserRun(
   private val misplaced = Problems()
 
   private val sources = mutable.LinkedHashSet.from(file.map(_.path))
-  private var lost = Set.empty[NameKind]
+  private var failedKinds = Set.empty[NameKind]
 
   /** Whether the rest of the file is ignored. */
   private var isDone = false
@@ -56,10 +56,10 @@ private[scenefile] final class ParserRun(
   private var postponed = Option.empty[() => Unit]
 
   /** Whether the dialect made a difference. */
-  var askedDialect = false
+  var queriedDialect = false
 
   private def isV4: Boolean =
-    askedDialect = true
+    queriedDialect = true
     dialect == Dialect.V4
 
   /** The estimated dialect; valid after [[read]]. */
@@ -78,14 +78,14 @@ private[scenefile] final class ParserRun(
   /** The description with all problems; throws these if there is no world. */
   def result(dialect: Dialect): SceneDescription =
     finish(dialect)
-    def open(name: String) = if name == source.name then source.again else Excerpts.read(name)
-    val all = Excerpts.fill(problems.result(), open)
-    if scene.worldBegin.isEmpty then throw SceneError(all)
-    val (errors, warnings) = all.partition(_.severity == Severity.Error)
+    def reopen(name: String) = if name == source.name then source.again else Excerpts.read(name)
+    val allProblems = Excerpts.fill(problems.result(), reopen)
+    if scene.worldBegin.isEmpty then throw SceneError(allProblems)
+    val (errors, warnings) = allProblems.partition(_.severity == Severity.Error)
     val read = scene.description(dialect, warnings)
     read.copy(
       errors = errors,
-      lost = lost,
+      failedKinds = failedKinds,
       sources = sources.toVector,
       isFollowed = isFollowed && dialect != Dialect.V4
     )
@@ -96,12 +96,12 @@ private[scenefile] final class ParserRun(
       // Without its WorldBegin every statement is misplaced; the cause is already reported, or is
       // this:
       case None if problems.errors == 0 =>
-        val what = "it is a file to Include, not a scene"
-        problems.add(Problem.general(Code.NoWorld, s"`${source.name}` has no WorldBegin; $what"))
+        val hint = "it is a file to Include, not a scene"
+        problems.add(Problem.general(Code.NoWorld, s"`${source.name}` has no WorldBegin; $hint"))
       case None => ()
       case Some(begin) =>
         misplaced.result().foreach(problems.add)
-        scene.lateParts(dialect).foreach(problems.add)
+        scene.lateDefinitions(dialect).foreach(problems.add)
         for at <- trailing if !isFollowed || dialect == Dialect.V4 do
           problems.add(Problem.warning(Code.NoWorld, at, "statements after WorldEnd are ignored"))
         if dialect != Dialect.V4 && scene.worldEnd.isEmpty && problems.errors == 0 then
@@ -136,32 +136,32 @@ private[scenefile] final class ParserRun(
     if !isThere then in.advanceToName()
 
   private def statement(in: Tokenizer): Unit =
-    val at = in.at
-    folder.allowance.checkTime(Some(at))
+    val position = in.at
+    folder.allowance.checkTime(Some(position))
     val directive = if in.current == Token.Word then Directives.named(in.text) else null
     if directive == null then unknown(in)
     else if scene.worldEnd.nonEmpty && worldsToSkip == 0 then
-      trailing = trailing.orElse(Some(at))
+      trailing = trailing.orElse(Some(position))
       isFollowed = directive.name == "WorldBegin"
       isDone = isFollowed
       if !isDone then in.advanceToName()
     else
       if scene.worldEnd.nonEmpty then beginNext()
       // The first of each: there are millions
-      if directives.add(directive) then evidence.uses("directive", directive.name, at)
+      if directives.add(directive) then evidence.uses("directive", directive.name, position)
       in.advance()
-      if isMisplaced(directive, at) then skipToDirective(in)
-      else run(directive, at, in)
+      if isMisplaced(directive, position) then skipToDirective(in)
+      else run(directive, position, in)
 
   /** Forgets the world just read; v2 keeps the settings of the image. */
   private def beginNext(): Unit =
     worldsToSkip -= 1
     problems.clear()
     misplaced.clear()
-    lost = Set.empty
-    val before = scene
+    failedKinds = Set.empty
+    val previousWorld = scene
     scene = SceneWriter(folder, evidence, () => isV4, doubts.add)
-    if evidence.dialect == Dialect.V2 then scene.keepSettings(before)
+    if evidence.dialect == Dialect.V2 then scene.copySettings(previousWorld)
 
   private def run(directive: Directive, at: SourcePos, in: Tokenizer): Unit =
     val arguments = WrittenArguments(directive, at, in, parameters, doubts.add, include(in))
@@ -173,20 +173,20 @@ private[scenefile] final class ParserRun(
           scene.blocks.isDoubtful = true
         throw e
     finally
-      val next = postponed
+      val postponedInclude = postponed
       postponed = None
-      for include <- next do attempt(in)(losing("Include")(include()))
+      for include <- postponedInclude do attempt(in)(losing("Include")(include()))
 
   /** Runs a directive; if that fails, the names that it may have defined are lost. */
   private inline def losing(directive: String)(inline body: Unit): Unit =
     try body
     catch
       case e: SceneError =>
-        lost ++= NameKind.madeBy(directive)
+        failedKinds ++= NameKind.definedBy(directive)
         throw e
 
   private def unknown(in: Tokenizer): Nothing =
-    val (at, shown) = (in.at, in.shown)
+    val (at, shown) = (in.at, in.description)
     val problem =
       if in.current != Token.Word || in.isNumber then
         val help = "write several values of a parameter in brackets: [ … ]"
@@ -200,24 +200,24 @@ private[scenefile] final class ParserRun(
 
   /** Reports a statement on the wrong side of WorldBegin: an error in v4, ignored in v2 and v3. */
   private def isMisplaced(directive: Directive, at: SourcePos): Boolean =
-    val found = directive.misplaced(scene.worldBegin)
-    for message <- found if !misplaced.isFull do
+    val misplacement = directive.misplaced(scene.worldBegin)
+    for message <- misplacement if !misplaced.isFull do
       misplaced.add(
         if isV4 then Problem.error(Code.WrongPlace, at, message)
         else Problem.warning(Code.WrongPlace, at, s"$message; ignored")
       )
-    found.nonEmpty
+    misplacement.nonEmpty
 
   /** Reads the statements of another file, which `from` includes. */
   private def include(from: Tokenizer)(name: String, nameAt: SourcePos, at: SourcePos): Unit =
-    open(name, nameAt, at) match
-      case Right(opened) => within(from, opened)(statements(opened.text))
-      case Left(why) => skip(why, from, nameAt)
+    openIncluded(name, nameAt, at) match
+      case Right(opened) => withIncluded(from, opened)(statements(opened.text))
+      case Left(missing) => skip(missing, from, nameAt)
 
   /** Passes over a file that can't be read, if that is asked for. */
-  private def skip(why: Missing, from: Tokenizer, nameAt: SourcePos): Unit =
+  private def skip(missing: Missing, from: Tokenizer, nameAt: SourcePos): Unit =
     val problem =
-      Problem.missing(why.code, nameAt, why.message, "skipped", keepGoing, why.help)
+      Problem.missing(missing.code, nameAt, missing.message, "skipped", keepGoing, missing.help)
     if !keepGoing then throw SceneError(problem)
     problems.add(problem)
     // Skips the parameters that continue the missing file's last statement.
@@ -227,29 +227,33 @@ private[scenefile] final class ParserRun(
     *
     * @throws SceneError if it may not be included
     */
-  private def open(name: String, nameAt: SourcePos, at: SourcePos): Either[Missing, Included] =
+  private def openIncluded(
+      name: String,
+      nameAt: SourcePos,
+      at: SourcePos
+  ): Either[Missing, Included] =
     resolve(name, nameAt) match
       case None =>
-        val shown = folders.map(f => if f.toString.isEmpty then "`.`" else s"`$f`")
-        val near = folders.flatMap(f => folder.at(f).suggestion(name)).headOption
-        val help = near.getOrElse(s"looked in ${shown.mkString(" and ")}")
+        val searched = folders.map(f => if f.toString.isEmpty then "`.`" else s"`$f`")
+        val suggestion = folders.flatMap(f => folder.at(f).suggestion(name)).headOption
+        val help = suggestion.getOrElse(s"looked in ${searched.mkString(" and ")}")
         Left(Missing(Code.NoSuchFile, s"can't include `$name`: no such file", Some(help)))
       case Some(file) =>
-        for why <- circle(file, name) do
-          throw SceneError(Problem.error(Code.IncludeCircle, nameAt, why))
+        for reason <- circle(file, name) do
+          throw SceneError(Problem.error(Code.IncludeCircle, nameAt, reason))
         countInclude(nameAt)
         Source.readNamed(file) match
-          case Left(why) => Left(Missing(Code.NoScene, s"can't include `$name`: $why", None))
+          case Left(reason) => Left(Missing(Code.NoScene, s"can't include `$name`: $reason", None))
           case Right(source) =>
             sources += file.path
             if !file.isShown then doubts.raise(file.toString)
             Right(Included(file, Tokenizer(source, Some(at))))
 
   /** Runs `body`, which reads the file. */
-  private def within(from: Tokenizer, included: Included)(body: => Unit): Unit =
+  private def withIncluded(from: Tokenizer, included: Included)(body: => Unit): Unit =
     val outer = reading
     reading = included.file :: outer
-    try parameters.within(from)(body)
+    try parameters.withOuter(from)(body)
     finally reading = outer
 
   /** The file of an Include at the current token of `from`, if it begins with parameters; the
@@ -259,19 +263,19 @@ private[scenefile] final class ParserRun(
     val isInclude = from.current == Token.Word && from.text == "Include" && from.nextIsText
     if !isInclude then None
     else
-      val at = from.at
-      evidence.uses("directive", "Include", at)
+      val position = from.at
+      evidence.uses("directive", "Include", position)
       from.advance()
       val (name, nameAt) = (from.text, from.at)
       from.advance()
-      val opened = Try(open(name, nameAt, at))
+      val opened = Try(openIncluded(name, nameAt, position))
       val beginning = opened.toOption.flatMap(_.toOption).map(_.text).filter(_.nextIsText)
       postponed = Some: () =>
         opened.get match
           case Right(file) =>
-            within(from, file):
+            withIncluded(from, file):
               if beginning.isEmpty then statements(file.text) else statementsFromHere(file.text)
-          case Left(why) => skip(why, from, nameAt)
+          case Left(missing) => skip(missing, from, nameAt)
       for text <- beginning do
         try text.advance()
         catch
@@ -286,12 +290,12 @@ private[scenefile] final class ParserRun(
     folder.allowance.check(Limit.Depth, reading.size, Some(at)):
       s"includes are nested ${reading.size} deep"
     includes += 1
-    if includes > MostIncludes then
+    if includes > MaxIncludes then
       isDone = true
       throw SceneError(Problem.error(
         Code.IncludeCircle,
         at,
-        s"more than ${MostIncludes} files are included"
+        s"more than ${MaxIncludes} files are included"
       ))
 
   /** Why a file can't be included here. */
@@ -300,8 +304,8 @@ private[scenefile] final class ParserRun(
       val chain = reading.takeWhile(!_.isSame(file)).reverse
       Some(s"`$name` includes itself${chain.map(f => s", through `$f`").mkString}")
     else
-      Option.when(reading.size > DeepestInclude):
-        s"includes are nested more than ${DeepestInclude} deep"
+      Option.when(reading.size > MaxIncludeDepth):
+        s"includes are nested more than ${MaxIncludeDepth} deep"
 
   /** Resolves against the scene's folder, as in all three renderers; else against the including
     * file's.
@@ -320,7 +324,7 @@ private[scenefile] object ParserRun:
   private final case class Missing(code: Code, message: String, help: Option[String])
 
   /** More than any scene needs, and far from a stack overflow. */
-  private val DeepestInclude = 200
+  private val MaxIncludeDepth = 200
 
   /** Counted as often as they are included. */
-  private val MostIncludes = 100_000
+  private val MaxIncludes = 100_000

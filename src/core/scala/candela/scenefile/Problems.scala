@@ -11,7 +11,7 @@ final class Problems:
   def errors: Int = errorCount
 
   /** Whether parsing should stop: with this many errors the file is no scene. */
-  def isFull: Boolean = errorCount >= Problems.MostErrors
+  def isFull: Boolean = errorCount >= Problems.MaxErrors
 
   def clear(): Unit =
     collected = Vector.newBuilder[Problem]
@@ -21,26 +21,26 @@ final class Problems:
   def add(problem: Problem): Unit =
     if problem.severity == Severity.Error then
       errorCount += 1
-      if errorCount <= Problems.MostErrors then collected += problem
+      if errorCount <= Problems.MaxErrors then collected += problem
     else
       warningCount += 1
-      if warningCount <= Problems.MostWarnings then collected += problem
+      if warningCount <= Problems.MaxWarnings then collected += problem
 
   /** The problems in order of discovery, with a note about those omitted. */
   def result(): Vector[Problem] =
-    val left = warningCount - Problems.MostWarnings
-    val stop = s"parsing stopped after ${Problems.MostErrors} errors"
+    val omitted = warningCount - Problems.MaxWarnings
+    val stop = s"parsing stopped after ${Problems.MaxErrors} errors"
     collected.result() ++
       Option.when(isFull)(Problem.general(Code.TooManyProblems, stop)) ++
-      Option.when(left > 0)(Problem(
+      Option.when(omitted > 0)(Problem(
         Code.TooManyProblems,
         Severity.Warning,
         None,
-        s"$left more warnings omitted"
+        s"$omitted more warnings omitted"
       ))
 
 object Problems:
   /** Further ones get no help: it is looked for among thousands of names. */
-  val MostHelped = 200
-  val MostErrors = 1000
-  val MostWarnings = 10000
+  val MaxHelped = 200
+  val MaxErrors = 1000
+  val MaxWarnings = 10000

@@ -90,7 +90,7 @@ final case class TextureDescription(
   * @param warnings warnings of the parser
   * @param errors errors of statements that could not be parsed: the rest can be checked, but not
   *   rendered
-  * @param lost kinds of names that those statements may have defined
+  * @param failedKinds kinds of names that those statements may have defined
   * @param sources the scene file and the files that it includes
   * @param clues what the dialect was estimated from; see [[DialectGuess]]
   * @param dialectReason why it is that dialect, for the user
@@ -122,7 +122,7 @@ final case class SceneDescription(
     transformTimes: (Float, Float) = (0f, 1f),
     warnings: Vector[Problem] = Vector.empty,
     errors: Vector[Problem] = Vector.empty,
-    lost: Set[NameKind] = Set.empty,
+    failedKinds: Set[NameKind] = Set.empty,
     sources: Vector[Path] = Vector.empty,
     clues: Vector[DialectClue] = Vector.empty,
     dialectReason: String = "",
@@ -144,7 +144,7 @@ object NameKind:
 
   /** Kinds of names that an unreadable statement may have defined; an included file may define any.
     */
-  def madeBy(directive: String): Set[NameKind] = directive match
+  def definedBy(directive: String): Set[NameKind] = directive match
     case "Texture" => Set(Texture)
     case "MakeNamedMaterial" => Set(Material)
     case "MakeNamedMedium" => Set(Medium)

@@ -37,9 +37,9 @@ object SceneFiles:
       s.media.iterator.map(_.medium)
 
   /** Without those that are the one before. */
-  private def changes[T <: AnyRef](all: Iterator[T]): Iterator[T] =
-    var last = Option.empty[T]
-    all.filter: next =>
-      val isNew = !last.exists(_ eq next)
-      if isNew then last = Some(next)
+  private def changes[T <: AnyRef](elements: Iterator[T]): Iterator[T] =
+    var previous = Option.empty[T]
+    elements.filter: element =>
+      val isNew = !previous.exists(_ eq element)
+      if isNew then previous = Some(element)
       isNew

@@ -46,27 +46,27 @@ final class SceneWriter(
   private val mixed = Vector.newBuilder[(Declaration, Param)]
 
   /** Notes the materials of a mixture that are not defined yet. */
-  private def noteParts(d: Declaration): Declaration =
+  private def noteMixture(d: Declaration): Declaration =
     if d.name == "mix" then
       for p <- d.params if SceneWriter.MixedNames(p.name) && p.strings.size == 1 do
         if !names.isTaken("material", p.strings.head) then mixed += (d -> p)
     d
 
   /** Warnings about mixtures of materials that are defined after them. */
-  def lateParts(dialect: Dialect): Vector[Problem] =
-    val all = result.namedMaterials.map((name, made) => name -> made.at).toMap
-    val places = result.namedMaterials.map((_, made) => made.at).toSet
-    def isNamed(d: Declaration) = places(d.at)
+  def lateDefinitions(dialect: Dialect): Vector[Problem] =
+    val definitions = result.namedMaterials.map((name, material) => name -> material.at).toMap
+    val definitionPositions = result.namedMaterials.map((_, material) => material.at).toSet
+    def isNamed(d: Declaration) = definitionPositions(d.at)
     for
-      (mixture, part) <- mixed.result()
+      (mixture, reference) <- mixed.result()
       // pbrt-v2 looks for the parts of a `Material` when a shape has it
       if dialect == Dialect.V3 || dialect == Dialect.V2 && isNamed(mixture)
-      later <- all.get(part.strings.head)
+      later <- definitions.get(reference.strings.head)
     yield
-      val name = part.strings.head
+      val name = reference.strings.head
       Problem.warning(
         Code.DefinedLater,
-        part.valuesAt,
+        reference.valuesAt,
         s"material `$name` is defined only later, at $later; pbrt mixes a grey \"matte\" instead " +
           "and prints an error",
         Some(s"move its MakeNamedMaterial before this statement")
@@ -101,20 +101,20 @@ final class SceneWriter(
   private def declare(category: String, from: Named, defaults: String = ""): Declaration =
     evidence.uses(category, from.name, from.at)
     val inherited = state.defaults.getOrElse(defaults, Vector.empty)
-    val all =
+    val combined =
       if inherited.isEmpty then from.params
       else from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
-    val params = state.scope.resolve(all)
+    val params = state.scope.resolve(combined)
     Declaration(category, from.name, params, from.at, folder, state.colorSpace, foreign)
 
   /** A declaration named by the value of its "string type". */
   private def declareByType(category: String, from: Named, defaults: String): Declaration =
-    val whole = declare("", from, defaults)
+    val declared = declare("", from, defaults)
     val missing = Some(s"add for example \"string type\" \"${SceneWriter.Examples(category)}\"")
-    whole.param("type").filter(_.strings.size == 1) match
+    declared.param("type").filter(_.strings.size == 1) match
       case Some(t) =>
         evidence.uses(category, t.strings.head, t.valuesAt)
-        val params = whole.params.filterNot(_ eq t)
+        val params = declared.params.filterNot(_ eq t)
         val name = t.strings.head
         Declaration(category, name, params, t.valuesAt, folder, state.colorSpace, foreign)
       case None => fail(
@@ -140,47 +140,47 @@ final class SceneWriter(
       case "Accelerator" => result.copy(accelerator = d)
 
   /** Takes over all that stands before the world of another scene. */
-  def keepSettings(of: SceneWriter): Unit =
-    val old = of.result
+  def copySettings(other: SceneWriter): Unit =
+    val settings = other.result
     result = result.copy(
-      camera = old.camera,
-      worldToCamera = old.worldToCamera,
-      film = old.film,
-      sampler = old.sampler,
-      filter = old.filter,
-      integrator = old.integrator,
-      volumeIntegrator = old.volumeIntegrator,
-      renderer = old.renderer,
-      accelerator = old.accelerator
+      camera = settings.camera,
+      worldToCamera = settings.worldToCamera,
+      film = settings.film,
+      sampler = settings.sampler,
+      filter = settings.filter,
+      integrator = settings.integrator,
+      volumeIntegrator = settings.volumeIntegrator,
+      renderer = settings.renderer,
+      accelerator = settings.accelerator
     )
 
   /** Begins with all that another scene has; what there is once may be replaced. */
-  def keepAll(of: SceneDescription): Unit =
-    result = of
+  def startFrom(base: SceneDescription): Unit =
+    result = base
     isBased = true
     worldBegin = Some(SourcePos.Nowhere)
-    coordinateSystems("camera") = GraphicsState.inverse(of.worldToCamera)
+    coordinateSystems("camera") = GraphicsState.inverse(base.worldToCamera)
     coordinateSystems("world") = GraphicsState.Identity
-    for t <- of.textures do
-      keep(t)
-      names.take(t.valueType, t.name): Unit
-    for (name, _) <- of.namedMaterials do names.take("material", name): Unit
-    for name <- of.objects.keys do
-      names.take("object", name): Unit
+    for t <- base.textures do
+      addTexture(t)
+      names.reserve(t.valueType, t.name): Unit
+    for (name, _) <- base.namedMaterials do names.reserve("material", name): Unit
+    for name <- base.objects.keys do
+      names.reserve("object", name): Unit
       objectNames(name) = name
-    lights ++= of.lights
-    shapes ++= of.shapes
-    objects ++= of.objects
-    instances ++= of.instances
-    media ++= of.media.map(m => m.name -> m)
+    lights ++= base.lights
+    shapes ++= base.shapes
+    objects ++= base.objects
+    instances ++= base.instances
+    media ++= base.media.map(m => m.name -> m)
 
   /** Changes all that there is so far. */
   def change(f: SceneDescription => SceneDescription): Unit =
     val changed = f(description(result.dialect, Vector.empty))
-    for all <- Vector(textures, lights, shapes, instances) do all.clear()
-    for all <- Vector(texturesByName, objects, media, objectNames) do all.clear()
+    for collection <- Vector(textures, lights, shapes, instances) do collection.clear()
+    for collection <- Vector(texturesByName, objects, media, objectNames) do collection.clear()
     val begun = worldBegin
-    keepAll(changed)
+    startFrom(changed)
     worldBegin = begun
 
   /** Where the camera is, by the current transform. */
@@ -211,7 +211,7 @@ final class SceneWriter(
       state.outsideMedium
     )
     inObject match
-      case Some((_, own)) => own += described
+      case Some((_, group)) => group += described
       case None => shapes += described
     ()
 
@@ -229,7 +229,7 @@ final class SceneWriter(
     changeState(_.copy(areaLight = light))
 
   def material(from: Named): Unit =
-    val material = MaterialRef.Inline(noteParts(declare("Material", from, "material")))
+    val material = MaterialRef.Inline(noteMixture(declare("Material", from, "material")))
     changeState(_.copy(material = material))
 
   def namedMaterial(name: String, at: SourcePos): Unit =
@@ -237,15 +237,15 @@ final class SceneWriter(
     changeState(_.copy(material = MaterialRef.Named(unique, at)))
 
   def makeNamedMaterial(from: Named): Unit =
-    val material = noteParts(declareByType("Material", from, "material"))
+    val material = noteMixture(declareByType("Material", from, "material"))
     val scope = state.scope
     val current = scope.materials.getOrElse(from.name, from.name)
     val unique =
-      if names.take("material", current) then current
+      if names.reserve("material", current) then current
       else
-        refuseInV4(from.at, "material", from.name)
+        rejectInV4(from.at, "material", from.name)
         names.fresh(List("material"), from.name)
-    val _ = names.take("material", unique)
+    val _ = names.reserve("material", unique)
     if unique != current then
       changeState(_.copy(scope =
         scope.copy(materials = scope.materials.updated(from.name, unique))
@@ -254,7 +254,7 @@ final class SceneWriter(
 
   def makeNamedMedium(from: Named): Unit =
     val medium = declareByType("Medium", from, "medium")
-    if media.contains(from.name) then refuseInV4(from.at, "medium", from.name)
+    if media.contains(from.name) then rejectInV4(from.at, "medium", from.name)
     // A later one goes behind all others
     media.remove(from.name): Unit
     media(from.name) = MediumDescription(from.name, medium, state.transform)
@@ -265,26 +265,28 @@ final class SceneWriter(
       TextureDescription(unique, valueType, declare("Texture", from, "texture"), state.transform)
     val scope = state.scope
     val current = scope.textures.getOrElse(name, name)
-    if names.take(valueType, current) then keep(described(current))
+    if names.reserve(valueType, current) then addTexture(described(current))
     else
-      refuseInV4(at, s"$valueType texture", name)
-      val made = described(names.fresh(SceneWriter.TextureKinds, name))
+      rejectInV4(at, s"$valueType texture", name)
+      val redefined = described(names.fresh(SceneWriter.TextureKinds, name))
       // Textures of the other value type with this name must resolve by the new name, too.
       for
         kind <- SceneWriter.TextureKinds if kind != valueType
         twin <- texturesByName.get((kind, current))
       do
-        keep(twin.copy(name = made.name))
-        val _ = names.take(kind, made.name)
-      keep(made)
-      val _ = names.take(valueType, made.name)
-      changeState(_.copy(scope = scope.copy(textures = scope.textures.updated(name, made.name))))
+        addTexture(twin.copy(name = redefined.name))
+        val _ = names.reserve(kind, redefined.name)
+      addTexture(redefined)
+      val _ = names.reserve(valueType, redefined.name)
+      changeState(_.copy(scope =
+        scope.copy(textures = scope.textures.updated(name, redefined.name))
+      ))
 
-  private def keep(texture: TextureDescription): Unit =
+  private def addTexture(texture: TextureDescription): Unit =
     textures += texture
     texturesByName((texture.valueType, texture.name)) = texture
 
-  private def refuseInV4(at: SourcePos, kind: String, name: String): Unit =
+  private def rejectInV4(at: SourcePos, kind: String, name: String): Unit =
     if isV4() then
       fail(
         Code.Redefined,
@@ -301,17 +303,17 @@ final class SceneWriter(
       val help = Suggest.help(target, SceneWriter.Targets)
       fail(Code.UnknownSystem, at, s"unknown Attribute target `$target`", help)
     val earlier = state.defaults.getOrElse(target, Vector.empty)
-    if earlier.size > SceneWriter.MostDefaults then
+    if earlier.size > SceneWriter.MaxDefaults then
       fail(
         Code.TooLarge,
         at,
-        s"more than ${SceneWriter.MostDefaults} defaults of \"$target\"",
+        s"more than ${SceneWriter.MaxDefaults} defaults of \"$target\"",
         None
       )
-    val all = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(
+    val merged = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(
       _.asDefault(state.colorSpace)
     )
-    changeState(s => s.copy(defaults = s.defaults.updated(target, all)))
+    changeState(s => s.copy(defaults = s.defaults.updated(target, merged)))
 
   def colorSpace(name: String): Unit = changeState(_.copy(colorSpace = name))
 
@@ -324,13 +326,13 @@ final class SceneWriter(
     if inObject.nonEmpty then
       fail(Code.WrongPlace, at, "ObjectBegin inside an object", Some("objects can't be nested"))
     val unique =
-      if names.take("object", name) then name
+      if names.reserve("object", name) then name
       else
-        refuseInV4(at, "object", name)
+        rejectInV4(at, "object", name)
         names.fresh(List("object"), name)
-    val _ = names.take("object", unique)
+    val _ = names.reserve("object", unique)
     objectNames(name) = unique
-    blocks.begin("ObjectBegin", at)
+    blocks.start("ObjectBegin", at)
     inObject = Some((unique, mutable.ArrayBuffer.empty))
 
   def endObject(at: SourcePos): Unit =
@@ -353,11 +355,11 @@ final class SceneWriter(
 
   def useCoordinates(name: String, at: SourcePos): Unit =
     coordinateSystems.get(name) match
-      case Some(found) => changeState(_.copy(transform = found))
+      case Some(system) => changeState(_.copy(transform = system))
       case None =>
         unknownSystems += 1
         // The search takes its time, and may be asked for a million times
-        val isHelped = unknownSystems <= Problems.MostHelped
+        val isHelped = unknownSystems <= Problems.MaxHelped
         val help = if isHelped then Suggest.help(name, coordinateSystems.keys) else None
         val message = s"unknown coordinate system `$name`; keeping the current transform"
         problem(Problem.warning(Code.UnknownSystem, at, message, help))
@@ -367,7 +369,7 @@ object SceneWriter:
   private val Targets = List("shape", "light", "material", "medium", "texture")
 
   /** Far more than there are parameters; each statement takes as long as there are defaults. */
-  private val MostDefaults = 1000
+  private val MaxDefaults = 1000
   private val MixedNames = Set("namedmaterial1", "namedmaterial2")
   private val Examples = Map("Material" -> "diffuse", "Medium" -> "homogeneous")
 

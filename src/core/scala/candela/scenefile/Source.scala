@@ -19,7 +19,7 @@ import scala.util.Using
 final class Source private (val name: String, room: Int, input: Input):
   private var window = new Array[Byte](room)
   private var end = 0
-  private var first = 0L
+  private var windowOffset = 0L
   private var isDone = false
   fill()
 
@@ -38,22 +38,22 @@ final class Source private (val name: String, room: Int, input: Input):
   val start: Int = if begins(0xef, 0xbb, 0xbf) then 3 else 0
 
   /** File offset of the byte at `i` of the window. */
-  def offset(i: Int): Long = first + i
+  def offset(i: Int): Long = windowOffset + i
 
   /** Upper bound on the number of bytes after the byte at `i`. */
-  def mostAfter(i: Int): Long = if isDone then end - i else end - i + input.mostLeft
+  def maxAfter(i: Int): Long = if isDone then end - i else end - i + input.maxRemaining
 
   /** Slides the window to begin at its offset `from`, and reads more bytes. All window offsets
     * decrease by `from`. An IOException has the cause if reading fails.
     */
   def slide(from: Int): Unit =
     if from == 0 && end == window.length then
-      if end > Source.LongestToken then
-        throw IOException(s"token longer than ${Source.LongestToken >> 20} MB")
+      if end > Source.MaxTokenBytes then
+        throw IOException(s"token longer than ${Source.MaxTokenBytes >> 20} MB")
       window = java.util.Arrays.copyOf(window, 2 * end)
     else System.arraycopy(window, from, window, 0, end - from)
     end -= from
-    first += from
+    windowOffset += from
     fill()
 
   private def fill(): Unit =
@@ -98,7 +98,7 @@ object Source:
   def read(file: InputFile): Either[String, Source] =
     try
       Input.open(file).flatMap: input =>
-        val source = new Source(file.toString, input.mostLeft.min(Window - 1L).toInt + 1, input)
+        val source = new Source(file.toString, input.maxRemaining.min(Window - 1L).toInt + 1, input)
         if source.begins(0xff, 0xfe) || source.begins(0xfe, 0xff) then
           source.close()
           Left("encoded as UTF-16; save it as UTF-8")
@@ -110,26 +110,26 @@ object Source:
     read(file).flatMap: source =>
       source.foreign(file.path) match
         case None => Right(source)
-        case Some(found) =>
+        case Some(foreign) =>
           source.close()
-          Left(s"it is ${found.what}, not a scene")
+          Left(s"it is ${foreign.what}, not a scene")
 
   /** Fits the L2 cache of current processors. */
   private val Window = 1 << 17
 
-  private val LongestToken = 1 << 20
+  private val MaxTokenBytes = 1 << 20
 
 /** Input stream of a [[Source]].
   *
-  * @param left upper bound on the bytes left to read
+  * @param remaining upper bound on the bytes left to read
   * @param again reopens the same input
   */
 private final class Input(
     val stream: InputStream,
-    left: () => Long,
+    remaining: () => Long,
     val again: () => Either[String, Input]
 ):
-  def mostLeft: Long = left()
+  def maxRemaining: Long = remaining()
 
 private object Input:
 
@@ -146,13 +146,13 @@ private object Input:
       case e: IOException => Left(IoReason(e))
 
   private def ofPipe(file: InputFile): Either[String, Input] =
-    val most = Math.min(Runtime.getRuntime.maxMemory / 4, MostFromPipe).toInt
+    val maxBytes = Math.min(Runtime.getRuntime.maxMemory / 4, MaxPipeBytes).toInt
     Using.resource(file.stream()): in =>
-      val bytes = in.readNBytes(most)
-      if bytes.length < most || in.read() < 0 then Right(of(bytes))
-      else Left(s"more than ${most >> 20} MB come from it; write them to a file")
+      val bytes = in.readNBytes(maxBytes)
+      if bytes.length < maxBytes || in.read() < 0 then Right(of(bytes))
+      else Left(s"more than ${maxBytes >> 20} MB come from it; write them to a file")
 
-  private val MostFromPipe = 1L << 30
+  private val MaxPipeBytes = 1L << 30
 
   private def opened(file: InputFile): Input =
     val raw = file.stream()
@@ -163,7 +163,7 @@ private object Input:
       raw.reset()
       if isPacked then
         val unpacked = Unpacked(raw, size, file.unpacks)
-        Input(unpacked, () => unpacked.mostLeft, () => open(file))
+        Input(unpacked, () => unpacked.maxRemaining, () => open(file))
       else
         val plain = Counted(raw)
         Input(plain, () => size - plain.count, () => open(file))
@@ -197,14 +197,14 @@ private final class Unpacked private (packed: Counted, size: Long, note: Long =>
     extends Counted(GZIPInputStream(packed, 1 << 16)):
 
   /** Upper bound on the bytes that follow, from deflate's maximum ratio and the allowed one. */
-  def mostLeft: Long =
-    val possible = (size - packed.count + (1 << 16)) * Unpacked.MostDeflated
-    possible.min(Unpacked.Free + size * Unpacked.MostAllowed - count)
+  def maxRemaining: Long =
+    val possible = (size - packed.count + (1 << 16)) * Unpacked.MaxDeflateRatio
+    possible.min(Unpacked.UncheckedBytes + size * Unpacked.MaxRatio - count)
 
   override def read(into: Array[Byte], from: Int, length: Int): Int =
     val n = super.read(into, from, length)
     if n > 0 then note(n)
-    if count > Unpacked.Free + packed.count * Unpacked.MostAllowed then
+    if count > Unpacked.UncheckedBytes + packed.count * Unpacked.MaxRatio then
       val times = count / packed.count.max(1)
       throw IOException(s"decompresses to more than $times times its size; it can't be a scene")
     n
@@ -214,10 +214,10 @@ private object Unpacked:
     new Unpacked(Counted(in), size, note)
 
   /** Maximum compression ratio of deflate (zlib's technical notes: 1032 to 1). */
-  private val MostDeflated = 1032L
+  private val MaxDeflateRatio = 1032L
 
   /** Numeric text compresses 3 to 10 times, that of a regular grid 50 times. */
-  private val MostAllowed = 100L
+  private val MaxRatio = 100L
 
   /** Decompressed size below which any ratio is allowed, in bytes. */
-  private val Free = 64L << 20
+  private val UncheckedBytes = 64L << 20

@@ -26,24 +26,24 @@ final case class GivenStatement(
 final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] = None):
   private val problems = Problems()
   private val values = ValueReader(problems.add, () => true)
-  private var lost = Set.empty[NameKind]
+  private var failedKinds = Set.empty[NameKind]
 
   /** Statements of older dialects have other meanings. */
   private val foreign = base.map(_.dialect).filter(_ != Dialect.V4).map(_ => Dialect.V4)
   private val scene = SceneWriter(folder, DialectGuess(), () => true, problems.add, foreign)
-  base.foreach(scene.keepAll)
+  base.foreach(scene.startFrom)
 
   def run(statement: GivenStatement): Unit =
     val directive = Directives.all(statement.directive)
     try
       // To what is whole, everything may be added
-      val place = if base.isEmpty then directive.misplaced(scene.worldBegin) else None
-      for message <- place do
+      val misplacement = if base.isEmpty then directive.misplaced(scene.worldBegin) else None
+      for message <- misplacement do
         throw SceneError(Problem.error(Code.WrongPlace, statement.at, message))
       directive.run(GivenArguments(directive, statement, problems.add, values), scene)
     catch
       case e: SceneError =>
-        lost ++= NameKind.madeBy(statement.directive)
+        failedKinds ++= NameKind.definedBy(statement.directive)
         e.problems.foreach(problems.add)
 
   /** Changes what the scene has so far.
@@ -72,61 +72,61 @@ final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] 
       Problem.general(Code.NoWorld, "the scene has no WorldBegin: nothing is in it")
     val (errors, warnings) =
       (problems.result() ++ unclosed ++ noWorld).partition(_.severity == Severity.Error)
-    val old = base.getOrElse(SceneDescription(Dialect.V4))
-    val whole = scene.description(old.dialect, old.warnings ++ warnings)
-    whole.copy(
-      errors = old.errors ++ errors,
-      lost = old.lost ++ lost,
+    val previous = base.getOrElse(SceneDescription(Dialect.V4))
+    val description = scene.description(previous.dialect, previous.warnings ++ warnings)
+    description.copy(
+      errors = previous.errors ++ errors,
+      failedKinds = previous.failedKinds ++ failedKinds,
       dialectReason = base.fold("as it is made in code")(_.dialectReason)
     )
 
 /** Arguments that a program has given. */
 private final class GivenArguments(
     directive: Directive,
-    made: GivenStatement,
+    statement: GivenStatement,
     report: Problem => Unit,
     values: ValueReader
-) extends Arguments(directive, made.at, report):
-  private val numbersLeft = made.numbers.iterator
-  private val textsLeft = made.texts.iterator
+) extends Arguments(directive, statement.at, report):
+  private val remainingNumbers = statement.numbers.iterator
+  private val remainingTexts = statement.texts.iterator
 
   def include(file: String, nameAt: SourcePos): Unit =
     fail(nameAt, s"${directive.name} is for files only")
 
   def numbers(count: Int): Array[Double] =
     Array.tabulate(count): i =>
-      if !numbersLeft.hasNext then wrongNumber(at, count, i, "missing")
-      val x = numbersLeft.next()
+      if !remainingNumbers.hasNext then wrongNumber(at, count, i, "missing")
+      val x = remainingNumbers.next()
       if x.isNaN || x.isInfinite then wrongNumber(at, count, i, x.toString)
       x
 
   def matrix(): Array[Double] = numbers(16)
 
-  def quoted(what: String): (String, SourcePos) =
-    if !textsLeft.hasNext then notQuoted(at, what, "nothing")
-    (textsLeft.next(), at)
+  def quoted(expected: String): (String, SourcePos) =
+    if !remainingTexts.hasNext then notQuoted(at, expected, "nothing")
+    (remainingTexts.next(), at)
 
-  def another: Option[String] = textsLeft.nextOption()
+  def another: Option[String] = remainingTexts.nextOption()
 
   def word(choices: String*): String =
-    val found = textsLeft.nextOption()
-    found.filter(choices.contains).getOrElse:
-      notOneOf(at, choices, found.fold("nothing")(f => s"`$f`"))
+    val keyword = remainingTexts.nextOption()
+    keyword.filter(choices.contains).getOrElse:
+      notOneOf(at, choices, keyword.fold("nothing")(f => s"`$f`"))
 
-  def params(): Vector[Param] = GivenParameters.checked(made.params, values, report)
+  def params(): Vector[Param] = GivenParameters.checked(statement.params, values, report)
 
   def value(paramType: ParamType, name: String): Param =
-    val found = made.params.headOption.getOrElse(fail(at, s"`$name` must have a value"))
-    if found.paramType != paramType then
-      val kinds = s"${paramType.spelling}, found ${found.paramType.spelling}"
+    val param = statement.params.headOption.getOrElse(fail(at, s"`$name` must have a value"))
+    if param.paramType != paramType then
+      val kinds = s"${paramType.spelling}, found ${param.paramType.spelling}"
       fail(at, s"the value of `$name` must be of type $kinds")
-    found.renamed(name)
+    param.renamed(name)
 
 private object GivenParameters:
 
   /** Of each name one; values as many as its type has, and finite. */
   def checked(written: Vector[Param], values: ValueReader, report: Problem => Unit): Vector[Param] =
-    val all = mutable.LinkedHashMap.empty[String, Param]
+    val byName = mutable.LinkedHashMap.empty[String, Param]
     for p <- written do
       for x <- p.floats.find(!_.isFinite) do
         throw SceneError(Problem.error(
@@ -134,8 +134,8 @@ private object GivenParameters:
           p.at,
           s"values of `${p.name}` must be numbers, found $x"
         ))
-      for earlier <- all.remove(p.name) do
+      for earlier <- byName.remove(p.name) do
         val message = s"`${p.name}` is repeated; the earlier value is ignored"
         report(Problem.warning(Code.Redefined, earlier.at, message))
-      all(p.name) = values.checkCount(p)
-    all.values.toVector
+      byName(p.name) = values.checkCount(p)
+    byName.values.toVector

@@ -20,9 +20,9 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   /** Offset of the first byte after the current token, and of its line, in the source's window.
     * `wide` counts the UTF-8 continuation bytes of this line.
     */
-  private var next = source.start
+  private var cursor = source.start
   private var line = 1
-  private var lineStart: Long = next
+  private var lineStart: Long = cursor
   private var wide = 0
 
   private var kind = Token.End
@@ -44,40 +44,40 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
 
   private def nextPlace: SourcePos = SourcePos(source.name, line, column, includedFrom)
 
-  /** Column of the byte at `next`. */
-  private def column: Int = (next - lineStart - wide + 1).min(Int.MaxValue).toInt
+  /** Column of the byte at `cursor`. */
+  private def column: Int = (cursor - lineStart - wide + 1).min(Int.MaxValue).toInt
 
   /** The current token: a word, or a string without quotes and escapes. */
   def text: String =
-    val known = content
-    if known != null then known
+    val cached = content
+    if cached != null then cached
     else
       val quote = if kind == Token.Text then 1 else 0
-      val found = names.of(source, start + quote, next - quote)
-      content = found
-      found
+      val decoded = names.lookup(source, start + quote, cursor - quote)
+      content = decoded
+      decoded
 
   /** The current token as shown in messages. */
-  def shown: String =
+  def description: String =
     if kind == Token.End then "the end of the file"
     else
-      val all = source.text(start, next)
-      if all.length > 60 then s"`${all.take(57)}…`" else s"`$all`"
+      val token = source.text(start, cursor)
+      if token.length > 60 then s"`${token.take(57)}…`" else s"`$token`"
 
   def advance(): Unit =
     skipBlank()
-    start = next
+    start = cursor
     tokenLine = line
     tokenColumn = column
     content = null
-    if next >= source.limit then kind = Token.End
+    if cursor >= source.limit then kind = Token.End
     else
-      source.bytes(next) match
+      source.bytes(cursor) match
         case '[' =>
-          next += 1
+          cursor += 1
           kind = Token.Open
         case ']' =>
-          next += 1
+          cursor += 1
           kind = Token.Close
         case '"' => readText()
         case _ => readWord()
@@ -95,22 +95,22 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
       catch case _: SceneError => ()
 
   /** Whether the current token is a number. */
-  def isNumber: Boolean = kind == Token.Word && number.scan(start) == next
+  def isNumber: Boolean = kind == Token.Word && number.scan(start) == cursor
 
   /** Appends the current token as a number; false if it isn't one. */
   def readFloat(into: FloatBuffer): Boolean =
-    val found = isNumber
-    if found then into += number.toFloat
-    found
+    val isFloat = isNumber
+    if isFloat then into += number.toFloat
+    isFloat
 
   /** Whether an integer lost its fraction; the caller resets it. */
   var sawFraction = false
 
   /** Appends the current token as an integer; false if it isn't a number or doesn't fit an Int. */
   def readInt(into: IntBuffer): Boolean =
-    val found = isNumber && number.fitsInt
-    if found then addInt(into)
-    found
+    val fits = isNumber && number.fitsInt
+    if fits then addInt(into)
+    fits
 
   /** Reads numbers from the current token on, as many as fit; returns how many there are. The token
     * after them becomes current.
@@ -124,7 +124,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
       while end >= 0 do
         into(count) = number.toDouble
         count += 1
-        next = end
+        cursor = end
         end = if count < into.length then scanNext() else -1
       advance()
     count
@@ -139,7 +139,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
       val x = number.toFloat
       if RestBuffer.isCoarse(x) then rests.note(into.length, number.toDouble, x)
       into += x
-      next = end
+      cursor = end
       end = scanNext()
     advance()
 
@@ -148,7 +148,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     var end = scanNext()
     while end >= 0 && number.fitsInt do
       addInt(into)
-      next = end
+      cursor = end
       end = scanNext()
     advance()
 
@@ -159,25 +159,25 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   /** Scans the next token; returns the offset after it, or −1 if it isn't a number. */
   private def scanNext(): Int =
     // Usually a single space precedes a number.
-    if next < source.limit && source.bytes(next) == ' ' then next += 1
-    if next >= source.limit || source.bytes(next) <= ',' then skipBlank()
-    if source.limit - next < Tokenizer.UsualNumber then fetchNext(): Unit
-    var end = number.scan(next)
-    while number.stop == source.limit && fetchNext() do end = number.scan(next)
+    if cursor < source.limit && source.bytes(cursor) == ' ' then cursor += 1
+    if cursor >= source.limit || source.bytes(cursor) <= ',' then skipBlank()
+    if source.limit - cursor < Tokenizer.UsualNumber then fetchNext(): Unit
+    var end = number.scan(cursor)
+    while number.stop == source.limit && fetchNext() do end = number.scan(cursor)
     end
 
   /** Whether a quoted string is next. */
   def nextIsText: Boolean =
     skipBlank()
-    next < source.limit && source.bytes(next) == '"'
+    cursor < source.limit && source.bytes(cursor) == '"'
 
   private def skipBlank(): Unit =
     var inComment = false
-    var more = true
-    while more do
+    var continues = true
+    while continues do
       val bytes = source.bytes
       val end = source.limit
-      var i = next
+      var i = cursor
       var isBlank = true
       while isBlank && i < end do
         val c = bytes(i)
@@ -195,89 +195,90 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
         else if inComment then i += 1
         else if c == '#' then inComment = true
         else isBlank = false
-      next = i
-      more = (i == end || bytes(i) == '\r') && fetchNext()
+      cursor = i
+      continues = (i == end || bytes(i) == '\r') && fetchNext()
 
   private def readWord(): Unit =
     kind = Token.Word
-    var more = true
-    while more do
+    var continues = true
+    while continues do
       val bytes = source.bytes
       val end = source.limit
-      var i = next
+      var i = cursor
       while i < end && !NumberReader.isDelimiter(bytes(i)) do
         if isContinuation(bytes(i)) then wide += 1
         i += 1
-      next = i
-      more = i == end && fetch()
+      cursor = i
+      continues = i == end && fetch()
 
   private def readText(): Unit =
     kind = Token.Text
-    next += 1
+    cursor += 1
     var hasEscapes = false
     var isEscaped = false
-    var more = true
-    while more do
+    var continues = true
+    while continues do
       val bytes = source.bytes
       val end = source.limit
-      var i = next
+      var i = cursor
       while i < end && (bytes(i) != '"' || isEscaped) && bytes(i) != '\n' && bytes(i) != '\r' do
         isEscaped = bytes(i) == '\\' && !isEscaped
         hasEscapes |= isEscaped
         if isContinuation(bytes(i)) then wide += 1
         i += 1
-      next = i
-      more = i == end && fetch()
-    val isEnd = next >= source.limit
-    if isEnd || source.bytes(next) != '"' then
+      cursor = i
+      continues = i == end && fetch()
+    val isEnd = cursor >= source.limit
+    if isEnd || source.bytes(cursor) != '"' then
       content = ""
-      val what = if isEnd then "string not closed at the end of the file" else "string not closed"
+      val message =
+        if isEnd then "string not closed at the end of the file" else "string not closed"
       throw SceneError(Problem.error(
         Code.Token,
         at,
-        what,
+        message,
         Some("end it with `\"` on the same line")
       ))
-    next += 1
-    if hasEscapes then content = unescaped(start + 1, next - 1)
+    cursor += 1
+    if hasEscapes then content = unescaped(start + 1, cursor - 1)
 
   private def unescaped(from: Int, until: Int): String =
     Escapes.unescaped(source.bytes, from, until) match
       case Right(text) => text
       case Left(i) =>
         content = ""
-        val place = SourcePos(source.name, line, tokenColumn + i - start - 1, includedFrom)
-        val what = s"unknown escape sequence `\\${source.text(i, i + 1)}`"
+        val position = SourcePos(source.name, line, tokenColumn + i - start - 1, includedFrom)
+        val message = s"unknown escape sequence `\\${source.text(i, i + 1)}`"
         val help = Some("write `\\\\` for a backslash, `/` between folders")
-        throw SceneError(Problem.error(Code.Token, place, what, help))
+        throw SceneError(Problem.error(Code.Token, position, message, help))
 
   private inline def isContinuation(c: Byte): Boolean = (c & 0xc0) == 0x80
 
   /** Slides the window to the next unread byte. */
   private def fetchNext(): Boolean =
-    !source.isLast && { start = next; fetch() }
+    !source.isLast && { start = cursor; fetch() }
 
   /** Slides the window to the current token; false at the end of the file. */
   private def fetch(): Boolean =
     !source.isLast && {
-      val here = if start < next then at else nextPlace
-      val from = start
-      try Refusal.placed(here)(source.slide(from))
+      val position = if start < cursor then at else nextPlace
+      val offset = start
+      try Refusal.placed(position)(source.slide(offset))
       catch
         case e: IOException =>
           source.close()
-          next = source.limit
-          start = next
+          cursor = source.limit
+          start = cursor
           kind = Token.End
           throw SceneError(Problem.error(
             Code.Unreadable,
-            here,
+            position,
             s"can't read further: ${IoReason(e)}"
           ))
       start = 0
-      next -= from
-      lineStart -= from
-      next < source.limit
+      cursor -= offset
+      lineStart -= offset
+      cursor < source.limit
     }
 
 object Tokenizer:
@@ -306,11 +307,11 @@ private object Escapes:
 
 /** Converts words to Strings; caches the few names that recur, with their bytes. */
 private final class NameCache:
-  private val known = new Array[String](NameCache.Slots)
+  private val texts = new Array[String](NameCache.Slots)
   private val written = Array.fill(NameCache.Slots)(Array.emptyByteArray)
 
   /** The text of a range of the window of `source`. */
-  def of(source: Source, from: Int, until: Int): String =
+  def lookup(source: Source, from: Int, until: Int): String =
     val bytes = source.bytes
     var hash = until - from
     var i = from
@@ -318,11 +319,12 @@ private final class NameCache:
       hash = hash * 31 + bytes(i)
       i += 1
     val slot = (hash ^ (hash >>> 16)) & (NameCache.Slots - 1)
-    val last = written(slot)
-    if known(slot) == null || !Arrays.equals(last, 0, last.length, bytes, from, until) then
-      known(slot) = source.text(from, until)
+    val cachedBytes = written(slot)
+    if texts(slot) == null || !Arrays.equals(cachedBytes, 0, cachedBytes.length, bytes, from, until)
+    then
+      texts(slot) = source.text(from, until)
       written(slot) = Arrays.copyOfRange(bytes, from, until)
-    known(slot)
+    texts(slot)
 
 private object NameCache:
   private val Slots = 256

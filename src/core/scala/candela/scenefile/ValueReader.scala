@@ -17,10 +17,10 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
     * @param at position of the parameter
     */
   def read(paramType: ParamType, name: String, at: SourcePos, in: Tokenizer): Param =
-    val open = Option.when(in.current == Token.Open)(in.at)
-    val valuesAt = if open.nonEmpty then in.nextAt else in.at
-    val isText = if open.nonEmpty then in.nextIsText else in.current == Token.Text
-    val isList = open.nonEmpty
+    val openBracket = Option.when(in.current == Token.Open)(in.at)
+    val valuesAt = if openBracket.nonEmpty then in.nextAt else in.at
+    val isText = if openBracket.nonEmpty then in.nextIsText else in.current == Token.Text
+    val isList = openBracket.nonEmpty
     val param = paramType match
       case ParamType.Integer =>
         Param(paramType, name, at, valuesAt, ints = integers(name, valuesAt, in, isList))
@@ -34,12 +34,12 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
       case _ =>
         val values = numbers(in, isList)
         val missing = rests.take(values.length)
-        val isPlace = paramType == ParamType.Point3 || name == "Pw"
-        val kept = if isPlace then missing else Array.emptyFloatArray
-        Param(paramType, name, at, valuesAt, floats = values, rests = kept)
-    open match
+        val isPosition = paramType == ParamType.Point3 || name == "Pw"
+        val coarseRests = if isPosition then missing else Array.emptyFloatArray
+        Param(paramType, name, at, valuesAt, floats = values, rests = coarseRests)
+    openBracket match
       case Some(_) if in.current == Token.Close => in.advance()
-      case Some(_) => throw SceneError(misfit(param, in, open))
+      case Some(_) => throw SceneError(misfit(param, in, openBracket))
       case None => if count(param) == 0 then throw SceneError(misfit(param, in, None))
     checkCount(param)
 
@@ -67,11 +67,11 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
   private def words(in: Tokenizer, isList: Boolean)(fits: Tokenizer => Boolean): Vector[String] =
     val values = Vector.newBuilder[String]
     if isList then in.advance()
-    var more = fits(in)
-    while more do
+    var continues = fits(in)
+    while continues do
       values += in.text
       in.advance()
-      more = isList && fits(in)
+      continues = isList && fits(in)
     values.result()
 
   private val Bools = Set("true", "false")
@@ -104,7 +104,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
         Problem.error(
           Code.ParameterType,
           in.at,
-          s"values of $name must be 32-bit integers, found ${in.shown}"
+          s"values of $name must be 32-bit integers, found ${in.description}"
         )
       case _ =>
         val help =
@@ -112,7 +112,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
           else if in.current == Token.Open then "lists can't be nested"
           else if isQuotedNumber then "write it without quotes"
           else example(param)
-        val message = s"values of $name must be ${kindOf(param)}, found ${in.shown}"
+        val message = s"values of $name must be ${kindOf(param)}, found ${in.description}"
         Problem.error(Code.ParameterSyntax, in.at, message, Some(help))
 
   private def kindOf(param: Param): String = param.paramType match
@@ -174,4 +174,4 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
           s"$message; $ignored ignored",
           help
         ))
-        param.first(n - excess)
+        param.truncated(n - excess)

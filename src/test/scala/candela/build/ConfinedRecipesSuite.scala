@@ -61,7 +61,7 @@ object ConfinedRecipesSuite:
     try
       val folder = SceneFolder.of(file, isConfined = true)
       val scene = Parser.readable(file, Some(dialect), keepGoing = false, within = Some(folder))
-      SceneBuilder.build(Parser.whole(scene), RenderSettings()): Unit
+      SceneBuilder.build(Parser.validated(scene), RenderSettings()): Unit
     catch
       case r: Refusal => throw Confined(r.problem.message)
       case e: SceneError => throw Confined(e.getMessage)

@@ -115,7 +115,7 @@ final class Trials(from: Path, folder: Path, random: Random):
             SceneBuilder.build(Parser.parse(file), RenderSettings(samples = Some(1), quick = true))
           None
         case FileKind.Mitsuba =>
-          val scene = Parser.whole(MitsubaScene.readable(file, Map.empty, keepGoing = false))
+          val scene = Parser.validated(MitsubaScene.readable(file, Map.empty, keepGoing = false))
           val _ = SceneBuilder.build(scene, RenderSettings(samples = Some(1), quick = true))
           None
         case FileKind.Meshes =>

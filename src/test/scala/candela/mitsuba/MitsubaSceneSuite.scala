@@ -135,7 +135,7 @@ class MitsubaSceneSuite extends AnyFunSuite:
       <transform name="toWorld"><lookAt origin="0,0,1" target="0,0,0" up="0,1,0"/></transform>
       <string name="fovAxis" value="smaller"/><float name="fov" value="50"/></sensor></scene>"""
     inFolder("", "old.xml" -> old): file =>
-      val scene = Parser.whole(
+      val scene = Parser.validated(
         MitsubaScene.readable(file.resolveSibling("old.xml"), Map.empty, keepGoing = false)
       )
       assert(scene.warnings.isEmpty)
@@ -266,7 +266,8 @@ class MitsubaSceneSuite extends AnyFunSuite:
     val page = Files.readString(Path.of("docs/MITSUBA.md"))
     val missing = Plugins.read.values.flatten.filterNot(name => page.contains(s"`$name`"))
     assert(missing.isEmpty)
-    val others = Plugins.others.values.flatten.filterNot(name => page.contains(s"`$name`"))
+    val others =
+      Plugins.unsupportedTypes.values.flatten.filterNot(name => page.contains(s"`$name`"))
     assert(others.isEmpty)
 
   test("phase functions are blended by constant weights, and checked"):

@@ -59,7 +59,7 @@ object ReferenceComparison:
   ): RenderPlan =
     val description =
       if scene.isMitsubas then
-        Parser.whole(MitsubaScene.readable(scene.file, Map.empty, keepGoing = false))
+        Parser.validated(MitsubaScene.readable(scene.file, Map.empty, keepGoing = false))
       else Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
     val settings = scene.settings(spp, seed)
     SceneBuilder.build(

@@ -94,11 +94,11 @@ final class Findings(
   private def add(problem: Problem, help: => Option[String]): Unit = synchronized:
     reports += 1
     val isError = problem.severity == Severity.Error
-    if isError || warnings <= Problems.MostWarnings then
+    if isError || warnings <= Problems.MaxWarnings then
       if told.add((problem.severity, problem.at, problem.message)) then
         if isError then errors += 1 else warnings += 1
-        if isError || warnings <= Problems.MostWarnings then
-          val isHelped = errors + warnings <= Problems.MostHelped
+        if isError || warnings <= Problems.MaxWarnings then
+          val isHelped = errors + warnings <= Problems.MaxHelped
           all += (if isHelped then problem.withHelp(help) else problem): Unit
         else
           all += Problem(
@@ -107,7 +107,7 @@ final class Findings(
             None,
             "more warnings are omitted"
           ): Unit
-        if errors >= Problems.MostErrors then
+        if errors >= Problems.MaxErrors then
           val stop = s"building stopped after $errors errors"
           throw SceneError(Problem.byPlace(result) :+ Problem.general(Code.TooManyProblems, stop))
 

@@ -182,7 +182,7 @@ private[build] sealed abstract class PlyNumbers(
 
   /** Whether the file is large enough for the elements. */
   final def canHold(element: PlyElement): Boolean =
-    leastSize(element) <= source.mostAfter(at)
+    leastSize(element) <= source.maxAfter(at)
 
   /** Reads the length of a list. */
   final def length(t: PlyType): Int =

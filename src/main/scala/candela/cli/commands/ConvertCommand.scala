@@ -31,7 +31,7 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     register.read(options.files.map(OutputFiles.path))
     register.check(output)
     val file = SceneName.existing(options.files.head)
-    val scene = Parser.whole(Render.read(file, options.settings.reading, options.building))
+    val scene = Parser.validated(Render.read(file, options.settings.reading, options.building))
     // The output keeps neither comments nor includes.
     register.read(SceneFiles.of(scene))
     register.write(output)

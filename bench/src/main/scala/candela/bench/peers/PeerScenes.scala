@@ -32,7 +32,7 @@ object PeerScenes:
     * @throws SceneError if the scene can't be read
     */
   def of(source: Path, folder: Path): PeerFiles =
-    val read = Parser.whole(Render.read(source, ReadSettings(), BuildControl()))
+    val read = Parser.validated(Render.read(source, ReadSettings(), BuildControl()))
     val own = read.dialect.base
     val scene = normal(read)
     Files.createDirectories(folder): Unit

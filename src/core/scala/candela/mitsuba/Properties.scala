@@ -5,38 +5,38 @@ import candela.math.Transform
 
 import scala.collection.mutable
 
-/** The properties of an object, and which of them were asked for. */
-final class Asked(val plugin: Plugin, val session: Session):
+/** The properties of an object, and which of them have been queried. */
+final class Properties(val plugin: Plugin, val session: Session):
   private val names = mutable.LinkedHashSet.empty[String]
-  private val taken = mutable.HashSet.empty[Property]
+  private val queried = mutable.HashSet.empty[Property]
 
   def at: SourcePos = plugin.at
 
   def property(name: String): Option[Property] =
     names += name
-    val found = plugin.properties.filter(_.name == name)
-    found.foreach(taken.add)
-    if found.size > 1 then
+    val matches = plugin.properties.filter(_.name == name)
+    matches.foreach(queried.add)
+    if matches.size > 1 then
       session.warn(
         Code.IdleParameter,
-        found.head.at,
-        s"`$name` is repeated at ${found.last.at}; this value is ignored"
+        matches.head.at,
+        s"`$name` is repeated at ${matches.last.at}; this value is ignored"
       )
-    found.lastOption
+    matches.lastOption
 
-  def has(name: String): Boolean = property(name).isDefined
+  def contains(name: String): Boolean = property(name).isDefined
   def atOf(name: String): SourcePos = property(name).fold(at)(_.at)
 
   private def value[A](name: String, expected: String)(read: PartialFunction[Value, A]): Option[A] =
     property(name).flatMap: p =>
-      val found = read.lift(p.value)
-      if found.isEmpty then
+      val converted = read.lift(p.value)
+      if converted.isEmpty then
         session.error(
           Code.ParameterValue,
           p.at,
-          s"`$name` of ${plugin.shown} must be $expected, found ${p.value.shown}"
+          s"`$name` of ${plugin.description} must be $expected, found ${p.value.description}"
         )
-      found
+      converted
 
   def number(name: String): Option[Double] =
     value(name, "a number"):
@@ -61,15 +61,15 @@ final class Asked(val plugin: Plugin, val session: Session):
     value(name, "a transform") { case Value.Placed(t) => t }.getOrElse(Transform.Identity)
 
   /** One of the words. */
-  def word(name: String, default: String, known: String*): String =
-    val found = text(name, default)
-    if known.contains(found) then found
+  def word(name: String, default: String, choices: String*): String =
+    val choice = text(name, default)
+    if choices.contains(choice) then choice
     else
       session.error(
         Code.UnknownType,
         atOf(name),
-        s"unknown $name `$found`",
-        Suggest.help(found, known)
+        s"unknown $name `$choice`",
+        Suggest.help(choice, choices)
       )
       default
 
@@ -79,56 +79,56 @@ final class Asked(val plugin: Plugin, val session: Session):
     for
       p <- plugin.properties
       if name.isEmpty || p.name == name
-      found <- objectOf(p) if found.kind == kind
+      child <- objectOf(p) if child.kind == kind
     yield
-      taken += p
-      found
+      queried += p
+      child
 
   private def objectOf(p: Property): Option[Plugin] = p.value match
     case Value.Nested(plugin) => Some(plugin)
     case Value.Reference(id) =>
-      val found = session.plugin(id, p.at)
-      if found.isEmpty then taken += p
-      found
+      val referenced = session.plugin(id, p.at)
+      if referenced.isEmpty then queried += p
+      referenced
     case _ => None
 
   /** A named object, if it is one. */
   def objectNamed(name: String): Option[Plugin] = property(name).flatMap(objectOf)
 
   /** Properties that do not affect the image. */
-  def ignore(others: String*): Unit =
-    for name <- others do
+  def ignore(ignored: String*): Unit =
+    for name <- ignored do
       names += name
-      plugin.properties.filter(_.name == name).foreach(taken.add)
+      plugin.properties.filter(_.name == name).foreach(queried.add)
 
   /** Properties without effect here: each use is a warning. */
-  def lose(consequence: String, others: String*): Unit =
-    for name <- others; p <- property(name) do
+  def warnUnsupported(consequence: String, unsupported: String*): Unit =
+    for name <- unsupported; p <- property(name) do
       session.warn(
         Code.Unsupported,
         p.at,
-        s"`$name` of ${plugin.shown} is not supported; $consequence"
+        s"`$name` of ${plugin.description} is not supported; $consequence"
       )
 
   def finish(): Unit =
-    for p <- plugin.properties if !taken(p) do
+    for p <- plugin.properties if !queried(p) do
       p.value match
         case Value.Nested(inner) =>
           session.warn(
             Code.UnknownParameter,
             p.at,
-            s"${plugin.shown} takes no ${inner.shown} here; it is ignored"
+            s"${plugin.description} takes no ${inner.description} here; it is ignored"
           )
         case Value.Reference(id) =>
           session.warn(
             Code.UnknownParameter,
             p.at,
-            s"${plugin.shown} takes no `$id` here; it is ignored"
+            s"${plugin.description} takes no `$id` here; it is ignored"
           )
         case _ =>
           session.warn(
             Code.IdleParameter,
             p.at,
-            s"`${p.name}` is not a parameter of ${plugin.shown}; it is ignored",
+            s"`${p.name}` is not a parameter of ${plugin.description}; it is ignored",
             Suggest.help(p.name, names)
           )
