@@ -18,37 +18,37 @@ object BakedTextures:
     * @param why    what the target dialect lacks, for the warning
     * @param change applied to the values
     */
-  def define(s: Statement, of: TextureDescription, why: String)(
+  def define(s: Statement, texture: TextureDescription, reason: String)(
       change: Rgb => Rgb = identity
   ): Option[String] =
     for
       baking <- s.run.baking
-      parts = closure(of, s.run.scene)
-      window <- Window.of(parts.map(_.texture))
-      value <- baking.values(SceneDescription(s.run.pass.from, textures = parts))
+      dependencies = closure(texture, s.run.scene)
+      window <- Window.of(dependencies.map(_.texture))
+      value <- baking.values(SceneDescription(s.run.pass.from, textures = dependencies))
     yield
       val file = baking.write(s.run.files): (x, y) =>
         change(value(window.u(x), window.v(y), Vec3.Zero))
       val repeats = if window.repeats then "" else ", which repeats where u or v is not in [0, 1]"
-      s.warn(Code.Inexpressible, s.declaration.at, s"$why; using ${baking.describe}$repeats")
-      s.run.define(of.copy(
-        name = s"${of.name} baked",
-        texture = window.image(of.texture, file, s.run.pass.to),
+      s.warn(Code.Inexpressible, s.declaration.at, s"$reason; using ${baking.describe}$repeats")
+      s.run.define(texture.copy(
+        name = s"${texture.name} baked",
+        texture = window.image(texture.texture, file, s.run.pass.to),
         textureToWorld = GraphicsState.Identity
       ))
 
   /** The textures that one needs, in statement order, with itself last. */
-  def closure(of: TextureDescription, scene: SceneDescription): Vector[TextureDescription] =
+  def closure(texture: TextureDescription, scene: SceneDescription): Vector[TextureDescription] =
     val named = scene.textures.groupBy(_.name)
-    val found = mutable.LinkedHashSet.empty[TextureDescription]
+    val visited = mutable.LinkedHashSet.empty[TextureDescription]
     def visit(t: TextureDescription): Unit =
       for
         p <- t.texture.params if p.paramType == ParamType.Texture
         name <- p.strings
-        needed <- named.getOrElse(name, Vector.empty) if needed != of && found.add(needed)
+        needed <- named.getOrElse(name, Vector.empty) if needed != texture && visited.add(needed)
       do visit(needed)
-    visit(of)
-    scene.textures.filter(found) :+ of
+    visit(texture)
+    scene.textures.filter(visited) :+ texture
 
 /** Part of the texture plane that a baked image shows: u = (s − du) / su, and v likewise.
   *
@@ -60,15 +60,15 @@ final class Window(su: Float, sv: Float, du: Float, dv: Float, val repeats: Bool
 
   /** The image texture that shows it. */
   def image(source: Declaration, file: String, dialect: Dialect): Declaration =
-    val at = source.at
+    val position = source.at
     def word(name: String, value: String) =
-      Param(ParamType.String, name, at, at, strings = Vector(value))
+      Param(ParamType.String, name, position, position, strings = Vector(value))
     // v2 reads images upside down
     val (scale, delta) = if dialect == Dialect.V2 then (-sv, 1f - dv) else (sv, dv)
     val numbers = Vector("uscale" -> su, "vscale" -> scale, "udelta" -> du, "vdelta" -> delta)
     val placed =
       for (name, x) <- numbers if x != (if name.endsWith("scale") then 1f else 0f)
-      yield Param(ParamType.Float, name, at, at, floats = Array(x))
+      yield Param(ParamType.Float, name, position, position, floats = Array(x))
     // v3 always filters by EWA unless told otherwise
     val filter = Option.when(dialect == Dialect.V4)(word("filter", "ewa"))
     source.copy(
@@ -83,19 +83,25 @@ object Window:
   /** What shows all of a texture that is made of these; None if it does not depend on u and v
     * alone.
     */
-  def of(parts: Vector[Declaration]): Option[Window] =
-    val mapped = parts.filter(d => Mapped(d.name))
-    Option.when(parts.forall(d => (Mapped(d.name) || Plain(d.name)) && isFlat(d))):
-      val places = mapped.map(Place.of).distinct
+  def of(declarations: Vector[Declaration]): Option[Window] =
+    val mapped = declarations.filter(d => Mapped(d.name))
+    Option.when(declarations.forall(d => (Mapped(d.name) || Plain(d.name)) && isFlat(d))):
+      val placements = mapped.map(Placement.of).distinct
       val periods = mapped.map(period)
       val isPeriodic = periods.forall(_.nonEmpty)
-      val most = periods.flatten.maxOption.getOrElse(1f)
-      places match
+      val maxPeriod = periods.flatten.maxOption.getOrElse(1f)
+      placements match
         case Vector(p) if isPeriodic && p.su != 0f && p.sv != 0f =>
-          Window(p.su / most, p.sv / most, p.du / most, p.dv / most, repeats = true)
+          Window(
+            p.su / maxPeriod,
+            p.sv / maxPeriod,
+            p.du / maxPeriod,
+            p.dv / maxPeriod,
+            repeats = true
+          )
         case _ =>
-          def fits(scale: Float) = (scale / most).isWhole
-          Whole(isPeriodic && places.forall(p => fits(p.su) && fits(p.sv)))
+          def fits(scale: Float) = (scale / maxPeriod).isWhole
+          Whole(isPeriodic && placements.forall(p => fits(p.su) && fits(p.sv)))
 
   private val Mapped = Set("imagemap", "checkerboard", "dots", "bilerp", "uv")
   private val Plain = Set("constant", "scale", "mix")
@@ -113,10 +119,15 @@ object Window:
     case _ => None
 
   /** Coordinates of a texture: s = su · u + du, and t likewise. */
-  private final case class Place(su: Float, sv: Float, du: Float, dv: Float)
+  private final case class Placement(su: Float, sv: Float, du: Float, dv: Float)
 
-  private object Place:
-    def of(d: Declaration): Place =
+  private object Placement:
+    def of(d: Declaration): Placement =
       def number(name: String, default: Float) =
         d.param(name).flatMap(_.floats.headOption).getOrElse(default)
-      Place(number("uscale", 1f), number("vscale", 1f), number("udelta", 0f), number("vdelta", 0f))
+      Placement(
+        number("uscale", 1f),
+        number("vscale", 1f),
+        number("udelta", 0f),
+        number("vdelta", 0f)
+      )

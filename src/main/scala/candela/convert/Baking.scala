@@ -21,23 +21,23 @@ final class Baking(val size: Int, val values: SceneDescription => Option[Texture
 
   /** Writes an image; returns its name.
     *
-    * @param parts points per pixel, along each axis
+    * @param samplesAcross points per pixel, along each axis
     * @param color linear value at s and t in [0, 1], t upwards
     */
-  def write(files: SideFiles, parts: Int = 4)(color: (Float, Float) => Rgb): String =
+  def write(files: SideFiles, samplesAcross: Int = 4)(color: (Float, Float) => Rgb): String =
     val image = Image.rgb(size, size)
     loop(size): y =>
       loop(size): x =>
         var sum = Rgb.Black
-        loop(parts * parts): k =>
-          val i = x + (k % parts + 0.5f) / parts
-          val j = y + (k / parts + 0.5f) / parts
+        loop(samplesAcross * samplesAcross): k =>
+          val i = x + (k % samplesAcross + 0.5f) / samplesAcross
+          val j = y + (k / samplesAcross + 0.5f) / samplesAcross
           sum += color(i / size, 1f - j / size)
-        val mean = sum * (1f / (parts * parts))
-        val at = 3 * (y * size + x)
-        image.data(at) = mean.r
-        image.data(at + 1) = mean.g
-        image.data(at + 2) = mean.b
+        val mean = sum * (1f / (samplesAcross * samplesAcross))
+        val offset = 3 * (y * size + x)
+        image.data(offset) = mean.r
+        image.data(offset + 1) = mean.g
+        image.data(offset + 2) = mean.b
     files.add("texture", "exr", ImageFiles.exr(image))
 
   def describe: String = s"an image of $size × $size pixels"

@@ -12,21 +12,25 @@ object BilinearPatches:
     val indices = d.param("indices").fold(Array(0, 1, 2, 3))(_.ints)
     val patches = indices.grouped(4).filter(_.length == 4).toVector
     val steps = patches.map(c => if isFlat(c.map(vec(p, _))) then 1 else Fine)
-    def all(values: Array[Float], size: Int) =
+    def interpolated(values: Array[Float], size: Int) =
       if values.isEmpty then Array.emptyFloatArray
       else
         patches.zip(steps).toArray.flatMap: (corners, count) =>
           for j <- 0 to count; i <- 0 to count; k <- 0 until size
-          yield at(corners.map(c => values(c * size + k)), i.toFloat / count, j.toFloat / count)
+          yield interpolate(
+            corners.map(c => values(c * size + k)),
+            i.toFloat / count,
+            j.toFloat / count
+          )
     val coordinates =
-      if uv.nonEmpty then all(uv, 2)
+      if uv.nonEmpty then interpolated(uv, 2)
       else
         steps.toArray.flatMap: count =>
           for j <- 0 to count; i <- 0 to count; x <- Seq(i, j) yield x.toFloat / count
     val bases = steps.scanLeft(0)((sum, count) => sum + (count + 1) * (count + 1))
-    val made = Vector(
-      list(d, ParamType.Point3, "P", all(p, 3)),
-      list(d, ParamType.Normal, "N", all(n, 3)),
+    val meshParams = Vector(
+      list(d, ParamType.Point3, "P", interpolated(p, 3)),
+      list(d, ParamType.Normal, "N", interpolated(n, 3)),
       list(d, ParamType.Point2, "uv", coordinates)
     ).flatten :+ Param(
       ParamType.Integer,
@@ -35,15 +39,15 @@ object BilinearPatches:
       d.at,
       ints = steps.zip(bases).toArray.flatMap((count, base) => squares(count).map(_ + base))
     )
-    val others = d.params.filterNot(x => Set("P", "N", "uv", "indices")(x.name))
-    d.copy(name = "trianglemesh", params = made ++ others)
+    val remaining = d.params.filterNot(x => Set("P", "N", "uv", "indices")(x.name))
+    d.copy(name = "trianglemesh", params = meshParams ++ remaining)
 
   private val Fine = 16
 
   private def vec(p: Array[Float], i: Int) = Vec3(p(3 * i), p(3 * i + 1), p(3 * i + 2))
 
   /** Bilinear interpolation of corners in the order (0, 0), (1, 0), (0, 1), (1, 1). */
-  private def at(c: Array[Float], u: Float, v: Float): Float =
+  private def interpolate(c: Array[Float], u: Float, v: Float): Float =
     lerp(v, lerp(u, c(0), c(1)), lerp(u, c(2), c(3)))
 
   private def isFlat(c: Array[Vec3]): Boolean =

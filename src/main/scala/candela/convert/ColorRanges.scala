@@ -8,18 +8,18 @@ import candela.scenefile.{Declaration, Param, ParamType}
 /** Clamps the colours that pbrt-v4 rejects: negative ones, and reflectances above 1. */
 private[convert] object ColorRanges:
 
-  def held(from: Converted): Converted =
+  def clamped(from: Converted): Converted =
     val warnings = mutable.LinkedHashSet.empty[Problem]
     val scene = Declarations.map(from.scene): d =>
-      d.copy(params = d.params.map(held(_, d, warnings.add)))
+      d.copy(params = d.params.map(clamped(_, d, warnings.add)))
     Converted(scene, from.warnings ++ warnings)
 
-  private def held(p: Param, d: Declaration, warn: Problem => Boolean): Param =
-    val most = if isReflectance(p, d) then 1f else Float.PositiveInfinity
-    val values = p.floats.map(x => Math.max(0f, Math.min(x, most)))
+  private def clamped(p: Param, d: Declaration, warn: Problem => Boolean): Param =
+    val upperBound = if isReflectance(p, d) then 1f else Float.PositiveInfinity
+    val values = p.floats.map(x => Math.max(0f, Math.min(x, upperBound)))
     if p.paramType != ParamType.Rgb || values.sameElements(p.floats) then p
     else
-      val range = if most == 1f then "in [0, 1]" else "not negative"
+      val range = if upperBound == 1f then "in [0, 1]" else "not negative"
       val message = s"a colour is ${written(p.floats)}; pbrt-v4 takes only colours $range: clamping"
       val _ = warn(Problem.warning(Code.ShiftedColors, p.at, message))
       p.withFloats(values)

@@ -19,7 +19,7 @@ object ColorSpaces:
       val params = d.params.map(p =>
         inSrgb(p, d, m => warnings += Problem.warning(Code.ShiftedColors, p.at, m))
       )
-      d.copy(params = params ++ ownWhite(d), colorSpace = Srgb)
+      d.copy(params = params ++ defaultWhite(d), colorSpace = Srgb)
     Converted(converted, warnings.toVector)
 
   private val Srgb = ColorSpace.Srgb.name
@@ -27,7 +27,7 @@ object ColorSpaces:
   private val Lights = Set("LightSource", "AreaLightSource")
 
   /** The colour of a light that is given none: the white of its space, unless that is sRGB's. */
-  private def ownWhite(d: Declaration): Option[Param] =
+  private def defaultWhite(d: Declaration): Option[Param] =
     val name = if Intensities(d.name) then "I" else "L"
     val isGiven = !Lights(d.category) || Vector(name, "filename").exists(d.param(_).isDefined)
     val white = ColorSpace.named(d.colorSpace).getOrElse(ColorSpace.Srgb).light(Rgb.White)
@@ -45,7 +45,7 @@ object ColorSpaces:
         val colors = p.floats.grouped(3).filter(_.length == 3).map: v =>
           val c = Rgb(v(0), v(1), v(2))
           if isLight then space.emission(c) else space.reflectance(c)
-        val all = colors.toVector
-        if all.exists(c => c.r < 0f || c.g < 0f || c.b < 0f) then
+        val srgbColors = colors.toVector
+        if srgbColors.exists(c => c.r < 0f || c.g < 0f || c.b < 0f) then
           warn(s"`${p.name}` is outside the gamut of sRGB; clamping")
-        p.withFloats(all.flatMap(c => Vector(c.r, c.g, c.b)).map(Math.max(0f, _)).toArray)
+        p.withFloats(srgbColors.flatMap(c => Vector(c.r, c.g, c.b)).map(Math.max(0f, _)).toArray)

@@ -46,15 +46,17 @@ object Converter:
       throw SceneError(Problem.general(Code.NoConversion, "v2 has no PLY meshes; remove --to-ply"))
     val isMitsubas = scene.dialect == Dialect.Mitsuba
     val from = scene.dialect.base
-    val own =
+    val translated =
       if isMitsubas then ofMitsuba(scene, to, files) else Converted(scene, Vector.empty)
-    val there = Declarations.map(own.scene)(FileNames(files.folder).moved)
+    val relocated = Declarations.map(translated.scene)(FileNames(files.folder).moved)
     val images =
-      if isMitsubas then MitsubaInV4.images(there, files) else Converted(there, Vector.empty)
+      if isMitsubas then MitsubaInV4.images(relocated, files)
+      else Converted(relocated, Vector.empty)
     val moved = images.scene
     val hasSpaces = to == Dialect.V4 || from != Dialect.V4
     val based = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
-    val warnings = own.warnings ++ images.warnings ++ based.warnings ++ interfaces(scene, from, to)
+    val warnings =
+      translated.warnings ++ images.warnings ++ based.warnings ++ interfaces(scene, from, to)
     val start = based.copy(warnings = warnings)
     // v2's and v4's marble are the same
     val solid = baking.filter(_ => Seq(from, to).count(_ == Dialect.V3) == 1) match
@@ -65,11 +67,12 @@ object Converter:
     val leavesV4 = from == Dialect.V4 && to != Dialect.V4
     val started =
       if leavesV4 then solid.copy(scene = InstanceMotions.fromV4(solid.scene)) else solid
-    val done = (loans(own.scene) ++ passes(from, to)).foldLeft(started): (before, pass) =>
-      val run = PassRun(pass, before.scene, files, baking, from -> to)
-      val result = run.result()
-      Converted(result, before.warnings ++ run.warnings)
-    val bounded = withoutBacks(done)
+    val converted = (foreignDeclarations(translated.scene) ++ passes(from, to)).foldLeft(started):
+      (previous, pass) =>
+        val run = PassRun(pass, previous.scene, files, baking, from -> to)
+        val result = run.result()
+        Converted(result, previous.warnings ++ run.warnings)
+    val bounded = withoutBacks(converted)
     val plain = if to == Dialect.V4 then forV4(bounded, from) else bounded
     plain.copy(scene = toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)))
 
@@ -86,8 +89,8 @@ object Converter:
   private def withoutBacks(from: Converted): Converted =
     val scene = from.scene
     val oneSided = (scene.shapes ++ scene.objects.values.flatten).filter(_.oneSided)
-    def both(shapes: Vector[ShapeDescription]) = shapes.map(_.copy(oneSided = false))
-    val lost = oneSided.headOption.map: first =>
+    def twoSided(shapes: Vector[ShapeDescription]) = shapes.map(_.copy(oneSided = false))
+    val warning = oneSided.headOption.map: first =>
       val count = if oneSided.size == 1 then "1 shape is" else s"${oneSided.size} shapes are"
       Problem.warning(
         Code.Inexpressible,
@@ -96,10 +99,10 @@ object Converter:
       )
     Converted(
       scene.copy(
-        shapes = both(scene.shapes),
-        objects = scene.objects.map((name, shapes) => name -> both(shapes))
+        shapes = twoSided(scene.shapes),
+        objects = scene.objects.map((name, shapes) => name -> twoSided(shapes))
       ),
-      from.warnings ++ lost
+      from.warnings ++ warning
     )
 
   /** Integrators without media differ in what they find behind surfaces without a BSDF. */
@@ -121,21 +124,21 @@ object Converter:
   private val Open = Set("", "none", "interface")
   private val ThroughMedia = Set("volpath", "simplevolpath", "bdpt", "mlt")
 
-  private def forV4(made: Converted, from: Dialect): Converted =
-    val held = ColorRanges.held(made)
+  private def forV4(converted: Converted, from: Dialect): Converted =
+    val clamped = ColorRanges.clamped(converted)
     val program = s"pbrt-${from.toString.toLowerCase}"
-    if from == Dialect.V4 then held
+    if from == Dialect.V4 then clamped
     else
-      val spectral = SpectralColors.warning(held.scene, program, SpectralColors.Plain)
-      Converted(InstanceMotions.toV4(held.scene), held.warnings ++ spectral)
+      val spectral = SpectralColors.warning(clamped.scene, program, SpectralColors.Plain)
+      Converted(InstanceMotions.toV4(clamped.scene), clamped.warnings ++ spectral)
 
   /** Declarations of another dialect than the scene's come first: then it is of one dialect. */
-  private def loans(scene: SceneDescription): Vector[Pass] =
+  private def foreignDeclarations(scene: SceneDescription): Vector[Pass] =
     var isMixed = false
     val _ = Declarations.map(scene): d =>
       isMixed ||= d.dialect.exists(_ != scene.dialect)
       d
-    Option.when(isMixed && scene.dialect == Dialect.V4)(ToV4View.pass.ofLoans).toVector
+    Option.when(isMixed && scene.dialect == Dialect.V4)(ToV4View.pass.forForeign).toVector
 
   private def passes(from: Dialect, to: Dialect): Vector[Pass] = (from, to) match
     case (a, b) if a == b => Vector.empty
@@ -190,13 +193,14 @@ final class FileNames(to: Path):
   private val target = to.toAbsolutePath.normalize
 
   def moved(d: Declaration): Declaration =
-    val from = d.folder.path.toAbsolutePath.normalize
-    val there = d.folder.at(to)
-    if from == target || !d.params.exists(FileNames.isFile(d, _)) then d.copy(folder = there)
+    val oldFolder = d.folder.path.toAbsolutePath.normalize
+    val newFolder = d.folder.at(to)
+    if oldFolder == target || !d.params.exists(FileNames.isFile(d, _)) then
+      d.copy(folder = newFolder)
     else
       val params = d.params.map: p =>
-        if FileNames.isFile(d, p) then p.withStrings(p.strings.map(name(from, _))) else p
-      d.copy(params = params, folder = there)
+        if FileNames.isFile(d, p) then p.withStrings(p.strings.map(name(oldFolder, _))) else p
+      d.copy(params = params, folder = newFolder)
 
   private def name(from: Path, written: String): String =
     try

@@ -20,8 +20,8 @@ object Emission:
         val c = base.fold(Rgb.White)(p => rgb(p, s))
         s.addRgb(color, positive(c * factor))(using base.fold(s.declaration.at)(_.at))
       else
-        val own = base.fold(1f)(p => add(p, color, s))
-        if own * factor.r != 1f then s.addFloat("scale", own * factor.r)
+        val intensity = base.fold(1f)(p => add(p, color, s))
+        if intensity * factor.r != 1f then s.addFloat("scale", intensity * factor.r)
 
   /** Converts v4's colour and scale to v3's, including `power` and similar parameters.
     *

@@ -19,7 +19,7 @@ object FromMitsuba:
   def converted(scene: SceneDescription): Converted =
     val run = Run(scene.namedMaterials.toMap)
     run.disks(scene)
-    run.panes(scene)
+    run.thinDielectrics(scene)
     val plain = Declarations.map(scene)(run.plain)
     val textures = plain.textures ++ run.addedTextures
     Converted(plain.copy(dialect = Dialect.V4, textures = textures), run.warnings)
@@ -35,12 +35,12 @@ object FromMitsuba:
       else if d.category == "AreaLightSource" then areaLight(d)
       else if d.category == "Texture" then texture(d)
       else if d.category == "Camera" then
-        without(d, "nothing is clipped", "nearclip", "farclip")
-      else if d.category == "Film" then without(d, "no alpha is written", "alpha")
+        withoutParams(d, "nothing is clipped", "nearclip", "farclip")
+      else if d.category == "Film" then withoutParams(d, "no alpha is written", "alpha")
       else if d.category == "Integrator" then
-        without(d, "area lights and sky are visible", "hideemitters")
+        withoutParams(d, "area lights and sky are visible", "hideemitters")
       else if d.category == "Shape" then
-        without(d, "the inside of open tubes is visible", "cullbackfaces")
+        withoutParams(d, "the inside of open tubes is visible", "cullbackfaces")
       else if d.category == "Medium" then
         if d.name.endsWith("grid") then
           warn(d, "pbrt's densities fall to 0 along the border of a grid, Mitsuba's do not")
@@ -53,13 +53,13 @@ object FromMitsuba:
             p.at,
             "pbrt maps normal maps by u and v directly; `to_uv` of this one is dropped"
           )
-        for p <- d.params if FromMitsuba.Reliefs(p.name) && isSoft(d) do
+        for p <- d.params if FromMitsuba.BumpParams(p.name) && isSoft(d) do
           problems += Problem.warning(
             Code.Inexpressible,
             p.at,
             "pbrt does not darken the edge of the shadow on bumps, as Mitsuba does"
           )
-        val mapped = without(d, "", "normalmapuv", "softedges", "turnednormals")
+        val mapped = withoutParams(d, "", "normalmapuv", "softedges", "turnednormals")
         if d.dialect.isDefined then mapped else material(mapped)
 
     private def isSoft(d: Declaration): Boolean =
@@ -68,8 +68,12 @@ object FromMitsuba:
     /** pbrt's images end with their border; only a mapping or a filter shows much of that. */
     private def areaLight(d: Declaration): Declaration =
       val isFiltered = d.param("filter").exists(_.strings.contains("point"))
-      val filtered = without(d, if isFiltered then "it is smooth" else "", "filter")
-      without(without(filtered, "the image is mapped by u and v directly", "imageuv"), "", "wrap")
+      val filtered = withoutParams(d, if isFiltered then "it is smooth" else "", "filter")
+      withoutParams(
+        withoutParams(filtered, "the image is mapped by u and v directly", "imageuv"),
+        "",
+        "wrap"
+      )
 
     /** pbrt's media scatter by Henyey and Greenstein: the mean cosine stays. */
     private def phased(d: Declaration): Declaration =
@@ -80,12 +84,12 @@ object FromMitsuba:
           phase <- PhaseFunction.of(kinds.strings, numbers("phaseweights"), numbers("phasevalues"))
         yield (kinds.strings, Param.float("g", d.at, phase.asymmetry))
       summed.fold(d): (kinds, g) =>
-        val named = without(
+        val named = withoutParams(
           d,
           s"using g = ${Math.round(g.floats(0) * 100) / 100.0} for ${kinds.mkString(" and ")}",
           "phases"
         )
-        val plain = without(named, "", "phaseweights", "phasevalues")
+        val plain = withoutParams(named, "", "phaseweights", "phasevalues")
         plain.copy(params = plain.params :+ g)
 
     private def material(d: Declaration): Declaration =
@@ -94,7 +98,7 @@ object FromMitsuba:
         case "conductor" => conductor(isotropic(d))
         case "twosided" | "nested" => front(d)
         case "dielectric" => dielectric(isotropic(d))
-        case "thindielectric" => without(d, "using 1", "reflectance", "transmittance")
+        case "thindielectric" => withoutParams(d, "using 1", "reflectance", "transmittance")
         case "principled" if d.param("thin").exists(_.bools.contains(true)) => sheet(d)
         case "principled" =>
           warn(d, "\"principled\" is approximated by pbrt-v3's \"disney\"")
@@ -121,7 +125,7 @@ object FromMitsuba:
           )
         case _ =>
       if d.name == "projection" then projection(d)
-      else if d.name == "spot" then without(d, "the light is as in white parts", "mapname")
+      else if d.name == "spot" then withoutParams(d, "the light is as in white parts", "mapname")
       else d
 
     /** pbrt's field of view is the shorter side's, not the width's. */
@@ -133,8 +137,8 @@ object FromMitsuba:
       d.copy(params = d.params.map: p =>
         if p.name != "fov" then p
         else
-          val half = Math.tan(Math.toRadians(p.floats.head) / 2) / narrow
-          Param.float("fov", p.at, Math.toDegrees(2 * Math.atan(half)).toFloat))
+          val halfWidth = Math.tan(Math.toRadians(p.floats.head) / 2) / narrow
+          Param.float("fov", p.at, Math.toDegrees(2 * Math.atan(halfWidth)).toFloat))
 
     private def texture(d: Declaration): Declaration =
       if d.name == "grid" then gridMean(d) else plainTexture(d)
@@ -144,14 +148,14 @@ object FromMitsuba:
       val values = d.param("values").fold(Array.emptyFloatArray)(_.floats)
       val channels = values.length / Math.max(1, cells("nx") * cells("ny") * cells("nz"))
       val mean = Array.tabulate(channels): c =>
-        val own = values.indices.by(channels).map(i => values(i + c).toDouble)
-        (own.sum / own.size).toFloat
+        val channel = values.indices.by(channels).map(i => values(i + c).toDouble)
+        (channel.sum / channel.size).toFloat
       warn(d, "pbrt has no grid or mesh attribute textures; using their mean")
       val kind = if channels == 3 then ParamType.Rgb else ParamType.Float
       d.copy(name = "constant", params = Vector(Param.floats(kind, "value", d.at, mean)))
 
     private def plainTexture(d: Declaration): Declaration =
-      val upright = without(d, "the texture is left upright", "uskew", "vskew")
+      val upright = withoutParams(d, "the texture is left upright", "uskew", "vskew")
       upright.copy(params = upright.params.map: p =>
         if p.name != "wrap" || !p.strings.contains("mirror") then p
         else
@@ -170,34 +174,35 @@ object FromMitsuba:
           warn(s.shape, "pbrt maps textures on disks differently than Mitsuba; using pbrt's")
 
     /** pbrt counts transmission through thin glass as an event, Mitsuba's "volpath" does not. */
-    def panes(scene: SceneDescription): Unit =
-      val own = scene.shapes.map(_.material).collect { case MaterialRef.Inline(d) => d }
+    def thinDielectrics(scene: SceneDescription): Unit =
+      val inlineMaterials = scene.shapes.map(_.material).collect { case MaterialRef.Inline(d) => d }
       for
         i <- scene.integrator if i.name == "volpath"
         depth <- i.param("maxdepth") if depth.ints.exists(_ < FromMitsuba.Deep)
-        pane <- (own ++ scene.namedMaterials.map(_._2)).find(_.name == "thindielectric")
+        thinDielectric <-
+          (inlineMaterials ++ scene.namedMaterials.map(_._2)).find(_.name == "thindielectric")
       do
         problems += Problem.warning(
           Code.Inexpressible,
           depth.at,
           "what thin glass transmits is a scattering event in pbrt, not in Mitsuba's volumetric " +
             s"path tracing; `maxdepth` ${depth.ints.head} may be too low",
-          Some(s"the thin glass is at ${pane.at}")
+          Some(s"the thin glass is at ${thinDielectric.at}")
         )
 
     /** pbrt has one distribution. Half the microfacets of a Beckmann distribution are steeper than
       * α √(ln 2), half those of GGX than α.
       */
     private def isotropic(d: Declaration): Declaration =
-      val others = without(d, "", "distribution")
-      d.param("distribution").filter(_.strings.contains("beckmann")).fold(others): p =>
+      val remaining = withoutParams(d, "", "distribution")
+      d.param("distribution").filter(_.strings.contains("beckmann")).fold(remaining): p =>
         problems += Problem.warning(
           Code.Inexpressible,
           p.at,
           "pbrt has no distribution `beckmann`; using `ggx` of equal median slope"
         )
         val factor = Math.sqrt(Math.log(2)).toFloat
-        others.copy(params = others.params.map: q =>
+        remaining.copy(params = remaining.params.map: q =>
           if q.name != "uroughness" && q.name != "vroughness" then q
           else if q.paramType == ParamType.Texture then times(q, "float", factor)
           else Param.float(q.name, q.at, q.floats.head * factor))
@@ -218,7 +223,7 @@ object FromMitsuba:
       )
       Param.texture(p.name, p.at, name)
 
-    private def without(d: Declaration, instead: String, names: String*): Declaration =
+    private def withoutParams(d: Declaration, instead: String, names: String*): Declaration =
       for p <- d.params if names.contains(p.name) && instead.nonEmpty do
         problems += Problem.warning(
           Code.Inexpressible,
@@ -235,31 +240,31 @@ object FromMitsuba:
       if !isMirror then metal(d)
       else
         val isSmooth = d.param("uroughness").isEmpty
-        val others = without(d, "", "scale", "eta", "k").params
+        val remaining = withoutParams(d, "", "scale", "eta", "k").params
         val name = if isSmooth then "Kr" else "reflectance"
         val tint = d.param("scale").fold(rgb(name, Rgb.White, d))(_.renamed(name))
         if isSmooth then
-          d.copy(name = "mirror", params = tint +: others, dialect = Some(Dialect.V3))
-        else d.copy(params = tint +: others)
+          d.copy(name = "mirror", params = tint +: remaining, dialect = Some(Dialect.V3))
+        else d.copy(params = tint +: remaining)
 
     /** A metal whose reflection is scaled becomes one of equal albedo. */
     private def metal(d: Declaration): Declaration =
       (d.param("scale"), color(d, "eta"), color(d, "k")) match
         case (Some(tint), Some(eta), Some(k)) =>
-          val own = ConductorAlbedo.ofIndex(eta, k)
+          val albedo = ConductorAlbedo.ofIndex(eta, k)
           val reflectance = color(d, "scale") match
-            case Some(c) => rgb("reflectance", (own * c).map(ConductorAlbedo.normal), d)
+            case Some(c) => rgb("reflectance", (albedo * c).map(ConductorAlbedo.normal), d)
             case None =>
               val name = tint.renamed("reflectance")
-              times(name, "spectrum", ConductorAlbedo.normal(own.luminance))
+              times(name, "spectrum", ConductorAlbedo.normal(albedo.luminance))
           problems += Problem.warning(
             Code.Inexpressible,
             tint.at,
             "pbrt has no `scale` of \"conductor\"; using a `reflectance` of equal albedo"
           )
-          val others = without(d, "", "scale", "eta", "k")
-          others.copy(params = reflectance +: others.params)
-        case _ => without(d, "using 1", "scale")
+          val remaining = withoutParams(d, "", "scale", "eta", "k")
+          remaining.copy(params = reflectance +: remaining.params)
+        case _ => withoutParams(d, "using 1", "scale")
 
     /** v3's glass has colours. */
     private def dielectric(d: Declaration): Declaration =
@@ -267,8 +272,8 @@ object FromMitsuba:
         .flatMap((from, to) => d.param(from).map(_.renamed(to)))
       if tints.isEmpty then d
       else
-        val others = without(d, "", "reflectance", "transmittance").params
-        d.copy(name = "glass", params = tints ++ others, dialect = Some(Dialect.V3))
+        val remaining = withoutParams(d, "", "reflectance", "transmittance").params
+        d.copy(name = "glass", params = tints ++ remaining, dialect = Some(Dialect.V3))
 
     /** A coat on a diffuse base. Without `nonlinear`, Mitsuba leaves out that light which the coat
       * reflects back is coloured by the base again: a coated base of another colour looks so.
@@ -276,8 +281,8 @@ object FromMitsuba:
     private def plastic(d: Declaration): Declaration =
       val isNonlinear = d.param("nonlinear").exists(_.bools.contains(true))
       val isOnce = d.param("interreflection").exists(_.bools.contains(false))
-      val others =
-        without(without(d, "using 1", "specular"), "", "nonlinear", "interreflection")
+      val remaining =
+        withoutParams(withoutParams(d, "using 1", "specular"), "", "nonlinear", "interreflection")
       if isOnce then
         warn(
           d,
@@ -287,14 +292,14 @@ object FromMitsuba:
       val eta = d.param("eta").flatMap(_.floats.headOption).getOrElse(1.49f)
       val inner = diffuseReflectance(eta)
       // The reflectance that gives the same light with interreflection
-      def same(r: Float) =
+      def equalReflectance(r: Float) =
         if isOnce then r * eta * eta / (1 + r * eta * eta * inner)
         else r / (1 - inner + r * inner)
-      val params = others.params.map: p =>
+      val params = remaining.params.map: p =>
         if p.name != "reflectance" || isNonlinear then p
         else
           color(d, "reflectance") match
-            case Some(c) => rgb("reflectance", c.map(same), d)
+            case Some(c) => rgb("reflectance", c.map(equalReflectance), d)
             case None =>
               warn(
                 d,
@@ -312,32 +317,32 @@ object FromMitsuba:
       val names = d.param("materials").orElse(d.param("material")).get.strings
       if names.distinct.length > 1 then
         warn(d, "pbrt has no separate material for the back; using that of the front for both")
-      val reliefs = d.params.filter(p => FromMitsuba.Reliefs(p.name))
+      val bumps = d.params.filter(p => FromMitsuba.BumpParams(p.name))
       val front = named(names.head)
-      val takesMore =
-        front.name != "mix" && !front.params.exists(p => FromMitsuba.Reliefs(p.name))
-      if reliefs.nonEmpty && !takesMore then
+      val takesBumps =
+        front.name != "mix" && !front.params.exists(p => FromMitsuba.BumpParams(p.name))
+      if bumps.nonEmpty && !takesBumps then
         warn(d, "pbrt has no bump maps on blended or bump-mapped materials; these are dropped")
-      material(if takesMore then front.copy(params = front.params ++ reliefs) else front)
+      material(if takesBumps then front.copy(params = front.params ++ bumps) else front)
 
     /** A sheet that transmits as much, but spreads all of it. */
     private def sheet(d: Declaration): Declaration =
       warn(d, "\"principledthin\" is approximated by pbrt-v4's \"diffusetransmission\"")
       def number(name: String) = d.param(name).flatMap(_.floats.headOption).getOrElse(0f)
       val clear = number("spectrans")
-      val near = (1f - clear) * (1f - 0.5f * number("difftrans"))
-      val colors = Vector("reflectance" -> near, "transmittance" -> (1f - near)).map:
-        (name, part) =>
+      val reflected = (1f - clear) * (1f - 0.5f * number("difftrans"))
+      val colors = Vector("reflectance" -> reflected, "transmittance" -> (1f - reflected)).map:
+        (name, fraction) =>
           color(d, "color") match
-            case Some(c) => rgb(name, c * part, d)
-            case None => times(d.param("color").get.renamed(name), "spectrum", part)
-      val reliefs = d.params.filter(p => FromMitsuba.Reliefs(p.name))
-      d.copy(name = "diffusetransmission", params = colors ++ reliefs)
+            case Some(c) => rgb(name, c * fraction, d)
+            case None => times(d.param("color").get.renamed(name), "spectrum", fraction)
+      val bumps = d.params.filter(p => FromMitsuba.BumpParams(p.name))
+      d.copy(name = "diffusetransmission", params = colors ++ bumps)
 
     private def rgb(name: String, c: Rgb, d: Declaration): Param =
       Param.floats(ParamType.Rgb, name, d.at, Array(c.r, c.g, c.b))
 
-  private val Reliefs = Set("displacement", "bumpmap", "normalmap")
+  private val BumpParams = Set("displacement", "bumpmap", "normalmap")
 
   /** Events of paths that hardly any light reaches. */
   private val Deep = 100

@@ -9,13 +9,13 @@ object FromV2:
   import Steps.*
 
   private val camera = Seq(
-    keep("frameaspectratio", "screenwindow", "lensradius", "focaldistance", "shutteropen",
+    retain("frameaspectratio", "screenwindow", "lensradius", "focaldistance", "shutteropen",
       "shutterclose"),
     drop("hither", "yon")
   )
 
   private val cameras = Table("Camera", fallback = "perspective")(
-    Rule("perspective" -> "perspective")((keep("fov", "halffov") +: camera)*),
+    Rule("perspective" -> "perspective")((retain("fov", "halffov") +: camera)*),
     Rule("orthographic" -> "orthographic")(camera*),
     Rule("environment" -> "environment")(camera*)
   )
@@ -25,24 +25,24 @@ object FromV2:
 
   private val films = Table("Film", fallback = "image")(
     Rule("image" -> "image")(
-      keep("filename", "xresolution", "yresolution", "cropwindow", "scale"),
+      retain("filename", "xresolution", "yresolution", "cropwindow", "scale"),
       size("xresolution", 640),
       size("yresolution", 480),
       drop("display")
     )
   )
 
-  private val extents = keep("xwidth", "ywidth")
+  private val extents = retain("xwidth", "ywidth")
 
   private val filters = Table("PixelFilter", fallback = "box")(
     Rule("box" -> "box")(extents),
     Rule("triangle" -> "triangle")(extents),
-    Rule("gaussian" -> "gaussian")(extents, keep("alpha")),
-    Rule("mitchell" -> "mitchell")(extents, keep("B", "C")),
+    Rule("gaussian" -> "gaussian")(extents, retain("alpha")),
+    Rule("mitchell" -> "mitchell")(extents, retain("B", "C")),
     Rule("sinc" -> "sinc")(
       Step("`xwidth`, `ywidth`, `tau`", "unchanged; v2 scales the filter to its width")(s =>
-        val tau = s.look("tau").flatMap(s.numberOf).getOrElse(3f)
-        val widths = Seq("xwidth", "ywidth").map(s.look(_).flatMap(s.numberOf).getOrElse(4f))
+        val tau = s.peek("tau").flatMap(s.numberOf).getOrElse(3f)
+        val widths = Seq("xwidth", "ywidth").map(s.peek(_).flatMap(s.numberOf).getOrElse(4f))
         if widths.exists(_ != tau) then
           s.warn(
             Code.Inexpressible,
@@ -52,12 +52,12 @@ object FromV2:
           )
       ),
       extents,
-      keep("tau")
+      retain("tau")
     )
   )
 
   private val samples = Seq(
-    keep("pixelsamples"),
+    retain("pixelsamples"),
     otherwise("pixelsamples", "`pixelsamples` 4")(_.addInteger("pixelsamples", 4))
   )
 
@@ -65,13 +65,16 @@ object FromV2:
     Rule("lowdiscrepancy|bestcandidate" -> "02sequence")(samples*),
     Rule("random" -> "random")(samples*),
     Rule("halton" -> "halton")(samples*),
-    Rule.near("adaptive" -> "02sequence", "takes the maximum number of samples in every pixel")(
+    Rule.approximate(
+      "adaptive" -> "02sequence",
+      "takes the maximum number of samples in every pixel"
+    )(
       rename("maxsamples" -> "pixelsamples"),
       otherwise("pixelsamples", "`pixelsamples` 32")(_.addInteger("pixelsamples", 32)),
       drop("minsamples", "method")
     ),
     Rule("stratified" -> "stratified")(
-      keep("xsamples", "ysamples", "jitter"),
+      retain("xsamples", "ysamples", "jitter"),
       otherwise("xsamples", "`xsamples` 2")(_.addInteger("xsamples", 2)),
       otherwise("ysamples", "`ysamples` 2")(_.addInteger("ysamples", 2))
     )
@@ -84,20 +87,20 @@ object FromV2:
   )(s => s.addInteger("maxdepth", s.takeInteger("maxdepth", 5) + 1))
 
   private def unbiased(names: String) =
-    Rule.near(names -> "path", "the same image, estimated by path tracing")(
+    Rule.approximate(names -> "path", "the same image, estimated by path tracing")(
       Step("all", "ignored")(s => s.declaration.params.foreach(p => s.take(p.name)))
     )
 
   private val integrators = Table("Integrator", fallback = "path")(
     Rule("path" -> "path")(oneMore),
-    Rule("directlighting" -> "directlighting")(keep("maxdepth", "strategy")),
-    Rule("whitted" -> "whitted")(keep("maxdepth")),
-    Rule.near(
+    Rule("directlighting" -> "directlighting")(retain("maxdepth", "strategy")),
+    Rule("whitted" -> "whitted")(retain("maxdepth")),
+    Rule.approximate(
       "ambientocclusion" -> "ambientocclusion",
       "rays are weighted by the cosine; an unoccluded point has value π"
     )(
-      keep("nsamples"),
-      lose("maxdist", "unlimited distance")
+      retain("nsamples"),
+      unsupported("maxdist", "unlimited distance")
     ),
     unbiased(
       "photonmap|exphotonmap|igi|irradiancecache|dipolesubsurface|diffuseprt|glossyprt|useprobes"
@@ -108,7 +111,7 @@ object FromV2:
     for p <- s.take("nsamples") do s.add("samples", p)
 
   private def light(name: String, params: String*) =
-    Rule(name -> name)((Seq(keep(params*), keep("scale", "samples")) :+ lightSamples)*)
+    Rule(name -> name)((Seq(retain(params*), retain("scale", "samples")) :+ lightSamples)*)
 
   private val lights = Table("LightSource")(
     light("point", "I", "from"),
@@ -117,33 +120,33 @@ object FromV2:
     light("projection", "I", "fov", "mapname"),
     light("distant", "L", "from", "to"),
     Rule("infinite|exinfinite" -> "infinite")(
-      keep("L", "mapname", "scale", "samples"),
+      retain("L", "mapname", "scale", "samples"),
       lightSamples
     )
   )
 
   private val area = Table("AreaLightSource")(
-    Rule("diffuse|area" -> "diffuse")(keep("L", "scale", "samples", "twosided"), lightSamples)
+    Rule("diffuse|area" -> "diffuse")(retain("L", "scale", "samples", "twosided"), lightSamples)
   )
 
-  private val quadric = keep("radius", "zmin", "zmax", "phimax")
+  private val quadric = retain("radius", "zmin", "zmax", "phimax")
 
   private val shapes = Table("Shape")(
     Rule("sphere" -> "sphere")(quadric),
     Rule("cylinder" -> "cylinder")(quadric),
     Rule("paraboloid" -> "paraboloid")(quadric),
-    Rule("disk" -> "disk")(keep("height", "radius", "innerradius", "phimax")),
-    Rule("cone" -> "cone")(keep("radius", "height", "phimax")),
-    Rule("hyperboloid" -> "hyperboloid")(keep("p1", "p2", "phimax")),
+    Rule("disk" -> "disk")(retain("height", "radius", "innerradius", "phimax")),
+    Rule("cone" -> "cone")(retain("radius", "height", "phimax")),
+    Rule("hyperboloid" -> "hyperboloid")(retain("p1", "p2", "phimax")),
     Rule("trianglemesh" -> "trianglemesh")(
-      keep("P", "N", "S", "uv", "st", "indices", "alpha"),
+      retain("P", "N", "S", "uv", "st", "indices", "alpha"),
       drop("discarddegenerateUVs")
     ),
-    Rule("plymesh" -> "plymesh")(keep("filename", "alpha")),
-    Rule("loopsubdiv" -> "loopsubdiv")(keep("nlevels", "levels", "P", "indices", "scheme")),
-    Rule("heightfield" -> "heightfield")(keep("nu", "nv", "Pz")),
+    Rule("plymesh" -> "plymesh")(retain("filename", "alpha")),
+    Rule("loopsubdiv" -> "loopsubdiv")(retain("nlevels", "levels", "P", "indices", "scheme")),
+    Rule("heightfield" -> "heightfield")(retain("nu", "nv", "Pz")),
     Rule("nurbs" -> "nurbs")(
-      keep("nu", "nv", "uorder", "vorder", "uknots", "vknots", "u0", "u1", "v0", "v1", "P", "Pw")
+      retain("nu", "nv", "uorder", "vorder", "uknots", "vknots", "u0", "u1", "v0", "v1", "P", "Pw")
     )
   )
 
@@ -162,9 +165,9 @@ object FromV2:
     Vector(s)
 
   private val accelerators = Table("Accelerator")(
-    Rule("bvh" -> "bvh")(keep("splitmethod"), rename("maxnodeprims" -> "maxnodeprims")),
+    Rule("bvh" -> "bvh")(retain("splitmethod"), rename("maxnodeprims" -> "maxnodeprims")),
     Rule("kdtree" -> "kdtree")(
-      keep("intersectcost", "traversalcost", "emptybonus", "maxprims", "maxdepth")
+      retain("intersectcost", "traversalcost", "emptybonus", "maxprims", "maxdepth")
     )
   )
 

@@ -9,58 +9,68 @@ import candela.math.pow
 object FromV2Surfaces:
   import Steps.*
 
-  private val bump = keep("bumpmap")
+  private val bump = retain("bumpmap")
   private val index = rename("index" -> "eta")
   private val highlight = "highlights of equal width, but another shape than in v2"
 
   /** Exponents along the two directions; converted to lobes of equal width. */
   private val substrateRoughness =
     Step("`uroughness`, `vroughness`", "alpha of equal lobe width"): s =>
-      for name <- Seq("uroughness", "vroughness") if !s.has(name) do s.put(number(s, name, 0.1f))
+      for name <- Seq("uroughness", "vroughness") if !s.contains(name) do
+        s.put(number(s, name, 0.1f))
       RoughnessSteps.v2(0.1f).run(s)
 
   private def number(s: Statement, name: String, value: Float) =
-    val at = s.declaration.at
+    val position = s.declaration.at
     candela.scenefile.Param(
-      candela.scenefile.ParamType.Float, name, at, at, floats = Array(value)
+      candela.scenefile.ParamType.Float, name, position, position, floats = Array(value)
     )
 
   private val subsurface = Seq(
-    keep("name", "sigma_a", "scale", "g", "Kr"),
+    retain("name", "sigma_a", "scale", "g", "Kr"),
     rename("sigma_prime_s" -> "sigma_s", "index" -> "eta", "meanfreepath" -> "mfp"),
     bump
   )
 
   val materials: Table = Table("Material", fallback = "matte")(
-    Rule("matte" -> "matte")(keep("Kd", "sigma"), bump),
-    Rule.near("plastic" -> "plastic", highlight)(keep("Kd", "Ks"), RoughnessSteps.v2(0.1f), bump),
-    Rule.near("metal" -> "metal", highlight)(keep("eta", "k"), RoughnessSteps.v2(0.01f), bump),
-    Rule.near("substrate" -> "substrate", highlight)(keep("Kd", "Ks"), substrateRoughness, bump),
-    Rule.near("uber" -> "uber", highlight)(
-      keep("Kd", "Ks", "Kr", "opacity"),
+    Rule("matte" -> "matte")(retain("Kd", "sigma"), bump),
+    Rule.approximate(
+      "plastic" -> "plastic",
+      highlight
+    )(retain("Kd", "Ks"), RoughnessSteps.v2(0.1f), bump),
+    Rule.approximate(
+      "metal" -> "metal",
+      highlight
+    )(retain("eta", "k"), RoughnessSteps.v2(0.01f), bump),
+    Rule.approximate(
+      "substrate" -> "substrate",
+      highlight
+    )(retain("Kd", "Ks"), substrateRoughness, bump),
+    Rule.approximate("uber" -> "uber", highlight)(
+      retain("Kd", "Ks", "Kr", "opacity"),
       index,
       RoughnessSteps.v2(0.1f),
       bump
     ),
-    Rule.near("translucent" -> "translucent", highlight)(
-      keep("Kd", "Ks", "reflect", "transmit"),
+    Rule.approximate("translucent" -> "translucent", highlight)(
+      retain("Kd", "Ks", "reflect", "transmit"),
       RoughnessSteps.v2(0.1f),
       bump
     ),
-    Rule.near("shinymetal" -> "uber", "a mirror under a glossy coating")(
-      keep("Ks", "Kr"),
+    Rule.approximate("shinymetal" -> "uber", "a mirror under a glossy coating")(
+      retain("Ks", "Kr"),
       otherwise("Kd", "`Kd` 0")(_.addRgb("Kd", Rgb.Black)),
       RoughnessSteps.v2(0.1f),
       bump
     ),
-    Rule("glass" -> "glass")(keep("Kr", "Kt"), index, bump),
-    Rule("mirror" -> "mirror")(keep("Kr"), bump),
-    Rule("mix" -> "mix")(keep("amount", "namedmaterial1", "namedmaterial2")),
+    Rule("glass" -> "glass")(retain("Kr", "Kt"), index, bump),
+    Rule("mirror" -> "mirror")(retain("Kr"), bump),
+    Rule("mix" -> "mix")(retain("amount", "namedmaterial1", "namedmaterial2")),
     Rule("subsurface" -> "subsurface")(subsurface*),
-    Rule("kdsubsurface" -> "kdsubsurface")((keep("Kd") +: subsurface)*)
+    Rule("kdsubsurface" -> "kdsubsurface")((retain("Kd") +: subsurface)*)
   )
 
-  private val mapping = keep("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
+  private val mapping = retain("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
 
   /** v2 applies an exponent after the scale; v3 supports only sRGB's curve. */
   private val gamma =
@@ -73,14 +83,14 @@ object FromV2Surfaces:
           s.addBool("gamma", false)
           if scale != 1f then s.addFloat("scale", scale)
         else
-          val meant = (x: Float, _: Int) => pow(Math.max(scale * x, 0f), power)
-          s.addString("filename", RewrittenImages.baked(s, file)(meant))(using file.at)
+          val decoded = (x: Float, _: Int) => pow(Math.max(scale * x, 0f), power)
+          s.addString("filename", RewrittenImages.baked(s, file)(decoded))(using file.at)
 
   /** v2 flips only TGA files vertically. */
   private val upright =
     Step("`vscale`, `vdelta` except of .tga files", "flipped vertically"): s =>
-      val file = s.look("filename").flatMap(_.strings.headOption).getOrElse("").toLowerCase
-      val isUv = s.look("mapping").forall(_.strings.headOption.contains("uv"))
+      val file = s.peek("filename").flatMap(_.strings.headOption).getOrElse("").toLowerCase
+      val isUv = s.peek("mapping").forall(_.strings.headOption.contains("uv"))
       if !file.endsWith(".tga") then
         if isUv then
           val (scale, delta) = (s.takeNumber("vscale", 1f), s.takeNumber("vdelta", 0f))
@@ -89,18 +99,18 @@ object FromV2Surfaces:
         else s.warn(Code.Inexpressible, s.declaration.at, "v3 flips this image vertically")
 
   private def common = Seq(
-    Rule("constant" -> "constant")(keep("value")),
-    Rule("scale" -> "scale")(keep("tex1", "tex2")),
-    Rule("mix" -> "mix")(keep("tex1", "tex2", "amount")),
-    Rule("bilerp" -> "bilerp")(keep("v00", "v01", "v10", "v11"), mapping),
+    Rule("constant" -> "constant")(retain("value")),
+    Rule("scale" -> "scale")(retain("tex1", "tex2")),
+    Rule("mix" -> "mix")(retain("tex1", "tex2", "amount")),
+    Rule("bilerp" -> "bilerp")(retain("v00", "v01", "v10", "v11"), mapping),
     Rule("imagemap" -> "imagemap")(
       upright,
       gamma,
-      keep("wrap", "trilinear", "maxanisotropy"),
+      retain("wrap", "trilinear", "maxanisotropy"),
       mapping
     ),
-    Rule("checkerboard" -> "checkerboard")(keep("tex1", "tex2", "dimension", "aamode"), mapping),
-    Rule("dots" -> "dots")(keep("inside", "outside"), mapping)
+    Rule("checkerboard" -> "checkerboard")(retain("tex1", "tex2", "dimension", "aamode"), mapping),
+    Rule("dots" -> "dots")(retain("inside", "outside"), mapping)
   ) ++ Noise.rules :+ Rule("uv" -> "uv")(mapping)
 
   val floats: Table = Table("float texture", fallback = "constant")(common*)

@@ -25,15 +25,19 @@ private[convert] object InstanceMotions:
     */
   private def relativeTo(origin: Vec3, scene: SceneDescription): SceneDescription =
     val moved = scene.instances.filter(_.instanceToWorld.isAnimated).map(_.name).toSet
-    val back = Transform.translate(origin.x, origin.y, origin.z)
-    val there = back.inverse
-    def all(t: AnimatedTransform, f: Transform => Transform) =
+    val instanceShift = Transform.translate(origin.x, origin.y, origin.z)
+    val objectShift = instanceShift.inverse
+    def mapTransforms(t: AnimatedTransform, f: Transform => Transform) =
       AnimatedTransform(f(t.start), f(t.end))
     scene.copy(
       objects = scene.objects.map: (name, shapes) =>
         if !moved(name) then name -> shapes
-        else name -> shapes.map(s => s.copy(objectToWorld = all(s.objectToWorld, there * _))),
+        else
+          name -> shapes.map(s =>
+            s.copy(objectToWorld = mapTransforms(s.objectToWorld, objectShift * _))
+          )
+      ,
       instances = scene.instances.changed: i =>
         if !moved(i.name) then i
-        else i.copy(instanceToWorld = all(i.instanceToWorld, _ * back))
+        else i.copy(instanceToWorld = mapTransforms(i.instanceToWorld, _ * instanceShift))
     )

@@ -24,12 +24,12 @@ private[convert] object MitsubaInV4:
     def clear(shapes: Vector[ShapeDescription]) = shapes.map: s =>
       if !isNull(s) then s
       else
-        val at = s.shape.at
-        val index = Vector(Param.float("eta", at, 1f))
-        val glass = Declaration("Material", "dielectric", index, at, s.shape.folder)
+        val position = s.shape.at
+        val index = Vector(Param.float("eta", position, 1f))
+        val glass = Declaration("Material", "dielectric", index, position, s.shape.folder)
         s.copy(material = MaterialRef.Inline(glass))
     val shaded = scene.lights.find(l => Points(l.light.name))
-    val lost = (scene.shapes ++ scene.objects.values.flatten).find(isNull).zip(shaded).map:
+    val warning = (scene.shapes ++ scene.objects.values.flatten).find(isNull).zip(shaded).map:
       (shape, point) =>
         Problem.warning(
           Code.Inexpressible,
@@ -42,7 +42,7 @@ private[convert] object MitsubaInV4:
         shapes = clear(scene.shapes),
         objects = scene.objects.map((name, shapes) => name -> clear(shapes))
       ),
-      lost.toVector
+      warning.toVector
     )
 
   /** Lights that no ray hits by chance. */
@@ -51,21 +51,21 @@ private[convert] object MitsubaInV4:
   /** pbrt-v4 decodes all 8-bit files but PNG as sRGB. */
   def images(scene: SceneDescription, files: SideFiles): Converted =
     val problems = Vector.newBuilder[Problem]
-    val made = mutable.HashMap.empty[(SceneFolder, String), String]
+    val rewritten = mutable.HashMap.empty[(SceneFolder, String), String]
     def isMisread(d: Declaration, p: Param) =
       val isRaw = p.name == "normalmap" || p.name == "filename" && d.category == "Texture" &&
         d.param("encoding").exists(_.strings.contains("linear"))
       p.paramType == ParamType.String && isRaw
     def linear(d: Declaration, p: Param): Param =
-      val name = made.getOrElseUpdate(
+      val name = rewritten.getOrElseUpdate(
         (d.folder, p.strings.head),
         RewrittenImages.raw(d.folder, p, files) match
           case Right(name) => name
-          case Left(why) =>
+          case Left(reason) =>
             problems += Problem.warning(
               Code.UnconvertedImage,
               p.at,
-              s"can't read the image, leaving it unchanged: $why"
+              s"can't read the image, leaving it unchanged: $reason"
             )
             p.strings.head
       )

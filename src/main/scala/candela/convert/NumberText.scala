@@ -34,14 +34,14 @@ object NumberText:
   private val writesMore = Runtime.version.feature < 19
 
   private def shortest(text: String, isSame: String => Boolean): java.math.BigDecimal =
-    var best = java.math.BigDecimal(text).stripTrailingZeros
+    var result = java.math.BigDecimal(text).stripTrailingZeros
     var shrinks = writesMore
-    while shrinks && best.precision > 1 do
-      val context = java.math.MathContext(best.precision - 1, java.math.RoundingMode.HALF_EVEN)
-      val shorter = best.round(context).stripTrailingZeros
+    while shrinks && result.precision > 1 do
+      val context = java.math.MathContext(result.precision - 1, java.math.RoundingMode.HALF_EVEN)
+      val shorter = result.round(context).stripTrailingZeros
       shrinks = isSame(shorter.toString)
-      if shrinks then best = shorter
-    best
+      if shrinks then result = shorter
+    result
 
   /** `0.25`, `1200`, but `1e-7` and `3.4e38`. */
   private def plain(value: java.math.BigDecimal): String =

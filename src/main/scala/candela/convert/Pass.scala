@@ -23,7 +23,7 @@ final class Pass(
   def table(category: String): Table = tables.find(_.category == category).get
 
   /** Converts only those declarations of a scene in dialect `to` that are not in it. */
-  def ofLoans: Pass = new Pass(from, to, tables, Map.empty)
+  def forForeign: Pass = new Pass(from, to, tables, Map.empty)
 
 /** State of converting one scene.
   *
@@ -42,12 +42,12 @@ final class PassRun(
     scene.textures.map(t => (t.name, t.valueType) -> t)
   )
   private val added = mutable.ArrayBuffer.empty[TextureDescription]
-  private val taken = mutable.HashSet.from(scene.textures.map(_.name))
+  private val usedNames = mutable.HashSet.from(scene.textures.map(_.name))
   private val shared = mutable.HashMap.empty[Declaration, Option[Declaration]]
-  private var place = GraphicsState.Identity
+  private var currentTransform = GraphicsState.Identity
 
   /** Transform of the texture being converted. */
-  def textureToWorld: AnimatedTransform = place
+  def textureToWorld: AnimatedTransform = currentTransform
 
   val values: Values =
     Values(pass.from, pass.to, (p, message) => warn(Code.Inexpressible, p.at, message))
@@ -61,13 +61,13 @@ final class PassRun(
 
   /** All materials that shapes may use. */
   lazy val materials: Vector[Declaration] =
-    val used = (scene.shapes ++ scene.objects.values.flatten).map(_.material).distinct
-    scene.namedMaterials.map(_._2) ++ used.collect { case MaterialRef.Inline(d) => d }
+    val shapeMaterials = (scene.shapes ++ scene.objects.values.flatten).map(_.material).distinct
+    scene.namedMaterials.map(_._2) ++ shapeMaterials.collect { case MaterialRef.Inline(d) => d }
 
   /** Adds a texture to the output; returns its unique name. */
   def define(t: TextureDescription): String =
     val names = Iterator(t.name) ++ Iterator.from(2).map(i => s"${t.name} ($i)")
-    val name = names.find(taken.add).get
+    val name = names.find(usedNames.add).get
     added += t.copy(name = name)
     name
 
@@ -82,8 +82,8 @@ final class PassRun(
       case None =>
         val dialect = pass.to.toString.toLowerCase
         val instead = table.fallback.fold("ignored")(f => s"using \"$f\"")
-        val what = s"${category.toLowerCase} \"${d.name}\""
-        warn(Code.Inexpressible, d.at, s"$dialect has no equivalent of $what; $instead")
+        val source = s"${category.toLowerCase} \"${d.name}\""
+        warn(Code.Inexpressible, d.at, s"$dialect has no equivalent of $source; $instead")
         table.fallback.map(name => d.copy(name = name, params = Vector.empty))
 
   /** Converts a declaration that several shapes may share, once. */
@@ -94,26 +94,26 @@ final class PassRun(
     // Textures first: added textures must follow those they use and precede those that use them.
     val allTextures = scene.textures.flatMap: t =>
       val placed = pass.texture(t)
-      place = placed.textureToWorld
-      val made = convert(t.texture, s"${t.valueType} texture")
-      val between = added.toVector
+      currentTransform = placed.textureToWorld
+      val declaration = convert(t.texture, s"${t.valueType} texture")
+      val dependencies = added.toVector
       added.clear()
-      between ++ made.map(d => placed.copy(texture = d))
-    val placeOfNone = scene.camera.fold(SourcePos.Nowhere)(_.at)
-    def option(category: String, given_ : Option[Declaration]): Option[Declaration] =
-      val silent = pass.defaults.get(category).map: name =>
-        Declaration(category, name, Vector.empty, placeOfNone, SceneFolder.Nowhere)
-      given_.orElse(silent).flatMap(convert(_, category))
+      dependencies ++ declaration.map(d => placed.copy(texture = d))
+    val defaultPosition = scene.camera.fold(SourcePos.Nowhere)(_.at)
+    def option(category: String, stated: Option[Declaration]): Option[Declaration] =
+      val implicitDefault = pass.defaults.get(category).map: name =>
+        Declaration(category, name, Vector.empty, defaultPosition, SceneFolder.Nowhere)
+      stated.orElse(implicitDefault).flatMap(convert(_, category))
     val media =
       scene.media.flatMap(m => convert(m.medium, "Medium").map(d => m.copy(medium = d)))
     // What is left out must not be named
-    val lost = scene.media.map(_.name).toSet -- media.map(_.name)
-    def medium(name: String) = if lost(name) then "" else name
-    def within(s: ShapeDescription) =
+    val dropped = scene.media.map(_.name).toSet -- media.map(_.name)
+    def medium(name: String) = if dropped(name) then "" else name
+    def withMedia(s: ShapeDescription) =
       s.copy(insideMedium = medium(s.insideMedium), outsideMedium = medium(s.outsideMedium))
     val objects =
-      scene.objects.map((name, shapes) => name -> shapes.flatMap(shape).map(within))
-    val shapes = scene.shapes.flatMap(shape).map(within)
+      scene.objects.map((name, shapes) => name -> shapes.flatMap(shape).map(withMedia))
+    val shapes = scene.shapes.flatMap(shape).map(withMedia)
     val materials =
       scene.namedMaterials.flatMap((name, d) => convert(d, "Material").map(name -> _))
     scene.copy(
@@ -145,16 +145,16 @@ final class PassRun(
 
   private def shape(s: ShapeDescription): Vector[ShapeDescription] =
     for
-      one <- pass.shape(s, this)
-      declaration <- convert(one.shape, "Shape")
-    yield one.copy(
+      piece <- pass.shape(s, this)
+      declaration <- convert(piece.shape, "Shape")
+    yield piece.copy(
       shape = declaration,
-      material = one.material match
+      material = piece.material match
         case MaterialRef.Inline(d) =>
           sharing(d, "Material").fold(MaterialRef.Default)(MaterialRef.Inline(_))
         case other => other
       ,
-      areaLight = one.areaLight.flatMap(sharing(_, "AreaLightSource"))
+      areaLight = piece.areaLight.flatMap(sharing(_, "AreaLightSource"))
     )
 
 object PassRun:

@@ -10,12 +10,12 @@ import candela.scenefile.{Declaration, Param, ParamType, SceneDescription, Shape
   */
 object PlyWriter:
 
-  /** The scene with every mesh of at least `least` triangles moved to its own file. */
-  def extract(scene: SceneDescription, least: Int, files: SideFiles): SceneDescription =
+  /** The scene with every mesh of at least `minTriangles` triangles moved to its own file. */
+  def extract(scene: SceneDescription, minTriangles: Int, files: SideFiles): SceneDescription =
     def shape(s: ShapeDescription) =
       val d = s.shape
       val count = d.param("indices").fold(0)(_.ints.length / 3)
-      if count >= least && Meshes.fitsPly(d) then s.copy(shape = moved(d, files)) else s
+      if count >= minTriangles && Meshes.fitsPly(d) then s.copy(shape = moved(d, files)) else s
     scene.copy(
       shapes = scene.shapes.map(shape),
       objects = scene.objects.map((name, shapes) => name -> shapes.map(shape))
@@ -23,10 +23,10 @@ object PlyWriter:
 
   private def moved(d: Declaration, files: SideFiles): Declaration =
     val name = files.add("mesh", "ply", bytes(d))
-    val at = d.param("P").get.at
-    val filename = Param(ParamType.String, "filename", at, at, strings = Vector(name))
-    val others = d.params.filterNot(p => InFile(p.name))
-    d.copy(name = "plymesh", params = filename +: others)
+    val position = d.param("P").get.at
+    val filename = Param(ParamType.String, "filename", position, position, strings = Vector(name))
+    val remaining = d.params.filterNot(p => InFile(p.name))
+    d.copy(name = "plymesh", params = filename +: remaining)
 
   private val InFile = Set("P", "N", "uv", "st", "indices", "discarddegenerateUVs")
 

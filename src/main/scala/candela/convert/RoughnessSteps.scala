@@ -23,7 +23,7 @@ object RoughnessSteps:
     Step("`roughness`, `uroughness`, `vroughness`, `remaproughness`", "alpha, not remapped"): s =>
       val remap = s.takeBool("remaproughness", true)
       val smooth =
-        smoothAtZero && Names.tail.forall(n => s.look(n).forall(Steps.isNumber(0f)(_, s)))
+        smoothAtZero && Names.tail.forall(n => s.peek(n).forall(Steps.isNumber(0f)(_, s)))
       def alpha(r: Float) =
         if smooth then 0f
         else Math.max(if remap then Roughness.polynomialAlpha(r) else r, 1e-3f)
@@ -55,24 +55,24 @@ object RoughnessSteps:
   private def paint(s: Statement, p: Param, alpha: Float => Float): Option[String] =
     for
       t <- s.run.texture(p.strings.headOption.getOrElse(""), "float")
-      why = s"${s.target} maps the texture of `${p.name}` differently"
-      name <- BakedTextures.define(s, t, why)(c => Rgb.gray(alpha(c.r)))
+      reason = s"${s.target} maps the texture of `${p.name}` differently"
+      name <- BakedTextures.define(s, t, reason)(c => Rgb.gray(alpha(c.r)))
     yield name
 
   private def write(s: Statement, default: Float, remap: Boolean, alpha: Float => Float): Unit =
-    val given_ = Names.flatMap(n => s.take(n).map(n -> _))
+    val stated = Names.flatMap(n => s.take(n).map(n -> _))
     val baked =
-      val textures = if remap then given_.filter((_, p) => isTexture(p, s)) else Vector.empty
-      val all = textures.flatMap((name, p) => paint(s, p, alpha).map(name -> _))
-      if all.size == textures.size then all.toMap else Map.empty
-    val textured = given_.exists((name, p) => isTexture(p, s) && !baked.contains(name))
+      val textures = if remap then stated.filter((_, p) => isTexture(p, s)) else Vector.empty
+      val painted = textures.flatMap((name, p) => paint(s, p, alpha).map(name -> _))
+      if painted.size == textures.size then painted.toMap else Map.empty
+    val textured = stated.exists((name, p) => isTexture(p, s) && !baked.contains(name))
     // Beside a remapped texture, numbers are remapped too.
-    def said(r: Float) =
+    def encoded(r: Float) =
       val a = alpha(r)
       if textured && remap && s.run.pass.to == Dialect.V4 then a * a
       else if textured && remap then r
       else a
-    for (name, p) <- given_ do
+    for (name, p) <- stated do
       if baked.contains(name) then s.addTexture(name, baked(name))(using p.at)
       else if isTexture(p, s) then
         if remap then
@@ -82,6 +82,6 @@ object RoughnessSteps:
             s"texture of `$name` is unchanged, but maps differently in ${s.target}"
           )
         s.add(name, p)
-      else s.numberOf(p).foreach(r => s.addFloat(name, said(r))(using p.at))
-    if given_.isEmpty then s.addFloat("roughness", alpha(default))
+      else s.numberOf(p).foreach(r => s.addFloat(name, encoded(r))(using p.at))
+    if stated.isEmpty then s.addFloat("roughness", alpha(default))
     if !(textured && remap) then s.addBool("remaproughness", false)

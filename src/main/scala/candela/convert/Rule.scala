@@ -19,7 +19,7 @@ final class Step(val source: String, val target: String)(val run: Statement => U
   * @param differs whether there is one between these two dialects
   */
 final class Rule(
-    val from: Seq[String],
+    val sourceNames: Seq[String],
     val to: String,
     val note: Option[String],
     val steps: Seq[Step],
@@ -31,7 +31,7 @@ object Rule:
     new Rule(names._1.split('|').toSeq, names._2, None, steps)
 
   /** An approximate rule; the note names the difference. */
-  def near(names: (String, String), note: String)(steps: Step*): Rule =
+  def approximate(names: (String, String), note: String)(steps: Step*): Rule =
     new Rule(names._1.split('|').toSeq, names._2, Some(note), steps)
 
 /** All rules of one kind of statement.
@@ -39,7 +39,7 @@ object Rule:
   * @param fallback replacement of statements without a rule; None: they are dropped
   */
 final class Table(val category: String, val fallback: Option[String], val rules: Seq[Rule]):
-  def rule(name: String): Option[Rule] = rules.find(_.from.contains(name))
+  def rule(name: String): Option[Rule] = rules.find(_.sourceNames.contains(name))
 
 object Table:
   def apply(category: String, fallback: String = "")(rules: Rule*): Table =
@@ -49,7 +49,7 @@ object Table:
 object Steps:
 
   /** Keeps name and value. */
-  def keep(names: String*): Step =
+  def retain(names: String*): Step =
     Step(names.mkString("`", "`, `", "`"), "unchanged"): s =>
       names.foreach(n => s.take(n).foreach(s.add(n, _)))
 
@@ -65,7 +65,7 @@ object Steps:
       names.foreach(s.take)
 
   /** Drops a parameter that the target dialect lacks; warns unless its value is neutral. */
-  def lose(name: String, instead: String)(isNeutral: (Param, Statement) => Boolean): Step =
+  def unsupported(name: String, instead: String)(isNeutral: (Param, Statement) => Boolean): Step =
     Step(s"`$name`", s"dropped: $instead"): s =>
       for p <- s.take(name) if !isNeutral(p, s) do
         s.warn(
@@ -74,11 +74,11 @@ object Steps:
           s"`$name` of \"${s.name}\" is not supported in ${s.target}; $instead"
         )
 
-  def lose(name: String, instead: String): Step = lose(name, instead)((_, _) => false)
+  def unsupported(name: String, instead: String): Step = unsupported(name, instead)((_, _) => false)
 
   /** Writes a default explicitly where the target dialect's differs. */
   def otherwise(name: String, text: String)(write: Statement => Unit): Step =
-    Step(s"no `$name`", text)(s => if !s.has(name) then write(s))
+    Step(s"no `$name`", text)(s => if !s.contains(name) then write(s))
 
   private type Param = candela.scenefile.Param
 
@@ -89,7 +89,7 @@ object Steps:
 
 /** Noise textures, equal in all dialects except for marble. */
 private[convert] object Noise:
-  val octaves: Step = Steps.keep("octaves", "roughness")
+  val octaves: Step = Steps.retain("octaves", "roughness")
 
   val rules: Seq[Rule] = Seq(
     Rule("fbm" -> "fbm")(octaves),
@@ -102,6 +102,6 @@ private[convert] object Noise:
     Seq("marble"),
     "marble",
     Some("pbrt-v3's marble extrapolates the colours of v2's and v4's"),
-    Seq(Steps.keep("octaves", "roughness", "scale", "variation")),
+    Seq(Steps.retain("octaves", "roughness", "scale", "variation")),
     differs = _ != (Dialect.V2, Dialect.V4)
   )

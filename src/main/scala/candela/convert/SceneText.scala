@@ -131,13 +131,13 @@ final class SceneText private (out: Writer, scene: SceneDescription):
       line(s"MediumInterface ${Statements.quoted(inner)} ${Statements.quoted(outer)}")
 
   private def grouped(shapes: Vector[ShapeDescription]): Unit =
-    var rest = shapes
-    while rest.nonEmpty do
-      val common = Surroundings(rest.head)
-      val (group, others) = rest.span(s => Surroundings(s) == common)
-      rest = others
+    var remaining = shapes
+    while remaining.nonEmpty do
+      val common = Surroundings(remaining.head)
+      val (group, following) = remaining.span(s => Surroundings(s) == common)
+      remaining = following
       blank()
-      val isPlain = common == Surroundings.none(outside) &&
+      val isPlain = common == Surroundings.default(outside) &&
         group.forall(s => isStill(s.objectToWorld))
       attributes(isPlain)(shapesOf(common, group))
 
@@ -154,10 +154,10 @@ final class SceneText private (out: Writer, scene: SceneDescription):
       text.declaration("AreaLightSource", a)
     if common.isReversed then line("ReverseOrientation")
     if common.defaults.nonEmpty then statement("Attribute", Vector("shape"), common.defaults)
-    var now = GraphicsState.Identity
+    var current = GraphicsState.Identity
     for s <- group do
-      if s.objectToWorld != now then text.transform(s.objectToWorld)
-      now = s.objectToWorld
+      if s.objectToWorld != current then text.transform(s.objectToWorld)
+      current = s.objectToWorld
       text.declaration("Shape", s.shape)
 
   private def instances(): Unit =
@@ -165,13 +165,13 @@ final class SceneText private (out: Writer, scene: SceneDescription):
       blank()
       val isPlain = scene.instances.forall(i => isStill(i.instanceToWorld))
       attributes(isPlain):
-        var now = GraphicsState.Identity
+        var current = GraphicsState.Identity
         for k <- scene.instances.indices do
           val i = scene.instances(k)
-          if i.instanceToWorld != now then
+          if i.instanceToWorld != current then
             if scene.instances.isPlain(k) then text.placement(i.instanceToWorld.start)
             else text.transform(i.instanceToWorld)
-          now = i.instanceToWorld
+          current = i.instanceToWorld
           line(s"ObjectInstance ${Statements.quoted(i.name)}")
 
 object SceneText:
@@ -201,5 +201,5 @@ private object Surroundings:
     )
 
   /** Attributes of shapes that specify none. */
-  def none(outside: String): Surroundings =
+  def default(outside: String): Surroundings =
     Surroundings(MaterialRef.Default, None, false, "", outside, Vector.empty, "srgb")

@@ -60,15 +60,15 @@ object RewrittenImages:
     written(s, p): image =>
       val picture = Picture(lightImage(image, name(p), s), lookup)
       val times = Math.max(1, SlideSize / Math.max(image.width, image.height))
-      val made = Image.rgb(image.width * times, image.height * times)
-      loop(made.width * made.height): i =>
-        val x = (i % made.width + 0.5f) / made.width
-        val y = (i / made.width + 0.5f) / made.height
+      val enlarged = Image.rgb(image.width * times, image.height * times)
+      loop(enlarged.width * enlarged.height): i =>
+        val x = (i % enlarged.width + 0.5f) / enlarged.width
+        val y = (i / enlarged.width + 0.5f) / enlarged.height
         val color = picture(x, y) * tint
-        made.data(3 * i) = color.r
-        made.data(3 * i + 1) = color.g
-        made.data(3 * i + 2) = color.b
-      made
+        enlarged.data(3 * i) = color.r
+        enlarged.data(3 * i + 1) = color.g
+        enlarged.data(3 * i + 2) = color.b
+      enlarged
 
   /** The image of a light as its dialect shows it: pbrt-v2 and v3 do not decode files of 8 bits,
     * and v2 reads the rows of TGA files from below.
@@ -113,11 +113,11 @@ object RewrittenImages:
     written(s, p): stored =>
       val image = if stored.colorSpace.isSrgb then stored else stored.toReflectances
       val sources = image.colorChannels.toArray
-      val made = Image.rgb(image.width, image.height)
+      val result = Image.rgb(image.width, image.height)
       loop(image.width * image.height): i =>
         loop(3): c =>
-          made.data(3 * i + c) = change(image.data(image.channels * i + sources(c)), c)
-      made
+          result.data(3 * i + c) = change(image.data(image.channels * i + sources(c)), c)
+      result
 
   /** The stored values as linear ones, unless the file is PNG, for which scenes name the encoding,
     * or linear as it is: name of the file, or why it can't be read.
@@ -139,8 +139,8 @@ object RewrittenImages:
   /** Name of the new file; of the old one, after a warning, if it can't be read. */
   private def written(s: Statement, p: Param)(change: Image => Image): String =
     val name = p.strings.head
-    def failed(why: String) =
-      s.warn(Code.UnconvertedImage, p.at, s"can't read the image, leaving it unchanged: $why")
+    def failed(reason: String) =
+      s.warn(Code.UnconvertedImage, p.at, s"can't read the image, leaving it unchanged: $reason")
       name
     try
       val image = ImageFiles.load(file(s, p)).toImage

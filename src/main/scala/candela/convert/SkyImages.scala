@@ -21,7 +21,7 @@ object SkyImages:
       val source =
         if isPhotometry then IesFile.read(file).photometry.image
         else RewrittenImages.lightImage(ImageFiles.load(file).toImage, name, s)
-      val made =
+      val environment =
         if isPhotometry && !toSquare then
           resampled(
             source,
@@ -37,7 +37,7 @@ object SkyImages:
         else
           val height = Math.min(source.height, 4096)
           resampled(source, EqualAreaMap, 2 * height, height, LatLongMap, smooth = false)
-      val tinted = if tint == Rgb.White then made else times(made, tint)
+      val tinted = if tint == Rgb.White then environment else times(environment, tint)
       val kind = if toSquare then "equalarea" else "latlong"
       Some(s.run.files.add(kind, "exr", ImageFiles.exr(tinted)))
     catch
@@ -62,7 +62,7 @@ object SkyImages:
       to: SphereMap,
       smooth: Boolean
   ): Image =
-    val made = Image.rgb(width, height)
+    val result = Image.rgb(width, height)
     val sum = new Array[Double](3)
     loop(height): y =>
       loop(width): x =>
@@ -74,13 +74,13 @@ object SkyImages:
                 (x + (i + 0.5f) / SamplesAcross) / width,
                 (y + (j + 0.5f) / SamplesAcross) / height
               )
-            val place = from.toImage(d)
-            if smooth then bilinear(source, from, place.x, place.y, sum)
-            else nearest(source, place.x, place.y, sum)
+            val position = from.toImage(d)
+            if smooth then bilinear(source, from, position.x, position.y, sum)
+            else nearest(source, position.x, position.y, sum)
         loop(3)(c =>
-          made.data((y * width + x) * 3 + c) = (sum(c) / (SamplesAcross * SamplesAcross)).toFloat
+          result.data((y * width + x) * 3 + c) = (sum(c) / (SamplesAcross * SamplesAcross)).toFloat
         )
-    made
+    result
 
   /** Samples per pixel along each axis. */
   private val SamplesAcross = 4

@@ -19,7 +19,7 @@ final class SolidBaking(
 ):
   private val warnings = mutable.LinkedHashSet.empty[Problem]
   private val added = mutable.ArrayBuffer.empty[TextureDescription]
-  private val made = mutable.HashMap.empty[(Declaration, Transform, String), Option[String]]
+  private val bakedNames = mutable.HashMap.empty[(Declaration, Transform, String), Option[String]]
 
   private val solids: Map[String, TextureDescription] =
     scene.textures
@@ -34,7 +34,7 @@ final class SolidBaking(
     else
       val shapes = scene.shapes.map(baked)
       Converted(
-        used(scene.copy(shapes = shapes, textures = scene.textures ++ added)),
+        withoutUnused(scene.copy(shapes = shapes, textures = scene.textures ++ added)),
         warnings.toVector
       )
 
@@ -49,17 +49,17 @@ final class SolidBaking(
     p.paramType == ParamType.Texture && p.strings.headOption.exists(solids.contains)
 
   private def painted(s: ShapeDescription, texture: String): Option[String] =
-    made.getOrElseUpdate(
+    bakedNames.getOrElseUpdate(
       (s.shape, s.objectToWorld.start, texture), {
         val points =
           if s.objectToWorld.isAnimated then None else UvPoints.of(s.shape, baking.size)
         val image = points.flatMap(paint(s, solids(texture), _))
-        val what = s"pbrt-v3 colours the marble of \"$texture\" differently"
+        val difference = s"pbrt-v3 colours the marble of \"$texture\" differently"
         warnings += Problem.warning(
           Code.Inexpressible,
           s.shape.at,
-          if image.isDefined then s"$what; using ${baking.describe} for this shape"
-          else s"$what, and it can't be baked: its points do not have distinct u and v"
+          if image.isDefined then s"$difference; using ${baking.describe} for this shape"
+          else s"$difference, and it can't be baked: its points do not have distinct u and v"
         )
         image
       }
@@ -70,11 +70,11 @@ final class SolidBaking(
       texture: TextureDescription,
       points: UvPoints
   ): Option[String] =
-    val parts = BakedTextures.closure(texture, scene)
-    for value <- baking.values(SceneDescription(scene.dialect, textures = parts)) yield
-      val place = s.objectToWorld.start
-      val file = baking.write(files, parts = 2): (x, y) =>
-        val color = value(points.window.u(x), points.window.v(y), place.point(points.point(x, y)))
+    val dependencies = BakedTextures.closure(texture, scene)
+    for value <- baking.values(SceneDescription(scene.dialect, textures = dependencies)) yield
+      val toWorld = s.objectToWorld.start
+      val file = baking.write(files, samplesAcross = 2): (x, y) =>
+        val color = value(points.window.u(x), points.window.v(y), toWorld.point(points.point(x, y)))
         // What v3 extrapolates may be negative
         color.map(c => Math.max(c, 0f))
       if to == Dialect.V4 then
@@ -94,21 +94,21 @@ final class SolidBaking(
       name.get
 
   /** Without materials and textures that have been replaced. */
-  private def used(all: SceneDescription): SceneDescription =
-    val shapes = all.shapes ++ all.objects.values.flatten
+  private def withoutUnused(converted: SceneDescription): SceneDescription =
+    val shapes = converted.shapes ++ converted.objects.values.flatten
     def textures(d: Declaration) =
       d.params.filter(_.paramType == ParamType.Texture).flatMap(_.strings)
     val byName = shapes.map(_.material).collect { case MaterialRef.Named(name, _) => name } ++
-      all.namedMaterials.flatMap(_._2.params).filter(_.paramType == ParamType.String)
+      converted.namedMaterials.flatMap(_._2.params).filter(_.paramType == ParamType.String)
         .flatMap(_.strings)
-    val materials = all.namedMaterials.filter: (name, d) =>
+    val materials = converted.namedMaterials.filter: (name, d) =>
       byName.contains(name) || !d.params.exists(isSolid)
     val declarations = materials.map(_._2) ++ shapes.map(_.shape) ++
       shapes.map(_.material).collect { case MaterialRef.Inline(d) => d }
-    val shown = declarations.flatMap(textures).toSet
-    val live = all.textures.filter(t => shown(t.name))
-      .flatMap(BakedTextures.closure(_, all)).map(_.name).toSet
-    all.copy(
+    val referenced = declarations.flatMap(textures).toSet
+    val live = converted.textures.filter(t => referenced(t.name))
+      .flatMap(BakedTextures.closure(_, converted)).map(_.name).toSet
+    converted.copy(
       namedMaterials = materials,
-      textures = all.textures.filter(t => live(t.name) || !solids.contains(t.name))
+      textures = converted.textures.filter(t => live(t.name) || !solids.contains(t.name))
     )

@@ -27,14 +27,16 @@ private[convert] object SpectralColors:
     val _ = Declarations.map(scene): d =>
       census.add(d)
       d
-    census.worst.filter(_.error > visible).map: found =>
-      val percent = Math.round(found.error * 100)
+    census.worst.filter(_.error > visible).map: difference =>
+      val percent = Math.round(difference.error * 100)
       Problem.warning(
         Code.ShiftedColors,
-        found.on.at,
+        difference.surface.at,
         s"pbrt-v4 multiplies spectra, $from red, green and blue: this colour differs by up to " +
           s"$percent % of the brightest channel, and by more after several reflections",
-        Some(s"in the light of ${found.from.at}").filter(_ => found.from.at != found.on.at)
+        Some(s"in the light of ${difference.light.at}").filter(_ =>
+          difference.light.at != difference.surface.at
+        )
       )
 
   /** Difference of a channel. */
@@ -43,19 +45,26 @@ private[convert] object SpectralColors:
   /** The same for scenes of pbrt-v2 and v3, most of which are not meant to be exact. */
   val Plain = 0.02
 
-  private final class Seen(val color: ColoredSpectrum, val at: SourcePos)
-  private final class Found(val error: Double, val on: Seen, val from: Seen)
+  private final class LocatedColor(val color: ColoredSpectrum, val at: SourcePos)
+  private final class Difference(
+      val error: Double,
+      val surface: LocatedColor,
+      val light: LocatedColor
+  )
 
   private final class Census:
-    private val lights, surfaces = mutable.LinkedHashMap.empty[Rgb, Seen]
+    private val lights, surfaces = mutable.LinkedHashMap.empty[Rgb, LocatedColor]
 
-    def worst: Option[Found] =
-      val all = surfaces.values.toVector
+    def worst: Option[Difference] =
+      val surfaceColors = surfaces.values.toVector
       val pairs =
         for
-          on <- all.iterator
-          from <- lights.valuesIterator ++ all.iterator ++ Iterator(Seen(White, on.at))
-        yield Found(error(on.color, from.color), on, from)
+          surface <- surfaceColors.iterator
+          light <- lights.valuesIterator ++ surfaceColors.iterator ++ Iterator(LocatedColor(
+            White,
+            surface.at
+          ))
+        yield Difference(error(surface.color, light.color), surface, light)
       pairs.maxByOption(_.error)
 
     def add(d: Declaration): Unit = d.category match
@@ -80,17 +89,18 @@ private[convert] object SpectralColors:
     /** pbrt-v4 has a spectrum for each coefficient. */
     private def addAlbedo(absorbed: Rgb, scattered: Rgb, p: Param): Unit =
       val (a, s) = (spectrum(absorbed, false), spectrum(scattered, false))
-      val both = absorbed + scattered
-      if both.r > 0f && both.g > 0f && both.b > 0f then
+      val extinction = absorbed + scattered
+      if extinction.r > 0f && extinction.g > 0f && extinction.b > 0f then
         val values = s.values.lazyZip(a.values).map((x, y) => x / (x + y))
-        val color = Rgb(scattered.r / both.r, scattered.g / both.g, scattered.b / both.b)
-        val _ = surfaces.getOrElseUpdate(color, Seen(ColoredSpectrum(values, color), p.at))
+        val color =
+          Rgb(scattered.r / extinction.r, scattered.g / extinction.g, scattered.b / extinction.b)
+        val _ = surfaces.getOrElseUpdate(color, LocatedColor(ColoredSpectrum(values, color), p.at))
 
-    private def remember(into: mutable.LinkedHashMap[Rgb, Seen], c: Rgb, p: Param): Unit =
+    private def remember(into: mutable.LinkedHashMap[Rgb, LocatedColor], c: Rgb, p: Param): Unit =
       // Scenes have thousands of colours
       val rounded = c.map(x => Math.round(x * 50) / 50f)
       if rounded.isFinite && !Values.isGray(rounded) && into.size < MaxColors then
-        val _ = into.getOrElseUpdate(rounded, Seen(spectrum(c, c.max <= 1f), p.at))
+        val _ = into.getOrElseUpdate(rounded, LocatedColor(spectrum(c, c.max <= 1f), p.at))
 
   private val Reflecting = Set("reflectance", "transmittance", "color", "Kr", "Kt")
   private val MaxColors = 100
@@ -100,8 +110,8 @@ private[convert] object SpectralColors:
   private def error(a: ColoredSpectrum, b: ColoredSpectrum): Double =
     val spectral = ColorError.seen(a.values.lazyZip(b.values).map(_ * _))
     val color = a.components * b.components
-    val off = color - Rgb(spectral(0).toFloat, spectral(1).toFloat, spectral(2).toFloat)
-    off.largest / (a.components.max * b.components.max)
+    val deviation = color - Rgb(spectral(0).toFloat, spectral(1).toFloat, spectral(2).toFloat)
+    deviation.largest / (a.components.max * b.components.max)
 
   /** As pbrt-v4: smooth, and if not a reflectance, half as bright as can be. */
   private def spectrum(c: Rgb, isBounded: Boolean): ColoredSpectrum =

@@ -8,8 +8,8 @@ import candela.scenefile.*
 
 /** A statement during conversion: steps take its parameters and add those of the target dialect. */
 final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule):
-  private val open = mutable.LinkedHashMap.from(declaration.params.map(p => p.name -> p))
-  private val made = mutable.ArrayBuffer.empty[Param]
+  private val pending = mutable.LinkedHashMap.from(declaration.params.map(p => p.name -> p))
+  private val added = mutable.ArrayBuffer.empty[Param]
 
   /** The name in the target dialect. */
   var targetName: String = rule.to
@@ -26,40 +26,40 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
   /** Overrides the rule's target name. */
   def convertTo(name: String): Unit = targetName = name
 
-  def has(name: String): Boolean = open.contains(name) || made.exists(_.name == name)
+  def contains(name: String): Boolean = pending.contains(name) || added.exists(_.name == name)
 
   /** Removes and returns a parameter. */
-  def take(name: String): Option[Param] = open.remove(name)
+  def take(name: String): Option[Param] = pending.remove(name)
 
   /** Adds a source parameter for later steps. */
-  def put(p: Param): Unit = open(p.name) = p
+  def put(p: Param): Unit = pending(p.name) = p
 
-  def hasMade(t: ParamType): Boolean = made.exists(_.paramType == t)
+  def hasAdded(t: ParamType): Boolean = added.exists(_.paramType == t)
 
   /** Returns a parameter without removing it. */
-  def look(name: String): Option[Param] = open.get(name)
+  def peek(name: String): Option[Param] = pending.get(name)
 
   /** Whether the scene file specifies the parameter. */
-  def wasGiven(name: String): Boolean = declaration.params.exists(_.name == name)
+  def isSpecified(name: String): Boolean = declaration.params.exists(_.name == name)
 
   /** Adds a parameter under the given name, its value in the target dialect's form. */
   def add(name: String, p: Param): Unit =
     val adapted = run.values.adapt(p, name, declaration)
-    adapted.foreach(a => made += Values.renamed(a, name))
+    adapted.foreach(a => added += Values.renamed(a, name))
 
   def addFloat(name: String, values: Float*)(using at: SourcePos = declaration.at): Unit =
-    made += Param(ParamType.Float, name, at, at, floats = values.toArray)
+    added += Param(ParamType.Float, name, at, at, floats = values.toArray)
   def addInteger(name: String, values: Int*)(using at: SourcePos = declaration.at): Unit =
-    made += Param(ParamType.Integer, name, at, at, ints = values.toArray)
+    added += Param(ParamType.Integer, name, at, at, ints = values.toArray)
   def addBool(name: String, value: Boolean)(using at: SourcePos = declaration.at): Unit =
-    made += Param(ParamType.Bool, name, at, at, bools = Vector(value))
+    added += Param(ParamType.Bool, name, at, at, bools = Vector(value))
   def addString(name: String, values: String*)(using at: SourcePos = declaration.at): Unit =
-    made += Param(ParamType.String, name, at, at, strings = values.toVector)
+    added += Param(ParamType.String, name, at, at, strings = values.toVector)
   def addRgb(name: String, c: Rgb)(using at: SourcePos = declaration.at): Unit =
-    made += Param(ParamType.Rgb, name, at, at, floats = Array(c.r, c.g, c.b))
+    added += Param(ParamType.Rgb, name, at, at, floats = Array(c.r, c.g, c.b))
   def addTexture(name: String, texture: String)(using at: SourcePos = declaration.at): Unit =
-    made += Param(ParamType.Texture, name, at, at, strings = Vector(texture))
-  def addRaw(p: Param): Unit = made += p
+    added += Param(ParamType.Texture, name, at, at, strings = Vector(texture))
+  def addRaw(p: Param): Unit = added += p
 
   def warn(code: Code, at: SourcePos, message: String): Unit = run.warn(code, at, message)
 
@@ -96,13 +96,13 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
   def result(): Declaration =
     for step <- rule.steps do step.run(this)
     for note <- rule.note if targetName == rule.to && rule.differs(run.ends) do
-      val what = s"${declaration.category} \"$name\""
-      val how = s"$what is converted to \"$targetName\" in $target: $note"
-      warn(Code.Inexpressible, declaration.at, how)
-    for p <- open.values if !p.isDefault do
+      val source = s"${declaration.category} \"$name\""
+      val message = s"$source is converted to \"$targetName\" in $target: $note"
+      warn(Code.Inexpressible, declaration.at, message)
+    for p <- pending.values if !p.isDefault do
       warn(Code.UnknownParameter, p.at, s"unknown parameter `${p.name}` of \"$name\"; ignored")
-    val (new_, old) = made.toVector.partition(_.at == declaration.at)
-    val ordered = old.sortBy(p => (p.at.line, p.at.column)) ++ new_
+    val (implied, converted) = added.toVector.partition(_.at == declaration.at)
+    val ordered = converted.sortBy(p => (p.at.line, p.at.column)) ++ implied
     // v2 and v3 have no `Attribute`
     val written = if run.pass.to == Dialect.V4 then ordered else ordered.map(_.asOwn)
     declaration.copy(name = targetName, params = written, colorSpace = "srgb")

@@ -31,7 +31,7 @@ final class Statements(out: Writer, dialect: Dialect):
   def defaults(target: String, d: Declaration): Unit =
     val params = d.params.filter(_.isDefault)
     for space <- params.map(d.colorSpaceOf).distinct do
-      in(space)
+      switchColorSpace(space)
       statement("Attribute", Vector(target), params.filter(d.colorSpaceOf(_) == space))
 
   def declaration(directive: String, d: Declaration): Unit =
@@ -39,10 +39,10 @@ final class Statements(out: Writer, dialect: Dialect):
 
   /** @param names quoted names after the directive */
   def declaration(directive: String, names: Vector[String], d: Declaration): Unit =
-    in(d.colorSpace)
+    switchColorSpace(d.colorSpace)
     statement(directive, names, d.params.filterNot(_.isDefault))
 
-  private def in(space: String): Unit =
+  private def switchColorSpace(space: String): Unit =
     if space != colorSpace then
       colorSpace = space
       line(s"ColorSpace ${Statements.quoted(space)}")
@@ -50,15 +50,17 @@ final class Statements(out: Writer, dialect: Dialect):
   /** Writes a short statement on one line, a longer one with a line per parameter. */
   def statement(directive: String, names: Vector[String], params: Vector[Param]): Unit =
     val head = (directive +: names.map(Statements.quoted)).mkString(" ")
-    val parts = params.map(p => (heading(p), values(p)))
+    val entries = params.map(p => (heading(p), values(p)))
     val length = 2 * indent + head.length +
-      parts.map((heading, v) => heading.length + v.take(Statements.Width).map(_.length + 1).sum).sum
+      entries.map((heading, v) =>
+        heading.length + v.take(Statements.Width).map(_.length + 1).sum
+      ).sum
     if length <= Statements.Width then
-      line(head + parts.map((heading, v) => s" $heading ${listed(v)}").mkString)
+      line(head + entries.map((heading, v) => s" $heading ${listed(v)}").mkString)
     else
       line(head)
       indent += 2
-      for (heading, v) <- parts do wrapped(heading, v)
+      for (heading, v) <- entries do wrapped(heading, v)
       indent -= 2
 
   private def listed(values: Seq[String]): String =
@@ -118,8 +120,8 @@ final class Statements(out: Writer, dialect: Dialect):
     if t.isIdentity then line("Identity")
     else
       val columns = Vector.tabulate(16)(i => NumberText.of(rows(i % 4 * 4 + i / 4)))
-      val whole = columns.mkString("Transform [ ", " ", " ]")
-      if whole.length + 2 * indent <= Statements.Width then line(whole)
+      val singleLine = columns.mkString("Transform [ ", " ", " ]")
+      if singleLine.length + 2 * indent <= Statements.Width then line(singleLine)
       else
         line("Transform [")
         indent += 1
@@ -138,8 +140,8 @@ object Statements:
     */
   private[convert] def rounded(t: Transform): Vector[Double] =
     def round(x: Double, largest: Double) =
-      val places = Digits - Math.ceil(Math.log10(largest)).toInt
-      java.math.BigDecimal(x).setScale(places, java.math.RoundingMode.HALF_EVEN).doubleValue
+      val decimals = Digits - Math.ceil(Math.log10(largest)).toInt
+      java.math.BigDecimal(x).setScale(decimals, java.math.RoundingMode.HALF_EVEN).doubleValue
     Vector.tabulate(16): i =>
       val row = i & ~3
       val linear = (row until row + 3).map(k => Math.abs(t.m(k))).max

@@ -44,9 +44,9 @@ private[convert] object SunImage:
               covered += 1
               if d.z >= 0f then lit += 1
           val share = lit.toFloat / (SamplesAcross * SamplesAcross)
-          val first = 3 * (y * Side + x)
-          image.data(first) = color.r * share
-          image.data(first + 1) = color.g * share
-          image.data(first + 2) = color.b * share
+          val offset = 3 * (y * Side + x)
+          image.data(offset) = color.r * share
+          image.data(offset + 1) = color.g * share
+          image.data(offset + 2) = color.b * share
     val solidAngle = covered * 4 * Math.PI / (Side.toDouble * Side * SamplesAcross * SamplesAcross)
     (image, (irradiance.max / solidAngle).toFloat)

@@ -31,9 +31,9 @@ object Tessellation:
       case "sphere" =>
         val (z0, z1) = zRange(-radius, radius)
         def angle(z: Float) = Math.acos(clamp(z / radius, -1f, 1f).toDouble)
-        val (first, last) = (angle(z0), angle(z1))
+        val (theta0, theta1) = (angle(z0), angle(z1))
         Some: (u, v) =>
-          val theta = first + v * (last - first)
+          val theta = theta0 + v * (theta1 - theta0)
           turned((radius * Math.sin(theta)).toFloat, 0f, (radius * Math.cos(theta)).toFloat, u)
       case "cylinder" =>
         val (z0, z1) = zRange(-1f, 1f)
@@ -94,10 +94,10 @@ object Tessellation:
     val (nx, ny) = (size("nu"), size("nv"))
     val z = d.param("Pz").fold(Array.emptyFloatArray)(_.floats)
     Option.when(nx > 1 && ny > 1 && z.length == nx * ny):
-      val places =
+      val uvs =
         for y <- 0 until ny; x <- 0 until nx yield (x.toFloat / (nx - 1), y.toFloat / (ny - 1))
-      val points = places.zip(z).map { case ((x, y), height) => Vec3(x, y, height) }
-      mesh(d, points, Vector.empty, places, squares(nx, ny))
+      val points = uvs.zip(z).map { case ((x, y), height) => Vec3(x, y, height) }
+      mesh(d, points, Vector.empty, uvs, squares(nx, ny))
 
   private def mesh(
       d: Declaration,
@@ -108,10 +108,10 @@ object Tessellation:
   ): Declaration =
     def list(t: ParamType, name: String, values: Seq[Float]) =
       Option.when(values.nonEmpty)(Param(t, name, d.at, d.at, floats = values.toArray))
-    def all(vs: Seq[Vec3]) = vs.flatMap(v => Seq(v.x, v.y, v.z))
-    val made = Vector(
-      list(ParamType.Point3, "P", all(points)),
-      list(ParamType.Normal, "N", all(normals)),
+    def flattened(vs: Seq[Vec3]) = vs.flatMap(v => Seq(v.x, v.y, v.z))
+    val meshParams = Vector(
+      list(ParamType.Point3, "P", flattened(points)),
+      list(ParamType.Normal, "N", flattened(normals)),
       list(ParamType.Point2, "uv", uvs.flatMap((u, v) => Seq(u, v)))
     ).flatten :+ Param(ParamType.Integer, "indices", d.at, d.at, ints = indices)
-    d.copy(name = "trianglemesh", params = made ++ d.param("alpha"))
+    d.copy(name = "trianglemesh", params = meshParams ++ d.param("alpha"))

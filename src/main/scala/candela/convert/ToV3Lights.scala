@@ -17,7 +17,7 @@ object ToV3Lights:
 
   /** Power of a cone with a soft edge, by v4's formula. */
   private def spot(power: Float, s: Statement) =
-    def angle(name: String, default: Float) = s.look(name).flatMap(s.numberOf).getOrElse(default)
+    def angle(name: String, default: Float) = s.peek(name).flatMap(s.numberOf).getOrElse(default)
     val (total, delta) = (angle("coneangle", 30f), angle("conedeltaangle", 5f))
     val (end, start) = (cos(radians(total)), cos(radians(total - delta)))
     Some(power / (2f * Pi * ((1f - start) + (start - end) / 2f)))
@@ -54,32 +54,32 @@ object ToV3Lights:
       light.run(s)
 
   val table: Table = Table("LightSource")(
-    Rule("point" -> "point")(keep("from"), Emission.toV3("I", "power", point)),
-    Rule("distant" -> "distant")(keep("from", "to"), Emission.toV3("L", "illuminance", distant)),
-    Rule.near("spot" -> "spot", "different falloff at the edge of the cone")(
+    Rule("point" -> "point")(retain("from"), Emission.toV3("I", "power", point)),
+    Rule("distant" -> "distant")(retain("from", "to"), Emission.toV3("L", "illuminance", distant)),
+    Rule.approximate("spot" -> "spot", "different falloff at the edge of the cone")(
       Emission.toV3("I", "power", spot),
-      keep("from", "to", "coneangle", "conedeltaangle")
+      retain("from", "to", "coneangle", "conedeltaangle")
     ),
     Rule("goniometric" -> "goniometric")(goniometric),
     Rule("projection" -> "projection")(projection),
     Rule("infinite" -> "infinite")(
       infinite,
-      lose("portal", "sampled over all directions")((_, _) => true)
+      unsupported("portal", "sampled over all directions")((_, _) => true)
     )
   )
 
   /** [[powered]] first converts a light's `power` to its `scale`, where the shape is known. */
   val area: Table = Table("AreaLightSource")(
     Rule("diffuse" -> "diffuse")(
-      keep("twosided"),
+      retain("twosided"),
       Emission.toV3("L", "power", unknown),
-      lose("filename", "uniform emission")
+      unsupported("filename", "uniform emission")
     )
   )
 
   /** The shape with its light's `power` converted to a `scale`, if its area is known. */
   def powered(s: ShapeDescription): ShapeDescription =
-    val known =
+    val scaledLight =
       for
         light <- s.areaLight
         power <- light.param("power").flatMap(_.floats.headOption) if power > 0f
@@ -88,16 +88,18 @@ object ToV3Lights:
       yield
         val sides = if light.param("twosided").exists(_.bools.contains(true)) then 2f else 1f
         val scale = light.param("scale").flatMap(_.floats.headOption).getOrElse(1f)
-        val at = light.param("power").get.at
-        val made = Param(
+        val position = light.param("power").get.at
+        val scaleParam = Param(
           ParamType.Float,
           "scale",
-          at,
-          at,
+          position,
+          position,
           floats = Array(scale * power / (area * Pi * sides))
         )
-        light.copy(params = light.params.filterNot(p => Set("power", "scale")(p.name)) :+ made)
-    known.fold(s)(light => s.copy(areaLight = Some(light)))
+        light.copy(params =
+          light.params.filterNot(p => Set("power", "scale")(p.name)) :+ scaleParam
+        )
+    scaledLight.fold(s)(light => s.copy(areaLight = Some(light)))
 
 /** Areas of shapes in world space, where easily computed. */
 object Areas:

@@ -83,9 +83,9 @@ object ToV3Materials:
     val step = rough(0f, smoothAtZero = true)
     Step(step.source, "`uroughness`, `vroughness`: alpha, not remapped"): s =>
       for p <- s.take("roughness") do
-        for name <- Seq("uroughness", "vroughness") if !s.has(name) do
+        for name <- Seq("uroughness", "vroughness") if !s.contains(name) do
           s.put(Values.renamed(p, name))
-      if !s.has("uroughness") then s.put(zero(s))
+      if !s.contains("uroughness") then s.put(zero(s))
       step.run(s)
 
   private def zero(s: Statement) =
@@ -96,16 +96,16 @@ object ToV3Materials:
   /** Light transmitted by a thin dielectric passes unscattered, which v3 expresses as opacity. Both
     * sides together reflect `2R / (1 + R)`.
     */
-  private val pane = Step("`eta`", "`opacity` and `Kr`, exact at normal incidence"): s =>
+  private val thinDielectric = Step("`eta`", "`opacity` and `Kr`, exact at normal incidence"): s =>
     val n = s.take("eta").flatMap(p =>
       s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
     ).getOrElse(1.5f)
-    val one = normalReflectance(n)
-    val both = 2 * one / (1 + one)
+    val singleSide = normalReflectance(n)
+    val bothSides = 2 * singleSide / (1 + singleSide)
     s.addRgb("Kd", Rgb.Black)
     s.addRgb("Ks", Rgb.Black)
-    s.addRgb("opacity", Rgb.gray(both))
-    if one > 0f then s.addRgb("Kr", Rgb.gray(1f / one))
+    s.addRgb("opacity", Rgb.gray(bothSides))
+    if singleSide > 0f then s.addRgb("Kr", Rgb.gray(1f / singleSide))
     s.addFloat("eta", n)
 
   private val transmission =
@@ -115,7 +115,7 @@ object ToV3Materials:
         s.take(from) match
           case Some(p) if s.colorOf(p).isEmpty => s.add(to, p)
           case p => s.addRgb(to, p.flatMap(s.colorOf).getOrElse(Rgb.gray(0.25f)) * scale)
-      if scale != 1f && s.hasMade(ParamType.Texture) then
+      if scale != 1f && s.hasAdded(ParamType.Texture) then
         s.warn(Code.Inexpressible, s.declaration.at, "`scale` does not apply to textures in v3")
       s.addRgb("Kd", Rgb.White)
       s.addRgb("Ks", Rgb.Black)
@@ -132,7 +132,7 @@ object ToV3Materials:
             s.warn(Code.Inexpressible, p.at, "`amount` can't be a float texture in v3; using 0.5")
 
   private val subsurface = Seq(
-    keep("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),
+    retain("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),
     eta("eta", 1.33f),
     Step("`reflectance`", "`Kd` of \"kdsubsurface\"")(s =>
       for p <- s.take("reflectance") do
@@ -147,11 +147,11 @@ object ToV3Materials:
 
   val table: Table = Table("Material", fallback = "matte")(
     Rule("diffuse" -> "matte")((reflectance(0.5f) :+ bump)*),
-    Rule.near("coateddiffuse" -> "plastic", coatNote)(
+    Rule.approximate("coateddiffuse" -> "plastic", coatNote)(
       reflectance(0.5f) ++ Seq(gloss, rough(0f), bump, drop(coats*))*
     ),
     Rule("conductor" -> "metal")(metal(""), rough(0f), bump),
-    Rule.near("coatedconductor" -> "metal", "without coating")(
+    Rule.approximate("coatedconductor" -> "metal", "without coating")(
       metal("conductor."),
       rename(
         "conductor.roughness" -> "roughness",
@@ -163,8 +163,8 @@ object ToV3Materials:
       bump
     ),
     Rule("dielectric" -> "glass")(eta("eta", 1.5f), glassRoughness, bump),
-    Rule.near("thindielectric" -> "uber", "different reflectance at grazing angles")(
-      pane,
+    Rule.approximate("thindielectric" -> "uber", "different reflectance at grazing angles")(
+      thinDielectric,
       bump
     ),
     Rule("diffusetransmission" -> "translucent")(transmission, bump),
@@ -172,7 +172,7 @@ object ToV3Materials:
     Rule("mix" -> "mix")(mix),
     Rule("hair" -> "hair")(
       rename("reflectance" -> "color"),
-      keep("color", "sigma_a", "eumelanin", "pheomelanin", "eta", "beta_m", "beta_n", "alpha")
+      retain("color", "sigma_a", "eumelanin", "pheomelanin", "eta", "beta_m", "beta_n", "alpha")
     ),
     Rule("interface||none" -> "")(drop("displacement"))
   )

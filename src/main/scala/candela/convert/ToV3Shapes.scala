@@ -9,7 +9,7 @@ object ToV3Shapes:
   import Steps.*
 
   /** v3 has no alpha on quadrics. */
-  private val opaque = lose("alpha", "opaque")(isNumber(1f))
+  private val opaque = unsupported("alpha", "opaque")(isNumber(1f))
 
   /** In v3, a number between 0 and 1 must be a texture. */
   private val alpha = Step("`alpha`", "`alpha`, a texture if it is a number between 0 and 1"): s =>
@@ -31,22 +31,22 @@ object ToV3Shapes:
           s.add("alpha", p)
 
   val table: Table = Table("Shape")(
-    Rule("sphere" -> "sphere")(keep("radius", "zmin", "zmax", "phimax"), opaque),
-    Rule("cylinder" -> "cylinder")(keep("radius", "zmin", "zmax", "phimax"), opaque),
-    Rule("disk" -> "disk")(keep("height", "radius", "innerradius", "phimax"), opaque),
+    Rule("sphere" -> "sphere")(retain("radius", "zmin", "zmax", "phimax"), opaque),
+    Rule("cylinder" -> "cylinder")(retain("radius", "zmin", "zmax", "phimax"), opaque),
+    Rule("disk" -> "disk")(retain("height", "radius", "innerradius", "phimax"), opaque),
     Rule("trianglemesh" -> "trianglemesh")(
-      keep("P", "N", "S", "uv", "indices", "faceIndices"),
+      retain("P", "N", "S", "uv", "indices", "faceIndices"),
       alpha
     ),
     Rule("plymesh" -> "plymesh")(
-      keep("filename"),
+      retain("filename"),
       alpha,
-      lose("displacement", "undisplaced mesh"),
+      unsupported("displacement", "undisplaced mesh"),
       drop("edgelength")
     ),
-    Rule("loopsubdiv" -> "loopsubdiv")(keep("levels", "P", "indices", "scheme"), opaque),
+    Rule("loopsubdiv" -> "loopsubdiv")(retain("levels", "P", "indices", "scheme"), opaque),
     Rule("curve" -> "curve")(
-      keep("P", "N", "type", "basis", "degree", "width", "width0", "width1", "splitdepth"),
+      retain("P", "N", "type", "basis", "degree", "width", "width0", "width1", "splitdepth"),
       opaque
     )
   )

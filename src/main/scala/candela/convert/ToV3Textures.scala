@@ -10,7 +10,7 @@ import candela.scenefile.*
 object ToV3Textures:
   import Steps.*
 
-  private val mapping = keep("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
+  private val mapping = retain("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
 
   /** v3 supports sRGB's curve only, and no inversion: other encodings are baked into a new image,
     * as are formats that it can't read.
@@ -33,8 +33,8 @@ object ToV3Textures:
           s.add("filename", p)
           if isPng && encoding == "linear" then s.addBool("gamma", false)
         else
-          val meant = (x: Float, _: Int) => if inverts then 1f - decode(x) else decode(x)
-          s.addString("filename", RewrittenImages.baked(s, p)(meant))(using p.at)
+          val decoded = (x: Float, _: Int) => if inverts then 1f - decode(x) else decode(x)
+          s.addString("filename", RewrittenImages.baked(s, p)(decoded))(using p.at)
 
   private val filter: Step = Step("`filter`", "`trilinear`, for all but \"ewa\""): s =>
     val p = s.take("filter")
@@ -58,28 +58,28 @@ object ToV3Textures:
       else s.add("wrap", p)
 
   private def common = Seq(
-    Rule("constant" -> "constant")(keep("value")),
-    Rule("mix" -> "mix")(keep("tex1", "tex2", "amount")),
-    Rule("bilerp" -> "bilerp")(keep("v00", "v01", "v10", "v11"), mapping),
+    Rule("constant" -> "constant")(retain("value")),
+    Rule("mix" -> "mix")(retain("tex1", "tex2", "amount")),
+    Rule("bilerp" -> "bilerp")(retain("v00", "v01", "v10", "v11"), mapping),
     Rule("imagemap" -> "imagemap")(
       file,
       filter,
       wrap,
-      keep("scale", "maxanisotropy"),
+      retain("scale", "maxanisotropy"),
       mapping
     ),
-    Rule("checkerboard" -> "checkerboard")(keep("tex1", "tex2", "dimension"), mapping),
-    Rule("dots" -> "dots")(keep("inside", "outside"), mapping),
+    Rule("checkerboard" -> "checkerboard")(retain("tex1", "tex2", "dimension"), mapping),
+    Rule("dots" -> "dots")(retain("inside", "outside"), mapping),
     Rule("ptex" -> "ptex")(
-      keep("filename"),
-      lose("scale", "unscaled")(isNumber(1f)),
+      retain("filename"),
+      unsupported("scale", "unscaled")(isNumber(1f)),
       Step("`encoding`", "`gamma`, of \"gamma …\"")(s =>
         val words = s.takeString("encoding", "gamma 2.2").split(' ')
         words.lastOption.flatMap(_.toFloatOption).foreach(s.addFloat("gamma", _))
       )
     ),
-    Rule.near("directionmix" -> "mix", "the average of both")(
-      keep("tex1", "tex2"),
+    Rule.approximate("directionmix" -> "mix", "the average of both")(
+      retain("tex1", "tex2"),
       drop("dir"),
       otherwise("amount", "`amount` 0.5")(_.addFloat("amount", 0.5f))
     )

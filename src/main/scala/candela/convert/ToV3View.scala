@@ -9,9 +9,9 @@ import candela.scenefile.Dialect
 object ToV3View:
   import Steps.*
 
-  private val shutter = keep("shutteropen", "shutterclose")
+  private val shutter = retain("shutteropen", "shutterclose")
   private val projective =
-    keep("frameaspectratio", "screenwindow", "lensradius", "focaldistance")
+    retain("frameaspectratio", "screenwindow", "lensradius", "focaldistance")
 
   private val mapping = Step("`mapping`", "\"equirectangular\", the only one of v3"): s =>
     val p = s.take("mapping")
@@ -24,14 +24,14 @@ object ToV3View:
       )
 
   private val cameras = Table("Camera", fallback = "perspective")(
-    Rule("perspective" -> "perspective")(keep("fov"), projective, shutter),
+    Rule("perspective" -> "perspective")(retain("fov"), projective, shutter),
     Rule("orthographic" -> "orthographic")(projective, shutter),
     Rule("spherical" -> "environment")(mapping, projective, shutter),
     Rule("realistic" -> "realistic")(
-      keep("lensfile", "aperturediameter", "focusdistance"),
+      retain("lensfile", "aperturediameter", "focusdistance"),
       shutter,
       otherwise("simpleweighting", "`simpleweighting` false")(_.addBool("simpleweighting", false)),
-      lose("aperture", "circular aperture")
+      unsupported("aperture", "circular aperture")
     )
   )
 
@@ -47,31 +47,31 @@ object ToV3View:
   /** A window of pixels, in fractions of the image. */
   private val pixelBounds = Step("`pixelbounds`", "`cropwindow`"): s =>
     def size(name: String, default: Int) =
-      s.look(name).flatMap(_.ints.headOption).getOrElse(default).toFloat
+      s.peek(name).flatMap(_.ints.headOption).getOrElse(default).toFloat
     val (width, height) = (size("xresolution", 1280), size("yresolution", 720))
     for p <- s.take("pixelbounds") if p.ints.length == 4 do
-      val edges = p.ints.zip(Seq(width, width, height, height)).map((x, of) => x / of)
+      val edges = p.ints.zip(Seq(width, width, height, height)).map((x, extent) => x / extent)
       s.addFloat("cropwindow", edges.toSeq*)(using p.at)
 
   private val film = Seq(
     pixelBounds,
-    keep("xresolution", "yresolution", "cropwindow", "diagonal", "filename"),
+    retain("xresolution", "yresolution", "cropwindow", "diagonal", "filename"),
     exposure,
     components,
     drop("savefp16"),
-    lose("sensor", "CIE 1931 observer")((p, _) =>
+    unsupported("sensor", "CIE 1931 observer")((p, _) =>
       p.strings.headOption.contains("cie1931")
     ),
-    lose("whitebalance", "no white balance")(isNumber(0f))
+    unsupported("whitebalance", "no white balance")(isNumber(0f))
   )
 
   private val films = Table("Film", fallback = "image")(
     Rule("rgb" -> "image")(film*),
-    Rule.near(
+    Rule.approximate(
       "gbuffer" -> "image",
       "writes colour only"
     )((film :+ drop("coordinatesystem"))*),
-    Rule.near("spectral" -> "image", "writes colour only")(
+    Rule.approximate("spectral" -> "image", "writes colour only")(
       (film :+ drop("nbuckets", "lambdamin", "lambdamax"))*
     )
   )
@@ -82,7 +82,7 @@ object ToV3View:
   private val gaussian = Seq(
     extents,
     otherwise("xwidth", "`xwidth`, `ywidth` 1.5 by default")(s =>
-      for axis <- Seq("x", "y") if !s.has(s"${axis}width") do s.addFloat(s"${axis}width", 1.5f)
+      for axis <- Seq("x", "y") if !s.contains(s"${axis}width") do s.addFloat(s"${axis}width", 1.5f)
     ),
     Step("`sigma`", "`alpha`: 1 / 2 sigma²")(s =>
       s.addFloat("alpha", 1f / (2f * square(s.takeNumber("sigma", 0.5f))))
@@ -93,17 +93,17 @@ object ToV3View:
     Rule("box" -> "box")(extents),
     Rule("triangle" -> "triangle")(extents),
     Rule("gaussian" -> "gaussian")(gaussian*),
-    Rule("mitchell" -> "mitchell")(extents, keep("B", "C")),
-    Rule("sinc" -> "sinc")(extents, keep("tau"))
+    Rule("mitchell" -> "mitchell")(extents, retain("B", "C")),
+    Rule("sinc" -> "sinc")(extents, retain("tau"))
   )
 
-  private val points = Seq(keep("pixelsamples"), drop("seed", "randomization"))
+  private val points = Seq(retain("pixelsamples"), drop("seed", "randomization"))
 
   private val samplers = Table("Sampler", fallback = "halton")(
     Rule("halton|zsobol|paddedsobol|pmj02bn" -> "halton")(points*),
     Rule("sobol" -> "sobol")(points*),
     Rule("independent" -> "random")(points*),
-    Rule("stratified" -> "stratified")(keep("xsamples", "ysamples", "jitter"), drop("seed"))
+    Rule("stratified" -> "stratified")(retain("xsamples", "ysamples", "jitter"), drop("seed"))
   )
 
   private val strategy = Step("`lightsampler`", "`lightsamplestrategy`"): s =>
@@ -111,17 +111,17 @@ object ToV3View:
       val name = p.strings.headOption.filter(Set("uniform", "power"))
       name.foreach(s.addString("lightsamplestrategy", _)(using p.at))
 
-  private val regularize = lose("regularize", "no regularisation")((p, _) =>
+  private val regularize = unsupported("regularize", "no regularisation")((p, _) =>
     p.bools == Vector(false)
   )
 
-  private val path = Seq(keep("maxdepth"), strategy, regularize)
+  private val path = Seq(retain("maxdepth"), strategy, regularize)
   private val simple = Seq(
-    keep("maxdepth"),
-    lose("samplelights", "lights are sampled, and point lights shine")((p, _) =>
+    retain("maxdepth"),
+    unsupported("samplelights", "lights are sampled, and point lights shine")((p, _) =>
       p.bools == Vector(true)
     ),
-    lose("samplebsdf", "BSDFs are sampled, and mirrors reflect")((p, _) =>
+    unsupported("samplebsdf", "BSDFs are sampled, and mirrors reflect")((p, _) =>
       p.bools == Vector(true)
     )
   )
@@ -130,58 +130,63 @@ object ToV3View:
     Rule("path" -> "path")(path*),
     Rule("volpath" -> "volpath")(path*),
     Rule("simplepath" -> "path")(simple*),
-    Rule.near("randomwalk" -> "path", "point lights shine, and mirrors reflect")(keep("maxdepth")),
-    Rule.near("simplevolpath" -> "volpath", "point lights shine")(keep("maxdepth")),
-    Rule.near("lightpath" -> "bdpt", "the sky, mirrors and smooth glass are seen")(
-      keep("maxdepth")
+    Rule.approximate(
+      "randomwalk" -> "path",
+      "point lights shine, and mirrors reflect"
+    )(retain("maxdepth")),
+    Rule.approximate("simplevolpath" -> "volpath", "point lights shine")(retain("maxdepth")),
+    Rule.approximate("lightpath" -> "bdpt", "the sky, mirrors and smooth glass are seen")(
+      retain("maxdepth")
     ),
     Rule("bdpt" -> "bdpt")(
-      keep("maxdepth", "visualizestrategies", "visualizeweights"),
+      retain("maxdepth", "visualizestrategies", "visualizeweights"),
       regularize
     ),
     Rule("mlt" -> "mlt")(
-      keep("maxdepth", "bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability",
+      retain("maxdepth", "bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability",
         "sigma"),
       regularize
     ),
     Rule("sppm" -> "sppm")(
-      keep("maxdepth", "photonsperiteration", "radius"),
+      retain("maxdepth", "photonsperiteration", "radius"),
       drop("seed"),
       Step("the sampler's `pixelsamples`", "`iterations`")(s =>
         for p <- s.run.scene.sampler.flatMap(_.param("pixelsamples")) do
           s.addInteger("iterations", p.ints*)
       )
     ),
-    Rule.near("ambientocclusion" -> "ambientocclusion", "the image is scaled by π")(
-      keep("cossample"),
-      lose("maxdistance", "unlimited distance")
+    Rule.approximate("ambientocclusion" -> "ambientocclusion", "the image is scaled by π")(
+      retain("cossample"),
+      unsupported("maxdistance", "unlimited distance")
     )
   )
 
-  private val medium = keep("sigma_a", "sigma_s", "scale", "g", "preset")
-  private val glow = Seq(
-    lose("Le", "no emission")(isColor(0f)),
-    lose("Lescale", "no emission")((_, s) => !s.wasGiven("Le"))
+  private val medium = retain("sigma_a", "sigma_s", "scale", "g", "preset")
+  private val emission = Seq(
+    unsupported("Le", "no emission")(isColor(0f)),
+    unsupported("Lescale", "no emission")((_, s) => !s.isSpecified("Le"))
   )
 
   private val media = Table("Medium")(
-    Rule("homogeneous" -> "homogeneous")((medium +: glow)*),
+    Rule("homogeneous" -> "homogeneous")((medium +: emission)*),
     Rule("uniformgrid" -> "heterogeneous")(
-      (Seq(medium, keep("density", "nx", "ny", "nz", "p0", "p1")) ++ glow ++
+      (Seq(medium, retain("density", "nx", "ny", "nz", "p0", "p1")) ++ emission ++
         Seq(
-          lose("temperature", "no emission"),
+          unsupported("temperature", "no emission"),
           drop("temperatureoffset", "temperaturecutoff", "temperaturescale")
         ))*
     )
   )
 
   // v4 has none of these.
-  private val none = Seq(Table("Renderer")(), Table("VolumeIntegrator")(), Table("Volume")())
+  private val emptyTables = Seq(Table("Renderer")(), Table("VolumeIntegrator")(), Table("Volume")())
 
   val pass: Pass = Pass(
     Dialect.V4,
     Dialect.V3,
-    Vector(cameras, films, samplers, filters, integrators, ToV4View.accelerators, media) ++ none ++
+    Vector(
+      cameras, films, samplers, filters, integrators, ToV4View.accelerators, media
+    ) ++ emptyTables ++
       Vector(ToV3Materials.table, ToV3Textures.floats, ToV3Textures.colors, ToV3Lights.table,
         ToV3Lights.area, ToV3Shapes.table),
     Map(

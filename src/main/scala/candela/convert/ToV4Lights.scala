@@ -47,10 +47,10 @@ object ToV4Lights:
         case None => s.addString("filename", RewrittenImages.plain(s, tint))
 
   val table: Table = Table("LightSource")(
-    Rule("point" -> "point")(keep("from"), Emission.toV4("I"), samples),
-    Rule("distant" -> "distant")(keep("from", "to"), Emission.toV4("L"), samples),
-    Rule.near("spot" -> "spot", "different falloff at the edge of the cone")(
-      keep("from", "to", "coneangle", "conedeltaangle"),
+    Rule("point" -> "point")(retain("from"), Emission.toV4("I"), samples),
+    Rule("distant" -> "distant")(retain("from", "to"), Emission.toV4("L"), samples),
+    Rule.approximate("spot" -> "spot", "different falloff at the edge of the cone")(
+      retain("from", "to", "coneangle", "conedeltaangle"),
       Emission.toV4("I"),
       samples
     ),
@@ -60,7 +60,7 @@ object ToV4Lights:
   )
 
   val area: Table = Table("AreaLightSource")(
-    Rule("diffuse|area" -> "diffuse")(keep("twosided"), Emission.toV4("L"), samples)
+    Rule("diffuse|area" -> "diffuse")(retain("twosided"), Emission.toV4("L"), samples)
   )
 
   /** v3's projected image is flipped vertically relative to v4's. */

@@ -14,8 +14,8 @@ object ToV4Materials:
   private val white = isColor(1f)
   private val black = isColor(0f)
 
-  private val kr = lose("Kr", "reflection is not attenuated")(white)
-  private val kt = lose("Kt", "refraction is not attenuated")(white)
+  private val kr = unsupported("Kr", "reflection is not attenuated")(white)
+  private val kt = unsupported("Kt", "refraction is not attenuated")(white)
 
   /** Index of refraction, which v4 does not texture. */
   private def eta(default: Float): Step =
@@ -49,7 +49,7 @@ object ToV4Materials:
   /** A material with a black specular lobe is exactly `diffuse`. */
   private def plainIfBlack(names: String*): Step =
     Step(names.mkString("`", "` and `", "` black"), "\"diffuse\""): s =>
-      val absent = names.forall(n => s.look(n).exists(isColor(0f)(_, s)))
+      val absent = names.forall(n => s.peek(n).exists(isColor(0f)(_, s)))
       if absent then
         s.convertTo("diffuse")
         (names ++ Seq("roughness", "uroughness", "vroughness", "remaproughness", "eta", "index"))
@@ -73,13 +73,17 @@ object ToV4Materials:
       "`Kd` makes it \"dielectric\""
   ): s =>
     def isBlack(name: String, default: Float) =
-      s.look(name).fold(default == 0f)(isColor(0f)(_, s))
+      s.peek(name).fold(default == 0f)(isColor(0f)(_, s))
     if isBlack("Kd", 0.25f) && !isBlack("Kt", 0f) then
       s.convertTo("dielectric")
       Seq("Kd", "Ks", "Kr", "Kt").foreach(s.take)
-    for (name, why) <- Seq("Kr" -> "no second, specular lobe", "Kt" -> "no transmission") do
+    for (name, consequence) <- Seq("Kr" -> "no second, specular lobe", "Kt" -> "no transmission") do
       for p <- s.take(name) if !isColor(0f)(p, s) do
-        s.warn(Code.Inexpressible, p.at, s"`$name` of \"uber\" is not supported in v4; $why")
+        s.warn(
+          Code.Inexpressible,
+          p.at,
+          s"`$name` of \"uber\" is not supported in v4; $consequence"
+        )
     for p <- s.take("opacity") if !isColor(1f)(p, s) do
       s.warn(Code.Inexpressible, p.at, "`opacity` of \"uber\" is not supported in v4; opaque")
 
@@ -104,12 +108,12 @@ object ToV4Materials:
           case colored => s.addRgb(name, colored.flatMap(_._2).getOrElse(Rgb.gray(0.25f)) * f)
 
   private def product(s: Statement, texture: String, factor: Float): String =
-    val at = s.declaration.at
+    val position = s.declaration.at
     val params = Vector(
-      Param(ParamType.Texture, "tex", at, at, strings = Vector(texture)),
-      Param(ParamType.Float, "scale", at, at, floats = Array(factor))
+      Param(ParamType.Texture, "tex", position, position, strings = Vector(texture)),
+      Param(ParamType.Float, "scale", position, position, floats = Array(factor))
     )
-    val scale = Declaration("Texture", "scale", params, at, s.declaration.folder)
+    val scale = Declaration("Texture", "scale", params, position, s.declaration.folder)
     s.run.define(
       TextureDescription(s"$texture times", "spectrum", scale, GraphicsState.Identity)
     )
@@ -135,7 +139,7 @@ object ToV4Materials:
             s.addTexture("amount", ToV4Textures.floatTwin(s, p))(using p.at)
 
   private val subsurface = Seq(
-    keep("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),
+    retain("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),
     eta(1.33f),
     kr,
     kt,
@@ -146,18 +150,18 @@ object ToV4Materials:
   val table: Table = Table("Material", fallback = "diffuse")(
     Rule("matte" -> "diffuse")(
       rename("Kd" -> "reflectance"),
-      lose("sigma", "Lambertian")(isNumber(0f)),
+      unsupported("sigma", "Lambertian")(isNumber(0f)),
       bump
     ),
-    Rule.near("plastic" -> "coateddiffuse", coatNote)(
+    Rule.approximate("plastic" -> "coateddiffuse", coatNote)(
       (plainIfBlack("Ks") +: reflectance(0.25f)) ++
         Seq(unlessPlain(coat(0.25f, 0.04f)), unlessPlain(RoughnessSteps.v3(0.1f)), bump)*
     ),
-    Rule.near("substrate" -> "coateddiffuse", coatNote)(
+    Rule.approximate("substrate" -> "coateddiffuse", coatNote)(
       (plainIfBlack("Ks") +: reflectance(0.5f)) ++
         Seq(unlessPlain(coat(0.5f, 1f)), unlessPlain(RoughnessSteps.v3(0.1f)), bump)*
     ),
-    Rule.near("uber" -> "coateddiffuse", coatNote)(
+    Rule.approximate("uber" -> "coateddiffuse", coatNote)(
       Seq(uber, plainIfBlack("Ks")) ++ reflectanceOfUber ++
         Seq(unlessPlain(uberCoat), unlessPlain(RoughnessSteps.v3(0.1f)), bump)*
     ),
@@ -168,8 +172,8 @@ object ToV4Materials:
       RoughnessSteps.v3(0f, smoothAtZero = true),
       bump
     ),
-    Rule("metal" -> "conductor")(keep("eta", "k"), RoughnessSteps.v3(0.01f), bump),
-    Rule.near("mirror" -> "conductor", "higher reflectance at grazing angles")(
+    Rule("metal" -> "conductor")(retain("eta", "k"), RoughnessSteps.v3(0.01f), bump),
+    Rule.approximate("mirror" -> "conductor", "higher reflectance at grazing angles")(
       rename("Kr" -> "reflectance"),
       otherwise("reflectance", "`reflectance` 0.9")(_.addRgb("reflectance", Rgb.gray(0.9f))),
       otherwise("roughness", "`roughness` 0")(_.addFloat("roughness", 0f)),
@@ -177,9 +181,9 @@ object ToV4Materials:
     ),
     Rule("translucent" -> "diffusetransmission")(
       translucent,
-      lose("Ks", "no glossy lobe")(black),
+      unsupported("Ks", "no glossy lobe")(black),
       otherwise("Ks", "warning: the glossy lobe is dropped")(s =>
-        if !s.wasGiven("Ks") then
+        if !s.isSpecified("Ks") then
           s.warn(
             Code.Inexpressible,
             s.declaration.at,
@@ -194,9 +198,9 @@ object ToV4Materials:
     Rule("mix" -> "mix")(mix, drop("bumpmap")),
     Rule("hair" -> "hair")(
       rename("color" -> "reflectance"),
-      keep("sigma_a", "eumelanin", "pheomelanin", "eta", "beta_m", "beta_n", "alpha")
+      retain("sigma_a", "eumelanin", "pheomelanin", "eta", "beta_m", "beta_n", "alpha")
     ),
-    Rule.near("disney" -> "diffuse", "only the base colour is kept")(
+    Rule.approximate("disney" -> "diffuse", "only the base colour is kept")(
       rename("color" -> "reflectance"),
       drop(
         "metallic", "eta", "roughness", "speculartint", "anisotropic", "sheen", "sheentint",

@@ -14,9 +14,9 @@ object ToV4Shapes:
       if p.paramType == ParamType.Texture then
         val t = s.run.texture(p.strings.headOption.getOrElse(""), "float")
         val values = t.toVector.flatMap(_.texture.params).filter(q => Amounts.contains(q.name))
-        val known = values.map(s.numberOf)
-        val isPlain = t.exists(x => Plain(x.texture.name)) && known.forall(_.nonEmpty)
-        if isPlain && known.flatten.exists(x => x != 0f && x != 1f) then
+        val numbers = values.map(s.numberOf)
+        val isPlain = t.exists(x => Plain(x.texture.name)) && numbers.forall(_.nonEmpty)
+        if isPlain && numbers.flatten.exists(x => x != 0f && x != 1f) then
           s.addTexture("alpha", allOrNothing(s, t.get))(using p.at)
         else
           s.add("alpha", p)
@@ -37,10 +37,10 @@ object ToV4Shapes:
       else
         val x = if s.numberOf(q).contains(0f) then 0f else 1f
         Param(ParamType.Float, q.name, q.at, q.valuesAt, floats = Array(x))
-    val made = s.run.convert(t.texture.copy(params = params), "float texture").get
-    s.run.define(ToV4Textures.placed(t).copy(name = s"${t.name} cutout", texture = made))
+    val cutout = s.run.convert(t.texture.copy(params = params), "float texture").get
+    s.run.define(ToV4Textures.placed(t).copy(name = s"${t.name} cutout", texture = cutout))
 
-  private val shadow = lose("shadowalpha", "shadows use `alpha`")(isNumber(1f))
+  private val shadow = unsupported("shadowalpha", "shadows use `alpha`")(isNumber(1f))
 
   /** v2 and v3 also accept texture coordinates as plain numbers, by either name. */
   private val uv: Step = Step("`uv`, `st`", "`point2 uv`"): s =>
@@ -48,25 +48,25 @@ object ToV4Shapes:
     for p <- uv.orElse(st) do s.add("uv", Values.typed(p, ParamType.Point2))
 
   val table: Table = Table("Shape")(
-    Rule("sphere" -> "sphere")(keep("radius", "zmin", "zmax", "phimax"), alpha, shadow),
-    Rule("cylinder" -> "cylinder")(keep("radius", "zmin", "zmax", "phimax"), alpha, shadow),
-    Rule("disk" -> "disk")(keep("height", "radius", "innerradius", "phimax"), alpha, shadow),
+    Rule("sphere" -> "sphere")(retain("radius", "zmin", "zmax", "phimax"), alpha, shadow),
+    Rule("cylinder" -> "cylinder")(retain("radius", "zmin", "zmax", "phimax"), alpha, shadow),
+    Rule("disk" -> "disk")(retain("height", "radius", "innerradius", "phimax"), alpha, shadow),
     Rule("trianglemesh" -> "trianglemesh")(
-      keep("P", "N", "S", "indices", "faceIndices"),
+      retain("P", "N", "S", "indices", "faceIndices"),
       uv,
       alpha,
       shadow,
       drop("discarddegenerateUVs")
     ),
-    Rule("plymesh" -> "plymesh")(keep("filename"), alpha, shadow),
+    Rule("plymesh" -> "plymesh")(retain("filename"), alpha, shadow),
     Rule("loopsubdiv" -> "loopsubdiv")(
       rename("nlevels" -> "levels"),
-      keep("levels", "P", "indices", "scheme"),
+      retain("levels", "P", "indices", "scheme"),
       alpha,
       shadow
     ),
     Rule("curve" -> "curve")(
-      keep("P", "N", "type", "basis", "degree", "width", "width0", "width1", "splitdepth"),
+      retain("P", "N", "type", "basis", "degree", "width", "width0", "width1", "splitdepth"),
       alpha,
       shadow
     )
@@ -78,11 +78,12 @@ object ToV4Shapes:
   def placed(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
     Tessellation.of(s.shape) match
       case Some(mesh) =>
-        val how = if s.shape.name == "heightfield" then "same triangles" else "finely tessellated"
+        val method =
+          if s.shape.name == "heightfield" then "same triangles" else "finely tessellated"
         run.warn(
           Code.Inexpressible,
           s.shape.at,
-          s"v4 has no \"${s.shape.name}\"; using \"trianglemesh\", $how"
+          s"v4 has no \"${s.shape.name}\"; using \"trianglemesh\", $method"
         )
         Vector(s.copy(shape = mesh))
       case None if s.reverseOrientation && Meshes.hasNormals(s.shape) =>

@@ -10,7 +10,7 @@ object ToV4Textures:
   import Steps.*
 
   private val Placement = Seq("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
-  private val mapping = keep(Placement*)
+  private val mapping = retain(Placement*)
 
   /** By default v3 decodes PNG and TGA, v4 all 8-bit formats; v4 can override this for PNG only.
     * Other encodings are baked into a new image.
@@ -26,32 +26,32 @@ object ToV4Textures:
           s.add("filename", p)
           s.addString("encoding", "linear")
         else
-          val meant = (x: Float, _: Int) => if decodes then Srgb.decode(x) else x
-          s.addString("filename", RewrittenImages.baked(s, p)(meant))(using p.at)
+          val decoded = (x: Float, _: Int) => if decodes then Srgb.decode(x) else x
+          s.addString("filename", RewrittenImages.baked(s, p)(decoded))(using p.at)
 
   private val filter: Step = Step("`trilinear`", "`filter`: \"ewa\", or \"trilinear\""): s =>
     s.addString("filter", if s.takeBool("trilinear", false) then "trilinear" else "ewa")
 
-  private val image = Seq(encoding, filter, keep("wrap", "scale", "maxanisotropy"), mapping)
+  private val image = Seq(encoding, filter, retain("wrap", "scale", "maxanisotropy"), mapping)
 
   private def ptex = Rule("ptex" -> "ptex")(
-    keep("filename", "scale"),
+    retain("filename", "scale"),
     Step("`gamma`", "`encoding` \"gamma …\"")(s =>
       s.addString("encoding", s"gamma ${NumberText.of(s.takeNumber("gamma", 2.2f))}")
     )
   )
 
   private def common = Seq(
-    Rule("constant" -> "constant")(keep("value")),
-    Rule("mix" -> "mix")(keep("tex1", "tex2", "amount")),
-    Rule("bilerp" -> "bilerp")(keep("v00", "v01", "v10", "v11"), mapping),
+    Rule("constant" -> "constant")(retain("value")),
+    Rule("mix" -> "mix")(retain("tex1", "tex2", "amount")),
+    Rule("bilerp" -> "bilerp")(retain("v00", "v01", "v10", "v11"), mapping),
     Rule("imagemap" -> "imagemap")(image*),
     Rule("checkerboard" -> "checkerboard")(
-      keep("tex1", "tex2", "dimension"),
+      retain("tex1", "tex2", "dimension"),
       drop("aamode"),
       mapping
     ),
-    Rule("dots" -> "dots")(keep("inside", "outside"), mapping),
+    Rule("dots" -> "dots")(retain("inside", "outside"), mapping),
     ptex
   )
 
@@ -88,7 +88,7 @@ object ToV4Textures:
                   color(by) match
                     case Some(c) => s.addFloat("scale", c.luminance)(using by.at)
                     case None => s.addTexture("scale", floatTwin(s, by))(using by.at)
-      case one => one.foreach(s.add("tex", _))
+      case single => single.foreach(s.add("tex", _))
 
   private val NoProducts = "v4 can't multiply two colours"
 
@@ -108,11 +108,11 @@ object ToV4Textures:
       val factors = Array(by.r, by.g, by.b)
       val written = RewrittenImages.baked(s, file): (x, c) =>
         factors(c) * (if decodes then Srgb.decode(x) else x)
-      val others = t.texture.params.filterNot(q => q.name == "gamma" || q.name == "filename")
+      val remaining = t.texture.params.filterNot(q => q.name == "gamma" || q.name == "filename")
       val image = Param(ParamType.String, "filename", file.at, file.at, strings = Vector(written))
-      val d = t.texture.copy(params = image +: others)
-      val made = s.run.convert(d, "spectrum texture").get
-      s.run.define(placed(t).copy(name = s"${t.name} tinted", texture = made))
+      val d = t.texture.copy(params = image +: remaining)
+      val tinted = s.run.convert(d, "spectrum texture").get
+      s.run.define(placed(t).copy(name = s"${t.name} tinted", texture = tinted))
 
   /** A float texture with the luminance of a spectrum texture. */
   def floatTwin(s: Statement, p: Param): String =
@@ -143,11 +143,12 @@ object ToV4Textures:
         val rule = Rule(kind -> kind)(steps*)
         val number = Statement(s.declaration, s.run, rule).result()
         s.declaration.params.foreach(p => s.take(p.name))
-        val made = TextureDescription(s"$kind as number", "float", number, s.run.textureToWorld)
-        s.addTexture("amount", s.run.define(made))
+        val numberTexture =
+          TextureDescription(s"$kind as number", "float", number, s.run.textureToWorld)
+        s.addTexture("amount", s.run.define(numberTexture))
     )
 
-  private val uv = Rule.near("uv" -> "bilerp", "does not repeat outside [0, 1]")(
+  private val uv = Rule.approximate("uv" -> "bilerp", "does not repeat outside [0, 1]")(
     Step("no colours", "red along u, green along v"): s =>
       BakedTextures.define(s, s.asTexture("spectrum"), "v4 has no \"uv\"")() match
         case Some(name) =>

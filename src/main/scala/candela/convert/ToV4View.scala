@@ -9,14 +9,14 @@ import candela.scenefile.Dialect
 object ToV4View:
   import Steps.*
 
-  private val shutter = keep("shutteropen", "shutterclose")
+  private val shutter = retain("shutteropen", "shutterclose")
   private val projective =
-    keep("frameaspectratio", "screenwindow", "lensradius", "focaldistance")
+    retain("frameaspectratio", "screenwindow", "lensradius", "focaldistance")
   private val planes = drop("hither", "yon")
 
   private val cameras = Table("Camera", fallback = "perspective")(
     Rule("perspective" -> "perspective")(
-      keep("fov"),
+      retain("fov"),
       projective,
       shutter,
       planes,
@@ -36,7 +36,7 @@ object ToV4View:
       )(_.addString("mapping", "equirectangular"))
     ),
     Rule("realistic" -> "realistic")(
-      keep("lensfile", "aperturediameter", "focusdistance"),
+      retain("lensfile", "aperturediameter", "focusdistance"),
       shutter,
       planes,
       Step("`simpleweighting`", "the film's exposure, with a warning")(s =>
@@ -64,12 +64,12 @@ object ToV4View:
     def time(name: String, default: Float) =
       val p = s.run.scene.camera.flatMap(_.param(name))
       p.flatMap(_.floats.headOption).getOrElse(default)
-    val open = time("shutterclose", 1f) - time("shutteropen", 0f)
-    if open > 0f then open else 1f
+    val exposureTime = time("shutterclose", 1f) - time("shutteropen", 0f)
+    if exposureTime > 0f then exposureTime else 1f
 
   private val films = Table("Film", fallback = "rgb")(
     Rule("image" -> "rgb")(
-      keep("xresolution", "yresolution", "cropwindow", "diagonal"),
+      retain("xresolution", "yresolution", "cropwindow", "diagonal"),
       filename,
       Step("`scale`", "`iso`, times 100, divided by the exposure time")(s =>
         val factor = s.takeNumber("scale", 1f) / shutterTime(s)
@@ -98,7 +98,8 @@ object ToV4View:
 
   private def extentsOf(default: Float): Step =
     otherwise("xradius", s"`xradius`, `yradius` $default by default"): s =>
-      for axis <- Seq("x", "y") if !s.has(s"${axis}radius") do s.addFloat(s"${axis}radius", default)
+      for axis <- Seq("x", "y") if !s.contains(s"${axis}radius") do
+        s.addFloat(s"${axis}radius", default)
 
   private val filters = Table("PixelFilter", fallback = "box")(
     Rule("box" -> "box")(extents),
@@ -110,11 +111,11 @@ object ToV4View:
         s.addFloat("sigma", sqrt(1f / (2f * s.takeNumber("alpha", 2f))))
       )
     ),
-    Rule("mitchell" -> "mitchell")(extents, keep("B", "C")),
-    Rule("sinc" -> "sinc")(extents, keep("tau"))
+    Rule("mitchell" -> "mitchell")(extents, retain("B", "C")),
+    Rule("sinc" -> "sinc")(extents, retain("tau"))
   )
 
-  private val pixelSamples = keep("pixelsamples")
+  private val pixelSamples = retain("pixelsamples")
 
   private val samplers = Table("Sampler", fallback = "zsobol")(
     Rule("halton" -> "halton")(pixelSamples, drop("samplepixelcenter")),
@@ -122,7 +123,7 @@ object ToV4View:
     Rule("02sequence|lowdiscrepancy" -> "paddedsobol")(pixelSamples, drop("dimensions")),
     Rule("maxmindist" -> "pmj02bn")(pixelSamples, drop("dimensions")),
     Rule("random" -> "independent")(pixelSamples),
-    Rule("stratified" -> "stratified")(keep("xsamples", "ysamples", "jitter"), drop("dimensions"))
+    Rule("stratified" -> "stratified")(retain("xsamples", "ysamples", "jitter"), drop("dimensions"))
   )
 
   private val strategy = Step("`lightsamplestrategy`", "`lightsampler`"): s =>
@@ -131,7 +132,7 @@ object ToV4View:
       name.foreach(s.addString("lightsampler", _)(using p.at))
 
   private val path = Seq(
-    keep("maxdepth"),
+    retain("maxdepth"),
     strategy,
     drop("rrthreshold", "pixelbounds")
   )
@@ -154,10 +155,10 @@ object ToV4View:
     s.run.materials.map(_.name).filter(smooth)
 
   private val sppm = Seq(
-    keep("maxdepth", "photonsperiteration", "radius"),
+    retain("maxdepth", "photonsperiteration", "radius"),
     drop("imagewritefrequency"),
-    lose("iterations", "v4 uses the number of samples per pixel"),
-    lose("numiterations", "v4 uses the number of samples per pixel")
+    unsupported("iterations", "v4 uses the number of samples per pixel"),
+    unsupported("numiterations", "v4 uses the number of samples per pixel")
   )
 
   private val integrators = Table("Integrator", fallback = "path")(
@@ -166,22 +167,23 @@ object ToV4View:
     Rule("directlighting" -> "path")(direct, drop("strategy", "pixelbounds")),
     Rule("whitted" -> "path")(direct, drop("pixelbounds")),
     Rule("bdpt" -> "bdpt")(
-      keep("maxdepth", "visualizestrategies", "visualizeweights"),
+      retain("maxdepth", "visualizestrategies", "visualizeweights"),
       drop("lightsamplestrategy", "pixelbounds")
     ),
     Rule("mlt" -> "mlt")(
-      keep("maxdepth", "bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability",
+      retain("maxdepth", "bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability",
         "sigma")
     ),
     Rule("sppm" -> "sppm")(sppm*),
-    Rule.near("ambientocclusion" -> "ambientocclusion", "the image is scaled by 1/π")(
-      keep("cossample"),
+    Rule.approximate("ambientocclusion" -> "ambientocclusion", "the image is scaled by 1/π")(
+      retain("cossample"),
       drop("nsamples", "pixelbounds")
     )
   )
 
-  private val bvh = keep("splitmethod", "maxnodeprims")
-  private val kdtree = keep("intersectcost", "traversalcost", "emptybonus", "maxprims", "maxdepth")
+  private val bvh = retain("splitmethod", "maxnodeprims")
+  private val kdtree =
+    retain("intersectcost", "traversalcost", "emptybonus", "maxprims", "maxdepth")
 
   /** The accelerator does not affect the image. */
   private[convert] val accelerators = Table("Accelerator")(
@@ -189,23 +191,23 @@ object ToV4View:
     Rule("kdtree" -> "kdtree")(kdtree)
   )
 
-  private val medium = keep("sigma_a", "sigma_s", "scale", "g", "preset")
+  private val medium = retain("sigma_a", "sigma_s", "scale", "g", "preset")
 
   private val media = Table("Medium")(
     Rule("homogeneous" -> "homogeneous")(medium),
     Rule("heterogeneous" -> "uniformgrid")(
       medium,
-      keep("density", "nx", "ny", "nz", "p0", "p1")
+      retain("density", "nx", "ny", "nz", "p0", "p1")
     )
   )
 
   // v2 only; removed before this pass.
-  private val none = Seq(Table("Renderer")(), Table("VolumeIntegrator")(), Table("Volume")())
+  private val emptyTables = Seq(Table("Renderer")(), Table("VolumeIntegrator")(), Table("Volume")())
 
   val pass: Pass = Pass(
     Dialect.V3,
     Dialect.V4,
-    Vector(cameras, films, samplers, filters, integrators, accelerators, media) ++ none ++
+    Vector(cameras, films, samplers, filters, integrators, accelerators, media) ++ emptyTables ++
       Vector(ToV4Materials.table, ToV4Textures.floats, ToV4Textures.colors, ToV4Lights.table,
         ToV4Lights.area, ToV4Shapes.table),
     Map("PixelFilter" -> "box", "Integrator" -> "path", "Film" -> "image"),

@@ -34,15 +34,15 @@ object UvPoints:
   /** Points of a mesh on a grid over the bounds of its u and v. */
   private final class Raster(p: Array[Float], uv: Array[Float], indices: Array[Int], size: Int):
     private def ends(axis: Int) =
-      val all = indices.map(i => uv(2 * i + axis))
-      (all.min, all.max)
+      val values = indices.map(i => uv(2 * i + axis))
+      (values.min, values.max)
     private val ((u0, u1), (v0, v1)) = (ends(0), ends(1))
     private val (perU, perV) = (1f / (u1 - u0), 1f / (v1 - v0))
     private val grid = new Array[Vec3 | Null](size * size)
     // How far apart two points are that are not the same
-    private val apart =
+    private val tolerance =
       1e-3f * (0 to 2).map(c => p.indices.filter(_ % 3 == c).map(p(_)))
-        .map(all => all.max - all.min).max
+        .map(values => values.max - values.min).max
     private var overlaps = false
 
     def points: Option[UvPoints] =
@@ -51,13 +51,13 @@ object UvPoints:
         loop(indices.length / 3)(paint)
         spread()
         Option.when(!overlaps):
-          def at(x: Float) = Math.min(Math.max((x * size).toInt, 0), size - 1)
+          def cell(x: Float) = Math.min(Math.max((x * size).toInt, 0), size - 1)
           val window = Window(perU, perV, -u0 * perU, -v0 * perV)
           UvPoints(
             window,
             (s, t) =>
-              val found = grid(at(t) * size + at(s))
-              if found == null then Vec3.Zero else found
+              val point = grid(cell(t) * size + cell(s))
+              if point == null then Vec3.Zero else point
           )
 
     private def paint(triangle: Int): Unit =
@@ -74,25 +74,25 @@ object UvPoints:
           val b = ((i - x(0)) * (y(2) - y(0)) - (x(2) - x(0)) * (j - y(0))) / area
           val c = ((x(1) - x(0)) * (j - y(0)) - (i - x(0)) * (y(1) - y(0))) / area
           if b >= 0f && c >= 0f && b + c <= 1f then
-            val found = q(0) * (1f - b - c) + q(1) * b + q(2) * c
-            val before = grid(j * size + i)
-            if before == null then grid(j * size + i) = found
-            else if (before - found).length > apart then overlaps = true
+            val point = q(0) * (1f - b - c) + q(1) * b + q(2) * c
+            val existing = grid(j * size + i)
+            if existing == null then grid(j * size + i) = point
+            else if (existing - point).length > tolerance then overlaps = true
 
     /** Gives pixels at the rim the point beside them, for the filter. */
     private def spread(): Unit =
       loop(UvPoints.Rim): _ =>
-        val old = grid.clone
+        val previous = grid.clone
         loop(size * size): k =>
-          if old(k) == null then
+          if previous(k) == null then
             val (i, j) = (k % size, k / size)
-            val beside = Iterator(
+            val neighbours = Iterator(
               (i - 1, j),
               (i + 1, j),
               (i, j - 1),
               (i, j + 1)
             ).filter((x, y) => x >= 0 && x < size && y >= 0 && y < size)
-            grid(k) = beside.map((x, y) => old(y * size + x)).find(_ != null).orNull
+            grid(k) = neighbours.map((x, y) => previous(y * size + x)).find(_ != null).orNull
 
   /** Width of the rim, in pixels. */
   private val Rim = 4

@@ -26,8 +26,8 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
   /** As RGB; v4 requires reflectances in [0, 1]. */
   private def colored(p: Param, d: Declaration, isUnbounded: Boolean): Option[Param] =
     color(p, d).map: c =>
-      val most = if isUnbounded || to != Dialect.V4 then Float.PositiveInfinity else 1f
-      val bounded = c.map(x => Math.max(0f, Math.min(x, most)))
+      val upperBound = if isUnbounded || to != Dialect.V4 then Float.PositiveInfinity else 1f
+      val bounded = c.map(x => Math.max(0f, Math.min(x, upperBound)))
       if bounded != c && p.paramType == ParamType.Rgb then
         warn(p, s"`${p.name}` must be in [0, 1] in v4; clamping")
       Values.rgb(p, bounded)
@@ -43,8 +43,8 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
       spectrum(p, d).map: s =>
         val pairs = s.lambda.zip(s.values)
         val ends = Vector(360f, 830f).filter(x => x < s.lambda.head || x > s.lambda.last)
-        val all = if to == Dialect.V4 then pairs ++ ends.map(x => (x, s(x))) else pairs
-        Values.pairs(p, all.sortBy(_._1).toIndexedSeq)
+        val extended = if to == Dialect.V4 then pairs ++ ends.map(x => (x, s(x))) else pairs
+        Values.pairs(p, extended.sortBy(_._1).toIndexedSeq)
 
   /** The colour of a parameter in the source dialect. */
   def color(p: Param, d: Declaration): Option[Rgb] = p.paramType match
@@ -67,14 +67,14 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
   /** A function of wavelength: pairs, a named spectrum, or a file of pairs. */
   def spectrum(p: Param, d: Declaration): Option[Spectrum] =
     val outside = if from == Dialect.V4 then Spectrum.Outside.Zero else Spectrum.Outside.Clamped
-    def of(numbers: Array[Float]) =
+    def fromPairs(numbers: Array[Float]) =
       val sorted = numbers.grouped(2).filter(_.length == 2).toArray.sortBy(_(0))
       Option.when(sorted.nonEmpty)(Spectrum(sorted.map(_(0)), sorted.map(_(1)), outside))
     p.strings.headOption match
-      case None => of(p.floats)
+      case None => fromPairs(p.floats)
       case Some(name) =>
         NamedSpectra(name).orElse:
-          val read = numbersOf(p, d).flatMap(of)
+          val read = numbersOf(p, d).flatMap(fromPairs)
           if read.isEmpty then warn(p, s"no such spectrum: `$name`; ignoring `${p.name}`")
           read
 

@@ -21,25 +21,25 @@ object ChartFrame:
   /** For narrow windows: its words can be read on a phone. */
   val Narrow: ChartFrame = ChartFrame(380, 360, isWhole = true)
 
-/** Legend of the curves and other lines, in rows of up to `most` entries.
+/** Legend of the curves and other lines, in rows of up to `maxColumns` entries.
   *
   * @param lines names and CSS classes of the others
   */
 private[report] final class ChartLegend(
     series: Vector[Series],
     lines: Vector[(String, String)],
-    most: Int,
+    maxColumns: Int,
     width: Double
 ):
   import Svg.*
 
   private val columns =
     val longest = (series.map(_.name) ++ lines.map(_._1)).map(_.length).maxOption.getOrElse(0)
-    Math.max(1, Math.min(most, (width / (44 + ChartLegend.Letter * longest)).toInt))
+    Math.max(1, Math.min(maxColumns, (width / (44 + ChartLegend.Letter * longest)).toInt))
 
   val height: Double = 20.0 * ((series.size + lines.size + columns - 1) / columns)
 
-  def at(left: Double, top: Double): Vector[Frag] =
+  def entries(left: Double, top: Double): Vector[Frag] =
     def entry(i: Int, css: String, lineCss: String, name: String, hasDot: Boolean): Frag =
       val x = left + (i % columns) * width / columns
       val y = top + 20 * (i / columns)
@@ -87,12 +87,12 @@ private[candela] final class ChartGrid(
   def standalone: String = Svg.standalone(width, height, title)(content)
 
   private def content: Vector[Frag] =
-    val all = heading.map("charttitle" -> _) ++ subtitle.map("axis" -> _)
-    val head = all.zipWithIndex.map:
+    val captions = heading.map("charttitle" -> _) ++ subtitle.map("axis" -> _)
+    val head = captions.zipWithIndex.map:
       case ((css, words), i) => text(Margin, 24.0 + 19 * i, css, "start")(words)
     val charts = panels.zipWithIndex.map: (panel, i) =>
       moved((i % columns) * PanelWidth, top + (i / columns) * PanelHeight)(panel.content)
-    head ++ legend.at(Margin, legendTop) ++ charts
+    head ++ legend.entries(Margin, legendTop) ++ charts
 
 private[candela] object ChartGrid:
   val Columns = 3
@@ -104,12 +104,13 @@ private[candela] object ChartGrid:
   private val PanelHeight = 250.0
   private val Margin = 14.0
 
-  /** Words in lines of at most `most` letters. */
-  private def lines(words: String, most: Double): Vector[String] =
-    words.split(' ').foldLeft(Vector.empty[String]): (done, word) =>
-      done.lastOption match
-        case Some(last) if last.length + word.length < most => done.init :+ s"$last $word"
-        case _ => done :+ word
+  /** Words in lines of at most `maxLetters` letters. */
+  private def lines(words: String, maxLetters: Double): Vector[String] =
+    words.split(' ').foldLeft(Vector.empty[String]): (completed, word) =>
+      completed.lastOption match
+        case Some(last) if last.length + word.length < maxLetters =>
+          completed.init :+ s"$last $word"
+        case _ => completed :+ word
 
   /** Frame of a chart in the grid. */
   def frame(note: String): ChartFrame =
@@ -118,9 +119,9 @@ private[candela] object ChartGrid:
 /** Logarithmic axis from `low` to `high`, drawn from `start` to `end` pixels. */
 private[report] final class LogAxis(low: Double, high: Double, start: Double, end: Double):
 
-  def at(value: Double): Double =
-    val part = (Math.log(value) - Math.log(low)) / (Math.log(high) - Math.log(low))
-    start + part * (end - start)
+  def pixel(value: Double): Double =
+    val fraction = (Math.log(value) - Math.log(low)) / (Math.log(high) - Math.log(low))
+    start + fraction * (end - start)
 
   /** Powers of ten; on a short axis also some of their multiples. */
   def ticks: Vector[Double] =
@@ -139,9 +140,9 @@ private[report] final class LogAxis(low: Double, high: Double, start: Double, en
 private[report] object LogAxis:
 
   /** An axis with a margin around the extreme values, spanning at least half a decade. */
-  def around(values: Vector[Double], start: Double, end: Double): LogAxis =
+  def covering(values: Vector[Double], start: Double, end: Double): LogAxis =
     val logs = values.filter(_ > 0).map(Math.log10)
-    val (least, most) = if logs.isEmpty then (0.0, 1.0) else (logs.min, logs.max)
-    val middle = (least + most) / 2
-    val half = Math.max(0.25, (most - least) / 2 * 1.08)
-    LogAxis(Math.pow(10, middle - half), Math.pow(10, middle + half), start, end)
+    val (minLog, maxLog) = if logs.isEmpty then (0.0, 1.0) else (logs.min, logs.max)
+    val middle = (minLog + maxLog) / 2
+    val halfSpan = Math.max(0.25, (maxLog - minLog) / 2 * 1.08)
+    LogAxis(Math.pow(10, middle - halfSpan), Math.pow(10, middle + halfSpan), start, end)

@@ -13,7 +13,7 @@ private[report] final class ErrorCharts(points: Vector[CurvePoint], isEstimated:
   /** The metric's name, marked if it is an estimate. */
   def word(metric: String): String = if isEstimated then s"$metric, estimated" else metric
 
-  def all: Frag =
+  def allCharts: Frag =
     val metrics = Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae, Metric.Flip)
       .filter(m => points.exists(_.errors(m).exists(_ > 0)))
     val charts =
@@ -29,8 +29,8 @@ private[report] final class ErrorCharts(points: Vector[CurvePoint], isEstimated:
     val marks = points.flatMap: point =>
       point.errors(metric).map: e =>
         val x = if axis == "seconds" then point.seconds else point.samples.toDouble
-        val when = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
-        val tip = s"$when: ${Numbers.short(e)}"
+        val moment = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
+        val tip = s"$moment: ${Numbers.short(e)}"
         Mark(x, e, e, e, tip)
     val label = if axis == "seconds" then "render time (s)" else "samples per pixel"
     val series = Series("this rendering", 0, isThin = false, marks)

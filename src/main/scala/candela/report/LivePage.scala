@@ -97,20 +97,20 @@ object LivePage:
     * it does to a channel's values v, at the places √(v / (1 + v)), and the matrices around it.
     */
   private def tables: Frag =
-    def numbers(all: Seq[Float]) = ujson.Arr.from(all.map(v => ujson.Num(v.toDouble)))
+    def numbers(values: Seq[Float]) = ujson.Arr.from(values.map(v => ujson.Num(v.toDouble)))
     def stages(curve: ToneCurve) =
       val table = Vector.tabulate(TableSize + 1): i =>
-        val place = Math.min(i.toFloat / TableSize, 0.9999f)
-        Math.min(curve.channel(place * place / (1 - place * place)), 2f)
+        val coordinate = Math.min(i.toFloat / TableSize, 0.9999f)
+        Math.min(curve.channel(coordinate * coordinate / (1 - coordinate * coordinate)), 2f)
       val mixing = curve.mixing.fold(ujson.Null: ujson.Value): (before, after) =>
         ujson.Arr(numbers(before), numbers(after))
       ujson.Obj("table" -> numbers(table), "mixing" -> mixing, "power" -> curve.power)
     val luminance = Vector(Rgb(1f, 0f, 0f), Rgb(0f, 1f, 0f), Rgb(0f, 0f, 1f)).map(_.luminance)
-    val all = ujson.Obj(
+    val display = ujson.Obj(
       "luminance" -> numbers(luminance),
       "curves" -> ujson.Obj.from(ToneCurve.values.map(c => c.word -> stages(c)))
     )
-    script(tpe := "application/json", id := "display", raw(ujson.write(all)))
+    script(tpe := "application/json", id := "display", raw(ujson.write(display)))
 
   private val TableSize = 1024
 

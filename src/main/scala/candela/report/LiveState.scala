@@ -94,7 +94,7 @@ object LiveData:
 
   /** The error curves, as part of the page. */
   def charts(points: Vector[CurvePoint], isEstimated: Boolean): String =
-    ErrorCharts(points, isEstimated).all.render
+    ErrorCharts(points, isEstimated).allCharts.render
 
   /** One pixel: the values of each layer, channel by channel. */
   def pixel(values: Vector[(String, Vector[(String, Float)])]): String =

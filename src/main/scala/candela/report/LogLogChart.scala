@@ -45,15 +45,15 @@ final class LogLogChart(
   private val marks = drawn.flatMap(_.marks)
   private val width = frame.width
   private val isNarrow = width < 500
-  private val least = marks.map(_.y).minOption.getOrElse(1.0)
+  private val minError = marks.map(_.y).minOption.getOrElse(1.0)
 
   /** The target, if it is within the chart and not below all curves. */
   private val shownGoal =
-    val place = LogAxis.around(marks.flatMap(m => Vector(m.y, m.low, m.high)), 1, 0)
-    goal.filter(g => place.at(g) >= 0 && place.at(g) <= place.at(least) + 0.003)
+    val yAxis = LogAxis.covering(marks.flatMap(m => Vector(m.y, m.low, m.high)), 1, 0)
+    goal.filter(g => yAxis.pixel(g) >= 0 && yAxis.pixel(g) <= yAxis.pixel(minError) + 0.003)
 
   private val guideLine = guideEnds
-  private val others =
+  private val guideEntries =
     guideSlope.filter(_ => guideLine.isDefined).map: slope =>
       val number = Numbers.fixed(slope, 1).stripSuffix(".0").replace('-', '−')
       s"independent samples, slope $number" -> "guideline"
@@ -61,12 +61,12 @@ final class LogLogChart(
 
   private val legend =
     Option.when(frame.isWhole)(
-      ChartLegend(series, others, 3, width - LeftMargin - RightMargin)
+      ChartLegend(series, guideEntries, 3, width - LeftMargin - RightMargin)
     )
   private val bottom = frame.height - legend.fold(BareBottom)(_.height + 52)
-  private val x = LogAxis.around(marks.map(_.x), LeftMargin, width - RightMargin)
+  private val x = LogAxis.covering(marks.map(_.x), LeftMargin, width - RightMargin)
   private val y =
-    LogAxis.around(marks.flatMap(m => Vector(m.y, m.low, m.high)), bottom, Top)
+    LogAxis.covering(marks.flatMap(m => Vector(m.y, m.low, m.high)), bottom, Top)
 
   def svg: Node = picture(width, frame.height, title)(content*)
 
@@ -74,29 +74,29 @@ final class LogLogChart(
 
   /** The contents without the svg element. */
   def content: Vector[Frag] =
-    val left = if isNarrow && frame.isWhole then 8.0 else LeftMargin
-    val words = text(left, 22, "charttitle", "start")(title) +:
+    val titleLeft = if isNarrow && frame.isWhole then 8.0 else LeftMargin
+    val words = text(titleLeft, 22, "charttitle", "start")(title) +:
       frame.note.map(text(LeftMargin, 39, "note", "start")(_)).toVector
     grid ++ goalLine ++ guide ++ drawn.map(curve) ++
-      legend.toVector.flatMap(_.at(LeftMargin, bottom + 54)) ++ words
+      legend.toVector.flatMap(_.entries(LeftMargin, bottom + 54)) ++ words
 
   private def goalLine: Vector[Frag] =
     shownGoal.toVector.map: g =>
       element("g", "class" -> "goal")(
-        line(LeftMargin, y.at(g), width - RightMargin, y.at(g), "goalline"),
+        line(LeftMargin, y.pixel(g), width - RightMargin, y.pixel(g), "goalline"),
         tip(s"target: ${Numbers.short(g)}")
       )
 
   private def grid: Vector[Frag] =
     val vertical = x.ticks.flatMap: value =>
       Vector(
-        line(x.at(value), Top, x.at(value), bottom, "grid"),
-        text(x.at(value), bottom + 16, "tick", "middle")(Numbers.tick(value))
+        line(x.pixel(value), Top, x.pixel(value), bottom, "grid"),
+        text(x.pixel(value), bottom + 16, "tick", "middle")(Numbers.tick(value))
       )
     val horizontal = y.ticks.flatMap: value =>
       Vector(
-        line(LeftMargin, y.at(value), width - RightMargin, y.at(value), "grid"),
-        text(LeftMargin - 8, y.at(value) + 4, "tick", "end")(Numbers.tick(value))
+        line(LeftMargin, y.pixel(value), width - RightMargin, y.pixel(value), "grid"),
+        text(LeftMargin - 8, y.pixel(value) + 4, "tick", "end")(Numbers.tick(value))
       )
     vertical ++ horizontal ++ (if frame.isWhole then labels else Vector.empty)
 
@@ -125,18 +125,18 @@ final class LogLogChart(
     guideLine.toVector.zip(guideSlope).map:
       case (((x0, y0), (x1, y1)), slope) =>
         element("g", "class" -> "guide")(
-          line(x.at(x0), y.at(y0), x.at(x1), y.at(y1), "guideline"),
+          line(x.pixel(x0), y.pixel(y0), x.pixel(x1), y.pixel(y1), "guideline"),
           tip(s"slope ${Numbers.fixed(slope, 1)}: convergence of independent samples")
         )
 
   private def curve(s: Series): Frag =
     val css = cssOf(s)
-    val path = s.marks.map(m => s"${px(x.at(m.x))},${px(y.at(m.y))}").mkString(" ")
+    val path = s.marks.map(m => s"${px(x.pixel(m.x))},${px(y.pixel(m.y))}").mkString(" ")
     val bars =
       for m <- s.marks if m.low > 0 && m.high > m.low * 1.001
-      yield line(x.at(m.x), y.at(m.low), x.at(m.x), y.at(m.high), "bar")
+      yield line(x.pixel(m.x), y.pixel(m.low), x.pixel(m.x), y.pixel(m.high), "bar")
     val dots = s.marks.map: m =>
-      element("circle", "cx" -> px(x.at(m.x)), "cy" -> px(y.at(m.y)), "r" -> "4")(tip(m.tip))
+      element("circle", "cx" -> px(x.pixel(m.x)), "cy" -> px(y.pixel(m.y)), "r" -> "4")(tip(m.tip))
     element("g", "class" -> css, "data-series" -> s.name)(
       frag((element("polyline", "points" -> path)() +: (bars ++ dots))*)
     )

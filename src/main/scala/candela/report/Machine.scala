@@ -37,7 +37,7 @@ object Machine:
   /** Load that falsifies times: half a processor is busy. */
   private val Busy = 0.5
 
-  def here(): Machine =
+  def current(): Machine =
     def property(name: String) = System.getProperty(name, "?")
     val system = ManagementFactory.getOperatingSystemMXBean
     Machine(

@@ -20,8 +20,8 @@ private[report] object PackedPicture:
     loop(count): i =>
       // Rounds off the dropped byte.
       val bits = java.lang.Float.floatToRawIntBits(image.data(i))
-      val kept = if java.lang.Float.isFinite(image.data(i)) then bits + 0x80 else bits
-      loop(3)(plane => bytes(plane * count + i) = (kept >>> (24 - 8 * plane)).toByte)
+      val rounded = if java.lang.Float.isFinite(image.data(i)) then bits + 0x80 else bits
+      loop(3)(plane => bytes(plane * count + i) = (rounded >>> (24 - 8 * plane)).toByte)
     packed(bytes)
 
   /** One channel with values [0, 1], quantised to 8 bits. */
@@ -29,12 +29,12 @@ private[report] object PackedPicture:
     packed(map.data.map(v => Math.round(Math.min(1f, Math.max(0f, v)) * 255).toByte))
 
   /** Downsampled by two (2×2 averages) until it has at most `limit` pixels. */
-  def reduced(image: Image, limit: Int = MostPixels): Image =
+  def reduced(image: Image, limit: Int = MaxPixels): Image =
     if image.width.toLong * image.height <= limit || image.width < 2 || image.height < 2 then image
     else reduced(halved(image), limit)
 
   /** About 20 MB of page for two images. */
-  val MostPixels = 2_000_000
+  val MaxPixels = 2_000_000
 
   private def halved(image: Image): Image =
     val (width, height, n) = (image.width / 2, image.height / 2, image.channels)

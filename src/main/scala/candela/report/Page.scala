@@ -19,12 +19,12 @@ private[candela] object Page:
 
   /** A page that asks the program.
     *
-    * @param also further style and script, by name
+    * @param script further style and script, by name
     */
-  def served(heading: String, subtitle: Frag, version: String, also: String)(
+  def served(heading: String, subtitle: Frag, version: String, script: String)(
       parts: Frag*
   ): String =
-    template(heading, subtitle, Vector("page", also))(
+    template(heading, subtitle, Vector("page", script))(
       parts,
       p(
         cls := "soft",
@@ -36,7 +36,7 @@ private[candela] object Page:
   private def template(heading: String, subtitle: Frag, sources: Vector[String])(
       parts: Frag*
   ): String =
-    def all(suffix: String) = sources.map(n => resource(s"$n.$suffix")).mkString
+    def resources(suffix: String) = sources.map(n => resource(s"$n.$suffix")).mkString
     val page = tag("html")(
       lang := "en",
       tag("head")(
@@ -45,7 +45,7 @@ private[candela] object Page:
         tag("title")(heading),
         // No icon: browsers would ask for one.
         link(attr("rel") := "icon", href := "data:,"),
-        tag("style")(raw(all("css") + chartStyle))
+        tag("style")(raw(resources("css") + chartStyle))
       ),
       body(
         tag("header")(
@@ -53,18 +53,20 @@ private[candela] object Page:
           button(id := "theme", "light / dark")
         ),
         parts,
-        script(raw(all("js")))
+        script(raw(resources("js")))
       )
     )
     "<!DOCTYPE html>\n" + page.render
 
   /** What is said of a reference's own error, which the errors lack. */
-  def subtracted(own: OwnError, errors: Vector[Errors]): String =
-    val lost = errors.count(_.isUnresolved)
+  def subtracted(ownError: OwnError, errors: Vector[Errors]): String =
+    val unresolvedCount = errors.count(_.isUnresolved)
     val unresolved =
-      if lost == 0 then ""
-      else s" $lost of ${errors.size} errors are below it: they are shown as 0, and not resolved."
-    s"The reference's own error, a relative MSE of ${Numbers.short(own.relativeMse)}, is " +
+      if unresolvedCount == 0 then ""
+      else
+        s" $unresolvedCount of ${errors.size} errors are below it: they are shown as 0, and not " +
+          "resolved."
+    s"The reference's own error, a relative MSE of ${Numbers.short(ownError.relativeMse)}, is " +
       s"subtracted from MSE and relative MSE.$unresolved"
 
   def chartStyle: String = resource("chart.css")

@@ -14,7 +14,7 @@ object RenderPage:
     Page.html(s"Report: ${r.scene}", against, r.version)(
       tiles(r, charts),
       h2("Error over time"),
-      charts.all,
+      charts.allCharts,
       explained(r),
       h2("Figures"),
       figures(r),
@@ -42,33 +42,33 @@ object RenderPage:
     )
 
   private def tiles(r: RenderReport, charts: ErrorCharts): Frag =
-    val last = r.points.lastOption
+    val finalPoint = r.points.lastOption
     val slope = LogLogFit.slope(r.points.map(p => (p.samples.toDouble, p.errors.relativeMse)))
     div(
       cls := "tiles",
-      last.map(p => Page.tile(relative(p), charts.word("relative MSE"))),
-      last.map(p => Page.tile(s"${Numbers.short(p.seconds)} s", "rendering")),
-      last.map(p => Page.tile(p.samples.toString, "samples per pixel")),
-      last.filter(p => p.errors.relativeMse > 0).map: p =>
+      finalPoint.map(p => Page.tile(relative(p), charts.word("relative MSE"))),
+      finalPoint.map(p => Page.tile(s"${Numbers.short(p.seconds)} s", "rendering")),
+      finalPoint.map(p => Page.tile(p.samples.toString, "samples per pixel")),
+      finalPoint.filter(p => p.errors.relativeMse > 0).map: p =>
         val efficiency = 1 / (p.errors.relativeMse * Math.max(p.seconds, 1e-9))
         Page.tile(Numbers.short(efficiency), "efficiency, 1 / (relative MSE · s)")
       ,
       slope.map(s => Page.tile(Numbers.fixed(s, 2), "slope of error against samples")),
-      last.flatMap(_.errors.flip).map(f => Page.tile(Numbers.short(f), "FLIP"))
+      finalPoint.flatMap(_.errors.flip).map(f => Page.tile(Numbers.short(f), "FLIP"))
     )
 
   private def explained(r: RenderReport): Frag =
-    val what =
+    val explanation =
       if r.reference.isDefined then
         "One rendering with one seed, without the variation between seeds. " +
           "`candela bench` renders several seeds and plots error bars." +
-          r.own.fold("")(own => s" ${Page.subtracted(own, r.points.map(_.errors))}")
+          r.ownError.fold("")(ownError => s" ${Page.subtracted(ownError, r.points.map(_.errors))}")
       else
         "Without a reference, bias is unknown, and so is light that no path has found. The " +
           "error is estimated from the difference between two halves of the samples, and how " +
           "that falls. The limits behind it hold the true one in 95 % of renderings, over scenes " +
           "of many kinds."
-    p(cls := "soft", what)
+    p(cls := "soft", explanation)
 
   private def figures(r: RenderReport): Frag =
     val head = Vector("samples", "seconds", "relative MSE", "MSE", "MAE", "PSNR", "FLIP") :+

@@ -50,7 +50,7 @@ final case class RenderReport(
     costs: Vector[CostFigure] = Vector.empty
 ):
   /** The reference's own error, which is subtracted, if it is known. */
-  def own: Option[OwnError] = points.lastOption.flatMap(_.errors.own)
+  def ownError: Option[OwnError] = points.lastOption.flatMap(_.errors.own)
   def width: Int = pictures.head.image.width
   def height: Int = pictures.head.image.height
 
@@ -61,12 +61,12 @@ final case class PassSpan(samples: Int, begin: Double, end: Double, workers: Vec
 object RenderData:
 
   def json(r: RenderReport): String =
-    val all = ujson.Obj(
+    val report = ujson.Obj(
       "program" -> "candela",
       "version" -> r.version,
       "scene" -> r.scene,
       "reference" -> r.reference.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
-      "referenceError" -> own(r.own),
+      "referenceError" -> ownError(r.ownError),
       "estimated" -> r.reference.isEmpty,
       "width" -> r.width,
       "height" -> r.height,
@@ -83,8 +83,8 @@ object RenderData:
       "points" -> ujson.Arr.from(r.points.map(point))
     )
     if r.learned.nonEmpty then
-      all("guiding") = ujson.Obj.from(r.learned.map(f => f.key -> number(f.value)))
-    ujson.write(all, indent = 2) + "\n"
+      report("guiding") = ujson.Obj.from(r.learned.map(f => f.key -> number(f.value)))
+    ujson.write(report, indent = 2) + "\n"
 
   def csv(r: RenderReport): String =
     val head = "samples,seconds,mse,relmse,mae,psnr,flip,mean_ratio_r,mean_ratio_g,mean_ratio_b," +
@@ -92,16 +92,21 @@ object RenderData:
     val rows = r.points.map: p =>
       val e = p.errors
       val ratios = e.meanRatio.map(_.toString).padTo(3, "")
-      val known = Vector(e.mae, e.psnr, e.flip).map(_.fold("")(_.toString))
+      val optionalErrors = Vector(e.mae, e.psnr, e.flip).map(_.fold("")(_.toString))
       val limits = Vector(p.interval.map(_.low), p.interval.map(_.high).filter(_.isFinite))
         .map(_.fold("")(_.toString))
-      (Vector(p.samples, p.seconds, e.mse, e.relativeMse).map(_.toString) ++ known ++ ratios ++
+      (Vector(
+        p.samples,
+        p.seconds,
+        e.mse,
+        e.relativeMse
+      ).map(_.toString) ++ optionalErrors ++ ratios ++
         limits)
         .mkString(",")
     (head +: rows).map(_ + "\n").mkString
 
   /** The own error of a reference; null if it is unknown. */
-  def own(error: Option[OwnError]): ujson.Value = error.fold(ujson.Null: ujson.Value): o =>
+  def ownError(error: Option[OwnError]): ujson.Value = error.fold(ujson.Null: ujson.Value): o =>
     ujson.Obj("mse" -> number(o.mse), "relmse" -> number(o.relativeMse))
 
   def machine(m: Machine): ujson.Obj = ujson.Obj(
@@ -129,7 +134,7 @@ object RenderData:
 
   private def point(p: CurvePoint): ujson.Obj =
     val e = p.errors
-    def known(figure: Option[Double]) = figure.fold(ujson.Null: ujson.Value)(number)
+    def optional(figure: Option[Double]) = figure.fold(ujson.Null: ujson.Value)(number)
     ujson.Obj(
       "samples" -> p.samples,
       "seconds" -> p.seconds,
@@ -137,8 +142,8 @@ object RenderData:
       "relmse" -> number(e.relativeMse),
       "relmseInterval" -> p.interval.fold(ujson.Null: ujson.Value): i =>
         ujson.Obj("low" -> number(i.low), "high" -> number(i.high)),
-      "mae" -> known(e.mae),
-      "psnr" -> known(e.psnr),
-      "flip" -> known(e.flip),
+      "mae" -> optional(e.mae),
+      "psnr" -> optional(e.psnr),
+      "flip" -> optional(e.flip),
       "meanRatio" -> ujson.Arr.from(e.meanRatio.map(number))
     )

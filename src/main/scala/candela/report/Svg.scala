@@ -42,8 +42,8 @@ private[report] object Svg:
   /** A standalone file with the charts' style. */
   def standalone(width: Double, height: Double, label: String)(content: Vector[Frag]): String =
     val style = element("style")(scalatags.Text.all.raw(Page.chartStyle))
-    val back = element("rect", "width" -> "100%", "height" -> "100%", "class" -> "back")()
-    picture(width, height, label)((Vector(style, back) ++ content)*).render
+    val background = element("rect", "width" -> "100%", "height" -> "100%", "class" -> "back")()
+    picture(width, height, label)((Vector(style, background) ++ content)*).render
 
   /** A group translated right and down. */
   def moved(x: Double, y: Double)(children: Vector[Frag]): Node =

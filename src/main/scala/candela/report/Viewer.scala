@@ -12,12 +12,15 @@ import scalatags.Text.all.*
 private[candela] object Viewer:
 
   def apply(pictures: Vector[Picture]): Frag =
-    val shown = pictures.map(p => p.copy(image = PackedPicture.reduced(p.image.toRgb)))
-    val reference = shown.find(_.isReference)
+    val reduced = pictures.map(p => p.copy(image = PackedPicture.reduced(p.image.toRgb)))
+    val reference = reduced.find(_.isReference)
     val full = pictures.head.image
-    val first = shown.head.image
-    val smaller = Option.when(first.width < full.width):
-      p(cls := "soft", s"Shown with ${first.width}×${first.height} of ${full.width}×${full.height}")
+    val firstImage = reduced.head.image
+    val smaller = Option.when(firstImage.width < full.width):
+      p(
+        cls := "soft",
+        s"Shown with ${firstImage.width}×${firstImage.height} of ${full.width}×${full.height}"
+      )
     div(
       cls := "viewer card",
       div(
@@ -49,7 +52,7 @@ private[candela] object Viewer:
         span(
           cls := "heat",
           attr("hidden") := "",
-          select(cls := "metric", attr("aria-label") := "metric", metrics(shown)),
+          select(cls := "metric", attr("aria-label") := "metric", metrics(reduced)),
           " 0",
           span(cls := "scale", style := s"background:linear-gradient(90deg,$gradient)"),
           span(cls := "most"),
@@ -60,7 +63,7 @@ private[candela] object Viewer:
       div(cls := "readout"),
       p(cls := "soft", keys),
       smaller,
-      script(tpe := "application/json", raw(json(shown, reference)))
+      script(tpe := "application/json", raw(json(reduced, reference)))
     )
 
   /** A picture that takes keys when it has the focus, and the wheel then, too.
@@ -82,9 +85,9 @@ private[candela] object Viewer:
     span(
       cls := "choice zooms",
       Vector(("in", "zoom in", "+"), ("out", "zoom out", "−"), ("whole", "", "whole image")).map:
-        (what, words, shown) =>
+        (direction, words, caption) =>
           val named = Option.when(words.nonEmpty)(attr("aria-label") := words)
-          button(data("zoom") := what, named, shown)
+          button(data("zoom") := direction, named, caption)
     )
 
   private val keys =
@@ -93,20 +96,20 @@ private[candela] object Viewer:
       "exposure, and the wheel zooms; with Ctrl it always does."
 
   private def modes(hasReference: Boolean): Vector[Frag] =
-    val all = Vector("slider" -> "slider", "flip" -> "flip (click the image)") ++
+    val choices = Vector("slider" -> "slider", "flip" -> "flip (click the image)") ++
       Option.when(hasReference)("heat" -> "error of A")
-    all.map: (mode, words) =>
+    choices.map: (mode, words) =>
       button(data("mode") := mode, attr("aria-pressed") := "false", words)
 
-  private def metrics(shown: Vector[Picture]): Vector[Frag] =
-    val all = Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae) ++
-      Option.when(shown.exists(_.isReference))(Metric.Flip)
-    all.map(m => option(value := m.word, m.title))
+  private def metrics(pictures: Vector[Picture]): Vector[Frag] =
+    val choices = Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae) ++
+      Option.when(pictures.exists(_.isReference))(Metric.Flip)
+    choices.map(m => option(value := m.word, m.title))
 
   private def gradient: String = Magma.Colors.map("#%06x".format(_)).mkString(",")
 
-  private def json(shown: Vector[Picture], reference: Option[Picture]): String =
-    val packed = shown.map: p =>
+  private def json(pictures: Vector[Picture], reference: Option[Picture]): String =
+    val packed = pictures.map: p =>
       val flip = reference.filterNot(_ eq p).map: r =>
         ujson.Str(PackedPicture.bytes(ErrorMap(Metric.Flip, ImagePair(p.image, r.image))))
       ujson.Obj(
@@ -115,14 +118,14 @@ private[candela] object Viewer:
         "data" -> PackedPicture.floats(finite(p.image)),
         "flip" -> flip.getOrElse(ujson.Null)
       )
-    val all = ujson.Obj(
-      "width" -> shown.head.image.width,
-      "height" -> shown.head.image.height,
+    val content = ujson.Obj(
+      "width" -> pictures.head.image.width,
+      "height" -> pictures.head.image.height,
       "magma" -> ujson.Arr.from(Magma.Colors),
       "pictures" -> ujson.Arr.from(packed)
     )
     // Within a page, a name with </script> would end the script.
-    ujson.write(all, escapeUnicode = true).replace("</", "<\\/")
+    ujson.write(content, escapeUnicode = true).replace("</", "<\\/")
 
   /** Without NaN and infinity, which the script can't read. */
   private def finite(image: Image): Image =

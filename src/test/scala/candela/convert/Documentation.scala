@@ -32,7 +32,7 @@ object Documentation:
     s"${step.source} → $target"
 
   private def row(r: Rule, common: Set[String]): String =
-    val names = r.from.map(n => s"`\"$n\"`").mkString(", ")
+    val names = r.sourceNames.map(n => s"`\"$n\"`").mkString(", ")
     val note = r.note.fold("")(n => s"*Approximate, with a warning: $n.*<br>")
     val steps = r.steps.map(written).filterNot(common).mkString("<br>")
     s"| $names | `\"${r.to}\"` | $note$steps |\n".replace("  |", " |")

@@ -20,5 +20,5 @@ class DocumentationSuite extends AnyFunSuite:
       pass <- Vector(FromV2.pass, ToV4View.pass, ToV3View.pass)
       table <- pass.tables
     do
-      val names = table.rules.flatMap(_.from)
+      val names = table.rules.flatMap(_.sourceNames)
       assert(names == names.distinct)

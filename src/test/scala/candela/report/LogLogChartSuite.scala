@@ -64,7 +64,7 @@ class LogLogChartSuite extends AnyFunSuite:
 
   test("axes have between three and twelve ticks, of round numbers"):
     for high <- Vector(1.2, 2.0, 7.0, 30.0, 500.0, 1e5, 1e9) do
-      val ticks = LogAxis.around(Vector(1.0, high), 0, 100).ticks
+      val ticks = LogAxis.covering(Vector(1.0, high), 0, 100).ticks
       assert(ticks.size >= 2 && ticks.size <= 12, s"$high: $ticks")
     val words = Vector(0.01, 1e-5, 100, 0.15, 1.5, 2e-6).map(Numbers.tick)
     assert(words == Vector("0.01", "10⁻⁵", "100", "0.15", "1.5", "2·10⁻⁶"))

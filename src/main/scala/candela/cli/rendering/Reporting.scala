@@ -15,7 +15,7 @@ import candela.settings.{RenderRegion, TextForm}
 /** Report about one rendering: checked before rendering starts, written when it ends. */
 final class Reporting(options: Options, scene: String, loaded: Prepared):
   private val paths: Vector[Path] = ReportFiles.checked(options.reports)
-  private val machine = Machine.here()
+  private val machine = Machine.current()
 
   val recorder: RenderRecorder = RenderRecorder.of(loaded.plan, options.reference)
 

@@ -47,7 +47,7 @@ class SuiteGrowthSuite extends AnyFunSuite:
 
   test("sizes rise, whatever the order of the suite"):
     val Vector(first, second) = report.growing: @unchecked
-    assert((first.of, second.of) == ("spheres", "knots"))
+    assert((first.quantity, second.quantity) == ("spheres", "knots"))
     assert(first.seconds("fast").map(_._1) == Vector(100.0, 1000.0, 10_000.0, 1_000_000.0))
     assert(first.seconds("slow").isEmpty)
 
@@ -57,8 +57,8 @@ class SuiteGrowthSuite extends AnyFunSuite:
     val time = GrowingScenes.exponent(first.seconds("fast")).get
     assert(time > 0.2 && time < 1)
     assert(GrowingScenes.exponent(first.seconds("fast").take(1)).isEmpty)
-    assert(Math.abs(GrowingScenes.each(first.memory("fast")).get - 250) < 1)
-    assert(GrowingScenes.each(first.memory("fast").take(1)).isEmpty)
+    assert(Math.abs(GrowingScenes.marginal(first.memory("fast")).get - 250) < 1)
+    assert(GrowingScenes.marginal(first.memory("fast").take(1)).isEmpty)
 
   test("what grows faster than in proportion is marked"):
     val second = report.growing(1)

@@ -41,14 +41,14 @@ private[report] object BiasTable:
   private def row(b: BiasAgainst): Vector[Frag] =
     val isFound = b.test.p < 0.05
     val chance = Numbers.short(b.test.p)
-    val where = b.test.worst.headOption.fold("–"): r =>
+    val location = b.test.worst.headOption.fold("–"): r =>
       val w = r.window
       s"${r.channel} in x ${w.x0} to ${w.x1}, y ${w.y0} to ${w.y1}: ${ratio(r)}"
     Vector[Frag](
       b.program,
       if isFound then tag("b")(chance) else chance,
       b.test.whole.map(ratio).mkString(", "),
-      where
+      location
     )
 
   private def ratio(r: BiasRegion): String =

@@ -9,7 +9,7 @@ object RobustnessData:
   private final val Format = 1
 
   def json(r: RobustnessReport): String =
-    val all = ujson.Obj(
+    val report = ujson.Obj(
       "format" -> Format,
       "version" -> r.version,
       "begun" -> r.begun,
@@ -23,7 +23,7 @@ object RobustnessData:
       "leftOut" -> ujson.Arr.from(r.leftOut.map((what, why) => ujson.Arr(what, why))),
       "kept" -> r.broken.isEmpty
     )
-    ujson.write(all, indent = 2) + "\n"
+    ujson.write(report, indent = 2) + "\n"
 
   private def group(r: RobustnessReport, g: RobustGroup): ujson.Obj = ujson.Obj(
     "key" -> g.key,

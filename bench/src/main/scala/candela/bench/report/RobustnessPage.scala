@@ -8,9 +8,9 @@ import scalatags.Text.all.*
 object RobustnessPage:
 
   def html(r: RobustnessReport): String =
-    val when = s"${r.begun} on ${r.machine.processor}, ${r.machine.java}"
+    val conditions = s"${r.begun} on ${r.machine.processor}, ${r.machine.java}"
     val broken = r.broken.map((g, row) => s"${g.title}: ${row.what}")
-    Page.html("Numerical robustness", when, r.version)(
+    Page.html("Numerical robustness", conditions, r.version)(
       Option.when(broken.nonEmpty)(div(
         cls := "warning",
         attr("role") := "note",
@@ -38,8 +38,8 @@ object RobustnessPage:
   private def group(r: RobustnessReport, g: RobustGroup): Frag =
     val programs = r.programsOf(g)
     val hasValues = g.rows.exists(RobustnessText.expected(_).isDefined)
-    val first = if g.per > 0 then s"per ${Numbers.tick(g.per)}" else "scene"
-    val head = Vector(first) ++ Option.when(hasValues)("expected") ++ programs.map(_.title)
+    val rowLabel = if g.per > 0 then s"per ${Numbers.tick(g.per)}" else "scene"
+    val head = Vector(rowLabel) ++ Option.when(hasValues)("expected") ++ programs.map(_.title)
     val rows = g.rows.map: row =>
       val expected = Option.when(hasValues)(td(RobustnessText.expected(row).getOrElse("")))
       val cells = programs.map: p =>

@@ -27,8 +27,10 @@ object RobustnessText:
 
   /** Value that is right, if it is one for all programs. */
   def expected(row: RobustRow): Option[String] =
-    val all = row.cells.values.collect { case Robust.Mean(_, _, e, _) => e }.toVector.distinct
-    Option.when(all.sizeIs == 1)(Numbers.short(all.head))
+    val expectedValues = row.cells.values.collect { case Robust.Mean(_, _, e, _) =>
+      e
+    }.toVector.distinct
+    Option.when(expectedValues.sizeIs == 1)(Numbers.short(expectedValues.head))
 
   /** Markdown: a table for each group. */
   def markdown(r: RobustnessReport): String =
@@ -42,9 +44,9 @@ object RobustnessText:
         "number of trials in the table's head. Blank: not measured."
     )
     val groups = r.groups.flatMap(group(r, _))
-    val without = r.leftOut.map((what, why) => s"- $what: $why")
-    val left = if without.isEmpty then without else Vector("", "Not run:", "") ++ without
-    (head ++ groups ++ left).mkString("", "\n", "\n")
+    val omissions = r.leftOut.map((what, why) => s"- $what: $why")
+    val notRun = if omissions.isEmpty then omissions else Vector("", "Not run:", "") ++ omissions
+    (head ++ groups ++ notRun).mkString("", "\n", "\n")
 
   private def group(r: RobustnessReport, g: RobustGroup): Vector[String] =
     val programs = r.programsOf(g)

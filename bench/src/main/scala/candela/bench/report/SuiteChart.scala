@@ -9,11 +9,12 @@ object SuiteChart:
   /** Standalone chart of the relative MSE against time; of scenes that grow, of time and memory. */
   def svg(r: SuiteReport): String =
     if r.growing.nonEmpty then GrowthPart.grid(r, r.growing).standalone
-    else if r.scenes.sizeIs == 1 then of(r.scenes.head, Metric.RelativeMse, "seconds").standalone
-    else all(r).standalone
+    else if r.scenes.sizeIs == 1 then
+      errorChart(r.scenes.head, Metric.RelativeMse, "seconds").standalone
+    else overview(r).standalone
 
   /** Small charts of all scenes; each subtitle names the winner. */
-  private[report] def all(r: SuiteReport, columns: Int = ChartGrid.Columns): ChartGrid =
+  private[report] def overview(r: SuiteReport, columns: Int = ChartGrid.Columns): ChartGrid =
     val legend = r.scenes.flatMap(_.programs).distinctBy(_.name)
       .map(p => Series(p.title, p.color, p.isThin, Vector.empty))
     val panels = r.scenes.map: s =>
@@ -24,7 +25,7 @@ object SuiteChart:
     "Relative MSE against total time in seconds, both logarithmic: further left is faster, " +
       "lower is better. Dashed: the target error. Dotted: the slope of independent samples."
 
-  def of(
+  def errorChart(
       s: SceneResult,
       metric: Metric,
       axis: String,
@@ -38,8 +39,8 @@ object SuiteChart:
       val marks = p.curve.points.lastOption.toVector.flatMap(_.spectrum).map: band =>
         val spread = if band.deviation.isNaN then 0 else band.deviation
         val low = Math.max(band.power - spread, band.power / 10)
-        val place = s"${Numbers.short(band.frequency)} cycles per pixel"
-        val tip = s"${p.title}: $place, power ${Numbers.short(band.power)}"
+        val frequency = s"${Numbers.short(band.frequency)} cycles per pixel"
+        val tip = s"${p.title}: $frequency, power ${Numbers.short(band.power)}"
         Mark(band.frequency, band.power, low, band.power + spread, tip)
       Series(p.title, p.color, p.isThin, marks)
     Option.when(curves.exists(_.marks.nonEmpty)):
@@ -65,10 +66,10 @@ object SuiteChart:
         val x = if axis == "seconds" then point.seconds else point.samples.toDouble
         val (low, high) = if i.isKnown then (i.low, i.high) else (i.estimate, i.estimate)
         // On a logarithmic axis a bar that reaches 0 or has no upper limit is unbounded.
-        val (shown, top) = (Math.max(low, i.estimate / 10), Math.min(high, i.estimate * 10))
-        val when = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
+        val (bottom, top) = (Math.max(low, i.estimate / 10), Math.min(high, i.estimate * 10))
+        val moment = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
         val figure = Numbers.range(i)
-        Mark(x, i.estimate, shown, top, s"${p.title}: $when, ${metric.title} $figure")
+        Mark(x, i.estimate, bottom, top, s"${p.title}: $moment, ${metric.title} $figure")
     Series(p.title, p.color, p.isThin, marks)
 
   /** The first program to reach the scene's target, and the next one's time. */
@@ -80,5 +81,5 @@ object SuiteChart:
     times.headOption match
       case None => s"$goal was not reached"
       case Some((name, t)) =>
-        val next = times.lift(1).fold("")((_, later) => s" (next ${seconds(later)})")
-        s"$goal first: $name, ${seconds(t)}$next"
+        val runnerUp = times.lift(1).fold("")((_, later) => s" (next ${seconds(later)})")
+        s"$goal first: $name, ${seconds(t)}$runnerUp"

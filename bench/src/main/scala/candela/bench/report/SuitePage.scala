@@ -11,10 +11,10 @@ object SuitePage:
   /** @param hasPictures if false, omits images, which keeps the page small enough for a repository
     */
   def html(r: SuiteReport, hasPictures: Boolean = true): String =
-    val when = s"${r.begun} on ${r.machine.processor}, ${r.machine.cores} hardware threads"
+    val conditions = s"${r.begun} on ${r.machine.processor}, ${r.machine.cores} hardware threads"
     // Of scenes that grow, time and memory matter, not the error
     val judged = r.copy(scenes = r.scenes.filter(_.growth.isEmpty))
-    Page.html(r.title, when, r.version)(
+    Page.html(r.title, conditions, r.version)(
       warnings(r),
       GrowthPart(r.growing),
       Option.when(judged.scenes.nonEmpty)(errors(judged, hasPictures)),
@@ -52,19 +52,19 @@ object SuitePage:
       Option.when(r.scenes.sizeIs > 1)(
         div(
           cls := "card chart",
-          Page.fitting(SuiteChart.all(r).svg, SuiteChart.all(r, columns = 1).svg)
+          Page.fitting(SuiteChart.overview(r).svg, SuiteChart.overview(r, columns = 1).svg)
         )
       ),
       r.scenes.map(scene(_, hasPictures))
     )
 
   private def warnings(r: SuiteReport): Option[Frag] =
-    val all = r.business.toVector ++ r.disturbances
-    Option.when(all.nonEmpty):
+    val messages = r.business.toVector ++ r.disturbances
+    Option.when(messages.nonEmpty):
       div(
         cls := "warning",
         attr("role") := "note",
-        all.map(words => p(s"⚠ ${words.head.toUpper}${words.tail}."))
+        messages.map(words => p(s"⚠ ${words.head.toUpper}${words.tail}."))
       )
 
   /** A row for each scene, a column for each program.
@@ -79,14 +79,14 @@ object SuitePage:
     val head = Vector("scene", keys) ++ programs.map(_._2)
     val rows = r.scenes.map: s =>
       val figures = s.programs.map(p => p.name -> (figure(s, p), p.isDisturbed)).toMap
-      val best = figures.values.flatMap(_._1).map(_._1).minOption
+      val minFigure = figures.values.flatMap(_._1).map(_._1).minOption
       val cells = programs.map: (name, _) =>
         figures.get(name) match
           case None => td()
           case Some((None, _)) => td("–")
           case Some((Some((number, text)), isDisturbed)) =>
             val mark = Option.when(isDisturbed || r.business.isDefined)(" ⚠")
-            td(Option.when(best.contains(number))(cls := "best"), text, mark)
+            td(Option.when(minFigure.contains(number))(cls := "best"), text, mark)
       tr(td(s.title), td(key(s).getOrElse("–")), cells)
     Page.scrolling(head, rows)
 
@@ -96,9 +96,9 @@ object SuitePage:
         metric <- Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae, Metric.Flip)
         axis <- Vector("seconds", "samples")
       yield
-        def shaped(frame: ChartFrame) = SuiteChart.of(s, metric, axis, frame).svg
-        val both = Page.fitting(shaped(ChartFrame.Whole), shaped(ChartFrame.Narrow))
-        (metric.word, metric.title, axis, both)
+        def shaped(frame: ChartFrame) = SuiteChart.errorChart(s, metric, axis, frame).svg
+        val graphic = Page.fitting(shaped(ChartFrame.Whole), shaped(ChartFrame.Narrow))
+        (metric.word, metric.title, axis, graphic)
     val pictures = s.programs.map(p => Picture(p.title, p.picture)) :+
       Picture(
         if s.referenceName.isDefined then "reference" else "mean",
@@ -131,12 +131,12 @@ object SuitePage:
     )
 
   private def spectrum(s: SceneResult): Frag =
-    val both =
+    val graphic =
       for
-        whole <- SuiteChart.spectrum(s)
+        wide <- SuiteChart.spectrum(s)
         narrow <- SuiteChart.spectrum(s, ChartFrame.Narrow)
-      yield Page.fitting(whole.svg, narrow.svg)
-    both.fold(frag()): chart =>
+      yield Page.fitting(wide.svg, narrow.svg)
+    graphic.fold(frag()): chart =>
       frag(
         h3("Error by spatial frequency"),
         div(cls := "card chart", chart),
@@ -151,20 +151,20 @@ object SuitePage:
 
   private def ownError(s: SceneResult): String =
     val errors = s.programs.flatMap(_.curve.points.flatMap(_.runs.map(_.errors)))
-    s.own.fold("")(Page.subtracted(_, errors))
+    s.ownError.fold("")(Page.subtracted(_, errors))
 
   private val Head = Vector("program", "samples", "seconds", "relative MSE", "FLIP") ++
     Vector("mean ratio R, G, B", "slope", "efficiency", "seconds to target") ++
     Vector("first image, s", "peak memory, MB", "other programs")
 
   private def row(s: SceneResult, p: ProgramResult): Vector[Frag] =
-    val last = p.curve.points.last
+    val finalPoint = p.curve.points.last
     Vector(
       p.title,
-      last.samples.toString,
-      Numbers.short(last.seconds),
-      last(Metric.RelativeMse).fold("–")(estimate),
-      last(Metric.Flip).fold("–")(i => Numbers.short(i.estimate)),
+      finalPoint.samples.toString,
+      Numbers.short(finalPoint.seconds),
+      finalPoint(Metric.RelativeMse).fold("–")(estimate),
+      finalPoint(Metric.Flip).fold("–")(i => Numbers.short(i.estimate)),
       p.curve.meanRatio.map(Numbers.fixed(_, 4)).mkString(", "),
       p.curve.slope.fold("–")(Numbers.plusMinus(_, Numbers.fixed(_, 2))),
       p.curve.efficiency.fold("–")(estimate),
@@ -181,16 +181,16 @@ object SuitePage:
     val head = Vector("program", "relative MSE", "deviation over seeds") ++
       Vector("worst hundredth of pixels", "efficiency", "seconds to target")
     val rows = s.programs.map: p =>
-      val last = p.curve.points.last
-      val error = last(Metric.RelativeMse)
+      val finalPoint = p.curve.points.last
+      val error = finalPoint(Metric.RelativeMse)
       val share =
-        for e <- error; d <- last.deviation(Metric.RelativeMse) if e.estimate > 0
+        for e <- error; d <- finalPoint.deviation(Metric.RelativeMse) if e.estimate > 0
         yield Numbers.percentage(d / e.estimate)
       Vector(
         p.title,
         error.fold("–")(Numbers.range),
         share.getOrElse("–"),
-        last.worst.fold("–")(Numbers.percentage),
+        finalPoint.worst.fold("–")(Numbers.percentage),
         p.curve.efficiency.fold("–")(Numbers.range),
         p.curve.secondsUntil(s.target).fold("–")(Numbers.range)
       ).map(stringFrag)

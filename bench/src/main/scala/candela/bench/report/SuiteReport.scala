@@ -54,14 +54,14 @@ final case class SceneResult(
     growth: Option[Growth] = None
 ):
   /** The reference's own error, which is subtracted, if it is known. */
-  def own: Option[OwnError] =
+  def ownError: Option[OwnError] =
     programs.flatMap(_.curve.points.flatMap(_.runs.flatMap(_.errors.own))).headOption
 
   /** The longest time, in seconds, for which all programs' errors are known. */
   val equalTime: Option[Double] =
     val spans = programs.flatMap(_.curve.span)
-    val least = spans.map(_._1).maxOption
-    spans.map(_._2).minOption.filter(end => least.exists(_ <= end))
+    val latestStart = spans.map(_._1).maxOption
+    spans.map(_._2).minOption.filter(end => latestStart.exists(_ <= end))
 
   def errorAtEqualTime(p: ProgramResult): Option[Double] = equalTime.flatMap(p.curve.errorAt)
 
@@ -107,7 +107,7 @@ object SuiteData:
   val SchemaVersion = 1
 
   def json(r: SuiteReport): String =
-    val all = ujson.Obj(
+    val report = ujson.Obj(
       "schemaVersion" -> SchemaVersion,
       "title" -> r.title,
       "version" -> r.version,
@@ -118,7 +118,7 @@ object SuiteData:
       "scenes" -> ujson.Arr.from(r.scenes.map(scene)),
       "leftOut" -> ujson.Arr.from(r.leftOut.map((what, why) => ujson.Arr(what, why)))
     )
-    ujson.write(all, indent = 2) + "\n"
+    ujson.write(report, indent = 2) + "\n"
 
   def csv(r: SuiteReport): String =
     val head = "scene,program,samples,seed,seconds,memory,relmse,mse,mae,psnr,flip"
@@ -141,10 +141,10 @@ object SuiteData:
     "title" -> s.title,
     "note" -> s.note,
     "reference" -> s.referenceName.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
-    "referenceError" -> RenderData.own(s.own),
+    "referenceError" -> RenderData.ownError(s.ownError),
     "makers" -> ujson.Arr.from(s.makers),
     "grows" -> s.growth.fold(ujson.Null: ujson.Value)(g =>
-      ujson.Obj("of" -> g.of, "size" -> RenderData.number(g.size))
+      ujson.Obj("of" -> g.quantity, "size" -> RenderData.number(g.size))
     ),
     "biases" -> ujson.Arr.from(s.biases.map(bias)),
     "target" -> RenderData.number(s.target),
@@ -177,8 +177,8 @@ object SuiteData:
     "title" -> p.title,
     "command" -> p.command,
     "points" -> ujson.Arr.from(p.curve.points.map(point)),
-    "slope" -> known(p.curve.slope),
-    "efficiency" -> known(p.curve.efficiency),
+    "slope" -> optionalInterval(p.curve.slope),
+    "efficiency" -> optionalInterval(p.curve.efficiency),
     "firstImage" -> p.firstImage.fold(ujson.Null: ujson.Value)(RenderData.number),
     "memory" -> p.curve.memory.fold(ujson.Null: ujson.Value)(m => RenderData.number(m.toDouble)),
     "others" -> p.others.fold(ujson.Null: ujson.Value)(RenderData.number),
@@ -187,7 +187,7 @@ object SuiteData:
       p.curve.secondsUntil(s.target).fold(ujson.Null: ujson.Value)(i =>
         RenderData.number(i.estimate)
       ),
-    "secondsToTargetInterval" -> known(p.curve.secondsUntil(s.target)),
+    "secondsToTargetInterval" -> optionalInterval(p.curve.secondsUntil(s.target)),
     "errorAtEqualTime" ->
       s.errorAtEqualTime(p).fold(ujson.Null: ujson.Value)(RenderData.number)
   )
@@ -195,9 +195,9 @@ object SuiteData:
   private def point(p: MeasuredPoint): ujson.Obj = ujson.Obj(
     "samples" -> p.samples,
     "seconds" -> p.seconds,
-    "relmse" -> known(p(Metric.RelativeMse)),
-    "mse" -> known(p(Metric.Mse)),
-    "flip" -> known(p(Metric.Flip)),
+    "relmse" -> optionalInterval(p(Metric.RelativeMse)),
+    "mse" -> optionalInterval(p(Metric.Mse)),
+    "flip" -> optionalInterval(p(Metric.Flip)),
     "deviation" -> number(p.deviation(Metric.RelativeMse)),
     "worstPixels" -> number(p.worst),
     "spectrum" -> ujson.Arr.from(p.spectrum.map: band =>
@@ -221,7 +221,7 @@ object SuiteData:
   private def number(figure: Option[Double]): ujson.Value =
     figure.fold(ujson.Null: ujson.Value)(RenderData.number)
 
-  private def known(interval: Option[Interval]): ujson.Value =
+  private def optionalInterval(interval: Option[Interval]): ujson.Value =
     interval.fold(ujson.Null: ujson.Value): i =>
       ujson.Obj(
         "estimate" -> RenderData.number(i.estimate),

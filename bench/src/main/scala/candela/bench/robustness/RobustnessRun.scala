@@ -42,7 +42,7 @@ final class RobustnessRun(
     Kernel.missing ++ without ++ noEmbree.map(a => a.title -> a.obtain)
 
   def report(): RobustnessReport =
-    val machine = Machine.here()
+    val machine = Machine.current()
     val begun = LocalDateTime.now.format(DateTimeFormatter.ofPattern("yyyy-MM-dd HH:mm"))
     val started = System.nanoTime
     val pool = ThreadPool(threads, worksAside = false)

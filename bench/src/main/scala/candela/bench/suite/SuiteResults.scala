@@ -27,7 +27,7 @@ object SuiteResults:
       leftOut: Vector[(String, String)] = Vector.empty
   ): SuiteReport =
     val names = PublicNames.of(suite, scratch)
-    val machine = Machine.here()
+    val machine = Machine.current()
     val begun = LocalDateTime.now.format(DateTimeFormatter.ofPattern("yyyy-MM-dd HH:mm"))
     val started = System.nanoTime
     val commands = Commands(self, scratch, isCancelled)
