@@ -18,23 +18,23 @@ private[image] object Bitmap:
       display: DisplayTransform,
       alpha: Option[Array[Float]] = None
   ): BufferedImage =
-    val shown = display(image)
-    val isGray = shown.indicesOf(Image.RgbNames).isEmpty && alpha.isEmpty
-    val sources = if isGray then Vector(shown.colorChannels.head) else shown.colorChannels
-    val picture = empty(shown.width, shown.height, isGray, alpha.isDefined, display.bits)
+    val displayed = display(image)
+    val isGray = displayed.indicesOf(Image.RgbNames).isEmpty && alpha.isEmpty
+    val sources = if isGray then Vector(displayed.colorChannels.head) else displayed.colorChannels
+    val picture = empty(displayed.width, displayed.height, isGray, alpha.isDefined, display.bits)
     val bands = picture.getRaster.getNumBands
-    val codes = new Array[Int](bands * shown.width)
-    val most = ((1 << display.bits) - 1).toFloat
+    val codes = new Array[Int](bands * displayed.width)
+    val maxCode = ((1 << display.bits) - 1).toFloat
     val dithers = display.dithers && display.bits == 8
-    loop(shown.height): y =>
-      loop(shown.width): x =>
+    loop(displayed.height): y =>
+      loop(displayed.width): x =>
         loop(sources.size): c =>
-          val value = encoded(shown(x, y, sources(c)), shown.encoding)
+          val value = encoded(displayed(x, y, sources(c)), displayed.encoding)
           val round = if dithers then threshold(x, y, c) else 0.5f
-          codes(x * bands + c) = (value * most + round).toInt
+          codes(x * bands + c) = (value * maxCode + round).toInt
         for a <- alpha do
-          codes(x * bands + 3) = (clamp(a(y * shown.width + x), 0f, 1f) * most + 0.5f).toInt
-      picture.getRaster.setPixels(0, y, shown.width, 1, codes)
+          codes(x * bands + 3) = (clamp(a(y * displayed.width + x), 0f, 1f) * maxCode + 0.5f).toInt
+      picture.getRaster.setPixels(0, y, displayed.width, 1, codes)
     picture
 
   private def encoded(value: Float, encoding: Encoding): Float =

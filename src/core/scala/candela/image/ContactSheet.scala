@@ -17,7 +17,7 @@ final class ContactSheet(columns: Option[Int] = None, cellSize: Int = ContactShe
   /** @param pictures names, and images of display-referred colours */
   def of(pictures: Vector[(String, Image)]): Image =
     require(pictures.nonEmpty)
-    val cells = pictures.map((name, image) => name -> Resize.within(image, cellSize, cellSize))
+    val cells = pictures.map((name, image) => name -> Resize.fitting(image, cellSize, cellSize))
     val perRow = Math.min(
       columns.getOrElse(Math.ceil(Math.sqrt(cells.size.toDouble)).toInt),
       cells.size
@@ -69,11 +69,11 @@ object ContactSheet:
       try
         val count = STBEasyFont.stb_easy_font_print(0f, 0f, text, null, vertices)
         loop(count): i =>
-          def at(vertex: Int, axis: Int) =
+          def coordinate(vertex: Int, axis: Int) =
             (Scale * vertices.getFloat(64 * i + 16 * vertex + 4 * axis)).toInt
           for
-            y <- Math.max(0, y0 + at(0, 1)) until Math.min(height, y0 + at(2, 1))
-            x <- Math.max(0, x0 + at(0, 0)) until Math.min(width, x0 + at(2, 0))
+            y <- Math.max(0, y0 + coordinate(0, 1)) until Math.min(height, y0 + coordinate(2, 1))
+            x <- Math.max(0, x0 + coordinate(0, 0)) until Math.min(width, x0 + coordinate(2, 0))
             c <- 0 until 3
           do image.data(3 * (y * width + x) + c) = Ink
       finally MemoryUtil.memFree(vertices)

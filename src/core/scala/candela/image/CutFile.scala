@@ -40,15 +40,15 @@ private[image] object CutFile:
     val in = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)
     def byte(i: Int) = in.get(i) & 0xff
     def short(i: Int) = in.getShort(i) & 0xffffL
-    val each = (byte(16) + 7) / 8
-    var left = short(12) * short(14)
-    var at = TgaHeader + byte(0) + (if byte(1) == 1 then short(5) * ((byte(7) + 7) / 8) else 0L)
-    while left > 0 && at < file.length do
-      val packet = byte(at.toInt)
+    val pixelBytes = (byte(16) + 7) / 8
+    var remainingPixels = short(12) * short(14)
+    var offset = TgaHeader + byte(0) + (if byte(1) == 1 then short(5) * ((byte(7) + 7) / 8) else 0L)
+    while remainingPixels > 0 && offset < file.length do
+      val packet = byte(offset.toInt)
       val count = (packet & 127) + 1
-      left -= count
-      at += 1 + each * (if packet > 127 then 1 else count)
-    left > 0 || at > file.length
+      remainingPixels -= count
+      offset += 1 + pixelBytes * (if packet > 127 then 1 else count)
+    remainingPixels > 0 || offset > file.length
 
   /** Whether the marker is there, which can't be within coded pixels. */
   private def hasEndOfImage(end: Array[Byte]): Boolean =

@@ -40,17 +40,17 @@ final case class DisplayTransform(
       val scale = scaleOf(light)
       val data = new Array[Float](light.data.length)
       loop(light.width * light.height): pixel =>
-        val at = 3 * pixel
-        val c = Rgb(light.data(at), light.data(at + 1), light.data(at + 2)) * scale
+        val offset = 3 * pixel
+        val c = Rgb(light.data(offset), light.data(offset + 1), light.data(offset + 2)) * scale
         if falseColor then
           val stops = Math.log(c.luminance / DisplayTransform.Grey) / Math.log(2)
-          val place = (stops / DisplayTransform.Stops + 1) / 2
-          loop(3)(i => data(at + i) = Magma(if place.isNaN then 0 else place, i))
+          val position = (stops / DisplayTransform.Stops + 1) / 2
+          loop(3)(i => data(offset + i) = Magma(if position.isNaN then 0 else position, i))
         else
-          val shown = curve(c)
-          data(at) = shown.r
-          data(at + 1) = shown.g
-          data(at + 2) = shown.b
+          val displayed = curve(c)
+          data(offset) = displayed.r
+          data(offset + 1) = displayed.g
+          data(offset + 2) = displayed.b
       val encoding = if falseColor then Encoding.Srgb else Encoding.Linear
       Image(light.width, light.height, Image.RgbNames, data, encoding)
 
@@ -72,8 +72,8 @@ final case class DisplayTransform(
       var sum = 0.0
       var count = 0
       loop(light.width * light.height): pixel =>
-        val at = 3 * pixel
-        val y = Rgb(light.data(at), light.data(at + 1), light.data(at + 2)).luminance
+        val offset = 3 * pixel
+        val y = Rgb(light.data(offset), light.data(offset + 1), light.data(offset + 2)).luminance
         if y > 0f && java.lang.Float.isFinite(y) then
           sum += Math.log(y.toDouble)
           count += 1

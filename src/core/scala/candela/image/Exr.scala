@@ -32,14 +32,14 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
     admit(part.width, part.height)
     parts.flatMap(_.obstacle).headOption match
       case None => decoded(file, parts, chosen)
-      case Some(why) =>
+      case Some(reason) =>
         if parts.size > 1 then
-          throw ImageError(Code.UnsupportedImage, s"$why in files of several parts")
+          throw ImageError(Code.UnsupportedImage, s"$reason in files of several parts")
         OpenExr.load(environment).getOrElse(throw ImageError(
           Code.UnsupportedImage,
-          s"$why; ${OpenExr.help}"
+          s"$reason; ${OpenExr.help}"
         ))
-          .read(file, part, why)
+          .read(file, part, reason)
 
   private def decoded(file: Array[Byte], parts: Vector[ExrPart], chosen: Int): Image =
     val part = parts(chosen)
@@ -52,8 +52,8 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
   /** The channels of an image, by their numbers in the file: R, G, B, A, then the others. */
   private[image] def order(part: ExrPart): Vector[Int] =
     val inFile = part.channels.map(_.name)
-    val first = (Image.RgbNames :+ "A").map(inFile.indexOf).filter(_ >= 0)
-    first ++ inFile.indices.filterNot(first.contains)
+    val leading = (Image.RgbNames :+ "A").map(inFile.indexOf).filter(_ >= 0)
+    leading ++ inFile.indices.filterNot(leading.contains)
 
   override def keepsTexts: Boolean = true
 
@@ -65,15 +65,15 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
 
   /** ZIP compression; every channel under its own name. Encoded images are decoded first. */
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
-    val all = parts(image, metadata, options)
-    val size = all.map(_.remaining.toLong).sum
+    val pieces = buffers(image, metadata, options)
+    val size = pieces.map(_.remaining.toLong).sum
     if size > Int.MaxValue - 8 then
       throw ImageError(Code.TooLarge, "an EXR file of more than 2 GB in memory")
     val file = ByteBuffer.allocate(size.toInt)
-    all.foreach(file.put(_))
+    pieces.foreach(file.put(_))
     file.array
 
-  private[image] override def parts(
+  private[image] override def buffers(
       image: Image,
       metadata: Vector[(String, String)],
       options: WriteOptions

@@ -24,7 +24,7 @@ private[image] object ExrDecoder:
       order: Array[Int],
       target: Array[Float]
   ): Unit =
-    Natives.need("tinyexr")
+    Natives.require("tinyexr")
     val stack = stackPush()
     val native = MemoryUtil.memAlloc(file.length)
     try
@@ -32,13 +32,14 @@ private[image] object ExrDecoder:
       val version = EXRVersion.calloc(stack)
       check(ParseEXRVersionFromMemory(version, native), stack.callocPointer(1))
       val part = parts(chosen)
-      if version.multipart then many(version, native, parts, chosen, order, target, stack)
-      else one(version, native, part, order, target, stack)
+      if version.multipart then
+        decodeMultipart(version, native, parts, chosen, order, target, stack)
+      else decodeSinglePart(version, native, part, order, target, stack)
     finally
       MemoryUtil.memFree(native)
       stack.close()
 
-  private def one(
+  private def decodeSinglePart(
       version: EXRVersion,
       file: ByteBuffer,
       part: ExrPart,
@@ -60,7 +61,7 @@ private[image] object ExrDecoder:
     finally
       val _ = FreeEXRHeader(header)
 
-  private def many(
+  private def decodeMultipart(
       version: EXRVersion,
       file: ByteBuffer,
       parts: Vector[ExrPart],
@@ -94,10 +95,10 @@ private[image] object ExrDecoder:
 
   /** The decoder converts half to float; it does not convert integers. */
   private def requestFloats(header: EXRHeader): Unit =
-    val found: IntBuffer = header.pixel_types
+    val pixelTypes: IntBuffer = header.pixel_types
     val requested: IntBuffer = header.requested_pixel_types
     loop(header.num_channels): i =>
-      if found.get(i) != TINYEXR_PIXELTYPE_UINT then
+      if pixelTypes.get(i) != TINYEXR_PIXELTYPE_UINT then
         val _ = requested.put(i, TINYEXR_PIXELTYPE_FLOAT)
 
   private def gather(
@@ -111,11 +112,11 @@ private[image] object ExrDecoder:
       image.num_channels == order.length && header.num_channels == order.length
     if !agrees then throw ImageError(Code.DamagedImage, "the header is damaged")
     loop(order.length): to =>
-      val from = order(to)
-      val isInteger = part.channels(from).pixelType == TINYEXR_PIXELTYPE_UINT
+      val fileChannel = order(to)
+      val isInteger = part.channels(fileChannel).pixelType == TINYEXR_PIXELTYPE_UINT
       part.tiling match
         case None =>
-          val plane = Plane(image.images.get(from), part.width, isInteger)
+          val plane = Plane(image.images.get(fileChannel), part.width, isInteger)
           plane.copy(target, part.width, order.length, to, 0, 0, part.width, part.height)
         case Some(tiling) =>
           val (tw, th) = (tiling.width, tiling.height)
@@ -126,7 +127,7 @@ private[image] object ExrDecoder:
             val inside = x >= 0 && y >= 0 && x + tile.width <= part.width &&
               y + tile.height <= part.height && tile.width <= tw && tile.height <= th
             if !inside then throw ImageError(Code.DamagedImage, "a tile lies outside the image")
-            val plane = Plane(tile.images(order.length).get(from), tw, isInteger)
+            val plane = Plane(tile.images(order.length).get(fileChannel), tw, isInteger)
             plane.copy(target, part.width, order.length, to, x, y, tile.width, tile.height)
 
   /** A channel of the image or of a tile in native memory. */
@@ -144,10 +145,10 @@ private[image] object ExrDecoder:
     ): Unit =
       loop(rows): y =>
         loop(width): x =>
-          val at = address + 4 * (y.toLong * stride + x)
+          val pixelAddress = address + 4 * (y.toLong * stride + x)
           val value =
-            if isInteger then (MemoryUtil.memGetInt(at) & 0xffffffffL).toFloat
-            else MemoryUtil.memGetFloat(at)
+            if isInteger then (MemoryUtil.memGetInt(pixelAddress) & 0xffffffffL).toFloat
+            else MemoryUtil.memGetFloat(pixelAddress)
           target(((y0 + y) * targetWidth + x0 + x) * channels + channel) = value
 
   private def free(image: EXRImage): Unit =

@@ -39,7 +39,7 @@ private[image] object ExrEncoder:
       window: Option[ImageWindow] = None,
       pixelsOfStrip: Int = PixelsOfStrip
   ): Vector[ByteBuffer] =
-    Natives.need("tinyexr")
+    Natives.require("tinyexr")
     val rows = Math.max(1, pixelsOfStrip / image.width / Rows) * Rows
     val strips = new Array[Array[Byte]]((image.height + rows - 1) / rows)
     pool.each(strips.length): i =>
@@ -73,15 +73,15 @@ private[image] object ExrEncoder:
     try
       loop(order.size): i =>
         val name = image.channelNames(order(i))
-        put(channels.get(i).name, name)
+        writeText(channels.get(i).name, name)
         val _ = channels.get(i).pixel_type(TINYEXR_PIXELTYPE_FLOAT).x_sampling(1).y_sampling(1)
         val _ = types.put(i, TINYEXR_PIXELTYPE_FLOAT)
         val kind = if halves(i) then TINYEXR_PIXELTYPE_HALF else TINYEXR_PIXELTYPE_FLOAT
         val _ = stored.put(i, kind)
       loop(stated.size): i =>
         val (name, typeName, value) = stated(i)
-        put(attributes.get(i).name, name)
-        put(attributes.get(i).`type`, typeName)
+        writeText(attributes.get(i).name, name)
+        writeText(attributes.get(i).`type`, typeName)
         val _ = attributes.get(i).value(value)
       val header = EXRHeader.calloc(stack)
       InitEXRHeader(header)
@@ -140,21 +140,21 @@ private[image] object ExrEncoder:
       finally LibCStdlib.nfree(memory.get(0))
     finally MemoryUtil.memFree(pointers)
 
-  /** @param most limit to which larger finite values are clamped */
+  /** @param maxValue limit to which larger finite values are clamped */
   private def plane(
       image: Image,
       first: Int,
       height: Int,
       channel: Int,
-      most: Float
+      maxValue: Float
   ): FloatBuffer =
     val values = MemoryUtil.memAllocFloat(image.width * height)
     loop(values.capacity): i =>
       val value = image.data((image.width * first + i) * image.channels + channel)
-      val isBeyond = java.lang.Float.isFinite(value) && Math.abs(value) > most
-      val _ = values.put(i, if isBeyond then Math.copySign(most, value) else value)
+      val isBeyond = java.lang.Float.isFinite(value) && Math.abs(value) > maxValue
+      val _ = values.put(i, if isBeyond then Math.copySign(maxValue, value) else value)
     values
 
   /** Writes into a zeroed array of 256 bytes. */
-  private def put(field: ByteBuffer, text: String): Unit =
+  private def writeText(field: ByteBuffer, text: String): Unit =
     val _ = field.put(text.getBytes(UTF_8))

@@ -115,17 +115,17 @@ private[image] object ExrHeader:
 
   /** The parts of a file, validated; at least one. */
   def parts(file: Array[Byte]): Vector[ExrPart] =
-    val (found, table) = parts(Reader(file), isWhole = true)
-    val rest = file.length.toLong - table
+    val (headers, table) = parts(Reader(file), isWhole = true)
+    val remainingBytes = file.length.toLong - table
     // A chunk has 8 bytes in the table and 8 or more of its own.
-    if found.map(chunks).sum * 16 > rest then
+    if headers.map(chunks).sum * 16 > remainingBytes then
       throw ImageError(Code.DamagedImage, "the file is cut short")
-    for p <- found if p.storedBytes > file.length.toLong * p.maxRatio do
+    for p <- headers if p.storedBytes > file.length.toLong * p.maxRatio do
       throw ImageError(
         Code.DamagedImage,
         s"${p.width}×${p.height} pixels can't be in a file of ${file.length} bytes"
       )
-    found
+    headers
 
   /** The parts by the beginning of a file, which is read in tiles and may be larger than memory.
     *
@@ -141,13 +141,13 @@ private[image] object ExrHeader:
       throw ImageError(Code.UnsupportedImage, s"EXR version $version is not supported")
     val isMultipart = (word & 0x1000) != 0
     val flags = Option.when(!isMultipart)(word)
-    val found = mutable.ArrayBuffer(part(in.attributes(), flags, isWhole))
+    val headers = mutable.ArrayBuffer(part(in.attributes(), flags, isWhole))
     if isMultipart then
-      var more = in.attributes()
-      while more.nonEmpty do
-        found += part(more, flags, isWhole)
-        more = in.attributes()
-    (found.toVector, in.position)
+      var attributes = in.attributes()
+      while attributes.nonEmpty do
+        headers += part(attributes, flags, isWhole)
+        attributes = in.attributes()
+    (headers.toVector, in.position)
 
   private[image] def chunks(part: ExrPart): Long = part.tiling match
     case Some(tiling) => tiling.tiles(part.width, part.height)
@@ -164,8 +164,8 @@ private[image] object ExrHeader:
       isWhole: Boolean
   ): ExrPart =
     def value(name: String, kind: String, size: Int): Option[ByteBuffer] =
-      attributes.get(name).map: (found, data) =>
-        if found != kind || data.remaining < size then
+      attributes.get(name).map: (actualKind, data) =>
+        if actualKind != kind || data.remaining < size then
           throw ImageError(Code.DamagedImage, s"attribute `$name` is damaged")
         data
     def required(name: String, kind: String, size: Int): ByteBuffer =
@@ -223,8 +223,8 @@ private[image] object ExrHeader:
 
   private def checkSize(w: Long, h: Long, channels: Int, tiling: Option[ExrTiling]): Unit =
     // Without channels: of a file that is never in memory as a whole
-    val most = if channels == 0 then Long.MaxValue else (Int.MaxValue - 8L) / channels
-    val fits = w <= Int.MaxValue && h <= Int.MaxValue && w * h <= most
+    val maxPixels = if channels == 0 then Long.MaxValue else (Int.MaxValue - 8L) / channels
+    val fits = w <= Int.MaxValue && h <= Int.MaxValue && w * h <= maxPixels
     if !fits then
       throw ImageError(
         Code.TooLarge,
@@ -234,7 +234,7 @@ private[image] object ExrHeader:
       // Tiles may extend past the image; the decoder allocates each in full.
       def padded(size: Long, tile: Long) = (size + tile - 1) / tile * tile
       val sane = t.width > 0 && t.height > 0 && t.width <= MaxTile && t.height <= MaxTile &&
-        padded(w, t.width) * padded(h, t.height) <= most
+        padded(w, t.width) * padded(h, t.height) <= maxPixels
       if !sane then
         throw ImageError(
           Code.UnsupportedImage,
@@ -259,22 +259,22 @@ private[image] object ExrHeader:
 
   private def channelList(data: ByteBuffer): Vector[ExrChannel] =
     val in = Reader(data)
-    val found = mutable.ArrayBuffer.empty[ExrChannel]
+    val channels = mutable.ArrayBuffer.empty[ExrChannel]
     var name = in.name()
     while name.nonEmpty do
       val pixelType = in.int()
       if pixelType < 0 || pixelType > 2 then
         throw ImageError(Code.DamagedImage, s"channel `$name` has an unknown type")
       val _ = in.int() // the perceptual-linearity hint and padding
-      found += ExrChannel(name, pixelType, in.int(), in.int())
-      if found.size > MaxChannels then
+      channels += ExrChannel(name, pixelType, in.int(), in.int())
+      if channels.size > MaxChannels then
         throw ImageError(Code.DamagedImage, s"more than $MaxChannels channels")
       name = in.name()
-    if found.isEmpty then throw ImageError(Code.DamagedImage, "it has no channels")
-    val names = found.map(_.name)
+    if channels.isEmpty then throw ImageError(Code.DamagedImage, "it has no channels")
+    val names = channels.map(_.name)
     if names.distinct.size != names.size then
       throw ImageError(Code.DamagedImage, "two channels have the same name")
-    found.toVector
+    channels.toVector
 
   /** Little-endian reader with bounds checks. */
   private final class Reader(bytes: ByteBuffer):
@@ -282,19 +282,19 @@ private[image] object ExrHeader:
 
     def position: Int = bytes.position
 
-    private def need(count: Int): Unit =
+    private def requireBytes(count: Int): Unit =
       if count < 0 || count > bytes.remaining then
         throw ImageError(Code.DamagedImage, "the header is damaged")
 
     def int(): Int =
-      need(4)
+      requireBytes(4)
       bytes.getInt()
 
     /** Reads a zero-terminated string; empty at the end of a list. */
     def name(): String =
       val start = bytes.position
-      need(1)
-      while bytes.get() != 0 do need(1)
+      requireBytes(1)
+      while bytes.get() != 0 do requireBytes(1)
       val length = bytes.position - 1 - start
       if length > 255 then throw ImageError(Code.DamagedImage, "the header is damaged")
       val text = new Array[Byte](length)
@@ -303,18 +303,18 @@ private[image] object ExrHeader:
 
     /** One header: name → (type, value). */
     def attributes(): Map[String, (String, ByteBuffer)] =
-      val found = mutable.Map.empty[String, (String, ByteBuffer)]
+      val values = mutable.Map.empty[String, (String, ByteBuffer)]
       var key = name()
       while key.nonEmpty do
         val kind = name()
         val size = int()
-        need(size)
+        requireBytes(size)
         val value = bytes.slice(bytes.position, size).order(ByteOrder.LITTLE_ENDIAN)
         bytes.position(bytes.position + size)
-        if found.contains(key) then
+        if values.contains(key) then
           throw ImageError(Code.DamagedImage, s"duplicate attribute `$key`")
-        found(key) = (kind, value)
-        if found.size > MaxAttributes then
+        values(key) = (kind, value)
+        if values.size > MaxAttributes then
           throw ImageError(Code.DamagedImage, s"more than $MaxAttributes attributes")
         key = name()
-      found.toMap
+      values.toMap

@@ -42,24 +42,27 @@ final class ExrLevels private (
   def tile(level: Int, x: Int, y: Int): Image =
     val (w, h) = sizes(level)
     val across = (w + tileWidth - 1) / tileWidth
-    val at = offsets(firstTiles(level) + y * across + x)
+    val offset = offsets(firstTiles(level) + y * across + x)
     val width = Math.min(tileWidth, w - x * tileWidth)
     val height = Math.min(tileHeight, h - y * tileHeight)
     try
-      val start = read(at, ExrLevels.ChunkStart)
-      val place = Vector.fill(4)(start.getInt())
+      val start = read(offset, ExrLevels.ChunkStart)
+      val coordinates = Vector.fill(4)(start.getInt())
       val length = start.getInt()
-      if place != Vector(x, y, level, level) || length < 1 || length > part.bytes(width, height)
+      if coordinates != Vector(x, y, level, level) || length < 1 || length > part.bytes(
+          width,
+          height
+        )
       then throw damaged(level, x, y, "it is not where it should be")
       // What would not be smaller compressed is not, which the decoder doesn't know of every kind
       val isPlain = length == part.bytes(width, height)
-      Exr.read(parts.of(read(at + ExrLevels.ChunkStart, length).array, width, height, isPlain))
+      Exr.read(parts.of(read(offset + ExrLevels.ChunkStart, length).array, width, height, isPlain))
     catch
       case e: IOException => throw ImageError(Code.Unreadable, s"$file: ${IoReason(e)}")
       case e: ImageError => throw damaged(level, x, y, e.getMessage)
 
-  private def damaged(level: Int, x: Int, y: Int, why: String) =
-    ImageError(Code.DamagedImage, s"$file: tile $x, $y of level $level: $why")
+  private def damaged(level: Int, x: Int, y: Int, reason: String) =
+    ImageError(Code.DamagedImage, s"$file: tile $x, $y of level $level: $reason")
 
   private def read(at: Long, length: Int): ByteBuffer = ExrLevels.read(channel, at, length)
 
@@ -68,7 +71,7 @@ object ExrLevels:
   private val Beginning = 1 << 16
 
   /** Texels of the largest tiles that are read alone. */
-  private val MostOfTile = 1 << 16
+  private val MaxTileTexels = 1 << 16
 
   /** The levels of a file.
     *
@@ -94,8 +97,8 @@ object ExrLevels:
     if parts.size > 1 then Some("the file has several parts")
     else if tiling.levelMode != 1 then Some("they are those of a RIP map, not of a MIP map")
     else if !isPowers then Some(s"${part.width}×${part.height} texels are no powers of two")
-    else if tiling.width.toLong * tiling.height > MostOfTile then
-      Some(s"its tiles of ${tiling.width}×${tiling.height} texels have more than $MostOfTile")
+    else if tiling.width.toLong * tiling.height > MaxTileTexels then
+      Some(s"its tiles of ${tiling.width}×${tiling.height} texels have more than $MaxTileTexels")
     else None
 
   private def opened(
@@ -111,8 +114,8 @@ object ExrLevels:
       if count > Int.MaxValue / 8 then throw IOException("too many tiles")
       val numbers = read(channel, table, 8 * count.toInt).asLongBuffer
       val offsets = Array.fill(count.toInt)(numbers.get())
-      val first = table + 8L * count
-      if offsets.exists(o => o < first || o > channel.size - ChunkStart) then
+      val dataStart = table + 8L * count
+      if offsets.exists(o => o < dataStart || o > channel.size - ChunkStart) then
         throw IOException("tiles are missing")
       ExrLevels(file, channel, part, tiling, ExrTileFile(start, table, tiling), offsets)
     catch
@@ -134,7 +137,7 @@ object ExrLevels:
 private final class ExrTileFile(start: Array[Byte], table: Int, tiling: ExrTiling):
   // The windows and the tiling are each tile's own, and neither levels nor their number matter
   private val header = start.take(table)
-  private val values = ExrWindow.places(header)
+  private val values = ExrWindow.valueOffsets(header)
 
   /** @param isPlain whether the pixels are not compressed */
   def of(data: Array[Byte], width: Int, height: Int, isPlain: Boolean): Array[Byte] =

@@ -22,12 +22,12 @@ private[image] object Hdr:
   private val MaxPixelsPerByte = 64
 
   private final class Reader(file: Array[Byte]):
-    private var at = 0
+    private var cursor = 0
 
     def image(): Image =
       header()
       val (width, height, fromBottom, fromRight) = resolution()
-      val available = (file.length - at).toLong * MaxPixelsPerByte
+      val available = (file.length - cursor).toLong * MaxPixelsPerByte
       if width.toLong * height > Math.min(available, (Int.MaxValue - 8) / 3) then
         throw ImageError(
           Code.DamagedImage,
@@ -44,16 +44,16 @@ private[image] object Hdr:
       result
 
     private def header(): Unit =
-      var next = line()
-      while next.nonEmpty do
-        next match
+      var headerLine = line()
+      while headerLine.nonEmpty do
+        headerLine match
           case s"FORMAT=$format" if format.trim != "32-bit_rle_rgbe" =>
             throw ImageError(
               Code.UnsupportedImage,
               s"pixel format `${format.trim}`: only 32-bit_rle_rgbe is supported"
             )
           case _ => ()
-        next = line()
+        headerLine = line()
 
     /** Width, height, whether rows run from the bottom, whether columns run from the right. */
     private def resolution(): (Int, Int, Boolean, Boolean) =
@@ -69,23 +69,23 @@ private[image] object Hdr:
           )
 
     private def line(): String =
-      val start = at
-      while at < file.length && file(at) != '\n' do at += 1
-      if at == file.length then throw ImageError(Code.DamagedImage, "the header does not end")
-      at += 1
-      String(file, start, at - 1 - start, ISO_8859_1).stripSuffix("\r")
+      val start = cursor
+      while cursor < file.length && file(cursor) != '\n' do cursor += 1
+      if cursor == file.length then throw ImageError(Code.DamagedImage, "the header does not end")
+      cursor += 1
+      String(file, start, cursor - 1 - start, ISO_8859_1).stripSuffix("\r")
 
     private def byte(): Int =
-      if at >= file.length then
+      if cursor >= file.length then
         throw ImageError(Code.DamagedImage, "the file ends within the pixels")
-      at += 1
-      file(at - 1) & 0xff
+      cursor += 1
+      file(cursor - 1) & 0xff
 
     private def scanline(row: Array[Byte], width: Int): Unit =
-      val coded = width >= 8 && width <= 0x7fff && file.length - at >= 4 &&
-        file(at) == 2 && file(at + 1) == 2 && file(at + 2) >= 0
+      val coded = width >= 8 && width <= 0x7fff && file.length - cursor >= 4 &&
+        file(cursor) == 2 && file(cursor + 1) == 2 && file(cursor + 2) >= 0
       if coded then
-        at += 2
+        cursor += 2
         if (byte() << 8 | byte()) != width then
           throw ImageError(Code.DamagedImage, "a row of another width")
         loop(4)(component => runs(row, component, width))

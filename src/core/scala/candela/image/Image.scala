@@ -36,9 +36,9 @@ sealed abstract class StoredImage:
   final def colorChannels: Vector[Int] = StoredImage.colorChannels(channelNames)
 
 object StoredImage:
-  private def indicesOf(all: Vector[String], names: Vector[String]): Option[Vector[Int]] =
-    val found = names.map(all.indexOf)
-    Option.when(found.forall(_ >= 0))(found)
+  private def indicesOf(available: Vector[String], names: Vector[String]): Option[Vector[Int]] =
+    val indices = names.map(available.indexOf)
+    Option.when(indices.forall(_ >= 0))(indices)
 
   /** The colour channels of images whose channels have these names, as [[colorChannels]]. */
   def colors(names: Vector[String]): Option[Vector[Int]] =
@@ -122,11 +122,11 @@ final class Image(
     require(channelNames == Image.RgbNames, channelNames)
     val changed = new Array[Float](data.length)
     loop(width * height): pixel =>
-      val at = 3 * pixel
-      val c = change(Rgb(data(at), data(at + 1), data(at + 2)))
-      changed(at) = c.r
-      changed(at + 1) = c.g
-      changed(at + 2) = c.b
+      val offset = 3 * pixel
+      val c = change(Rgb(data(offset), data(offset + 1), data(offset + 2)))
+      changed(offset) = c.r
+      changed(offset + 1) = c.g
+      changed(offset + 2) = c.b
     Image(width, height, channelNames, changed)
 
 object Image:
@@ -140,7 +140,7 @@ object Image:
     */
   def valueCount(width: Int, height: Int, channels: Int): Int =
     val count = width.toLong * height * channels
-    if count > MostValues then
+    if count > MaxValues then
       throw ImageError(
         Code.TooLarge,
         s"$width×$height pixels of $channels channels are too many for an image"
@@ -148,7 +148,7 @@ object Image:
     count.toInt
 
   /** Of arrays in Java. */
-  private val MostValues = Int.MaxValue - 8
+  private val MaxValues = Int.MaxValue - 8
 
 /** An 8-bit image of sRGB colours; value 255 stands for 1. */
 final class ByteImage(

@@ -25,15 +25,15 @@ abstract class ImageBands(
 
   /** Whether this holds for every band. */
   final def every(holds: StoredImage => Boolean): Boolean =
-    var all = true
+    var result = true
     visit: (_, band) =>
-      all = holds(band)
-      all
-    all
+      result = holds(band)
+      result
+    result
 
   /** As [[Image.toReflectances]]. */
   final def toReflectances: ImageBands =
-    val from = this
+    val source = this
     new ImageBands(
       width,
       height,
@@ -43,7 +43,7 @@ abstract class ImageBands(
       isBytes = false
     ):
       def visit(band: (Int, StoredImage) => Boolean): Unit =
-        from.visit((y, image) => band(y, image.toImage.toReflectances))
+        source.visit((y, image) => band(y, image.toImage.toReflectances))
 
 object ImageBands:
   /** Rows of a band are a multiple of this, except the last band's. */

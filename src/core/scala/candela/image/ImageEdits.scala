@@ -17,10 +17,10 @@ object ImageEdits:
         Code.ImageEdit,
         s"no channel ${missing.mkString(", ")}, only ${image.channelNames.mkString(", ")}"
       )
-    val from = names.map(image.channelNames.indexOf).toArray
-    val data = new Array[Float](image.width * image.height * from.length)
+    val indices = names.map(image.channelNames.indexOf).toArray
+    val data = new Array[Float](image.width * image.height * indices.length)
     loop(data.length): i =>
-      data(i) = image.data(i / from.length * image.channels + from(i % from.length))
+      data(i) = image.data(i / indices.length * image.channels + indices(i % indices.length))
     Image(image.width, image.height, names, data, image.encoding, image.colorSpace)
 
   /** The three channels of a layer, such as `N.X`, `N.Y` and `N.Z`, as R, G and B: how a picture
@@ -52,14 +52,14 @@ object ImageEdits:
       data(i) = if a > 0f then value / a else value
     Image(image.width, image.height, Image.RgbNames, data, image.encoding, image.colorSpace)
 
-  /** Pixels with a channel above `most` are scaled down to it: their hue stays. */
-  def clamped(image: Image, most: Float): Image =
+  /** Pixels with a channel above `maxValue` are scaled down to it: their hue stays. */
+  def clamped(image: Image, maxValue: Float): Image =
     val data = image.data.clone
     val n = image.channels
     loop(image.width * image.height): pixel =>
       var greatest = 0f
       loop(n)(c => greatest = Math.max(greatest, data(pixel * n + c)))
-      if greatest > most then loop(n)(c => data(pixel * n + c) *= most / greatest)
+      if greatest > maxValue then loop(n)(c => data(pixel * n + c) *= maxValue / greatest)
     withData(image, data)
 
   /** Upside down. */
@@ -74,7 +74,7 @@ object ImageEdits:
     *
     * @throws ImageError if the image has no R, G and B
     */
-  def in(image: Image, space: ColorSpace): Image =
+  def inColorSpace(image: Image, space: ColorSpace): Image =
     val source = image.indicesOf(Image.RgbNames)
       .getOrElse(throw ImageError(
         Code.ImageEdit,
@@ -84,11 +84,11 @@ object ImageEdits:
     val matrix = space.ofSrgb * image.colorSpace.toSrgb
     val data = image.data.clone
     loop(image.width * image.height): pixel =>
-      val at = pixel * image.channels
-      val c = matrix * Rgb(data(at + r), data(at + g), data(at + b))
-      data(at + r) = c.r
-      data(at + g) = c.g
-      data(at + b) = c.b
+      val offset = pixel * image.channels
+      val c = matrix * Rgb(data(offset + r), data(offset + g), data(offset + b))
+      data(offset + r) = c.r
+      data(offset + g) = c.g
+      data(offset + b) = c.b
     Image(image.width, image.height, image.channelNames, data, image.encoding, space)
 
   /** Mean of images of one size with the same channels, in double precision.
@@ -100,8 +100,8 @@ object ImageEdits:
     val sum = first.data.map(_.toDouble)
     var count = 1
     for (name, image) <- images do
-      def differs(what: String) =
-        throw ImageError(Code.ImageEdit, s"$name and $firstName differ in $what")
+      def differs(property: String) =
+        throw ImageError(Code.ImageEdit, s"$name and $firstName differ in $property")
       if image.width != first.width || image.height != first.height then differs("size")
       if image.channelNames != first.channelNames then differs("their channels")
       if image.colorSpace ne first.colorSpace then differs("their colour space")

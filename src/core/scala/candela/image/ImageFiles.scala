@@ -72,14 +72,14 @@ object ImageFiles:
   /** How pbrt-v4 reads the file differently, if it does; or that pixels are missing. */
   def remark(file: InputFile): Option[String] =
     val suffix = FileName.suffix(file.path)
-    val found =
+    val note =
       if !Remarkable(suffix) then None
       else
         val size = Files.size(file.path)
         val (start, end) = Using.resource(file.stream()): in =>
-          val first = in.readNBytes(1 << 16)
-          in.skipNBytes(Math.max(0, size - first.length - (1 << 12)))
-          (first, in.readAllBytes())
+          val beginning = in.readNBytes(1 << 16)
+          in.skipNBytes(Math.max(0, size - beginning.length - (1 << 12)))
+          (beginning, in.readAllBytes())
         // A small file has its end in the beginning
         val cut =
           if CutFile.isPacked(suffix, start) then CutFile.packed(file.bytes())
@@ -87,7 +87,7 @@ object ImageFiles:
         cut.orElse:
           if suffix == "qoi" then None
           else if suffix == "tga" then Tga.remark(start) else Pnm.remark(start)
-    found.map(text => s"$file: $text")
+    note.map(text => s"$file: $text")
 
   private val Remarkable = Set("qoi", "tga", "ppm", "pgm", "pbm", "pnm", "jpg", "jpeg", "bmp")
 
@@ -127,16 +127,16 @@ object ImageFiles:
       StbReader.read(bytes, admit)
     else if extension == "tga" then Tga.read(bytes, admit)
     else
-      val other = ForeignFile.of(path, bytes)
+      val foreign = ForeignFile.of(path, bytes)
       throw ImageError(
         Code.UnknownFormat,
         if readable.contains(extension) then
-          val found = other.fold("its first bytes are wrong")(o => s"it is ${o.what}")
-          s"not a valid .$extension file: $found"
+          val contents = foreign.fold("its first bytes are wrong")(o => s"it is ${o.what}")
+          s"not a valid .$extension file: $contents"
         else
-          val what = other.map(_.what).orElse(Option.when(Scenes(extension))("a scene"))
-          val found = what.fold("unknown format")(w => s"it is $w, not an image")
-          s"$found; $Readable"
+          val kind = foreign.map(_.what).orElse(Option.when(Scenes(extension))("a scene"))
+          val explanation = kind.fold("unknown format")(w => s"it is $w, not an image")
+          s"$explanation; $Readable"
       )
 
   /** Writes in the format of the file's extension.
@@ -151,16 +151,16 @@ object ImageFiles:
       metadata: Vector[(String, String)] = Vector.empty,
       options: WriteOptions = WriteOptions()
   ): Unit =
-    val parts =
+    val buffers =
       try
         (OutputFormat.of(path), FileName.suffix(path)) match
-          case (Some(format), _) => format.parts(image, metadata, options)
+          case (Some(format), _) => format.buffers(image, metadata, options)
           case (None, "") =>
             throw ImageError(Code.UnknownFormat, s"the name has no extension; $Writable")
           case (None, other) =>
             throw ImageError(Code.UnknownFormat, s"can't write .$other files; $Writable")
       catch case e: ImageError => throw ImageError(e.code, s"$path: ${e.getMessage}")
-    try WholeFile.write(path, parts)
+    try WholeFile.write(path, buffers)
     catch case e: WriteError => throw ImageError(Code.Unwritable, e.getMessage)
 
   /** The bytes that `write` stores in an `.exr` file. */

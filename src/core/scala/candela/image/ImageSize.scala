@@ -40,7 +40,7 @@ object ImageSize:
       ImageSize(size(bytes, 16), size(bytes, 20), channels, isBytes = bytes(24) <= 8)
 
   private def jpeg(bytes: Array[Byte]): Option[ImageSize] =
-    def next(at: Int): Option[ImageSize] =
+    def frameFrom(at: Int): Option[ImageSize] =
       if at + 10 > bytes.length || (bytes(at) & 0xff) != 0xff then None
       else
         val kind = bytes(at + 1) & 0xff
@@ -48,8 +48,8 @@ object ImageSize:
         if isFrame then
           val (width, height) = (word(bytes, at + 7), word(bytes, at + 5))
           Option.when(width > 0 && height > 0)(ImageSize(width, height, bytes(at + 9), true))
-        else next(at + 2 + word(bytes, at + 2))
-    if bytes.length > 4 && word(bytes, 0) == 0xffd8 then next(2) else None
+        else frameFrom(at + 2 + word(bytes, at + 2))
+    if bytes.length > 4 && word(bytes, 0) == 0xffd8 then frameFrom(2) else None
 
   /** None if the beginning of the file isn't its whole header. */
   private def exr(bytes: Array[Byte]): Option[ImageSize] =

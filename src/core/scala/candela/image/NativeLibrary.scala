@@ -23,8 +23,8 @@ private[image] final class NativeLibrary private (
 
 private[image] object NativeLibrary:
   /** The first that can be loaded of these paths or names. */
-  def first(name: String, paths: Vector[String]): Option[NativeLibrary] =
-    Natives.need("")
+  def loadFirst(name: String, paths: Vector[String]): Option[NativeLibrary] =
+    Natives.require("")
     paths.iterator.flatMap(path => opened(name, path)).nextOption()
 
   private def opened(name: String, path: String): Option[NativeLibrary] =

@@ -12,16 +12,16 @@ import scala.util.Try
 object Natives:
 
   /** Finds them beside the program's jar, for who starts that by itself; before their first use. */
-  def find(): Unit =
+  def locate(): Unit =
     quieten()
-    if sys.props.get(Place).isEmpty then
+    if sys.props.get(PathProperty).isEmpty then
       for jar <- programsJar; folder <- beside(jar) do
-        val _ = System.setProperty(Place, folder.toString)
+        val _ = System.setProperty(PathProperty, folder.toString)
 
   /** LWJGL's own advice on missing libraries is for programmers. */
   private def quieten(): Unit =
-    if sys.props.get("org.lwjgl.util.Debug").isEmpty && sys.props.get(Stream).isEmpty then
-      val _ = System.setProperty(Stream, classOf[NoStream].getName)
+    if sys.props.get("org.lwjgl.util.Debug").isEmpty && sys.props.get(StreamProperty).isEmpty then
+      val _ = System.setProperty(StreamProperty, classOf[NoStream].getName)
 
   /** The folder of the libraries that come with a jar. */
   private[image] def beside(jar: Path): Option[Path] =
@@ -46,21 +46,21 @@ object Natives:
     * @param module of LWJGL, such as `tinyexr`; empty: its base
     * @throws MissingNatives if a library is not there
     */
-  private[image] def need(module: String): Unit =
-    for m <- Vector("", module).distinct if !seen.contains(m) do
+  private[image] def require(module: String): Unit =
+    for m <- Vector("", module).distinct if !loadedModules.contains(m) do
       if !isThere(m) then throw MissingNatives(m, platform)
-      seen.add(m): Unit
+      loadedModules.add(m): Unit
 
   /** Modules whose libraries were found, lest each image looks for them. */
-  private val seen = ConcurrentHashMap.newKeySet[String]()
+  private val loadedModules = ConcurrentHashMap.newKeySet[String]()
 
   private def isThere(module: String): Boolean =
     val suffix = if module.isEmpty then "" else s"_$module"
     val file = System.mapLibraryName(s"lwjgl$suffix")
-    val part = if module.isEmpty then "" else s"$module/"
-    val folder = s"${platform.replace('-', '/')}/org/lwjgl/$part"
+    val subfolder = if module.isEmpty then "" else s"$module/"
+    val folder = s"${platform.replace('-', '/')}/org/lwjgl/$subfolder"
     // LWJGL itself sets the place once it has unpacked a library
-    def onPath = Vector(Place, "java.library.path").flatMap(sys.props.get(_))
+    def onPath = Vector(PathProperty, "java.library.path").flatMap(sys.props.get(_))
       .flatMap(_.split(java.io.File.pathSeparator)).filter(_.nonEmpty)
     classOf[org.lwjgl.PointerBuffer].getClassLoader.getResource(folder + file) != null ||
     onPath.exists(p => Try(Files.isRegularFile(Path.of(p, file))).getOrElse(false))
@@ -68,11 +68,11 @@ object Natives:
   /** The missing library and the cure, if that is the cause of `e`. */
   def missing(e: Throwable): Option[(String, String)] = e match
     case l: LinkageError if isOfLwjgl(l) =>
-      val place = sys.props.getOrElse(Place, s"lib/natives/$platform")
+      val folder = sys.props.getOrElse(PathProperty, s"lib/natives/$platform")
       Some((
         s"the native libraries that read and write images are missing: LWJGL's, for $platform",
-        s"start the program by bin/candela, or java -D$Place=FOLDER -jar candela.jar, where " +
-          s"FOLDER is $place of the whole program"
+        s"start the program by bin/candela, or java -D$PathProperty=FOLDER -jar candela.jar, " +
+          s"where FOLDER is $folder of the whole program"
       ))
     case _ => None
 
@@ -80,8 +80,8 @@ object Natives:
     (String.valueOf(e.getMessage) +: e.getStackTrace.take(Frames).map(_.getClassName))
       .exists(_.contains("lwjgl"))
 
-  private val Place = "org.lwjgl.librarypath"
-  private val Stream = "org.lwjgl.util.DebugStream"
+  private val PathProperty = "org.lwjgl.librarypath"
+  private val StreamProperty = "org.lwjgl.util.DebugStream"
   private val Frames = 20
 
 /** A native library of LWJGL is not there.

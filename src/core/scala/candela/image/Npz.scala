@@ -46,8 +46,8 @@ private[image] object Npz extends OutputFormat("npz", Contents.Channels):
         name.lastIndexOf('.') match
           case -1 => name
           case dot => name.take(dot)
-    val all = names.map(group)
-    all.distinct.map(g => g -> names.indices.filter(all(_) == g).toVector)
+    val groupNames = names.map(group)
+    groupNames.distinct.map(g => g -> names.indices.filter(groupNames(_) == g).toVector)
 
   private def array(image: Image, channels: Vector[Int]): Array[Byte] =
     val depth = if channels.size == 1 then "" else s", ${channels.size}"
@@ -59,10 +59,10 @@ private[image] object Npz extends OutputFormat("npz", Contents.Channels):
     val _ = bytes.put(0x93.toByte).put("NUMPY".getBytes(ISO_8859_1)).put(1: Byte).put(0: Byte)
       .putShort((length - Prefix).toShort)
       .put(header.padTo(length - Prefix - 1, ' ').getBytes(ISO_8859_1)).put('\n': Byte)
-    val at = channels.toArray
+    val channelIndices = channels.toArray
     loop(image.width * image.height): pixel =>
-      loop(at.length): c =>
-        val _ = bytes.putFloat(image.data(pixel * image.channels + at(c)))
+      loop(channelIndices.length): c =>
+        val _ = bytes.putFloat(image.data(pixel * image.channels + channelIndices(c)))
     bytes.array
 
   /** Bytes before the header of an array. */
@@ -72,14 +72,14 @@ private[image] object Npz extends OutputFormat("npz", Contents.Channels):
     val sum = CRC32()
     sum.update(bytes)
     val entry = ZipEntry(name)
-    entry.setTimeLocal(SameForAll)
+    entry.setTimeLocal(FixedTime)
     entry.setSize(bytes.length)
     entry.setCrc(sum.getValue)
     zip.putNextEntry(entry)
     zip.write(bytes)
     zip.closeEntry()
 
-  private val SameForAll = LocalDateTime.of(1980, 1, 1, 0, 0)
+  private val FixedTime = LocalDateTime.of(1980, 1, 1, 0, 0)
 
   private def about(
       image: Image,

@@ -146,9 +146,9 @@ object Oidn:
   def load(environment: Map[String, String] = sys.env): Oidn =
     val files = OidnLibrary.candidates(environment).map(_.toString)
     // The system's loader knows more folders.
-    val others = if environment.contains(OidnLibrary.Variable) then Vector.empty
+    val systemNames = if environment.contains(OidnLibrary.Variable) then Vector.empty
     else OidnLibrary.Names.take(1)
-    NativeLibrary.first("Open Image Denoise 2", files ++ others).map(Oidn(_)).getOrElse:
+    NativeLibrary.loadFirst("Open Image Denoise 2", files ++ systemNames).map(Oidn(_)).getOrElse:
       throw ImageError(
         Code.MissingLibrary,
         environment.get(OidnLibrary.Variable).fold("Open Image Denoise is not installed")(named =>

@@ -21,7 +21,7 @@ private[image] object OidnLibrary:
   )
 
   /** Places of the library in a Python package or in the archive of its makers. */
-  private val Within = Vector("", "lib", "bin", "oidn/lib", "pyoidn/oidn/lib", "oidn")
+  private val Subfolders = Vector("", "lib", "bin", "oidn/lib", "pyoidn/oidn/lib", "oidn")
 
   /** Files to try, best first. If the variable is set, only what it names.
     *
@@ -29,14 +29,15 @@ private[image] object OidnLibrary:
     */
   def candidates(environment: Map[String, String], root: Path = Path.of("/")): Vector[Path] =
     environment.get(Variable).filter(_.nonEmpty) match
-      case Some(named) => path(named).toVector.flatMap(p => if isFile(p) then Vector(p) else in(p))
-      case None => folders(environment, root).flatMap(in).distinct
+      case Some(named) =>
+        path(named).toVector.flatMap(p => if isFile(p) then Vector(p) else librariesIn(p))
+      case None => folders(environment, root).flatMap(librariesIn).distinct
 
-  private def in(folder: Path): Vector[Path] =
+  private def librariesIn(folder: Path): Vector[Path] =
     for
-      place <- Within.map(folder.resolve)
+      subfolder <- Subfolders.map(folder.resolve)
       name <- Names
-      file = place.resolve(name) if isFile(file)
+      file = subfolder.resolve(name) if isFile(file)
     yield file
 
   private def folders(environment: Map[String, String], root: Path): Vector[Path] =

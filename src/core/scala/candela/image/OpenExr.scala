@@ -28,36 +28,36 @@ private[image] final class OpenExr private (library: NativeLibrary):
   private val errorMessage = function("ImfErrorMessage")
 
   /** @param part header of the file's only part
-    * @param why  why it is read here, for messages
+    * @param reason why it is read here, for messages
     */
-  def read(file: Array[Byte], part: ExrPart, why: String): Image =
+  def read(file: Array[Byte], part: ExrPart, reason: String): Image =
     try
       Using.resource(Scratch.make()): scratch =>
         val copy = scratch.folder.resolve("copy.exr")
         WholeFile.write(copy, file)
-        read(copy, part, why)
+        read(copy, part, reason)
     catch
       case e: IOException =>
         throw ImageError(
           Code.UnsupportedImage,
-          s"$why, and no copy can be made for the OpenEXR library: ${IoReason(e)}"
+          s"$reason, and no copy can be made for the OpenEXR library: ${IoReason(e)}"
         )
 
-  private def read(copy: Path, part: ExrPart, why: String): Image =
+  private def read(copy: Path, part: ExrPart, reason: String): Image =
     val stack = stackPush()
     val halves = MemoryUtil.memAllocShort(4 * part.width * part.height)
     val pixels = MemoryUtil.memAllocFloat(halves.capacity)
     try
       val name = stack.UTF8(copy.toString)
       val opened = invokePP(MemoryUtil.memAddress(name), openFile)
-      if opened == 0 then fail(why)
+      if opened == 0 then fail(reason)
       try
         // The address of pixel 0, 0, which may be outside of the data window
         val origin = MemoryUtil.memAddress(
           halves
         ) - OpenExr.PixelSize * (part.x.toLong + part.y.toLong * part.width)
-        if invokePPPPI(opened, origin, 1L, part.width.toLong, setFrameBuffer) == 0 then fail(why)
-        if invokePI(opened, part.y, part.y + part.height - 1, readPixels) == 0 then fail(why)
+        if invokePPPPI(opened, origin, 1L, part.width.toLong, setFrameBuffer) == 0 then fail(reason)
+        if invokePI(opened, part.y, part.y + part.height - 1, readPixels) == 0 then fail(reason)
         val (from, to) = (MemoryUtil.memAddress(halves), MemoryUtil.memAddress(pixels))
         invokePPV(pixels.capacity, from, to, toFloats)
         image(pixels, part, invokePI(opened, channelsOf))
@@ -69,20 +69,20 @@ private[image] final class OpenExr private (library: NativeLibrary):
       stack.close()
 
   /** Its last error, without the name of the file. */
-  private def fail(why: String): Nothing =
+  private def fail(reason: String): Nothing =
     val message = MemoryUtil.memUTF8(invokeP(errorMessage)).replaceAll("^[^\"]*\"[^\"]*\"\\. *", "")
-    throw ImageError(Code.UnsupportedImage, s"$why, and the OpenEXR library says: $message")
+    throw ImageError(Code.UnsupportedImage, s"$reason, and the OpenEXR library says: $message")
 
   private def image(pixels: FloatBuffer, part: ExrPart, channels: Int): Image =
     val isGray = (channels & (OpenExr.Luminance | OpenExr.Chroma)) == OpenExr.Luminance
     val color = if isGray then Vector("Y") else Image.RgbNames
     val hasAlpha = (channels & OpenExr.Alpha) != 0
     val names = if hasAlpha then color :+ "A" else color
-    val places = names.indices.map(i => if names(i) == "A" then 3 else i).toArray
+    val componentIndices = names.indices.map(i => if names(i) == "A" then 3 else i).toArray
     val data = new Array[Float](part.width * part.height * names.size)
     loop(part.width * part.height): pixel =>
-      loop(places.length): c =>
-        data(pixel * places.length + c) = pixels.get(4 * pixel + places(c))
+      loop(componentIndices.length): c =>
+        data(pixel * componentIndices.length + c) = pixels.get(4 * pixel + componentIndices(c))
     Image(part.width, part.height, names, data, colorSpace = part.colorSpace)
 
 private[image] object OpenExr:
@@ -107,4 +107,4 @@ private[image] object OpenExr:
   /** The library, if it is installed. */
   def load(environment: Map[String, String] = sys.env): Option[OpenExr] =
     val named = environment.get(Variable).filter(_.nonEmpty)
-    NativeLibrary.first("OpenEXR 3", named.fold(Names)(Vector(_))).map(OpenExr(_))
+    NativeLibrary.loadFirst("OpenEXR 3", named.fold(Names)(Vector(_))).map(OpenExr(_))

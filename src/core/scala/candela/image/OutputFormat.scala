@@ -68,7 +68,7 @@ abstract class OutputFormat(val suffix: String, val contents: Contents):
   ): Array[Byte]
 
   /** The same as the parts of the file, in order, if that saves a copy of a large one. */
-  private[image] def parts(
+  private[image] def buffers(
       image: Image,
       metadata: Vector[(String, String)],
       options: WriteOptions

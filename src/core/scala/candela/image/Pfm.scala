@@ -24,14 +24,14 @@ private[image] object Pfm extends OutputFormat("pfm", Contents.Radiance):
     val scale = word.toFloatOption.filter(s => s != 0f && java.lang.Float.isFinite(s))
       .getOrElse(throw ImageError(Code.DamagedImage, s"expected a scale such as -1, found `$word`"))
     val count = width.toLong * height * names.size
-    val rest = file.length - words.at
-    if count * 4 > rest then
+    val available = file.length - words.position
+    if count * 4 > available then
       throw ImageError(
         Code.DamagedImage,
-        s"$width×$height pixels need ${count * 4} bytes, found $rest"
+        s"$width×$height pixels need ${count * 4} bytes, found $available"
       )
     val order = if scale < 0f then ByteOrder.LITTLE_ENDIAN else ByteOrder.BIG_ENDIAN
-    val values = ByteBuffer.wrap(file, words.at, rest).slice.order(order).asFloatBuffer
+    val values = ByteBuffer.wrap(file, words.position, available).slice.order(order).asFloatBuffer
     val data = new Array[Float](count.toInt)
     val row = width * names.size
     loop(height): y =>
@@ -45,7 +45,7 @@ private[image] object Pfm extends OutputFormat("pfm", Contents.Radiance):
     val values = if words.next("type") == "PF" then 3L else 1L
     val (width, height) = (size(words.next("width")), size(words.next("height")))
     val _ = words.next("scale")
-    file.length == words.at + 4 * values * width * height
+    file.length == words.position + 4 * values * width * height
 
   /** Little-endian, as most programs expect. */
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
@@ -69,17 +69,18 @@ private[image] object Pfm extends OutputFormat("pfm", Contents.Radiance):
 
   /** The words of the header, each ended by one or more blanks; a single one ends the last. */
   private final class Words(file: Array[Byte]):
-    var at = 0
+    var position = 0
 
     def next(what: String): String =
-      while at < file.length && isBlank(at) do at += 1
-      val start = at
-      while at < file.length && at - start < 32 && !isBlank(at) do at += 1
-      if at == file.length || !isBlank(at) then
+      while position < file.length && isBlank(position) do position += 1
+      val start = position
+      while position < file.length && position - start < 32 && !isBlank(position) do position += 1
+      if position == file.length || !isBlank(position) then
         throw ImageError(Code.DamagedImage, s"its header has no $what")
-      at += 1
+      position += 1
       // A line end of two bytes
-      if file(at - 1) == '\r' && at < file.length && file(at) == '\n' then at += 1
-      String(file, start, at - start, US_ASCII).trim
+      if file(position - 1) == '\r' && position < file.length && file(position) == '\n' then
+        position += 1
+      String(file, start, position - start, US_ASCII).trim
 
     private def isBlank(i: Int) = file(i) == ' ' || (file(i) >= '\t' && file(i) <= '\r')

@@ -25,7 +25,7 @@ private[image] object Png extends OutputFormat("png", Contents.Display):
   private def describe(chunks: IIOMetadata, texts: Vector[(String, String)]): Unit =
     val root = IIOMetadataNode(NativeFormat)
     if texts.nonEmpty then
-      val all = IIOMetadataNode("iTXt")
+      val textChunk = IIOMetadataNode("iTXt")
       for (name, text) <- texts do
         val entry = IIOMetadataNode("iTXtEntry")
         entry.setAttribute("keyword", name)
@@ -34,8 +34,8 @@ private[image] object Png extends OutputFormat("png", Contents.Display):
         entry.setAttribute("languageTag", "")
         entry.setAttribute("translatedKeyword", "")
         entry.setAttribute("text", text)
-        val _ = all.appendChild(entry)
-      val _ = root.appendChild(all)
+        val _ = textChunk.appendChild(entry)
+      val _ = root.appendChild(textChunk)
     val srgb = IIOMetadataNode("sRGB")
     srgb.setAttribute("renderingIntent", "Relative colorimetric")
     val _ = root.appendChild(srgb)

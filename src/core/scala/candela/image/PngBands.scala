@@ -60,12 +60,12 @@ private[image] final class PngBands private (
 
   private def image(bytes: Array[Byte], floats: Array[Float], rows: Int): StoredImage =
     val count = rows * values
-    if isBytes then ByteImage(w, rows, names, first(bytes, count), encoding)
+    if isBytes then ByteImage(w, rows, names, prefix(bytes, count), encoding)
     else
-      val some = if floats.length == count then floats else floats.take(count)
-      Image(w, rows, names, some, encoding)
+      val trimmed = if floats.length == count then floats else floats.take(count)
+      Image(w, rows, names, trimmed, encoding)
 
-  private def first(bytes: Array[Byte], count: Int): Array[Byte] =
+  private def prefix(bytes: Array[Byte], count: Int): Array[Byte] =
     if bytes.length == count then bytes else bytes.take(count)
 
   private def unfilter(filter: Int, row: Array[Byte], above: Array[Byte]): Unit =
@@ -85,8 +85,8 @@ private[image] final class PngBands private (
       case 3 =>
         var i = 0
         while i < length do
-          val left = if i < pixel then 0 else row(i - pixel) & 0xff
-          row(i) = (row(i) + ((left + (above(i) & 0xff)) >> 1)).toByte
+          val leftByte = if i < pixel then 0 else row(i - pixel) & 0xff
+          row(i) = (row(i) + ((leftByte + (above(i) & 0xff)) >> 1)).toByte
           i += 1
       case 4 =>
         var i = 0
@@ -108,7 +108,7 @@ private[image] final class PngBands private (
     val ofC = Math.abs(a + b - 2 * c)
     if ofA <= ofB && ofA <= ofC then a else if ofB <= ofC then b else c
 
-  private def damaged(why: String) = ImageError(Code.DamagedImage, s"$file: $why")
+  private def damaged(reason: String) = ImageError(Code.DamagedImage, s"$file: $reason")
 
 private[image] object PngBands:
   /** Channels by colour type. */
@@ -129,7 +129,8 @@ private[image] object PngBands:
         bits = start(24)
         if (bits == 8 || bits == 16) && (start(26) | start(27) | start(28)) == 0
         row = width.toLong * names.size * (bits / 8)
-        if row * ImageBands.Rows < Int.MaxValue && row * height <= file.size * StbReader.MostPacked
+        if row * ImageBands.Rows < Int.MaxValue
+        if row * height <= file.size * StbReader.MaxCompression
         if !isKeyed(file)
       yield PngBands(file, width, height, names, bits / 8)
     catch case _: IOException | _: DataFormatException => None
@@ -148,27 +149,27 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
   private val inflater = Inflater()
   private val sum = CRC32()
   private val packed = new Array[Byte](1 << 16)
-  private val one = new Array[Byte](1)
-  private var left = 0
+  private val singleByte = new Array[Byte](1)
+  private var remainingBytes = 0
   private var isInData = false
   in.skipNBytes(PngBands.Beginning)
 
   def close(): Unit = inflater.end()
 
   def byte(): Int =
-    read(one)
-    one(0) & 0xff
+    read(singleByte)
+    singleByte(0) & 0xff
 
   def read(bytes: Array[Byte]): Unit =
-    var at = 0
-    while at < bytes.length do
+    var offset = 0
+    while offset < bytes.length do
       if inflater.finished then throw EOFException()
-      at += unpack(bytes, at)
+      offset += unpack(bytes, offset)
 
   /** Reads on to the end of the file, where faults may be, too. */
   def end(): Unit =
-    val rest = new Array[Byte](1 << 12)
-    while !inflater.finished do unpack(rest, 0): Unit
+    val discarded = new Array[Byte](1 << 12)
+    while !inflater.finished do unpack(discarded, 0): Unit
     while next() do ()
 
   /** Goes on to the next chunk of pixels, past those that only say how to show them.
@@ -177,13 +178,13 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
     */
   def next(): Boolean =
     if isInData then endData()
-    left = in.readInt()
+    remainingBytes = in.readInt()
     var kind = in.readInt()
     while PngChunks.isPlain(kind) do
-      in.skipNBytes((left & 0xffffffffL) + Checksum)
-      left = in.readInt()
+      in.skipNBytes((remainingBytes & 0xffffffffL) + Checksum)
+      remainingBytes = in.readInt()
       kind = in.readInt()
-    isInData = kind == Data && left >= 0
+    isInData = kind == Data && remainingBytes >= 0
     sum.reset()
     sum.update(DataName)
     if !isInData && kind != PngChunks.End then
@@ -198,20 +199,20 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
     count
 
   private def feed(): Unit =
-    while left == 0 do if !next() then throw EOFException()
-    inflater.setInput(packed, 0, take())
+    while remainingBytes == 0 do if !next() then throw EOFException()
+    inflater.setInput(packed, 0, readChunk())
 
   /** Reads on in the chunk; the number of bytes. */
-  private def take(): Int =
-    val count = in.read(packed, 0, Math.min(left, packed.length))
+  private def readChunk(): Int =
+    val count = in.read(packed, 0, Math.min(remainingBytes, packed.length))
     if count < 0 then throw EOFException()
-    left -= count
+    remainingBytes -= count
     sum.update(packed, 0, count)
     count
 
   /** Reads what is left of the chunk, and its checksum. */
   private def endData(): Unit =
-    while left > 0 do take(): Unit
+    while remainingBytes > 0 do readChunk(): Unit
     if in.readInt() != sum.getValue.toInt then
       throw DataFormatException("it has a chunk IDAT whose checksum is wrong")
 

@@ -35,9 +35,10 @@ private[image] object PngChunks:
   def check(bytes: Array[Byte]): Unit =
     if areIn(bytes) then
       val file = ByteBuffer.wrap(bytes)
-      var at = SignatureBytes
+      var position = SignatureBytes
       // A chunk that is cut short is told by the decoder
-      while at >= 0 && file.limit - at >= HeadBytes + ChecksumBytes do at = checked(file, at)
+      while position >= 0 && file.limit - position >= HeadBytes + ChecksumBytes do
+        position = checked(file, position)
 
   /** Checks the chunk that begins at `at`; where the next one begins, below 0 if there is none. */
   private def checked(file: ByteBuffer, at: Int): Int =

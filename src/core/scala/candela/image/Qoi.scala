@@ -57,18 +57,18 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
     file.length >= HeaderSize + End.length && {
       val header = ByteBuffer.wrap(file)
       val decoder = Decoder(file, 3)
-      var left = (header.getInt(4) & 0xffffffffL) * (header.getInt(8) & 0xffffffffL)
-      while left > 0 && !decoder.isAtEnd do left -= decoder.pixels()
-      left > 0
+      var remaining = (header.getInt(4) & 0xffffffffL) * (header.getInt(8) & 0xffffffffL)
+      while remaining > 0 && !decoder.isAtEnd do remaining -= decoder.pixels()
+      remaining > 0
     }
 
   private final class Decoder(file: Array[Byte], channels: Int):
-    private var at = HeaderSize
+    private var cursor = HeaderSize
     private val pixel = Array(0, 0, 0, 255)
-    private val seen = Array.ofDim[Int](64, 4)
+    private val recentPixels = Array.ofDim[Int](64, 4)
 
     /** The last bytes are never pixels, even if the file is cut. */
-    def isAtEnd: Boolean = at >= file.length - End.length
+    def isAtEnd: Boolean = cursor >= file.length - End.length
 
     def decode(target: Array[Byte]): Unit =
       var to = 0
@@ -87,14 +87,14 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
       else if code == Rgba then loop(4)(c => pixel(c) = byte())
       else
         code >> 6 match
-          case ByIndex => System.arraycopy(seen(code & 63), 0, pixel, 0, 4)
+          case ByIndex => System.arraycopy(recentPixels(code & 63), 0, pixel, 0, 4)
           case ByDifference => add((code >> 4 & 3) - 2, (code >> 2 & 3) - 2, (code & 3) - 2)
           case ByLuma =>
             val green = (code & 63) - 32
-            val others = byte()
-            add(green + (others >> 4) - 8, green, green + (others & 15) - 8)
+            val redBlue = byte()
+            add(green + (redBlue >> 4) - 8, green, green + (redBlue & 15) - 8)
           case _ => count = (code & 63) + 1
-      System.arraycopy(pixel, 0, seen(slot(pixel)), 0, 4)
+      System.arraycopy(pixel, 0, recentPixels(slot(pixel)), 0, 4)
       count
 
     private def add(r: Int, g: Int, b: Int): Unit =
@@ -103,8 +103,8 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
       pixel(2) = (pixel(2) + b) & 255
 
     private def byte(): Int =
-      at += 1
-      file(at - 1) & 255
+      cursor += 1
+      file(cursor - 1) & 255
 
   private[image] override def hasEnd(file: Array[Byte]): Boolean =
     file.takeRight(End.length).sameElements(End)
@@ -129,25 +129,25 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
     out.toByteArray
 
   private final class Encoder(out: ByteArrayOutputStream):
-    private val last = Array(0, 0, 0, 255)
-    private val seen = Array.ofDim[Int](64, 4)
+    private val previous = Array(0, 0, 0, 255)
+    private val recentPixels = Array.ofDim[Int](64, 4)
     private var run = 0
 
     def add(r: Int, g: Int, b: Int): Unit =
-      if r == last(0) && g == last(1) && b == last(2) then
+      if r == previous(0) && g == previous(1) && b == previous(2) then
         run += 1
         if run == LongestRun then end()
       else
         end()
         // Differences are modulo 256
-        val dr = (r - last(0)).toByte.toInt
-        val dg = (g - last(1)).toByte.toInt
-        val db = (b - last(2)).toByte.toInt
-        last(0) = r
-        last(1) = g
-        last(2) = b
-        val index = slot(last)
-        if java.util.Arrays.equals(seen(index), last) then out.write(index)
+        val dr = (r - previous(0)).toByte.toInt
+        val dg = (g - previous(1)).toByte.toInt
+        val db = (b - previous(2)).toByte.toInt
+        previous(0) = r
+        previous(1) = g
+        previous(2) = b
+        val index = slot(previous)
+        if java.util.Arrays.equals(recentPixels(index), previous) then out.write(index)
         else if isSmall(dr, 2) && isSmall(dg, 2) && isSmall(db, 2) then
           out.write(ByDifference << 6 | (dr + 2) << 4 | (dg + 2) << 2 | (db + 2))
         else if isSmall(dg, 32) && isSmall(dr - dg, 8) && isSmall(db - dg, 8) then
@@ -156,7 +156,7 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
         else
           out.write(Rgb)
           for value <- Array(r, g, b) do out.write(value)
-        System.arraycopy(last, 0, seen(index), 0, 4)
+        System.arraycopy(previous, 0, recentPixels(index), 0, 4)
 
     /** Writes the open run. */
     def end(): Unit =

@@ -9,7 +9,7 @@ import org.lwjgl.system.MemoryUtil
 object Resize:
 
   /** Linear R, G and B of the image, reduced to at most this size. */
-  def within(image: Image, width: Int, height: Int): Image =
+  def fitting(image: Image, width: Int, height: Int): Image =
     val scale = Math.min(width.toDouble / image.width, height.toDouble / image.height)
     if scale >= 1 then finite(image)
     else
@@ -18,21 +18,21 @@ object Resize:
 
   /** Linear R, G and B of the image at this size. */
   def exactly(image: Image, width: Int, height: Int): Image =
-    val from = MemoryUtil.memAllocFloat(3 * image.width * image.height)
-    val to = MemoryUtil.memAllocFloat(3 * width * height)
+    val input = MemoryUtil.memAllocFloat(3 * image.width * image.height)
+    val output = MemoryUtil.memAllocFloat(3 * width * height)
     try
-      from.put(finite(image).data).flip()
+      input.put(finite(image).data).flip()
       // LWJGL's checked call demands four times the memory.
-      val (source, target) = (MemoryUtil.memAddress(from), MemoryUtil.memAddress(to))
+      val (source, target) = (MemoryUtil.memAddress(input), MemoryUtil.memAddress(output))
       val _ = nstbir_resize_float_linear(
         source, image.width, image.height, 0, target, width, height, 0, STBIR_RGB
       )
       val small = Image.rgb(width, height)
-      val _ = to.get(small.data)
+      val _ = output.get(small.data)
       small
     finally
-      MemoryUtil.memFree(from)
-      MemoryUtil.memFree(to)
+      MemoryUtil.memFree(input)
+      MemoryUtil.memFree(output)
 
   /** A value that is not finite would spread. */
   private def finite(image: Image): Image =

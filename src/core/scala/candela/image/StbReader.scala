@@ -19,7 +19,7 @@ private[image] object StbReader:
 
   /** @param admit receives width and height before the pixels are decoded */
   def read(file: Array[Byte], admit: (Int, Int) => Unit = (_, _) => ()): StoredImage =
-    Natives.need("stb")
+    Natives.require("stb")
     PngChunks.check(file)
     val stack = MemoryStack.stackPush()
     val native = MemoryUtil.memAlloc(file.length)
@@ -44,7 +44,7 @@ private[image] object StbReader:
     val values = w.get(0).toLong * height * c.get(0)
     if values <= 0 || values > Int.MaxValue - 8 then
       throw ImageError(Code.TooLarge, s"${w.get(0)}×$height pixels are more than fit into memory")
-    if stored(file, w.get(0), height, values) > file.remaining.toLong * MostPacked then
+    if stored(file, w.get(0), height, values) > file.remaining.toLong * MaxCompression then
       val bytes = file.remaining
       throw ImageError(
         Code.DamagedImage,
@@ -83,8 +83,8 @@ private[image] object StbReader:
   /** Upper bound of compression ratios: deflate reaches 1032, JPEG with one bit per block 1365.
     * Limits the memory that a damaged size can request; the decoder would fill it.
     */
-  private[image] val MostPacked = 1400
+  private[image] val MaxCompression = 1400
 
   private def failed(): Nothing =
-    val why = Option(STBImage.stbi_failure_reason).getOrElse("unknown reason")
-    throw ImageError(Code.DamagedImage, s"can't be decoded: $why")
+    val reason = Option(STBImage.stbi_failure_reason).getOrElse("unknown reason")
+    throw ImageError(Code.DamagedImage, s"can't be decoded: $reason")

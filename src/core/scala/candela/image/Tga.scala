@@ -54,18 +54,18 @@ private[image] object Tga extends OutputFormat("tga", Contents.Display):
 
   /** The file with a palette from entry 0. */
   private def withWholePalette(file: Array[Byte]): Array[Byte] =
-    val first = firstEntry(file)
-    def count = first + short(file, 5)
-    if first == 0 || count > 0xffff then file
+    val firstIndex = firstEntry(file)
+    def count = firstIndex + short(file, 5)
+    if firstIndex == 0 || count > 0xffff then file
     else
       val start = HeaderSize + (file(0) & 0xff)
-      val unused = new Array[Byte](first * (((file(7) & 0xff) + 7) / 8))
-      val whole = file.take(start) ++ unused ++ file.drop(start)
-      whole(3) = 0
-      whole(4) = 0
-      whole(5) = count.toByte
-      whole(6) = (count >> 8).toByte
-      whole
+      val unused = new Array[Byte](firstIndex * (((file(7) & 0xff) + 7) / 8))
+      val completed = file.take(start) ++ unused ++ file.drop(start)
+      completed(3) = 0
+      completed(4) = 0
+      completed(5) = count.toByte
+      completed(6) = (count >> 8).toByte
+      completed
 
   override def keepsAlpha: Boolean = true
 

@@ -85,5 +85,5 @@ object CheckFilter:
     * cancels far from the origin. The mean has no second difference.
     */
   private def integral2(x: Double): Double =
-    val part = x - Math.floor(x)
-    -0.5 * sign(x) * part * (1.0 - part)
+    val fraction = x - Math.floor(x)
+    -0.5 * sign(x) * fraction * (1.0 - fraction)

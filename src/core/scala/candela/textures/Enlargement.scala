@@ -8,14 +8,14 @@ import candela.math.*
   *
   * Source: Lanczos, "Applied Analysis", 1956.
   *
-  * @param most upper limit of new texels
+  * @param maxValue upper limit of new texels
   */
 private[textures] final class Enlargement(
     fromWidth: Int,
     fromHeight: Int,
     channels: Int,
     wrap: Wrap,
-    most: Float
+    maxValue: Float
 ):
   import Enlargement.*
 
@@ -41,9 +41,9 @@ private[textures] final class Enlargement(
       texel: (Int, Int) => Float
   ): Unit =
     loop(width): x =>
-      val first = across.first(x)
-      if first >= 0 && first + Taps <= fromWidth then
-        val i = first * channels
+      val firstTexel = across.firstTap(x)
+      if firstTexel >= 0 && firstTexel + Taps <= fromWidth then
+        val i = firstTexel * channels
         loop(channels): c =>
           var sum = 0f
           loop(Taps): k =>
@@ -51,38 +51,43 @@ private[textures] final class Enlargement(
           to(start + x * channels + c) = sum
       else
         loop(Taps): k =>
-          val i = wrap.index(first + k, y, fromWidth, fromHeight)
+          val i = wrap.index(firstTexel + k, y, fromWidth, fromHeight)
           if i >= 0 then
             val weight = across.weight(Taps * x + k)
             loop(channels)(c => to(start + x * channels + c) += weight * texel(i, c))
 
   /** Whether the new row `y` needs rows beyond the image. */
-  def isBeyond(y: Int): Boolean = down.first(y) < 0 || down.first(y) + Taps > fromHeight
+  def isBeyond(y: Int): Boolean = down.firstTap(y) < 0 || down.firstTap(y) + Taps > fromHeight
 
   /** The first of the old rows that the new row `y` needs, unless it is beyond the image. */
-  def firstOf(y: Int): Int = Math.max(0, down.first(y))
+  def firstOf(y: Int): Int = Math.max(0, down.firstTap(y))
 
   /** The last of them. */
-  def lastOf(y: Int): Int = Math.min(fromHeight, down.first(y) + Taps) - 1
+  def lastOf(y: Int): Int = Math.min(fromHeight, down.firstTap(y) + Taps) - 1
 
   /** Resamples down, for contiguous access row by row.
     *
     * @param wide has rows that were resampled across
     * @param to   receives the new row `y` from `start` on; zero before
-    * @param at   where an old row begins
+    * @param offsetOf where an old row begins
     */
-  def heighten(y: Int, wide: Array[Float], to: Array[Float], start: Int)(at: Int => Int): Unit =
+  def heighten(
+      y: Int,
+      wide: Array[Float],
+      to: Array[Float],
+      start: Int
+  )(offsetOf: Int => Int): Unit =
     loop(Taps): k =>
-      val row = down.first(y) + k
+      val row = down.firstTap(y) + k
       val weight = down.weight(Taps * y + k)
-      if row >= 0 && row < fromHeight then add(wide, at(row), weight, to, start, length)
+      if row >= 0 && row < fromHeight then add(wide, offsetOf(row), weight, to, start, length)
       else
         loop(width): x =>
           val i = wrap.index(x, row, width, fromHeight)
           if i >= 0 then
-            val from = at(i / width) + i % width * channels
-            add(wide, from, weight, to, start + x * channels, channels)
-    loop(length)(k => to(start + k) = clamp(to(start + k), 0f, most))
+            val offset = offsetOf(i / width) + i % width * channels
+            add(wide, offset, weight, to, start + x * channels, channels)
+    loop(length)(k => to(start + k) = clamp(to(start + k), 0f, maxValue))
 
 /** The latest rows of an image, and those at its upper and lower edge. */
 private[textures] final class EdgedRows(height: Int, length: Int):
@@ -90,14 +95,14 @@ private[textures] final class EdgedRows(height: Int, length: Int):
   val values = new Array[Float]((Latest + 2 * Edge) * length)
 
   /** Where a row begins. */
-  def at(y: Int): Int =
-    val place =
+  def offsetOf(y: Int): Int =
+    val slot =
       if y < Edge then Latest + y
       else if isEdge(y, height) then Latest + Edge + y - (height - Edge)
       else y % Latest
-    place * length
+    slot * length
 
-  def clear(y: Int): Unit = java.util.Arrays.fill(values, at(y), at(y) + length, 0f)
+  def clear(y: Int): Unit = java.util.Arrays.fill(values, offsetOf(y), offsetOf(y) + length, 0f)
 
 private[textures] object EdgedRows:
   private val Latest = 8
@@ -122,20 +127,20 @@ private[textures] object Enlargement:
       i += 1
 
   /** For each new texel the first of four old ones, and their weights. */
-  private final class Weights(val first: Array[Int], val weight: Array[Float])
+  private final class Weights(val firstTap: Array[Int], val weight: Array[Float])
 
   private val Taps = 4
 
   /** Over two old texels to each side. */
   private def weights(from: Int, to: Int): Weights =
-    val first = new Array[Int](to)
+    val firstTap = new Array[Int](to)
     val weight = new Array[Float](to * Taps)
     loop(to): i =>
       val center = (i + 0.5) * from / to
-      first(i) = Math.floor(center - 2 + 0.5).toInt
-      val raw = Array.tabulate(Taps)(k => lanczos((first(i) + k + 0.5 - center) / 2))
+      firstTap(i) = Math.floor(center - 2 + 0.5).toInt
+      val raw = Array.tabulate(Taps)(k => lanczos((firstTap(i) + k + 0.5 - center) / 2))
       loop(Taps)(k => weight(Taps * i + k) = (raw(k) / raw.sum).toFloat)
-    Weights(first, weight)
+    Weights(firstTap, weight)
 
   private def lanczos(x: Double): Double =
     if Math.abs(x) > 1 then 0 else sinc(x) * sinc(2 * x)

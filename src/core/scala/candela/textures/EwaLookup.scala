@@ -33,14 +33,14 @@ final class EwaLookup(
       val ay = dydx * widenX
       val bx = dsdy * widenY
       val by = dydy * widenY
-      val lod = Math.max(0f, last + log2(minor * widening))
-      if lod >= last then top
+      val lod = Math.max(0f, lastLevel + log2(minor * widening))
+      if lod >= lastLevel then top
       else
-        val whole = lod.toInt
-        val part = lod - whole
-        val finer = EwaLookup.average(pyramid(whole), s, y, ax, ay, bx, by)
-        if part == 0f then finer
-        else finer * (1f - part) + coarser(whole + 1, s, y, ax, ay, bx, by) * part
+        val finerLevel = lod.toInt
+        val fraction = lod - finerLevel
+        val finer = EwaLookup.average(pyramid(finerLevel), s, y, ax, ay, bx, by)
+        if fraction == 0f then finer
+        else finer * (1f - fraction) + coarser(finerLevel + 1, s, y, ax, ay, bx, by) * fraction
 
   private def coarser(i: Int, s: Float, y: Float, ax: Float, ay: Float, bx: Float, by: Float) =
     EwaLookup.average(pyramid(i), s, y, ax, ay, bx, by)
@@ -66,8 +66,8 @@ object EwaLookup:
   ): Rgb =
     val w = level.width.toFloat
     val h = level.height.toFloat
-    val x = MipLevel.within(s * w - 0.5f)
-    val y = MipLevel.within(row * h - 0.5f)
+    val x = MipLevel.clampCoordinate(s * w - 0.5f)
+    val y = MipLevel.clampCoordinate(row * h - 0.5f)
     // The ellipse is a·dx² + b·dx·dy + c·dy² = 1 (Heckbert, p. 80)
     val a0 = square(ay * h) + square(by * h) + 1f
     val b0 = -2f * (ax * w * ay * h + bx * w * by * h)

@@ -9,7 +9,7 @@ import candela.image.{ExrLevels, Image, ImageError}
   */
 final class FileLevels(file: ExrLevels, picked: Vector[Int]):
   val channels: Int = if picked.distinct.size == 1 then 1 else 3
-  private val from = picked.take(channels).toArray
+  private val sourceChannels = picked.take(channels).toArray
 
   /** Width and height of each level, the largest first, and that it has no bytes. */
   val sizes: Vector[(Int, Int, Boolean)] = file.sizes.map((w, h) => (w, h, false))
@@ -27,27 +27,27 @@ final class FileLevels(file: ExrLevels, picked: Vector[Int]):
 
   /** In tiles of a memory. */
   private[textures] def source: TileSource = new TileSource:
-    private val places = TilePlace.all(sizes, channels)
+    private val layouts = TileLayout.ofLevels(sizes, channels)
 
     def fill(tile: Int, buffer: TileBuffer): Unit =
       java.util.Arrays.fill(buffer.ints, 0)
-      loop(places.size): level =>
-        val place = places(level)
-        val local = tile - place.start
-        if local >= 0 && local < place.count then
-          val x0 = local % place.tiles << place.across
-          val y0 = local / place.tiles << place.down
-          val x1 = Math.min(place.width, x0 + (1 << place.across))
-          val y1 = Math.min(place.height, y0 + (1 << place.down))
+      loop(layouts.size): level =>
+        val layout = layouts(level)
+        val local = tile - layout.start
+        if local >= 0 && local < layout.count then
+          val x0 = local % layout.tiles << layout.across
+          val y0 = local / layout.tiles << layout.down
+          val x1 = Math.min(layout.width, x0 + (1 << layout.across))
+          val y1 = Math.min(layout.height, y0 + (1 << layout.down))
           region(x0, y0, x1, y1)(decoded(buffer, level, _, _)): (x, y, c, value) =>
-            val at = place.base + ((y - y0 << place.across) + x - x0) * channels + c
-            buffer.ints(at) = java.lang.Float.floatToRawIntBits(value)
+            val offset = layout.base + ((y - y0 << layout.across) + x - x0) * channels + c
+            buffer.ints(offset) = java.lang.Float.floatToRawIntBits(value)
 
   /** A tile of the file, unless the buffer has it: its neighbours in memory are often next. */
   private def decoded(buffer: TileBuffer, level: Int, x: Int, y: Int): Image =
-    val known = buffer.decoded
-    if known != null && (known.file eq file) && known.level == level && known.x == x && known.y == y
-    then known.image
+    val tile = buffer.decoded
+    if tile != null && (tile.file eq file) && tile.level == level && tile.x == x && tile.y == y
+    then tile.image
     else
       val image =
         try file.tile(level, x, y)
@@ -71,7 +71,7 @@ final class FileLevels(file: ExrLevels, picked: Vector[Int]):
           while x < Math.min(x1, tx * w + w) do
             var c = 0
             while c < channels do
-              put(x, y, c, image(x - tx * w, y - ty * h, from(c)))
+              put(x, y, c, image(x - tx * w, y - ty * h, sourceChannels(c)))
               c += 1
             x += 1
           y += 1

@@ -20,12 +20,12 @@ final class FloatImageTexture(
   override def slopes(at: ShadingPoint): Slopes | Null =
     if ofUv.isEmpty || invert then null
     else
-      val here = lookup.slopes(mapping(at))
-      if here == null then null
+      val imageSlopes = lookup.slopes(mapping(at))
+      if imageSlopes == null then null
       else
         Slopes(
-          scale * (here.byU * ofUv(0) + here.byV * ofUv(2)),
-          scale * (here.byU * ofUv(1) + here.byV * ofUv(3))
+          scale * (imageSlopes.byU * ofUv(0) + imageSlopes.byV * ofUv(2)),
+          scale * (imageSlopes.byU * ofUv(1) + imageSlopes.byV * ofUv(3))
         )
 
 /** Colour image texture, with `scale` and `invert` as for [[FloatImageTexture]]. */
@@ -67,7 +67,7 @@ abstract class ImageLookup(bottomUp: Boolean):
   */
 abstract class FilteredLookup(pyramid: MipMap, bottomUp: Boolean, turned: Boolean)
     extends ImageLookup(bottomUp):
-  protected final val last: Int = pyramid.size - 1
+  protected final val lastLevel: Int = pyramid.size - 1
   private val down = if bottomUp && turned then -1f else 1f
 
   final def color(mapping: Mapping2D, at: ShadingPoint): Rgb =
@@ -80,15 +80,18 @@ abstract class FilteredLookup(pyramid: MipMap, bottomUp: Boolean, turned: Boolea
     */
   def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb
 
-  protected final def top: Rgb = pyramid(last).nearest(0f, 0f)
+  protected final def top: Rgb = pyramid(lastLevel).nearest(0f, 0f)
 
-  protected final def between(level: Float, s: Float, y: Float): Rgb =
-    val whole = level.toInt
-    val part = level - whole
-    pyramid(whole).bilinear(s, y) * (1f - part) + pyramid(whole + 1).bilinear(s, y) * part
+  protected final def trilinear(level: Float, s: Float, y: Float): Rgb =
+    val finerLevel = level.toInt
+    val fraction = level - finerLevel
+    pyramid(finerLevel).bilinear(
+      s,
+      y
+    ) * (1f - fraction) + pyramid(finerLevel + 1).bilinear(s, y) * fraction
 
   /** MIP level whose texels match the footprint's larger extent. */
-  protected final def levelOf(width: Float): Float = last + log2(Math.max(width, 1e-8f))
+  protected final def levelOf(width: Float): Float = lastLevel + log2(Math.max(width, 1e-8f))
 
 /** Selects one MIP level by the footprint's largest extent along either axis (pbrt-v4's "point" and
   * "bilinear").
@@ -103,12 +106,12 @@ final class LevelLookup(
     if pyramid.size > 1 then null
     else if !interpolates then Slopes(0f, 0f)
     else
-      val here = pyramid(0).slopes(c.s, row(c.t))
-      if bottomUp then Slopes(here.byU, -here.byV) else here
+      val imageSlopes = pyramid(0).slopes(c.s, row(c.t))
+      if bottomUp then Slopes(imageSlopes.byU, -imageSlopes.byV) else imageSlopes
 
   def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb =
     val level = levelOf(2f * Footprint.extent(dsdx, dydx, dsdy, dydy))
-    if level >= last then top
+    if level >= lastLevel then top
     else
       val chosen = pyramid(if level > 0f then level.toInt else 0)
       if interpolates then chosen.bilinear(s, y) else chosen.nearest(s, y)
@@ -129,9 +132,9 @@ final class TrilinearLookup(
 
   def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb =
     val level = levelOf(factor * Footprint.extent(dsdx, dydx, dsdy, dydy))
-    if level >= last then top
+    if level >= lastLevel then top
     else if level < blendsFrom then pyramid(0).bilinear(s, y)
-    else between(level, s, y)
+    else trilinear(level, s, y)
 
 private object Footprint:
   def extent(dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Float =

@@ -64,8 +64,8 @@ final class SphericalMapping(textureToWorld: Transform) extends Mapping2D:
   def apply(at: ShadingPoint): TexCoord =
     val p = worldToTexture.point(at.p).normalized
     val theta = Math.acos(clamp(p.z, -1f, 1f).toDouble)
-    val around = Math.atan2(p.y.toDouble, p.x.toDouble)
-    val phi = if around < 0 then around + 2 * Math.PI else around
+    val azimuth = Math.atan2(p.y.toDouble, p.x.toDouble)
+    val phi = if azimuth < 0 then azimuth + 2 * Math.PI else azimuth
     TexCoord((theta / Math.PI).toFloat, (phi / (2 * Math.PI)).toFloat)
 
   def footprint(at: ShadingPoint): TexFootprint =
@@ -75,7 +75,7 @@ final class SphericalMapping(textureToWorld: Transform) extends Mapping2D:
     // ∂θ/∂p over π, and ∂φ/∂p over 2π; 0 at the poles, where they are infinite
     val d = if r > 0f then 1f / (Pi * (r2 + square(p.z))) else 0f
     val ds = Vec3(p.x * p.z * d / r, p.y * p.z * d / r, -r * d)
-    val dt = Mapping2D.around(p)
+    val dt = Mapping2D.angleGradient(p)
     if r > 0f then Mapping2D.along(worldToTexture, ds, dt, at) else Mapping2D.Unknown
 
 /** Cylindrical mapping about the texture space's z axis: s is the angle from −x over 2π, t the
@@ -90,8 +90,8 @@ final class CylindricalMapping(textureToWorld: Transform, onUnitSphere: Boolean)
   def apply(at: ShadingPoint): TexCoord =
     val inTexture = worldToTexture.point(at.p)
     val p = if onUnitSphere then inTexture.normalized else inTexture
-    val around = Math.atan2(p.y.toDouble, p.x.toDouble)
-    TexCoord(((Math.PI + around) / (2 * Math.PI)).toFloat, p.z)
+    val azimuth = Math.atan2(p.y.toDouble, p.x.toDouble)
+    TexCoord(((Math.PI + azimuth) / (2 * Math.PI)).toFloat, p.z)
 
   def footprint(at: ShadingPoint): TexFootprint =
     val p = worldToTexture.point(at.p)
@@ -99,7 +99,7 @@ final class CylindricalMapping(textureToWorld: Transform, onUnitSphere: Boolean)
     val dt =
       if onUnitSphere then (Vec3.Z - p * (p.z / square(length))) * (1f / length) else Vec3.Z
     if p.x == 0f && p.y == 0f then Mapping2D.Unknown
-    else Mapping2D.along(worldToTexture, Mapping2D.around(p), dt, at)
+    else Mapping2D.along(worldToTexture, Mapping2D.angleGradient(p), dt, at)
 
 /** Planar mapping: s = p·axisS + ds, t = p·axisT + dt.
   *
@@ -125,7 +125,7 @@ private object Mapping2D:
   val Unknown: TexFootprint = TexFootprint(0f, 0f, 0f, 0f)
 
   /** Gradient of the angle around z, over 2π. */
-  def around(p: Vec3): Vec3 =
+  def angleGradient(p: Vec3): Vec3 =
     val d = 1f / (2f * Pi * (square(p.x) + square(p.y)))
     Vec3(-p.y * d, p.x * d, 0f)
 

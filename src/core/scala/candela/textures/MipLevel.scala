@@ -33,8 +33,8 @@ abstract class MipLevel(final val width: Int, final val height: Int, final val i
 
   /** Bilinear interpolation of the four nearest texels. */
   def bilinear(s: Float, row: Float): Rgb =
-    val x = MipLevel.within(s * width - 0.5f)
-    val y = MipLevel.within(row * height - 0.5f)
+    val x = MipLevel.clampCoordinate(s * width - 0.5f)
+    val y = MipLevel.clampCoordinate(row * height - 0.5f)
     val x0 = MipLevel.floor(x)
     val y0 = MipLevel.floor(y)
     val dx = x - x0
@@ -53,8 +53,8 @@ abstract class MipLevel(final val width: Int, final val height: Int, final val i
 
   /** Derivatives of the first channel of [[bilinear]], by `s` and `row`. */
   def slopes(s: Float, row: Float): Slopes =
-    val x = MipLevel.within(s * width - 0.5f)
-    val y = MipLevel.within(row * height - 0.5f)
+    val x = MipLevel.clampCoordinate(s * width - 0.5f)
+    val y = MipLevel.clampCoordinate(row * height - 0.5f)
     val x0 = MipLevel.floor(x)
     val y0 = MipLevel.floor(y)
     val v00 = apply(index(x0, y0), 0)
@@ -76,13 +76,13 @@ object MipLevel:
   def apply(texels: Texels, wrap: Wrap): MipLevel = TexelLevel(texels, wrap)
 
   /** Texels farther out than this have no numbers that one can count on from. */
-  private val Farthest = 1e9f
+  private val MaxCoordinate = 1e9f
 
   /** A place in texels, brought to where they have numbers; 0 for NaN. */
-  private[textures] def within(x: Float): Float =
-    if x >= -Farthest && x <= Farthest then x
-    else if x > Farthest then Farthest
-    else if x < -Farthest then -Farthest
+  private[textures] def clampCoordinate(x: Float): Float =
+    if x >= -MaxCoordinate && x <= MaxCoordinate then x
+    else if x > MaxCoordinate then MaxCoordinate
+    else if x < -MaxCoordinate then -MaxCoordinate
     else 0f
 
   private[textures] def floor(x: Float): Int =

@@ -10,18 +10,18 @@ import candela.base.{Keep, Parallel}
   */
 final class MipMap private (val size: Int, whenSeen: () => Array[MipLevel]):
   // null once the levels are there: it holds the image
-  private var make: (() => Array[MipLevel]) | Null = whenSeen
+  private var builder: (() => Array[MipLevel]) | Null = whenSeen
   @volatile private var levels: Array[MipLevel] | Null = null
 
   /** The level `i`, the largest first. */
   def apply(i: Int): MipLevel =
-    val known = levels
-    if known != null then known(i) else made()(i)
+    val built = levels
+    if built != null then built(i) else build()(i)
 
-  private def made(): Array[MipLevel] = synchronized:
+  private def build(): Array[MipLevel] = synchronized:
     if levels == null then
-      levels = make.nn()
-      make = null
+      levels = builder.nn()
+      builder = null
     levels.nn
 
 object MipMap:
@@ -38,19 +38,19 @@ object MipMap:
       width: Int,
       height: Int,
       wrap: Wrap,
-      most: Float,
+      maxValue: Float,
       parallel: Parallel,
       keep: Keep = Keep.Nothing,
       key: Option[String] = None
   )(texels: () => Texels): MipMap =
-    def made() = Pyramid.of(texels(), wrap, most, parallel)
+    def pyramid() = Pyramid.of(texels(), wrap, maxValue, parallel)
     MipMap(
       Pyramid.size(width, height),
-      () => key.fold(made())(k => keep(Levels, s"$k $most")(made()))
+      () => key.fold(pyramid())(k => keep(Levels, s"$k $maxValue")(pyramid()))
     )
 
   /** The smallest level of [[ofImage]], the mean of the image. */
-  def ofMean(all: MipMap): MipMap = MipMap(1, () => Array(all(all.size - 1)))
+  def ofMean(pyramid: MipMap): MipMap = MipMap(1, () => Array(pyramid(pyramid.size - 1)))
 
   /** An image as it is. */
   def plain(wrap: Wrap)(texels: () => Texels): MipMap =

@@ -20,19 +20,19 @@ object Octaves:
     * @param footprint squared, in the space of `p`
     * @param far       what to add to `p` in Double
     */
-  def fbm(p: Vec3, footprint: Float, omega: Float, most: Int, far: Position): Float =
-    val count = visible(footprint, most)
-    val whole = count.toInt
+  def fbm(p: Vec3, footprint: Float, omega: Float, maxOctaves: Int, far: Position): Float =
+    val count = visible(footprint, maxOctaves)
+    val fullOctaves = count.toInt
     var sum = 0f
     var scale = 1f
     var strength = 1f
     var i = 0
-    while i < whole do
+    while i < fullOctaves do
       sum += strength * noise(p, scale, far)
       scale *= Lacunarity
       strength *= omega
       i += 1
-    sum + strength * fade(count - whole) * noise(p, scale, far)
+    sum + strength * fade(count - fullOctaves) * noise(p, scale, far)
 
   /** Turbulence: the sum of the noises' magnitudes, with their mean in place of octaves beyond the
     * Nyquist limit.
@@ -44,27 +44,27 @@ object Octaves:
       p: Vec3,
       footprint: Float,
       omega: Float,
-      most: Int,
+      maxOctaves: Int,
       evenMean: Boolean,
       far: Position
   ): Float =
-    val count = visible(footprint, most)
-    val whole = count.toInt
+    val count = visible(footprint, maxOctaves)
+    val fullOctaves = count.toInt
     var sum = 0f
     var scale = 1f
     var strength = 1f
     var i = 0
-    while i < whole do
+    while i < fullOctaves do
       sum += strength * abs(noise(p, scale, far))
       scale *= Lacunarity
       strength *= omega
       i += 1
-    val last = abs(noise(p, scale, far))
-    val part = fade(count - whole)
-    if evenMean then sum + strength * part * last + (most - count) * MeanMagnitude
+    val lastNoise = abs(noise(p, scale, far))
+    val weight = fade(count - fullOctaves)
+    if evenMean then sum + strength * weight * lastNoise + (maxOctaves - count) * MeanMagnitude
     else
-      sum += strength * lerp(part, MeanMagnitude, last)
-      while i < most do
+      sum += strength * lerp(weight, MeanMagnitude, lastNoise)
+      while i < maxOctaves do
         sum += strength * MeanMagnitude
         strength *= omega
         i += 1
@@ -75,18 +75,19 @@ object Octaves:
     if far eq Position.Origin then PerlinNoise(p * scale)
     else
       PerlinNoise(
-        p.x * scale + rest(far.x * scale),
-        p.y * scale + rest(far.y * scale),
-        p.z * scale + rest(far.z * scale)
+        p.x * scale + wrapped(far.x * scale),
+        p.y * scale + wrapped(far.y * scale),
+        p.z * scale + wrapped(far.z * scale)
       )
 
-  private def rest(x: Double): Float =
+  private def wrapped(x: Double): Float =
     (x - PerlinNoise.Period * Math.rint(x / PerlinNoise.Period)).toFloat
 
   /** Number of octaves coarser than twice the footprint. */
-  private def visible(footprint: Float, most: Int): Float =
-    if footprint > 0f then clamp(-1f - 0.5f * log2(footprint), 0f, most.toFloat) else most.toFloat
+  private def visible(footprint: Float, maxOctaves: Int): Float =
+    if footprint > 0f then clamp(-1f - 0.5f * log2(footprint), 0f, maxOctaves.toFloat)
+    else maxOctaves.toFloat
 
-  private def fade(part: Float): Float =
-    val t = clamp((part - 0.3f) / 0.4f, 0f, 1f)
+  private def fade(fraction: Float): Float =
+    val t = clamp((fraction - 0.3f) / 0.4f, 0f, 1f)
     t * t * (3f - 2f * t)

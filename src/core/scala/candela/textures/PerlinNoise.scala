@@ -23,7 +23,7 @@ object PerlinNoise:
     val iz = z0.toInt & 255
     val wx = fade(dx)
     val wy = fade(dy)
-    val front = lerp(
+    val z0Value = lerp(
       wy,
       lerp(wx, slope(ix, iy, iz, dx, dy, dz), slope(ix + 1, iy, iz, dx - 1f, dy, dz)),
       lerp(
@@ -32,7 +32,7 @@ object PerlinNoise:
         slope(ix + 1, iy + 1, iz, dx - 1f, dy - 1f, dz)
       )
     )
-    val back = lerp(
+    val z1Value = lerp(
       wy,
       lerp(
         wx,
@@ -45,7 +45,7 @@ object PerlinNoise:
         slope(ix + 1, iy + 1, iz + 1, dx - 1f, dy - 1f, dz - 1f)
       )
     )
-    lerp(fade(dz), front, back)
+    lerp(fade(dz), z0Value, z1Value)
 
   def apply(p: Vec3): Float = apply(p.x, p.y, p.z)
 
@@ -60,11 +60,11 @@ object PerlinNoise:
   private def slope(x: Int, y: Int, z: Int, dx: Float, dy: Float, dz: Float): Float =
     val hash = permutation(permutation(permutation(x) + y) + z) & 15
     val isFlat = hash == 12 || hash == 13
-    val first = if hash < 8 || isFlat then dx else dy
-    val second = if hash < 4 || isFlat then dy else dz
-    (if (hash & 1) == 0 then first else -first) + (if (hash & 2) == 0 then second else -second)
+    val u = if hash < 8 || isFlat then dx else dy
+    val v = if hash < 4 || isFlat then dy else dz
+    (if (hash & 1) == 0 then u else -u) + (if (hash & 2) == 0 then v else -v)
 
-  private val once = Array(
+  private val bytePermutation = Array(
     151, 160, 137, 91, 90, 15, 131, 13, 201, 95, 96, 53, 194, 233, 7, 225, 140, 36, 103, 30, 69,
     142, 8, 99, 37, 240, 21, 10, 23, 190, 6, 148, 247, 120, 234, 75, 0, 26, 197, 62, 94, 252,
     219, 203, 117, 35, 11, 32, 57, 177, 33, 88, 237, 149, 56, 87, 174, 20, 125, 136, 171, 168,
@@ -81,4 +81,5 @@ object PerlinNoise:
   )
 
   /** Doubled, for lookups with the sum of two bytes. */
-  private val permutation: Array[Int] = once ++ once ++ Array(once(0))
+  private val permutation: Array[Int] =
+    bytePermutation ++ bytePermutation ++ Array(bytePermutation(0))

@@ -11,21 +11,21 @@ import candela.base.{loop, Parallel}
   */
 object Pyramid:
 
-  /** @param most     upper limit of resampled texels: an image whose width or height is no power of
+  /** @param maxValue upper limit of resampled texels: an image whose width or height is no power of
     *   two is first enlarged to one, as in pbrt
     * @param parallel executes rows of texels
     */
   def of(
       texels: Texels,
       wrap: Wrap,
-      most: Float,
+      maxValue: Float,
       parallel: Parallel = Parallel.Alone
   ): Array[MipLevel] =
-    levels(texels, wrap, most, parallel).map(MipLevel(_, wrap))
+    levels(texels, wrap, maxValue, parallel).map(MipLevel(_, wrap))
 
   /** The texels of each level. */
-  def levels(texels: Texels, wrap: Wrap, most: Float, parallel: Parallel): Array[Texels] =
-    val levels = ArrayBuffer(enlarged(texels, wrap, most, parallel))
+  def levels(texels: Texels, wrap: Wrap, maxValue: Float, parallel: Parallel): Array[Texels] =
+    val levels = ArrayBuffer(enlarged(texels, wrap, maxValue, parallel))
     while levels.last.width > 1 || levels.last.height > 1 do levels += halved(levels.last, parallel)
     levels.toArray
 
@@ -75,38 +75,40 @@ object Pyramid:
   private[textures] def enlarged(
       from: Texels,
       wrap: Wrap,
-      most: Float,
+      maxValue: Float,
       parallel: Parallel = Parallel.Alone
   ): Texels =
-    val way = Enlargement(from.width, from.height, from.channels, wrap, most)
-    if way.isNone then from
+    val enlargement = Enlargement(from.width, from.height, from.channels, wrap, maxValue)
+    if enlargement.isNone then from
     else
-      val values = new Array[Float](way.length * way.height)
-      strips(parallel, way.width, way.height)(enlarge(from, way, values, _, _))
-      FloatTexels(way.width, way.height, from.channels, values)
+      val values = new Array[Float](enlargement.length * enlargement.height)
+      strips(parallel, enlargement.width, enlargement.height)(enlarge(
+        from, enlargement, values, _, _
+      ))
+      FloatTexels(enlargement.width, enlargement.height, from.channels, values)
 
   /** Makes some of the new rows, while few of the old ones are there resampled across. */
   private def enlarge(
       from: Texels,
-      way: Enlargement,
+      enlargement: Enlargement,
       to: Array[Float],
       first: Int,
       until: Int
   ): Unit =
-    val kept = EdgedRows(from.height, way.length)
+    val window = EdgedRows(from.height, enlargement.length)
     val source = new Array[Float](from.width * from.channels)
     def widen(y: Int): Unit =
       from.row(y, source)
-      kept.clear(y)
-      way.widen(y, source, kept.values, kept.at(y))((i, c) => from(i, c))
+      window.clear(y)
+      enlargement.widen(y, source, window.values, window.offsetOf(y))((i, c) => from(i, c))
     // Those beyond an edge are at that edge or the other
-    if way.isBeyond(first) || way.isBeyond(until - 1) then
+    if enlargement.isBeyond(first) || enlargement.isBeyond(until - 1) then
       loop(from.height)(y => if EdgedRows.isEdge(y, from.height) then widen(y))
-    var next = way.firstOf(first)
+    var nextRow = enlargement.firstOf(first)
     loop(first, until): y =>
-      loop(next, way.lastOf(y) + 1)(widen)
-      next = Math.max(next, way.lastOf(y) + 1)
-      way.heighten(y, kept.values, to, y * way.length)(kept.at)
+      loop(nextRow, enlargement.lastOf(y) + 1)(widen)
+      nextRow = Math.max(nextRow, enlargement.lastOf(y) + 1)
+      enlargement.heighten(y, window.values, to, y * enlargement.length)(window.offsetOf)
 
   /** Executes rows of an image, in parallel unless it is small.
     *
@@ -116,8 +118,8 @@ object Pyramid:
       row: (Int, A) => Unit
   ): Unit =
     strips(parallel, width, height): (from, until) =>
-      val own = scratch()
-      loop(from, until)(row(_, own))
+      val workspace = scratch()
+      loop(from, until)(row(_, workspace))
 
   /** Executes strips of rows, from one until another. */
   private def strips(parallel: Parallel, width: Int, height: Int)(

@@ -25,20 +25,20 @@ abstract class TexelBands(
     *
     * @throws candela.image.ImageError if there are too many
     */
-  final def whole: Texels =
-    var only: Option[Texels] = None
+  final def inMemory: Texels =
+    var single: Option[Texels] = None
     val count = Image.valueCount(width, height, channels)
     lazy val values = new Array[Float](count)
     lazy val codes = new Array[Byte](count)
     visit(0): (y, band) =>
       val start = y * width * channels
-      if band.height == height then only = Some(band)
+      if band.height == height then single = Some(band)
       else if isBytes then
         loop(width * band.height * channels)(i => codes(start + i) = band.code(i).toByte)
       else
         loop(width * band.height * channels): i =>
           values(start + i) = java.lang.Float.intBitsToFloat(band.code(i))
-    only.getOrElse:
+    single.getOrElse:
       if isBytes then ByteTexels(width, height, channels, codes, meaning)
       else FloatTexels(width, height, channels, values)
 

@@ -22,15 +22,15 @@ abstract class Texels(val width: Int, val height: Int, val channels: Int):
     if !mayBeOdd then None
     else
       val values = new Array[Float](width * channels)
-      var found: Option[OddTexel] = None
+      var oddTexel: Option[OddTexel] = None
       var y = 0
-      while found.isEmpty && y < height do
+      while oddTexel.isEmpty && y < height do
         row(y, values)
         var k = 0
         while k < values.length && java.lang.Float.isFinite(values(k)) do k += 1
-        if k < values.length then found = Some(OddTexel(k / channels, y, values(k)))
+        if k < values.length then oddTexel = Some(OddTexel(k / channels, y, values(k)))
         y += 1
-      found
+      oddTexel
 
   protected def mayBeOdd: Boolean = true
 
@@ -134,13 +134,13 @@ object Texels:
     case stored: ByteImage =>
       val bytes = stored.bytes
       every(image): i =>
-        val at = i * image.channels
-        bytes(at + c(0)) == bytes(at + c(1)) && bytes(at + c(0)) == bytes(at + c(2))
+        val offset = i * image.channels
+        bytes(offset + c(0)) == bytes(offset + c(1)) && bytes(offset + c(0)) == bytes(offset + c(2))
     case floats: Image =>
       val data = floats.data
       every(image): i =>
-        val at = i * image.channels
-        data(at + c(0)) == data(at + c(1)) && data(at + c(0)) == data(at + c(2))
+        val offset = i * image.channels
+        data(offset + c(0)) == data(offset + c(1)) && data(offset + c(0)) == data(offset + c(2))
 
   private inline def every(image: StoredImage)(inline holds: Int => Boolean): Boolean =
     val count = image.width * image.height
@@ -170,8 +170,9 @@ object Texels:
     TexelBands(image, 1, Array.emptyFloatArray): band =>
       val values = new Array[Float](band.width * band.height)
       loop(values.length): i =>
-        val at = i * band.channels
-        values(i) = f(stored(band, at + c(0)), stored(band, at + c(1)), stored(band, at + c(2)))
+        val offset = i * band.channels
+        values(i) =
+          f(stored(band, offset + c(0)), stored(band, offset + c(1)), stored(band, offset + c(2)))
       FloatTexels(band.width, band.height, 1, values)
 
   private def table(decode: Float => Float): Array[Float] =

@@ -37,41 +37,41 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
     * @throws ImageError if the image can't be read
     */
   def image(key: String, wrap: Wrap)(make: () => MadeTexels): CachedImage =
-    val known = images.get(key)
-    if known != null then known
+    val cached = images.get(key)
+    if cached != null then cached
     else synchronized(images.computeIfAbsent(key, _ => stored(key, wrap, make)))
 
   /** Levels that an image file has itself. */
   def levels(file: FileLevels, wrap: Wrap): Array[MipLevel] =
-    val places = TilePlace.all(file.sizes, file.channels)
-    val image = TiledImage(memory, file.source, TilePlace.count(places))
-    places.map(TiledLevel(image, _, wrap, file.channels, Array.emptyFloatArray)).toArray
+    val layouts = TileLayout.ofLevels(file.sizes, file.channels)
+    val image = TiledImage(memory, file.source, TileLayout.count(layouts))
+    layouts.map(TiledLevel(image, _, wrap, file.channels, Array.emptyFloatArray)).toArray
 
   private def stored(key: String, wrap: Wrap, make: () => MadeTexels): CachedImage =
-    open(key) match
+    openFile(key) match
       case Some(file) => tiled(file, wrap, make)
       case None =>
-        val made = make()
-        written(key, made, wrap) match
+        val texels = make()
+        written(key, texels, wrap) match
           case Some(file) => tiled(file, wrap, make)
           case None =>
-            val (levels, facts) = made.whole(wrap, pool)
-            CachedImage(levels.map(MipLevel(_, wrap)), made.encoding, facts)
+            val (levels, facts) = texels.inMemory(wrap, pool)
+            CachedImage(levels.map(MipLevel(_, wrap)), texels.encoding, facts)
 
-  private def place(key: String) = folder.file(key, CacheFolder.Tiles)
+  private def fileOf(key: String) = folder.file(key, CacheFolder.Tiles)
 
   /** The file of this key, if there is one and it is undamaged as far as its header tells. */
-  private def open(key: String): Option[TileFile] =
-    val opened = TileFile.open(folder.open(place(key)), key)
-    if opened.nonEmpty then folder.use(place(key))
+  private def openFile(key: String): Option[TileFile] =
+    val opened = TileFile.open(folder.open(fileOf(key)), key)
+    if opened.nonEmpty then folder.use(fileOf(key))
     opened
 
   private def written(key: String, made: MadeTexels, wrap: Wrap): Option[TileFile] =
     if obstacle.nonEmpty || !TileCache.fits(made) then None
     else
       try
-        folder.write(place(key))(TileFile.write(_, key, made, wrap))
-        open(key)
+        folder.write(fileOf(key))(TileFile.write(_, key, made, wrap))
+        openFile(key)
       catch
         case e: WriteError =>
           obstacle = Some(e.getMessage)
@@ -83,10 +83,16 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
   private def tiled(file: TileFile, wrap: Wrap, make: () => MadeTexels): CachedImage =
     val header = file.header
     val meaning = header.meaning.toArray
-    val none = Array.emptyFloatArray
+    val noMeaning = Array.emptyFloatArray
     val image = TiledImage(memory, MendedSource(file, wrap, make), header.count)
-    val levels = header.places.map: place =>
-      TiledLevel(image, place, wrap, header.channels, if place.isBytes then meaning else none)
+    val levels = header.layouts.map: layout =>
+      TiledLevel(
+        image,
+        layout,
+        wrap,
+        header.channels,
+        if layout.isBytes then meaning else noMeaning
+      )
     CachedImage(levels.toArray, header.encoding, header.facts)
 
   /** A file; if a tile of it is damaged, one that is made again, or memory. */
@@ -97,23 +103,23 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
     private var isMade = false
 
     def fill(tile: Int, buffer: TileBuffer): Unit =
-      val known = packer
-      if known != null then known.pack(tile, buffer.ints)
+      val fallback = packer
+      if fallback != null then fallback.pack(tile, buffer.ints)
       else if !current.read(tile, buffer) then mend(tile, buffer)
 
     private def mend(tile: Int, buffer: TileBuffer): Unit = synchronized:
       if packer == null && (!isMade || !current.read(tile, buffer)) then
         try
-          val made = make()
-          val next = if isMade then None else written(file.header.key, made, wrap)
+          val texels = make()
+          val rewritten = if isMade then None else written(file.header.key, texels, wrap)
           isMade = true
-          next match
+          rewritten match
             case Some(again) => current = again
-            case None => packer = TilePacker(file.header.places, made.whole(wrap, pool)._1)
+            case None => packer = TilePacker(file.header.layouts, texels.inMemory(wrap, pool)._1)
         catch
           case e: ImageError =>
-            val what = "a file of the texture cache is damaged, and can't be made again"
-            throw SceneError(Problem.general(e.code, s"$what: ${e.getMessage}"))
+            val message = "a file of the texture cache is damaged, and can't be made again"
+            throw SceneError(Problem.general(e.code, s"$message: ${e.getMessage}"))
         fill(tile, buffer)
       else if packer != null then fill(tile, buffer)
 
@@ -121,5 +127,5 @@ private object TileCache:
 
   /** Whether texels have numbers: those of very narrow images have not. */
   private def fits(made: MadeTexels): Boolean =
-    TilePlace.all(made.sizes, made.bands.channels).forall: place =>
-      place.count.toLong << (place.across + place.down) < Int.MaxValue
+    TileLayout.ofLevels(made.sizes, made.bands.channels).forall: layout =>
+      layout.count.toLong << (layout.across + layout.down) < Int.MaxValue

@@ -27,18 +27,18 @@ private[textures] final case class TileHeader(
     sizes: Vector[(Int, Int, Boolean)],
     meaning: Vector[Float]
 ):
-  val places: Vector[TilePlace] = TilePlace.all(sizes, channels)
-  def count: Int = TilePlace.count(places)
+  val layouts: Vector[TileLayout] = TileLayout.ofLevels(sizes, channels)
+  def count: Int = TileLayout.count(layouts)
 
 /** Texels in memory that are put into tiles. */
-private[textures] final class TilePacker(places: Vector[TilePlace], levels: Array[Texels]):
+private[textures] final class TilePacker(layouts: Vector[TileLayout], levels: Array[Texels]):
 
   def pack(tile: Int, into: Array[Int]): Unit =
     java.util.Arrays.fill(into, 0)
-    loop(places.size): i =>
-      val place = places(i)
-      val local = tile - place.start
-      if local >= 0 && local < place.count then TilePacker.pack(place, levels(i), 0, local, into)
+    loop(layouts.size): i =>
+      val layout = layouts(i)
+      val local = tile - layout.start
+      if local >= 0 && local < layout.count then TilePacker.pack(layout, levels(i), 0, local, into)
 
 private[textures] object TilePacker:
 
@@ -48,19 +48,19 @@ private[textures] object TilePacker:
     * @param first  the first of them
     * @param tile   of the level
     */
-  def pack(place: TilePlace, texels: Texels, first: Int, tile: Int, into: Array[Int]): Unit =
+  def pack(layout: TileLayout, texels: Texels, first: Int, tile: Int, into: Array[Int]): Unit =
     val channels = texels.channels
-    val x = tile % place.tiles << place.across
-    val y = tile / place.tiles << place.down
-    val length = channels * Math.min(1 << place.across, place.width - x)
-    loop(Math.min(1 << place.down, place.height - y)): row =>
-      val from = ((y - first + row) * place.width + x) * channels
-      val to = place.base + (row << place.across) * channels
-      if place.isBytes then
+    val x = tile % layout.tiles << layout.across
+    val y = tile / layout.tiles << layout.down
+    val length = channels * Math.min(1 << layout.across, layout.width - x)
+    loop(Math.min(1 << layout.down, layout.height - y)): row =>
+      val sourceOffset = ((y - first + row) * layout.width + x) * channels
+      val targetOffset = layout.base + (row << layout.across) * channels
+      if layout.isBytes then
         loop(length): i =>
-          val k = to + i
-          into(k >> 2) |= texels.code(from + i) << ((k & 3) << 3)
-      else loop(length)(i => into(to + i) = texels.code(from + i))
+          val k = targetOffset + i
+          into(k >> 2) |= texels.code(sourceOffset + i) << ((k & 3) << 3)
+      else loop(length)(i => into(targetOffset + i) = texels.code(sourceOffset + i))
 
 /** A tile in a file: its numbers, little-endian, and their checksum. */
 private[textures] object TileRecord:
@@ -84,10 +84,10 @@ private[textures] final class TileFile private (
     */
   def read(tile: Int, buffer: TileBuffer): Boolean =
     val bytes = buffer.bytes.clear()
-    val at = start + tile.toLong * TileRecord.Bytes
+    val offset = start + tile.toLong * TileRecord.Bytes
     val isThere =
       try
-        while bytes.hasRemaining && channel.read(bytes, at + bytes.position()) >= 0 do ()
+        while bytes.hasRemaining && channel.read(bytes, offset + bytes.position()) >= 0 do ()
         !bytes.hasRemaining
       catch case _: IOException => false
     isThere && {
@@ -103,7 +103,7 @@ private[textures] object TileFile:
 
   /** Bytes of the mark, and of the header's length and checksum. */
   private val Start = Mark.length + 8
-  private val MostHeader = 1 << 20
+  private val MaxHeaderBytes = 1 << 20
 
   /** The tiles of a file of this key; None if it is missing, damaged or another.
     *
@@ -112,11 +112,11 @@ private[textures] object TileFile:
   def open(file: => FileChannel, key: String): Option[TileFile] =
     try
       val channel = file
-      val found =
+      val tiles =
         try opened(channel, key)
         catch case _: IOException | _: IllegalArgumentException => None
-      if found.isEmpty then channel.close()
-      found
+      if tiles.isEmpty then channel.close()
+      tiles
     catch case _: IOException => None
 
   private def opened(channel: FileChannel, key: String): Option[TileFile] =
@@ -124,7 +124,7 @@ private[textures] object TileFile:
     val mark = new Array[Byte](Mark.length)
     beginning.get(mark)
     val (length, sum) = (beginning.getInt, beginning.getInt)
-    if !mark.sameElements(Mark) || length < 0 || length > MostHeader then None
+    if !mark.sameElements(Mark) || length < 0 || length > MaxHeaderBytes then None
     else
       val bytes = read(channel, Start, length).array
       val header = Option.when(sum == checksum(bytes))(decoded(bytes)).filter(_.key == key)
@@ -155,12 +155,12 @@ private[textures] object TileFile:
       bands.meaning.toVector
     )
     // The facts are known at the end: there is room for as many colours as there may be
-    val room = encoded(header).length + made.colors.fold(0)(_.most * 12)
-    val facts = TileWriter.write(channel, Start.toLong + room, header.places, made, wrap)
+    val room = encoded(header).length + made.colors.fold(0)(_.maxColors * 12)
+    val facts = TileWriter.write(channel, Start.toLong + room, header.layouts, made, wrap)
     made.confirm()
-    val about = encoded(header.copy(facts = facts)).padTo(room, 0.toByte)
+    val headerBytes = encoded(header.copy(facts = facts)).padTo(room, 0.toByte)
     val out = ByteBuffer.allocate(Start + room)
-    out.put(Mark).putInt(room).putInt(checksum(about)).put(about).flip()
+    out.put(Mark).putInt(room).putInt(checksum(headerBytes)).put(headerBytes).flip()
     while out.hasRemaining do channel.write(out, out.position()): Unit
 
   private def encoded(h: TileHeader): Array[Byte] =
@@ -189,15 +189,15 @@ private[textures] object TileFile:
 
   private def decoded(bytes: Array[Byte]): TileHeader =
     val in = DataInputStream(ByteArrayInputStream(bytes))
-    def many[A](one: => A): Vector[A] = Vector.fill(in.readInt())(one)
+    def vector[A](element: => A): Vector[A] = Vector.fill(in.readInt())(element)
     val key = in.readUTF()
     val encoding = in.readFloat() match
       case 0f => Encoding.Linear
       case -1f => Encoding.Srgb
       case exponent => Encoding.Gamma(exponent)
     val channels = in.readInt()
-    val sizes = many((in.readInt(), in.readInt(), in.readBoolean()))
+    val sizes = vector((in.readInt(), in.readInt(), in.readBoolean()))
     val odd = Some(OddTexel(in.readInt(), in.readInt(), in.readFloat())).filter(_.x >= 0)
-    val colors = many(Rgb(in.readFloat(), in.readFloat(), in.readFloat()))
+    val colors = vector(Rgb(in.readFloat(), in.readFloat(), in.readFloat()))
     val facts = TexelFacts(colors, odd)
-    TileHeader(key, encoding, facts, channels, sizes, many(in.readFloat()))
+    TileHeader(key, encoding, facts, channels, sizes, vector(in.readFloat()))

@@ -21,23 +21,23 @@ import candela.base.Lending
 final class TileMemory(limit: Long):
   import TileMemory.*
 
-  private val most =
+  private val slotCount =
     val heap = Runtime.getRuntime.maxMemory
-    Math.max(Fewest.toLong, Math.min(MostSlots, Math.min(limit, heap) / SlotBytes)).toInt
-  private val slots = new Array[Array[Int]](most)
-  private val stamps = AtomicLongArray(most)
-  private val recent = new Array[Boolean](most)
+    Math.max(MinSlots.toLong, Math.min(MaxSlots, Math.min(limit, heap) / SlotBytes)).toInt
+  private val slots = new Array[Array[Int]](slotCount)
+  private val stamps = AtomicLongArray(slotCount)
+  private val recent = new Array[Boolean](slotCount)
   private val buffers = Lending(TileBuffer())
   private var filled = 0
   private var hand = 0
   private var loads = 0
-  private var known = 1
+  private var tileCount = 1
 
   /** Numbers of tiles, the first of which is returned. */
   private[textures] def numbers(count: Int): Int = synchronized:
-    val first = known
-    known = Math.addExact(known, count)
-    first
+    val firstNumber = tileCount
+    tileCount = Math.addExact(tileCount, count)
+    firstNumber
 
   /** What the slot holds. */
   private[textures] def stamp(slot: Int): Long = stamps.getAcquire(slot)
@@ -69,10 +69,10 @@ final class TileMemory(limit: Long):
       // Another thread may have read it meanwhile
       val slot = pages(tile) - 1
       val isThere = slot >= 0 && holder(stamps.get(slot)) == number
-      if !isThere then pages(tile) = put(buffer.ints, number) + 1
+      if !isThere then pages(tile) = store(buffer.ints, number) + 1
     value
 
-  private def put(tile: Array[Int], number: Int): Int =
+  private def store(tile: Array[Int], number: Int): Int =
     val slot = free()
     loads += 1
     stamps.set(slot, 0L)
@@ -83,19 +83,19 @@ final class TileMemory(limit: Long):
     slot
 
   private def free(): Int =
-    if filled < most then
+    if filled < slotCount then
       slots(filled) = new Array[Int](Ints)
       filled += 1
       filled - 1
     else
       // Lookups of other threads may mark slots as fast as the hand goes round
-      var left = 2 * most.toLong
-      while recent(hand) && left > 0 do
+      var remaining = 2 * slotCount.toLong
+      while recent(hand) && remaining > 0 do
         recent(hand) = false
-        hand = if hand + 1 < most then hand + 1 else 0
-        left -= 1
+        hand = if hand + 1 < slotCount then hand + 1 else 0
+        remaining -= 1
       val slot = hand
-      hand = if hand + 1 < most then hand + 1 else 0
+      hand = if hand + 1 < slotCount then hand + 1 else 0
       slot
 
 private[textures] object TileMemory:
@@ -105,8 +105,8 @@ private[textures] object TileMemory:
   /** With the array's header and a slot's bookkeeping. */
   private val SlotBytes = 4 * Ints + 32
 
-  private val Fewest = 16
-  private val MostSlots = 1L << 26
+  private val MinSlots = 16
+  private val MaxSlots = 1L << 26
 
   /** The number of the tile that a stamp tells of. */
   inline def holder(stamp: Long): Int = (stamp >>> 32).toInt

@@ -9,7 +9,7 @@ private[textures] final class TiledImage(
     source: TileSource,
     count: Int
 ):
-  private val first = memory.numbers(count)
+  private val firstNumber = memory.numbers(count)
 
   // Slots + 1. Written without order: what a slot holds, its stamp tells
   private val pages = new Array[Int](count)
@@ -18,19 +18,19 @@ private[textures] final class TiledImage(
   def slot(tile: Int): Int = pages(tile) - 1
 
   /** The number of a tile in the memory. */
-  def number(tile: Int): Int = first + tile
+  def number(tile: Int): Int = firstNumber + tile
 
   /** One of a tile's numbers. */
   def value(tile: Int, at: Int): Int =
     val slot = pages(tile) - 1
     val stamp = if slot < 0 then 0L else memory.stamp(slot)
-    if TileMemory.holder(stamp) == first + tile then
-      val found = memory.ints(slot)(at)
-      if memory.isStill(slot, stamp) then found else load(tile, at)
+    if TileMemory.holder(stamp) == firstNumber + tile then
+      val texelValue = memory.ints(slot)(at)
+      if memory.isStill(slot, stamp) then texelValue else load(tile, at)
     else load(tile, at)
 
   private def load(tile: Int, at: Int): Int =
-    memory.load(source, tile, first + tile, pages, at)
+    memory.load(source, tile, firstNumber + tile, pages, at)
 
 /** A level whose texels are in tiles. A texel's index is that of its tile, and its place there.
   *
@@ -38,15 +38,15 @@ private[textures] final class TiledImage(
   */
 private[textures] final class TiledLevel(
     image: TiledImage,
-    place: TilePlace,
+    layout: TileLayout,
     wrap: Wrap,
     channels: Int,
     meaning: Array[Float]
-) extends MipLevel(place.width, place.height, channels == 1):
+) extends MipLevel(layout.width, layout.height, channels == 1):
   private val memory = image.memory
   private val isBytes = meaning.nonEmpty
-  private val (across, down, start, base) = (place.across, place.down, place.start, place.base)
-  private val tiles = place.tiles
+  private val (across, down, start, base) = (layout.across, layout.down, layout.start, layout.base)
+  private val tiles = layout.tiles
   private val (inRow, inColumn) = ((1 << across) - 1, (1 << down) - 1)
   private val (bits, inTile) = (across + down, (1 << (across + down)) - 1)
 
@@ -80,19 +80,19 @@ private[textures] final class TiledLevel(
     def apply(index: Int, channel: Int): Float =
       if index < 0 then 0f
       else
-        val next = start + (index >>> bits)
-        if next != tile then turn(next)
+        val wantedTile = start + (index >>> bits)
+        if wantedTile != tile then turn(wantedTile)
         val k = base + (index & inTile) * channels + channel
-        if tile == next then
-          val found = value(ints, k)
-          if memory.isStill(slot, stamp) then found else missing(index, channel)
+        if tile == wantedTile then
+          val texelValue = value(ints, k)
+          if memory.isStill(slot, stamp) then texelValue else missing(index, channel)
         else missing(index, channel)
 
-    private def turn(next: Int): Unit =
-      slot = image.slot(next)
+    private def turn(wantedTile: Int): Unit =
+      slot = image.slot(wantedTile)
       stamp = if slot < 0 then 0L else memory.stamp(slot)
-      if TileMemory.holder(stamp) == image.number(next) then
-        tile = next
+      if TileMemory.holder(stamp) == image.number(wantedTile) then
+        tile = wantedTile
         ints = memory.ints(slot)
       else tile = -1
 
@@ -116,8 +116,8 @@ private[textures] final class TiledLevel(
 
   /** As of any level, at once if the four texels are in one tile that is there. */
   override def bilinear(s: Float, row: Float): Rgb =
-    val x = MipLevel.within(s * width - 0.5f)
-    val y = MipLevel.within(row * height - 0.5f)
+    val x = MipLevel.clampCoordinate(s * width - 0.5f)
+    val y = MipLevel.clampCoordinate(row * height - 0.5f)
     val x0 = MipLevel.floor(x)
     val y0 = MipLevel.floor(y)
     val isInside = x0 >= 0 && y0 >= 0 && x0 < width - 1 && y0 < height - 1 &&
@@ -159,7 +159,7 @@ private object TiledLevel:
   * @param start  its first tile; rows of `tiles` tiles follow
   * @param base   of its first number in that tile
   */
-private[textures] final case class TilePlace(
+private[textures] final case class TileLayout(
     width: Int,
     height: Int,
     isBytes: Boolean,
@@ -171,31 +171,31 @@ private[textures] final case class TilePlace(
   val tiles: Int = (width - 1 >> across) + 1
   def count: Int = tiles * ((height - 1 >> down) + 1)
 
-private[textures] object TilePlace:
+private[textures] object TileLayout:
 
   /** Places of the levels of an image, the largest first. The smallest are in one tile together. */
-  def all(sizes: Vector[(Int, Int, Boolean)], channels: Int): Vector[TilePlace] =
+  def ofLevels(sizes: Vector[(Int, Int, Boolean)], channels: Int): Vector[TileLayout] =
     val numbers = sizes.map((w, h, isBytes) => if isBytes then Large else w.toLong * h * channels)
     val isPowers = sizes.forall((w, h, _) => Integer.bitCount(w) == 1 && Integer.bitCount(h) == 1)
     val tail =
       if isPowers then sizes.indices.find(i => numbers.drop(i).sum <= TileMemory.Ints)
       else None
-    val whole = tail.getOrElse(sizes.size)
-    val large = sizes.take(whole).foldLeft(Vector.empty[TilePlace]):
-      case (before, (w, h, isBytes)) =>
+    val separateLevels = tail.getOrElse(sizes.size)
+    val large = sizes.take(separateLevels).foldLeft(Vector.empty[TileLayout]):
+      case (previous, (w, h, isBytes)) =>
         val (across, down) = shape(channels, isBytes)
-        before :+ TilePlace(w, h, isBytes, across, down, before.lastOption.fold(0)(end))
+        previous :+ TileLayout(w, h, isBytes, across, down, previous.lastOption.fold(0)(end))
     val start = large.lastOption.fold(0)(end)
-    val bases = numbers.drop(whole).scanLeft(0L)(_ + _)
-    large ++ sizes.drop(whole).zip(bases).map:
+    val bases = numbers.drop(separateLevels).scanLeft(0L)(_ + _)
+    large ++ sizes.drop(separateLevels).zip(bases).map:
       case ((w, h, _), base) =>
         val (across, down) = (Integer.numberOfTrailingZeros(w), Integer.numberOfTrailingZeros(h))
-        TilePlace(w, h, isBytes = false, across, down, start, base.toInt)
+        TileLayout(w, h, isBytes = false, across, down, start, base.toInt)
 
   /** The number of tiles. */
-  def count(all: Vector[TilePlace]): Int = end(all.last)
+  def count(layouts: Vector[TileLayout]): Int = end(layouts.last)
 
-  private def end(place: TilePlace): Int = place.start + place.count
+  private def end(layout: TileLayout): Int = layout.start + layout.count
 
   /** Of tiles that hold [[TileMemory.Ints]] numbers at most. */
   private def shape(channels: Int, isBytes: Boolean): (Int, Int) =

@@ -46,5 +46,5 @@ class ContactSheetSuite extends AnyFunSuite:
     val image = flat(200, 200, 0.5f, 0.5f, 0.5f)
     image.data(3 * 100 * 200 + 300) = Float.NaN
     image.data(0) = Float.PositiveInfinity
-    val small = Resize.within(image, 20, 20)
+    val small = Resize.fitting(image, 20, 20)
     assert(small.data.forall(v => v >= 0.3f && v <= 1f))

@@ -29,14 +29,14 @@ class ImageEditsSuite extends AnyFunSuite:
   test("other primaries describe the same light"):
     val space = ColorSpace.named("rec2020").get
     val light = image(0.25f, 0.5f, 1f, 0.75f)
-    val there = ImageEdits.in(light, space)
+    val there = ImageEdits.inColorSpace(light, space)
     assert(there.colorSpace eq space)
     assert(there.data(3) == 0.75f && there.data(0) > 0.25f)
     val back = there.toRgb
     // Single precision, by two matrices
     for c <- 0 until 3 do assert(Math.abs(back.data(c) - light.data(c)) < 4e-6f)
     val gray = Image(1, 1, Vector("Y"), Array(1f))
-    assert(error(ImageEdits.in(gray, space)).contains("R, G and B"))
+    assert(error(ImageEdits.inColorSpace(gray, space)).contains("R, G and B"))
 
   test("means are taken in double precision; images that differ are refused"):
     val many = Iterator.fill(1000)("a" -> image(0.1f, 1e7f, -1f, 1f))
@@ -48,7 +48,10 @@ class ImageEditsSuite extends AnyFunSuite:
     assert(refusal(Image.rgb(1, 2)) == "b and a differ in size")
     assert(refusal(Image(2, 1, names, new Array(8))) == "b and a differ in their channels")
     val space = ColorSpace.named("rec2020").get
-    assert(refusal(ImageEdits.in(Image.rgb(2, 1), space)) == "b and a differ in their colour space")
+    assert(refusal(ImageEdits.inColorSpace(
+      Image.rgb(2, 1),
+      space
+    )) == "b and a differ in their colour space")
 
   test("resizing keeps the mean of light of any range, and makes nothing negative"):
     val light = Image(64, 32, Vector("Y", "z"), Array.fill(64 * 32 * 2)(0f))

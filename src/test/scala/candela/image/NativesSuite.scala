@@ -25,10 +25,10 @@ class NativesSuite extends AnyFunSuite:
     assert(Natives.missing(RuntimeException("lwjgl")).isEmpty)
 
   test("who lacks a native library is told which dependency has it, before LWJGL prints advice"):
-    val missing = intercept[MissingNatives](Natives.need("nothing"))
+    val missing = intercept[MissingNatives](Natives.require("nothing"))
     assert(missing.getMessage.contains(s"lwjgl_nothing for ${Natives.platform}"))
     val classifier = s"natives-${Natives.platform.stripSuffix("-x64")}"
     assert(missing.help.startsWith("add org.lwjgl:lwjgl-nothing:3."))
     assert(missing.help.contains(s"with the classifier $classifier to the dependencies"))
-    Vector("", "stb", "tinyexr").foreach(Natives.need)
+    Vector("", "stb", "tinyexr").foreach(Natives.require)
     assert(Natives.missing(missing).isDefined)

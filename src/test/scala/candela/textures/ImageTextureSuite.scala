@@ -11,7 +11,7 @@ class ImageTextureSuite extends AnyFunSuite:
       way: (ImageBands, Float => Float) => TexelBands,
       image: StoredImage,
       decode: Float => Float
-  ): Texels = way(ImageBands.of(image), decode).whole
+  ): Texels = way(ImageBands.of(image), decode).inMemory
 
   private val linear: Float => Float = x => x
 

@@ -117,7 +117,7 @@ class TileCacheSuite extends AnyFunSuite:
         val way = made(levels, Some(texels)).copy(bands = inBands(texels))
         assert(cache(folder).image(s"$i", Wrap.Repeat)(() => way).facts.odd == odd)
         assert(cache(folder).image(s"$i", Wrap.Repeat)(() => never()).facts.odd == odd)
-        assert(way.whole(Wrap.Repeat, Parallel.Alone)._2.odd == odd)
+        assert(way.inMemory(Wrap.Repeat, Parallel.Alone)._2.odd == odd)
       // Of bytes, a meaning that none of them has does not count
       val meaning = Array.tabulate(256)(i => if i == 9 then Float.PositiveInfinity else i / 255f)
       val codes = Array.fill[Byte](12)(8)
@@ -162,8 +162,8 @@ class TileCacheSuite extends AnyFunSuite:
     val texels = floats(37, 150, 3, 9)
     val choice = ColorChoice(101, 99, identity)
     var seen = Vector.empty[Rgb]
-    inBands(texels).visit(0)((y, band) => seen ++= choice.seen(band, y.toLong * 37))
-    assert(seen == choice.of(texels) && seen.size == (37 * 150 + 100) / 101)
+    inBands(texels).visit(0)((y, band) => seen ++= choice.candidates(band, y.toLong * 37))
+    assert(seen == choice.select(texels) && seen.size == (37 * 150 + 100) / 101)
 
   test("many threads see the same texels in a memory that is much too small"):
     TempFolder.use: folder =>

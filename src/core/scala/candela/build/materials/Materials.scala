@@ -171,7 +171,7 @@ abstract class MaterialRecipe(
       case None =>
         for stored <- site.resources.image(p, site.declaration, site.problems) yield
           val _ = decodes(stored.encoding)
-          pyramid(MipLevel(texels(ImageBands.of(stored)).whole, Wrap.Repeat))
+          pyramid(MipLevel(texels(ImageBands.of(stored)).inMemory, Wrap.Repeat))
 
 /** Base of materials with the common roughness parameters.
   *

@@ -21,10 +21,15 @@ abstract class GridRecipe[A](meaning: String, channels: Int)
         else toUnit().map(m => GridPlace.InSpace(Mapping3D(m)))
     yield
       // Beside the corners of triangles, values may be below 0
-      def own(c: Int) = Array.tabulate(values().length / channels): i =>
+      def channelValues(c: Int) = Array.tabulate(values().length / channels): i =>
         val v = values()(i * channels + c)
         if java.lang.Float.isFinite(v) then v else 0f
-      (place, Vector.tabulate(channels)(c => TrilinearGrid(nx, ny, nz, own(c), GridEdge.Clamped)))
+      (
+        place,
+        Vector.tabulate(channels)(c =>
+          TrilinearGrid(nx, ny, nz, channelValues(c), GridEdge.Clamped)
+        )
+      )
 
 object FloatGridRecipe extends GridRecipe[FloatTexture]("numbers in a box", 1):
   protected def make()(using Site): FloatTexture =
@@ -34,5 +39,5 @@ object RgbGridRecipe extends GridRecipe[RgbTexture]("colours in a box", 3):
   protected def make()(using site: Site): RgbTexture =
     val basis = site.resources.basis
     grids().fold(StandIns.color(basis)): (mapping, grids) =>
-      val made = RgbGridTexture(mapping, grids(0), grids(1), grids(2))
-      if basis.isSrgb then made else RebasedTexture(made, basis.lookUp)
+      val texture = RgbGridTexture(mapping, grids(0), grids(1), grids(2))
+      if basis.isSrgb then texture else RebasedTexture(texture, basis.lookUp)

@@ -64,7 +64,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
         site.error(Code.MissingParameter, "an \"imagemap\" needs `filename`")
         None
       case Some(p) =>
-        inFile(p).map(image => pyramid(filtered(MipMap.of(image.levels)))).orElse(made(p))
+        inFile(p).map(image => pyramid(filtered(MipMap.of(image.levels)))).orElse(generated(p))
 
   /** The image with the levels of its file, if there are some that can be used. */
   private def inFile(p: Param)(using site: Site): Option[CachedImage] =
@@ -73,7 +73,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
       if isPlain then None
       else
         site.resources.prepared(p, site, standIn, ways, wrapping)(usable): texels =>
-          colors(TexelBands.of(texels)).fold(Vector.empty)(_.of(texels))
+          colors(TexelBands.of(texels)).fold(Vector.empty)(_.select(texels))
     for found <- image do
       note(found.facts.colors)
       site.resources.checkTexels(p, site, ways)(found.facts.odd)
@@ -97,14 +97,14 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
   protected def isPicked(channels: Vector[Int]): Boolean
 
   /** The image with levels that are made. */
-  private def made(p: Param)(using site: Site): Option[ImageLookup] =
+  private def generated(p: Param)(using site: Site): Option[ImageLookup] =
     site.resources.textures.tiles match
       case Some(tiles) =>
-        val made = site.resources.tiled(tiles, p, site, standIn, ways, wrapping): image =>
+        val cachedImage = site.resources.tiled(tiles, p, site, standIn, ways, wrapping): image =>
           val texels = this.texels(image, decoding(image.encoding))
-          val limit = if isPlain then None else Some(most(image.isBytes))
+          val limit = if isPlain then None else Some(maxValue(image.isBytes))
           MadeTexels(texels, limit, image.encoding, colors(texels))
-        for image <- made yield
+        for image <- cachedImage yield
           val _ = decoding(image.encoding) // reports what is wrong
           note(image.facts.colors)
           site.resources.checkTexels(p, site, ways)(image.facts.odd)
@@ -122,7 +122,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
             if isPlain then MipMap.plain(wrapping)(texels)
             else
               val (width, height) = (stored.width, stored.height)
-              val limit = most(isBytes)
+              val limit = maxValue(isBytes)
               val (pool, keep) = (site.resources.pool, site.resources.keep)
               val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
               MipMap.ofImage(width, height, wrapping, limit, pool, keep, key)(texels)
@@ -150,17 +150,17 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     !site.rules.filters && !site.resources.settings.meanImages
 
   /** pbrt-v4 stores 8-bit images with 8 bits. */
-  private def most(isBytes: Boolean)(using site: Site): Float =
+  private def maxValue(isBytes: Boolean)(using site: Site): Float =
     if site.dialect == Dialect.V4 && isBytes then 1f else Float.PositiveInfinity
 
-  private def filtered(all: MipMap)(using site: Site): ImageLookup =
+  private def filtered(levels: MipMap)(using site: Site): ImageLookup =
     val dialect = site.dialect
     val bottomUp = dialect != Dialect.V2 || filename().toLowerCase.endsWith(".tga")
     val isV4 = dialect == Dialect.V4
     val kind =
       if isV4 then filter().toLowerCase else if trilinear() then "trilinear" else "ewa"
     site.resources.askForFootprints(s"$kind image textures")
-    val pyramid = if site.resources.settings.meanImages then MipMap.ofMean(all) else all
+    val pyramid = if site.resources.settings.meanImages then MipMap.ofMean(levels) else levels
     kind match
       case "point" => LevelLookup(pyramid, interpolates = false, bottomUp, turned = !isV4)
       case "bilinear" => LevelLookup(pyramid, interpolates = true, bottomUp, turned = !isV4)
@@ -197,10 +197,10 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
         val exponent = g.toFloat
         x => pow(x, exponent)
       case _ =>
-        val found = encoding()
+        val name = encoding()
         site.error(
           Code.ParameterValue,
-          s"`encoding` must be sRGB, linear, or gamma and a number, found \"$found\""
+          s"`encoding` must be sRGB, linear, or gamma and a number, found \"$name\""
         )
         identity
 
@@ -225,7 +225,7 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "
 
   protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels =
     val _ = stored.colorChannels // an error without any
-    () => texels(ImageBands.of(stored), decode).whole
+    () => texels(ImageBands.of(stored), decode).inMemory
 
   protected def colors(texels: TexelBands): Option[ColorChoice] = None
   protected def isPicked(channels: Vector[Int]): Boolean = channels.distinct.size == 1
@@ -234,14 +234,14 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "colours"):
   protected def make()(using site: Site): RgbTexture =
     val basis = site.resources.basis
-    lookup().fold(StandIns.color(basis)): found =>
-      val image = RgbImageTexture(mapped(period), found, outerScale, invert())
+    lookup().fold(StandIns.color(basis)): lookup =>
+      val image = RgbImageTexture(mapped(period), lookup, outerScale, invert())
       if basis.isSrgb then image else RebasedTexture(image, basis.lookUp)
 
   protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels =
-    val made = texels(ImageBands.of(stored), decode).whole
-    note(colors(TexelBands.of(made)).fold(Vector.empty)(_.of(made)))
-    () => made
+    val texelsInMemory = texels(ImageBands.of(stored), decode).inMemory
+    note(colors(TexelBands.of(texelsInMemory)).fold(Vector.empty)(_.select(texelsInMemory)))
+    () => texelsInMemory
 
   protected def colors(texels: TexelBands): Option[ColorChoice] =
     Option.when(texels.channels == 3):

@@ -34,8 +34,8 @@ abstract class MappedRecipe[A](name: String, meaning: String, dialects: Set[Dial
         val o = space.inverse.position(Position.Origin)
         def offset(axis: Vec3, delta: Float) =
           val far = o.x * axis.x + o.y * axis.y + o.z * axis.z + delta
-          val kept = if period > 0 then far - period * Math.rint(far / period) else far
-          kept.toFloat
+          val withinPeriod = if period > 0 then far - period * Math.rint(far / period) else far
+          withinPeriod.toFloat
         PlanarMapping(
           space * o.fromOrigin,
           axis1(),
@@ -61,8 +61,12 @@ private[build] object Solid:
     if site.resources.origin.isOrigin then mapping
     else
       val far = worldToTexture.position(Position.Origin)
-      def whole(x: Double) = period * Math.rint(x / period)
-      Mapping3D(Position(whole(far.x), whole(far.y), whole(far.z)).toOrigin * worldToTexture)
+      def wholePeriods(x: Double) = period * Math.rint(x / period)
+      Mapping3D(Position(
+        wholePeriods(far.x),
+        wholePeriods(far.y),
+        wholePeriods(far.z)
+      ).toOrigin * worldToTexture)
 
   private def worldToTexture(using site: Site): Transform =
     val origin = site.resources.origin

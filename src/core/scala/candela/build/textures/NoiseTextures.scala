@@ -16,8 +16,8 @@ abstract class NoiseRecipe[A](name: String, meaning: String, dialects: Set[Diale
     WrinkledTexture(Solid.filtered, octaves(), roughness(), evenMean = site.dialect == Dialect.V2)
 
   protected def marble(scale: Float, variation: Float)(using site: Site): RgbTexture =
-    val last = if site.dialect == Dialect.V3 then 1 else 5
-    MarbleTexture(Solid.filtered, octaves(), roughness(), scale, variation, last)
+    val lastSegment = if site.dialect == Dialect.V3 then 1 else 5
+    MarbleTexture(Solid.filtered, octaves(), roughness(), scale, variation, lastSegment)
 
 object FloatFbmRecipe
     extends NoiseRecipe[FloatTexture]("fbm", "fractional Brownian motion", every):
@@ -47,5 +47,6 @@ object RgbMarbleRecipe
   private val scale = float("scale", "approximate number of layers per unit of length")(1f)
   private val variation = float("variation", "amplitude of the noise displacement")(0.2f)
   protected def make()(using site: Site): RgbTexture =
-    val made = marble(scale(), variation())
-    if site.resources.basis.isSrgb then made else RebasedTexture(made, site.resources.basis.lookUp)
+    val texture = marble(scale(), variation())
+    if site.resources.basis.isSrgb then texture
+    else RebasedTexture(texture, site.resources.basis.lookUp)

@@ -55,7 +55,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
           Resample(cropped, w, h)
     val scaled = if asked.scale == 1f then shaped else ImageEdits.scaled(shaped, asked.scale)
     val clamped = asked.clamp.fold(scaled)(ImageEdits.clamped(scaled, _))
-    val placed = asked.colorSpace.fold(clamped)(ImageEdits.in(clamped, _))
+    val placed = asked.colorSpace.fold(clamped)(ImageEdits.inColorSpace(clamped, _))
     if asked.flips then ImageEdits.flipped(placed) else placed
 
   private def environment(image: Image, shape: MapShape): Image =

@@ -86,12 +86,12 @@ private[cli] object Thumbnail:
       columns: Int
   ): String =
     val shown = display(image)
-    def small = Resize.within(shown, Size, Size)
+    def small = Resize.fitting(shown, Size, Size)
     kind match
       case ThumbnailKind.Kitty => kitty(ImageFiles.png(small))
       case ThumbnailKind.Iterm => iterm(ImageFiles.png(small))
       case ThumbnailKind.Sixel => Sixel.text(small)
-      case _ => blocks(Resize.within(shown, columns - 1, Size))
+      case _ => blocks(Resize.fitting(shown, columns - 1, Size))
 
   private def kitty(png: Array[Byte]): String =
     val chunks = base64(png).grouped(Chunk).toVector
