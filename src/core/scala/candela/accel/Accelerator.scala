@@ -38,10 +38,10 @@ object Accelerator:
   /** Union of boxes of six Floats each. */
   def union(bounds: Array[Float]): Bounds3 =
     import candela.math.Vec3
-    val all = Array.fill(6)(Float.PositiveInfinity)
-    java.util.Arrays.fill(all, 3, 6, Float.NegativeInfinity)
+    val box = Array.fill(6)(Float.PositiveInfinity)
+    java.util.Arrays.fill(box, 3, 6, Float.NegativeInfinity)
     loop(bounds.length / 6): i =>
       loop(3): k =>
-        all(k) = Math.min(all(k), bounds(6 * i + k))
-        all(3 + k) = Math.max(all(3 + k), bounds(6 * i + 3 + k))
-    Bounds3(Vec3(all(0), all(1), all(2)), Vec3(all(3), all(4), all(5)))
+        box(k) = Math.min(box(k), bounds(6 * i + k))
+        box(3 + k) = Math.max(box(3 + k), bounds(6 * i + 3 + k))
+    Bounds3(Vec3(box(0), box(1), box(2)), Vec3(box(3), box(4), box(5)))

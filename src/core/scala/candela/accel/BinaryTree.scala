@@ -30,12 +30,12 @@ private[accel] final class BinaryTree(
 
   /** First slot of `order` in the subtree. */
   def firstSlot(node: Int): Int =
-    val left = child(node, 0)
-    if left < 0 then ~left else firstSlot(left)
+    val leftChild = child(node, 0)
+    if leftChild < 0 then ~leftChild else firstSlot(leftChild)
 
   def endSlot(node: Int): Int =
-    val right = child(node, 1)
-    if right < 0 then ~right + leafSize(node, 1) else endSlot(right)
+    val rightChild = child(node, 1)
+    if rightChild < 0 then ~rightChild + leafSize(node, 1) else endSlot(rightChild)
 
   /** Number of primitives in the subtree. */
   def count(node: Int): Int = endSlot(node) - firstSlot(node)

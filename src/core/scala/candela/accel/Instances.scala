@@ -35,37 +35,37 @@ final class Instances private (
     open: Float,
     close: Float
 ):
-  private val still = objectOf.length - motions.length
+  private val staticCount = objectOf.length - motions.length
 
   def count: Int = objectOf.length
 
   def bounds(i: Int): Bounds3 =
     val box = objects(objectOf(i)).bounds
-    if i < still then Placement.bounds(written(i, new Array[Double](Motion.Doubles)), 0, box)
-    else Placement.bounds(motions(i - still), open, close, box)
+    if i < staticCount then Placement.bounds(written(i, new Array[Double](Motion.Doubles)), 0, box)
+    else Placement.bounds(motions(i - staticCount), open, close, box)
 
   /** Finds the closest hit of instance `i` in (0, `ray.tMax`): shortens the ray and writes the
     * object's primitive to `hit.inner`; leaves `hit.primitive` unchanged.
     */
   def intersect(i: Int, ray: Ray, hit: Hit): Boolean =
     val local = enter(i, ray)
-    val before = hit.primitive
-    val found = objects(objectOf(i)).closest(local, hit)
-    if found then
+    val previousPrimitive = hit.primitive
+    val hasHit = objects(objectOf(i)).closest(local, hit)
+    if hasHit then
       ray.tMax = local.tMax
       hit.inner = hit.primitive
-    hit.primitive = before
-    found
+    hit.primitive = previousPrimitive
+    hasHit
 
   def isHit(i: Int, ray: Ray, hit: Hit): Boolean =
     objects(objectOf(i)).isOccluded(enter(i, ray), hit)
 
   /** Transforms the ray to object space; the result is `ray.nested`. */
   def enter(i: Int, ray: Ray): Ray =
-    if i < still then Placement.enter(numbers(i), start(i), ray)
+    if i < staticCount then Placement.enter(numbers(i), start(i), ray)
     else
       val space = ray.nested.space
-      motions(i - still).write(ray.time, space, 0)
+      motions(i - staticCount).write(ray.time, space, 0)
       Placement.enter(space, Placement.Inverse, ray)
 
   /** Transforms a shading point on instance `i` from object to world space, for the ray last passed
@@ -73,10 +73,10 @@ final class Instances private (
     */
   def locate(i: Int, ray: Ray, at: ShadingPoint): Unit =
     val space = ray.nested.space
-    Placement.locate(if i < still then written(i, space) else space, 0, at)
+    Placement.locate(if i < staticCount then written(i, space) else space, 0, at)
 
   /** The object's point `p`, in world space at the ray's time. */
-  def place(i: Int, ray: Ray, p: Vec3): Vec3 = Placement.point(rows(i, ray), 0, p)
+  def toWorld(i: Int, ray: Ray, p: Vec3): Vec3 = Placement.point(rows(i, ray), 0, p)
 
   /** The point `p` of world space, in the object's at the ray's time. */
   def toObject(i: Int, ray: Ray, p: Vec3): Vec3 =
@@ -90,7 +90,7 @@ final class Instances private (
   /** Mean scale of lengths, of the moving ones when the shutter opens. */
   def stretch(i: Int): Double =
     val m = new Array[Double](Motion.Work)
-    if i < still then written(i, m): Unit else motions(i - still).write(open, m, 0)
+    if i < staticCount then written(i, m): Unit else motions(i - staticCount).write(open, m, 0)
     Math.cbrt(Math.abs(Placement.determinant(m, 0)))
 
   private def row(i: Int): Int =
@@ -109,15 +109,15 @@ final class Instances private (
 
   private def rows(i: Int, ray: Ray): Array[Double] =
     val space = ray.nested.space
-    if i < still then written(i, space)
+    if i < staticCount then written(i, space)
     else
-      motions(i - still).write(ray.time, space, 0)
+      motions(i - staticCount).write(ray.time, space, 0)
       space
 
 object Instances:
   val Empty: Instances = of(Array.empty, IndexedSeqView.Id(Vector.empty))
 
-  /** @param places      (index into `objects`, object to world), which are made when asked for, as
+  /** @param placements  (index into `objects`, object to world), which are made when asked for, as
     *   there may be millions; animated instances are numbered last, with the few whose matrix is
     *   nearly singular, and stays a pair. The numbers of [[MotionRow]]s
     *   are used where they are, if they are of the same [[MotionRows]] as the first
@@ -125,46 +125,46 @@ object Instances:
     */
   def of(
       objects: Array[Accelerator],
-      places: IndexedSeqView[(Int, Motion)],
+      placements: IndexedSeqView[(Int, Motion)],
       open: Float = 0f,
       close: Float = 1f,
       parallel: Parallel = Parallel.Alone
   ): Instances =
     val shared: MotionRows | Null =
-      places.iterator.map(_._2).collectFirst { case at: MotionRow => at.rows }.orNull
-    val kinds = new Array[Byte](places.length)
-    parallel.ranges(places.length): (from, until) =>
-      loop(from, until)(i => kinds(i) = kind(places(i)._2, shared).toByte)
-    val found = IntBuffer()
-    loop(places.length)(i => if kinds(i) == NoRow then found += i)
-    val apart = found.take()
-    val still = places.length - apart.length
-    val objectOf = new Array[Int](places.length)
-    val motions = new Array[Motion](apart.length)
-    loop(apart.length): k =>
-      val (which, motion) = places(apart(k))
-      objectOf(still + k) = which
+      placements.iterator.map(_._2).collectFirst { case at: MotionRow => at.rows }.orNull
+    val kinds = new Array[Byte](placements.length)
+    parallel.ranges(placements.length): (from, until) =>
+      loop(from, until)(i => kinds(i) = kind(placements(i)._2, shared).toByte)
+    val indices = IntBuffer()
+    loop(placements.length)(i => if kinds(i) == NoRow then indices += i)
+    val withoutRow = indices.take()
+    val staticCount = placements.length - withoutRow.length
+    val objectOf = new Array[Int](placements.length)
+    val motions = new Array[Motion](withoutRow.length)
+    loop(withoutRow.length): k =>
+      val (objectIndex, motion) = placements(withoutRow(k))
+      objectOf(staticCount + k) = objectIndex
       motions(k) = motion
 
     // Others follow those that are shared
     val hasOwn = kinds.exists(_ == OwnRow)
     val rows =
       if shared == null then MotionRows() else if hasOwn then shared.continued else shared
-    val rowOf = new Array[Int](still)
+    val rowOf = new Array[Int](staticCount)
     var k = 0
-    loop(places.length): i =>
+    loop(placements.length): i =>
       if kinds(i) == OwnRow then rowOf(k) = rows.grow()
       if kinds(i) != NoRow then k += 1
-    parallel.ranges(places.length): (from, until) =>
+    parallel.ranges(placements.length): (from, until) =>
       val work = new Array[Double](Motion.Work)
       // Those apart before `from`
-      var passed = apart.search(from).insertionPoint
+      var passed = withoutRow.search(from).insertionPoint
       loop(from, until): i =>
         if kinds(i) == NoRow then passed += 1
         else
-          val (which, motion) = places(i)
+          val (objectIndex, motion) = placements(i)
           val k = i - passed
-          objectOf(k) = which
+          objectOf(k) = objectIndex
           motion match
             case at: MotionRow if kinds(i) == SharedRow => rowOf(k) = at.row
             case _ =>

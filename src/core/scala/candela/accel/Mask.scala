@@ -46,10 +46,10 @@ final class StochasticMask(alpha: FloatTexture) extends Mask:
     a < 1f && (!(a > 0f) || StochasticMask.threshold(ray, primitive) >= a)
 
 /** Also open to rays that meet the surface from behind. */
-final class FrontMask(within: Mask) extends Mask:
-  override def veiled: (Mask, Mask) = (FrontMask(SolidMask), within)
+final class FrontMask(inner: Mask) extends Mask:
+  override def veiled: (Mask, Mask) = (FrontMask(SolidMask), inner)
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
-    (ray.direction dot at.geometricNormal) > 0f || within.isHole(at, ray, primitive, shadow)
+    (ray.direction dot at.geometricNormal) > 0f || inner.isHole(at, ray, primitive, shadow)
 
 object StochasticMask:
   /** Uniform in [0, 1) over rays and primitives. */
@@ -84,13 +84,13 @@ object Masks:
   */
 final class MaskColumn:
   private var opaque = 0
-  private val others = ArrayBuffer.empty[Mask]
+  private val masks = ArrayBuffer.empty[Mask]
 
-  def isOpaque: Boolean = others.isEmpty
+  def isOpaque: Boolean = masks.isEmpty
 
   /** Adds the mask of so many shapes. */
   def add(mask: Mask, count: Int = 1): Unit =
     if isOpaque && (mask eq SolidMask) then opaque += count
-    else loop(count)(_ => others += mask)
+    else loop(count)(_ => masks += mask)
 
-  def toArray: Array[Mask] = Array.fill[Mask](opaque)(SolidMask) ++ others
+  def toArray: Array[Mask] = Array.fill[Mask](opaque)(SolidMask) ++ masks

@@ -23,9 +23,9 @@ object PackedPrimitives:
   ): Boolean =
     val end = ray.tMax
     if primitive < hit.primitive then ray.tMax = Math.nextUp(end)
-    val found = intersect
-    if !found || ray.tMax > end then ray.tMax = end
-    found
+    val hasHit = intersect
+    if !hasHit || ray.tMax > end then ray.tMax = end
+    hasHit
 
 /** Opaque primitives.
   *
@@ -43,32 +43,32 @@ final class SolidPrimitives(
   private val firstInstance = triangles + shapes.length
 
   def intersect(first: Int, end: Int, ray: Ray, hit: Hit): Boolean =
-    var found = false
+    var hasHit = false
     var slot = first
     while slot < end do
       val primitive = order(slot)
-      val here =
+      val isCloser =
         if primitive < triangles then
           TriangleTest.intersect(corners, 9 * slot, 1, primitive, ray, hit)
-        else other(primitive, ray, hit)
-      if here then
+        else intersectOther(primitive, ray, hit)
+      if isCloser then
         hit.primitive = primitive
-        found = true
+        hasHit = true
       slot += 1
-    found
+    hasHit
 
   def isHit(first: Int, end: Int, ray: Ray, hit: Hit): Boolean =
-    var found = false
+    var hasHit = false
     var slot = first
-    while !found && slot < end do
+    while !hasHit && slot < end do
       val primitive = order(slot)
-      found =
+      hasHit =
         if primitive < triangles then TriangleTest.isHit(corners, 9 * slot, ray, hit)
         else isOtherHit(primitive, ray, hit)
       slot += 1
-    found
+    hasHit
 
-  private def other(primitive: Int, ray: Ray, hit: Hit): Boolean =
+  private def intersectOther(primitive: Int, ray: Ray, hit: Hit): Boolean =
     PackedPrimitives.withTies(primitive, ray, hit):
       if primitive < firstInstance then
         ShapeGroup.intersect(shapes, primitive - triangles, ray, hit)
@@ -94,24 +94,24 @@ final class MaskedPrimitives(
   private val firstInstance = triangles + shapes.length
 
   def intersect(first: Int, end: Int, ray: Ray, hit: Hit): Boolean =
-    var found = false
+    var hasHit = false
     var slot = first
     while slot < end do
       if test(slot, ray, hit, shadow = false) then
         hit.primitive = order(slot)
-        found = true
+        hasHit = true
       slot += 1
-    found
+    hasHit
 
   def isHit(first: Int, end: Int, ray: Ray, hit: Hit): Boolean =
     val tMax = ray.tMax
-    var found = false
+    var hasHit = false
     var slot = first
-    while !found && slot < end do
-      found = test(slot, ray, hit, shadow = true)
+    while !hasHit && slot < end do
+      hasHit = test(slot, ray, hit, shadow = true)
       slot += 1
     ray.tMax = tMax
-    found
+    hasHit
 
   private def test(slot: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
     val primitive = order(slot)
@@ -119,10 +119,10 @@ final class MaskedPrimitives(
       val mask = masks.ofMesh(soup.meshOf(primitive))
       if mask eq SolidMask then triangle(slot, ray, hit, shadow)
       else triangle(slot, mask, ray, hit, shadow)
-    else if shadow then other(primitive, ray, hit, shadow)
-    else PackedPrimitives.withTies(primitive, ray, hit)(other(primitive, ray, hit, shadow))
+    else if shadow then testOther(primitive, ray, hit, shadow)
+    else PackedPrimitives.withTies(primitive, ray, hit)(testOther(primitive, ray, hit, shadow))
 
-  private def other(primitive: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
+  private def testOther(primitive: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
     if primitive < firstInstance then
       val i = primitive - triangles
       val mask = masks.ofShape(i)
@@ -142,9 +142,9 @@ final class MaskedPrimitives(
     val v = hit.v
     if !triangle(slot, ray, hit, shadow) then false
     else
-      val at = hit.work
-      soup.surface(order(slot), hit, at)
-      if mask.isHole(at, ray, order(slot), shadow) then
+      val surfacePoint = hit.work
+      soup.surface(order(slot), hit, surfacePoint)
+      if mask.isHole(surfacePoint, ray, order(slot), shadow) then
         ray.tMax = tMax
         hit.u = u
         hit.v = v
@@ -163,24 +163,24 @@ final class MaskedPrimitives(
   ): Boolean =
     val u = hit.u
     val v = hit.v
-    val at = hit.work
-    val rest = ray.nested
+    val surfacePoint = hit.work
+    val remainingRay = ray.nested
     val direction = ray.direction
-    rest.set(ray.origin, direction, ray.tMax)
+    remainingRay.set(ray.origin, direction, ray.tMax)
     var passed = 0f
-    var found = false
-    var going = shapes.intersect(number, rest, hit)
+    var hasHit = false
+    var going = shapes.intersect(number, remainingRay, hit)
     while going do
-      shapes.surface(number, rest, hit, at)
-      if mask.isHole(at, rest, primitive, shadow) then
-        passed += rest.tMax
-        rest.set(at.offsetOrigin(direction), direction, ray.tMax - passed)
-        going = shapes.intersect(number, rest, hit)
+      shapes.surface(number, remainingRay, hit, surfacePoint)
+      if mask.isHole(surfacePoint, remainingRay, primitive, shadow) then
+        passed += remainingRay.tMax
+        remainingRay.set(surfacePoint.offsetOrigin(direction), direction, ray.tMax - passed)
+        going = shapes.intersect(number, remainingRay, hit)
       else
-        found = true
+        hasHit = true
         going = false
-    if found then ray.tMax = passed + rest.tMax
+    if hasHit then ray.tMax = passed + remainingRay.tMax
     else
       hit.u = u
       hit.v = v
-    found
+    hasHit

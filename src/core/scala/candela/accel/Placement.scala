@@ -71,8 +71,8 @@ object Placement:
       val swept = moments.map(_._1).reduce(_.union(_))
       val bends =
         for k <- 1 until Moments; c <- 0 until 8 yield
-          val way = moments(k - 1)._2(c) + moments(k + 1)._2(c) - moments(k)._2(c) * 2f
-          absolute(way) * 0.5f
+          val secondDifference = moments(k - 1)._2(c) + moments(k + 1)._2(c) - moments(k)._2(c) * 2f
+          absolute(secondDifference) * 0.5f
       val pad = bends.reduce((a, b) =>
         Vec3(Math.max(a.x, b.x), Math.max(a.y, b.y), Math.max(a.z, b.z))
       )

@@ -23,9 +23,9 @@ final class Primitives(
 
   /** Bounds of each primitive as six Floats: lower and upper corner. */
   def bounds: Array[Float] =
-    val all = new Array[Float](6 * count)
-    loop(count)(i => writeBounds(all, 6 * i, i))
-    all
+    val boxes = new Array[Float](6 * count)
+    loop(count)(i => writeBounds(boxes, 6 * i, i))
+    boxes
 
   /** Writes the bounds of primitive `i` as six Floats. */
   private[accel] def writeBounds(to: Array[Float], at: Int, i: Int): Unit =

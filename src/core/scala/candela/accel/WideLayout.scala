@@ -19,35 +19,35 @@ private[accel] final class WideLayout(
     val order: Array[Int]
 ):
   /** The hierarchy of primitives that it fits. */
-  def of(primitives: Primitives, parallel: Parallel): WideTree =
+  def withPrimitives(primitives: Primitives, parallel: Parallel): WideTree =
     WideTree(width, lanes, count, bounds, nodes, root, blocks, primitives.packed(order, parallel))
 
   /** A layout of the primitives of both, below a new root. */
   def joined(other: WideLayout): WideLayout =
     val top = WideTree.floats(width)
-    val all = new Array[Float](top + nodes.length + other.nodes.length)
-    System.arraycopy(nodes, 0, all, top, nodes.length)
-    System.arraycopy(other.nodes, 0, all, top + nodes.length, other.nodes.length)
-    val here = Relocation(top, 0, 0)
-    val there = Relocation(
+    val joinedNodes = new Array[Float](top + nodes.length + other.nodes.length)
+    System.arraycopy(nodes, 0, joinedNodes, top, nodes.length)
+    System.arraycopy(other.nodes, 0, joinedNodes, top + nodes.length, other.nodes.length)
+    val relocation = Relocation(top, 0, 0)
+    val otherRelocation = Relocation(
       top + nodes.length,
       blocks.length / WideTree.blockFloats(lanes),
       order.length
     )
-    here.relocate(all, top, top + nodes.length, width)
-    there.relocate(all, top + nodes.length, all.length, width)
+    relocation.relocate(joinedNodes, top, top + nodes.length, width)
+    otherRelocation.relocate(joinedNodes, top + nodes.length, joinedNodes.length, width)
     var lane = 0
     while lane < width do
-      WideTree.writeEmpty(all.update)(0, lane, width)
+      WideTree.writeEmpty(joinedNodes.update)(0, lane, width)
       lane += 1
-    write(all, 0, here.moved(root))
-    other.write(all, 1, there.moved(other.root))
+    write(joinedNodes, 0, relocation.moved(root))
+    other.write(joinedNodes, 1, otherRelocation.moved(other.root))
     WideLayout(
       width,
       lanes,
       count + other.count,
       bounds.union(other.bounds),
-      all,
+      joinedNodes,
       0,
       Array.concat(blocks, other.blocks),
       Array.concat(order, other.order)
@@ -72,16 +72,16 @@ private[accel] final class Relocation(nodeFloats: Int, blocks: Int, slots: Int):
     else
       val isBlock = WideTree.isBlock(code)
       val start = if isBlock then blocks else slots
-      WideTree.leaf(isBlock, WideTree.first(code) + start, WideTree.size(code))
+      WideTree.leaf(isBlock, WideTree.leafStart(code) + start, WideTree.size(code))
 
   /** Relocates the children of all nodes in a range. */
   def relocate(nodes: Array[Float], from: Int, until: Int, width: Int): Unit =
     var node = from
     while node < until do
-      var at = node + 6 * width
-      val end = at + width
-      while at < end do
-        val code = java.lang.Float.floatToRawIntBits(nodes(at))
-        nodes(at) = java.lang.Float.intBitsToFloat(moved(code))
-        at += 1
+      var slot = node + 6 * width
+      val end = slot + width
+      while slot < end do
+        val code = java.lang.Float.floatToRawIntBits(nodes(slot))
+        nodes(slot) = java.lang.Float.intBitsToFloat(moved(code))
+        slot += 1
       node += WideTree.floats(width)

@@ -20,7 +20,7 @@ import candela.geometry.Bounds3
   * @param lanes  triangles per block
   * @param count  total number of primitives
   * @param root   encoded as a child
-  * @param others primitives outside blocks
+  * @param unblocked primitives outside blocks
   */
 private[accel] final class WideTree(
     val width: Int,
@@ -30,7 +30,7 @@ private[accel] final class WideTree(
     val nodes: Array[Float],
     val root: Int,
     val blocks: Array[Float],
-    val others: PackedPrimitives
+    val unblocked: PackedPrimitives
 ):
   /** The most entries of a traversal's stack: of each level of nodes, all children but one wait. */
   val stackSize: Int = WideTree.levels(nodes, width) * (width - 1) + 1
@@ -47,22 +47,22 @@ private[accel] object WideTree:
     while axis < at + 3 do
       val low = boxes(axis)
       val high = boxes(axis + 3)
-      val more = (high - low) * Pad
-      boxes(axis) = Math.nextDown(low - more)
-      boxes(axis + 3) = Math.nextUp(high + more)
+      val padding = (high - low) * Pad
+      boxes(axis) = Math.nextDown(low - padding)
+      boxes(axis + 3) = Math.nextUp(high + padding)
       axis += 1
 
   /** Levels of nodes, of which each is before its children. */
   private def levels(nodes: Array[Float], width: Int): Int =
     val above = new Array[Byte](nodes.length / floats(width))
-    var most = -1
+    var maxLevel = -1
     loop(above.length): i =>
       val children = i * floats(width) + 6 * width
-      if above(i) > most then most = above(i)
+      if above(i) > maxLevel then maxLevel = above(i)
       loop(width): k =>
         val child = java.lang.Float.floatToRawIntBits(nodes(children + k))
         if child > 0 then above(child / floats(width)) = (above(i) + 1).toByte
-    most + 1
+    maxLevel + 1
 
   /** Writes the box of a node's child, six Floats, min and max.
     *
@@ -93,7 +93,7 @@ private[accel] object WideTree:
   inline def floats(width: Int): Int = 7 * width
   inline def blockFloats(lanes: Int): Int = 10 * lanes
 
-  /** Encodes a leaf: 26 bits of index (a block, or the first slot of `others`), 4 bits of count
+  /** Encodes a leaf: 26 bits of index (a block, or the first slot of `unblocked`), 4 bits of count
     * minus one, 1 bit of kind.
     */
   def leaf(isBlock: Boolean, first: Int, count: Int): Int =
@@ -101,7 +101,7 @@ private[accel] object WideTree:
 
   inline def isBlock(leaf: Int): Boolean = (~leaf & 1) != 0
   inline def size(leaf: Int): Int = ((~leaf >> 1) & 15) + 1
-  inline def first(leaf: Int): Int = ~leaf >>> 5
+  inline def leafStart(leaf: Int): Int = ~leaf >>> 5
 
   /** Encodes an empty child; visited only as a root. */
   final val NoChild = -2147483648

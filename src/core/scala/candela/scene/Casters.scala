@@ -61,7 +61,7 @@ final class Casters private (
       val of = objects(placed.all.objectOf(instance))
       out.primitive = placed.first + instance
       out.inner = of.sample(Math.min(rest, Casters.BelowOne) * of.area, u1, u2, out)
-      out.surface.p = placed.all.place(instance, ray, out.p)
+      out.surface.p = placed.all.toWorld(instance, ray, out.p)
       out.reach *= placed.stretch(i)
     out.surface.pdf > 0f
 

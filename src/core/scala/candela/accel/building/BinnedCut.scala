@@ -13,33 +13,33 @@ import candela.base.Parallel
   */
 private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[Array[Byte]])
     extends Cut:
-  private var best = Slabs()
+  private var bestSplit = Slabs()
   private var trial = Slabs()
   private var axis = 0
 
-  protected def sweep: Sweep = best.sweep
+  protected def sweep: Sweep = bestSplit.sweep
 
-  def find(first: Int, end: Int, levels: Levels, depth: Int): Boolean =
+  def findSplit(first: Int, end: Int, levels: Levels, depth: Int): Boolean =
     levels.tighten(depth)
     attemptWidest(first, end, levels, depth)
-    if best.sweep.cost == Float.PositiveInfinity then
+    if bestSplit.sweep.cost == Float.PositiveInfinity then
       // If the centroid range was overestimated, all centroids may fall into one bin
       levels.measure(depth, records, first, end)
       attemptWidest(first, end, levels, depth)
     val area = BoxRecord.halfArea(levels.boxes, depth * BoxRecord.Ints)
-    if best.sweep.cost > BinnedCut.Poor * Sweep.blocks(end - first, shift) * area then
+    if bestSplit.sweep.cost > BinnedCut.Poor * Sweep.blocks(end - first, shift) * area then
       val widest = axis
       val step = (end - first) / BinnedCut.Sample
-      val least = if step > 1 then sampled(first, end, widest, step, levels, depth) else 0f
+      val minCost = if step > 1 then sampled(first, end, widest, step, levels, depth) else 0f
       var k = 0
       while k < 3 do
-        if k != widest && (step <= 1 || sampled(first, end, k, step, levels, depth) < least) then
+        if k != widest && (step <= 1 || sampled(first, end, k, step, levels, depth) < minCost) then
           attempt(first, end, k, levels, depth)
-          if trial.sweep.cost < best.sweep.cost then
+          if trial.sweep.cost < bestSplit.sweep.cost then
             swap()
             axis = k
         k += 1
-    best.sweep.cost < Float.PositiveInfinity
+    bestSplit.sweep.cost < Float.PositiveInfinity
 
   private def attemptWidest(first: Int, end: Int, levels: Levels, depth: Int): Unit =
     axis = levels.widest(depth)
@@ -47,9 +47,9 @@ private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[
     swap()
 
   private def swap(): Unit =
-    val was = best
-    best = trial
-    trial = was
+    val previous = bestSplit
+    bestSplit = trial
+    trial = previous
 
   private def attempt(first: Int, end: Int, axis: Int, levels: Levels, depth: Int): Unit =
     val low = levels.low(depth, axis)
@@ -86,7 +86,7 @@ private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[
     bins.fill(records, binOf(axis), first, end, axis, low, scale)
 
   def divide(first: Int, end: Int): Unit =
-    partition(binOf(axis), best.sweep.cut, first, first + best.sweep.left, end)
+    partition(binOf(axis), bestSplit.sweep.cut, first, first + bestSplit.sweep.leftWeight, end)
 
   /** Swaps the misplaced records on both sides of `middle`: the first with the first, and so on.
     */
@@ -96,7 +96,7 @@ private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[
   private val partitioner = Partitioner(records)
 
   protected def narrow(levels: Levels, depth: Int): Unit =
-    levels.part(depth, axis, best.low + (best.sweep.cut + 1) / best.scale)
+    levels.splitRange(depth, axis, bestSplit.low + (bestSplit.sweep.cut + 1) / bestSplit.scale)
 
 /** Bins of one attempt, with their best split.
   *
@@ -134,9 +134,9 @@ private[building] final class SharedCut(
   ): Unit =
     bins.clear()
     parallel.ranges(end - first): (from, until) =>
-      val some = Bins()
-      some.fill(records, binOf(axis), first + from, first + until, axis, low, scale)
-      bins.synchronized(bins.add(some))
+      val partial = Bins()
+      partial.fill(records, binOf(axis), first + from, first + until, axis, low, scale)
+      bins.synchronized(bins.add(partial))
 
   override protected def partition(
       bins: Array[Byte],
@@ -149,15 +149,15 @@ private[building] final class SharedCut(
     if chunks == 1 then super.partition(bins, cut, first, middle, end)
     else
       // Number of misplaced records before each chunk of the left and right parts
-      val left = wrongBefore(bins, first, middle, bin => bin > cut)
-      val right = wrongBefore(bins, middle, end, bin => bin <= cut)
-      val pairs = left(chunks)
+      val leftCounts = wrongBefore(bins, first, middle, bin => bin > cut)
+      val rightCounts = wrongBefore(bins, middle, end, bin => bin <= cut)
+      val pairs = leftCounts(chunks)
       parallel.each(chunks): k =>
         var pair = (pairs.toLong * k / chunks).toInt
         val stop = (pairs.toLong * (k + 1) / chunks).toInt
         if pair < stop then
-          var i = find(bins, first, middle, left, pair, bin => bin > cut)
-          var j = find(bins, middle, end, right, pair, bin => bin <= cut)
+          var i = findMisplaced(bins, first, middle, leftCounts, pair, bin => bin > cut)
+          var j = findMisplaced(bins, middle, end, rightCounts, pair, bin => bin <= cut)
           while pair < stop do
             while bins(i) <= cut do i += 1
             while bins(j) > cut do j += 1
@@ -187,7 +187,7 @@ private[building] final class SharedCut(
     counts.scanLeft(0)(_ + _).tail
 
   /** Position of the misplaced record with the given rank. */
-  private inline def find(
+  private inline def findMisplaced(
       bins: Array[Byte],
       first: Int,
       end: Int,
@@ -196,9 +196,9 @@ private[building] final class SharedCut(
       inline isWrong: Byte => Boolean
   ): Int =
     val chunk = before.lastIndexWhere(_ <= number)
-    var left = number - before(chunk)
+    var remaining = number - before(chunk)
     var i = chunkStart(first, end, chunk)
-    while left > 0 || !isWrong(bins(i)) do
-      if isWrong(bins(i)) then left -= 1
+    while remaining > 0 || !isWrong(bins(i)) do
+      if isWrong(bins(i)) then remaining -= 1
       i += 1
     i

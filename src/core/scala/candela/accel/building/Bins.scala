@@ -26,13 +26,13 @@ private[building] final class Bins:
     clear()
     // In small batches, first the bins, then the boxes while they are still in cache
     val isLong = end - first >= Bins.LongRange
-    var from = first
-    while from < end do
-      val until = Math.min(end, from + Bins.Chunk)
-      place(records, binOf, from, until, axis, low, scale)
-      if isLong then growRarely(records, binOf, from, until)
-      else grow(records, binOf, from, until)
-      from = until
+    var start = first
+    while start < end do
+      val stop = Math.min(end, start + Bins.Chunk)
+      assign(records, binOf, start, stop, axis, low, scale)
+      if isLong then growRarely(records, binOf, start, stop)
+      else grow(records, binOf, start, stop)
+      start = stop
 
   /** Fills the bins with every `step`th record. */
   def sample(
@@ -47,13 +47,13 @@ private[building] final class Bins:
     clear()
     var i = first
     while i < end do
-      val at = i * BoxRecord.Ints
-      val bin = Bins.place(BoxRecord.middle(records, at, axis), low, scale)
+      val offset = i * BoxRecord.Ints
+      val bin = Bins.binIndex(BoxRecord.middle(records, offset, axis), low, scale)
       counts(bin) += 1
-      BoxRecord.grow(boxes, bin * BoxRecord.Ints, records, at)
+      BoxRecord.grow(boxes, bin * BoxRecord.Ints, records, offset)
       i += step
 
-  private def place(
+  private def assign(
       records: Array[Int],
       binOf: Array[Byte],
       first: Int,
@@ -63,46 +63,46 @@ private[building] final class Bins:
       scale: Float
   ): Unit =
     var i = first
-    var at = first * BoxRecord.Ints
+    var offset = first * BoxRecord.Ints
     while i < end do
-      binOf(i) = Bins.place(BoxRecord.middle(records, at, axis), low, scale).toByte
+      binOf(i) = Bins.binIndex(BoxRecord.middle(records, offset, axis), low, scale).toByte
       i += 1
-      at += BoxRecord.Ints
+      offset += BoxRecord.Ints
 
   private def grow(records: Array[Int], binOf: Array[Byte], first: Int, end: Int): Unit =
     val boxes = this.boxes
     val counts = this.counts
     var i = first
-    var at = first * BoxRecord.Ints
+    var offset = first * BoxRecord.Ints
     while i < end do
       val bin = binOf(i)
       counts(bin) += 1
-      BoxRecord.grow(boxes, bin * BoxRecord.Ints, records, at)
+      BoxRecord.grow(boxes, bin * BoxRecord.Ints, records, offset)
       i += 1
-      at += BoxRecord.Ints
+      offset += BoxRecord.Ints
 
   private def growRarely(records: Array[Int], binOf: Array[Byte], first: Int, end: Int): Unit =
     val boxes = this.boxes
     val counts = this.counts
     var i = first
-    var at = first * BoxRecord.Ints
+    var offset = first * BoxRecord.Ints
     while i < end do
       val bin = binOf(i)
       counts(bin) += 1
-      BoxRecord.growRarely(boxes, bin * BoxRecord.Ints, records, at)
+      BoxRecord.growRarely(boxes, bin * BoxRecord.Ints, records, offset)
       i += 1
-      at += BoxRecord.Ints
+      offset += BoxRecord.Ints
 
   def clear(): Unit =
     java.util.Arrays.fill(boxes, BoxRecord.MinusInfinity)
     java.util.Arrays.fill(counts, 0)
 
-  /** Merges the contents of `others`. */
-  def add(others: Bins): Unit =
+  /** Merges the contents of `other`. */
+  def add(other: Bins): Unit =
     var bin = 0
     while bin < Bins.Count do
-      counts(bin) += others.counts(bin)
-      BoxRecord.grow(boxes, bin * BoxRecord.Ints, others.boxes, bin * BoxRecord.Ints)
+      counts(bin) += other.counts(bin)
+      BoxRecord.grow(boxes, bin * BoxRecord.Ints, other.boxes, bin * BoxRecord.Ints)
       bin += 1
 
   /** First non-empty bin. */
@@ -125,5 +125,5 @@ private[building] object Bins:
   private inline val LongRange = 2048
 
   /** Clamps to the valid bins, as rounding may place the outermost record just outside. */
-  inline def place(middle: Float, low: Float, scale: Float): Int =
+  inline def binIndex(middle: Float, low: Float, scale: Float): Int =
     Math.max(0, Math.min(((middle - low) * scale).toInt, Count - 1))

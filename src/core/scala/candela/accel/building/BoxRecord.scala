@@ -130,12 +130,12 @@ private[building] object BoxRecord:
     to(toAt + 5) = decode(box(at + 6))
 
   /** Records of all primitives. */
-  def all(primitives: Primitives, parallel: Parallel): Array[Int] =
+  def ofAll(primitives: Primitives, parallel: Parallel): Array[Int] =
     collected(primitives, primitives.count, i => i, parallel)
 
   /** Records of some. */
-  def some(primitives: Primitives, which: Array[Int], parallel: Parallel): Array[Int] =
-    collected(primitives, which.length, which(_), parallel)
+  def ofSome(primitives: Primitives, indices: Array[Int], parallel: Parallel): Array[Int] =
+    collected(primitives, indices.length, indices(_), parallel)
 
   private inline def collected(
       primitives: Primitives,
@@ -149,12 +149,12 @@ private[building] object BoxRecord:
       val b = new Array[Float](6)
       var slot = from
       while slot < until do
-        val at = Ints * slot
+        val offset = Ints * slot
         val i = which(slot)
-        if i < soup.count then writeTriangle(records, at, soup, i)
+        if i < soup.count then writeTriangle(records, offset, soup, i)
         else
           primitives.writeBounds(b, 0, i)
-          write(records, at, i, b(0), b(1), b(2), b(3), b(4), b(5))
+          write(records, offset, i, b(0), b(1), b(2), b(3), b(4), b(5))
         slot += 1
     records
 

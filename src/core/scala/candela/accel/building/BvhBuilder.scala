@@ -29,13 +29,13 @@ private[accel] object BvhBuilder:
   /** Largest subtree built by a single thread, in records, and as a fraction of the whole tree:
     * small enough that all threads finish at about the same time.
     */
-  private val LeastDeferred = 1 << 15
+  private val MinDeferred = 1 << 15
   private val DeferredParts = 64
 
-  def partSize(count: Int): Int = Math.max(LeastDeferred, count / DeferredParts)
+  def partSize(count: Int): Int = Math.max(MinDeferred, count / DeferredParts)
 
   def of(primitives: Primitives, size: LeafSize, parallel: Parallel): BinaryTree =
-    ofRecords(BoxRecord.all(primitives, parallel), size, parallel)
+    ofRecords(BoxRecord.ofAll(primitives, parallel), size, parallel)
 
   /** Builds the tree of records, which are garbage before its parts are joined. */
   private[building] def ofRecords(
@@ -44,14 +44,14 @@ private[accel] object BvhBuilder:
       parallel: Parallel
   ): BinaryTree =
     val pieces = split(records, size, parallel)
-    val whole = Subtree.join(pieces.top, pieces.parts, parallel)
-    BinaryTree(pieces.order, whole.nodes, whole.root, whole.leafSize, pieces.bounds)
+    val joined = Subtree.join(pieces.top, pieces.subtrees, parallel)
+    BinaryTree(pieces.order, joined.nodes, joined.root, joined.leafSize, pieces.bounds)
 
   /** The parts of a tree. */
   private final class Pieces(
       val order: Array[Int],
       val top: Subtree,
-      val parts: Array[Subtree],
+      val subtrees: Array[Subtree],
       val bounds: Bounds3
   )
 
@@ -59,7 +59,7 @@ private[accel] object BvhBuilder:
   private def split(records: Array[Int], size: LeafSize, parallel: Parallel): Pieces =
     val count = records.length / BoxRecord.Ints
     val levels = Levels()
-    levels.open(0)
+    levels.resetRange(0)
     union(records, parallel, levels.boxes)
     val bounds = boundsOf(levels.boxes)
     val binOf = Array.fill(3)(new Array[Byte](count))
@@ -68,21 +68,21 @@ private[accel] object BvhBuilder:
     val top = SubtreeBuilder(records, together, levels, size, deferred)
     val topRoot = top.build(0, count, 0)
     val topSize = top.leafSize
-    val later = top.later.toArray
-    val parts = new Array[Subtree](later.length)
-    parallel.each(later.length): i =>
-      val part = later(i)
+    val deferredRanges = top.deferredRanges.toArray
+    val subtrees = new Array[Subtree](deferredRanges.length)
+    parallel.each(deferredRanges.length): i =>
+      val range = deferredRanges(i)
       val builder =
-        SubtreeBuilder(records, BinnedCut(records, size.shift, binOf), part.levels, size)
-      val root = builder.build(part.first, part.end, part.depth)
-      parts(i) = Subtree(root, builder.leafSize, builder.trimmedNodes)
+        SubtreeBuilder(records, BinnedCut(records, size.shift, binOf), range.levels, size)
+      val root = builder.build(range.start, range.end, range.depth)
+      subtrees(i) = Subtree(root, builder.leafSize, builder.trimmedNodes)
     val order = new Array[Int](count)
     parallel.ranges(count): (from, until) =>
       var i = from
       while i < until do
         order(i) = records(i * BoxRecord.Ints + BoxRecord.Number)
         i += 1
-    Pieces(order, Subtree(topRoot, topSize, top.trimmedNodes), parts, bounds)
+    Pieces(order, Subtree(topRoot, topSize, top.trimmedNodes), subtrees, bounds)
 
   private def union(records: Array[Int], parallel: Parallel, to: Array[Int]): Unit =
     BoxRecord.clear(to, 0)

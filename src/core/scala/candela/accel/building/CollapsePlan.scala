@@ -42,12 +42,12 @@ private[building] final class CollapsePlan(
     i == end && end - first <= lanes
 
   if tree.root >= 0 then
-    val parts = partsBelow(tree.root, tree.rootArea)
-    val priced = new Array[Priced](parts.length)
-    parallel.each(parts.length): i =>
+    val roots = partsBelow(tree.root, tree.rootArea)
+    val priced = new Array[Priced](roots.length)
+    parallel.each(roots.length): i =>
       val pricer = Pricer(Vector.empty)
-      val count = pricer.price(parts(i).node, parts(i).area, 0)
-      priced(i) = Priced(parts(i).node, count, Array.tabulate(width + 1)(pricer.cost(0, _)))
+      val count = pricer.price(roots(i).node, roots(i).area, 0)
+      priced(i) = Priced(roots(i).node, count, Array.tabulate(width + 1)(pricer.cost(0, _)))
     Pricer(priced.toVector).price(tree.root, tree.rootArea, 0): Unit
 
   private def partSize = BvhBuilder.partSize(tree.order.length)
@@ -62,7 +62,7 @@ private[building] final class CollapsePlan(
 
   /** @param done subtrees evaluated already, in traversal order */
   private final class Pricer(done: Vector[Priced]):
-    private var next = 0
+    private var nextDone = 0
 
     /** Costs of a subtree as 1, 2, … children, for each level of the recursion. */
     private val costs = FloatStack(width)
@@ -73,48 +73,49 @@ private[building] final class CollapsePlan(
       * triangles, or a very large number if it contains other primitives.
       */
     def price(node: Int, area: Float, level: Int): Int =
-      if next < done.length && done(next).node == node then
-        val known = done(next)
-        next += 1
-        loop(width)(i => costs(level, i + 1) = known.costs(i + 1))
-        known.count
+      if nextDone < done.length && done(nextDone).node == node then
+        val priced = done(nextDone)
+        nextDone += 1
+        loop(width)(i => costs(level, i + 1) = priced.costs(i + 1))
+        priced.count
       else
-        val left = priceChild(node, 0, level + 1)
-        costs.keep(level + 1, level)
-        val right = priceChild(node, 1, level + 1)
-        val count = if left >= NotABlock || right >= NotABlock then NotABlock else left + right
+        val leftCount = priceChild(node, 0, level + 1)
+        costs.copyRow(level + 1, level)
+        val rightCount = priceChild(node, 1, level + 1)
+        val count = if leftCount >= NotABlock || rightCount >= NotABlock then NotABlock
+        else leftCount + rightCount
         choose(node, area, level, count)
         count
 
     /** Level `level` holds the left child's costs, the next level the right child's. */
     private def choose(node: Int, area: Float, level: Int, count: Int): Unit =
-      val at = node / BinaryTree.NodeFloats * width
+      val offset = node / BinaryTree.NodeFloats * width
       var split = 0
       var k = 2
       while k <= width do
-        var best = Float.PositiveInfinity
+        var minCost = Float.PositiveInfinity
         split = 0
         var i = 1
         while i < k do
           val cost = costs(level, i) + costs(level + 1, k - i)
-          if cost < best || split == 0 then // also where all costs are infinite
-            best = cost
+          if cost < minCost || split == 0 then // also where all costs are infinite
+            minCost = cost
             split = i
           i += 1
-        costs.found(k) = best
-        choices(at + k - 1) = split.toByte
+        costs.undecided(k) = minCost
+        choices(offset + k - 1) = split.toByte
         k += 1
-      val asNode = area * NodeCost + costs.found(width)
+      val asNode = area * NodeCost + costs.undecided(width)
       val asLeaf = area * BlockCost
       val isLeaf = count <= lanes && asLeaf <= asNode
-      choices(at) = if isLeaf then 0 else split.toByte
+      choices(offset) = if isLeaf then 0 else split.toByte
       costs(level, 1) = if isLeaf then asLeaf else asNode
       k = 2
       while k <= width do
-        if costs.found(k) < costs(level, k - 1) then costs(level, k) = costs.found(k)
+        if costs.undecided(k) < costs(level, k - 1) then costs(level, k) = costs.undecided(k)
         else
           costs(level, k) = costs(level, k - 1)
-          choices(at + k - 1) = 0
+          choices(offset + k - 1) = 0
         k += 1
 
     private def priceChild(node: Int, side: Int, level: Int): Int =
@@ -148,11 +149,11 @@ private[building] final class FloatStack(width: Int):
   private val rows = new Array[Float](130 * (width + 1))
 
   /** Row for undecided choices. */
-  val found = new Array[Float](width + 1)
+  val undecided = new Array[Float](width + 1)
 
   def apply(level: Int, k: Int): Float = rows(level * (width + 1) + k)
   def update(level: Int, k: Int, x: Float): Unit = rows(level * (width + 1) + k) = x
-  def keep(from: Int, to: Int): Unit =
+  def copyRow(from: Int, to: Int): Unit =
     System.arraycopy(rows, from * (width + 1), rows, to * (width + 1), width + 1)
   def fill(level: Int, x: Float): Unit =
     java.util.Arrays.fill(rows, level * (width + 1), (level + 1) * (width + 1), x)

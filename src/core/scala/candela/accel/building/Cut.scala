@@ -8,7 +8,7 @@ private[building] abstract class Cut:
   /** Finds the best split of records[first, end), whose bounds and centroid range are at `depth`;
     * false if there is none.
     */
-  def find(first: Int, end: Int, levels: Levels, depth: Int): Boolean
+  def findSplit(first: Int, end: Int, levels: Levels, depth: Int): Boolean
 
   /** The split found: bounds of both parts, and the number of records on the left. */
   protected def sweep: Sweep
@@ -22,13 +22,13 @@ private[building] abstract class Cut:
   protected def narrow(levels: Levels, depth: Int): Unit
 
   final def cost: Float = sweep.cost
-  final def left: Int = sweep.left
+  final def leftCount: Int = sweep.leftWeight
 
   /** Moves `levels` to the left part at depth + 1; the right part replaces the whole. */
   final def descend(levels: Levels, depth: Int): Unit =
-    val here = depth * BoxRecord.Ints
-    sweep.leftBox(levels.boxes, here + BoxRecord.Ints)
-    sweep.rightBox(levels.boxes, here)
+    val offset = depth * BoxRecord.Ints
+    sweep.leftBox(levels.boxes, offset + BoxRecord.Ints)
+    sweep.rightBox(levels.boxes, offset)
     narrow(levels, depth)
 
 /** Exact SAH split for small ranges, with a candidate between any two neighbouring centroids along
@@ -41,7 +41,7 @@ private[building] final class FewCut(records: Array[Int], shift: Int) extends Cu
   private val sorted = new Array[Int](BoxRecord.Ints * MaxRange)
   protected val sweep: Sweep = Sweep(sorted, Array.fill(MaxRange)(1))
 
-  def find(first: Int, end: Int, levels: Levels, depth: Int): Boolean =
+  def findSplit(first: Int, end: Int, levels: Levels, depth: Int): Boolean =
     val n = end - first
     val axis = levels.longest(depth)
     val keys = this.keys
@@ -57,8 +57,8 @@ private[building] final class FewCut(records: Array[Int], shift: Int) extends Cu
       i += 1
     i = 0
     while i < n do
-      val from = (first + keys(i).toInt) * BoxRecord.Ints
-      BoxRecord.copy(records, from, sorted, i * BoxRecord.Ints)
+      val offset = (first + keys(i).toInt) * BoxRecord.Ints
+      BoxRecord.copy(records, offset, sorted, i * BoxRecord.Ints)
       i += 1
     sweep.run(n, n, shift)
     // For boxes without area all splits cost the same; median splits keep the tree shallow

@@ -25,25 +25,26 @@ private[accel] final class KeptTrees(
   def of(primitives: Primitives): WideTree =
     if !keep.isKeeping || primitives.count < MinPrimitives then
       WideBuilder.of(primitives, width, lanes, maxLeaf, parallel, unsplit)
-    else layout(primitives).of(primitives, parallel)
+    else layout(primitives).withPrimitives(primitives, parallel)
 
   private def layout(primitives: Primitives): WideLayout =
-    val parts = TreeParts.of(primitives, parallel)
-    val whole = key(parts, _ => true)
-    keep.find(Layouts, whole).getOrElse:
-      val form = s"$width $lanes $maxLeaf ${parts.form}"
-      val before = keep.find(Latest, form)
-      val moves = moving(parts, before)
-      keep.put(Latest, form, Moves(parts, moves))
-      val resting = primitives.count - movers(parts, moves)
-      if before.isEmpty || resting < primitives.count / 2 || resting == primitives.count then
-        val all = built(primitives, BoxRecord.all(primitives, parallel))
-        keep.put(Layouts, whole, all)
-        all
+    val treeParts = TreeParts.of(primitives, parallel)
+    val wholeKey = key(treeParts, _ => true)
+    keep.find(Layouts, wholeKey).getOrElse:
+      val form = s"$width $lanes $maxLeaf ${treeParts.form}"
+      val previous = keep.find(Latest, form)
+      val moves = moving(treeParts, previous)
+      keep.put(Latest, form, Moves(treeParts, moves))
+      val restingCount = primitives.count - movers(treeParts, moves)
+      if previous.isEmpty || restingCount < primitives.count / 2 || restingCount == primitives.count
+      then
+        val layout = built(primitives, BoxRecord.ofAll(primitives, parallel))
+        keep.put(Layouts, wholeKey, layout)
+        layout
       else
-        val rest = keep(Layouts, key(parts, !moves(_))):
-          built(primitives, some(primitives, parts, !moves(_)))
-        rest.joined(built(primitives, some(primitives, parts, moves(_))))
+        val restingLayout = keep(Layouts, key(treeParts, !moves(_))):
+          built(primitives, someRecords(primitives, treeParts, !moves(_)))
+        restingLayout.joined(built(primitives, someRecords(primitives, treeParts, moves(_))))
 
   private def key(parts: TreeParts, chosen: Int => Boolean): String =
     s"$width $lanes $maxLeaf ${parts.form} ${parts.digest(chosen)}"
@@ -51,13 +52,16 @@ private[accel] final class KeptTrees(
   private def built(primitives: Primitives, records: => Array[Int]): WideLayout =
     WideBuilder.layout(primitives, records, width, lanes, maxLeaf, parallel)
 
-  private def some(primitives: Primitives, parts: TreeParts, chosen: Int => Boolean) =
-    val which = new Array[Int](size(parts, chosen))
-    var at = 0
-    for i <- 0 until parts.count if chosen(i); p <- parts.start(i) until parts.start(i + 1) do
-      which(at) = p
-      at += 1
-    BoxRecord.some(primitives, which, parallel)
+  private def someRecords(primitives: Primitives, treeParts: TreeParts, chosen: Int => Boolean) =
+    val indices = new Array[Int](size(treeParts, chosen))
+    var slot = 0
+    for
+      i <- 0 until treeParts.count if chosen(i);
+      p <- treeParts.start(i) until treeParts.start(i + 1)
+    do
+      indices(slot) = p
+      slot += 1
+    BoxRecord.ofSome(primitives, indices, parallel)
 
 private[accel] object KeptTrees:
   /** Building a tree of fewer primitives takes no longer than their digest. */
@@ -70,11 +74,11 @@ private[accel] object KeptTrees:
     *
     * @param moves those that have ever moved: the others' hierarchy is then one for many frames
     */
-  private final class Moves(val parts: TreeParts, val moves: Array[Boolean])
+  private final class Moves(val treeParts: TreeParts, val moves: Array[Boolean])
 
-  private def moving(parts: TreeParts, before: Option[Moves]): Array[Boolean] =
-    Array.tabulate(parts.count): i =>
-      before.exists(b => b.moves(i) || !parts.isSame(i, b.parts))
+  private def moving(treeParts: TreeParts, previous: Option[Moves]): Array[Boolean] =
+    Array.tabulate(treeParts.count): i =>
+      previous.exists(b => b.moves(i) || !treeParts.isSame(i, b.treeParts))
 
   private def movers(parts: TreeParts, moves: Array[Boolean]): Int = size(parts, moves(_))
 

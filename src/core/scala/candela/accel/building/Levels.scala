@@ -14,24 +14,24 @@ private[building] final class Levels:
 
   /** Returns new levels with a copy of this depth. */
   def copy(depth: Int): Levels =
-    val other = Levels()
-    BoxRecord.copy(boxes, depth * BoxRecord.Ints, other.boxes, depth * BoxRecord.Ints)
-    System.arraycopy(ranges, 6 * depth, other.ranges, 6 * depth, 6)
-    other
+    val result = Levels()
+    BoxRecord.copy(boxes, depth * BoxRecord.Ints, result.boxes, depth * BoxRecord.Ints)
+    System.arraycopy(ranges, 6 * depth, result.ranges, 6 * depth, 6)
+    result
 
   def low(depth: Int, axis: Int): Float = ranges(6 * depth + axis)
   def extent(depth: Int, axis: Int): Float =
     ranges(6 * depth + 3 + axis) - ranges(6 * depth + axis)
 
   /** Resets the centroid range to unbounded. */
-  def open(depth: Int): Unit =
+  def resetRange(depth: Int): Unit =
     java.util.Arrays.fill(ranges, 6 * depth, 6 * depth + 3, Float.NegativeInfinity)
     java.util.Arrays.fill(ranges, 6 * depth + 3, 6 * depth + 6, Float.PositiveInfinity)
 
   def clip(depth: Int, axis: Int, low: Float, high: Float): Unit =
-    val at = 6 * depth + axis
-    if low > ranges(at) then ranges(at) = low
-    if high < ranges(at + 3) then ranges(at + 3) = high
+    val offset = 6 * depth + axis
+    if low > ranges(offset) then ranges(offset) = low
+    if high < ranges(offset + 3) then ranges(offset + 3) = high
 
   /** Clips the centroid range to the bounds. */
   def tighten(depth: Int): Unit =
@@ -60,14 +60,18 @@ private[building] final class Levels:
       axis += 1
 
   /** Axis of largest centroid extent. */
-  def widest(depth: Int): Int = most(extent(depth, 0), extent(depth, 1), extent(depth, 2))
+  def widest(depth: Int): Int = largestAxis(extent(depth, 0), extent(depth, 1), extent(depth, 2))
 
   /** Longest axis of the bounds. */
   def longest(depth: Int): Int =
-    val at = depth * BoxRecord.Ints
-    most(BoxRecord.side(boxes, at, 0), BoxRecord.side(boxes, at, 1), BoxRecord.side(boxes, at, 2))
+    val offset = depth * BoxRecord.Ints
+    largestAxis(
+      BoxRecord.side(boxes, offset, 0),
+      BoxRecord.side(boxes, offset, 1),
+      BoxRecord.side(boxes, offset, 2)
+    )
 
-  private def most(x: Float, y: Float, z: Float): Int =
+  private def largestAxis(x: Float, y: Float, z: Float): Int =
     if x >= y then if x >= z then 0 else 2
     else if y >= z then 1
     else 2
@@ -75,15 +79,15 @@ private[building] final class Levels:
   /** Splits the centroid range: the left child, at depth + 1, is below the plane; the right child,
     * which replaces the whole, is above it.
     */
-  def part(depth: Int, axis: Int, plane: Float): Unit =
+  def splitRange(depth: Int, axis: Int, plane: Float): Unit =
     System.arraycopy(ranges, 6 * depth, ranges, 6 * depth + 6, 6)
     clip(depth + 1, axis, Float.NegativeInfinity, plane)
     clip(depth, axis, plane, Float.PositiveInfinity)
 
   /** Copies bounds and range of `depth` to the next depth. */
   def descend(depth: Int): Unit =
-    val here = depth * BoxRecord.Ints
-    BoxRecord.copy(boxes, here, boxes, here + BoxRecord.Ints)
+    val offset = depth * BoxRecord.Ints
+    BoxRecord.copy(boxes, offset, boxes, offset + BoxRecord.Ints)
     System.arraycopy(ranges, 6 * depth, ranges, 6 * depth + 6, 6)
 
 private[building] object Levels:

@@ -18,8 +18,8 @@ private[building] final class Partitioner(records: Array[Int]):
     * @param bins bin of each record; bins up to `cut` belong to the left
     */
   def run(bins: Array[Byte], cut: Int, first: Int, middle: Int, end: Int): Unit =
-    val left = onLeft
-    val right = onRight
+    val leftBatch = onLeft
+    val rightBatch = onRight
     var i = first
     var j = middle
     var leftAt, leftEnd, rightAt, rightEnd = 0
@@ -31,7 +31,7 @@ private[building] final class Partitioner(records: Array[Int]):
         while leftEnd == 0 && i < middle do
           val stop = Math.min(middle, i + Block)
           while i < stop do
-            left(leftEnd) = i
+            leftBatch(leftEnd) = i
             leftEnd += (cut - bins(i)) >>> 31
             i += 1
       if rightAt == rightEnd then
@@ -40,13 +40,13 @@ private[building] final class Partitioner(records: Array[Int]):
         while rightEnd == 0 && j < end do
           val stop = Math.min(end, j + Block)
           while j < stop do
-            right(rightEnd) = j
+            rightBatch(rightEnd) = j
             rightEnd += 1 - ((cut - bins(j)) >>> 31)
             j += 1
       val n = Math.min(leftEnd - leftAt, rightEnd - rightAt)
       var k = 0
       while k < n do
-        Partitioner.exchange(records, left(leftAt + k), right(rightAt + k))
+        Partitioner.exchange(records, leftBatch(leftAt + k), rightBatch(rightAt + k))
         k += 1
       leftAt += n
       rightAt += n

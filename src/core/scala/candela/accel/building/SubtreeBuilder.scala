@@ -23,13 +23,13 @@ private[building] final class SubtreeBuilder(
   /** If a block holds as many triangles as [[FewCut]] splits, only ranges with other primitives get
     * there: their cost is per primitive.
     */
-  private val few = FewCut(records, if size.block < FewCut.MaxRange then size.shift else 0)
+  private val exactCut = FewCut(records, if size.block < FewCut.MaxRange then size.shift else 0)
 
   private var nodes = new Array[Float](NodeFloats * 64)
   private var length = 0
 
   /** Deferred ranges: a child that looks like a leaf of −k primitives is the kth of these. */
-  val later = scala.collection.mutable.ArrayBuffer.empty[Later]
+  val deferredRanges = scala.collection.mutable.ArrayBuffer.empty[DeferredRange]
 
   def trimmedNodes: Array[Float] = java.util.Arrays.copyOf(nodes, length)
 
@@ -41,54 +41,54 @@ private[building] final class SubtreeBuilder(
     */
   def build(first: Int, end: Int, depth: Int): Int =
     val n = end - first
-    if n <= deferred then leave(first, end, depth)
+    if n <= deferred then defer(first, end, depth)
     else if n <= 1 || size.isLeaf(records, first, end) then leaf(first, end)
     else
-      val how = if n <= FewCut.MaxRange then few else cut
-      val isCut = depth < BvhBuilder.MaxSahDepth && how.find(first, end, levels, depth)
-      if !isCut then if n <= size.most then leaf(first, end) else halve(first, end, depth)
-      else if n <= size.most && n <= costOf(how, depth) then leaf(first, end)
+      val chosenCut = if n <= FewCut.MaxRange then exactCut else cut
+      val isCut = depth < BvhBuilder.MaxSahDepth && chosenCut.findSplit(first, end, levels, depth)
+      if !isCut then if n <= size.maxPrimitives then leaf(first, end) else halve(first, end, depth)
+      else if n <= size.maxPrimitives && n <= costOf(chosenCut, depth) then leaf(first, end)
       else
         val node = newNode()
-        val middle = first + how.left
-        how.divide(first, end)
-        how.descend(levels, depth)
-        val here = depth * BoxRecord.Ints
-        BoxRecord.read(levels.boxes, here + BoxRecord.Ints, nodes, node)
-        BoxRecord.read(levels.boxes, here, nodes, node + 6)
+        val middle = first + chosenCut.leftCount
+        chosenCut.divide(first, end)
+        chosenCut.descend(levels, depth)
+        val offset = depth * BoxRecord.Ints
+        BoxRecord.read(levels.boxes, offset + BoxRecord.Ints, nodes, node)
+        BoxRecord.read(levels.boxes, offset, nodes, node + 6)
         setChild(node, 0, build(first, middle, depth + 1))
         levels.descend(depth)
         setChild(node, 1, build(middle, end, depth + 1))
         leafSize = 0
         node
 
-  private def costOf(how: Cut, depth: Int): Float =
+  private def costOf(chosenCut: Cut, depth: Int): Float =
     val area = BoxRecord.halfArea(levels.boxes, depth * BoxRecord.Ints)
-    BvhBuilder.TraversalCost + how.cost / Math.max(area, Float.MinPositiveValue)
+    BvhBuilder.TraversalCost + chosenCut.cost / Math.max(area, Float.MinPositiveValue)
 
   private def leaf(first: Int, end: Int): Int =
     leafSize = end - first
     ~first
 
-  private def leave(first: Int, end: Int, depth: Int): Int =
-    later += Later(first, end, depth, levels.copy(depth))
-    leafSize = -later.length
+  private def defer(first: Int, end: Int, depth: Int): Int =
+    deferredRanges += DeferredRange(first, end, depth, levels.copy(depth))
+    leafSize = -deferredRanges.length
     ~first
 
   /** Median split by position in the array, ignoring the geometry. */
   private def halve(first: Int, end: Int, depth: Int): Int =
     val node = newNode()
     val middle = (first + end) >>> 1
-    half(node, 0, first, middle, depth)
-    half(node, 1, middle, end, depth)
+    buildHalf(node, 0, first, middle, depth)
+    buildHalf(node, 1, middle, end, depth)
     leafSize = 0
     node
 
-  private def half(node: Int, side: Int, first: Int, end: Int, depth: Int): Unit =
+  private def buildHalf(node: Int, side: Int, first: Int, end: Int, depth: Int): Unit =
     levels.descend(depth)
-    val at = (depth + 1) * BoxRecord.Ints
-    BoxRecord.uniteInto(levels.boxes, at, records, first, end)
-    BoxRecord.read(levels.boxes, at, nodes, node + 6 * side)
+    val offset = (depth + 1) * BoxRecord.Ints
+    BoxRecord.uniteInto(levels.boxes, offset, records, first, end)
+    BoxRecord.read(levels.boxes, offset, nodes, node + 6 * side)
     setChild(node, side, build(first, end, depth + 1))
 
   private def setChild(node: Int, side: Int, code: Int): Unit =
@@ -96,26 +96,27 @@ private[building] final class SubtreeBuilder(
     nodes(node + 14 + side) = java.lang.Float.intBitsToFloat(leafSize)
 
   private def newNode(): Int =
-    val at = length
+    val offset = length
     length += NodeFloats
     if length > nodes.length then
-      nodes = java.util.Arrays.copyOf(nodes, SubtreeBuilder.more(nodes.length))
-    at
+      nodes = java.util.Arrays.copyOf(nodes, SubtreeBuilder.grown(nodes.length))
+    offset
 
 private[building] object SubtreeBuilder:
 
   /** Doubles a capacity, up to the maximum. */
-  private def more(length: Int): Int =
-    val most = Int.MaxValue / BinaryTree.NodeFloats * BinaryTree.NodeFloats
-    if length == most then throw IllegalStateException("the BVH exceeds the maximum array length")
-    Math.min(2L * length, most.toLong).toInt
+  private def grown(length: Int): Int =
+    val maxLength = Int.MaxValue / BinaryTree.NodeFloats * BinaryTree.NodeFloats
+    if length == maxLength then
+      throw IllegalStateException("the BVH exceeds the maximum array length")
+    Math.min(2L * length, maxLength.toLong).toInt
 
 /** A range of records whose subtree is still to be built.
   *
   * @param levels hold its bounds and range at `depth`
   */
-private[building] final class Later(
-    val first: Int,
+private[building] final class DeferredRange(
+    val start: Int,
     val end: Int,
     val depth: Int,
     val levels: Levels
@@ -137,20 +138,20 @@ private[building] object Subtree:
     if starts.last > Int.MaxValue - 8 then
       val count = starts.last / NodeFloats
       throw IllegalStateException(s"a BVH of $count nodes exceeds the maximum array length")
-    val all = java.util.Arrays.copyOf(top.nodes, starts.last.toInt)
+    val joinedNodes = java.util.Arrays.copyOf(top.nodes, starts.last.toInt)
     parallel.each(parts.length): i =>
       val start = starts(i).toInt
-      System.arraycopy(parts(i).nodes, 0, all, start, parts(i).nodes.length)
-      children(all, start, starts(i + 1).toInt): (at, code, _) =>
-        setBits(all, at, moved(code, start))
+      System.arraycopy(parts(i).nodes, 0, joinedNodes, start, parts(i).nodes.length)
+      children(joinedNodes, start, starts(i + 1).toInt): (at, code, _) =>
+        setBits(joinedNodes, at, moved(code, start))
     def rootOf(k: Int) = moved(parts(k).root, starts(k).toInt)
-    children(all, 0, top.nodes.length): (at, _, size) =>
+    children(joinedNodes, 0, top.nodes.length): (at, _, size) =>
       if size < 0 then
-        setBits(all, at, rootOf(-size - 1))
-        setBits(all, at + 2, parts(-size - 1).leafSize)
+        setBits(joinedNodes, at, rootOf(-size - 1))
+        setBits(joinedNodes, at + 2, parts(-size - 1).leafSize)
     val size = top.leafSize
-    if size < 0 then Subtree(rootOf(-size - 1), parts(-size - 1).leafSize, all)
-    else Subtree(top.root, size, all)
+    if size < 0 then Subtree(rootOf(-size - 1), parts(-size - 1).leafSize, joinedNodes)
+    else Subtree(top.root, size, joinedNodes)
 
   private def moved(code: Int, start: Int): Int = if code < 0 then code else code + start
 
@@ -161,8 +162,8 @@ private[building] object Subtree:
     var node = from
     while node < until do
       loop(2): side =>
-        val at = node + 12 + side
-        use(at, bits(nodes, at), bits(nodes, at + 2))
+        val offset = node + 12 + side
+        use(offset, bits(nodes, offset), bits(nodes, offset + 2))
       node += NodeFloats
 
   private def bits(nodes: Array[Float], at: Int): Int =
@@ -177,13 +178,13 @@ private[building] object Subtree:
   * split, and splits are priced by their number of blocks, as in Wald, Woop, Benthin, Johnson,
   * Ernst, "Embree: A Kernel Framework for Efficient CPU Ray Tracing", TOG 33(4), 2014.
   *
-  * @param most    maximum number of primitives of any kind, if a leaf is cheaper than a split
+  * @param maxPrimitives maximum number of primitives of any kind, if a leaf is cheaper than a split
   * @param block   triangles per block, a power of two; 1 without blocks
   * @param isPlain whether a primitive may be in a block
   * @param unsplit other primitives of which a range is not split, even if rays were faster then
   */
 private[accel] final class LeafSize(
-    val most: Int,
+    val maxPrimitives: Int,
     val block: Int,
     isPlain: Int => Boolean,
     unsplit: Int = 1
@@ -207,4 +208,4 @@ private[accel] final class LeafSize(
 
 private[accel] object LeafSize:
   /** No blocks: primitives are tested one by one. */
-  def single(most: Int): LeafSize = LeafSize(most, 1, _ => true)
+  def single(maxPrimitives: Int): LeafSize = LeafSize(maxPrimitives, 1, _ => true)

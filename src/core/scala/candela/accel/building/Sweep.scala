@@ -19,9 +19,9 @@ private[building] final class Sweep(items: Array[Int], weights: Array[Int]):
   /** Σ half area · blocks of both parts; infinite without a split. */
   var cost: Float = Float.PositiveInfinity
 
-  /** Last item of the left part; `left` is that part's weight. */
+  /** Last item of the left part; `leftWeight` is that part's weight. */
   var cut = 0
-  var left = 0
+  var leftWeight = 0
 
   def leftBox(to: Array[Int], at: Int): Unit = union(0, cut + 1, to, at)
   def rightBox(to: Array[Int], at: Int): Unit = union(cut + 1, length, to, at)
@@ -44,13 +44,13 @@ private[building] final class Sweep(items: Array[Int], weights: Array[Int]):
     var lowX, lowY, lowZ, highX, highY, highZ = BoxRecord.MinusInfinity
     var i = n - 1
     while i > 0 do
-      val at = i * BoxRecord.Ints
-      lowX = Math.max(lowX, items(at))
-      lowY = Math.max(lowY, items(at + 1))
-      lowZ = Math.max(lowZ, items(at + 2))
-      highX = Math.max(highX, items(at + 4))
-      highY = Math.max(highY, items(at + 5))
-      highZ = Math.max(highZ, items(at + 6))
+      val offset = i * BoxRecord.Ints
+      lowX = Math.max(lowX, items(offset))
+      lowY = Math.max(lowY, items(offset + 1))
+      lowZ = Math.max(lowZ, items(offset + 2))
+      highX = Math.max(highX, items(offset + 4))
+      highY = Math.max(highY, items(offset + 5))
+      highZ = Math.max(highZ, items(offset + 6))
       areas(i) = BoxRecord.halfArea(lowX, lowY, lowZ, highX, highY, highZ)
       i -= 1
 
@@ -64,26 +64,26 @@ private[building] final class Sweep(items: Array[Int], weights: Array[Int]):
     var weight = 0
     var i = 0
     while i < n - 1 do
-      val at = i * BoxRecord.Ints
-      lowX = Math.max(lowX, items(at))
-      lowY = Math.max(lowY, items(at + 1))
-      lowZ = Math.max(lowZ, items(at + 2))
-      highX = Math.max(highX, items(at + 4))
-      highY = Math.max(highY, items(at + 5))
-      highZ = Math.max(highZ, items(at + 6))
+      val offset = i * BoxRecord.Ints
+      lowX = Math.max(lowX, items(offset))
+      lowY = Math.max(lowY, items(offset + 1))
+      lowZ = Math.max(lowZ, items(offset + 2))
+      highX = Math.max(highX, items(offset + 4))
+      highY = Math.max(highY, items(offset + 5))
+      highZ = Math.max(highZ, items(offset + 6))
       weight += weights(i)
       if weight > 0 && weight < total then
-        val here =
+        val splitCost =
           BoxRecord.halfArea(lowX, lowY, lowZ, highX, highY, highZ) * Sweep.blocks(weight, shift) +
             areas(i + 1) * Sweep.blocks(total - weight, shift)
-        if here < bestCost then
-          bestCost = here
+        if splitCost < bestCost then
+          bestCost = splitCost
           bestCut = i
           bestLeft = weight
       i += 1
     cost = bestCost
     cut = bestCut
-    left = bestLeft
+    leftWeight = bestLeft
 
 private[building] object Sweep:
   inline def blocks(weight: Int, shift: Int): Int = (weight + (1 << shift) - 1) >> shift

@@ -36,18 +36,18 @@ private[building] final class TreeParts private (
     if i < meshes then
       Arrays.equals(sums, Size * i, Size * (i + 1), other.sums, Size * i, Size * (i + 1))
     else
-      val at = 6 * (i - meshes)
-      Arrays.equals(boxes, at, at + 6, other.boxes, at, at + 6)
+      val offset = 6 * (i - meshes)
+      Arrays.equals(boxes, offset, offset + 6, other.boxes, offset, offset + 6)
 
   /** Of all parts of a choice. */
   def digest(chosen: Int => Boolean): String =
-    val all = ByteBuffer.allocate(count * (Size + 4))
+    val buffer = ByteBuffer.allocate(count * (Size + 4))
     loop(count): i =>
       if chosen(i) then
-        all.putInt(i)
-        if i < meshes then all.put(sums, Size * i, Size): Unit
-        else loop(6)(k => all.putFloat(boxes(6 * (i - meshes) + k)): Unit)
-    Sha256.of(all.flip())
+        buffer.putInt(i)
+        if i < meshes then buffer.put(sums, Size * i, Size): Unit
+        else loop(6)(k => buffer.putFloat(boxes(6 * (i - meshes) + k)): Unit)
+    Sha256.of(buffer.flip())
 
 private[building] object TreeParts:
   /** Bytes of a digest. */
@@ -79,15 +79,15 @@ private[building] object TreeParts:
     // A few large meshes, or many small ones
     if starts.length < 4 * parallel.threads then starts.indices.foreach(note(_, parallel))
     else parallel.each(starts.length)(note(_, Parallel.Alone))
-    val others = primitives.count - soup.count
-    val boxes = new Array[Float](6 * others)
-    parallel.ranges(others): (from, until) =>
+    val otherCount = primitives.count - soup.count
+    val boxes = new Array[Float](6 * otherCount)
+    parallel.ranges(otherCount): (from, until) =>
       var i = from
       while i < until do
         primitives.writeBounds(boxes, 6 * i, soup.count + i)
         i += 1
     val form = Sha256.ofNumbers(
-      Seq(Numbers(ends), Numbers(solid), Numbers(Array(others))),
+      Seq(Numbers(ends), Numbers(solid), Numbers(Array(otherCount))),
       Parallel.Alone
     )
     new TreeParts(ends, sums, boxes, Sha256.hex(form))

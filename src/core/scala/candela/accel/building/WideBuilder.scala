@@ -25,20 +25,20 @@ private final class WideBuilder(
   private val topCode =
     if tree.order.length == 0 then WideTree.NoChild else top.write(tree.root, tree.rootCount)
 
-  private val later = top.later.toVector
-  private val writers = new Array[WideWriter](1 + later.length)
-  private val codes = new Array[Int](1 + later.length)
+  private val deferredSubtrees = top.deferred.toVector
+  private val writers = new Array[WideWriter](1 + deferredSubtrees.length)
+  private val codes = new Array[Int](1 + deferredSubtrees.length)
   writers(0) = top
   codes(0) = topCode
-  parallel.each(later.length): i =>
-    val node = later(i).node
-    val part = WideWriter(width, lanes, tree, plan, partSize = 0)
-    codes(i + 1) = part.write(node, 0)
-    writers(i + 1) = part
+  parallel.each(deferredSubtrees.length): i =>
+    val node = deferredSubtrees(i).node
+    val writer = WideWriter(width, lanes, tree, plan, partSize = 0)
+    codes(i + 1) = writer.write(node, 0)
+    writers(i + 1) = writer
 
   private val nodeStarts = starts(_.nodes.length)
   private val ownerStarts = starts(_.owners.length)
-  private val otherStarts = starts(_.others.length)
+  private val unblockedStarts = starts(_.unblocked.length)
 
   /** Rows in the layout of [[WideTree]]. */
   val nodes: Array[Float] = new Array[Float](nodeStarts.last)
@@ -47,30 +47,30 @@ private final class WideBuilder(
   val owners: Array[Int] = new Array[Int](ownerStarts.last)
 
   /** Primitives in the leaves other than blocks. */
-  val others: Array[Int] = new Array[Int](otherStarts.last)
+  val unblocked: Array[Int] = new Array[Int](unblockedStarts.last)
 
   parallel.each(writers.length): i =>
-    val part = writers(i)
-    part.owners.copyTo(owners, ownerStarts(i))
-    part.others.copyTo(others, otherStarts(i))
-    part.nodes.copyTo(nodes, nodeStarts(i))
+    val writer = writers(i)
+    writer.owners.copyTo(owners, ownerStarts(i))
+    writer.unblocked.copyTo(unblocked, unblockedStarts(i))
+    writer.nodes.copyTo(nodes, nodeStarts(i))
     if i > 0 then relocation(i).relocate(nodes, nodeStarts(i), nodeStarts(i + 1), width)
-  for i <- later.indices do
+  for i <- deferredSubtrees.indices do
     val code = relocation(i + 1).moved(codes(i + 1))
-    nodes(later(i).codeAt) = java.lang.Float.intBitsToFloat(code)
+    nodes(deferredSubtrees(i).codeAt) = java.lang.Float.intBitsToFloat(code)
 
   /** Child code in the encoding of [[WideTree]]. */
   def rootCode: Int = topCode
 
   private def starts(length: WideWriter => Int): Array[Int] =
-    val all = writers.scanLeft(0L)(_ + length(_))
-    if all.last > Int.MaxValue - 8 then
+    val offsets = writers.scanLeft(0L)(_ + length(_))
+    if offsets.last > Int.MaxValue - 8 then
       throw IllegalStateException("the BVH exceeds the maximum array length")
-    all.map(_.toInt)
+    offsets.map(_.toInt)
 
   /** Of part `i` in the whole tree. */
   private def relocation(i: Int): Relocation =
-    Relocation(nodeStarts(i), ownerStarts(i) / lanes, otherStarts(i))
+    Relocation(nodeStarts(i), ownerStarts(i) / lanes, unblockedStarts(i))
 
 private[accel] object WideBuilder:
 
@@ -85,8 +85,10 @@ private[accel] object WideBuilder:
       parallel: Parallel,
       unsplit: Int = 1
   ): WideTree =
-    def records = BoxRecord.all(primitives, parallel)
-    layout(primitives, records, width, lanes, maxLeaf, parallel, unsplit).of(primitives, parallel)
+    def records = BoxRecord.ofAll(primitives, parallel)
+    layout(
+      primitives, records, width, lanes, maxLeaf, parallel, unsplit
+    ).withPrimitives(primitives, parallel)
 
   /** The layout of some of the primitives.
     *
@@ -101,16 +103,16 @@ private[accel] object WideBuilder:
       parallel: Parallel,
       unsplit: Int = 1
   ): WideLayout =
-    val found = collapsed(primitives, records, width, lanes, maxLeaf, parallel, unsplit)
+    val hierarchy = collapsed(primitives, records, width, lanes, maxLeaf, parallel, unsplit)
     WideLayout(
       width,
       lanes,
-      found.count,
-      found.bounds,
-      found.nodes,
-      found.rootCode,
-      blocks(primitives.soup, found.owners, lanes, parallel),
-      found.others
+      hierarchy.count,
+      hierarchy.bounds,
+      hierarchy.nodes,
+      hierarchy.rootCode,
+      blocks(primitives.soup, hierarchy.owners, lanes, parallel),
+      hierarchy.unblocked
     )
 
   /** What is left of a binary tree and its [[WideBuilder]]: the rest, twice as much, is garbage
@@ -122,7 +124,7 @@ private[accel] object WideBuilder:
       val nodes: Array[Float],
       val rootCode: Int,
       val owners: Array[Int],
-      val others: Array[Int]
+      val unblocked: Array[Int]
   )
 
   private def collapsed(
@@ -143,7 +145,7 @@ private[accel] object WideBuilder:
       wide.nodes,
       wide.rootCode,
       wide.owners,
-      wide.others
+      wide.unblocked
     )
 
   private def blocks(
@@ -152,20 +154,21 @@ private[accel] object WideBuilder:
       lanes: Int,
       parallel: Parallel
   ): Array[Float] =
-    val all = new Array[Float](Math.multiplyExact(10, owners.length))
+    val blockData = new Array[Float](Math.multiplyExact(10, owners.length))
     parallel.ranges(owners.length): (from, until) =>
       var i = from
       while i < until do
         val triangle = owners(i)
-        val at = i / lanes * WideTree.blockFloats(lanes) + i % lanes
-        all(at + 9 * lanes) = java.lang.Float.intBitsToFloat(triangle)
+        val offset = i / lanes * WideTree.blockFloats(lanes) + i % lanes
+        blockData(offset + 9 * lanes) = java.lang.Float.intBitsToFloat(triangle)
         if triangle >= 0 then
           var c = 0
           while c < 9 do
-            all(at + c * lanes) = soup.positions(3 * soup.indices(3 * triangle + c / 3) + c % 3)
+            blockData(offset + c * lanes) =
+              soup.positions(3 * soup.indices(3 * triangle + c / 3) + c % 3)
             c += 1
         i += 1
-    all
+    blockData
 
 /** Writes the nodes and leaves of a [[WideTree]] or a part of one, following a [[CollapsePlan]].
   * One per thread. Indices in its codes are relative to its own first node, block or slot.
@@ -185,13 +188,13 @@ private[building] final class WideWriter(
   val owners = IntBuffer()
 
   /** Primitives in the leaves other than blocks. */
-  val others = IntBuffer()
+  val unblocked = IntBuffer()
 
   private val padded = new Array[Float](6)
-  private val whole = new Array[Float](WideTree.floats(width))
+  private val nodeFloats = new Array[Float](WideTree.floats(width))
 
   /** Deferred subtrees, with the offsets of their codes. */
-  val later = scala.collection.mutable.ArrayBuffer.empty[WideWriter.Later]
+  val deferred = scala.collection.mutable.ArrayBuffer.empty[WideWriter.Deferred]
 
   /** Writes the collapsed form of a binary node or, below 0, of a leaf with `size` primitives;
     * returns its code.
@@ -210,45 +213,51 @@ private[building] final class WideWriter(
         i += 1
       WideTree.leaf(isBlock = true, block, end - first)
     else
-      val at = others.length
+      val start = unblocked.length
       var i = first
       while i < end do
-        others += tree.order(i)
+        unblocked += tree.order(i)
         i += 1
-      WideTree.leaf(isBlock = false, at, end - first)
+      WideTree.leaf(isBlock = false, start, end - first)
 
   /** Writes the wide node that replaces this binary node, and all below it. */
   private def node(binary: Int): Int =
-    val at = nodes.length
+    val nodeStart = nodes.length
     val boxes = new Array[Int](width) // offsets of the children's boxes in the binary tree
     val count = gather(binary, plan.choice(binary, 1), width, boxes, 0)
     loop(width): k =>
       if k < count then
         System.arraycopy(tree.nodes, boxes(k), padded, 0, 6)
         WideTree.pad(padded, 0)
-        WideTree.writeBox(whole.update)(0, k, width, padded)
-      else WideTree.writeEmpty(whole.update)(0, k, width)
-    nodes ++= whole
+        WideTree.writeBox(nodeFloats.update)(0, k, width, padded)
+      else WideTree.writeEmpty(nodeFloats.update)(0, k, width)
+    nodes ++= nodeFloats
     loop(count): k =>
       val parent = boxes(k) & -BinaryTree.NodeFloats
       val side = if boxes(k) == parent then 0 else 1
       val child = tree.child(parent, side)
-      val codeAt = at + 6 * width + k
+      val codeAt = nodeStart + 6 * width + k
       if child >= 0 && partSize > 0 && tree.count(child) <= partSize then
-        later += WideWriter.Later(child, codeAt)
+        deferred += WideWriter.Deferred(child, codeAt)
       else
         val code = write(child, tree.leafSize(parent, side))
         nodes(codeAt) = java.lang.Float.intBitsToFloat(code)
-    at
+    nodeStart
 
   /** Appends the children of `binary`, with `left` of `k` in its left subtree. */
   private def gather(binary: Int, left: Int, k: Int, boxes: Array[Int], count: Int): Int =
     val attached = collapseChild(binary, 0, left, boxes, count)
     collapseChild(binary, 1, k - left, boxes, attached)
 
-  private def collapseChild(parent: Int, side: Int, most: Int, boxes: Array[Int], count: Int): Int =
+  private def collapseChild(
+      parent: Int,
+      side: Int,
+      maxChildren: Int,
+      boxes: Array[Int],
+      count: Int
+  ): Int =
     val child = tree.child(parent, side)
-    var k = most
+    var k = maxChildren
     if child >= 0 then while k > 1 && plan.choice(child, k) == 0 do k -= 1
     if child < 0 || k == 1 then
       boxes(count) = parent + 6 * side
@@ -261,4 +270,4 @@ private[building] object WideWriter:
     *
     * @param codeAt offset at which to store its code
     */
-  final class Later(val node: Int, val codeAt: Int)
+  final class Deferred(val node: Int, val codeAt: Int)

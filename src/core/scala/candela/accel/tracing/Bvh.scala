@@ -53,7 +53,7 @@ final class Bvh(
     val fx = 3 - nx
     val fy = 5 - ny
     val fz = 7 - nz
-    var found = false
+    var hasHit = false
     var top = 0
     var node = root
     var leafSize = rootCount
@@ -62,46 +62,46 @@ final class Bvh(
       if node >= 0 then
         // Comparisons with `if` ignore the NaN of 0·∞ (origin on a slab plane): the slab counts as
         // hit
-        var near = 0f
-        var far = ray.tMax * Bvh.FarSlack
+        var tNear = 0f
+        var tFar = ray.tMax * Bvh.FarSlack
         var t = (b(node + nx) - ox) * ix
-        if t > near then near = t
+        if t > tNear then tNear = t
         t = (b(node + ny) - oy) * iy
-        if t > near then near = t
+        if t > tNear then tNear = t
         t = (b(node + nz) - oz) * iz
-        if t > near then near = t
+        if t > tNear then tNear = t
         t = (b(node + fx) - ox) * ix * Bvh.FarSlack
-        if t < far then far = t
+        if t < tFar then tFar = t
         t = (b(node + fy) - oy) * iy * Bvh.FarSlack
-        if t < far then far = t
+        if t < tFar then tFar = t
         t = (b(node + fz) - oz) * iz * Bvh.FarSlack
-        if t < far then far = t
-        val hitsLeft = near <= far
-        val nearLeft = near
-        near = 0f
-        far = ray.tMax * Bvh.FarSlack
+        if t < tFar then tFar = t
+        val hitsLeft = tNear <= tFar
+        val tNearLeft = tNear
+        tNear = 0f
+        tFar = ray.tMax * Bvh.FarSlack
         t = (b(node + 6 + nx) - ox) * ix
-        if t > near then near = t
+        if t > tNear then tNear = t
         t = (b(node + 6 + ny) - oy) * iy
-        if t > near then near = t
+        if t > tNear then tNear = t
         t = (b(node + 6 + nz) - oz) * iz
-        if t > near then near = t
+        if t > tNear then tNear = t
         t = (b(node + 6 + fx) - ox) * ix * Bvh.FarSlack
-        if t < far then far = t
+        if t < tFar then tFar = t
         t = (b(node + 6 + fy) - oy) * iy * Bvh.FarSlack
-        if t < far then far = t
+        if t < tFar then tFar = t
         t = (b(node + 6 + fz) - oz) * iz * Bvh.FarSlack
-        if t < far then far = t
-        val hitsRight = near <= far
+        if t < tFar then tFar = t
+        val hitsRight = tNear <= tFar
         if hitsLeft && hitsRight then
-          val leftFirst = nearLeft <= near
-          val other = if leftFirst then 1 else 0
-          stack(top) = ((if leftFirst then near else nearLeft).toRawBits.toLong << 32) |
-            (node + other)
+          val leftFirst = tNearLeft <= tNear
+          val farSide = if leftFirst then 1 else 0
+          stack(top) = ((if leftFirst then tNear else tNearLeft).toRawBits.toLong << 32) |
+            (node + farSide)
           top += 1
-          val here = 1 - other
-          leafSize = bits(node + 14 + here)
-          node = bits(node + 12 + here)
+          val nearSide = 1 - farSide
+          leafSize = bits(node + 14 + nearSide)
+          node = bits(node + 12 + nearSide)
         else if hitsLeft then
           leafSize = bits(node + 14)
           node = bits(node + 12)
@@ -110,12 +110,12 @@ final class Bvh(
           node = bits(node + 13)
         else node = Bvh.Pop
       else if node != Bvh.Pop then
-        val first = ~node
+        val firstSlot = ~node
         inline if anyHit then
-          if packed.isHit(first, first + leafSize, ray, hit) then
-            found = true
+          if packed.isHit(firstSlot, firstSlot + leafSize, ray, hit) then
+            hasHit = true
             going = false
-        else if packed.intersect(first, first + leafSize, ray, hit) then found = true
+        else if packed.intersect(firstSlot, firstSlot + leafSize, ray, hit) then hasHit = true
         node = Bvh.Pop
       if going && node == Bvh.Pop then
         // Pop the next subtree that begins before the closest hit
@@ -128,7 +128,7 @@ final class Bvh(
             leafSize = bits(slot + 14)
             node = bits(slot + 12)
             going = true
-    found
+    hasHit
 
   extension (x: Float)
     private inline def toRawBits: Int = java.lang.Float.floatToRawIntBits(x)

@@ -3,8 +3,8 @@ package candela.accel.tracing
 import candela.accel.WideTree
 import candela.geometry.{Hit, Ray}
 
-/** Traverses a [[WideTree]] in Double, for rays that are not tame: directions or origins so large
-  * or small that Floats overflow. Slow, and rarely used.
+/** Traverses a [[WideTree]] in Double, for rays that are not range-safe: directions or origins so
+  * large or small that Floats overflow. Slow, and rarely used.
   */
 private[tracing] object CarefulKernel extends WideKernel:
   def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = traverse(tree, ray, hit, false)
@@ -21,7 +21,7 @@ private[tracing] object CarefulKernel extends WideKernel:
       anyHit,
       (node, limit) => boxes(tree, node, java.lang.Float.intBitsToFloat(limit), ray),
       _ => AnyLane,
-      tells = false,
+      marksEdges = false,
       (_, _) => 0,
       (_, _) => false
     )
@@ -38,26 +38,26 @@ private[tracing] object CarefulKernel extends WideKernel:
     var hits = 0
     var k = 0
     while k < width do
-      var near = 0.0
-      var far = limit.toDouble
+      var tNear = 0.0
+      var tFar = limit.toDouble
       var axis = 0
       while axis < 3 do
         val o = ray.along(axis).toDouble
         val d = if axis == 0 then ray.dx else if axis == 1 then ray.dy else ray.dz
         val low = tree.nodes(node + axis * width + k)
         val high = tree.nodes(node + (3 + axis) * width + k)
-        if low == Float.PositiveInfinity then far = -1.0 // no child
+        if low == Float.PositiveInfinity then tFar = -1.0 // no child
         else if d == 0f then
-          if !(low <= o && o <= high) then far = -1.0
+          if !(low <= o && o <= high) then tFar = -1.0
         else
           val a = (low - o) / d
           val b = (high - o) / d
-          near = Math.max(near, Math.min(a, b))
-          far = Math.min(far, Math.max(a, b))
+          tNear = Math.max(tNear, Math.min(a, b))
+          tFar = Math.min(tFar, Math.max(a, b))
         axis += 1
-      if near <= far * Slack then
+      if tNear <= tFar * Slack then
         // Rounded down, as subtrees that begin later may be skipped
-        ray.lanes(k) = java.lang.Float.floatToRawIntBits((near * (2.0 - Slack)).toFloat)
+        ray.lanes(k) = java.lang.Float.floatToRawIntBits((tNear * (2.0 - Slack)).toFloat)
         hits |= 1 << k
       k += 1
     hits

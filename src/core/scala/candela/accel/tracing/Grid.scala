@@ -25,8 +25,8 @@ final class Grid(primitives: Primitives) extends Accelerator:
     val longest = Math.max(extent.x, Math.max(extent.y, extent.z))
     val perUnit =
       if longest > 0f then (3.0 * Math.cbrt(primitives.count.toDouble) / longest).toFloat else 0f
-    val most = Math.max(64, Math.cbrt(Grid.VoxelsPerPrimitive * primitives.count).toInt)
-    Array.tabulate(3)(k => clamp(Math.round(extent(k) * perUnit), 1, most))
+    val maxResolution = Math.max(64, Math.cbrt(Grid.VoxelsPerPrimitive * primitives.count).toInt)
+    Array.tabulate(3)(k => clamp(Math.round(extent(k) * perUnit), 1, maxResolution))
 
   private val width: Array[Float] = Array.tabulate(3)(k => bounds.extent(k) / resolution(k))
   private val voxels = resolution.product
@@ -46,13 +46,13 @@ final class Grid(primitives: Primitives) extends Accelerator:
       if starts(v + 1) > Int.MaxValue - starts(v) then
         throw IllegalStateException("the grid's primitive lists exceed the maximum array length")
       starts(v + 1) += starts(v)
-    val next = starts.clone()
-    val all = new Array[Int](starts(voxels))
+    val offsets = starts.clone()
+    val entries = new Array[Int](starts(voxels))
     loop(primitives.count): i =>
       overlapped(boxes, i): v =>
-        all(next(v)) = i
-        next(v) += 1
-    all
+        entries(offsets(v)) = i
+        offsets(v) += 1
+    entries
 
   private inline def overlapped(boxes: Array[Float], i: Int)(inline body: Int => Unit): Unit =
     val x0 = voxelOf(boxes, i, 0, -0.01f)
@@ -89,7 +89,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
   def isOccluded(ray: Ray, hit: Hit): Boolean = traverse(ray, hit, anyHit = true)
 
   private inline def traverse(ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
-    var found = false
+    var hasHit = false
     val entry = enter(ray)
     if entry >= 0.0 then
       // Relative to the grid's corner; in Double, as rays may start a million grid sizes away
@@ -118,9 +118,9 @@ final class Grid(primitives: Primitives) extends Accelerator:
           val primitive = cells(slot)
           inline if anyHit then
             if packed.isHit(primitive, primitive + 1, ray, hit) then
-              found = true
+              hasHit = true
               going = false
-          else if packed.intersect(primitive, primitive + 1, ray, hit) then found = true
+          else if packed.intersect(primitive, primitive + 1, ray, hit) then hasHit = true
           slot += 1
         if going then
           // `tMax` is the closest hit: voxels past the next boundary hold none closer
@@ -136,12 +136,12 @@ final class Grid(primitives: Primitives) extends Accelerator:
             z += stepZ
             going = nextZ <= ray.tMax && z >= 0 && z < resolution(2)
             nextZ += deltaZ
-    found
+    hasHit
 
   /** Distance at which the ray enters the grid, 0 if it starts inside; −1 if it misses. */
   private def enter(ray: Ray): Double =
-    var near = 0.0
-    var far = ray.tMax.toDouble
+    var tNear = 0.0
+    var tFar = ray.tMax.toDouble
     loop(3): k =>
       val o = if k == 0 then ray.ox else if k == 1 then ray.oy else ray.oz
       val d = if k == 0 then ray.dx else if k == 1 then ray.dy else ray.dz
@@ -149,9 +149,9 @@ final class Grid(primitives: Primitives) extends Accelerator:
       val a = (bounds.min(k).toDouble - o) * i
       val b = (bounds.max(k).toDouble - o) * i
       val (t0, t1) = if i < 0.0 then (b, a) else (a, b)
-      if t0 > near then near = t0
-      if t1 * Slack < far then far = t1 * Slack
-    if near <= far && primitives.count > 0 then near else -1.0
+      if t0 > tNear then tNear = t0
+      if t1 * Slack < tFar then tFar = t1 * Slack
+    if tNear <= tFar && primitives.count > 0 then tNear else -1.0
 
   /** Enlarges the box slightly, for rays at grazing incidence. */
   private inline val Slack = 1.0000004

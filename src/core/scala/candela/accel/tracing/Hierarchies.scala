@@ -11,7 +11,7 @@ object Hierarchies:
     * the number of primitives decides, that waits until it is known.
     */
   def expect(samples: Long, parallel: Parallel, warmUps: WarmUps): Unit =
-    if samples >= MinSamples then warmUps.begin(parallel, hasVectors)
+    if samples >= MinSamples then warmUps.start(parallel, hasVectors)
 
   /** @param samples upper bound of the number of camera samples
     * @param warmUps those of the job
@@ -36,8 +36,8 @@ object Hierarchies:
 
   /** Whether SIMD code repays its loading and compilation, of about a second of processor time. */
   private[tracing] def isWorthIt(primitives: Int, samples: Long): Boolean =
-    val least = if primitives >= Mesh then MinMeshSamples else MinSamples
-    primitives >= MinPrimitives && samples >= least
+    val minSamples = if primitives >= Mesh then MinMeshSamples else MinSamples
+    primitives >= MinPrimitives && samples >= minSamples
 
   /** Wide BVH traversed by scalar code only. */
   def scalar(
@@ -61,7 +61,7 @@ object Hierarchies:
       keep: Keep = Keep.Nothing,
       unsplit: Int = 1
   ): Accelerator =
-    if !atOnce then warmUps.begin(parallel, true)
+    if !atOnce then warmUps.start(parallel, true)
     val (width, lanes) = (VectorKernel.width, VectorKernel.lanes)
     val tree = KeptTrees(keep, width, lanes, MaxLeaf, parallel, unsplit).of(primitives)
     WideBvh(tree, VectorKernel, atOnce, warmUps)

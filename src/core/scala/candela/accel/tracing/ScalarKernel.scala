@@ -40,7 +40,7 @@ private[tracing] object ScalarKernel extends WideKernel:
       anyHit,
       (node, limit) => childrenHit(tree.nodes, node, width, ray, limit - WideWalk.Slack, anyHit),
       corners => trianglesHit(tree.blocks, corners, lanes, ray),
-      tells = false,
+      marksEdges = false,
       (_, _) => 0,
       (_, _) => false
     )
@@ -65,17 +65,17 @@ private[tracing] object ScalarKernel extends WideKernel:
       val highY = plane(b(node + 4 * width + k), ray.oy, ray.invY)
       val lowZ = plane(b(node + 2 * width + k), ray.oz, ray.invZ)
       val highZ = plane(b(node + 5 * width + k), ray.oz, ray.invZ)
-      val near = Math.max(
+      val tNear = Math.max(
         Math.max(Math.min(lowX, highX), Math.min(lowY, highY)),
         Math.max(Math.min(lowZ, highZ), 0)
       )
-      val far = Math.min(
+      val tFar = Math.min(
         Math.min(Math.max(lowX, highX), Math.max(lowY, highY)),
         Math.min(Math.max(lowZ, highZ), end)
       )
-      inline if !anyHit then ray.lanes(k) = near
+      inline if !anyHit then ray.lanes(k) = tNear
       // Tests far + Slack < near; the difference must not overflow if far is negative
-      missed |= ((Math.max(far, BelowAnyDistance) + WideWalk.Slack - near) >>> 31) << k
+      missed |= ((Math.max(tFar, BelowAnyDistance) + WideWalk.Slack - tNear) >>> 31) << k
       k += 1
     missed ^ ((1 << width) - 1)
 
@@ -96,7 +96,7 @@ private[tracing] object ScalarKernel extends WideKernel:
     val oz = ray.oAlongZ
     val shearX = ray.shearX
     val shearY = ray.shearY
-    var may = 0
+    var candidates = 0
     var k = 0
     while k < lanes do
       val z0 = v(z + k) - oz
@@ -114,11 +114,11 @@ private[tracing] object ScalarKernel extends WideKernel:
       val s0 = bits(e0)
       val s1 = bits(e1)
       val s2 = bits(e2)
-      val all = bits(e0 * e1 * e2) & Int.MaxValue
+      val productBits = bits(e0 * e1 * e2) & Int.MaxValue
       // No sign bit, all sign bits, or a zero, for which the product is also zero or NaN
-      val zero = (all - 1) | (WideWalk.Infinity - all)
-      may |= ((~(s0 | s1 | s2) | (s0 & s1 & s2) | zero) >>> 31) << k
+      val zero = (productBits - 1) | (WideWalk.Infinity - productBits)
+      candidates |= ((~(s0 | s1 | s2) | (s0 & s1 & s2) | zero) >>> 31) << k
       k += 1
-    may
+    candidates
 
   private inline def bits(x: Float): Int = java.lang.Float.floatToRawIntBits(x)

@@ -53,7 +53,7 @@ private[tracing] object VectorKernel extends WideKernel:
         if N == W then low else low | (childrenHit(b, node + W, limit, ray, W, anyHit) << W)
       ,
       corners => trianglesHit(t, corners, ray),
-      tells = true,
+      marksEdges = true,
       (corners, tMax) => trianglesWithin(t, corners, ray, tMax),
       (at, owner) =>
         inline if anyHit then isHit(t, at, ray, hit) else intersect(t, at, owner, ray, hit)
@@ -92,15 +92,15 @@ private[tracing] object VectorKernel extends WideKernel:
     val highY = plane(b, node + 4 * N, ray.oy, ray.invY)
     val lowZ = plane(b, node + 2 * N, ray.oz, ray.invZ)
     val highZ = plane(b, node + 5 * N, ray.oz, ray.invZ)
-    val near = lowX.min(highX).max(lowY.min(highY)).max(lowZ.min(highZ)).max(0)
-    val far = lowX
+    val tNear = lowX.min(highX).max(lowY.min(highY)).max(lowZ.min(highZ)).max(0)
+    val tFar = lowX
       .max(highX)
       .min(lowY.max(highY))
       .min(lowZ.max(highZ))
       .add(WideWalk.Slack)
       .min(limit)
-    inline if !anyHit then near.intoArray(ray.lanes, lane)
-    bits(near.compare(VectorOperators.LE, far))
+    inline if !anyHit then tNear.intoArray(ray.lanes, lane)
+    bits(tNear.compare(VectorOperators.LE, tFar))
 
   // No vector lives longer than a node or a block: the JVM would store it to memory repeatedly, in
   // case it has to leave compiled code
@@ -124,12 +124,12 @@ private[tracing] object VectorKernel extends WideKernel:
     val s0 = e0.reinterpretAsInts()
     val s1 = e1.reinterpretAsInts()
     val s2 = e2.reinterpretAsInts()
-    val all = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue)
-    val zero = all.sub(1).or(Infinities.sub(all))
+    val productBits = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue)
+    val zero = productBits.sub(1).or(Infinities.sub(productBits))
     // One or two sign bits, or a zero, for which the product is also zero or NaN
-    val some = s0.or(s1).or(s2).lanewise(VectorOperators.XOR, s0.and(s1).and(s2)).or(zero)
-    bits(some.compare(VectorOperators.GE, 0)) |
-      (bits(zero.compare(VectorOperators.LT, 0)) << WideWalk.Unsure)
+    val candidates = s0.or(s1).or(s2).lanewise(VectorOperators.XOR, s0.and(s1).and(s2)).or(zero)
+    bits(candidates.compare(VectorOperators.GE, 0)) |
+      (bits(zero.compare(VectorOperators.LT, 0)) << WideWalk.FirstEdgeBit)
 
   /** Bits of the lanes whose triangles are neither behind the ray nor past its end, along the axis
     * of its largest component: no hit is farther outside the triangle's box than the padding.
@@ -149,5 +149,5 @@ private[tracing] object VectorKernel extends WideKernel:
     val above = high.sub(z0).reinterpretAsInts()
       .and(high.sub(z1).reinterpretAsInts())
       .and(high.sub(z2).reinterpretAsInts())
-    val within = bits(below.or(above).compare(VectorOperators.GE, 0))
-    within | (within << WideWalk.Unsure)
+    val inRange = bits(below.or(above).compare(VectorOperators.GE, 0))
+    inRange | (inRange << WideWalk.FirstEdgeBit)

@@ -35,13 +35,13 @@ private[tracing] final class WarmUp(
     var wins = 0
     var i = 0
     while i < Batch do
-      rays.next()
-      val begin = clock()
+      rays.advance()
+      val scalarStart = clock()
       query(ScalarKernel, tree, rays.ray, rays.hit): Unit
-      val middle = clock()
+      val vectorStart = clock()
       rays.again()
       query(fast, tree, rays.ray, rays.hit): Unit
-      if clock() - middle < middle - begin then wins += 1
+      if clock() - vectorStart < vectorStart - scalarStart then wins += 1
       i += 1
     val nanos = clock() - start
     if wins >= MinWins then isOver = true
@@ -92,8 +92,15 @@ private[tracing] object WarmUp:
     val indices = Array.tabulate(3 * Triangles)(i => i)
     val soup = TriangleSoup(positions.result, indices, Array.empty, false)
     val spheres = Array.fill[Shape](Spheres):
-      def next() = random.nextDouble()
-      Sphere(Transform.translate(next(), next(), next()), Radius, -Radius, Radius, TwoPi, false)
+      def coordinate() = random.nextDouble()
+      Sphere(
+        Transform.translate(coordinate(), coordinate(), coordinate()),
+        Radius,
+        -Radius,
+        Radius,
+        TwoPi,
+        false
+      )
     WideBuilder.of(Primitives(soup, spheres), width, lanes, 4, Parallel.Alone)
 
   /** Rays between random points of the unit cube; every other one is a segment. */
@@ -102,10 +109,10 @@ private[tracing] object WarmUp:
     val hit: Hit = Hit()
     private var end = 0f
 
-    def next(): Unit =
-      val from = point()
+    def advance(): Unit =
+      val origin = point()
       end = if random.nextBoolean() then 0.999f else Float.PositiveInfinity
-      ray.set(from, point() - from, end)
+      ray.set(origin, point() - origin, end)
       hit.primitive = -1
 
     /** The same ray, untraced. */
@@ -116,9 +123,9 @@ private[tracing] object WarmUp:
     /** Every other point is one of those where corners are. */
     private def point(): Vec3 =
       val isCorner = random.nextBoolean()
-      def next() =
+      def coordinate() =
         if isCorner then random.nextInt(Steps + 1).toFloat / Steps else random.nextDouble().toFloat
-      Vec3(next(), next(), next())
+      Vec3(coordinate(), coordinate(), coordinate())
 
 /** The warm-ups of both queries, of one job: it ends with the job's threads. What the JVM has
   * compiled for another job is known at once, after a batch.
@@ -133,7 +140,7 @@ final class WarmUps:
   private[tracing] def areOver: Boolean = closest.isOver && occluded.isOver
 
   /** Begins, unless it did before. The thread asks whether there are vectors: that takes time. */
-  private[tracing] def begin(parallel: Parallel, hasVectors: => Boolean): Unit =
+  private[tracing] def start(parallel: Parallel, hasVectors: => Boolean): Unit =
     if parallel.worksAside && hasBegun.compareAndSet(false, true) then
       parallel.aside("warm-up")(if hasVectors then run(VectorKernel))
 

@@ -20,7 +20,7 @@ final class WideBvh private[tracing] (
     warmUps: WarmUps = WarmUps()
 ) extends Accelerator:
   val bounds: Bounds3 = tree.bounds
-  private val isTame = WideKernel.isTame(bounds)
+  private val isRangeSafe = WideKernel.isRangeSafe(bounds)
 
   def describe: String =
     s"bvh: ${tree.count} primitives, ${tree.nodeCount} nodes of ${tree.width} children, " +
@@ -39,12 +39,12 @@ final class WideBvh private[tracing] (
       warmUp: WarmUp,
       inline by: WideKernel => Boolean
   ): Boolean =
-    if !(isTame && WideKernel.isTame(ray)) then by(CarefulKernel)
+    if !(isRangeSafe && WideKernel.isRangeSafe(ray)) then by(CarefulKernel)
     else if atOnce || warmUp.isOver then by(fast)
     else by(ScalarKernel)
 
-/** Traversal kernel for a [[WideTree]]. All kernels find bit-identical hits; rays and tree must be
-  * tame.
+/** Traversal kernel for a [[WideTree]]. All kernels find bit-identical hits; rays and tree must
+  * be range-safe.
   */
 private[tracing] abstract class WideKernel:
   def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean
@@ -59,21 +59,21 @@ private[tracing] object WideKernel:
     * One condition, of the signs of differences of bits: each branch that is taken for the first
     * time late in a render costs the JVM a compilation.
     */
-  def isTame(ray: Ray): Boolean =
-    (near(ray.ox) & near(ray.oy) & near(ray.oz) &
-      usual(ray.dx) & usual(ray.dy) & usual(ray.dz)) < 0
+  def isRangeSafe(ray: Ray): Boolean =
+    (positionCheck(ray.ox) & positionCheck(ray.oy) & positionCheck(ray.oz) &
+      directionCheck(ray.dx) & directionCheck(ray.dy) & directionCheck(ray.dz)) < 0
 
-  def isTame(box: Bounds3): Boolean =
-    box.isEmpty || (near(box.min.x) & near(box.min.y) & near(box.min.z) &
-      near(box.max.x) & near(box.max.y) & near(box.max.z)) < 0
+  def isRangeSafe(box: Bounds3): Boolean =
+    box.isEmpty || (positionCheck(box.min.x) & positionCheck(box.min.y) & positionCheck(box.min.z) &
+      positionCheck(box.max.x) & positionCheck(box.max.y) & positionCheck(box.max.z)) < 0
 
   /** Negative if |x| < [[Far]]; not for NaN. */
-  private inline def near(x: Float): Int = magnitudeBits(x) - Far
+  private inline def positionCheck(x: Float): Int = magnitudeBits(x) - Far
 
-  /** Negative if |x| is zero or between [[Small]] and [[Large]]; not for NaN. Zero is tame: a box
+  /** Negative if |x| is zero or between [[Small]] and [[Large]]; not for NaN. Zero is safe: a box
     * that the ray misses then begins at infinity.
     */
-  private inline def usual(x: Float): Int =
+  private inline def directionCheck(x: Float): Int =
     val bits = magnitudeBits(x)
     (bits - Large) & ((Small - bits) | (bits - 1))
 

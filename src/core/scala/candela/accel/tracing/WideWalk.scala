@@ -27,23 +27,23 @@ private[tracing] object WideWalk:
       inline anyHit: Boolean,
       inline boxes: (Int, Int) => Int,
       inline triangles: Int => Int,
-      inline tells: Boolean,
-      inline within: (Int, Float) => Int,
+      inline marksEdges: Boolean,
+      inline inRange: (Int, Float) => Int,
       inline inside: (Int, Int) => Boolean
   ): Boolean =
     inline if anyHit then
-      occluded(tree, width, lanes, ray, hit, boxes, triangles, tells, within, inside)
-    else closest(tree, width, lanes, ray, hit, boxes, triangles, tells, within, inside)
+      occluded(tree, width, lanes, ray, hit, boxes, triangles, marksEdges, inRange, inside)
+    else closest(tree, width, lanes, ray, hit, boxes, triangles, marksEdges, inRange, inside)
 
   /** @param width, lanes those of the tree, as constants if the kernel has any
     * @param boxes     (node, limit): bit mask of the children that begin before `limit`, the bits
     *   of a distance; writes their entry distances to `ray.lanes`, also as bits
     * @param triangles (block's first Float): bit mask of the lanes whose triangles may be hit;
     *   includes every triangle that [[TriangleTest]] accepts
-    * @param tells     do they have their bits from [[Unsure]] on if the ray's line may pass at an
-    *   edge, rather than inside?
-    * @param within    (block's first Float, end of the ray): the same bits, of the lanes whose
-    *   triangles are near enough; used if `triangles` tells
+    * @param marksEdges whether they have their bits from [[FirstEdgeBit]] on if the ray's line may
+    *   pass at an edge, rather than inside
+    * @param inRange   (block's first Float, end of the ray): the same bits, of the lanes whose
+    *   triangles are near enough; used if `triangles` marks edges
     * @param inside    (triangle's first Float, its number): decides about one that the line passes
     *   inside; the same
     */
@@ -55,15 +55,15 @@ private[tracing] object WideWalk:
       hit: Hit,
       inline boxes: (Int, Int) => Int,
       inline triangles: Int => Int,
-      inline tells: Boolean,
-      inline within: (Int, Float) => Int,
+      inline marksEdges: Boolean,
+      inline inRange: (Int, Float) => Int,
       inline inside: (Int, Int) => Boolean
   ): Boolean =
     val nodes = tree.nodes
     val stack = ray.stack(tree.stackSize)
     val begins = ray.lanes
     var limit = limitOf(ray.tMax)
-    var found = false
+    var hasHit = false
     var top = 0
     var node = tree.root
     while node != WideTree.NoChild do
@@ -74,55 +74,58 @@ private[tracing] object WideWalk:
         else
           val a = Integer.numberOfTrailingZeros(hits)
           hits &= hits - 1
-          val first = java.lang.Float.floatToRawIntBits(nodes(children + a))
-          if hits == 0 then node = first
+          val firstChild = java.lang.Float.floatToRawIntBits(nodes(children + a))
+          if hits == 0 then node = firstChild
           else
             val b = Integer.numberOfTrailingZeros(hits)
             hits &= hits - 1
-            val second = java.lang.Float.floatToRawIntBits(nodes(children + b))
+            val secondChild = java.lang.Float.floatToRawIntBits(nodes(children + b))
             val isFirst = begins(a) <= begins(b)
             if hits == 0 then
-              stack(top) = if isFirst then entry(begins(b), second) else entry(begins(a), first)
+              stack(top) =
+                if isFirst then entry(begins(b), secondChild) else entry(begins(a), firstChild)
               top += 1
-              node = if isFirst then first else second
+              node = if isFirst then firstChild else secondChild
             else
               val bottom = top
-              stack(top) = if isFirst then entry(begins(b), second) else entry(begins(a), first)
-              stack(top + 1) = if isFirst then entry(begins(a), first) else entry(begins(b), second)
+              stack(top) =
+                if isFirst then entry(begins(b), secondChild) else entry(begins(a), firstChild)
+              stack(top + 1) =
+                if isFirst then entry(begins(a), firstChild) else entry(begins(b), secondChild)
               top += 2
               while hits != 0 do
                 val k = Integer.numberOfTrailingZeros(hits)
                 hits &= hits - 1
-                val next =
+                val pushed =
                   entry(begins(k), java.lang.Float.floatToRawIntBits(nodes(children + k)))
                 var i = top
-                while i > bottom && stack(i - 1) < next do
+                while i > bottom && stack(i - 1) < pushed do
                   stack(i) = stack(i - 1)
                   i -= 1
-                stack(i) = next
+                stack(i) = pushed
                 top += 1
               top -= 1
               node = stack(top).toInt
       else
         if WideTree.isBlock(node) then
-          val block = WideTree.first(node)
+          val block = WideTree.leafStart(node)
           val corners = block * WideTree.blockFloats(lanes)
-          var may = candidates(node, corners, ray, triangles, tells, within)
-          while may != 0 do
-            val bit = Integer.numberOfTrailingZeros(may)
-            may &= may - 1
-            val k = bit & (Unsure - 1)
+          var candidateBits = candidates(node, corners, ray, triangles, marksEdges, inRange)
+          while candidateBits != 0 do
+            val bit = Integer.numberOfTrailingZeros(candidateBits)
+            candidateBits &= candidateBits - 1
+            val k = bit & (FirstEdgeBit - 1)
             val owner = java.lang.Float.floatToRawIntBits(tree.blocks(corners + 9 * lanes + k))
             val isHit =
-              if tells && bit < Unsure then inside(corners + k, owner)
+              if marksEdges && bit < FirstEdgeBit then inside(corners + k, owner)
               else TriangleTest.intersect(tree.blocks, corners + k, lanes, owner, ray, hit)
             if isHit then
               hit.primitive = owner
-              found = true
+              hasHit = true
         else
-          val first = WideTree.first(node)
-          if tree.others.intersect(first, first + WideTree.size(node), ray, hit) then
-            found = true
+          val leafStart = WideTree.leafStart(node)
+          if tree.unblocked.intersect(leafStart, leafStart + WideTree.size(node), ray, hit) then
+            hasHit = true
         limit = limitOf(ray.tMax)
         node = WideTree.NoChild
       if node == WideTree.NoChild then
@@ -130,12 +133,12 @@ private[tracing] object WideWalk:
         var going = top > 0
         while going do
           top -= 1
-          val next = stack(top)
-          if (next >>> 32).toInt <= limit then
-            node = next.toInt
+          val popped = stack(top)
+          if (popped >>> 32).toInt <= limit then
+            node = popped.toInt
             going = false
           else going = top > 0
-    found
+    hasHit
 
   /** Any-hit counterpart of [[closest]]; `boxes` writes nothing. */
   private inline def occluded(
@@ -146,49 +149,49 @@ private[tracing] object WideWalk:
       hit: Hit,
       inline boxes: (Int, Int) => Int,
       inline triangles: Int => Int,
-      inline tells: Boolean,
-      inline within: (Int, Float) => Int,
+      inline marksEdges: Boolean,
+      inline inRange: (Int, Float) => Int,
       inline inside: (Int, Int) => Boolean
   ): Boolean =
     val nodes = tree.nodes
     val stack = ray.stack(tree.stackSize)
     val limit = limitOf(ray.tMax)
-    var found = false
+    var hasHit = false
     var top = 0
     var node = tree.root
     while node != WideTree.NoChild do
-      var from = node
+      var current = node
       var hits = 0
       if node >= 0 then hits = boxes(node, limit)
       else if WideTree.isBlock(node) then
-        val corners = WideTree.first(node) * WideTree.blockFloats(lanes)
-        var may = candidates(node, corners, ray, triangles, tells, within)
-        while may != 0 do
-          val bit = Integer.numberOfTrailingZeros(may)
-          may &= may - 1
-          val k = bit & (Unsure - 1)
-          found =
-            if tells && bit < Unsure then inside(corners + k, 0)
+        val corners = WideTree.leafStart(node) * WideTree.blockFloats(lanes)
+        var candidateBits = candidates(node, corners, ray, triangles, marksEdges, inRange)
+        while candidateBits != 0 do
+          val bit = Integer.numberOfTrailingZeros(candidateBits)
+          candidateBits &= candidateBits - 1
+          val k = bit & (FirstEdgeBit - 1)
+          hasHit =
+            if marksEdges && bit < FirstEdgeBit then inside(corners + k, 0)
             else TriangleTest.isHit(tree.blocks, corners + k, lanes, ray, hit)
-          if found then may = 0
+          if hasHit then candidateBits = 0
       else
-        val first = WideTree.first(node)
-        found = tree.others.isHit(first, first + WideTree.size(node), ray, hit)
+        val leafStart = WideTree.leafStart(node)
+        hasHit = tree.unblocked.isHit(leafStart, leafStart + WideTree.size(node), ray, hit)
       if hits == 0 && top > 0 then
         top -= 1
-        val next = stack(top)
-        hits = (next >>> 32).toInt
-        from = next.toInt
-      if found || hits == 0 then node = WideTree.NoChild
+        val popped = stack(top)
+        hits = (popped >>> 32).toInt
+        current = popped.toInt
+      if hasHit || hits == 0 then node = WideTree.NoChild
       else
         // The rest of the node's children stay on the stack; if none is left, the entry is
         // overwritten
-        val rest = hits & (hits - 1)
-        stack(top) = entry(rest, from)
-        top += -rest >>> 31
+        val remainingHits = hits & (hits - 1)
+        stack(top) = entry(remainingHits, current)
+        top += -remainingHits >>> 31
         val k = Integer.numberOfTrailingZeros(hits)
-        node = java.lang.Float.floatToRawIntBits(nodes(from + 6 * width + k))
-    found
+        node = java.lang.Float.floatToRawIntBits(nodes(current + 6 * width + k))
+    hasHit
 
   /** The bits of the triangles of a block that are worth a test. */
   private inline def candidates(
@@ -196,14 +199,14 @@ private[tracing] object WideWalk:
       corners: Int,
       ray: Ray,
       inline triangles: Int => Int,
-      inline tells: Boolean,
-      inline within: (Int, Float) => Int
+      inline marksEdges: Boolean,
+      inline inRange: (Int, Float) => Int
   ): Int =
-    val used = (1 << WideTree.size(leaf)) - 1
-    inline if tells then
-      val may = triangles(corners) & (used | (used << Unsure))
-      if may == 0 then 0 else may & within(corners, ray.tMax)
-    else triangles(corners) & used
+    val occupied = (1 << WideTree.size(leaf)) - 1
+    inline if marksEdges then
+      val candidateBits = triangles(corners) & (occupied | (occupied << FirstEdgeBit))
+      if candidateBits == 0 then 0 else candidateBits & inRange(corners, ray.tMax)
+    else triangles(corners) & occupied
 
   private inline def entry(high: Int, node: Int): Long =
     (high.toLong << 32) | (node & 0xffffffffL)
@@ -222,7 +225,7 @@ private[tracing] object WideWalk:
   private final val Largest = 0x7f7fffff
 
   /** The first bit of triangles that the ray's line may pass at an edge. */
-  final val Unsure = 16
+  final val FirstEdgeBit = 16
 
   /** Tolerance of hits outside a triangle's box, relative to its extent, with some rounding. */
   final val Pad = 2.5e-6f

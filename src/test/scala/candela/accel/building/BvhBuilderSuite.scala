@@ -83,7 +83,7 @@ class BvhBuilderSuite extends AnyFunSuite:
 
   test("records hold the boxes of all kinds of primitives exactly"):
     for (name, primitives) <- AcceleratorScenes.all do
-      val records = BoxRecord.all(primitives, Parallel.Alone)
+      val records = BoxRecord.ofAll(primitives, Parallel.Alone)
       val bounds = primitives.bounds
       val read = new Array[Float](6)
       loop(primitives.count): i =>

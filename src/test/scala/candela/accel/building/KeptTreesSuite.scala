@@ -63,7 +63,7 @@ class KeptTreesSuite extends AnyFunSuite:
       else if code >= 0 then
         Vector.tabulate(tree.width)(k => bits(tree.nodes(code + 6 * tree.width + k))).flatMap(below)
       else if WideTree.isBlock(code) then
-        val at = WideTree.first(code) * WideTree.blockFloats(tree.lanes) + 9 * tree.lanes
+        val at = WideTree.leafStart(code) * WideTree.blockFloats(tree.lanes) + 9 * tree.lanes
         Vector.tabulate(WideTree.size(code))(i => bits(tree.blocks(at + i)))
       else Vector.fill(WideTree.size(code))(-1)
     val all = below(tree.root)
@@ -129,7 +129,7 @@ class KeptTreesSuite extends AnyFunSuite:
     // The part at rest comes first in the joined tree
     val rest = WideBuilder.layout(
       moves.head,
-      BoxRecord.some(moves.head, (0 until 7200).toArray ++ (10400 until 10420), Parallel.Alone),
+      BoxRecord.ofSome(moves.head, (0 until 7200).toArray ++ (10400 until 10420), Parallel.Alone),
       4,
       4,
       4,

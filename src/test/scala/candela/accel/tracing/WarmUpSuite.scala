@@ -69,7 +69,7 @@ class WarmUpSuite extends AnyFunSuite:
     val rays = TestRays(random)
     var misses, triangles, spheres, edges, segments = 0
     for _ <- 0 until 2000 do
-      rays.next()
+      rays.advance()
       val (end, d) = (rays.ray.tMax, rays.ray.direction)
       val found = ScalarKernel.closest(tree, rays.ray, rays.hit)
       if !found then misses += 1
