@@ -49,12 +49,13 @@ object Architecture:
 
   /** Lowest first: a package may use those before it. */
   val runtime: Vector[String] = floors(
-    "base math color geometry sampling image textures shapes bsdf bsdf.microfacet bsdf.layered " +
+    "base concurrency diagnostics io math color geometry sampling image textures shapes bsdf " +
+      "bsdf.microfacet bsdf.layered " +
       "bsdf.measured bsdf.subsurface bsdf.composite lights media cameras film accel " +
-      "accel.building accel.tracing scene aov guiding integrators bidirectional " +
+      "accel.building accel.tracing scene aov guiding integrators bdpt photons mlt caustics " +
       "render render.storage"
   )
-  val file: Vector[String] = floors("base math scenefile")
+  val file: Vector[String] = floors("base concurrency diagnostics io math scenefile")
 
   /** Between the towers: each may use both of them, too. */
   val bridge: Vector[String] = floors(
@@ -62,11 +63,12 @@ object Architecture:
       "build.shapes build.lights build.materials build.integrators build.options build"
   )
 
-  private val measure = Set("base", "math", "color", "image")
+  private val common = Set("base", "concurrency", "diagnostics", "io", "math", "color")
+  private val measure = common + "image"
   private val report = measure + "measure"
   private val convert =
     measure ++ Set("bsdf", "bsdf.microfacet", "lights", "sampling", "scenefile")
-  private val mitsuba = Set("base", "math", "color", "scenefile", "build.shapes")
+  private val mitsuba = common ++ Set("scenefile", "build.shapes")
   private val towers = (runtime ++ file).toSet
   private val job = towers ++ bridge ++ Set("mitsuba", "measure")
 
@@ -191,7 +193,7 @@ object Architecture:
 
   /** Files are written whole or not at all, by one class; a lock has no content. */
   def writes(sources: Vector[SourceText]): Vector[String] =
-    val writers = Set("base/WholeFile.scala", "base/Scratch.scala", "render/storage/FilmLock.scala")
+    val writers = Set("io/WholeFile.scala", "io/Scratch.scala", "render/storage/FilmLock.scala")
     code(sources.filterNot(s => writers(s.path))): (_, line) =>
       write.findFirstIn(line).map(what => s"only WholeFile may write files, but here is `$what`")
 

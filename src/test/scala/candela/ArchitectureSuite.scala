@@ -262,7 +262,7 @@ class ArchitectureSuite extends AnyFunSuite:
       val found = Architecture.writes(planted("cli/Reporting.scala", line))
       val rule = "cli/Reporting.scala:1: only WholeFile may write files, but here is"
       assert(found.size == 1 && found.head.startsWith(rule), line)
-      assert(Architecture.writes(planted("base/WholeFile.scala", line)).isEmpty, line)
+      assert(Architecture.writes(planted("io/WholeFile.scala", line)).isEmpty, line)
     for line <- Vector(
         "Files.readAllBytes(path)",
         "FileChannel.open(path, StandardOpenOption.READ)",

@@ -1,8 +1,9 @@
 package candela.accel
 
+import candela.base.{IntBuffer, loop}
+import candela.concurrency.Parallel
 import scala.collection.IndexedSeqView
 
-import candela.base.{IntBuffer, Parallel, loop}
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 

@@ -1,8 +1,8 @@
 package candela.accel
 
+import candela.base.loop
 import scala.collection.mutable.ArrayBuffer
 
-import candela.base.loop
 import candela.geometry.{Ray, ShadingPoint}
 import candela.sampling.SampleHash
 import candela.textures.FloatTexture

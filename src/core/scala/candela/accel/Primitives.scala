@@ -1,6 +1,7 @@
 package candela.accel
 
-import candela.base.{loop, Parallel}
+import candela.base.loop
+import candela.concurrency.Parallel
 import candela.shapes.{ShapeGroup, TriangleSoup}
 
 /** All primitives that rays can hit, in order: the triangles of the soup, the other shapes, the

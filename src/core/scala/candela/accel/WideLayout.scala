@@ -1,6 +1,6 @@
 package candela.accel
 
-import candela.base.Parallel
+import candela.concurrency.Parallel
 import candela.geometry.Bounds3
 
 /** A [[WideTree]] without its primitives: it depends on the corners of triangles and the boxes of

@@ -1,6 +1,7 @@
 package candela.aov
 
-import candela.base.{CheckedInput, CheckedOutput, loop}
+import candela.base.loop
+import candela.io.{CheckedInput, CheckedOutput}
 import candela.color.Rgb
 import candela.film.{Development, ExactSums, SplatFilm}
 import candela.image.Image

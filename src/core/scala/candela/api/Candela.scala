@@ -1,7 +1,8 @@
 package candela.api
 
+import candela.base.Version
+import candela.io.SceneFolder
 import candela.accel.tracing.Hierarchies
-import candela.base.{SceneFolder, Version}
 import candela.job.{Render, SceneFormat, SceneName}
 
 import java.nio.file.Path
@@ -44,7 +45,7 @@ object Candela:
     Scenes.read(name.toString, how):
       val folder = how.control.limits.folder(name)
       val read = Render.withinLimits(SceneFormat.of(name).readText(name, text, folder, how.of))
-      read.copy(unfiled = Vector(s"$name, a text" -> candela.base.Sha256.of(text)))
+      read.copy(unfiled = Vector(s"$name, a text" -> candela.io.Sha256.of(text)))
 
   /** Builds a scene in code; file names in it are relative to the current folder. */
   def build(): SceneBuilder = build(Path.of(""))

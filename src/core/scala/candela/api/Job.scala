@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.base.SceneError
+import candela.diagnostics.SceneError
 import candela.image.{Image, Oidn}
 import candela.job.{
   Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared, Render
@@ -66,7 +66,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     */
   def render(control: RenderControl): RenderResult =
     if isClosed then throw IllegalStateException("the job was closed")
-    val problems = ArrayBuffer.empty[candela.base.Problem]
+    val problems = ArrayBuffer.empty[candela.diagnostics.Problem]
     Problems.thrown:
       control.film match
         case None => rendered(control, None, problems)
@@ -83,7 +83,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   private def keeping(
       file: Path,
       control: RenderControl,
-      problems: ArrayBuffer[candela.base.Problem]
+      problems: ArrayBuffer[candela.diagnostics.Problem]
   ): FilmKeeper =
     val path = file.toAbsolutePath
     val header = FilmHeaders.of(prepared.settings, scene.name, prepared, path)
@@ -93,7 +93,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   private def rendered(
       control: RenderControl,
       keeper: Option[FilmKeeper],
-      problems: ArrayBuffer[candela.base.Problem]
+      problems: ArrayBuffer[candela.diagnostics.Problem]
   ): RenderResult =
     val asked = settings.of.goal
     val recorder =

@@ -1,6 +1,7 @@
 package candela.api
 
-import candela.base.{RestBuffer, SourcePos}
+import candela.base.RestBuffer
+import candela.diagnostics.SourcePos
 import candela.scenefile.{Param, ParamType}
 
 import scala.annotation.varargs

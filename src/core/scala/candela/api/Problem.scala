@@ -1,7 +1,6 @@
 package candela.api
 
-import candela.base.SourcePos
-
+import candela.diagnostics.SourcePos
 import java.util.Optional
 
 import scala.jdk.OptionConverters.*
@@ -15,12 +14,12 @@ enum Severity extends java.lang.Enum[Severity]:
   case Error
 
 /** An error or warning about a scene or a setting. Immutable. */
-final class Problem private[api] (found: candela.base.Problem):
+final class Problem private[api] (found: candela.diagnostics.Problem):
   private def at: Option[SourcePos] = found.at
 
   def severity: Severity = found.severity match
-    case candela.base.Severity.Warning => Severity.Warning
-    case candela.base.Severity.Error => Severity.Error
+    case candela.diagnostics.Severity.Warning => Severity.Warning
+    case candela.diagnostics.Severity.Error => Severity.Error
 
   /** Identifies meaning and cure, such as `E0201`; `candela explain` prints both. */
   def number: String = found.code.word
@@ -51,7 +50,7 @@ final class Problem private[api] (found: candela.base.Problem):
 /** A scene that can't be rendered, or an invalid setting. [[Candela.read]] and
   * [[Scene.check]] return problems instead of throwing them.
   */
-final class SceneException private[api] (found: Vector[candela.base.Problem])
+final class SceneException private[api] (found: Vector[candela.diagnostics.Problem])
     extends RuntimeException(Problems.ofCore(found).iterator.next().toString):
 
   /** All of them, errors and warnings, in the order of the scene; at least one. */

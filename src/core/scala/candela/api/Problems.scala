@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.base.{Code, SceneError}
+import candela.diagnostics.{Code, SceneError}
 import candela.image.{ImageError, MissingNatives}
 
 import scala.jdk.CollectionConverters.*
@@ -8,7 +8,7 @@ import scala.jdk.CollectionConverters.*
 /** Problems of the core, for callers. */
 private[api] object Problems:
 
-  def ofCore(found: Vector[candela.base.Problem]): java.util.List[Problem] =
+  def ofCore(found: Vector[candela.diagnostics.Problem]): java.util.List[Problem] =
     java.util.List.copyOf(found.map(Problem(_)).asJava)
 
   /** Runs `body` and turns its errors into a [[SceneException]]. */
@@ -20,4 +20,4 @@ private[api] object Problems:
       case e: MissingNatives => fail(Code.MissingLibrary, e.getMessage, Some(e.help))
 
   def fail(code: Code, message: String, help: Option[String] = None): Nothing =
-    throw SceneException(Vector(candela.base.Problem.general(code, message, help)))
+    throw SceneException(Vector(candela.diagnostics.Problem.general(code, message, help)))

@@ -1,7 +1,7 @@
 package candela.api
 
-import candela.base.{Code, Keep}
-
+import candela.diagnostics.Code
+import candela.io.Keep
 import candela.scenefile.Dialect
 import candela.settings.{BuildControl, ReadSettings as CoreSettings, TextForm}
 

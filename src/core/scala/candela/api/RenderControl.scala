@@ -1,7 +1,6 @@
 package candela.api
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import java.nio.file.Path
 import java.time.Duration
 

@@ -13,7 +13,7 @@ final class RenderResult private[api] (
     val image: RenderedImage,
     relative: Option[Double],
     estimate: Option[RenderedImage],
-    found: Vector[candela.base.Problem]
+    found: Vector[candela.diagnostics.Problem]
 ):
   /** Whether all planned samples were taken, or a goal was reached; false if cancelled. */
   def isComplete: Boolean = rendering.isComplete

@@ -1,7 +1,7 @@
 package candela.api
 
+import candela.diagnostics.{Code, Suggest}
 import candela.aov.Layer
-import candela.base.{Code, Suggest}
 import candela.settings.{
   RenderGoal, RenderSettings as CoreSettings, SettingsCodec, SettingsTable, TextForm
 }

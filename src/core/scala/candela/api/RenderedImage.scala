@@ -1,7 +1,6 @@
 package candela.api
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.image.{DisplayTransform, Image, ImageFiles}
 import candela.job.{Denoising, ImageFile}
 import candela.render.Rendering

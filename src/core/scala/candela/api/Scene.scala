@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.base.{Code, SceneError, Severity as Grade}
+import candela.diagnostics.{Code, SceneError, Severity as Grade}
 import candela.job.{Prepared, Render}
 import candela.scenefile.SceneDescription
 
@@ -14,7 +14,7 @@ import scala.jdk.CollectionConverters.*
 final class Scene private[api] (
     val name: String,
     private[api] val description: Option[SceneDescription],
-    private val found: Vector[candela.base.Problem],
+    private val found: Vector[candela.diagnostics.Problem],
     private[api] val how: ReadSettings
 ):
   /** Errors and warnings of reading; [[check]] returns all. */

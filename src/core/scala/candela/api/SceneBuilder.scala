@@ -1,6 +1,7 @@
 package candela.api
 
-import candela.base.{SceneFolder, SourcePos}
+import candela.diagnostics.SourcePos
+import candela.io.SceneFolder
 import candela.scenefile.{GivenStatement, InstanceList, Param, StatementRunner}
 
 import java.util.function.UnaryOperator

@@ -1,6 +1,6 @@
 package candela.api
 
-import candela.base.{Code, Problem as Found, SceneError, SourcePos, Suggest}
+import candela.diagnostics.{Code, Problem as Found, SceneError, SourcePos, Suggest}
 import candela.scenefile.{Declaration, GivenStatement, Param, SceneDescription}
 
 import java.nio.ByteBuffer

@@ -17,7 +17,7 @@ object JavaHeap:
     s"raise the limit, e.g. with the environment variable $name=$option"
 
   /** The variable whose limit of the heap counts: the launcher's options precede Java's own. */
-  private[base] def variable(classPath: String, environment: Map[String, String]): String =
+  private[candela] def variable(classPath: String, environment: Map[String, String]): String =
     val javas = "JDK_JAVA_OPTIONS"
     if classPath.endsWith("candela.jar") then "JAVA_OPTS"
     else if environment.get(javas).exists(_.contains("-Xmx")) then javas

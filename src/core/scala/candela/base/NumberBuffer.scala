@@ -52,11 +52,11 @@ abstract class NumberBuffer[A](newArray: Int => A):
     all
 
 object NumberBuffer:
-  private[base] inline val Bits = 12
-  private[base] inline val Piece = 4096
+  private[candela] inline val Bits = 12
+  private[candela] inline val Piece = 4096
 
   /** Of an index: the bits of the offset in its chunk. */
-  private[base] inline val OffsetMask = 4095
+  private[candela] inline val OffsetMask = 4095
 
   private inline val MaxPieces = 524287
 

@@ -1,8 +1,10 @@
 package candela.build
 
+import candela.concurrency.Parallel
+import candela.diagnostics.{Code, SourcePos}
+import candela.io.SceneFolder
 import java.util.IdentityHashMap
 
-import candela.base.{Code, Parallel, SceneFolder, SourcePos}
 import candela.build.lights.{AreaLightPlan, AreaLights}
 import candela.build.recipe.*
 import candela.build.options.OptionRecipe

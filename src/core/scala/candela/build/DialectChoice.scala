@@ -1,8 +1,8 @@
 package candela.build
 
+import candela.diagnostics.{Code, Problem}
 import scala.collection.mutable
 
-import candela.base.{Code, Problem}
 import candela.build.recipe.{Dialects, Recipes, ValueTypes}
 import candela.scenefile.*
 

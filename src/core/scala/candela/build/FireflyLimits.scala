@@ -1,7 +1,6 @@
 package candela.build
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.film.Fireflies
 import candela.render.{Passes, RenderMethod}
 import candela.settings.RenderSettings

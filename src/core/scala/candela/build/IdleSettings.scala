@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.{Code, SourcePos}
+import candela.diagnostics.{Code, SourcePos}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.render.Passes

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.{Code, Problem, SceneError, Suggest}
+import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import candela.lights.LightGroups
 import candela.scenefile.Declaration
 import candela.settings.LightGrouping

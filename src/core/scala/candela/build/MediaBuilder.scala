@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.{Code, Suggest}
+import candela.diagnostics.{Code, Suggest}
 import candela.build.integrators.{IntegratorPlan, Surroundings, VolumeIntegrators, VolumeMethod}
 import candela.build.media.{Media, Volumes}
 import candela.build.recipe.*
@@ -59,7 +59,7 @@ private[build] final class MediaBuilder(
   def seen(border: MediumBorder): MediumBorder =
     if plan.throughMedia.isDefined then border else MediumBorder(-1, -1)
 
-  private def index(name: String, at: candela.base.SourcePos): Int =
+  private def index(name: String, at: candela.diagnostics.SourcePos): Int =
     if name.isEmpty then -1
     else
       indexOf.getOrElse(

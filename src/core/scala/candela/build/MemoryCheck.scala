@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.SceneError
+import candela.diagnostics.SceneError
 import candela.render.{Cost, CostKind, Costs}
 
 /** Ends the building of a scene that the heap can't hold, before it begins if that is known by

@@ -1,9 +1,9 @@
 package candela.build
 
+import candela.diagnostics.{Code, Suggest}
 import scala.collection.IndexedSeqView
 import scala.collection.mutable.ArrayBuffer
 
-import candela.base.{Code, Suggest}
 import candela.build.recipe.*
 import candela.math.{Motion, MotionProduct, Position, RecentredMotion}
 import candela.scenefile.*

@@ -1,8 +1,10 @@
 package candela.build
 
+import candela.base.JavaHeap
+import candela.concurrency.Parallel
+import candela.diagnostics.{Code, Limit, Problem}
 import candela.accel.tracing.Hierarchies
 import candela.aov.{Layer, LayerFilm, ScreenMotion, VisibleSurface}
-import candela.base.{Code, JavaHeap, Limit, Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
 import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands}

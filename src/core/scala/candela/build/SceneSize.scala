@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.InputFile
+import candela.io.InputFile
 import candela.build.recipe.TextureStore
 import candela.build.shapes.PlySize
 import candela.image.ImageSize

@@ -1,8 +1,8 @@
 package candela.build
 
+import candela.io.SceneFolder
 import scala.util.Try
 
-import candela.base.SceneFolder
 import candela.build.shapes.PlyFile
 import candela.math.{Position, Transform}
 import candela.scenefile.{Declaration, Param, SceneDescription, ShapeDescription}

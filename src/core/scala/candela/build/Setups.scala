@@ -1,7 +1,7 @@
 package candela.build
 
+import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.aov.Layer
-import candela.base.{Code, Problem, SceneError, Severity}
 import candela.build.cameras.Cameras
 import candela.build.film.{FilmSettings, Films, Filters}
 import candela.build.integrators.IntegratorPlan

@@ -1,7 +1,7 @@
 package candela.build
 
-import candela.base.{Code, IntBuffer, loop}
-
+import candela.base.{IntBuffer, loop}
+import candela.diagnostics.Code
 import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{MaskColumn, Masks, SolidMask}

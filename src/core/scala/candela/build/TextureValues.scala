@@ -1,11 +1,11 @@
 package candela.build
 
+import candela.diagnostics.SourcePos
 import candela.build.recipe.Resources
 import candela.build.textures.Textures
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.Vec3
-import candela.base.SourcePos
 import candela.scenefile.{Param, ParamType, SceneDescription}
 import candela.settings.{ColorMode, RenderSettings}
 import candela.textures.{GrayTexture, RgbTexture}

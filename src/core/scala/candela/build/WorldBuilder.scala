@@ -1,8 +1,7 @@
 package candela.build
 
+import candela.diagnostics.Code
 import scala.collection.IndexedSeqView
-
-import candela.base.Code
 
 import candela.accel.{Accelerator, Instances, Primitives}
 import candela.aov.Cryptomatte

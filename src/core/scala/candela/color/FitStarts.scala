@@ -1,10 +1,9 @@
 package candela.color
 
+import candela.base.loop
 import java.nio.ByteBuffer
 
 import scala.util.Using
-
-import candela.base.loop
 
 /** Coefficients of smooth spectra on a coarse grid of each space's colours, from which fits start:
   * a few of Newton's steps away, where a walk from grey takes dozens.

@@ -1,6 +1,7 @@
 package candela.film
 
-import candela.base.{CheckedInput, CheckedOutput, loop}
+import candela.base.loop
+import candela.io.{CheckedInput, CheckedOutput}
 import candela.color.{Rgb, Wavelengths}
 import candela.image.Image
 

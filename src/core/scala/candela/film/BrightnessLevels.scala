@@ -1,7 +1,7 @@
 package candela.film
 
-import candela.base.{CheckedInput, CheckedOutput, loop}
-
+import candela.base.loop
+import candela.io.{CheckedInput, CheckedOutput}
 import java.util.Arrays
 
 /** The light of camera samples by their brightness, for [[FireflyWeights]]: level i is around

@@ -1,6 +1,7 @@
 package candela.film
 
-import candela.base.{GivenUp, Parallel, loop}
+import candela.base.loop
+import candela.concurrency.{GivenUp, Parallel}
 import candela.color.{ColorResponse, ColorSpace}
 import candela.image.Image
 

@@ -1,7 +1,7 @@
 package candela.film
 
-import candela.base.{CheckedInput, CheckedOutput, loop}
-
+import candela.base.loop
+import candela.io.{CheckedInput, CheckedOutput}
 import java.math.BigDecimal
 
 /** Sums of numbers without any rounding, so that neither the order of the additions nor their

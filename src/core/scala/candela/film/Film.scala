@@ -1,6 +1,8 @@
 package candela.film
 
-import candela.base.{CheckedInput, CheckedOutput, GivenUp, Parallel, loop}
+import candela.base.loop
+import candela.concurrency.{GivenUp, Parallel}
+import candela.io.{CheckedInput, CheckedOutput}
 import candela.image.Image
 
 import java.util.Arrays

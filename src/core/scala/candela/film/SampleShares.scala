@@ -1,7 +1,6 @@
 package candela.film
 
-import candela.base.{CheckedInput, CheckedOutput}
-
+import candela.io.{CheckedInput, CheckedOutput}
 import java.util.Arrays
 
 /** Accumulates samples that contribute to all pixels within the filter's radius, by filter weight:

@@ -1,8 +1,8 @@
 package candela.film
 
+import candela.base.loop
 import java.util.Locale
 
-import candela.base.loop
 import candela.color.{ColorResponse, Colorimetry, Detector, Wavelengths}
 import candela.image.Image
 import candela.math.lerp

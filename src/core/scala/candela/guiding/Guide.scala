@@ -1,6 +1,6 @@
 package candela.guiding
 
-import candela.base.{CheckedInput, CheckedOutput}
+import candela.io.{CheckedInput, CheckedOutput}
 import candela.math.Vec3
 import candela.sampling.SampleHash
 

@@ -1,6 +1,7 @@
 package candela.guiding
 
-import candela.base.{CheckedInput, CheckedOutput, loop}
+import candela.base.loop
+import candela.io.{CheckedInput, CheckedOutput}
 import candela.math.*
 
 /** What earlier passes have learnt. Space is divided into regions, separately for each side that a

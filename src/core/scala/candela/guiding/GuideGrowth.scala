@@ -1,7 +1,6 @@
 package candela.guiding
 
 import candela.base.{FloatBuffer, IntBuffer, loop}
-
 import scala.collection.mutable.ArrayBuffer
 
 /** Builds the field of the next pass: regions with many events are divided where their mean is, and

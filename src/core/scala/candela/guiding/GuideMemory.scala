@@ -1,7 +1,6 @@
 package candela.guiding
 
 import candela.base.FloatBuffer
-
 import scala.collection.mutable.ArrayBuffer
 
 /** Memory of the records of all passes of a rendering, which use it one after the other. What a

@@ -1,6 +1,6 @@
 package candela.guiding
 
-import candela.base.{CheckedInput, CheckedOutput}
+import candela.io.{CheckedInput, CheckedOutput}
 
 /** What the passes so far tell of guiding. Only passes of enough paths are evaluated.
   *

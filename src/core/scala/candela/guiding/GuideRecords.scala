@@ -1,6 +1,7 @@
 package candela.guiding
 
-import candela.base.{CheckedInput, CheckedOutput, FloatBuffer, loop}
+import candela.base.{FloatBuffer, loop}
+import candela.io.{CheckedInput, CheckedOutput}
 import candela.sampling.SampleHash
 
 /** The scattering events of one pass that found light. Each worker adds to a part of its own. Their

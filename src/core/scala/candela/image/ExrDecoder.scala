@@ -1,7 +1,7 @@
 package candela.image
 
-import candela.base.{Code, loop}
-
+import candela.base.loop
+import candela.diagnostics.Code
 import org.lwjgl.PointerBuffer
 import org.lwjgl.system.MemoryStack.stackPush
 import org.lwjgl.system.libc.LibCStdlib

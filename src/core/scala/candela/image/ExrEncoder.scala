@@ -1,6 +1,8 @@
 package candela.image
 
-import candela.base.{Code, Parallel, loop}
+import candela.base.loop
+import candela.concurrency.Parallel
+import candela.diagnostics.Code
 import candela.color.ColorSpace
 
 import org.lwjgl.PointerBuffer

@@ -1,7 +1,6 @@
 package candela.image
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.color.{ColorSpace, Primaries}
 
 import java.nio.charset.StandardCharsets.UTF_8

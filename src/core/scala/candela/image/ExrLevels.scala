@@ -1,10 +1,11 @@
 package candela.image
 
+import candela.diagnostics.Code
+import candela.io.{InputFile, IoReason}
 import java.io.IOException
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.channels.FileChannel
 
-import candela.base.{Code, InputFile, IoReason}
 import candela.color.ColorSpace
 
 /** A tiled EXR file with a MIP map, whose edges are powers of two, read tile by tile. Safe for

@@ -1,7 +1,6 @@
 package candela.image
 
 import candela.base.loop
-
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.{ByteBuffer, ByteOrder}
 

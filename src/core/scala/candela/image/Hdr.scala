@@ -1,7 +1,7 @@
 package candela.image
 
-import candela.base.{Code, loop}
-
+import candela.base.loop
+import candela.diagnostics.Code
 import java.nio.charset.StandardCharsets.ISO_8859_1
 
 /** Reads Radiance RGBE images (.hdr), run-length encoded or flat, as R, G and B.

@@ -1,6 +1,7 @@
 package candela.image
 
-import candela.base.{Code, loop}
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.color.{ColorSpace, Encoding, Matrix3, Rgb}
 
 /** An image can't be read or written: cause and cure on one line. Not a bug, so without a stack

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.InputFile
+import candela.io.InputFile
 import candela.color.{ColorSpace, Encoding}
 
 /** An image in bands of rows, from the top, which are read as often as they are visited: the image

@@ -1,6 +1,7 @@
 package candela.image
 
-import candela.base.{Code, loop}
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.color.{ColorSpace, Rgb}
 
 /** Changes of linear images that keep all of their channels. */

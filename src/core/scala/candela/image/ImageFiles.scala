@@ -1,9 +1,8 @@
 package candela.image
 
-import candela.base.{
-  ByteCount, Code, FileName, ForeignFile, InputFile, IoReason, JavaHeap, WholeFile, WriteError
-}
-
+import candela.base.{ByteCount, JavaHeap}
+import candela.diagnostics.Code
+import candela.io.{FileName, ForeignFile, InputFile, IoReason, WholeFile, WriteError}
 import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, NoSuchFileException, Path}

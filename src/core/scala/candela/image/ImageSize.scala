@@ -1,9 +1,8 @@
 package candela.image
 
+import candela.io.{FileName, InputFile}
 import java.io.IOException
 import java.nio.charset.StandardCharsets
-
-import candela.base.{FileName, InputFile}
 
 /** Roughly how large an image is, by the beginning of its file.
   *

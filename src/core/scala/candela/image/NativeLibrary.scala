@@ -1,7 +1,6 @@
 package candela.image
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import org.lwjgl.system.{APIUtil, SharedLibrary}
 
 /** A shared library, loaded at run time.

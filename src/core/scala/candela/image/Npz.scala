@@ -1,7 +1,7 @@
 package candela.image
 
-import candela.base.{Code, loop}
-
+import candela.base.loop
+import candela.diagnostics.Code
 import java.io.ByteArrayOutputStream
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_8}
 import java.nio.{ByteBuffer, ByteOrder}

@@ -1,7 +1,8 @@
 package candela.image
 
-import candela.base.{Code, IoReason, Scratch, WholeFile, loop}
-
+import candela.base.loop
+import candela.diagnostics.Code
+import candela.io.{IoReason, Scratch, WholeFile}
 import org.lwjgl.system.JNI.*
 import org.lwjgl.system.MemoryStack.stackPush
 import org.lwjgl.system.MemoryUtil

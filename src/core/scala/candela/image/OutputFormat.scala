@@ -1,7 +1,7 @@
 package candela.image
 
-import candela.base.{FileName, Parallel}
-
+import candela.concurrency.Parallel
+import candela.io.FileName
 import java.nio.ByteBuffer
 import java.nio.file.Path
 

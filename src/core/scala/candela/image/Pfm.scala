@@ -1,7 +1,7 @@
 package candela.image
 
-import candela.base.{Code, loop}
-
+import candela.base.loop
+import candela.diagnostics.Code
 import java.nio.charset.StandardCharsets.US_ASCII
 import java.nio.{ByteBuffer, ByteOrder}
 

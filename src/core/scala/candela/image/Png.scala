@@ -1,7 +1,6 @@
 package candela.image
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import java.nio.charset.StandardCharsets.US_ASCII
 import javax.imageio.metadata.{IIOInvalidTreeException, IIOMetadata, IIOMetadataNode}
 

@@ -1,11 +1,13 @@
 package candela.image
 
+import candela.base.loop
+import candela.diagnostics.Code
+import candela.io.InputFile
 import java.io.{DataInputStream, EOFException, InputStream, IOException}
 import java.util.zip.{CRC32, DataFormatException, Inflater}
 
 import scala.util.Using
 
-import candela.base.{Code, InputFile, loop}
 import candela.color.{ColorSpace, Encoding}
 
 /** A PNG file of 8 or 16 bits, neither interlaced nor with a palette or a transparent colour: the

@@ -1,7 +1,6 @@
 package candela.image
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import java.nio.ByteBuffer
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.util.zip.CRC32

@@ -1,6 +1,7 @@
 package candela.image
 
-import candela.base.{Code, loop}
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.color.Encoding
 
 import org.lwjgl.stb.STBImage

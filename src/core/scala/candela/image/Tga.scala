@@ -1,7 +1,6 @@
 package candela.image
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import java.nio.{ByteBuffer, ByteOrder}
 
 /** Reads TGA, and writes it, since films of pbrt-v2 and v3 may name it: 24 bits, or 32 with alpha,

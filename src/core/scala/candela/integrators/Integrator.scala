@@ -1,7 +1,7 @@
 package candela.integrators
 
+import candela.io.{CheckedInput, CheckedOutput}
 import candela.aov.LightParts
-import candela.base.{CheckedInput, CheckedOutput}
 import candela.color.{Rgb, Wavelengths}
 import candela.geometry.Ray
 import candela.sampling.Sampler

@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.GivenUp
+import candela.concurrency.GivenUp
 import candela.film.{Development, Film}
 import candela.image.Image
 import candela.measure.{CurvePoint, ErrorEstimate, Errors, HalfScatter, Interval}

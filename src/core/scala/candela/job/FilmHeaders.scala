@@ -1,6 +1,8 @@
 package candela.job
 
-import candela.base.{Code, InputFile, Problem, SceneError, Sha256, Version}
+import candela.base.Version
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.{InputFile, Sha256}
 import candela.film.PixelBounds
 import candela.render.{RenderPlan, Shard}
 import candela.render.storage.FilmHeader

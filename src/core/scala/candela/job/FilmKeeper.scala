@@ -1,6 +1,8 @@
 package candela.job
 
-import candela.base.{Code, Problem, SceneError, Severity, Version, WholeFile}
+import candela.base.Version
+import candela.diagnostics.{Code, Problem, SceneError, Severity}
+import candela.io.WholeFile
 import candela.render.RenderPlan
 import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmLock, FilmWriter}
 

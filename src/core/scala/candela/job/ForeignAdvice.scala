@@ -1,6 +1,7 @@
 package candela.job
 
-import candela.base.{Code, ForeignKind, InputFile, Problem, Suggest}
+import candela.diagnostics.{Code, Problem, Suggest}
+import candela.io.{ForeignKind, InputFile}
 import candela.scenefile.{Directives, Source, Token, Tokenizer}
 
 import java.nio.file.{Files, Path}

@@ -1,7 +1,7 @@
 package candela.job
 
-import candela.aov.Layer
 import candela.base.Version
+import candela.aov.Layer
 import candela.film.{Fireflies, PixelBounds, SpectralBands}
 import candela.image.{
   Contents, Image, ImageEdits, ImageFiles, ImageWindow, OutputFormat, WriteOptions

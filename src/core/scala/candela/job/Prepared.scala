@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.Problem
+import candela.diagnostics.Problem
 import candela.color.Rgb
 import candela.render.{
   Checkpointer, RenderControl, Renderer, Rendering, RenderPlan, RenderState, ThreadPool

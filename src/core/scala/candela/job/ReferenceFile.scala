@@ -1,6 +1,7 @@
 package candela.job
 
-import candela.base.{Code, Problem, SceneError, Sha256}
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.Sha256
 import candela.image.{ImageError, ImageFiles}
 import candela.measure.ReferenceMean
 import candela.render.Rendering

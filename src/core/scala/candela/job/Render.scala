@@ -1,6 +1,7 @@
 package candela.job
 
-import candela.base.{JavaHeap, Refusal, SceneError}
+import candela.base.JavaHeap
+import candela.diagnostics.{Refusal, SceneError}
 import candela.build.SceneBuilder
 import candela.image.Image
 import candela.render.{RenderControl, Renderer, RenderFailure, Rendering, ThreadPool}

@@ -1,6 +1,7 @@
 package candela.job
 
-import candela.base.{Code, FileName, Problem, SceneError, SceneFolder, Severity}
+import candela.diagnostics.{Code, Problem, SceneError, Severity}
+import candela.io.{FileName, SceneFolder}
 import candela.build.DialectChoice
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Parser, SceneDescription}

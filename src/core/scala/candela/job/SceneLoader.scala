@@ -1,6 +1,6 @@
 package candela.job
 
-import candela.base.{Code, Problem, SceneError, Suggest}
+import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import candela.settings.{BuildControl, ReadSettings, RenderSettings}
 
 import java.nio.file.{Files, InvalidPathException, Path}

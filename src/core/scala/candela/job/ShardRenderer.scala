@@ -1,6 +1,7 @@
 package candela.job
 
-import candela.base.{Code, Keep, Problem, SceneError}
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.Keep
 import candela.render.{RenderControl, Rendering}
 import candela.render.storage.{FilmFile, FilmHeader}
 import candela.settings.BuildControl

@@ -1,7 +1,6 @@
 package candela.lights
 
-import candela.base.{InputFile, IoReason}
-
+import candela.io.{InputFile, IoReason}
 import java.io.IOException
 import java.util.Locale
 

@@ -1,6 +1,7 @@
 package candela.lights
 
-import candela.base.{Parallel, loop}
+import candela.base.loop
+import candela.concurrency.Parallel
 import candela.geometry.Bounds3
 import candela.math.*
 

@@ -1,7 +1,6 @@
 package candela.lights
 
 import candela.base.loop
-
 import java.util.Arrays
 
 /** The order of lights in a [[LightTree]], while it is built: numbers in flat arrays, as there may

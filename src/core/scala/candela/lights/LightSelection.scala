@@ -1,6 +1,6 @@
 package candela.lights
 
-import candela.base.Parallel
+import candela.concurrency.Parallel
 import candela.geometry.{Ball, Bounds3}
 import candela.math.*
 import candela.sampling.Discrete

@@ -1,7 +1,7 @@
 package candela.lights
 
-import candela.base.{Parallel, loop}
-
+import candela.base.loop
+import candela.concurrency.Parallel
 import scala.collection.mutable
 
 /** Builds a [[LightTree]]: bounds of its nodes, children, and the way to each light. */

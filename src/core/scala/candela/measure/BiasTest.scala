@@ -1,6 +1,7 @@
 package candela.measure
 
-import candela.base.{Code, loop}
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.image.{Image, ImageError}
 
 import org.apache.commons.statistics.distribution.TDistribution

@@ -1,6 +1,7 @@
 package candela.measure
 
-import candela.base.{Code, loop}
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.color.{Encoding, Magma}
 import candela.image.{Image, ImageError}
 

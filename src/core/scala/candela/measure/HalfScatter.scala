@@ -1,6 +1,7 @@
 package candela.measure
 
-import candela.base.{GivenUp, loop}
+import candela.base.loop
+import candela.concurrency.GivenUp
 import candela.image.Image
 
 /** Estimates the error of an image that gets ever more samples: from the scatter between halves of

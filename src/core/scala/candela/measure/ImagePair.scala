@@ -1,6 +1,7 @@
 package candela.measure
 
-import candela.base.{Code, loop}
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.image.{Image, ImageError}
 
 /** Half-open pixel bounds: x0 ≤ x < x1, y0 ≤ y < y1. */

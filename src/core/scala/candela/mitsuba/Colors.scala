@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Code, SourcePos}
+import candela.diagnostics.{Code, SourcePos}
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.math.clamp
 import candela.scenefile.{Param, ParamType}

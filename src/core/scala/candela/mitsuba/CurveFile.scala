@@ -1,6 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{Code, InputFile, IoReason, SourcePos}
+import candela.diagnostics.{Code, SourcePos}
+import candela.io.{InputFile, IoReason}
 import candela.math.{Position, Transform, Vec3, lerp}
 import candela.scenefile.{Param, ParamType}
 

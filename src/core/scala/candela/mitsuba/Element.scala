@@ -1,7 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{Code, InputFile, IoReason, Problem, Refusal, SceneError, SourcePos}
-
+import candela.diagnostics.{Code, Problem, Refusal, SceneError, SourcePos}
+import candela.io.{InputFile, IoReason}
 import java.io.{BufferedInputStream, InputStream, InputStreamReader, IOException, Reader}
 import java.nio.charset.{CharacterCodingException, Charset}
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}

@@ -1,7 +1,6 @@
 package candela.mitsuba
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.color.Rgb
 import candela.math.Transform
 import candela.scenefile.{Declaration, Dialect, GraphicsState, LightDescription, Param, ParamType}

@@ -1,7 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{Code, InputFile, Limit, Problem, SceneError, SceneFolder, SourcePos, Suggest}
-
+import candela.diagnostics.{Code, Limit, Problem, SceneError, SourcePos, Suggest}
+import candela.io.{InputFile, SceneFolder}
 import java.io.ByteArrayInputStream
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path

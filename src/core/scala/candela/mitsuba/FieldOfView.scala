@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.Code
+import candela.diagnostics.Code
 
 /** The field of view of cameras and projectors, by an angle or a focal length. */
 private[mitsuba] object FieldOfView:

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Code, Suggest}
+import candela.diagnostics.{Code, Suggest}
 import candela.color.Rgb
 
 /** Materials that Mitsuba knows by name. */

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Code, Limit, SourcePos}
+import candela.diagnostics.{Code, Limit, SourcePos}
 import candela.scenefile.{Declaration, Param}
 
 /** Translates integrators. */

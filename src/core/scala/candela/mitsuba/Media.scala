@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Code, SourcePos}
+import candela.diagnostics.{Code, SourcePos}
 import candela.color.Rgb
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{GraphicsState, MediumDescription, Param, ParamType}

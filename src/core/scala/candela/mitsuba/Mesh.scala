@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{loop, RestBuffer}
+import candela.base.{RestBuffer, loop}
 import candela.math.{Position, Transform, Vec3}
 
 /** Triangles of a mesh file. Normals and coordinates may be empty.

@@ -1,6 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{Code, SceneError, SceneFolder, Severity, SourcePos}
+import candela.diagnostics.{Code, SceneError, Severity, SourcePos}
+import candela.io.SceneFolder
 import candela.scenefile.{Declaration, Dialect, Excerpts, InstanceList, SceneDescription}
 
 import java.nio.file.Path

@@ -1,7 +1,8 @@
 package candela.mitsuba
 
-import candela.base.{Code, FloatBuffer, InputFile, IntBuffer, IoReason, RestBuffer, SourcePos, loop}
-
+import candela.base.{FloatBuffer, IntBuffer, RestBuffer, loop}
+import candela.diagnostics.{Code, SourcePos}
+import candela.io.{InputFile, IoReason}
 import java.io.IOException
 import java.nio.ByteBuffer
 

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Code, SourcePos}
+import candela.diagnostics.{Code, SourcePos}
 import candela.scenefile.{Param, ParamType}
 
 /** A phase function, as parameters of a medium. */

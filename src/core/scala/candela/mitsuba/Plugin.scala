@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.SourcePos
+import candela.diagnostics.SourcePos
 import candela.color.{Rgb, Spectrum}
 import candela.math.Transform
 

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.Code
+import candela.diagnostics.Code
 
 /** The types of Mitsuba 3 that are read, by the element that names them. Those it has besides are
   * known, too, so that messages can tell them from misspelled ones.
@@ -71,5 +71,5 @@ object Plugins:
         p.at,
         s"unknown ${p.description}",
         instead,
-        candela.base.Suggest.help(p.name, read.getOrElse(p.kind, Vector.empty))
+        candela.diagnostics.Suggest.help(p.name, read.getOrElse(p.kind, Vector.empty))
       )

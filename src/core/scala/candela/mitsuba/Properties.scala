@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Code, SourcePos, Suggest}
+import candela.diagnostics.{Code, SourcePos, Suggest}
 import candela.math.Transform
 
 import scala.collection.mutable

@@ -1,7 +1,8 @@
 package candela.mitsuba
 
-import candela.base.{Code, FloatBuffer, InputFile, IntBuffer, IoReason, RestBuffer, SourcePos}
-
+import candela.base.{FloatBuffer, IntBuffer, RestBuffer}
+import candela.diagnostics.{Code, SourcePos}
+import candela.io.{InputFile, IoReason}
 import java.io.{ByteArrayInputStream, EOFException, IOException, InputStream}
 import java.nio.{ByteBuffer, ByteOrder}
 import java.util.zip.InflaterInputStream

@@ -1,8 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{
-  Code, Allowance, InputFile, Problem, SceneError, SceneFolder, SourcePos, Suggest
-}
+import candela.diagnostics.{Allowance, Code, Problem, SceneError, SourcePos, Suggest}
+import candela.io.{InputFile, SceneFolder}
 import candela.scenefile.{Declaration, Dialect, Param, Problems}
 
 import java.nio.file.Path

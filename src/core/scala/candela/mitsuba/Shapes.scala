@@ -1,6 +1,8 @@
 package candela.mitsuba
 
-import candela.base.{Code, InputFile, loop}
+import candela.base.loop
+import candela.diagnostics.Code
+import candela.io.InputFile
 import candela.build.shapes.PlyFile
 import candela.math.Transform
 import candela.scenefile.*

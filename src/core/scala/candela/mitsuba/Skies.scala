@@ -1,7 +1,6 @@
 package candela.mitsuba
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.color.Rgb
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{Declaration, Param, ParamType}

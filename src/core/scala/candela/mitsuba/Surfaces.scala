@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Code, SourcePos}
+import candela.diagnostics.{Code, SourcePos}
 import candela.scenefile.{Declaration, MaterialRef, Param, ParamType}
 
 import scala.collection.mutable

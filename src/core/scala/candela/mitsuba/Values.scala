@@ -1,8 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{
-  Code, InputFile, IoReason, Problem, SceneError, SceneFolder, SourcePos, Suggest
-}
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos, Suggest}
+import candela.io.{InputFile, IoReason, SceneFolder}
 import candela.color.{Rgb, Spectrum}
 import candela.math.Transform
 
@@ -285,5 +284,5 @@ private[mitsuba] object Transforms:
           Code.UnknownElement,
           e.at,
           s"unknown element <$other>",
-          candela.base.Suggest.help(other, steps)
+          candela.diagnostics.Suggest.help(other, steps)
         )

@@ -1,6 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{Code, FileName, SourcePos}
+import candela.diagnostics.{Code, SourcePos}
+import candela.io.FileName
 import candela.math.Transform
 import candela.scenefile.{Declaration, GraphicsState, Param, SceneDescription}
 
@@ -99,7 +100,7 @@ final class Views(session: Session, media: Media, scene: Path):
         Code.UnknownType,
         formatPosition,
         s"unknown pixel_format `$format`",
-        candela.base.Suggest.help(format, Views.PixelFormats)
+        candela.diagnostics.Suggest.help(format, Views.PixelFormats)
       )
     else if !format.startsWith("rgb") then
       session.warn(

@@ -1,7 +1,8 @@
 package candela.mitsuba
 
-import candela.base.{Code, InputFile, IoReason, SourcePos, loop}
-
+import candela.base.loop
+import candela.diagnostics.{Code, SourcePos}
+import candela.io.{InputFile, IoReason}
 import java.io.IOException
 import java.nio.ByteOrder
 

@@ -1,6 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{Code, SourcePos, loop}
+import candela.base.loop
+import candela.diagnostics.{Code, SourcePos}
 import candela.color.Rgb
 import candela.math.*
 import candela.scenefile.{Param, ParamType}

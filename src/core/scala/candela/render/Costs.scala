@@ -1,6 +1,7 @@
 package candela.render
 
-import candela.base.{ByteCount, Code, JavaHeap, Problem, SourcePos}
+import candela.base.{ByteCount, JavaHeap}
+import candela.diagnostics.{Code, Problem, SourcePos}
 
 /** Memory and time of a rendering, by kind. */
 final case class Costs(all: Vector[Cost] = Vector.empty):

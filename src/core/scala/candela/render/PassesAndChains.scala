@@ -1,6 +1,6 @@
 package candela.render
 
-import candela.bidirectional.{ChainPaths, SpectralChainPaths}
+import candela.bdpt.{ChainPaths, SpectralChainPaths}
 import candela.color.Wavelengths
 import candela.film.{Splats, View}
 import candela.integrators.{

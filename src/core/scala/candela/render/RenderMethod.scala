@@ -1,7 +1,7 @@
 package candela.render
 
+import candela.caustics.CausticChoice
 import candela.aov.Layer
-import candela.bidirectional.CausticChoice
 import candela.color.Wavelengths
 import candela.film.{PixelBounds, SplatFilm, View}
 import candela.guiding.GuideSettings

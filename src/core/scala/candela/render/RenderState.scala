@@ -1,7 +1,6 @@
 package candela.render
 
-import candela.base.{CheckedInput, CheckedOutput}
-
+import candela.io.{CheckedInput, CheckedOutput}
 import java.io.IOException
 
 import scala.jdk.CollectionConverters.*

@@ -14,7 +14,7 @@ object Renderer:
     * exact, or of one tile, which adds its samples in order.
     *
     * @throws RenderFailure if a sample fails; all workers then stop
-    * @throws candela.base.SceneError if a file of the scene can't be read any more; likewise
+    * @throws candela.diagnostics.SceneError if a file of the scene can't be read any more; likewise
     */
   def render(plan: RenderPlan, control: RenderControl): Rendering =
     RenderLoop(plan, control).run()

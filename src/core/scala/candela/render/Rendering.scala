@@ -1,7 +1,7 @@
 package candela.render
 
+import candela.concurrency.Parallel
 import candela.aov.LayerFilm
-import candela.base.Parallel
 import candela.film.{Development, Film}
 import candela.guiding.GuideOutcome
 import candela.image.Image

@@ -1,7 +1,6 @@
 package candela.render
 
-import candela.base.Parallel
-
+import candela.concurrency.Parallel
 import java.util.concurrent.{CountDownLatch, LinkedBlockingQueue, ThreadPoolExecutor}
 import java.util.concurrent.TimeUnit.SECONDS
 import java.util.concurrent.atomic.{AtomicInteger, AtomicReference}

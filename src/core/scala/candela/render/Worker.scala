@@ -1,8 +1,7 @@
 package candela.render
 
+import candela.diagnostics.SceneError
 import java.util.concurrent.atomic.AtomicLong
-
-import candela.base.SceneError
 
 /** A worker of one rendering: takes steps from the shared queue, wave by wave, and owns its scratch
   * memory.

@@ -1,8 +1,9 @@
 package candela.sampling
 
+import candela.base.loop
+import candela.io.{CheckedInput, CheckedOutput, PartForm}
 import java.io.IOException
 
-import candela.base.{loop, CheckedInput, CheckedOutput, PartForm}
 import candela.math.*
 
 /** Piecewise-constant distribution over the unit square with a regular grid of cells; uniform if

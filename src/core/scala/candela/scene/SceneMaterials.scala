@@ -1,8 +1,8 @@
 package candela.scene
 
+import candela.base.loop
 import java.lang.invoke.VarHandle
 
-import candela.base.loop
 import candela.bsdf.Material
 
 /** The materials of a scene, by index. Safe for threads.

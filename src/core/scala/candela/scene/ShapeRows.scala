@@ -1,8 +1,9 @@
 package candela.scene
 
+import candela.base.{IntBuffer, loop}
+import candela.concurrency.Parallel
 import java.util.Arrays
 
-import candela.base.{IntBuffer, Parallel, loop}
 import candela.math.Transform
 import candela.shapes.{BezierCurve, CurveBuilder, CurveForm, CurveGroup, Shape, ShapeGroup}
 

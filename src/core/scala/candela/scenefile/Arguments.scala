@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Code, Problem, SceneError, SourcePos}
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
 
 /** The arguments of a directive; each method takes some, or throws a located error.
   *

@@ -1,6 +1,7 @@
 package candela.scenefile
 
-import candela.base.{SceneFolder, SourcePos}
+import candela.diagnostics.SourcePos
+import candela.io.SceneFolder
 import candela.math.Position
 
 import java.util.Arrays

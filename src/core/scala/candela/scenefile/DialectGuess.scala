@@ -1,8 +1,7 @@
 package candela.scenefile
 
+import candela.diagnostics.SourcePos
 import scala.collection.mutable
-
-import candela.base.SourcePos
 
 /** Collects a file's directives and names, and estimates its dialect. Parsing never depends on the
   * estimate.

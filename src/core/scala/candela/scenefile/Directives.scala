@@ -1,8 +1,8 @@
 package candela.scenefile
 
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos, Suggest}
 import scala.jdk.CollectionConverters.*
 
-import candela.base.{Code, Problem, SceneError, SourcePos, Suggest}
 import candela.math.Transform
 
 /** Valid position of a directive: before `WorldBegin`, after it, or both. */

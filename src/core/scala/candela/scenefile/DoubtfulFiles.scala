@@ -1,7 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Code, Problem, Severity}
-
+import candela.diagnostics.{Code, Problem, Severity}
 import scala.collection.mutable
 
 /** Included files from outside of the scene's folder of which no statement has been read yet. They

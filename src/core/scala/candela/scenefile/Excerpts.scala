@@ -1,8 +1,8 @@
 package candela.scenefile
 
+import candela.diagnostics.{Excerpt, Problem, SourcePos}
+import candela.io.InputFile
 import java.io.IOException
-
-import candela.base.{Excerpt, InputFile, Problem, SourcePos}
 
 /** Adds source excerpts to problems. */
 object Excerpts:

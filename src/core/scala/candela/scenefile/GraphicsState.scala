@@ -1,8 +1,8 @@
 package candela.scenefile
 
+import candela.diagnostics.SourcePos
 import scala.collection.mutable
 
-import candela.base.SourcePos
 import candela.math.Transform
 
 /** Selects which of the two transforms the transform statements modify. */

@@ -1,9 +1,10 @@
 package candela.scenefile
 
+import candela.base.{IntBuffer, loop}
+import candela.diagnostics.SourcePos
 import scala.collection.IndexedSeqView
 import scala.collection.mutable
 
-import candela.base.{IntBuffer, SourcePos, loop}
 import candela.math.{Motion, MotionRow, MotionRows}
 
 /** Instances, of which there may be millions, in flat arrays: each is made when it is asked for.

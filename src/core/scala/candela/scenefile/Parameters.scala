@@ -1,8 +1,7 @@
 package candela.scenefile
 
+import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import scala.collection.mutable
-
-import candela.base.{Code, Problem, SceneError, Suggest}
 
 /** Parses parameter lists: any number of `"type name" value` or `"type name" [ values ]`.
   *

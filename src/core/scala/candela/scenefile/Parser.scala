@@ -1,8 +1,8 @@
 package candela.scenefile
 
+import candela.diagnostics.{Code, Problem, Refusal, SceneError, SourcePos}
+import candela.io.{InputFile, SceneFolder}
 import java.nio.file.Path
-
-import candela.base.{Code, InputFile, Problem, Refusal, SceneError, SceneFolder, SourcePos}
 
 /** Parses scene files. */
 object Parser:

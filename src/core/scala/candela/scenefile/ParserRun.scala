@@ -1,13 +1,11 @@
 package candela.scenefile
 
+import candela.diagnostics.{Code, Limit, Problem, SceneError, Severity, SourcePos, Suggest}
+import candela.io.{InputFile, SceneFolder}
 import java.nio.file.Path
 
 import scala.collection.mutable
 import scala.util.Try
-
-import candela.base.{
-  Code, InputFile, Limit, Problem, SceneError, SceneFolder, Severity, SourcePos, Suggest
-}
 
 /** One pass over a scene file.
   *

@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Code, Problem, Severity}
+import candela.diagnostics.{Code, Problem, Severity}
 
 /** Collects problems, up to a limit that bounds memory. */
 final class Problems:

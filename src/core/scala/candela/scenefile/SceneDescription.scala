@@ -1,6 +1,7 @@
 package candela.scenefile
 
-import candela.base.{Problem, SceneFolder, SourcePos}
+import candela.diagnostics.{Problem, SourcePos}
+import candela.io.SceneFolder
 import candela.math.Transform
 
 import java.nio.file.Path

@@ -1,7 +1,6 @@
 package candela.scenefile
 
-import candela.base.SceneFolder
-
+import candela.io.SceneFolder
 import java.nio.file.Path
 
 import scala.collection.mutable

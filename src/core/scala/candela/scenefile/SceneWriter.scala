@@ -1,9 +1,10 @@
 package candela.scenefile
 
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos, Suggest}
+import candela.io.SceneFolder
 import scala.collection.immutable.VectorMap
 import scala.collection.mutable
 
-import candela.base.{Code, Problem, SceneError, SceneFolder, SourcePos, Suggest}
 import candela.math.Transform
 
 /** Executes statements: maintains the graphics state and collects the description.

@@ -1,7 +1,6 @@
 package candela.scenefile
 
-import candela.base.{ForeignFile, InputFile, IoReason}
-
+import candela.io.{ForeignFile, InputFile, IoReason}
 import java.io.{ByteArrayInputStream, FilterInputStream, InputStream, IOException}
 import java.nio.ByteBuffer
 import java.nio.charset.{CharacterCodingException, StandardCharsets}

@@ -1,8 +1,8 @@
 package candela.scenefile
 
+import candela.diagnostics.{Code, Problem, SceneError, Severity, SourcePos}
+import candela.io.SceneFolder
 import scala.collection.mutable
-
-import candela.base.{Code, Problem, SceneError, SceneFolder, Severity, SourcePos}
 
 /** A statement of pbrt-v4 that a program makes, instead of a file.
   *

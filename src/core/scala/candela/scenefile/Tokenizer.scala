@@ -1,12 +1,11 @@
 package candela.scenefile
 
+import candela.base.{FloatBuffer, IntBuffer, RestBuffer}
+import candela.diagnostics.{Code, Problem, Refusal, SceneError, SourcePos}
+import candela.io.IoReason
 import java.io.{ByteArrayOutputStream, IOException}
 import java.nio.charset.StandardCharsets.UTF_8
 import java.util.Arrays
-
-import candela.base.{
-  Code, FloatBuffer, IntBuffer, IoReason, Problem, Refusal, RestBuffer, SceneError, SourcePos
-}
 
 /** Splits a scene file into tokens, with one current token. Reads lists of numbers without creating
   * tokens. Commas are whitespace, which pbrt-v3 allows after numbers.

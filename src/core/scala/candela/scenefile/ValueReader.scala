@@ -1,6 +1,7 @@
 package candela.scenefile
 
-import candela.base.{Code, FloatBuffer, IntBuffer, Problem, RestBuffer, SceneError, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, RestBuffer}
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
 
 /** Reads parameter values and checks them against the parameter's type.
   *

@@ -1,6 +1,6 @@
 package candela.settings
 
-import candela.base.Keep
+import candela.io.Keep
 
 /** How a scene is read and built: none of it is an image's identity.
   *

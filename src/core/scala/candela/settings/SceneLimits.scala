@@ -1,7 +1,7 @@
 package candela.settings
 
-import candela.base.{Allowance, Limit, SceneFolder}
-
+import candela.diagnostics.{Allowance, Limit}
+import candela.io.SceneFolder
 import java.nio.file.Path
 
 /** Limits of scenes.

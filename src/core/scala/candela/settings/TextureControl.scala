@@ -1,7 +1,6 @@
 package candela.settings
 
-import candela.base.CacheFolder
-
+import candela.io.CacheFolder
 import java.nio.file.Path
 
 /** How image textures are cached; the image is the same.

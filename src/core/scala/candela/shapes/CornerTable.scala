@@ -1,8 +1,7 @@
 package candela.shapes
 
-import scala.collection.mutable
-
 import candela.base.loop
+import scala.collection.mutable
 
 /** Connectivity of a triangle mesh in flat arrays. Corner 3f + k is vertex k of face f, and also
   * represents the edge from that vertex to the face's next vertex.

@@ -1,8 +1,9 @@
 package candela.shapes
 
+import candela.base.loop
+import candela.concurrency.Parallel
 import scala.collection.mutable.ArrayBuffer
 
-import candela.base.{Parallel, loop}
 import candela.math.*
 
 /** How curves are drawn.

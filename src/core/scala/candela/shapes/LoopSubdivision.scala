@@ -1,8 +1,7 @@
 package candela.shapes
 
-import scala.collection.mutable
-
 import candela.base.loop
+import scala.collection.mutable
 
 /** A subdivision surface as triangles: limit positions and normals of the vertices.
   *

@@ -1,6 +1,7 @@
 package candela.textures
 
-import candela.base.{Problem, SceneError, loop}
+import candela.base.loop
+import candela.diagnostics.{Problem, SceneError}
 import candela.image.{ExrLevels, Image, ImageError}
 
 /** The levels that an image file has itself, as they are: Floats, read tile by tile.

@@ -1,6 +1,6 @@
 package candela.textures
 
-import candela.base.Parallel
+import candela.concurrency.Parallel
 import candela.color.{Encoding, Rgb}
 
 /** How some texels are chosen that stand for all.

@@ -1,6 +1,7 @@
 package candela.textures
 
-import candela.base.{Keep, Parallel}
+import candela.concurrency.Parallel
+import candela.io.Keep
 
 /** The levels of a MIP map, made when one of them is first looked up: pyramids take more time and
   * memory than their images, and many textures of a scene are never seen. Safe for threads.

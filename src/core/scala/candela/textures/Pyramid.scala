@@ -1,8 +1,8 @@
 package candela.textures
 
+import candela.base.loop
+import candela.concurrency.Parallel
 import scala.collection.mutable.ArrayBuffer
-
-import candela.base.{loop, Parallel}
 
 /** Builds MIP maps: an image and its reductions, each averaging four texels of the previous one,
   * down to one texel.

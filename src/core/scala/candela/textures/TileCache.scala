@@ -1,9 +1,11 @@
 package candela.textures
 
+import candela.concurrency.Parallel
+import candela.diagnostics.{Problem, SceneError}
+import candela.io.{CacheFolder, IoReason, WriteError}
 import java.io.IOException
 import java.util.concurrent.ConcurrentHashMap
 
-import candela.base.{CacheFolder, IoReason, Parallel, Problem, SceneError, WriteError}
 import candela.color.Encoding
 import candela.image.ImageError
 

@@ -1,5 +1,7 @@
 package candela.textures
 
+import candela.base.loop
+import candela.io.CacheFolder
 import java.io.{ByteArrayInputStream, ByteArrayOutputStream, DataInputStream, DataOutputStream}
 import java.io.IOException
 import java.nio.ByteBuffer
@@ -7,7 +9,6 @@ import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.US_ASCII
 import java.util.zip.{CRC32, CRC32C}
 
-import candela.base.{CacheFolder, loop}
 import candela.color.{Encoding, Rgb}
 
 /** What is known of an image in tiles.

@@ -1,9 +1,8 @@
 package candela.textures
 
+import candela.concurrency.Lending
 import java.lang.invoke.VarHandle
 import java.util.concurrent.atomic.AtomicLongArray
-
-import candela.base.Lending
 
 /** Memory for tiles of images. Tiles are read when a lookup needs them, and give way to others when
   * the memory is full. Safe for threads; a lookup of a tile that is there neither locks nor

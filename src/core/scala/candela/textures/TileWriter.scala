@@ -1,9 +1,10 @@
 package candela.textures
 
+import candela.base.loop
+import candela.concurrency.DirectBuffers
 import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
 
-import candela.base.{DirectBuffers, loop}
 import candela.color.Rgb
 
 /** Writes all levels of an image in tiles, while few rows of each are in memory: the numbers of

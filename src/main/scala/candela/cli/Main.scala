@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{Code, Problem, Severity}
+import candela.diagnostics.{Code, Problem, Severity}
 import candela.cli.commands.{
   AverageCommand, CheckCommand, ClusterCommand, CompareCommand, CompletionCommand, ConvertCommand,
   DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand, PreviewCommand,

@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{Allowance, Limit, Problem, SceneError}
+import candela.diagnostics.{Allowance, Limit, Problem, SceneError}
 import candela.cli.options.{Command, FilmOptions, Options}
 import candela.cli.terminal.{ExitCode, Interrupts, ProblemText, Terminal}
 import candela.render.{Cancellation, Deadline}

@@ -1,8 +1,8 @@
 package candela.convert
 
+import candela.diagnostics.{Code, Problem}
 import scala.collection.mutable
 
-import candela.base.{Code, Problem}
 import candela.scenefile.{Declaration, Param, ParamType}
 
 /** Clamps the colours that pbrt-v4 rejects: negative ones, and reflectances above 1. */

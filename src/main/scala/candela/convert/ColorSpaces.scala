@@ -1,8 +1,8 @@
 package candela.convert
 
+import candela.diagnostics.{Code, Problem}
 import scala.collection.mutable
 
-import candela.base.{Code, Problem}
 import candela.color.{ColorSpace, Rgb}
 import candela.scenefile.{Declaration, Param, ParamType, SceneDescription}
 

@@ -1,10 +1,10 @@
 package candela.convert
 
+import candela.diagnostics.{Code, Problem, SceneError}
 import java.nio.file.Path
 
 import scala.collection.mutable
 
-import candela.base.{Code, Problem, SceneError}
 import candela.scenefile.{
   Declaration,
   Dialect,

@@ -1,7 +1,6 @@
 package candela.convert
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Param, ParamType}

@@ -1,9 +1,11 @@
 package candela.convert
 
+import candela.base.loop
+import candela.diagnostics.{Code, Problem}
+import candela.io.SceneFolder
 import scala.collection.mutable
 import scala.util.Try
 
-import candela.base.{Code, Problem, SceneFolder, loop}
 import candela.bsdf.Fresnel
 import candela.color.Rgb
 import candela.image.ImageFiles

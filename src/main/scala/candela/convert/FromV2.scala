@@ -1,7 +1,6 @@
 package candela.convert
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.scenefile.{Dialect, ShapeDescription}
 
 /** Options, lights and shapes, from v2 to v3. */

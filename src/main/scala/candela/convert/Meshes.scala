@@ -1,8 +1,8 @@
 package candela.convert
 
+import candela.io.InputFile
 import java.io.IOException
 
-import candela.base.InputFile
 import candela.scenefile.{Declaration, Param, ParamType}
 
 /** Properties of meshes. */

@@ -1,8 +1,9 @@
 package candela.convert
 
+import candela.diagnostics.{Code, Problem}
+import candela.io.SceneFolder
 import scala.collection.mutable
 
-import candela.base.{Code, Problem, SceneFolder}
 import candela.scenefile.{
   Declaration, MaterialRef, Param, ParamType, SceneDescription, ShapeDescription
 }

@@ -1,8 +1,8 @@
 package candela.convert
 
+import candela.base.RestBuffer
 import java.lang.Math.abs
 
-import candela.base.RestBuffer
 import candela.scenefile.Param
 
 /** Formats numbers with the fewest digits that round-trip. */

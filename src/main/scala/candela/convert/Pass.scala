@@ -1,8 +1,9 @@
 package candela.convert
 
+import candela.diagnostics.{Code, Problem, SourcePos}
+import candela.io.SceneFolder
 import scala.collection.mutable
 
-import candela.base.{Code, Problem, SceneFolder, SourcePos}
 import candela.math.Transform
 import candela.scenefile.*
 

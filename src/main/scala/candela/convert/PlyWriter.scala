@@ -1,8 +1,8 @@
 package candela.convert
 
+import candela.base.loop
 import java.nio.{ByteBuffer, ByteOrder}
 
-import candela.base.loop
 import candela.scenefile.{Declaration, Param, ParamType, SceneDescription, ShapeDescription}
 
 /** Moves large meshes to binary PLY files: little-endian, 32-bit floats, doubles for vertices with

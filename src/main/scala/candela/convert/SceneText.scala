@@ -1,8 +1,8 @@
 package candela.convert
 
+import candela.diagnostics.SourcePos
 import java.io.Writer
 
-import candela.base.SourcePos
 import candela.scenefile.*
 
 /** Writes a description as a scene file of its dialect.

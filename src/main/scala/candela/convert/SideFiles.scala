@@ -1,12 +1,14 @@
 package candela.convert
 
+import candela.base.loop
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.{InputFile, SceneFolder, WholeFile}
 import java.nio.file.{Files, Path}
 import java.security.MessageDigest
 import java.util.Arrays
 
 import scala.util.Try
 
-import candela.base.{Code, InputFile, Problem, SceneError, SceneFolder, WholeFile, loop}
 import candela.color.{Encoding, Rgb}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.lights.{Picture, PictureLookup}

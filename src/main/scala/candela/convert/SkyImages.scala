@@ -1,6 +1,7 @@
 package candela.convert
 
-import candela.base.{Code, loop}
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.color.Rgb
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.lights.{EqualAreaMap, IesError, IesFile, LatLongMap, SphereMap}

@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.base.{Code, Problem}
+import candela.diagnostics.{Code, Problem}
 import candela.color.Rgb
 import candela.math.Transform
 import candela.scenefile.*

@@ -1,9 +1,10 @@
 package candela.convert
 
+import candela.base.loop
+import candela.diagnostics.{Code, Problem, SourcePos}
 import scala.collection.mutable
 import scala.util.Try
 
-import candela.base.{Code, Problem, SourcePos, loop}
 import candela.color.{ColorError, ColoredSpectrum, Rgb, SmoothSpectra}
 import candela.image.ImageFiles
 import candela.scenefile.{Declaration, Param, ParamType, SceneDescription}

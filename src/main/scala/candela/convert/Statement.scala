@@ -1,8 +1,8 @@
 package candela.convert
 
+import candela.diagnostics.{Code, SourcePos}
 import scala.collection.mutable
 
-import candela.base.{Code, SourcePos}
 import candela.color.Rgb
 import candela.scenefile.*
 

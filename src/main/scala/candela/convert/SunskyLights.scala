@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.base.{Code, Problem}
+import candela.diagnostics.{Code, Problem}
 import candela.color.Rgb
 import candela.image.ImageFiles
 import candela.lights.{EqualAreaMap, SkyModel, SunAndSky}

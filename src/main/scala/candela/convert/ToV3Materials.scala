@@ -1,7 +1,6 @@
 package candela.convert
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.color.Rgb
 import candela.math.safeSqrt
 import candela.scenefile.{Param, ParamType}

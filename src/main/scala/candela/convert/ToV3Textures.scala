@@ -1,7 +1,6 @@
 package candela.convert
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.color.{Rgb, Srgb}
 import candela.math.pow
 import candela.scenefile.*

@@ -1,7 +1,6 @@
 package candela.convert
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.math.sqrt
 import candela.scenefile.Dialect
 

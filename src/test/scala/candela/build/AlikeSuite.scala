@@ -1,8 +1,9 @@
 package candela.build
 
+import candela.diagnostics.{Code, SourcePos}
+import candela.io.SceneFolder
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Code, SceneFolder, SourcePos}
 import candela.build.recipe.Findings
 import candela.render.Renderer
 import candela.scenefile.{Declaration, Dialect, Param, ParamType}

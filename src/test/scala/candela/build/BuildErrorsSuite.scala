@@ -1,10 +1,10 @@
 package candela.build
 
+import candela.diagnostics.{Problem, SceneError, Severity}
 import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Problem, SceneError, Severity}
 import candela.image.{Image, ImageFiles}
 import candela.scenefile.{Dialect, Parser}
 import candela.settings.RenderSettings

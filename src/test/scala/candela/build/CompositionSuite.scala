@@ -50,7 +50,7 @@ class CompositionSuite extends AnyFunSuite:
     head + all.mkString + use + ball
 
   private def errors(text: String) =
-    SceneTexts.problems(text, Dialect.V3).filter(_.severity == candela.base.Severity.Error)
+    SceneTexts.problems(text, Dialect.V3).filter(_.severity == candela.diagnostics.Severity.Error)
       .map(_.message)
 
   test("blends of a blend with itself take no more time than one"):

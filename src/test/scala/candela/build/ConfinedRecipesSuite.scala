@@ -1,10 +1,11 @@
 package candela.build
 
+import candela.diagnostics.{Refusal, SceneError}
+import candela.io.SceneFolder
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Refusal, SceneError, SceneFolder}
 import candela.build.recipe.Support
 import candela.scenefile.{Dialect, Parser}
 import candela.settings.RenderSettings

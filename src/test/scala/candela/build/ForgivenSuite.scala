@@ -1,8 +1,8 @@
 package candela.build
 
+import candela.diagnostics.Severity
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Severity
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -116,7 +116,7 @@ final class ForgivenSuite extends AnyFunSuite:
     for d <- Seq(Dialect.V2, Dialect.V3) do
       assertMean(d, triangle, 1f, "LookAt is ignored", place = place)
     val text = scene(Dialect.V4, triangle, screen, place)
-    val error = intercept[candela.base.SceneError](SceneTexts.parse(text, Dialect.V4))
+    val error = intercept[candela.diagnostics.SceneError](SceneTexts.parse(text, Dialect.V4))
     assert(error.problems.exists(_.message.contains("up is parallel")))
 
   test("fields of view beyond 0 and 180 degrees are rendered"):

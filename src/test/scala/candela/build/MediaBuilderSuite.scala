@@ -1,8 +1,8 @@
 package candela.build
 
+import candela.diagnostics.{SceneError, Severity}
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{SceneError, Severity}
 import candela.scenefile.Dialect
 import candela.settings.RenderSettings
 import candela.testing.SceneTexts

@@ -57,5 +57,5 @@ final class PbrtParametersSuite extends AnyFunSuite:
 
   test("the reader knows the names of v4's options, too"):
     for f <- OptionRecipe.fields do
-      val at = candela.base.SourcePos("options.pbrt", 1, 1)
+      val at = candela.diagnostics.SourcePos("options.pbrt", 1, 1)
       assert(SceneOptions.typeOf(f.name, at).spelling == f.typeName, f.name)

@@ -1,8 +1,9 @@
 package candela.build
 
+import candela.diagnostics.{Severity, SourcePos}
+import candela.io.SceneFolder
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{SceneFolder, Severity, SourcePos}
 import candela.build.recipe.*
 import candela.color.ColorBasis
 import candela.scenefile.{Declaration, Dialect}

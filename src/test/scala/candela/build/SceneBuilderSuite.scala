@@ -1,9 +1,10 @@
 package candela.build
 
+import candela.concurrency.Parallel
+import candela.diagnostics.{SceneError, Severity}
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.aov.Layer
-import candela.base.{Parallel, SceneError, Severity}
 import candela.color.{ColorSpace, Rgb}
 import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
 import candela.integrators.{DirectLighting, Integrator, PathTracer}

@@ -1,6 +1,7 @@
 package candela.build
 
-import candela.base.{Code, Parallel, SceneError}
+import candela.concurrency.Parallel
+import candela.diagnostics.{Code, SceneError}
 import candela.build.recipe.{Findings, TextureStore}
 import candela.image.{Image, ImageFiles}
 import candela.math.Position

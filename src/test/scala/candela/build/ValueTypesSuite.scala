@@ -1,9 +1,9 @@
 package candela.build
 
+import candela.diagnostics.{Problem, Severity}
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.base.{Problem, Severity}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 

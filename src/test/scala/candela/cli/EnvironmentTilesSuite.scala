@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.base.loop
+import candela.io.CheckedFile
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
@@ -8,7 +10,6 @@ import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.base.{CheckedFile, loop}
 import candela.image.{Image, ImageFiles}
 import candela.sampling.Distribution2D
 import candela.testing.{Draws, TempFolder}

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.base.loop
 import java.nio.file.{Files, Path}
 
 import scala.util.Using
@@ -8,7 +9,6 @@ import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
 import candela.api.{Candela, ReadSettings, RenderSettings}
-import candela.base.loop
 import candela.image.{Image, ImageFiles}
 import candela.testing.{Draws, TempFolder}
 

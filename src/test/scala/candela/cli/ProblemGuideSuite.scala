@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{Code, ProblemExample, ProblemGuide}
+import candela.diagnostics.{Code, ProblemExample, ProblemGuide}
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}

@@ -1,11 +1,11 @@
 package candela.cli
 
+import candela.base.loop
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.base.loop
 import candela.image.{Image, ImageFiles}
 import candela.testing.{Draws, TempFolder, TiledExr}
 

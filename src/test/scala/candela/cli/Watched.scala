@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.Problem
+import candela.diagnostics.Problem
 import candela.job.{Prepared, SceneLoader}
 import candela.render.RenderPlan
 import candela.scenefile.{Dialect, SceneDescription}

@@ -1,8 +1,7 @@
 package candela.color
 
+import candela.io.WholeFile
 import java.nio.file.Path
-
-import candela.base.WholeFile
 
 /** Makes the resource of [[FitStarts]] anew: `./sbt "Test/runMain candela.color.FitStartsFile"`. */
 object FitStartsFile:

@@ -1,8 +1,8 @@
 package candela.convert
 
+import candela.io.InputFile
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.InputFile
 import candela.build.shapes.PlyFile
 import candela.scenefile.*
 import candela.testing.{SceneTexts, TempFolder}

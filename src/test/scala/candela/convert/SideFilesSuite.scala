@@ -1,8 +1,8 @@
 package candela.convert
 
+import candela.diagnostics.SceneError
 import java.nio.file.Files
 
-import candela.base.SceneError
 import candela.scenefile.{Dialect, Parser}
 import candela.testing.TempFolder
 import org.scalatest.funsuite.AnyFunSuite
@@ -33,7 +33,7 @@ class SideFilesSuite extends AnyFunSuite:
       assert(shapes.map(_.name) == Vector("plymesh", "trianglemesh"))
       assert(shapes.head.params.map(_.name) == Vector("filename", "alpha"))
       val file = folder.resolve(shapes.head.param("filename").get.strings.head)
-      val mesh = candela.build.shapes.PlyFile.read(candela.base.InputFile.asked(file))
+      val mesh = candela.build.shapes.PlyFile.read(candela.io.InputFile.asked(file))
       assert(mesh.positions.sameElements(scene.shapes.head.shape.param("P").get.floats))
       assert(mesh.normals.sameElements(scene.shapes.head.shape.param("N").get.floats))
       assert(mesh.uvs.sameElements(scene.shapes.head.shape.param("uv").get.floats))

@@ -1,6 +1,7 @@
 package candela.film
 
-import candela.base.{CheckedFile, CheckedOutput, loop}
+import candela.base.loop
+import candela.io.{CheckedFile, CheckedOutput}
 import candela.render.ThreadPool
 import candela.testing.Draws
 

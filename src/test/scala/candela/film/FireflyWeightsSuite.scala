@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.base.CheckedFile
+import candela.io.CheckedFile
 import candela.image.Image
 
 import java.nio.file.Files

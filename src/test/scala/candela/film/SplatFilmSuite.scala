@@ -1,8 +1,8 @@
 package candela.film
 
+import candela.io.{CheckedFile, CheckedOutput}
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{CheckedFile, CheckedOutput}
 import candela.color.{ColorBasis, Rgb}
 import candela.testing.Draws
 

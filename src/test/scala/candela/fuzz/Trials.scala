@@ -1,5 +1,7 @@
 package candela.fuzz
 
+import candela.diagnostics.{SceneError, Severity}
+import candela.io.InputFile
 import java.awt.image.BufferedImage
 import java.io.ByteArrayOutputStream
 import java.nio.{ByteBuffer, ByteOrder}
@@ -8,7 +10,6 @@ import java.util.zip.GZIPOutputStream
 import scala.jdk.CollectionConverters.*
 import scala.util.Random
 
-import candela.base.{InputFile, SceneError, Severity}
 import candela.build.SceneBuilder
 import candela.build.media.{NanoVdbError, NanoVdbFile}
 import candela.build.shapes.PlyFile

@@ -1,9 +1,9 @@
 package candela.gallery
 
+import candela.diagnostics.Problem
 import java.nio.file.{Files, Path}
 
 import candela.aov.Layer
-import candela.base.Problem
 import candela.build.{Category, SceneBuilder}
 import candela.build.recipe.Recipe
 import candela.image.{Image, ImageFiles, Oidn}

@@ -1,11 +1,11 @@
 package candela.gallery
 
+import candela.diagnostics.SceneError
 import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.base.SceneError
 import candela.image.{DisplayTransform, Image, ImageFiles}
 import candela.render.{ReferenceScenes, Renderer}
 import candela.settings.RenderSettings

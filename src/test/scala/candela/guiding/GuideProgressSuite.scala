@@ -1,7 +1,6 @@
 package candela.guiding
 
-import candela.base.CheckedFile
-
+import candela.io.CheckedFile
 import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -1,11 +1,11 @@
 package candela.image
 
+import candela.io.InputFile
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.base.InputFile
 import candela.testing.{Draws, TempFolder, TiledExr}
 
 class ExrLevelsSuite extends AnyFunSuite:

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.Code
+import candela.diagnostics.Code
 import candela.color.{ColorSpace, Rgb}
 import candela.render.ThreadPool
 import org.scalacheck.Gen

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.InputFile
+import candela.io.InputFile
 import candela.color.Encoding
 import org.scalatest.funsuite.AnyFunSuite
 

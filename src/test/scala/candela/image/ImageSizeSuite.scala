@@ -1,10 +1,10 @@
 package candela.image
 
+import candela.io.InputFile
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.InputFile
 import candela.testing.{TempFolder, TiledExr}
 
 class ImageSizeSuite extends AnyFunSuite:

@@ -1,5 +1,6 @@
 package candela.image
 
+import candela.io.InputFile
 import java.awt.image.BufferedImage
 import java.io.ByteArrayOutputStream
 import java.nio.file.{Files, Path}
@@ -7,7 +8,6 @@ import java.util.zip.{CRC32, Deflater}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.InputFile
 import candela.testing.{Draws, TempFolder}
 
 class PngBandsSuite extends AnyFunSuite:

@@ -1,10 +1,10 @@
 package candela.image
 
+import candela.diagnostics.Severity
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Severity
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 

@@ -1,8 +1,8 @@
 package candela.integrators
 
+import candela.diagnostics.Severity
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Severity
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts

@@ -1,6 +1,6 @@
 package candela.measure
 
-import candela.base.GivenUp
+import candela.concurrency.GivenUp
 import candela.image.Image
 import candela.sampling.{IndependentSampler, OwenSobolSampler, Sampler}
 

@@ -1,6 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, SceneError, SourcePos}
+import candela.diagnostics.{SceneError, SourcePos}
+import candela.io.InputFile
 import candela.math.*
 
 import java.nio.file.Files

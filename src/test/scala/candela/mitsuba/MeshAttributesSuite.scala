@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.InputFile
+import candela.io.InputFile
 import candela.build.shapes.PlyFile
 import candela.math.*
 

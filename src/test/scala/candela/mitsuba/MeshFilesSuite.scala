@@ -1,7 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, SceneError, SourcePos}
-
+import candela.diagnostics.{SceneError, SourcePos}
+import candela.io.InputFile
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -1,6 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, SceneError}
+import candela.diagnostics.SceneError
+import candela.io.InputFile
 import candela.scenefile.{MaterialRef, Parser, SceneDescription}
 
 import java.io.{ByteArrayOutputStream, PrintStream}

@@ -1,6 +1,7 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, SceneError, SourcePos}
+import candela.diagnostics.{SceneError, SourcePos}
+import candela.io.InputFile
 import candela.color.Rgb
 import candela.math.{Transform, Vec3}
 

@@ -1,7 +1,8 @@
 package candela.render
 
-import candela.base.CheckedFile
-import candela.bidirectional.{ChainPaths, MarkovChains, MetropolisSettings}
+import candela.bdpt.ChainPaths
+import candela.io.CheckedFile
+import candela.mlt.{MarkovChains, MetropolisSettings}
 import candela.color.Rgb
 import candela.film.GaussianFilter
 import candela.geometry.Ray

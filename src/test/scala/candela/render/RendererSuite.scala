@@ -1,6 +1,6 @@
 package candela.render
 
-import candela.base.{Code, Problem, SceneError}
+import candela.diagnostics.{Code, Problem, SceneError}
 import candela.color.Rgb
 import candela.film.{Film, PixelBounds, SampleLimit}
 import candela.image.Image

@@ -1,8 +1,7 @@
 package candela.render
 
+import candela.concurrency.Parallel
 import org.scalatest.funsuite.AnyFunSuite
-
-import candela.base.Parallel
 
 import java.util.concurrent.CountDownLatch
 import java.util.concurrent.atomic.{AtomicInteger, AtomicIntegerArray}

@@ -1,9 +1,9 @@
 package candela.sampling
 
+import candela.io.CheckedFile
 import org.scalatest.funsuite.AnyFunSuite
 import candela.math.*
 import candela.testing.{ChiSquare, TempFolder}
-import candela.base.CheckedFile
 
 class Distribution2DSuite extends AnyFunSuite:
   // 5 columns, 4 rows, one row and some cells empty

@@ -1,10 +1,10 @@
 package candela.scene
 
+import candela.concurrency.Parallel
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.accel.*
 import candela.accel.tracing.Bvh
-import candela.base.Parallel
 import candela.build.ObjectSizes
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*

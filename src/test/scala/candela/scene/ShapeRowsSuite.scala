@@ -1,8 +1,8 @@
 package candela.scene
 
+import candela.concurrency.Parallel
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Parallel
 import candela.geometry.Bounds3
 import candela.math.*
 import candela.shapes.*

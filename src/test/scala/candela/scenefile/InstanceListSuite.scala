@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.SourcePos
+import candela.diagnostics.SourcePos
 import candela.build.ObjectSizes
 import candela.math.{Still, Transform}
 import candela.testing.Draws

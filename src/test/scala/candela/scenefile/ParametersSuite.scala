@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Problem, SceneError}
+import candela.diagnostics.{Problem, SceneError}
 import org.scalatest.funsuite.AnyFunSuite
 
 class ParametersSuite extends AnyFunSuite:

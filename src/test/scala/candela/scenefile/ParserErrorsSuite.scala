@@ -1,8 +1,8 @@
 package candela.scenefile
 
+import candela.diagnostics.SceneError
 import java.nio.file.Path
 
-import candela.base.SceneError
 import org.scalatest.funsuite.AnyFunSuite
 
 class ParserErrorsSuite extends AnyFunSuite:

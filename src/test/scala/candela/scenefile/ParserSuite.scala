@@ -1,8 +1,8 @@
 package candela.scenefile
 
+import candela.diagnostics.SceneError
 import java.nio.file.Path
 
-import candela.base.SceneError
 import candela.math.{Transform, Vec3}
 import org.scalatest.funsuite.AnyFunSuite
 

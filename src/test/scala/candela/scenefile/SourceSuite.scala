@@ -1,11 +1,12 @@
 package candela.scenefile
 
+import candela.base.{FloatBuffer, IntBuffer, RestBuffer}
+import candela.diagnostics.{Problem, SceneError}
 import java.io.ByteArrayOutputStream
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 import java.util.zip.GZIPOutputStream
 
-import candela.base.{FloatBuffer, IntBuffer, Problem, RestBuffer, SceneError}
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow

@@ -1,9 +1,11 @@
 package candela.scenefile
 
+import candela.base.{FloatBuffer, RestBuffer}
+import candela.diagnostics.SceneError
+import candela.io.InputFile
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
 import java.nio.file.Files
 
-import candela.base.{FloatBuffer, InputFile, RestBuffer, SceneError}
 import candela.testing.Gzip
 import org.scalatest.funsuite.AnyFunSuite
 

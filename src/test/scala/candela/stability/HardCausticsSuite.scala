@@ -1,6 +1,6 @@
 package candela.stability
 
-import candela.bidirectional.CausticTracerSuite
+import candela.caustics.CausticTracerSuite
 import candela.image.Image
 import candela.integrators.CausticsMode
 import candela.render.Renderer

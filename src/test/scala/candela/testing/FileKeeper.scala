@@ -1,6 +1,6 @@
 package candela.testing
 
-import candela.base.CheckedFile
+import candela.io.CheckedFile
 import candela.render.{Checkpointer, RenderState}
 
 import java.nio.file.Path

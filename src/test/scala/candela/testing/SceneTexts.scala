@@ -1,8 +1,9 @@
 package candela.testing
 
+import candela.concurrency.Parallel
+import candela.diagnostics.{Problem, SceneError}
 import java.nio.file.Path
 
-import candela.base.{Parallel, Problem, SceneError}
 import candela.build.SceneBuilder
 import candela.color.Rgb
 import candela.render.{Renderer, RenderPlan}

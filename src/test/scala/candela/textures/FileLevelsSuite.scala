@@ -1,11 +1,12 @@
 package candela.textures
 
+import candela.diagnostics.SceneError
+import candela.io.{CacheFolder, InputFile}
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.base.{CacheFolder, InputFile, SceneError}
 import candela.image.ExrLevels
 import candela.testing.{Draws, TempFolder, TiledExr}
 

@@ -1,8 +1,7 @@
 package candela.textures
 
+import candela.concurrency.Parallel
 import org.scalatest.funsuite.AnyFunSuite
-
-import candela.base.Parallel
 
 class MipMapSuite extends AnyFunSuite:
 

@@ -1,8 +1,9 @@
 package candela.textures
 
+import candela.base.loop
+import candela.concurrency.Parallel
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{loop, Parallel}
 import candela.math.clamp
 import candela.render.ThreadPool
 import candela.testing.Draws

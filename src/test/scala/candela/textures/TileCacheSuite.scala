@@ -1,5 +1,8 @@
 package candela.textures
 
+import candela.concurrency.Parallel
+import candela.diagnostics.{Code, SceneError}
+import candela.io.CacheFolder
 import java.nio.file.{Files, Path}
 import java.util.concurrent.atomic.AtomicInteger
 
@@ -8,7 +11,6 @@ import scala.util.Using
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
-import candela.base.{CacheFolder, Code, Parallel, SceneError}
 import candela.color.{Encoding, Rgb}
 import candela.image.{ImageBands, ImageError}
 import candela.render.ThreadPool

@@ -1,5 +1,8 @@
 package candela.bench
 
+import candela.base.Version
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.{FileName, ForeignFile, ForeignKind, SceneFolder, Scratch, WholeFile}
 import java.lang.management.ManagementFactory
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
@@ -7,10 +10,6 @@ import java.nio.file.{Files, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-import candela.base.{
-  Code, FileName, ForeignFile, ForeignKind, Problem, SceneError, SceneFolder, Scratch, Version,
-  WholeFile
-}
 import candela.bench.peers.PeerSuite
 import candela.bench.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
 import candela.bench.statistics.SeedNoise

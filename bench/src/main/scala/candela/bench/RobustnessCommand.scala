@@ -1,11 +1,12 @@
 package candela.bench
 
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.{FileName, Scratch, WholeFile}
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 
 import scala.util.Using
 
-import candela.base.{Code, FileName, Problem, SceneError, Scratch, WholeFile}
 import candela.bench.report.{
   Robust, RobustGroup, RobustnessData, RobustnessPage, RobustnessReport, RobustnessText, RobustRow
 }

@@ -1,6 +1,6 @@
 package candela.bench
 
-import candela.base.Suggest
+import candela.diagnostics.Suggest
 import candela.bench.robustness.RobustnessRun
 import candela.cli.options.{
   Command, CommandRow, ModuleOptions, OptionRows, OptionTable, Options, Words

@@ -1,6 +1,6 @@
 package candela.cluster
 
-import candela.base.{Keep, Scratch}
+import candela.io.{Keep, Scratch}
 import candela.job.ShardRenderer
 
 import java.nio.file.{Files, Path}

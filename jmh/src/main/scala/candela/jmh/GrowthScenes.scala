@@ -1,6 +1,6 @@
 package candela.jmh
 
-import candela.base.WholeFile
+import candela.io.WholeFile
 import candela.bench.suite.{SuiteFile, SuiteScene}
 
 import java.awt.image.BufferedImage

@@ -3,7 +3,7 @@ package candela.jmh
 import java.nio.file.{Files, Path}
 import java.util.concurrent.TimeUnit
 
-import candela.base.InputFile
+import candela.io.InputFile
 import candela.build.shapes.{PlyFile, PlyMesh}
 import candela.scenefile.{Parser, SceneDescription}
 

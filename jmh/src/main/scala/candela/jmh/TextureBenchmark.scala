@@ -3,7 +3,8 @@ package candela.jmh
 import java.nio.file.{Files, Path}
 import java.util.concurrent.TimeUnit
 
-import candela.base.{CacheFolder, Parallel}
+import candela.concurrency.Parallel
+import candela.io.CacheFolder
 import candela.color.{Encoding, Rgb}
 import candela.textures.*
 

@@ -1,7 +1,7 @@
 package candela.jmh
 
 import candela.accel.Primitives
-import candela.base.WholeFile
+import candela.io.WholeFile
 import candela.shapes.{Mesh, TriangleSoup}
 
 import java.io.BufferedOutputStream

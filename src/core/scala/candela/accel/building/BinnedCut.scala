@@ -1,6 +1,6 @@
 package candela.accel.building
 
-import candela.base.Parallel
+import candela.concurrency.Parallel
 
 /** Binned SAH split with 16 bins, for large ranges of primitives.
   *

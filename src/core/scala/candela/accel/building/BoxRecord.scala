@@ -1,7 +1,7 @@
 package candela.accel.building
 
+import candela.concurrency.Parallel
 import candela.accel.Primitives
-import candela.base.Parallel
 import candela.shapes.TriangleSoup
 
 /** A primitive's box as sorted by the BVH builder: eight Ints, of which 0 to 2 are −min x, y, z, 4

@@ -1,7 +1,7 @@
 package candela.accel.building
 
+import candela.concurrency.Parallel
 import candela.accel.{BinaryTree, Primitives}
-import candela.base.Parallel
 import candela.geometry.Bounds3
 import candela.math.Vec3
 

@@ -1,7 +1,8 @@
 package candela.accel.building
 
+import candela.base.loop
+import candela.concurrency.Parallel
 import candela.accel.BinaryTree
-import candela.base.{loop, Parallel}
 
 /** Plans the collapse of a binary BVH into a [[candela.accel.WideTree]]: selects the subtrees that
   * become leaves and the nodes that merge into their ancestors, to minimise the expected cost of a

@@ -1,7 +1,8 @@
 package candela.accel.building
 
+import candela.concurrency.Parallel
+import candela.io.{CheckedInput, CheckedOutput, Keep, PartForm}
 import candela.accel.{Primitives, WideLayout, WideTree}
-import candela.base.{CheckedInput, CheckedOutput, Keep, Parallel, PartForm}
 import candela.geometry.Bounds3
 import candela.math.Vec3
 

@@ -1,7 +1,8 @@
 package candela.accel.building
 
+import candela.base.loop
+import candela.concurrency.Parallel
 import candela.accel.BinaryTree
-import candela.base.{loop, Parallel}
 
 /** Builds a subtree over a range of records, which it sorts in place. One per worker.
   *

@@ -1,8 +1,10 @@
 package candela.accel.building
 
+import candela.base.loop
+import candela.concurrency.Parallel
+import candela.io.Sha256
+import candela.io.Sha256.Numbers
 import candela.accel.Primitives
-import candela.base.{loop, Parallel, Sha256}
-import candela.base.Sha256.Numbers
 
 import java.nio.ByteBuffer
 import java.util.Arrays

@@ -1,7 +1,8 @@
 package candela.accel.building
 
+import candela.base.{FloatBuffer, IntBuffer, loop}
+import candela.concurrency.Parallel
 import candela.accel.{BinaryTree, Primitives, Relocation, WideLayout, WideTree}
-import candela.base.{loop, FloatBuffer, IntBuffer, Parallel}
 import candela.geometry.Bounds3
 import candela.shapes.TriangleSoup
 

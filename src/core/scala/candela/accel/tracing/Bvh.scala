@@ -1,8 +1,8 @@
 package candela.accel.tracing
 
+import candela.concurrency.Parallel
 import candela.accel.{Accelerator, BinaryTree, Primitives, WideTree}
 import candela.accel.building.{BvhBuilder, LeafSize}
-import candela.base.Parallel
 import candela.geometry.{Bounds3, Hit, Ray}
 
 /** A binary BVH: the reference implementation of [[WideBvh]], and the fallback for primitive counts

@@ -1,7 +1,7 @@
 package candela.accel.tracing
 
-import candela.accel.{Accelerator, Primitives}
 import candela.base.loop
+import candela.accel.{Accelerator, Primitives}
 import candela.geometry.{Bounds3, Hit, Ray}
 import candela.math.*
 

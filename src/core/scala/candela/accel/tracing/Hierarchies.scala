@@ -1,8 +1,9 @@
 package candela.accel.tracing
 
+import candela.concurrency.Parallel
+import candela.io.Keep
 import candela.accel.{Accelerator, Primitives}
 import candela.accel.building.{KeptTrees, WideBuilder}
-import candela.base.{Keep, Parallel}
 
 /** Selects the BVH for a set of primitives and this JVM. */
 object Hierarchies:

@@ -1,11 +1,11 @@
 package candela.accel.tracing
 
+import candela.concurrency.Parallel
 import java.util.SplittableRandom
 import java.util.concurrent.atomic.AtomicBoolean
 
 import candela.accel.{Primitives, WideTree}
 import candela.accel.building.WideBuilder
-import candela.base.Parallel
 import candela.geometry.{Hit, Ray}
 import candela.math.{Transform, TwoPi, Vec3}
 import candela.shapes.{Shape, Sphere, TriangleSoup}

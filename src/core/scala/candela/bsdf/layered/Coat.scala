@@ -1,8 +1,8 @@
 package candela.bsdf.layered
 
+import candela.base.loop
 import java.util.concurrent.ConcurrentHashMap
 
-import candela.base.loop
 import candela.bsdf.{Fresnel, Hemisphere}
 import candela.bsdf.microfacet.{MicrofacetDistribution, TrowbridgeReitz}
 import candela.math.*

@@ -1,7 +1,6 @@
 package candela.build.cameras
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.cameras.{
   Camera, ClippedCamera, FilmFrame, OrthographicCamera, PerspectiveCamera, ProjectiveSetup

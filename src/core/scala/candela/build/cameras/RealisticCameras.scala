@@ -1,8 +1,9 @@
 package candela.build.cameras
 
+import candela.diagnostics.Code
+import candela.io.{InputFile, IoReason}
 import java.io.IOException
 
-import candela.base.{Code, InputFile, IoReason}
 import candela.build.recipe.*
 import candela.cameras.*
 import candela.image.Image

@@ -1,7 +1,6 @@
 package candela.build.film
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.aov.Layer
 import candela.build.recipe.*
 import candela.color.CameraSensor

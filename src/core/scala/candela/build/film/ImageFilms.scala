@@ -1,7 +1,7 @@
 package candela.build.film
 
+import candela.diagnostics.{Code, Suggest}
 import candela.aov.Layer
-import candela.base.{Code, Suggest}
 import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
 import candela.film.{Development, SampleLimit, SpectralBands}

@@ -1,11 +1,11 @@
 package candela.build.integrators
 
-import candela.aov.LightParts
-import candela.base.Code
-import candela.bidirectional.{
+import candela.caustics.{
   CausticChoice, CausticLight, CausticPasses, CausticPilot, CausticTracer, LightPathChoice,
   PhotonChoice, PhotonPilot, PilotResult
 }
+import candela.diagnostics.Code
+import candela.aov.LightParts
 import candela.build.recipe.*
 import candela.film.{Fireflies, View}
 import candela.guiding.Guide

@@ -1,7 +1,6 @@
 package candela.build.integrators
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.bsdf.Material
 import candela.build.recipe.*
 import candela.film.PixelBounds

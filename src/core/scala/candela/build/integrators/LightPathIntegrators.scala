@@ -1,8 +1,9 @@
 package candela.build.integrators
 
-import candela.base.Code
-
-import candela.bidirectional.*
+import candela.bdpt.{BidirectionalPathTracer, LightTracer, PathMedia}
+import candela.diagnostics.Code
+import candela.mlt.{MarkovChains, MetropolisSettings}
+import candela.photons.{PhotonPasses, PhotonSettings}
 import candela.build.recipe.*
 import candela.film.{Splats, View}
 import candela.integrators.{

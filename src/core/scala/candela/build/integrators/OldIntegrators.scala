@@ -1,6 +1,6 @@
 package candela.build.integrators
 
-import candela.bidirectional.PhotonSettings
+import candela.photons.PhotonSettings
 import candela.bsdf.{DiffuseEquivalent, Material}
 import candela.build.materials.PlasticRecipe
 import candela.build.recipe.*

@@ -1,8 +1,7 @@
 package candela.build.integrators
 
-import candela.base.Code
-
-import candela.bidirectional.MetropolisSettings
+import candela.diagnostics.Code
+import candela.mlt.MetropolisSettings
 import candela.build.recipe.*
 
 /** Recipes of v2's renderers. A renderer may override the surface integrator of the scene.

@@ -1,7 +1,6 @@
 package candela.build.lights
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.build.shapes.EmitterHoles
 import candela.color.{ColorBasis, Rgb}

@@ -1,6 +1,6 @@
 package candela.build.lights
 
-import candela.base.Keep
+import candela.io.Keep
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.image.Image

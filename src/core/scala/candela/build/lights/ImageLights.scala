@@ -1,7 +1,6 @@
 package candela.build.lights
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.image.Image

@@ -1,7 +1,7 @@
 package candela.build.lights
 
-import candela.base.{loop, Code}
-
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.geometry.Frame

@@ -1,8 +1,8 @@
 package candela.build.materials
 
+import candela.io.{InputFile, IoReason}
 import java.nio.{ByteBuffer, ByteOrder}
 
-import candela.base.{InputFile, IoReason}
 import candela.bsdf.measured.AdaptiveReflection
 import candela.color.{Rgb, Spectrum}
 import candela.sampling.WarpTable

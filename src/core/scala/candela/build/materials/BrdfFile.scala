@@ -1,8 +1,8 @@
 package candela.build.materials
 
+import candela.io.{FileName, InputFile, IoReason}
 import java.nio.{ByteBuffer, ByteOrder}
 
-import candela.base.{FileName, InputFile, IoReason}
 import candela.bsdf.measured.{HalfAngleReflection, ScatteredReflection}
 import candela.color.Spectrum
 import candela.math.*

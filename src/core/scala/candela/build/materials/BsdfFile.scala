@@ -1,9 +1,9 @@
 package candela.build.materials
 
+import candela.io.{InputFile, IoReason}
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.charset.StandardCharsets.ISO_8859_1
 
-import candela.base.{InputFile, IoReason}
 import candela.bsdf.measured.FourierTable
 
 /** Reads the `.bsdf` files of pbrt-v3's "fourier", as written by Jakob's layerlab.

@@ -1,7 +1,6 @@
 package candela.build.materials
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.bsdf.{Fresnel, Material}
 import candela.bsdf.layered.{
   CoatedConductorMaterial, CoatedDiffuseMaterial, LayerMedium, Varnish,

@@ -1,7 +1,6 @@
 package candela.build.materials
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.bsdf.Material
 import candela.bsdf.composite.{HairMaterial, Pigment}
 import candela.build.recipe.*

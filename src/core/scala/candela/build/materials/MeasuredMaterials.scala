@@ -1,6 +1,7 @@
 package candela.build.materials
 
-import candela.base.{Code, InputFile}
+import candela.diagnostics.Code
+import candela.io.InputFile
 import candela.bsdf.{Bsdf, ConstantMaterial, Material}
 import candela.bsdf.measured.FourierBsdf
 import candela.build.recipe.*

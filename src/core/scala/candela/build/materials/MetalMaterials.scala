@@ -1,7 +1,6 @@
 package candela.build.materials
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.bsdf.{Fresnel, Material, TabulatedReflectance}
 import candela.bsdf.microfacet.{
   ConductorMaterial, IndexedMetal, MetalTexture, MirrorMaterial, ShinyMetalMaterial, TintedMetal,

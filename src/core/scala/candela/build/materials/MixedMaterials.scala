@@ -1,7 +1,6 @@
 package candela.build.materials
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.bsdf.{FramedMaterial, InterfaceMaterial, Material, TwoSidedMaterial}
 import candela.bsdf.composite.MixedMaterial
 import candela.build.recipe.*

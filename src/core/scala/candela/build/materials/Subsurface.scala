@@ -1,6 +1,6 @@
 package candela.build.materials
 
-import candela.base.{Code, Suggest}
+import candela.diagnostics.{Code, Suggest}
 import candela.bsdf.Material
 import candela.bsdf.microfacet.{
   DielectricMaterial, ReflectingInterfaceMaterial, Roughness, RoughnessModel

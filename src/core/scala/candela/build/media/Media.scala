@@ -1,6 +1,6 @@
 package candela.build.media
 
-import candela.base.{Code, Suggest}
+import candela.diagnostics.{Code, Suggest}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.math.*

@@ -1,7 +1,6 @@
 package candela.build.media
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White

@@ -1,9 +1,8 @@
 package candela.build.media
 
+import candela.base.loop
 import java.nio.{ByteBuffer, ByteOrder}
 import java.util.zip.CRC32
-
-import candela.base.loop
 
 /** The two checksums of a NanoVDB grid, of its head and of its nodes, each of which may be missing.
   *

@@ -1,12 +1,12 @@
 package candela.build.media
 
+import candela.io.{InputFile, IoReason}
 import java.io.IOException
 import java.nio.charset.StandardCharsets.UTF_8
 
 import scala.collection.mutable
 import scala.util.Using
 
-import candela.base.{InputFile, IoReason}
 import candela.math.Transform
 import candela.media.VoxelTree
 

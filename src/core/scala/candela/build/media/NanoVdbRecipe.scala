@@ -1,6 +1,7 @@
 package candela.build.media
 
-import candela.base.{Code, InputFile, Suggest}
+import candela.diagnostics.{Code, Suggest}
+import candela.io.InputFile
 import candela.build.recipe.*
 import candela.geometry.Bounds3
 import candela.math.*

@@ -1,10 +1,10 @@
 package candela.build.media
 
+import candela.base.loop
 import java.nio.ByteBuffer
 
 import scala.collection.mutable
 
-import candela.base.loop
 import candela.math.Transform
 import candela.media.{VoxelNode, VoxelTree}
 

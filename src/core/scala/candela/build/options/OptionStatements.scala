@@ -1,6 +1,7 @@
 package candela.build.options
 
-import candela.base.{Code, SceneFolder, SourcePos}
+import candela.diagnostics.{Code, SourcePos}
+import candela.io.SceneFolder
 import candela.build.recipe.*
 import candela.color.ColorSpace
 import candela.settings.{OutputSettings, RenderSettings}

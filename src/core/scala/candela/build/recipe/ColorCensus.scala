@@ -1,8 +1,9 @@
 package candela.build.recipe
 
+import candela.base.loop
+import candela.concurrency.Parallel
 import scala.collection.mutable
 
-import candela.base.{loop, Parallel}
 import candela.color.{ColorBasis, ColorError, ColoredSpectrum, Rgb, SmoothSpectra}
 import candela.textures.ColorChoice
 

@@ -1,7 +1,6 @@
 package candela.build.recipe
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.color.Rgb
 import candela.math.Vec3
 import candela.scenefile.{Dialect, Param}

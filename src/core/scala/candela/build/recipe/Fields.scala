@@ -1,6 +1,6 @@
 package candela.build.recipe
 
-import candela.base.{Code, Suggest}
+import candela.diagnostics.{Code, Suggest}
 import candela.color.Rgb
 import candela.math.Vec3
 import candela.scenefile.{Dialect, Param, ParamType}

@@ -1,7 +1,6 @@
 package candela.build.recipe
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.geometry.Bounds3
 import candela.math.*
 import candela.scenefile.Dialect

@@ -1,9 +1,9 @@
 package candela.build.recipe
 
+import candela.diagnostics.{Code, Suggest}
 import scala.collection.mutable
 import scala.jdk.CollectionConverters.*
 
-import candela.base.{Code, Suggest}
 import candela.scenefile.Dialect
 
 /** Builds a runtime object from a declaration of one type: the parameters, declared once, and
@@ -104,7 +104,7 @@ abstract class Recipe[A](
     made(site)
 
   /** Checks the type of a parameter that `make` does not read. */
-  private def inspect(field: Field[?], at: candela.base.SourcePos, site: Site): Unit =
+  private def inspect(field: Field[?], at: candela.diagnostics.SourcePos, site: Site): Unit =
     val isRead = support(field) == Support.Used && substitute.isEmpty
     if !isRead then
       val _ = field.given_()(using site)

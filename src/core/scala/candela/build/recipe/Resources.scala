@@ -1,8 +1,10 @@
 package candela.build.recipe
 
+import candela.concurrency.Parallel
+import candela.diagnostics.{Allowance, Code, Limit, SourcePos, Suggest}
+import candela.io.Keep
 import scala.collection.mutable
 
-import candela.base.{Allowance, Code, Keep, Limit, Parallel, SourcePos, Suggest}
 import candela.bsdf.Material
 import candela.bsdf.composite.{ChosenMaterial, MixedMaterial}
 import candela.color.ColorBasis

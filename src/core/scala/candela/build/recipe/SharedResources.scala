@@ -1,5 +1,8 @@
 package candela.build.recipe
 
+import candela.concurrency.Parallel
+import candela.diagnostics.{Allowance, Code, Limit, Refusal, SourcePos}
+import candela.io.{InputFile, IoReason, Keep, SceneFolder}
 import java.io.IOException
 import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
@@ -8,10 +11,6 @@ import scala.collection.mutable
 import scala.jdk.CollectionConverters.*
 
 import candela.accel.tracing.WarmUps
-import candela.base.{
-  Allowance, Code, InputFile, IoReason, Keep, Limit, Parallel, Refusal, SceneFolder,
-  SourcePos
-}
 import candela.color.{ColorBasis, Encoding, Rgb}
 import candela.bsdf.layered.Coats
 import candela.bsdf.subsurface.ProfileTables

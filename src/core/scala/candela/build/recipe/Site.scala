@@ -1,8 +1,8 @@
 package candela.build.recipe
 
+import candela.diagnostics.{Allowance, Code, Problem, SceneError, Severity, SourcePos}
 import scala.collection.mutable
 
-import candela.base.{Allowance, Code, Problem, SceneError, Severity, SourcePos}
 import candela.bsdf.{DiffuseMaterial, Material}
 import candela.color.{ColorBasis, ColorSpace, Rgb}
 import candela.image.{Image, StoredImage}

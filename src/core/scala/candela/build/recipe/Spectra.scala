@@ -1,8 +1,9 @@
 package candela.build.recipe
 
+import candela.diagnostics.{Code, Suggest}
+import candela.io.{InputFile, IoReason}
 import java.io.IOException
 
-import candela.base.{Code, InputFile, IoReason, Suggest}
 import candela.color.{ColorBasis, ColorSpace, Colorimetry, NamedSpectra, Rgb, Spectrum, Upsampling}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}

@@ -1,13 +1,13 @@
 package candela.build.recipe
 
+import candela.base.{ByteCount, Version}
+import candela.concurrency.Parallel
+import candela.diagnostics.{Code, Refusal}
+import candela.io.{CacheFolder, FileDigests, InputFile, Keep, PartFiles, PartForm, Sha256}
 import java.io.IOException
 import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
 
-import candela.base.{
-  ByteCount, CacheFolder, Code, FileDigests, InputFile, Keep, Parallel, PartFiles, PartForm,
-  Refusal, Sha256, Version
-}
 import candela.image.ImageSize
 import candela.scenefile.{Declaration, Dialect, SceneDescription}
 import candela.settings.TextureControl

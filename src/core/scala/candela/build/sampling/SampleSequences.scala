@@ -1,7 +1,6 @@
 package candela.build.sampling
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.sampling.{PointSet, Strata}
 import candela.scenefile.Dialect

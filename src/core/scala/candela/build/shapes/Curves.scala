@@ -1,6 +1,6 @@
 package candela.build.shapes
 
-import candela.base.{Code, Limit}
+import candela.diagnostics.{Code, Limit}
 import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect

@@ -1,7 +1,6 @@
 package candela.build.shapes
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.scenefile.ParamType
 import candela.shapes.{BilinearMesh, BilinearPatch}

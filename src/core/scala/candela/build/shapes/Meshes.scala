@@ -1,7 +1,10 @@
 package candela.build.shapes
 
-import candela.base.{Code, Keep, Limit, Parallel, SceneError, Sha256, loop}
-import candela.base.Sha256.Numbers
+import candela.base.loop
+import candela.concurrency.Parallel
+import candela.diagnostics.{Code, Limit, SceneError}
+import candela.io.{Keep, Sha256}
+import candela.io.Sha256.Numbers
 import candela.build.recipe.*
 import candela.geometry.ShadingPoint
 import candela.math.{Position, Transform}

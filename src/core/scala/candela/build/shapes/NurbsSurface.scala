@@ -1,6 +1,7 @@
 package candela.build.shapes
 
-import candela.base.{Code, loop}
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.shapes.{KnotVector, Nurbs}
 

@@ -1,11 +1,10 @@
 package candela.build.shapes
 
+import candela.base.{FloatBuffer, IntBuffer, RestBuffer, loop}
+import candela.diagnostics.{Code, Problem, SceneError, Severity, SourcePos}
+import candela.io.{InputFile, IoReason}
 import java.io.IOException
 
-import candela.base.{
-  Code, FloatBuffer, InputFile, IntBuffer, IoReason, Problem, RestBuffer, SceneError, Severity,
-  SourcePos, loop
-}
 import candela.math.{Position, Transform}
 import candela.scenefile.Source
 

@@ -1,5 +1,6 @@
 package candela.build.shapes
 
+import candela.base.RestBuffer
 import java.lang.invoke.{MethodHandles, VarHandle}
 import java.nio.ByteOrder
 import java.nio.charset.StandardCharsets.ISO_8859_1
@@ -7,7 +8,6 @@ import java.nio.charset.StandardCharsets.ISO_8859_1
 import scala.annotation.switch
 import scala.collection.mutable
 
-import candela.base.RestBuffer
 import candela.scenefile.{NumberReader, Source}
 
 /** Number types of PLY files, with their size in bytes in binary files. */

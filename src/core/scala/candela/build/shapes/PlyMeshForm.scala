@@ -1,6 +1,6 @@
 package candela.build.shapes
 
-import candela.base.{CheckedInput, CheckedOutput, PartForm}
+import candela.io.{CheckedInput, CheckedOutput, PartForm}
 
 /** Files of the meshes that PLY files have, without numbers of other properties. */
 private[build] object PlyMeshForm extends PartForm[PlyMesh]("mesh 1"):

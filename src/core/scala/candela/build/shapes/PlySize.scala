@@ -1,9 +1,10 @@
 package candela.build.shapes
 
+import candela.diagnostics.SceneError
+import candela.io.InputFile
 import java.io.{ByteArrayInputStream, IOException}
 import java.util.zip.GZIPInputStream
 
-import candela.base.{InputFile, SceneError}
 import candela.scenefile.Source
 
 /** Roughly how large the mesh of a PLY file is, by the beginning of the file.

@@ -1,8 +1,8 @@
 package candela.build.shapes
 
+import candela.base.loop
 import scala.collection.mutable.ArrayBuffer
 
-import candela.base.loop
 import candela.math.Transform
 import candela.shapes.{BumpTangents, Mesh, TriangleSoup, VertexIndices}
 

@@ -1,7 +1,6 @@
 package candela.build.textures
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
 import candela.image.{ExrLevels, ImageBands, StoredImage}

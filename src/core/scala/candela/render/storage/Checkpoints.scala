@@ -1,6 +1,6 @@
 package candela.render.storage
 
-import candela.base.WholeFile
+import candela.io.WholeFile
 import candela.render.{Checkpointer, RenderState}
 
 import java.io.IOException

@@ -1,9 +1,7 @@
 package candela.render.storage
 
-import candela.base.{
-  CheckedFile, Code, ForeignFile, ForeignKind, InputFile, IoReason, NextFile, Problem, SceneError,
-  WholeFile
-}
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.{CheckedFile, ForeignFile, ForeignKind, InputFile, IoReason, NextFile, WholeFile}
 import candela.render.RenderState
 
 import java.io.{EOFException, IOException}

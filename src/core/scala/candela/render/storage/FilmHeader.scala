@@ -1,6 +1,6 @@
 package candela.render.storage
 
-import candela.base.{CheckedInput, CheckedOutput}
+import candela.io.{CheckedInput, CheckedOutput}
 import candela.render.{RenderPlan, RenderState}
 
 /** Identifies a saved rendering.

@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.Code
+import candela.diagnostics.Code
 import candela.cli.files.{FileRegister, OutputFiles}
 import candela.cli.options.CompareOptions
 import candela.cli.terminal.{ExitCode, Figures, Terminal}

@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{SceneError, Severity}
+import candela.diagnostics.{SceneError, Severity}
 import candela.cli.files.FilmName
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}

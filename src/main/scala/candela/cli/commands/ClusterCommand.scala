@@ -1,6 +1,7 @@
 package candela.cli.commands
 
-import candela.base.{Code, Problem, SceneError, Scratch}
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.Scratch
 import candela.cli.files.{FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.rendering.ImageWriter

@@ -1,11 +1,12 @@
 package candela.cli.commands
 
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.{FileName, SceneFolder}
 import java.nio.file.{Files, Path}
 
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-import candela.base.{Code, FileName, Problem, SceneError, SceneFolder}
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.{Limit, Options}
 import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}

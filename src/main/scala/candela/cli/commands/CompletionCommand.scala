@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{Code, Problem, SceneError, Suggest}
+import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import candela.cli.options.{Completion, Options, Words}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 

@@ -1,6 +1,7 @@
 package candela.cli.commands
 
-import candela.base.{Problem, SceneError, Severity, WholeFile}
+import candela.diagnostics.{Problem, SceneError, Severity}
+import candela.io.WholeFile
 import candela.build.TextureValues
 import candela.cli.files.{FileRegister, FilmName, Output, OutputFiles}
 import candela.cli.options.Options

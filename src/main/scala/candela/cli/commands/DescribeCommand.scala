@@ -1,8 +1,9 @@
 package candela.cli.commands
 
+import candela.diagnostics.{Code, Problem, SceneError, Suggest}
+import candela.io.WholeFile
 import java.nio.charset.StandardCharsets.UTF_8
 
-import candela.base.{Code, Problem, SceneError, Suggest, WholeFile}
 import candela.build.{Category, Language}
 import candela.build.recipe.{Dialects, Field, Recipe, Support}
 import candela.cli.files.{FileRegister, Output, OutputFiles}

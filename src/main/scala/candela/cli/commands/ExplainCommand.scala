@@ -1,6 +1,8 @@
 package candela.cli.commands
 
-import candela.base.{Code, Problem, ProblemEntry, ProblemExample, ProblemGuide, SceneError, Suggest}
+import candela.diagnostics.{
+  Code, Problem, ProblemEntry, ProblemExample, ProblemGuide, SceneError, Suggest
+}
 import candela.cli.options.{OptionText, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal, TextTable}
 

@@ -1,8 +1,9 @@
 package candela.cli.commands
 
+import candela.base.loop
+import candela.io.{ForeignFile, ForeignKind, InputFile}
 import java.nio.file.Path
 
-import candela.base.{ForeignFile, ForeignKind, InputFile, loop}
 import candela.cli.files.{FilmInput, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}

@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{Code, Problem, SceneError, Severity}
+import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.cli.files.{FileRegister, FilmInput, FilmKeeping, Output, OutputFiles}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}

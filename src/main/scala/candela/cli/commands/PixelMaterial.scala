@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.{Code, Problem, SceneError}
+import candela.diagnostics.{Code, Problem, SceneError}
 import candela.cli.terminal.{ExitCode, Figures, Printer}
 import candela.geometry.Ray
 import candela.math.Vec3

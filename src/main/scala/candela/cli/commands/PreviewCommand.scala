@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.base.FileName
+import candela.io.FileName
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal, Thumbnail}

@@ -1,6 +1,7 @@
 package candela.cli.commands
 
-import candela.base.{Code, FileName, Problem, SceneError, Severity}
+import candela.diagnostics.{Code, Problem, SceneError, Severity}
+import candela.io.FileName
 import candela.cli.files.{FileRegister, FilmKeeping, Output, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Figures, ProgressLine, Report, Terminal}

@@ -1,6 +1,7 @@
 package candela.cli.commands
 
-import candela.base.{Code, InputFile, Keep, Problem, SceneError}
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.{InputFile, Keep}
 import candela.cli.files.{FileRegister, FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.rendering.{CostRows, ImageWriter, RenderOutputs, SceneRun, Summary}

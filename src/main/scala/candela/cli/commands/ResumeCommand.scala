@@ -1,7 +1,6 @@
 package candela.cli.commands
 
-import candela.base.Code
-
+import candela.diagnostics.Code
 import candela.cli.files.{FilmInput, FilmKeeping, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal}

@@ -1,8 +1,8 @@
 package candela.cli.commands
 
+import candela.diagnostics.{Code, Problem, SceneError}
 import java.nio.file.Path
 
-import candela.base.{Code, Problem, SceneError}
 import candela.cli.files.OutputFiles
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal, Thumbnail, ThumbnailKind}

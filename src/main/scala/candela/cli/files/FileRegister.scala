@@ -1,6 +1,7 @@
 package candela.cli.files
 
-import candela.base.{Code, Problem, SceneError, SourcePos, WholeFile}
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
+import candela.io.WholeFile
 import candela.render.storage.FilmFile
 
 import java.nio.file.attribute.BasicFileAttributes

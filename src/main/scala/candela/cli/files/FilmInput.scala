@@ -1,6 +1,7 @@
 package candela.cli.files
 
-import candela.base.{Code, InputFile, SceneFolder}
+import candela.diagnostics.Code
+import candela.io.{InputFile, SceneFolder}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
 import candela.job.{FilmHeaders, FilmKeeper, Render}

@@ -1,6 +1,7 @@
 package candela.cli.files
 
-import candela.base.{FileName, Problem}
+import candela.diagnostics.Problem
+import candela.io.FileName
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.terminal.Report
 import candela.job.{FilmHeaders, FilmKeeper, Prepared}

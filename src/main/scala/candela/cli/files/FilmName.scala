@@ -1,6 +1,6 @@
 package candela.cli.files
 
-import candela.base.{Code, Problem, SourcePos}
+import candela.diagnostics.{Code, Problem, SourcePos}
 import candela.scenefile.{Excerpts, SceneDescription}
 
 import java.nio.file.Path

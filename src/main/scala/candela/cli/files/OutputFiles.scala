@@ -1,7 +1,8 @@
 package candela.cli.files
 
+import candela.diagnostics.{Code, Problem, SceneError, Severity}
+import candela.io.FileName
 import candela.aov.Layer
-import candela.base.{Code, FileName, Problem, SceneError, Severity}
 import candela.build.film.FilmRecipe
 import candela.cli.options.FilmOptions
 import candela.image.{Contents, ImageError, OutputFormat}

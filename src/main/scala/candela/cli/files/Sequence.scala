@@ -1,6 +1,6 @@
 package candela.cli.files
 
-import candela.base.{Code, Problem, SceneError}
+import candela.diagnostics.{Code, Problem, SceneError}
 import candela.cli.options.{FilmOptions, FrameNames, Options}
 import candela.cli.terminal.{ExitCode, Figures}
 import candela.image.{ImageFiles, OutputFormat}

@@ -1,9 +1,10 @@
 package candela.cli.options
 
+import candela.diagnostics.{Code, Problem, Suggest}
+import candela.io.{CacheFolder, PartFiles}
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.aov.Layer
-import candela.base.{CacheFolder, Code, PartFiles, Problem, Suggest}
 import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
 import candela.convert.Baking
 import candela.image.DisplayTransform

@@ -1,6 +1,6 @@
 package candela.cli.options
 
-import candela.base.Code
+import candela.diagnostics.Code
 import candela.guiding.GuidingMode
 import candela.settings.{RenderRegion, RenderSettings}
 

@@ -1,6 +1,7 @@
 package candela.cli.options
 
-import candela.base.{Code, Suggest, Version}
+import candela.base.Version
+import candela.diagnostics.{Code, Suggest}
 import candela.cli.terminal.{ExitCode, TextTable}
 
 import scopt.OptionDef

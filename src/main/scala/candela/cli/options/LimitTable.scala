@@ -1,6 +1,6 @@
 package candela.cli.options
 
-import candela.base.Limit
+import candela.diagnostics.Limit
 import candela.settings.{SceneLimits, TextForm}
 
 import scopt.{OParser, Read}

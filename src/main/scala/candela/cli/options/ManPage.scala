@@ -1,7 +1,6 @@
 package candela.cli.options
 
 import candela.base.Version
-
 import scopt.OptionDef
 
 /** The manual page candela(1), as the option tables have it.

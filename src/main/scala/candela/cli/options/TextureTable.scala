@@ -1,8 +1,8 @@
 package candela.cli.options
 
+import candela.base.ByteCount
 import java.nio.file.{Files, InvalidPathException, Path}
 
-import candela.base.ByteCount
 import candela.job.SceneFormat
 import candela.settings.{TextForm, TextureControl}
 

@@ -1,7 +1,7 @@
 package candela.cli.options
 
-import candela.accel.tracing.Hierarchies
 import candela.base.Version
+import candela.accel.tracing.Hierarchies
 
 import java.util.Properties
 

@@ -1,7 +1,7 @@
 package candela.cli.options
 
+import candela.diagnostics.Limit
 import candela.aov.Layer
-import candela.base.Limit
 import candela.build.Language
 import candela.image.OutputFormat
 import candela.job.SceneFormat

@@ -1,6 +1,7 @@
 package candela.cli.rendering
 
-import candela.base.{Problem, WholeFile}
+import candela.diagnostics.Problem
+import candela.io.WholeFile
 import candela.cli.files.OutputFiles
 import candela.cli.terminal.Figures
 import candela.film.{Development, Film}

@@ -1,7 +1,7 @@
 package candela.cli.rendering
 
+import candela.diagnostics.SourcePos
 import candela.aov.Layer
-import candela.base.SourcePos
 import candela.cli.files.{FileRegister, FilmKeeping, FilmName, Frame, Output, OutputFiles}
 import candela.cli.options.{FilmOptions, Options}
 import candela.cli.terminal.Report

@@ -1,6 +1,7 @@
 package candela.cli.rendering
 
-import candela.base.{Code, InputFile, Problem, SceneError}
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.InputFile
 import candela.cli.files.OutputFiles
 import candela.cli.terminal.Figures
 import candela.film.Development

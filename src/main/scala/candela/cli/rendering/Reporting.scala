@@ -1,9 +1,11 @@
 package candela.cli.rendering
 
+import candela.base.Version
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.{FileName, WholeFile}
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
 
-import candela.base.{Code, FileName, Problem, SceneError, Version, WholeFile}
 import candela.cli.files.{Denoised, FileRegister, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.Figures

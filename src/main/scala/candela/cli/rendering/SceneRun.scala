@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.{Problem, SceneError}
+import candela.diagnostics.{Problem, SceneError}
 import candela.cli.files.Denoised
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}

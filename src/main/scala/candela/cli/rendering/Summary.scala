@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.Code
+import candela.diagnostics.Code
 import candela.cli.options.Options
 import candela.cli.terminal.{Figures, ProblemText, Terminal}
 import candela.job.Prepared

@@ -1,10 +1,10 @@
 package candela.cli.rendering
 
+import candela.diagnostics.{Code, Problem, SceneError}
 import java.io.IOException
 import java.net.UnknownHostException
 import java.nio.file.Path
 
-import candela.base.{Code, Problem, SceneError}
 import candela.cli.options.Options
 import candela.cli.terminal.{ProblemText, Terminal}
 import candela.image.Image

@@ -1,6 +1,6 @@
 package candela.cli.terminal
 
-import candela.base.NextFile
+import candela.io.NextFile
 import candela.render.Cancellation
 
 import java.io.{InputStream, PrintStream}

@@ -1,8 +1,7 @@
 package candela.cli.terminal
 
+import candela.diagnostics.Visible
 import java.io.{PrintStream, Writer}
-
-import candela.base.Visible
 
 /** The door to a terminal or file: all that is printed passes it. Texts of scenes, names of files
   * and the like can't control the terminal: they are made visible. `write` passes data as they are.

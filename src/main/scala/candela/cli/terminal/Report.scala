@@ -1,13 +1,15 @@
 package candela.cli.terminal
 
+import candela.base.JavaHeap
+import candela.diagnostics.{
+  Code, Excerpt, Problem, Refusal, SceneError, Severity, SourcePos, Visible
+}
+import candela.io.IoReason
 import java.io.{IOException, UncheckedIOException}
 
 import java.nio.channels.ClosedByInterruptException
 import java.nio.file.{FileSystemException, InvalidPathException}
 
-import candela.base.{
-  Code, Excerpt, IoReason, JavaHeap, Problem, Refusal, SceneError, Severity, SourcePos, Visible
-}
 import candela.image.{ImageError, Natives}
 import candela.render.RenderFailure
 import candela.scenefile.Excerpts

@@ -1,6 +1,7 @@
 package candela.cli.terminal
 
-import candela.base.{Code, Problem, SceneError, loop}
+import candela.base.loop
+import candela.diagnostics.{Code, Problem, SceneError}
 import candela.color.Srgb
 import candela.image.{DisplayTransform, Image, ImageFiles, Resize}
 

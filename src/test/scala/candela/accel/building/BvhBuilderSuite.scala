@@ -1,9 +1,10 @@
 package candela.accel.building
 
+import candela.base.loop
+import candela.concurrency.Parallel
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.accel.{AcceleratorScenes, BinaryTree, Primitives}
-import candela.base.{loop, Parallel}
 import candela.geometry.Bounds3
 import candela.math.*
 import candela.render.ThreadPool

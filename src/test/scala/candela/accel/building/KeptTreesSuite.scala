@@ -1,10 +1,12 @@
 package candela.accel.building
 
+import candela.base.loop
+import candela.concurrency.Parallel
+import candela.io.Keep
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.accel.{AcceleratorScenes, Primitives, WideTree}
 import candela.accel.tracing.{Bvh, Hierarchies}
-import candela.base.{Keep, Parallel, loop}
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 import candela.render.ThreadPool

@@ -1,11 +1,12 @@
 package candela.accel.building
 
+import candela.base.loop
+import candela.concurrency.Parallel
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
 import candela.accel.{AcceleratorScenes, Primitives, WideTree}
 import candela.accel.tracing.{Bvh, Hierarchies}
-import candela.base.{loop, Parallel}
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 import candela.render.ThreadPool

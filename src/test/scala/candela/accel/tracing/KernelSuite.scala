@@ -1,9 +1,9 @@
 package candela.accel.tracing
 
+import candela.concurrency.Parallel
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.accel.{Accelerator, AcceleratorScenes, BruteForce, Primitives}
-import candela.base.Parallel
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 import candela.testing.Draws

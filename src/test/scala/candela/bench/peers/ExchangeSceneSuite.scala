@@ -1,6 +1,6 @@
 package candela.bench.peers
 
-import candela.base.Parallel
+import candela.concurrency.Parallel
 import candela.image.{Image, ImageFiles}
 import candela.job.{Render, SceneLoader}
 import candela.render.RenderControl

@@ -1,6 +1,6 @@
 package candela.bench.robustness
 
-import candela.base.Parallel
+import candela.concurrency.Parallel
 import candela.bench.report.{Robust, RobustProgram, RobustRow}
 import candela.image.Image
 import candela.render.Cancellation

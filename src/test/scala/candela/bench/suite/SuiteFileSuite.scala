@@ -1,6 +1,6 @@
 package candela.bench.suite
 
-import candela.base.SceneError
+import candela.diagnostics.SceneError
 import candela.bench.report.Growth
 import candela.testing.TempFolder
 

@@ -1,10 +1,10 @@
 package candela.build.cameras
 
+import candela.diagnostics.Severity
 import java.nio.file.Path
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Severity
 import candela.cameras.LensSurface
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts

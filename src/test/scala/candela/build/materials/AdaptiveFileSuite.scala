@@ -1,8 +1,8 @@
 package candela.build.materials
 
+import candela.io.InputFile
 import java.nio.file.{Files, Path}
 
-import candela.base.InputFile
 import candela.bsdf.{Bsdf, BsdfLaws, Directions}
 import candela.color.{Colorimetry, Rgb, Spectrum}
 

@@ -1,8 +1,8 @@
 package candela.build.materials
 
+import candela.diagnostics.Severity
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Severity
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 

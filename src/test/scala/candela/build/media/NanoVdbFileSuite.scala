@@ -1,5 +1,6 @@
 package candela.build.media
 
+import candela.io.InputFile
 import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -7,7 +8,6 @@ import org.scalatest.tagobjects.Slow
 
 import scala.util.Random
 
-import candela.base.InputFile
 import candela.math.*
 import candela.testing.{NanoVdb, VdbGrid}
 

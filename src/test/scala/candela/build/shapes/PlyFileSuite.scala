@@ -1,9 +1,10 @@
 package candela.build.shapes
 
+import candela.diagnostics.{SceneError, SourcePos}
+import candela.io.InputFile
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
 
-import candela.base.{InputFile, SceneError, SourcePos}
 import candela.scenefile.Source
 import candela.testing.Gzip
 import org.scalatest.funsuite.AnyFunSuite

@@ -1,8 +1,9 @@
 package candela.build.shapes
 
+import candela.diagnostics.SourcePos
+import candela.io.SceneFolder
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{SceneFolder, SourcePos}
 import candela.build.recipe.{Findings, Resources, Site}
 import candela.color.ColorBasis
 import candela.math.Transform

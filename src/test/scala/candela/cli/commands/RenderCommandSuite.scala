@@ -1,7 +1,8 @@
 package candela.cli.commands
 
+import candela.base.Version
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
 import candela.aov.Layer
-import candela.base.{Code, Problem, SceneError, SourcePos, Version}
 import candela.cli.{Captured, Main}
 import candela.cli.terminal.Interrupts
 import candela.color.Rgb

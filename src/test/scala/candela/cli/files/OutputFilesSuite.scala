@@ -1,6 +1,6 @@
 package candela.cli.files
 
-import candela.base.SceneError
+import candela.diagnostics.SceneError
 import candela.image.OutputFormat
 import candela.testing.TempFolder
 

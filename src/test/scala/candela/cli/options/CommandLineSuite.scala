@@ -1,7 +1,7 @@
 package candela.cli.options
 
-import candela.aov.Layer
 import candela.base.Version
+import candela.aov.Layer
 import candela.bench.BenchOptions
 import candela.bench.suite.Work
 import candela.cli.terminal.ExitCode

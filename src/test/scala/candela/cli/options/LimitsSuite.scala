@@ -1,11 +1,12 @@
 package candela.cli.options
 
+import candela.diagnostics.{Allowance, Limit, Refusal, SourcePos}
+import candela.io.SceneFolder
 import java.nio.file.{Files, Path}
 
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Allowance, Limit, Refusal, SceneFolder, SourcePos}
 import candela.build.SceneBuilder
 import candela.cli.Captured
 import candela.cli.terminal.ExitCode

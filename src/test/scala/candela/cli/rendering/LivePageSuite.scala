@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.{Code, Problem, SourcePos}
+import candela.diagnostics.{Code, Problem, SourcePos}
 import candela.cli.{Captured, Main, Watched}
 import candela.color.{ColorSpace, Rgb, ToneCurve}
 import candela.film.Development

@@ -1,9 +1,9 @@
 package candela.cli.terminal
 
+import candela.diagnostics.SceneError
 import java.nio.file.{Files, Path}
 import scala.jdk.StreamConverters.*
 
-import candela.base.SceneError
 import candela.scenefile.Parser
 import org.scalatest.funsuite.AnyFunSuite
 

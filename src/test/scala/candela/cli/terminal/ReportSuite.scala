@@ -1,10 +1,10 @@
 package candela.cli.terminal
 
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
 import java.io.IOException
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Code, Problem, SceneError, SourcePos}
 import candela.cli.Captured
 import candela.image.ImageError
 import candela.render.RenderFailure

@@ -1,6 +1,6 @@
 package candela.cli.terminal
 
-import candela.base.SceneError
+import candela.diagnostics.SceneError
 import candela.color.Srgb
 import candela.image.{DisplayTransform, Image}
 

@@ -1,7 +1,6 @@
 package candela.render.storage
 
-import candela.base.CheckedFile
-
+import candela.io.CheckedFile
 import java.io.IOException
 import java.nio.file.Files
 

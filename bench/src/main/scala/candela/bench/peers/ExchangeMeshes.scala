@@ -1,6 +1,6 @@
 package candela.bench.peers
 
-import candela.base.SourcePos
+import candela.diagnostics.SourcePos
 import candela.build.shapes.PlyFile
 import candela.convert.{PlyWriter, SideFiles, Tessellation}
 import candela.math.{Transform, Vec3}

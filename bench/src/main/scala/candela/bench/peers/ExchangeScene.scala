@@ -1,5 +1,7 @@
 package candela.bench.peers
 
+import candela.diagnostics.SourcePos
+import candela.io.SceneFolder
 import candela.convert.SideFiles
 import candela.math.{Transform, Vec3}
 import candela.scenefile.*
@@ -145,7 +147,6 @@ final class ExchangeScene(scene: SceneDescription, files: SideFiles):
 
 object ExchangeScene:
   private[peers] def plain(category: String, name: String): Declaration =
-    import candela.base.{SceneFolder, SourcePos}
     Declaration(category, name, Vector.empty, SourcePos.Nowhere, SceneFolder.Nowhere)
 
   /** Writes the file `scene.xml` and what belongs to it.
@@ -156,5 +157,5 @@ object ExchangeScene:
     ExchangeScene(scene, files).text(depth) match
       case Left(reasons) => Some(reasons)
       case Right(text) =>
-        candela.base.WholeFile.write(files.folder.resolve("scene.xml"), text.getBytes(UTF_8))
+        candela.io.WholeFile.write(files.folder.resolve("scene.xml"), text.getBytes(UTF_8))
         None

@@ -1,6 +1,6 @@
 package candela.bench.peers
 
-import candela.base.WholeFile
+import candela.io.WholeFile
 import candela.bench.suite.{Absent, Commands, Edit, Installed, Present, Program}
 
 import java.nio.file.Path

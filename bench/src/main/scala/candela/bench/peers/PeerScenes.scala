@@ -1,6 +1,7 @@
 package candela.bench.peers
 
-import candela.base.{SceneError, WholeFile}
+import candela.diagnostics.SceneError
+import candela.io.WholeFile
 import candela.convert.{Converter, SceneText, SideFiles}
 import candela.job.Render
 import candela.scenefile.*
@@ -114,7 +115,7 @@ object PeerScenes:
     ExchangeScene.plain(category, name).copy(params = params, folder = scene.folder)
 
   private def place(scene: SceneDescription) =
-    scene.camera.fold(candela.base.SourcePos.Nowhere)(_.at)
+    scene.camera.fold(candela.diagnostics.SourcePos.Nowhere)(_.at)
 
   /** Number of surfaces at which a path scatters, at most. */
   private def depth(scene: SceneDescription): Int =

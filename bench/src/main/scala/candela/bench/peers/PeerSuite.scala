@@ -1,6 +1,7 @@
 package candela.bench.peers
 
-import candela.base.{SceneError, WholeFile}
+import candela.diagnostics.SceneError
+import candela.io.WholeFile
 import candela.bench.suite.{Suite, SuiteFile, SuiteScene}
 
 import java.nio.file.{Files, Path}

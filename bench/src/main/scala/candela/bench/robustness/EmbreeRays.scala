@@ -1,11 +1,11 @@
 package candela.bench.robustness
 
+import candela.io.WholeFile
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
 
 import scala.jdk.CollectionConverters.*
 
-import candela.base.WholeFile
 import candela.bench.report.{Robust, RobustProgram}
 import candela.bench.suite.{Commands, Outcome}
 import candela.geometry.Ray

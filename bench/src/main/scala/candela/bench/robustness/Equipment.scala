@@ -1,6 +1,6 @@
 package candela.bench.robustness
 
-import candela.base.Parallel
+import candela.concurrency.Parallel
 import candela.bench.report.{Robust, RobustRow}
 import candela.image.Image
 import candela.report.Picture

@@ -1,9 +1,9 @@
 package candela.bench.robustness
 
+import candela.io.WholeFile
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
 
-import candela.base.WholeFile
 import candela.bench.report.RobustProgram
 import candela.bench.suite.{Absent, Commands, Installed, Outcome, Present}
 import candela.build.SceneBuilder

@@ -1,10 +1,10 @@
 package candela.bench.robustness
 
+import candela.base.Version
 import java.nio.file.Path
 import java.time.LocalDateTime
 import java.time.format.DateTimeFormatter
 
-import candela.base.Version
 import candela.bench.report.{RobustGroup, RobustnessReport, RobustRow}
 import candela.bench.suite.{Commands, Installed}
 import candela.render.{Cancellation, ThreadPool}

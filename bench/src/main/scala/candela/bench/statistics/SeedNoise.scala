@@ -1,6 +1,7 @@
 package candela.bench.statistics
 
-import candela.base.{Code, loop}
+import candela.base.loop
+import candela.diagnostics.Code
 import candela.image.{Image, ImageEdits, ImageError}
 import candela.measure.{Errors, Metrics}
 

@@ -1,7 +1,6 @@
 package candela.bench.suite
 
-import candela.base.WholeFile
-
+import candela.io.WholeFile
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, Path}
 

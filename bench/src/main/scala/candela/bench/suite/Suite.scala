@@ -1,6 +1,6 @@
 package candela.bench.suite
 
-import candela.base.{Code, Problem, SceneError, Suggest}
+import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import candela.bench.report.Growth
 
 import java.nio.file.Path

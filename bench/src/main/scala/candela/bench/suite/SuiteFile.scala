@@ -1,6 +1,7 @@
 package candela.bench.suite
 
-import candela.base.{Code, FileName, Problem, SceneError, SourcePos, Suggest}
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos, Suggest}
+import candela.io.FileName
 import candela.bench.report.Growth
 import candela.job.SceneFormat
 

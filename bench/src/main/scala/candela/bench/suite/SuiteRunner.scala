@@ -1,6 +1,6 @@
 package candela.bench.suite
 
-import candela.base.Code
+import candela.diagnostics.Code
 import candela.bench.report.BiasAgainst
 import candela.bench.statistics.{Measurement, SeedNoise}
 import candela.image.{Image, ImageError, ImageFiles}

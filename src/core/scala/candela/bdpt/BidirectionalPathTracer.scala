@@ -1,0 +1,338 @@
+package candela.bdpt
+
+import candela.cameras.Camera
+import candela.color.Rgb
+import candela.film.Splats
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.integrators.{Integrator, LightConnection, LightTransport}
+import candela.math.*
+import candela.media.SceneMedia
+import candela.sampling.{RandomStream, Sampler}
+import candela.scene.Scene
+
+/** Bidirectional path tracing: each sample traces a camera and a light subpath, and connects every
+  * pair of camera and light vertices, light vertices to the camera (light tracing), and camera
+  * vertices to sampled lights. All strategies for the same path are combined by MIS.
+  *
+  * Unlike path tracing, it finds caustics from point lights.
+  *
+  * @param imageCamera   the image's camera; if it can't project points to the film, light tracing
+  *                      is disabled and that light is missing
+  * @param splats        receives the splats of light tracing
+  * @param maxDepth      maximum number of scattering events of a full path
+  * @param rouletteAfter minimum depth before Russian roulette, for either subpath
+  * @param compresses    as in [[Subpath]]
+  * @param regularizes   as in [[candela.integrators.PathTracer]], for each subpath separately
+  * @param sceneMedia    participating media, if there are any
+  *
+  * Sources: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §10; PBRT 3rd
+  * ed., §16.3; weights as in [[PartialWeights]].
+  */
+final class BidirectionalPathTracer(
+    scene: Scene,
+    imageCamera: Camera,
+    splats: Splats,
+    maxDepth: Int,
+    rouletteAfter: Int,
+    compresses: Boolean,
+    regularizes: Boolean = false,
+    sceneMedia: SceneMedia | Null = null
+) extends Integrator
+    with ChainPaths:
+  import BidirectionalPaths.*
+  import PartialWeights.mis
+
+  private val ownMedia, lightMedia: PathMedia | Null =
+    if sceneMedia == null then null else PathMedia(scene, sceneMedia)
+  private val lightPaths = LightPaths(
+    scene, maxDepth, rouletteAfter, compresses, weighsAll = true, regularizes, media = lightMedia
+  )
+  private val path = Subpath(carriesLight = false, compresses, rouletteAfter)
+  private val vertex = PathVertex(scene)
+  private val at = vertex.at
+  private val connection = LightConnection(scene)
+  private val hit = Hit()
+  private val shadowRay = Ray()
+  private val shadowHit = Hit()
+  private var rays = 0L
+
+  // Contributions to a sample below this share of what it has found so far are minor
+  private var minor = 0f
+  private var found = Rgb.Black
+  private val dice = RandomStream()
+
+  // Vertex at which the current direction of the camera subpath was sampled
+  private val lastP, lastN = MutableVec3()
+
+  private val camera = CameraConnection(scene, imageCamera, splats, lightMedia)
+
+  def raysTraced: Long =
+    rays + connection.raysTraced + lightPaths.raysTraced + camera.raysTraced +
+      ofMedia(ownMedia) + ofMedia(lightMedia)
+
+  private def ofMedia(media: PathMedia | Null): Long =
+    if media == null then 0L else media.raysTraced
+
+  override def lastMaterial: Int = at.material
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    radiance(ray, sampler, sampler, sampler, MinorShare)
+
+  /** As [[radiance]], with separate samplers.
+    *
+    * @param light  samples the light subpath and its connections to the camera
+    * @param joins  samples the connections of camera vertices to lights
+    * @param onward samples the continuation of the camera subpath
+    */
+  def radiance(
+      ray: Ray,
+      light: Sampler,
+      joins: Sampler,
+      onward: Sampler
+  ): Rgb =
+    // Chance in the connections would make the function that chains explore rugged
+    radiance(ray, light, joins, onward, minorShare = 0f)
+
+  private def radiance(
+      ray: Ray,
+      light: Sampler,
+      joins: Sampler,
+      onward: Sampler,
+      minorShare: Float
+  ): Rgb =
+    minor = minorShare
+    shadowRay.time = ray.time
+    camera.begin(ray.time)
+    connection.begin(ray.time)
+    val hero =
+      if sceneMedia != null && sceneMedia.isChromatic then (light.next1D() * 3f).toInt else 0
+    // What leads away from the camera matters most: it has the same dimensions in all samples
+    light.skipTo(LightRequests)
+    lightPaths.trace(ray.time, light, hero)
+    camera.connect(lightPaths, isWeighted = true, light)
+    onward.skipTo(CameraRequests)
+    val media = ownMedia
+    if media == null || sceneMedia == null then fromCamera(ray, joins, onward)
+    else
+      media.begin(hero, sceneMedia.camera, ray.time, onward)
+      fromCamera(ray, joins, onward) + media.glow
+
+  private def fromCamera(ray: Ray, joins: Sampler, onward: Sampler): Rgb =
+    val eye = ray.origin
+    found = Rgb.Black
+    path.throughput = Rgb.White
+    path.isSpecularSoFar = true
+    path.isAlone = false
+    path.weights.near = 0.0
+    path.weights.far = 0.0
+    var edges = 0
+    var alive = true
+    while alive do
+      rays += 1
+      edges += 1
+      val isHit = scene.closest(ray, hit)
+      val collision = collide(ray, emits = edges <= maxDepth, onward)
+      if isAbsorbed then alive = false
+      else if collision < 0f && !isHit then
+        found += carried * LightTransport.environment(
+          scene,
+          ray,
+          (i, source) =>
+            if edges == 1 then 1f
+            else
+              val w = ray.direction
+              val p = lastP
+              val sampled = scene.selection.probability(p, lastN, i) * source.pdf(p, w)
+              val emitted = source.emissionPdf(scene.ball, p, Vec3.Zero, -w)
+              hitWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
+        )
+        alive = false
+      else if !meet(ray, collision) then edges -= 1
+      else
+        val wo = vertex.wo
+        val cosine = vertex.cosine(wo)
+        val distance =
+          if sceneMedia == null then ray.tMax.toDouble else (at.p - lastP).length.toDouble
+        if edges > 1 then path.weights.arrive(distance, cosine)
+        else
+          val density = camera.density(eye, at.p)
+          path.weights.near = if density > 0f then mis(1.0 / (density.toDouble * cosine)) else 0.0
+        if at.areaLight >= 0 && cosine > 0f then
+          found += carried * emitted(edges, wo, distance)
+        alive = edges <= maxDepth && cosine > 0f
+        if alive then
+          vertex.edges = edges
+          if !vertex.isInMedium then
+            vertex.evaluate(regularizes && !path.isSpecularSoFar)
+            if scene.isDispersive then path.disperse(vertex)
+          if !vertex.bsdf.isSpecular then
+            found += carried * direct(joins)
+            found += carried * connected(joins)
+          alive = edges <= maxDepth && path.scatter(vertex, ray, onward)
+          lastP.set(at.p)
+          lastN.set(vertex.lightNormal)
+          val media = ownMedia
+          if media != null then media.medium = media.towards(vertex, ray.direction)
+    found
+
+  /** Throughput of the camera subpath. */
+  private def carried: Rgb =
+    val media = ownMedia
+    if media == null then path.throughput else path.throughput * media.throughput
+
+  private def isAbsorbed: Boolean =
+    val media = ownMedia
+    media != null && media.isAbsorbed
+
+  /** The ray's parameter of a collision with a medium; −1: none. */
+  private def collide(ray: Ray, emits: Boolean, sampler: Sampler): Float =
+    val media = ownMedia
+    if media == null then -1f
+    else
+      val t = media.follow(ray, path.throughput, emits, sampler)
+      path.throughput = Rgb.White
+      t
+
+  /** Puts the vertex at the collision or on the surface that was hit; false if that is an
+    * interface, which the ray passes.
+    */
+  private def meet(ray: Ray, collision: Float): Boolean =
+    val media = ownMedia
+    if media != null && collision >= 0f then media.scatter(vertex, ray, collision)
+    else vertex.hit(ray, hit)
+    if media == null then true
+    else if !vertex.isInMedium && vertex.isInterface then
+      media.passThrough(vertex, ray)
+      false
+    else
+      media.mark(vertex)
+      true
+
+  /** MIS weight of emission hit by the camera subpath, given the pdfs of light sampling and of
+    * light emission for the same path.
+    */
+  private def hitWeight(sampled: Double, emitted: Double): Float =
+    val w = path.weights
+    (1 / (1 + mis(sampled) * w.near + mis(emitted) * w.far)).toFloat
+
+  /** Emission of the surface hit. */
+  private def emitted(edges: Int, wo: Vec3, distance: Double): Rgb =
+    val source = scene.surfaceLight(at)
+    val radiance = source.radiance(at, wo)
+    if radiance.isBlack || edges == 1 then radiance
+    else if source.isShownOnly then if path.isSpecularSoFar then radiance else Rgb.Black
+    else
+      val index = at.areaLight
+      val perArea = vertex.cosine(wo) / (distance * distance)
+      val p = lastP
+      val chosen = scene.selection.probability(p, lastN, index)
+      val sampled = chosen.toDouble * source.pdf(p, at) * perArea
+      val emitted = source.emissionPdf(scene.ball, at.p, at.geometricNormal, wo)
+      radiance * hitWeight(sampled, lightPaths.chance(index).toDouble * emitted)
+
+  /** Connects the camera vertex to a sampled light. */
+  private def direct(sampler: Sampler): Rgb =
+    val choice = sampler.next1D(matters = connection.isRandom)
+    sampler.next2D()
+    val p = at.p
+    if !connection.choose(
+        p,
+        vertex.lightNormal,
+        choice
+      ) || !connection.samplePoint(p, sampler.x, sampler.y)
+    then
+      Rgb.Black
+    else
+      val sample = connection.sample
+      val wi = connection.wi
+      val f = vertex.received(wi)
+      val media = ownMedia
+      val passed =
+        if f.isBlack then Rgb.Black
+        else if media != null then media.fromLight(vertex, sample)
+        else if connection.isBlocked(at) then Rgb.Black
+        else Rgb.White
+      if passed.isBlack then Rgb.Black
+      else
+        val emission = lightPaths.chance(connection.index) * connection.emissionPdf
+        val byLight =
+          emission.toDouble * vertex.cosine(wi) /
+            (connection.probability.toDouble * connection.spread(p))
+        val byBsdf =
+          if connection.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / connection.pdf)
+        val others = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
+        val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + others))
+        f * sample.radiance.toRgb * weight.toFloat * passed
+
+  /** Factor of a contribution, before its shadow ray is traced: Russian roulette ends most of the
+    * minor ones. What has been found so far depends on none of this, so the mean stays.
+    *
+    * Source: Veach 1997, §10.3.3, roulette for shadow rays, with a threshold for each sample.
+    */
+  private def connectionRoulette(contribution: Float, least: Float): Float =
+    if !(contribution < least) then 1f
+    else if dice.next() * least < contribution then least / contribution
+    else 0f
+
+  /** Connects the camera vertex to all light vertices. */
+  private def connected(joins: Sampler): Rgb =
+    if minor > 0f then dice.seed(joins.next1D(), vertex.edges.toFloat)
+    val carries = carried.largest
+    connected(if carries > 0f then minor * found.largest / carries else 0f)
+
+  private def connected(least: Float): Rgb =
+    var sum = Rgb.Black
+    var i = 0
+    while i < lightPaths.count do
+      val lit = lightPaths(i)
+      if lit.edges + vertex.edges <= maxDepth then sum += connected(lit, least)
+      i += 1
+    sum
+
+  private def connected(lit: PathVertex, least: Float): Rgb =
+    val d = lit.at.p - at.p
+    val distance2 = d.lengthSquared
+    val wi = d * (1f / sqrt(distance2))
+    val back = -wi
+    if !(distance2 > 0f) then Rgb.Black
+    else
+      val onward = vertex.pdf(wi)
+      // A camera path could not continue this way
+      val f = if onward > 0f then vertex.received(wi) else Rgb.Black
+      val g = if !f.isBlack && lit.isReachable(back) then lit.sent(back) else Rgb.Black
+      if g.isBlack then Rgb.Black
+      else
+        val here = vertex.cosine(wi)
+        val there = lit.cosine(back)
+        val toLit = onward.toDouble * there / distance2
+        val toHere = lit.pdf(back).toDouble * here / distance2
+        val others = path.weights.sum(toHere, vertex.reversePdf(wi).toDouble) +
+          lit.weights.sum(toLit, lit.reversePdf(back).toDouble)
+        val cosines = vertex.shadingCosine(wi) * lit.sentCosine(back)
+        // If both subpaths carry their hero alone, each stands for all three wavelengths
+        val shares = if lit.isAlone && path.isAlone then 1f / 3f else 1f
+        val weight = (cosines / (distance2 * (1 + others))).toFloat * shares
+        val contribution = f * g * lit.throughput * weight
+        val light = contribution * connectionRoulette(contribution.largest, least)
+        val media = ownMedia
+        if light.isBlack then light
+        else if media != null then light * media.between(vertex, lit, wi)
+        else if isHidden(lit.at, wi, there) then Rgb.Black
+        else light
+
+  /** Whether `other`, in the direction `wi`, is occluded from the camera vertex. */
+  private def isHidden(other: ShadingPoint, wi: Vec3, cosine: Float): Boolean =
+    val origin = at.offsetOrigin(wi)
+    val end = other.offsetOrigin(-wi)
+    shadowRay.set(origin, end - origin, LightConnection.shadowEnd(cosine))
+    rays += 1
+    scene.isOccluded(shadowRay, shadowHit)
+
+private[candela] object BidirectionalPaths:
+  /** Share of what a sample has found so far; smaller contributions are subject to roulette. */
+  val MinorShare = 0.1f
+
+  // Where the sampler's requests for each subpath begin: behind those for the camera ray, and
+  // behind all that a camera subpath can need
+  val CameraRequests = 8
+  val LightRequests = 1 << 20

@@ -1,0 +1,91 @@
+package candela.io
+
+import java.nio.file.{Files, Path}
+import java.util.concurrent.ConcurrentHashMap
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Try
+
+/** Digests of files, which are remembered while the files are not touched: by this process, and in
+  * cached files for later ones, a table for each folder. Safe for threads.
+  */
+final class FileDigests(files: Option[PartFiles]):
+  import FileDigests.*
+
+  private val folders = ConcurrentHashMap[Path, Table]()
+
+  /** The digest of a file, which `make` makes if it is not known.
+    *
+    * @throws java.io.IOException if the file can't be read
+    */
+  def apply(file: InputFile)(make: => String): String =
+    val place = file.whole
+    val name = place.getFileName.toString
+    val table = folders.computeIfAbsent(place.getParent, f => Table(written(f)))
+    val before = file.stamp
+    before.flatMap(table.find(name, _)).getOrElse:
+      val made = make
+      for stamp <- before if file.stamp.contains(stamp) do table.put(name, stamp, made)
+      made
+
+  /** Writes what is new for later processes. */
+  def save(): Unit =
+    for store <- files do
+      folders.forEach: (folder, table) =>
+        for rows <- table.taken() if isTimed(folder) do
+          // Another may have written some since
+          val all = written(folder) ++ rows
+          val there = all.filter((name, _) => isThere(folder, name))
+          store.write(TableForm, folder.toString, there, isNeeded = false)
+
+  private def written(folder: Path): Rows =
+    files.flatMap(_.read(TableForm, folder.toString)).getOrElse(Map.empty)
+
+object FileDigests:
+  /** File systems whose kernel sets the times of change by its own clock. On others, such as FAT,
+    * programs can set all times, or a server does, and a digest may outlive its file.
+    */
+  private val Timed = Set("ext2", "ext3", "ext4", "xfs", "btrfs", "bcachefs", "zfs", "f2fs") ++
+    Set("jfs", "tmpfs", "overlay", "apfs", "hfs", "ufs")
+
+  private[candela] def isTimed(folder: Path): Boolean =
+    Try(Files.getFileStore(folder).`type`).toOption.exists(t => Timed(t.toLowerCase))
+
+  /** Names that another process wrote may be none here. */
+  private def isThere(folder: Path, name: String): Boolean =
+    Try(Files.exists(folder.resolve(name))).getOrElse(false)
+
+  /** Stamp and digest of each file, by its name. */
+  private[candela] type Rows = Map[String, (FileStamp, String)]
+
+  private final class Table(before: Rows):
+    private val rows = ConcurrentHashMap[String, (FileStamp, String)](before.asJava)
+    private val fresh = ConcurrentHashMap.newKeySet[String]()
+    @volatile private var isNew = false
+
+    def find(name: String, stamp: FileStamp): Option[String] =
+      for (same, digest) <- Option(rows.get(name)) if same == stamp yield digest
+
+    def put(name: String, stamp: FileStamp, digest: String): Unit =
+      rows.put(name, (stamp, digest)): Unit
+      fresh.add(name): Unit
+      isNew = true
+
+    /** Rows that this process has made, if any was made since they were taken last. */
+    def taken(): Option[Rows] = Option.when(isNew):
+      isNew = false
+      fresh.asScala.iterator.map(n => n -> rows.get(n)).toMap
+
+  private[candela] object TableForm extends PartForm[Rows]("digests 1", CacheFolder.Digests):
+    /** Written however small: it stands for reading all of the files. */
+    def size(rows: Rows): Long = PartFiles.MinBytes
+
+    def write(rows: Rows, out: CheckedOutput): Unit =
+      out.int(rows.size)
+      for
+        (name, (stamp, digest)) <- rows.toVector.sortBy(_._1);
+        word <- Seq(name, stamp.words, digest)
+      do out.text(word)
+
+    def read(in: CheckedInput): Rows =
+      Vector.fill(in.count(bytes = 12))((in.text(), (FileStamp(in.text()), in.text()))).toMap

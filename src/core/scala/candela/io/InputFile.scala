@@ -1,0 +1,191 @@
+package candela.io
+
+import java.io.{BufferedInputStream, FilterInputStream, InputStream, IOException}
+import java.nio.ByteBuffer
+import java.nio.channels.FileChannel
+import java.nio.charset.StandardCharsets.ISO_8859_1
+import java.nio.file.attribute.{BasicFileAttributes, FileTime}
+import java.nio.file.{Files, InvalidPathException, Path, StandardOpenOption}
+import java.util.concurrent.TimeUnit.NANOSECONDS
+
+import scala.util.{Try, Using}
+
+/** A file that exists, to be read. What a scene names is opened by its [[SceneFolder]]; `asked` is
+  * for what users name.
+  *
+  * @param path  as named, for messages
+  * @param place where it is opened
+  * @param gate  counts what is read
+  * @param isShown whether messages may quote it
+  */
+final class InputFile private[candela] (
+    val path: Path,
+    private val place: Path,
+    gate: Long => Unit,
+    mayBePipe: Boolean,
+    shown: => Boolean
+):
+  lazy val isShown: Boolean = shown
+
+  /** A file that has an end: what the kernel makes as it is read might have none. */
+  def isRegular: Boolean = Files.isRegularFile(place) && obstacle.isEmpty
+
+  /** Why it is not to be opened, unless its user named it as a stream. */
+  private[candela] def obstacle: Option[String] = InputFile.obstacle(place)
+  def isFolder: Boolean = Files.isDirectory(place)
+
+  /** Whether it is a pipe that may be read, once. */
+  def isPipe: Boolean = mayBePipe && Files.exists(place) && !isRegular && !isFolder
+  def size: Long = Files.size(place)
+  def isSame(other: InputFile): Boolean = place == other.place || identity == other.identity
+
+  /** Which file it is, whatever its name; asked for once. */
+  private lazy val identity: AnyRef =
+    val key = attributes.fileKey
+    if key != null then key else place.toRealPath()
+
+  /** Counts bytes that are unpacked from the file. */
+  def unpacks(bytes: Long): Unit = gate(bytes)
+
+  /** All bytes. A file of 2 GB or more is an OutOfMemoryError. */
+  def bytes(): Array[Byte] =
+    gate(Files.size(readable))
+    Files.readAllBytes(readable)
+
+  /** The file as Latin-1, in which no byte is wrong. */
+  def text(): String = String(bytes(), ISO_8859_1)
+
+  def lines(): Vector[String] = text().linesIterator.toVector
+
+  /** Words between white space, without comments, which begin with `#`. */
+  def words(): Vector[String] =
+    lines().flatMap(_.takeWhile(_ != '#').split("\\s+")).filter(_.nonEmpty)
+
+  def stream(): InputStream = BufferedInputStream(Gated(Files.newInputStream(readable), gate))
+
+  /** Its first bytes, to look at in passing: they are not counted, since they are read again. */
+  def beginning(most: Int): Array[Byte] =
+    Using.resource(Files.newInputStream(readable))(_.readNBytes(most))
+
+  /** Its bytes, not counted: who has read it reads it again.
+    *
+    * @throws IOException if it can't be read
+    */
+  def again(): InputStream = Files.newInputStream(readable)
+
+  /** Digest of its content. Its bytes are not counted, as they are read again.
+    *
+    * @throws IOException if it can't be read
+    */
+  def digest(): String = Sha256.ofAll(again())
+
+  /** Changes when the file changes; None if the system has no such stamp, or if the file has
+    * changed so recently that another change would go unnoticed.
+    */
+  private[candela] def stamp: Option[FileStamp] = FileStamp.of(place)
+
+  /** Where it is, whatever the user's folder. */
+  private[candela] def whole: Path = place.toAbsolutePath.normalize
+
+  /** Tells whether the file is surely as it is now. */
+  def watch(): () => Boolean =
+    val now = stamp
+    () => now.nonEmpty && stamp == now
+
+  /** In memory as the system sees fit. Its whole size is counted. */
+  def map(): ByteBuffer = Using.resource(channel()): channel =>
+    if channel.size > Int.MaxValue then throw IOException("larger than 2 GB")
+    channel.map(FileChannel.MapMode.READ_ONLY, 0, channel.size)
+
+  /** For reading. Its whole size is counted. */
+  def channel(): FileChannel =
+    val opened = FileChannel.open(readable, StandardOpenOption.READ)
+    try
+      gate(opened.size)
+      opened
+    catch
+      case e: Throwable =>
+        opened.close()
+        throw e
+
+  /** A word of the file, for messages: files beside the scene's may be none of its. */
+  def quoted(word: String): String = if isShown then s"`$word`" else "text that is not shown"
+
+  override def toString: String = path.toString
+
+  /** Pipes and devices might never end. */
+  private def readable: Path =
+    if isFolder then throw IOException(InputFile.Folder)
+    else if !mayBePipe then for why <- obstacle do throw IOException(why)
+    place
+
+  private def attributes = Files.readAttributes(place, classOf[BasicFileAttributes])
+
+object InputFile:
+  private val Folder = "it is a folder"
+
+  /** Why an existing file is not to be opened unless its user named it as a stream: reading might
+    * never end.
+    */
+  def obstacle(file: Path): Option[String] =
+    Try(Files.readAttributes(file, classOf[BasicFileAttributes])).toOption.flatMap: a =>
+      if a.isDirectory then Some(Folder)
+      else if !a.isRegularFile then Some("it is a pipe or a device, not a regular file")
+      else if !hasSize(a.size) && Try(file.toRealPath()).toOption.exists(ofKernel) then
+        Some("it is generated by the kernel, not a regular file")
+      else None
+
+  /** Virtual files of the kernel have no size, or an absurd one. */
+  private def hasSize(size: Long) = size > 0 && size < (1L << 45)
+
+  private def ofKernel(file: Path) = KernelFolders.exists(file.startsWith)
+
+  private val KernelFolders = Vector("/proc", "/sys").map(Path.of(_))
+
+  /** A file that the user has named. */
+  def asked(path: Path): InputFile = InputFile(path, path, _ => (), mayBePipe = true, shown = true)
+
+  /** A file that was read before, by its name in messages. */
+  def again(name: String): Option[InputFile] =
+    try
+      Some(Path.of(name)).filter(Files.isRegularFile(_)).map: path =>
+        InputFile(path, path, _ => (), mayBePipe = false, shown = true)
+    catch case _: InvalidPathException => None
+
+/** Attributes of a file that differ if the file was changed or replaced.
+  *
+  * @param words size; when it was modified, and when its content or its attributes were changed,
+  *              which no program can set, in nanoseconds; device and number
+  */
+private[candela] final case class FileStamp(words: String)
+
+private[candela] object FileStamp:
+  /** Clocks of file systems tick: two changes within a tick have one time. In milliseconds. */
+  val Tick = 2000L
+
+  /** @param rest milliseconds since its last change, at least */
+  def of(file: Path, rest: Long = Tick): Option[FileStamp] = Try:
+    val all = Files.readAttributes(file, "unix:size,lastModifiedTime,ctime,dev,ino")
+    def time(name: String) = all.get(name).asInstanceOf[FileTime]
+    val times = Seq("lastModifiedTime", "ctime").map(time(_).to(NANOSECONDS))
+    val stamp =
+      FileStamp((all.get("size") +: times :+ all.get("dev") :+ all.get("ino")).mkString(" "))
+    Option.when(System.currentTimeMillis - time("ctime").toMillis >= rest)(stamp)
+  .toOption.flatten
+
+/** Counts the bytes read. */
+private final class Gated(in: InputStream, gate: Long => Unit) extends FilterInputStream(in):
+  override def read(): Int =
+    val byte = in.read()
+    if byte >= 0 then gate(1)
+    byte
+
+  override def read(into: Array[Byte], from: Int, length: Int): Int =
+    val n = in.read(into, from, length)
+    if n > 0 then gate(n)
+    n
+
+  /** None of a pipe, where JDK 17's streams of files throw "Illegal seek". */
+  override def available(): Int =
+    try in.available()
+    catch case _: IOException => 0

@@ -1,0 +1,117 @@
+package candela.io
+
+import java.io.IOException
+import java.lang.ref.SoftReference
+import java.util.concurrent.ConcurrentHashMap
+import java.util.concurrent.atomic.AtomicInteger
+
+/** Keeps what the scenes of a process have in common, by its content, so that it is made once:
+  * frames of a sequence, or many views of one scene. What is kept is immutable. Safe for threads.
+  *
+  * Large things of some kinds may also be kept in files, for other processes.
+  *
+  * It has what the scene before the latest has used, or the latest itself, and gives that up where
+  * the JVM lacks memory.
+  */
+final class Keep private (val isKeeping: Boolean, files: Option[PartFiles]):
+  import Keep.*
+
+  private val things = ConcurrentHashMap[(Shelf[?], String), Kept]()
+  private val digests = FileDigests(files)
+  private val scenes = AtomicInteger()
+
+  /** Whether some is kept in files. */
+  def isFiled: Boolean = files.nonEmpty
+
+  /** Begins another scene. */
+  def begin(): Unit =
+    val latest = scenes.incrementAndGet()
+    val _ = things.values.removeIf(k => k.isGone || k.last < latest - 1)
+
+  /** The cached value of this key, or that of `make`.
+    *
+    * @param key identifies all inputs of `make`
+    */
+  def apply[A <: AnyRef](shelf: Shelf[A], key: => String)(make: => A): A =
+    if !isKeeping then make
+    else
+      val name = key
+      find(shelf, name).getOrElse:
+        val made = make
+        put(shelf, name, made)
+        made
+
+  def find[A <: AnyRef](shelf: Shelf[A], key: String): Option[A] =
+    remembered(shelf, key).orElse:
+      for
+        store <- files; form <- shelf.form
+        found <- store.read(form, key)
+      yield
+        remember(shelf, key, found)
+        found
+
+  private def remembered[A <: AnyRef](shelf: Shelf[A], key: String): Option[A] =
+    Option(things.get((shelf, key))).flatMap: kept =>
+      kept.last = scenes.get
+      Option(kept.thing.get).map(_.asInstanceOf[A]) // what was put on this shelf
+
+  private def remember[A <: AnyRef](shelf: Shelf[A], key: String, thing: A): Unit =
+    things.put((shelf, key), Kept(SoftReference(thing), scenes.get)): Unit
+
+  def put[A <: AnyRef](shelf: Shelf[A], key: String, thing: A): Unit =
+    if isKeeping then
+      remember(shelf, key, thing)
+      for store <- files; form <- shelf.form do store.write(form, key, thing)
+
+  /** Writes to files what is known of the scene's files.
+    *
+    * @return why files can't be written, if that was not told before
+    */
+  def save(): Option[String] =
+    digests.save()
+    files.flatMap(_.trouble())
+
+  /** As `apply`, of what is made from a file, and in which way.
+    *
+    * @return also the file's digest, unless nothing is kept or the file was written meanwhile
+    */
+  def ofFile[A <: AnyRef](shelf: Shelf[A], file: InputFile, way: String)(
+      make: => A
+  ): (A, Option[String]) =
+    val before = content(file)
+    before.flatMap(digest => find(shelf, s"$digest $way")) match
+      case Some(known) => (known, before)
+      case None =>
+        val made = make
+        val same = before.filter(_ => content(file) == before)
+        for digest <- same do put(shelf, s"$digest $way", made)
+        (made, same)
+
+  /** None also of a file that can't be read, which its reader will say. */
+  private def content(file: InputFile): Option[String] =
+    try Option.when(isKeeping)(digest(file))
+    catch case _: IOException => None
+
+  /** The digest of a file, which is remembered while the file is not touched.
+    *
+    * @throws IOException if it can't be read
+    */
+  def digest(file: InputFile): String =
+    if isKeeping then digests(file)(file.digest()) else file.digest()
+
+object Keep:
+  /** @param files also keep large things */
+  def apply(files: Option[PartFiles] = None): Keep = new Keep(true, files)
+
+  /** Keeps nothing. */
+  val Nothing: Keep = new Keep(false, None)
+
+  /** A cache of values of one kind, compared by identity.
+    *
+    * @param form of their files, if they may be kept in files
+    */
+  final class Shelf[A <: AnyRef](val form: Option[PartForm[A]] = None)
+
+  /** @param last the scene that used it last */
+  private final class Kept(val thing: SoftReference[AnyRef], @volatile var last: Int):
+    def isGone: Boolean = thing.get == null

@@ -1,0 +1,187 @@
+package candela.io
+
+import candela.diagnostics.{Allowance, Code, Refusal, SourcePos, Suggest}
+import java.nio.file.{Files, InvalidPathException, LinkOption, Path}
+import java.util.concurrent.ConcurrentHashMap
+
+import scala.jdk.CollectionConverters.*
+import scala.util.{Try, Using}
+
+/** The folder of a scene: the one door through which files are opened that the scene names.
+  *
+  * @param path  what names are relative to
+  * @param guard decides what may be opened
+  */
+final class SceneFolder private (val path: Path, guard: FileGuard):
+
+  def isConfined: Boolean = guard.isConfined
+  def allowance: Allowance = guard.allowance
+
+  /** Another folder, whose files are guarded as those of this one. */
+  def at(other: Path): SceneFolder = new SceneFolder(other, guard)
+
+  /** The scene file itself, which the user has named: a pipe, too, unless it is confined. */
+  def scene(file: Path): InputFile =
+    if !isConfined then guard.asked(file)
+    else
+      guard.open(file, None).filter(_.isRegular).getOrElse:
+        throw Refusal(
+          Code.Sandboxed,
+          None,
+          s"`$file` is not a regular file",
+          "--sandbox reads regular files only"
+        )
+
+  /** The regular file of a name, if there is one.
+    *
+    * @param at where the scene names it
+    * @throws Refusal if the scene may not read it, whether it exists or not
+    */
+  def find(
+      name: String,
+      at: Option[SourcePos],
+      folders: Seq[Path] = Vector(path)
+  ): Option[InputFile] = all(folders, name, at).find(_.isRegular)
+
+  /** The file of this name in the first of several folders, regular or not. */
+  def existing(folders: Seq[Path], name: String, at: Option[SourcePos]): Option[InputFile] =
+    all(folders, name, at).nextOption()
+
+  private def all(folders: Seq[Path], name: String, at: Option[SourcePos]) =
+    folders.iterator.flatMap(SceneFolder.resolved(_, name)).flatMap(guard.open(_, at))
+
+  /** As `find`, but without counting; files that the scene may not read are absent. */
+  def belonging(name: String): Option[Path] =
+    SceneFolder.resolved(path, name).filter(guard.mayOpen).filter(Files.isRegularFile(_))
+
+  /** Message and help if `find` has no result.
+    *
+    * @param nothing message if no file has this name
+    */
+  def absence(
+      name: String,
+      at: Option[SourcePos],
+      nothing: String,
+      folders: Seq[Path] = Vector(path)
+  ): (String, Option[String]) =
+    existing(folders, name, at) match
+      case Some(other) => (other.obstacle.fold(nothing)(w => s"`$name`: $w"), None)
+      case None => (nothing, suggestion(name))
+
+  /** As `belonging`, for a look without counting. */
+  def glance(name: String): Option[InputFile] =
+    belonging(name).flatMap(_ => find(name, None))
+
+  /** A similar name in the folder, after `find` has found nothing. */
+  def suggestion(name: String): Option[String] =
+    SceneFolder.resolved(path, name).flatMap(p => Suggest.file(p, guard.namesBeside(p)))
+
+  /** A file's path from here. */
+  def relativize(file: Path): Path = path.relativize(file)
+
+  override def equals(other: Any): Boolean = other match
+    case that: SceneFolder => path == that.path
+    case _ => false
+
+  override def hashCode: Int = path.hashCode
+  override def toString: String = path.toString
+
+object SceneFolder:
+  /** A folder whose scene may read every file. */
+  def apply(path: Path): SceneFolder = new SceneFolder(path, FileGuard(path, false, Allowance()))
+
+  /** The folder of a scene file.
+    *
+    * @param isConfined whether the scene may read no files but those in its folder or below it
+    */
+  def of(
+      scene: Path,
+      isConfined: Boolean = false,
+      allowance: Allowance = Allowance()
+  ): SceneFolder =
+    val folder = Option(scene.getParent).getOrElse(Path.of(""))
+    new SceneFolder(folder, FileGuard(folder, isConfined, allowance))
+
+  /** A name like that of a missing file or folder, beside where it was looked for. */
+  def near(path: Path): Option[String] =
+    Option(path.getFileName).flatMap(name => of(path).suggestion(name.toString))
+
+  /** Of statements that name no files. */
+  val Nowhere: SceneFolder = SceneFolder(Path.of(""))
+
+  /** Whether a file may have this name: not if it has a zero byte, for example. */
+  def isName(name: String): Boolean = resolved(Path.of(""), name).nonEmpty
+
+  private def resolved(folder: Path, name: String): Option[Path] =
+    try Option.when(name.nonEmpty)(folder.resolve(name.replace('\\', '/')))
+    catch case _: InvalidPathException => None
+
+/** Decides which files a scene may open, and counts them.
+  *
+  * @param root       the scene's folder
+  * @param isConfined whether all files must be in it
+  */
+private final class FileGuard(root: Path, val isConfined: Boolean, val allowance: Allowance):
+  private lazy val realRoot = Try(root.toAbsolutePath.toRealPath()).toOption
+
+  def mayOpen(path: Path): Boolean = !isConfined || inside(path).nonEmpty
+
+  /** The file, if it exists; a folder or a pipe, too. */
+  def open(path: Path, at: Option[SourcePos]): Option[InputFile] =
+    val place = if isConfined then inside(path).getOrElse(throw outside(path, at)) else path
+    Option.when(Files.exists(place)):
+      if isConfined && !Files.isRegularFile(place) && !Files.isDirectory(place) then
+        throw Refusal(
+          Code.Sandboxed,
+          at,
+          s"expected a regular file, found a pipe or a device: `$path`",
+          "--sandbox reads regular files only"
+        )
+      allowance.countFile(place, at)
+      def gate(count: Long) = allowance.countBytes(count, path, at)
+      InputFile(path, place, gate, mayBePipe = false, shown = isInside(path))
+
+  /** A file that the user has named, of any kind. */
+  def asked(path: Path): InputFile =
+    InputFile(path, path, allowance.countBytes(_, path, None), mayBePipe = true, shown = true)
+
+  private def outside(path: Path, at: Option[SourcePos]): Refusal =
+    val isLink = path.toAbsolutePath.normalize.startsWith(root.toAbsolutePath.normalize)
+    val what =
+      if isLink then s"`$path`, a link that leads out of it or nowhere" else s"`$path`"
+    Refusal(Code.Sandboxed, at, s"expected a file in the scene's folder, found $what", Help)
+
+  private val Help = "--sandbox lets scenes read the files of their own folder only"
+
+  /** Listed once, as thousands of files may be missing. */
+  private val listed = ConcurrentHashMap[Path, Vector[String]]()
+
+  /** Of files beside another, if they can be told. */
+  def namesBeside(file: Path): Vector[String] =
+    def list(folder: Path) = Try:
+      Using.resource(Files.list(folder)): all =>
+        all.iterator.asScala.take(FileGuard.MostNames).map(_.getFileName.toString).toVector
+    Option(file.toAbsolutePath.getParent)
+      .fold(Vector.empty)(listed.computeIfAbsent(_, list(_).getOrElse(Vector.empty)))
+
+  /** Remembered, as files may be opened as often as scenes include them. */
+  private val known = ConcurrentHashMap[Path, Boolean]()
+  private def isInside(path: Path) = known.computeIfAbsent(path, inside(_).nonEmpty)
+
+  /** The real path of a file that may not exist yet; None if it is outside of the folder. */
+  private def inside(path: Path): Option[Path] =
+    val absolute = path.toAbsolutePath
+    val parts = absolute.getNameCount
+    val parents = Iterator.iterate(absolute)(_.getParent).takeWhile(_ != null)
+    for
+      root <- realRoot
+      there <- parents.find(Files.exists(_, LinkOption.NOFOLLOW_LINKS))
+      real <- Try(there.toRealPath()).toOption // not of links that lead nowhere
+      rest = parts - there.getNameCount
+      whole =
+        if rest == 0 then real else real.resolve(absolute.subpath(parts - rest, parts)).normalize
+      if whole.startsWith(root)
+    yield whole
+
+private object FileGuard:
+  private val MostNames = 10_000

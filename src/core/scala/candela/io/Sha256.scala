@@ -1,0 +1,69 @@
+package candela.io
+
+import candela.concurrency.Parallel
+import java.io.InputStream
+import java.nio.ByteBuffer
+import java.nio.charset.StandardCharsets.UTF_8
+import java.security.MessageDigest
+import java.util.HexFormat
+
+import scala.util.Using
+
+/** Digests of contents: SHA-256 (FIPS 180-4), in 64 hexadecimal digits. */
+object Sha256:
+  def of(text: String): String = hex(bytesOf(text))
+
+  /** As `of`, in 32 bytes. */
+  def bytesOf(text: String): Array[Byte] = start().digest(text.getBytes(UTF_8))
+
+  def of(bytes: ByteBuffer): String =
+    val sum = start()
+    sum.update(bytes)
+    hex(sum.digest)
+
+  /** Digest of the rest of a stream, which is then closed.
+    *
+    * @throws java.io.IOException if it can't be read
+    */
+  def ofAll(stream: => InputStream): String =
+    val sum = start()
+    Using.resource(stream): in =>
+      val buffer = new Array[Byte](1 << 16)
+      var count = in.read(buffer)
+      while count >= 0 do
+        sum.update(buffer, 0, count)
+        count = in.read(buffer)
+    hex(sum.digest)
+
+  /** Of many numbers: the digest of those of pieces of one size, which threads share. */
+  def ofNumbers(parts: Seq[Numbers], parallel: Parallel): Array[Byte] =
+    val pieces = parts.toVector.flatMap: p =>
+      (p.from until p.until by Piece).map(i =>
+        p.copy(from = i, until = Math.min(i + Piece, p.until))
+      )
+    val sums = parallel.map(pieces.size)(i => start().digest(pieces(i).bytes))
+    val all = start()
+    for p <- parts do all.update(ByteBuffer.allocate(4).putInt(p.until - p.from).flip())
+    sums.foreach(all.update)
+    all.digest()
+
+  def hex(digest: Array[Byte]): String = HexFormat.of.formatHex(digest)
+
+  /** Some numbers of an array of Floats, with all their bits, or of Ints. */
+  final case class Numbers(array: Array[Float] | Array[Int], from: Int, until: Int):
+    private[Sha256] def bytes: Array[Byte] =
+      val buffer = ByteBuffer.allocate(4 * (until - from))
+      array match
+        case floats: Array[Float] => buffer.asFloatBuffer.put(floats, from, until - from): Unit
+        case ints: Array[Int] => buffer.asIntBuffer.put(ints, from, until - from): Unit
+      buffer.array
+
+  object Numbers:
+    def apply(array: Array[Float] | Array[Int]): Numbers = array match
+      case floats: Array[Float] => Numbers(floats, 0, floats.length)
+      case ints: Array[Int] => Numbers(ints, 0, ints.length)
+
+  /** Numbers of a piece. */
+  private val Piece = 1 << 17
+
+  private def start() = MessageDigest.getInstance("SHA-256")
