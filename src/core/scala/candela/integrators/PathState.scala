@@ -8,8 +8,8 @@ import candela.media.PathWeights
   * but its ray. Mutable. A path tracer has one, and each branch that waits has a copy.
   *
   * The estimate of a path is the sum of β · w · L over all light that it meets or samples: light of
-  * radiance L that its ray meets, or that is sampled at one of its vertices. It is unbiased, its
-  * mean is the radiance that arrives at the camera:
+  * radiance L that its ray meets, or that is sampled at one of its vertices. It is unbiased: its
+  * mean is the radiance that arrives at the camera after at most `maxDepth` scattering events.
   *
   *   - β, the [[throughput]], is the product of f·|cos|/p over the vertices so far, where p is the
   *     density with which the direction was sampled. The mean of β · L over all directions is
@@ -22,6 +22,9 @@ import candela.media.PathWeights
   *     densities, but a ray that meets an emitter has left the vertex where the emitter could have
   *     been sampled. So the path remembers the density of its direction, and the position and
   *     normal of that vertex.
+  *   - In media, β also has T·σs/p of a sampled distance, where T is the transmittance, or T/P of
+  *     passing the medium with the probability P. Phase functions are sampled exactly: their f/p
+  *     is 1.
   *
   * Between surfaces one density is enough ([[SurfacePath]]). In media each colour has its own
   * ([[VolumePath]]).

@@ -13,8 +13,9 @@ import candela.scene.Scene
   * their way, also through interfaces. [[PathExtension]] has what only some scenes need.
   *
   * Sources: as [[PathTracer]]; PBRT 4th ed., §14.2.3; [[candela.media.PathWeights]], whose `u` are
-  * the book's `r_u`, and `l` its `r_l`. Both are combined by the power heuristic, where Miller,
-  * Georgiev and Jarosz 2019 use the balance heuristic.
+  * the book's `r_u`, and `l` its `r_l`. Light samples and the path are combined by the power
+  * heuristic, where Miller, Georgiev and Jarosz 2019 use the balance heuristic; the three colours
+  * by the balance heuristic. [[PathState]] says why the estimate is unbiased.
   */
 final class VolumePathTracer private (
     scene: Scene,
@@ -121,8 +122,8 @@ final class VolumePathTracer private (
 
   private def hasHad(events: Int): Boolean = volumePath.depth == events
 
-  /** Samples a collision with the medium before the end of the ray, and attenuates the path up to
-    * there.
+  /** Samples the next scattering event in the medium before the end of the ray, and weights the
+    * path up to there, or to the end.
     *
     * @return the ray's parameter of a scattering event; −1: none
     */
@@ -153,6 +154,7 @@ final class VolumePathTracer private (
     if extension.scatters(sampler) then leave()
     else
       sampler.next2D()
+      // f/p is 1: phase functions are sampled exactly
       val wi = phase.sample(wo, sampler.x, sampler.y)
       val pdf = phase.value(wo, wi)
       extension.leaveInMedium(pdf)

@@ -17,7 +17,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
   private var seen, step, parts = 0
   private var now, perSample = 0.0
 
-  /** Samples per pixel with which the error is low enough, by all looks so far. */
+  /** Samples per pixel at which the latest estimate expects the error to be low enough. */
   private var end = Option.empty[Int]
   private var expected = Option.empty[SampleRange]
 
@@ -37,7 +37,7 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     def clock = pass.clock + (System.nanoTime - began) * 1e-9
     def isLate = options.time.exists(clock > _ + Goal.MaxLateSeconds)
     val watched = pass.copy(isStopped = () => pass.isStopped() || isLate)
-    // Where an error is looked at, and so where it ends, must not depend on the time
+    // Shortened passes depend on the time; where the rendering ends by its error must not
     if pass.isWhole then
       recorder.passed(watched, film)
       val samples = options.error.flatMap(recorder.samplesUntil)

@@ -2,7 +2,7 @@ package candela.measure
 
 /** The error of an image of N samples per pixel, estimated from its own samples.
   *
-  * The mean of n samples has the variance V(n). Half of them have the means A and B, and the
+  * The mean of n samples has the variance V(n). Its two halves have the means A and B, and the
   * scatter D(n), the mean of (A − B)² / 4, has the expectation V(n/2) − V(n).
   *
   * Parts of V(n) fall as fast as 1 / n³, for smooth integrands and scrambled nets (Owen, "Scrambled

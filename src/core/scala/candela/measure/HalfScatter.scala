@@ -47,7 +47,7 @@ final class HalfScatter:
         None
       case Some(half) if Integer.bitCount(samples) == 1 || (isLast && latest.isEmpty) =>
         val values = HalfScatter.scatter(half, state, isStopped)
-        // A single sample fills no pixel evenly, so V(1) and D(2) are those of independent ones
+        // V(1) is that of independent samples, so D(2) says nothing of the trend
         val earlier = scatters.filter(_ => samples == 2 * half.samples && samples > 4)
         val estimate = HalfScatter.estimate(state, values, earlier, isStopped)
         former = Some(state)

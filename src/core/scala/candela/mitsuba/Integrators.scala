@@ -7,6 +7,7 @@ import candela.scenefile.{Declaration, Param}
 final class Integrators(session: Session):
 
   def apply(p: Plugin): Declaration = session.translate(p): in =>
+    // Read to be checked only: roulette starts where it does in all dialects, with the same mean
     val roulette = in.integer("rr_depth", 5)
     if roulette < 1 then
       session.warn(

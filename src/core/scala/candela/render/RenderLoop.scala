@@ -70,7 +70,7 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
       live.extend(schedule.firstSample(wave) - done)
       renderPass(wave, schedule.firstSample(wave))
 
-  /** Takes all samples before the wave `end`, until each pixel has `samples`. */
+  /** Takes samples until each pixel has `samples`, none of the wave `end` or a later one. */
   private def renderPass(end: Int, samples: Int): Unit =
     queue.openUntil(end, samples)
     val begin = seconds

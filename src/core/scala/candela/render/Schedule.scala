@@ -7,8 +7,8 @@ import java.util.concurrent.atomic.AtomicLongArray
 /** Execution order of a rendering: sample passes ("waves"), each over all pieces.
   *
   * Waves grow (1, 1, 1, 1, 2, 2, 4, 4, … 64 samples per pixel), so that a cancelled image has
-  * uniform noise, while a long rendering rarely revisits a piece. Totals of 2ᵏ and 3 · 2ᵏ samples
-  * are what an estimate of the error compares.
+  * uniform noise, while a long rendering rarely revisits a piece. Totals of 2ᵏ samples are
+  * ends of waves: there the error is estimated.
   *
   * @param largestWave maximum samples per pixel of a wave
   * @param openWaves   maximum number of waves in progress: wave w begins only when wave w −

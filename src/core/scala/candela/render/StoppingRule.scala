@@ -19,7 +19,7 @@ abstract class StoppingRule:
   /** Called while no sample is added; not for a cancelled pass. */
   def passed(pass: Pass, film: Film): Unit = ()
 
-  /** Whether the rendering stops after the last pass. */
+  /** Whether the rendering stops after the pass that was shown to [[passed]] last. */
   def isReached: Boolean = false
 
   /** Asked about ten times a second: whether the rendering stops at once, though not all pixels

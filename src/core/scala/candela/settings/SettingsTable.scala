@@ -37,7 +37,9 @@ object SettingsTable:
   private val pictures = OutputFormat.listed(Contents.Display)
   private val curves = ToneCurve.values.toVector
 
-  /** Digests of films depend on the order of the rows that are not `apart`: new ones come last. */
+  /** Digests of films depend on the order of the rows that are not `apart`: a new row is the last
+    * of these.
+    */
   val all: Vector[Setting] = Vector(
     option("spp", "N", "samples per pixel; overrides the scene")(_.samples)((s, n) =>
       s.copy(samples = Some(n))

@@ -18,7 +18,6 @@ import java.nio.file.{Files, Path}
 import org.scalatest.funsuite.AnyFunSuite
 
 class RenderCommandSuite extends AnyFunSuite:
-
   private val gray = Rgb(0.5f, 0.25f, 2f)
 
   /** Knows scenes by name; writes nothing but where it is told. */
