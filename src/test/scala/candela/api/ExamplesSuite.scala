@@ -63,7 +63,7 @@ class ExamplesSuite extends AnyFunSuite:
   test("the examples in Scala and in Java have the same results", Slow):
     TempFolder.use: folder =>
       val compiler = ToolProvider.getSystemJavaCompiler
-      val words = Vector("-d", folder.toString, "-Xlint:all", "-Werror", "-classpath",
+      val words = Vector("-d", folder.toString, "-Xlint:all,-path", "-Werror", "-classpath",
         sys.props("java.class.path"), javaFile.toString)
       assert(compiler.run(null, null, null, words*) == 0)
       Using.resource(URLClassLoader(Array(folder.toUri.toURL), getClass.getClassLoader)): loader =>
