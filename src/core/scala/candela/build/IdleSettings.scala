@@ -18,7 +18,7 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
     idle("guiding", settings.guiding.exists(_ != GuidingMode.Off) && !isGuided):
       if context.isV2 && context.description.volumes.nonEmpty then
         "paths among pbrt-v2's volumes are not guided"
-      else if isBiased then IdleSettings.PhotonPaths
+      else if isBiased then Passes.Unguided
       else s"$integrator is not guided; \"path\" and \"volpath\" are"
     val takesNone = !method.takesCameraSamples
     val chains = s"the Markov chains of $integrator take no points of a sampler"
@@ -46,8 +46,5 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
     context.description.renderer.orElse(context.description.integrator).map(_.at)
 
 private[build] object IdleSettings:
-  /** Why paths are not guided beside photon maps. */
-  val PhotonPaths: String = Passes.Unguided
-
   /** Why light paths don't look for caustics. */
   val NoCaustics: String = "only \"path\" and \"volpath\" look for caustics"

@@ -11,7 +11,7 @@ import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralB
 import candela.guiding.Guide
 import candela.integrators.CausticsMode
 import candela.math.{Motion, Still}
-import candela.render.{ErrorFile, FilmSize, LayerPlan, RenderMethod, RenderPlan}
+import candela.render.{ErrorFile, FilmSize, LayerPlan, Passes, RenderMethod, RenderPlan}
 import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
 import candela.scenefile.SceneDescription
@@ -272,7 +272,7 @@ object SceneBuilder:
     val why = if settings.choices.byGoal then s"; ${Choices.Why}" else ""
     Option.when(context.resources.settings.learning.isDefined):
       "guiding" -> (method.guide match
-        case Some(_) if method.pilot.exists(_.blurs) => s"none: ${IdleSettings.PhotonPaths}"
+        case Some(_) if method.pilot.exists(_.blurs) => s"none: ${Passes.Unguided}"
         case Some(learning) => Guide(learning, samples, pixels).describe + why
         case None => "none: only path tracing without pbrt-v2's volumes is guided")
 

@@ -1,17 +1,25 @@
 package candela.guiding
 
+import candela.geometry.Frame
 import candela.math.*
 import candela.sampling.Warp
 
-/** The mixture of a region as seen from one point. Mutable, one per worker. */
-final class GuideMixture extends LobeMixture(GuideField.Lobes):
+/** The mixture of a region as seen from one point: lobes around directions, which are sampled by
+  * their weights. Mutable, one per worker.
+  */
+final class GuideMixture:
   import GuideField.*
   import Lobe.*
-  private val kappas = new Array[Float](Lobes)
+  private val xs, ys, zs, factors, ends, kappas = new Array[Float](Lobes)
+  private var count = 0
+  private val position = new Array[Float](3)
 
   /** The region of a point of this side ([[GuideField.side]]). */
   def region(field: GuideField, p: Vec3, side: Int): Int =
-    field.region(side, placeOf(p), 0)
+    position(0) = p.x
+    position(1) = p.y
+    position(2) = p.z
+    field.region(side, position, 0)
 
   /** Takes the mixture of the region, as seen from `p`. */
   def locate(field: GuideField, region: Int, p: Vec3): Unit =
@@ -56,6 +64,28 @@ final class GuideMixture extends LobeMixture(GuideField.Lobes):
     val cos = Math.max(-1f, Math.min(1f + inverse, 1f))
     val sin = sqrt(1f - cos * cos)
     to.set(frame(k).toWorld(Warp.around(cos, sin, v)))
+
+  /** Sets the axis of a lobe to this direction, of any length. */
+  private def turn(k: Int, x: Float, y: Float, z: Float): Unit =
+    val s = 1f / Math.max(sqrt(x * x + y * y + z * z), 1e-12f)
+    xs(k) = x * s
+    ys(k) = y * s
+    zs(k) = z * s
+
+  /** The lobe that `u` chooses. Each is a strip of the square, so that evenly spread points give
+    * evenly spread directions.
+    */
+  private def chosen(u: Float): Int =
+    var k = 0
+    while k < count - 1 && u >= ends(k) do k += 1
+    k
+
+  /** Where `u` lies in the strip of the lobe, from 0 to 1. */
+  private def within(u: Float, k: Int): Float =
+    val begin = if k == 0 then 0f else ends(k - 1)
+    Math.max(0f, Math.min((u - begin) / (ends(k) - begin), 1f))
+
+  private def frame(k: Int): Frame = Frame.around(Vec3(xs(k), ys(k), zs(k)))
 
 private[guiding] object Lobe:
   /** Keeps the logarithm finite. */

@@ -4,6 +4,7 @@ import candela.aov.LightParts
 import candela.color.{MutableRgb, Rgb}
 import candela.geometry.{Hit, Ray}
 import candela.guiding.Guide
+import candela.lights.SurfaceLight
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -59,9 +60,28 @@ abstract class CameraPath(
     *
     * @param pdf solid-angle density with which light sampling would have sampled the point
     */
-  protected inline def emissionWeight(light: Int, inline pdf: Float): Float =
+  private inline def emissionWeight(light: Int, inline pdf: Float): Float =
     if path.specularBounce then 1f
     else path.emissionWeight(scene.selection.probability(path.lastP, path.lastN, light), pdf)
+
+  /** Radiance of the environment along the ray, weighted against light sampling. */
+  protected final def environment(): Rgb =
+    LightTransport.environment(
+      scene,
+      ray,
+      weight = (i, light) =>
+        emissionWeight(i, light.pdf(path.lastP, ray.direction)) *
+          extension.emissionFactor(i, light),
+      contribution = extension.meetEnvironment
+    )
+
+  /** Weight of what the light at the vertex emits against light sampling. */
+  protected final def surfaceWeight(light: SurfaceLight): Float =
+    val at = vertex.at
+    val misWeight =
+      if light.isShownOnly && !path.specularBounce then 0f
+      else emissionWeight(at.areaLight, light.pdf(path.lastP, at))
+    misWeight * extension.emissionFactor(at.areaLight, light)
 
 /** Path tracing over surfaces, with next-event estimation, multiple importance sampling and Russian
   * roulette. [[PathExtension]] has what only some scenes need.
@@ -95,14 +115,7 @@ final class PathTracer private (
       extension.travel(sampler)
       if !isHit then
         // Add light of the environment
-        val Le = LightTransport.environment(
-          scene,
-          ray,
-          weight = (i, light) =>
-            emissionWeight(i, light.pdf(path.lastP, ray.direction)) *
-              extension.emissionFactor(i, light),
-          contribution = extension.meetEnvironment
-        )
+        val Le = environment()
         L.addProduct(beta, Le, 1f)
         goesOn = false
       else
@@ -113,10 +126,7 @@ final class PathTracer private (
           val light = scene.surfaceLight(at)
           val Le = light.radiance(at, vertex.wo)
           if !Le.isBlack then
-            val misWeight =
-              if light.isShownOnly && !path.specularBounce then 0f
-              else emissionWeight(at.areaLight, light.pdf(path.lastP, at))
-            val weight = misWeight * extension.emissionFactor(at.areaLight, light)
+            val weight = surfaceWeight(light)
             L.addProduct(beta, Le, weight)
             extension.meetSurface(at.areaLight, Le, weight)
         if scene.isPassed(ray, hit, at) || extension.isHidden then skipIntersection()

@@ -63,12 +63,7 @@ abstract class SurfaceWalk(
 
   /** Adds the environment's radiance and ends the path. */
   protected final def addEnvironment(): Unit =
-    val Le = LightTransport.environment(
-      scene,
-      ray,
-      weight = (i, light) => emissionWeight(i, light.pdf(path.lastP, ray.direction)),
-      contribution = extension.meetEnvironment
-    )
+    val Le = environment()
     L.addProduct(surfacePath.beta, Le, 1f)
     end()
 
@@ -79,9 +74,7 @@ abstract class SurfaceWalk(
       val light = scene.surfaceLight(at)
       val Le = light.radiance(at, vertex.wo)
       if !Le.isBlack then
-        val weight =
-          if light.isShownOnly && !path.specularBounce then 0f
-          else emissionWeight(at.areaLight, light.pdf(path.lastP, at))
+        val weight = surfaceWeight(light)
         L.addProduct(surfacePath.beta, Le, weight)
         extension.meetSurface(at.areaLight, Le, weight)
 

@@ -62,14 +62,7 @@ final class VolumePathTracer private (
           survive(sampler)
       else if !isHit then
         // Add light of the environment
-        val Le = LightTransport.environment(
-          scene,
-          ray,
-          weight = (i, light) =>
-            emissionWeight(i, light.pdf(path.lastP, ray.direction)) *
-              extension.emissionFactor(i, light),
-          contribution = extension.meetEnvironment
-        )
+        val Le = environment()
         L.add(volumePath.carried(Le))
         goesOn = false
       else
@@ -80,10 +73,7 @@ final class VolumePathTracer private (
           val light = scene.surfaceLight(at)
           val Le = light.radiance(at, vertex.wo)
           if !Le.isBlack then
-            val misWeight =
-              if light.isShownOnly && !path.specularBounce then 0f
-              else emissionWeight(at.areaLight, light.pdf(path.lastP, at))
-            val weight = misWeight * extension.emissionFactor(at.areaLight, light)
+            val weight = surfaceWeight(light)
             L.add(volumePath.carried(Le, weight))
             extension.meetSurface(at.areaLight, Le, weight)
         val isPane = crossesPanes && scene.isPane(at)

@@ -66,7 +66,7 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
 
   override def passed(pass: Pass, film: Film): Unit =
     val started = System.nanoTime
-    try measured(pass, measure(pass, film))
+    try measure(pass, film)
     catch case _: GivenUp => () // the rendering ends without
     spent += (System.nanoTime - started) * 1e-9
 
@@ -80,17 +80,19 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
       for e <- errors do
         curve += CurvePoint(samples, rendering.seconds, e, interval(samples))
 
-  /** Called with the image of each pass that was measured. */
-  protected def measured(pass: Pass, image: Image): Unit = ()
+  /** Called after each pass, with its image, which is developed when it is asked for. */
+  protected def measured(pass: Pass, image: => Image): Unit = ()
 
-  private def measure(pass: Pass, film: Film): Image =
-    val weights = new Array[Float](film.width * film.height)
-    val image = development(film, Some(weights), pass.isStopped)
+  private def measure(pass: Pass, film: Film): Unit =
+    lazy val weights = new Array[Float](film.width * film.height)
+    lazy val image = development(film, Some(weights), pass.isStopped)
     val errors = reference match
       case Some(r) => Option.when(pass.isMain)(Errors.against(r)(image))
       case None =>
-        val latest = scatter.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
+        val latest =
+          if !scatter.uses(pass.samples, pass.isLast) then None
+          else scatter.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
         latest.orElse(estimate.filter(_ => pass.isLast)).map(_.at(pass.samples))
     val interval = this.interval(pass.samples)
     errors.foreach(e => curve += CurvePoint(pass.samples, pass.end, e, interval))
-    image
+    measured(pass, image)

@@ -26,8 +26,13 @@ final class HalfScatter:
       val factor = e.factor * e.falloff(samples)
       s.values.map(v => (v * factor).toFloat)
 
-  /** Adds the state of the image after so many samples per pixel, more than before. Uses those
-    * after 2ᵏ, and of a continued rendering the first.
+  /** Whether the state after so many samples per pixel is used: after 2ᵏ, of a continued rendering
+    * the first, and the last if there is no estimate yet.
+    */
+  def uses(samples: Int, isLast: Boolean): Boolean =
+    former.isEmpty || Integer.bitCount(samples) == 1 || isLast && latest.isEmpty
+
+  /** Adds the state of the image after so many samples per pixel, more than before, if it is used.
     *
     * @param weights of each pixel's samples
     * @param isStopped whether to give up; then nothing changes
@@ -45,7 +50,7 @@ final class HalfScatter:
       case None =>
         former = Some(state)
         None
-      case Some(half) if Integer.bitCount(samples) == 1 || (isLast && latest.isEmpty) =>
+      case Some(half) if uses(samples, isLast) =>
         val values = HalfScatter.scatter(half, state, isStopped)
         // V(1) is that of independent samples, so D(2) says nothing of the trend
         val earlier = scatters.filter(_ => samples == 2 * half.samples && samples > 4)

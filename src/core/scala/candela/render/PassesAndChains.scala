@@ -4,7 +4,7 @@ import candela.bdpt.{ChainPaths, SpectralChainPaths}
 import candela.color.Wavelengths
 import candela.film.{Splats, View}
 import candela.integrators.{
-  ConvertedSplats, PassIntegrator, SharedChains, SharedPasses, SpectralIntegrators, SpectralPasses,
+  ConvertedSplats, PassIntegrator, SharedChains, SharedPasses, SpectralPasses,
   WorkerIntegrators
 }
 import candela.scene.PathReport
@@ -13,8 +13,10 @@ import candela.scene.PathReport
   *
   * @param bias of a method that would have none without passes: what makes the image biased
   */
-final class Passes(passes: View => SharedPasses, override val bias: Option[String] = None)
-    extends RenderMethod:
+final class Passes(
+    private val passes: View => SharedPasses,
+    override val bias: Option[String] = None
+) extends RenderMethod:
   def canShareSamples: Boolean = false
   def canKeepOn: Boolean = false
   def dividesLight: Boolean = false
@@ -48,9 +50,7 @@ final class Passes(passes: View => SharedPasses, override val bias: Option[Strin
       parts: Vector[RenderMethod]
   ): RenderMethod =
     val all = parts.collect { case p: Passes => p }
-    Passes(view => SpectralPasses(all.map(_.in(view)), bases), bias)
-
-  private def in(view: View): SharedPasses = passes(view)
+    Passes(view => SpectralPasses(all.map(_.passes(view)), bases), bias)
 
 object Passes:
   /** What is said of guiding where photons bring caustics. */
@@ -67,9 +67,9 @@ object Passes:
   * @param integrators evaluate a single camera sample without chains
   */
 final class Chains(
-    paths: (View, Splats) => ChainPaths,
+    private val paths: (View, Splats) => ChainPaths,
     chains: (View, Splats => ChainPaths) => SharedChains,
-    integrators: View => WorkerIntegrators
+    private val integrators: View => WorkerIntegrators
 ) extends RenderMethod:
   override def takesCameraSamples: Boolean = false
   def canShareSamples: Boolean = false
@@ -95,7 +95,7 @@ final class Chains(
     )
 
   private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
-    SingleSamples(integrators(plan.view(Splats.Discarded)).make(Some(report)))
+    RenderMethod.single(plan, report)(integrators)
 
   private[render] def spectral(
       bases: Array[Wavelengths],
@@ -105,15 +105,9 @@ final class Chains(
     Chains(
       (view, splats) =>
         val ofBases = all.zip(bases).map: (of, basis) =>
-          of.explored(view, ConvertedSplats(splats, basis))
+          of.paths(view, ConvertedSplats(splats, basis))
         SpectralChainPaths(ofBases.toArray, bases)
       ,
       chains,
-      view =>
-        val workers = all.zip(bases).map: (of, basis) =>
-          of.cameraSamples(RenderMethod.converted(view, basis))
-        SpectralIntegrators(workers, bases)
+      RenderMethod.inBases(bases, all.map(_.integrators))
     )
-
-  private def explored(view: View, splats: Splats): ChainPaths = paths(view, splats)
-  private def cameraSamples(view: View): WorkerIntegrators = integrators(view)

@@ -3,9 +3,9 @@ package candela.render
 import candela.caustics.CausticChoice
 import candela.aov.Layer
 import candela.color.Wavelengths
-import candela.film.{PixelBounds, SplatFilm, View}
+import candela.film.{PixelBounds, SplatFilm, Splats, View}
 import candela.guiding.GuideSettings
-import candela.integrators.{ConvertedSplats, Integrator, WorkerIntegrators}
+import candela.integrators.{ConvertedSplats, Integrator, SpectralIntegrators, WorkerIntegrators}
 import candela.scene.{PathReport, Scene}
 
 /** Organisation of an image's samples, selected by the integrator's recipe. What depends on the
@@ -93,9 +93,23 @@ object RenderMethod:
   def spectral(parts: Vector[(Wavelengths, RenderMethod)]): RenderMethod =
     parts.head._2.spectral(parts.map(_._1).toArray, parts.map(_._2))
 
-  /** The view of one basis of a spectral film. */
-  private[render] def converted(view: View, basis: Wavelengths): View =
-    view.copy(splats = ConvertedSplats(view.splats, basis))
+  /** Integrators of several bases, each with the view of its own.
+    *
+    * @param make of each basis
+    */
+  private[render] def inBases(
+      bases: Array[Wavelengths],
+      make: Vector[View => WorkerIntegrators]
+  )(view: View): WorkerIntegrators =
+    val workers = make.zip(bases).map: (of, basis) =>
+      of(view.copy(splats = ConvertedSplats(view.splats, basis)))
+    SpectralIntegrators(workers, bases)
+
+  /** Single samples of a plan, without splats. */
+  private[render] def single(plan: RenderPlan, report: PathReport)(
+      integrators: View => WorkerIntegrators
+  ): SingleSamples =
+    SingleSamples(integrators(plan.view(Splats.Discarded)).make(Some(report)))
 
   /** The film of splats. */
   private[render] def splatFilm(plan: RenderPlan): SplatFilm =
@@ -131,13 +145,8 @@ final class MethodPilot(
 
 object MethodPilot:
   /** Leaves the method as it is, and says why. */
-  def without(why: String): MethodPilot =
-    MethodPilot(
-      _ => (None, s"none: $why"),
-      _ => throw IllegalStateException(),
-      connects = false,
-      blurs = false
-    )
+  def without(why: String, alone: RenderMethod): MethodPilot =
+    MethodPilot(_ => (None, s"none: $why"), _ => alone, connects = false, blurs = false)
 
 /** A method that renders alone, beside which a pilot may choose a better one. */
 final class Piloted(alone: RenderMethod, chooser: MethodPilot) extends RenderMethod:

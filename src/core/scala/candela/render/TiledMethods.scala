@@ -1,7 +1,7 @@
 package candela.render
 
 import candela.color.Wavelengths
-import candela.film.{Fireflies, SplatFilm, Splats, View}
+import candela.film.{Fireflies, SplatFilm, View}
 import candela.guiding.{Guide, GuideSettings}
 import candela.integrators.{SpectralIntegrators, WorkerIntegrators}
 import candela.scene.PathReport
@@ -31,9 +31,9 @@ final class Tiles(val integrators: WorkerIntegrators) extends RenderMethod:
   * @param guided   learn, and are guided
   */
 final class GuidedTiles(
-    unguided: WorkerIntegrators,
+    private val unguided: WorkerIntegrators,
     settings: GuideSettings,
-    guided: Guide => WorkerIntegrators
+    private val guided: Guide => WorkerIntegrators
 ) extends RenderMethod:
   def canShareSamples: Boolean = true
   def canKeepOn: Boolean = settings.learnsOn
@@ -52,13 +52,10 @@ final class GuidedTiles(
   ): RenderMethod =
     val guides = parts.collect { case g: GuidedTiles => g }
     GuidedTiles(
-      SpectralIntegrators(guides.map(_.basic), bases),
+      SpectralIntegrators(guides.map(_.unguided), bases),
       settings,
-      shared => SpectralIntegrators(guides.map(_.learning(shared)), bases)
+      shared => SpectralIntegrators(guides.map(_.guided(shared)), bases)
     )
-
-  private def basic: WorkerIntegrators = unguided
-  private def learning(guide: Guide): WorkerIntegrators = guided(guide)
 
 object GuidedTiles:
   private[render] def job(
@@ -87,9 +84,9 @@ object GuidedTiles:
   * @param addedLight what light they find that the integrator by its definition doesn't, if any
   */
 final class SplattedTiles(
-    integrators: View => WorkerIntegrators,
+    private val integrators: View => WorkerIntegrators,
     val beside: Boolean = false,
-    guided: Option[GuidedSplats] = None,
+    private val guided: Option[GuidedSplats] = None,
     override val addedLight: Option[String] = None
 ) extends RenderMethod:
   def canShareSamples: Boolean = beside
@@ -108,28 +105,25 @@ final class SplattedTiles(
         TileJobs(plan, schedule, shard.takes, Some(splats)).job(integrators(view))
 
   private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
-    SingleSamples(integrators(plan.view(Splats.Discarded)).make(Some(report)))
+    RenderMethod.single(plan, report)(integrators)
 
   private[render] def spectral(
       bases: Array[Wavelengths],
       parts: Vector[RenderMethod]
   ): RenderMethod =
     val all = parts.collect { case s: SplattedTiles => s }
-    def over(view: View)(make: (SplattedTiles, View) => WorkerIntegrators) =
-      val workers = all.zip(bases).map((of, basis) => make(of, RenderMethod.converted(view, basis)))
-      SpectralIntegrators(workers, bases)
+    def guidedBy(guide: Guide) = all.flatMap(_.guided).map(g => g.integrators(_, guide))
     SplattedTiles(
-      over(_)(_.unguided(_)),
+      RenderMethod.inBases(bases, all.map(_.integrators)),
       beside,
       guided.map(g =>
-        GuidedSplats(g.settings, (view, guide) => over(view)(_.learning(_, guide)))
+        GuidedSplats(
+          g.settings,
+          (view, guide) => RenderMethod.inBases(bases, guidedBy(guide))(view)
+        )
       ),
       addedLight
     )
-
-  private def unguided(view: View): WorkerIntegrators = integrators(view)
-  private def learning(view: View, guide: Guide): WorkerIntegrators =
-    guided.get.integrators(view, guide)
 
 /** How paths beside light paths learn.
   *

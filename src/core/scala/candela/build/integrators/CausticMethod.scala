@@ -60,7 +60,7 @@ private object CausticMethod:
           )
 
   private def without(why: String, alone: RenderMethod): RenderMethod =
-    Piloted(alone, MethodPilot.without(why))
+    Piloted(alone, MethodPilot.without(why, alone))
 
   private def refuse(why: String, instead: String, alone: RenderMethod)(using
       site: Site

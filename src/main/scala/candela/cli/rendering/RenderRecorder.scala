@@ -29,10 +29,11 @@ final class RenderRecorder(development: Development, val reference: Option[Image
     last.map(named).toVector ++ begin.map(named) ++
       reference.map(r => Picture("reference", r.toRgb, isReference = true))
 
-  override protected def measured(pass: Pass, image: Image): Unit =
+  override protected def measured(pass: Pass, image: => Image): Unit =
+    val current = image
     foundPasses += PassSpan(pass.samples, pass.begin, pass.end, pass.workers)
-    if first.isEmpty then first = Some((image, pass.samples))
-    last = Some((image, pass.samples))
+    if first.isEmpty then first = Some((current, pass.samples))
+    last = Some((current, pass.samples))
 
 object RenderRecorder:
 
