@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{Decimal, loop}
 import candela.diagnostics.Code
 import java.nio.charset.StandardCharsets.US_ASCII
 import java.nio.{ByteBuffer, ByteOrder}
@@ -21,7 +21,7 @@ private[image] object Pfm extends OutputFormat("pfm", Contents.Radiance):
       case _ => Vector("Y")
     val (width, height) = (size(words.next("width")), size(words.next("height")))
     val word = words.next("scale")
-    val scale = word.toFloatOption.filter(s => s != 0f && java.lang.Float.isFinite(s))
+    val scale = Decimal.float(word).filter(s => s != 0f && java.lang.Float.isFinite(s))
       .getOrElse(throw ImageError(Code.DamagedImage, s"expected a scale such as -1, found `$word`"))
     val count = width.toLong * height * names.size
     val available = file.length - words.position

@@ -1,5 +1,6 @@
 package candela.lights
 
+import candela.base.Decimal
 import candela.io.{InputFile, IoReason}
 import java.io.IOException
 import java.util.Locale
@@ -54,7 +55,7 @@ object IesFile:
 
     private def number(what: => String): Float =
       val found = word(what)
-      found.toFloatOption.filter(java.lang.Float.isFinite(_))
+      Decimal.float(found).filter(java.lang.Float.isFinite(_))
         .getOrElse(fail(s"expected $what, found `${shown(found)}`"))
 
     private def whole(what: String, least: Int, most: Int): Int =

@@ -1,5 +1,6 @@
 package candela.mitsuba
 
+import candela.base.Decimal
 import candela.diagnostics.{Code, SourcePos}
 import candela.io.{InputFile, IoReason}
 import candela.math.{Position, Transform, Vec3, lerp}
@@ -74,7 +75,7 @@ object CurveFile:
       val words = line.trim.split("\\s+").filter(_.nonEmpty)
       if words.isEmpty then finish(i + 1)
       else
-        val numbers = words.flatMap(_.toFloatOption).filter(java.lang.Float.isFinite(_))
+        val numbers = words.flatMap(Decimal.float).filter(java.lang.Float.isFinite(_))
         if words.length != 4 || numbers.length != 4 || numbers.exists(Math.abs(_) > Far) ||
           numbers(3) < 0f
         then

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{FloatBuffer, IntBuffer, RestBuffer, loop}
+import candela.base.{Decimal, FloatBuffer, IntBuffer, RestBuffer, loop}
 import candela.diagnostics.{Code, SourcePos}
 import candela.io.{InputFile, IoReason}
 import java.io.IOException
@@ -85,7 +85,7 @@ private final class ObjReader(in: ByteBuffer, file: InputFile, at: SourcePos):
   private def numbers(to: FloatBuffer, count: Int): Unit =
     loop(count): _ =>
       val text = word()
-      val x = text.toFloatOption.getOrElse(fail(s"expected a number, found ${file.quoted(text)}"))
+      val x = Decimal.float(text).getOrElse(fail(s"expected a number, found ${file.quoted(text)}"))
       if !x.isFinite then fail(s"expected a finite number, found ${file.quoted(text)}")
       if (to eq p) && RestBuffer.isCoarse(x) then missing.note(p.length, text.toDouble, x)
       to += x

@@ -1,5 +1,6 @@
 package candela.mitsuba
 
+import candela.base.Decimal
 import candela.diagnostics.{Code, Problem, SceneError, SourcePos, Suggest}
 import candela.io.{InputFile, IoReason, SceneFolder}
 import candela.color.{Rgb, Spectrum}
@@ -67,7 +68,8 @@ final class Values(
         )
       else fail(Code.UnknownElement, e.at, s"<${e.tag}> must have the attribute `name`")
     e.tag match
-      case "float" | "integer" => Value.Number(number(text, e.at))
+      case "float" => Value.Number(number(text, e.at))
+      case "integer" => Value.Number(integer(text, e.at))
       case "boolean" =>
         text.trim.toLowerCase match
           case "true" => Value.Flag(true)
@@ -153,7 +155,7 @@ final class Values(
       try file.lines()
       catch case e: java.io.IOException => fails(IoReason(e))
     val texts = lines.filterNot(_.trim.startsWith("#")).flatMap(words)
-    for odd <- texts.find(_.toDoubleOption.isEmpty) do
+    for odd <- texts.find(Decimal.double(_).isEmpty) do
       fail(
         Code.SpectrumFile,
         at,
@@ -186,8 +188,13 @@ object Values:
   def numbers(text: String, at: SourcePos): Vector[Double] = words(text).map(number(_, at))
 
   def number(text: String, at: SourcePos): Double =
-    text.trim.toDoubleOption.filter(java.lang.Double.isFinite(_))
+    Decimal.double(text.trim).filter(java.lang.Double.isFinite(_))
       .getOrElse(fail(Code.ParameterValue, at, s"expected a number, found `${text.trim}`"))
+
+  /** Mitsuba takes neither `1.0` nor `+1`. */
+  private def integer(text: String, at: SourcePos): Double =
+    text.trim.toLongOption.filterNot(_ => text.trim.startsWith("+")).map(_.toDouble)
+      .getOrElse(fail(Code.ParameterValue, at, s"expected an integer, found `${text.trim}`"))
 
   /** Of wavelengths and values in turn. */
   def spectrum(xs: Vector[Double], at: SourcePos): Spectrum =

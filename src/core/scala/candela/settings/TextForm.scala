@@ -1,5 +1,6 @@
 package candela.settings
 
+import candela.base.Decimal
 import candela.aov.Layer
 import candela.color.ToneCurve
 import candela.film.{Fireflies, PixelBounds}
@@ -59,8 +60,8 @@ object TextForm:
       Try(BigInt(text)).toOption.fold("a number"): n =>
         if n > 0 then s"at most ${Int.MaxValue}" else s"at least ${Int.MinValue}"
   )
-  val float: TextForm[Float] = TextForm("a number", _.toFloatOption, _.toString)
-  val double: TextForm[Double] = TextForm("a number", _.toDoubleOption, _.toString)
+  val float: TextForm[Float] = TextForm("a number", Decimal.float(_), _.toString)
+  val double: TextForm[Double] = TextForm("a number", Decimal.double(_), _.toString)
   val string: TextForm[String] = TextForm("a name", Some(_), identity)
 
   /** Seconds of a duration. */
@@ -69,7 +70,7 @@ object TextForm:
     text =>
       val scale = Map("s" -> 1.0, "m" -> 60.0, "h" -> 3600.0).get(text.takeRight(1))
       val number = if scale.isDefined then text.dropRight(1) else text
-      number.toDoubleOption.map(_ * scale.getOrElse(1.0)).filter(s => s > 0 && s < 1e9)
+      Decimal.double(number).map(_ * scale.getOrElse(1.0)).filter(s => s > 0 && s < 1e9)
     ,
     s => s"${s}s"
   )
@@ -103,7 +104,7 @@ object TextForm:
     text =>
       val isPercentage = text.endsWith("%")
       val number = if isPercentage then text.dropRight(1).trim else text
-      number.toDoubleOption.map(x => if isPercentage then x / 100 else x)
+      Decimal.double(number).map(x => if isPercentage then x / 100 else x)
         .filter(x => x > 0 && x < Double.PositiveInfinity)
     ,
     _.toString
@@ -133,7 +134,7 @@ object TextForm:
       case Fireflies.Kept.word => Some(Fireflies.Kept)
       case Fireflies.Reweighted.word => Some(Fireflies.Reweighted)
       case s"clamp:$most" =>
-        val limit = most.toFloatOption.filter(m => m > 0 && m < Float.PositiveInfinity)
+        val limit = Decimal.float(most).filter(m => m > 0 && m < Float.PositiveInfinity)
         limit.map(Fireflies.Clamped(_))
       case _ => None
     ,
@@ -145,7 +146,7 @@ object TextForm:
 
   given window: TextForm[RenderRegion.Window] = TextForm(
     "x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5",
-    numbers(_.toFloatOption)(_).collect:
+    numbers(Decimal.float)(_).collect:
       case Vector(x0, x1, y0, y1)
           if 0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1 =>
         new RenderRegion.Window(x0, x1, y0, y1)
@@ -218,7 +219,7 @@ object TextForm:
     "stops, e.g. 1.5 or -2, or auto",
     text =>
       if text.equalsIgnoreCase("auto") then Some(Exposure.Auto)
-      else text.toFloatOption.filter(s => Math.abs(s) <= 100).map(Exposure.Stops(_)),
+      else Decimal.float(text).filter(s => Math.abs(s) <= 100).map(Exposure.Stops(_)),
     {
       case Exposure.Auto => "auto"
       case Exposure.Stops(n) => n.toString

@@ -1,5 +1,6 @@
 package candela.convert
 
+import candela.base.Decimal
 import candela.diagnostics.Code
 import candela.color.{Rgb, Srgb}
 import candela.math.pow
@@ -24,7 +25,7 @@ object ToV3Textures:
         val decode: Float => Float = encoding.split(' ') match
           case _ if Seq(".exr", ".pfm", ".hdr").exists(name.endsWith) => identity
           case Array("linear") if isPng => identity
-          case Array("gamma", g) if isPng && g.toFloatOption.nonEmpty => pow(_, g.toFloat)
+          case Array("gamma", g) if isPng && Decimal.float(g).nonEmpty => pow(_, g.toFloat)
           case _ => Srgb.decode(_)
         val isBaked = isPng && encoding.startsWith("gamma") ||
           name.endsWith(".exr") && RewrittenImages.hasOtherPrimaries(s, p)
@@ -74,7 +75,7 @@ object ToV3Textures:
       unsupported("scale", "unscaled")(isNumber(1f)),
       Step("`encoding`", "`gamma`, of \"gamma …\"")(s =>
         val words = s.takeString("encoding", "gamma 2.2").split(' ')
-        words.lastOption.flatMap(_.toFloatOption).foreach(s.addFloat("gamma", _))
+        words.lastOption.flatMap(Decimal.float).foreach(s.addFloat("gamma", _))
       )
     ),
     Rule.approximate("directionmix" -> "mix", "the average of both")(

@@ -1,5 +1,6 @@
 package candela.convert
 
+import candela.base.Decimal
 import candela.color.{Colorimetry, NamedSpectra, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.*
@@ -81,7 +82,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
   private def numbersOf(p: Param, d: Declaration): Option[Array[Float]] =
     d.folder.find(p.strings.head, Some(p.valuesAt)).map: file =>
       val words = file.lines().flatMap(_.takeWhile(_ != '#').trim.split("[\\s,]+"))
-      words.flatMap(_.toFloatOption).toArray
+      words.flatMap(Decimal.float).toArray
 
 object Values:
   /** Parameters with values outside [0, 1], though colours. */

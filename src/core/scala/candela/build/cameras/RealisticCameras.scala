@@ -1,5 +1,6 @@
 package candela.build.cameras
 
+import candela.base.Decimal
 import candela.diagnostics.Code
 import candela.io.{InputFile, IoReason}
 import java.io.IOException
@@ -143,7 +144,7 @@ private[build] object LensFile:
     val lines = text.linesIterator.map(_.takeWhile(_ != '#').trim).zipWithIndex
     val words = lines.flatMap((l, i) => l.split("\\s+").filter(_.nonEmpty).map(_ -> (i + 1)))
     val all = words.toVector
-    all.find((word, _) => !word.toDoubleOption.exists(java.lang.Double.isFinite)) match
+    all.find((word, _) => !Decimal.double(word).exists(java.lang.Double.isFinite)) match
       case Some((word, line)) => Left(s"${quoted(word)} in line $line is not a number")
       case None if all.isEmpty => Left("the file has no surfaces")
       case None if all.size % Columns != 0 =>

@@ -1,5 +1,6 @@
 package candela.build.materials
 
+import candela.base.Decimal
 import candela.io.{FileName, InputFile, IoReason}
 import java.nio.{ByteBuffer, ByteOrder}
 
@@ -24,7 +25,7 @@ private[build] object BrdfFile:
 
   private def scattered(file: InputFile): Either[String, MeasuredBsdf] =
     val words = file.words()
-    words.find(_.toFloatOption.isEmpty) match
+    words.find(Decimal.float(_).isEmpty) match
       case Some(word) => Left(s"${file.quoted(word)} is not a number")
       case None =>
         val numbers = words.map(_.toFloat).toArray

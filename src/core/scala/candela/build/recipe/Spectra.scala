@@ -1,5 +1,6 @@
 package candela.build.recipe
 
+import candela.base.Decimal
 import candela.diagnostics.{Code, Suggest}
 import candela.io.{InputFile, IoReason}
 import java.io.IOException
@@ -216,7 +217,7 @@ object Spectra:
   private def numbers(file: InputFile, name: String): Either[String, Array[Float]] =
     try
       val words = file.words()
-      val found = words.flatMap(_.toFloatOption).toArray
+      val found = words.flatMap(Decimal.float).toArray
       if found.length == words.length && found.length % 2 == 0 then Right(found)
       else Left(s"spectrum file `$name` must contain pairs of wavelength and value")
     catch case e: IOException => Left(s"can't read the spectrum file `$name`: ${IoReason(e)}")

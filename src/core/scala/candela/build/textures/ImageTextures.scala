@@ -1,5 +1,6 @@
 package candela.build.textures
 
+import candela.base.Decimal
 import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
@@ -192,7 +193,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     encoding().split(' ') match
       case Array("sRGB") => Encoding.Srgb.decode(_)
       case Array("linear") => identity
-      case Array("gamma", g) if g.toFloatOption.exists(_ > 0f) =>
+      case Array("gamma", g) if Decimal.float(g).exists(_ > 0f) =>
         val exponent = g.toFloat
         x => pow(x, exponent)
       case _ =>

@@ -1,5 +1,6 @@
 package candela.cli.options
 
+import candela.base.Decimal
 import candela.build.recipe.Dialects
 import candela.scenefile.Dialect
 import candela.scenefile.Dialect.*
@@ -166,7 +167,7 @@ object PbrtOptions:
   private def valuesOf(option: PbrtOption, rest: List[String]): Int =
     val numbers = rest.take(4)
     val hasSpaces = option.name == "cropwindow" && numbers.size == 4 &&
-      numbers.forall(_.toFloatOption.isDefined)
+      numbers.forall(Decimal.float(_).isDefined)
     if hasSpaces then 4 else 1
 
   /** docs/PBRT-OPTIONS.md. */
