@@ -12,13 +12,15 @@ import scala.util.Using
 
 /** An XML element.
   *
-  * @param at position of its start tag
+  * @param at         position of its start tag
+  * @param formerName the attribute `name` of the file, if Mitsuba has renamed it
   */
 final case class Element(
     tag: String,
     attributes: Map[String, String],
     children: Vector[Element],
-    at: SourcePos
+    at: SourcePos,
+    formerName: Option[String] = None
 ):
   def apply(attribute: String): Option[String] = attributes.get(attribute)
 

@@ -5,6 +5,8 @@ import candela.color.Rgb
 import candela.math.Transform
 import candela.scenefile.{Declaration, Dialect, GraphicsState, LightDescription, Param, ParamType}
 
+import scala.collection.mutable
+
 /** Translates emitters. */
 final class Emitters(
     session: Session,
@@ -14,53 +16,67 @@ final class Emitters(
     medium: Plugin => String
 ):
 
+  /** Those of shapes, which may stand outside of them and have an id. */
+  private val ofShapes = mutable.HashSet.empty[Plugin]
+
   /** The area light of a shape. */
   def area(p: Plugin): Option[Declaration] =
-    if p.name != "area" then
-      session.error(
-        Code.Nesting,
-        p.at,
-        s"a shape can't contain an ${p.description}; expected \"area\""
-      )
-      None
-    else
-      session.translate(p): in =>
-        in.ignore("sampling_weight")
-        val params = colors.shade(in, "radiance", Rgb.White, Role.Emission) match
-          case c: Shade.Constant => Some(colors.light("L", c, in.at))
-          case Shade.Textured(t) => spread(t)
-        params.map(session.declare("AreaLightSource", "diffuse", p.at, _))
+    ofShapes += p
+    p.name match
+      case "area" => session.translate(p)(diffuse)
+      case "directionalarea" =>
+        val cause = "it radiates along the normals only, where no path from the camera meets it"
+        session.warn(Code.Unsupported, p.at, s"${p.description} is ignored: $cause")
+        None
+      case name if Plugins.unsupportedTypes("emitter").contains(name) =>
+        Plugins.unsupported(p, "ignored", session)
+        None
+      case _ =>
+        session.error(
+          Code.Nesting,
+          p.at,
+          s"a shape can't contain an ${p.description}; expected \"area\""
+        )
+        None
+
+  private def diffuse(in: Properties): Option[Declaration] =
+    in.ignore("sampling_weight")
+    val params = colors.shade(in, "radiance", Rgb.White, Role.Emission) match
+      case c: Shade.Constant => Some(colors.light("L", c, in.at))
+      case Shade.Textured(t) => spread(t)
+    params.map(session.declare("AreaLightSource", "diffuse", in.at, _))
 
   /** A light of its own. */
-  def apply(p: Plugin): Option[LightDescription] = session.attempt:
-    session.translate(p): in =>
-      in.ignore("sampling_weight")
-      val mediumName = in.nested("medium").headOption.fold("")(medium)
-      p.name match
-        case "constant" =>
-          val c = colors.uniform(in, "radiance", Rgb.White, Role.Emission)
-          Some(light(in, "infinite", Transform.Identity, mediumName)(colors.light("L", c, in.at)*))
-        case "envmap" => environment(in)
-        case "sunsky" | "timed_sunsky" =>
-          val toWorld = in.transform("to_world")
-          Some(LightDescription(skies(in, toWorld), GraphicsState.still(toWorld), ""))
-        case "point" =>
-          val c = colors.uniform(in, "intensity", Rgb.White, Role.Emission)
-          val toWorld = in.triple("position").fold(in.transform("to_world")): (x, y, z) =>
-            Transform.translate(x, y, z)
-          Some(light(in, "point", toWorld, mediumName)(colors.light("I", c, in.at)*))
-        case "spot" => spot(in, mediumName)
-        case "directional" => Some(directional(in))
-        case "projector" => projector(in, mediumName)
-        case "area" =>
-          session.warn(Code.Nesting, in.at, "an emitter \"area\" outside a shape emits nothing")
-          in.ignore("radiance")
-          None
-        case _ =>
-          Plugins.unsupported(p, "ignored", session)
-          in.ignore(p.properties.map(_.name)*)
-          None
-  .flatten
+  def apply(p: Plugin): Option[LightDescription] =
+    if ofShapes(p) then None else session.attempt(session.translate(p)(lone)).flatten
+
+  private def lone(in: Properties): Option[LightDescription] =
+    in.ignore("sampling_weight")
+    val mediumName = in.nested("medium").headOption.fold("")(medium)
+    in.plugin.name match
+      case "constant" =>
+        val c = colors.uniform(in, "radiance", Rgb.White, Role.Emission)
+        Some(light(in, "infinite", Transform.Identity, mediumName)(colors.light("L", c, in.at)*))
+      case "envmap" => environment(in)
+      case "sunsky" | "timed_sunsky" =>
+        val toWorld = in.transform("to_world")
+        Some(LightDescription(skies(in, toWorld), GraphicsState.still(toWorld), ""))
+      case "point" =>
+        val c = colors.uniform(in, "intensity", Rgb.White, Role.Emission)
+        val toWorld = in.triple("position").fold(in.transform("to_world")): (x, y, z) =>
+          Transform.translate(x, y, z)
+        Some(light(in, "point", toWorld, mediumName)(colors.light("I", c, in.at)*))
+      case "spot" => spot(in, mediumName)
+      case "directional" => Some(directional(in))
+      case "projector" => projector(in, mediumName)
+      case "area" =>
+        session.warn(Code.Nesting, in.at, "an emitter \"area\" outside a shape emits nothing")
+        in.ignore("radiance")
+        None
+      case _ =>
+        Plugins.unsupported(in.plugin, "ignored", session)
+        in.ignore(in.plugin.properties.map(_.name)*)
+        None
 
   private def light(
       in: Properties,

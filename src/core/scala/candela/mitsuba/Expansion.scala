@@ -37,7 +37,10 @@ final class Expansion(
   private val values = mutable.HashMap.from(defines)
   private val referenced = mutable.HashSet.empty[String]
   private val aliases = mutable.HashMap.empty[String, String]
-  private val paths = mutable.LinkedHashSet.empty[Path]
+
+  /** Those of the scene file's `path` elements: of equal files, Mitsuba takes the last one's. */
+  private var paths = Vector.empty[Path]
+  private var pathsOfIncludes = Vector.empty[Path]
   private val sources = mutable.ArrayBuffer.from(Option.when(text.isEmpty)(file))
   private var remainingLength = Expansion.MaxTextLength
 
@@ -60,7 +63,12 @@ final class Expansion(
       ))
     Expanded(elements, aliases.toMap, folders, sources.toVector)
 
-  private def folders: Vector[Path] = paths.toVector :+ folder.path
+  private def folders: Vector[Path] = (paths :+ folder.path) ++ pathsOfIncludes
+
+  /** As `folders`, after that of the innermost file. */
+  private def foldersFrom(files: List[InputFile]): Vector[Path] =
+    files.drop(1).headOption.fold(folders): _ =>
+      Option(files.head.path.getParent).getOrElse(Path.of("")) +: folders
 
   /** @param files files being read, innermost first */
   private def contents(root: Element, files: List[InputFile]): Vector[Element] =
@@ -81,7 +89,9 @@ final class Expansion(
           val name = required(e, "value")
           if !SceneFolder.isName(name) then
             fail(Code.NoSuchFile, e, s"`$name` is not a valid file name")
-          paths ++= folder.existing(folders, name, Some(e.at)).map(_.path)
+          val added = folder.existing(foldersFrom(files), name, Some(e.at)).map(_.path)
+          if files.sizeIs > 1 then pathsOfIncludes = added ++: pathsOfIncludes
+          else paths = added ++: paths
           Vector.empty
         case "alias" =>
           val e = substituted(child)
@@ -93,9 +103,10 @@ final class Expansion(
   private def included(e: Element, files: List[InputFile]): Vector[Element] =
     val name = required(e, "filename")
     if !SceneFolder.isName(name) then fail(Code.NoSuchFile, e, s"`$name` is not a valid file name")
-    val file = folder.existing(folders, name, Some(e.at)).filter(_.isRegular).getOrElse:
+    val searched = foldersFrom(files)
+    val file = folder.existing(searched, name, Some(e.at)).filter(_.isRegular).getOrElse:
       val (message, help) =
-        folder.absence(name, Some(e.at), s"no such file: `$name`", folders)
+        folder.absence(name, Some(e.at), s"no such file: `$name`", searched)
       fail(Code.NoSuchFile, e, message, help)
     folder.allowance.check(Limit.Depth, files.size, Some(e.at)):
       s"includes are nested ${files.size} deep"
@@ -190,7 +201,9 @@ private[mitsuba] object OldNames:
     val tag = if e.tag == "lookAt" then "lookat" else e.tag
     val (moved, remaining) = children.partition(c => Moved(c("name").getOrElse("")))
     val isTexture = tag == "texture" && moved.nonEmpty
-    Element(tag, attributes, if isTexture then remaining :+ toUv(moved, e) else children, e.at)
+    val inner = if isTexture then remaining :+ toUv(moved, e) else children
+    val formerName = e("name").filterNot(attributes.get("name").contains)
+    Element(tag, attributes, inner, e.at, formerName)
 
   private val Moved = Set("uoffset", "voffset", "uscale", "vscale")
 

@@ -68,7 +68,7 @@ final class Properties(val plugin: Plugin, val session: Session):
       session.error(
         Code.UnknownType,
         atOf(name),
-        s"unknown $name `$choice`",
+        s"unknown `$name` `$choice`",
         Suggest.help(choice, choices)
       )
       default

@@ -5,6 +5,7 @@ import candela.io.{InputFile, SceneFolder}
 import candela.scenefile.{Declaration, Dialect, Param, Problems}
 
 import java.nio.file.Path
+import java.util.regex.Matcher
 
 import scala.collection.mutable
 
@@ -48,7 +49,21 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
       case _ => ()
     plugins.toMap
 
-  def report(p: Problem): Unit = if reported.add(p) then collected.add(p)
+  /** Names of properties in the file, by position and by Mitsuba's name of today. */
+  private lazy val formerNames: Map[(SourcePos, String), String] =
+    def of(e: Element): Vector[((SourcePos, String), String)] =
+      e.formerName.map((e.at, e("name").mkString) -> _).toVector ++ e.children.flatMap(of)
+    expanded.elements.flatMap(of).toMap
+
+  def report(p: Problem): Unit =
+    val named = p.at.fold(p): at =>
+      val message = Session.Quoted.replaceAllIn(
+        p.message,
+        m =>
+          Matcher.quoteReplacement(formerNames.get((at, m.group(1))).fold(m.matched)(n => s"`$n`"))
+      )
+      p.copy(message = message)
+    if reported.add(named) then collected.add(named)
   def warn(code: Code, at: SourcePos, message: String, help: => Option[String] = None): Unit =
     report(Problem.warning(code, at, message).withHelp(limitedHelp(help)))
   def error(code: Code, at: SourcePos, message: String, help: => Option[String] = None): Unit =
@@ -142,5 +157,7 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
         None
 
 object Session:
+  private val Quoted = "`(\\w+)`".r
+
   /** References through references, at most. */
   val MaxDepth = 50

@@ -161,6 +161,7 @@ final class Textures(session: Session, colors: Colors):
         mesh.flatMap(m => Suggest.help(name, m.names.toVector))
       )
     for m <- mesh; (channels, values) <- grid yield
+      warnOfIntegers(in, name, values)
       val wanted = if valueType == "float" then 1 else 3
       val cells = m.width * m.height
       def value(cell: Int, c: Int) =
@@ -180,6 +181,17 @@ final class Textures(session: Session, colors: Colors):
           Param.string("mapping", position, "uv"),
           Param.floats(ParamType.Float, "values", position, texels)
         )
+      )
+
+  /** Colours of bytes are not divided by 255, in Mitsuba neither. */
+  private def warnOfIntegers(in: Properties, name: String, values: Array[Float]): Unit =
+    val isOfIntegers = values.forall(x => x == Math.rint(x.toDouble)) && values.exists(_ > 1f)
+    if name.contains("color") && isOfIntegers && !in.contains("scale") then
+      session.warn(
+        Code.CorrectedValue,
+        in.atOf("name"),
+        s"`$name` has integers above 1, which are used as they are, as in Mitsuba",
+        Some(s"""for colours from 0 to 255, add <float name="scale" value="${1f / 255f}"/>""")
       )
 
   /** @param flipped whether the texture's own v has its origin at the top, as images have */
