@@ -258,6 +258,7 @@ object SceneBuilder:
       fireflies = if settings.preview then Fireflies.Kept else settings.fireflies,
       lights = world.scene.lights.length,
       built = world.costs,
+      sampleWindow = image.sampleWindow,
       samples = taken
     )
 

@@ -26,6 +26,10 @@ private[build] final case class ImageSetup(
 ):
   def frame: FilmFrame = FilmFrame(width, height, film.diagonal)
 
+  /** Pixels beyond which no samples are taken: those of the scene's film. */
+  def sampleWindow: Option[PixelBounds] =
+    Option.unless(film.samplesBorder)(crop(None, RenderSettings()))
+
   /** Bounds of the pixels to render.
     *
     * @param window the integrator's window of the full image, if any

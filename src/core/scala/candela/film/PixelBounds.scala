@@ -5,3 +5,14 @@ final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
   def width: Int = x1 - x0
   def height: Int = y1 - y0
   def pixels: Long = width.toLong * height
+
+  /** Those of these pixels that are in `other`, too. */
+  def within(other: PixelBounds): PixelBounds =
+    PixelBounds(
+      Math.max(x0, other.x0),
+      Math.max(y0, other.y0),
+      Math.min(x1, other.x1),
+      Math.min(y1, other.y1)
+    )
+
+  def contains(x: Float, y: Float): Boolean = x >= x0 && x < x1 && y >= y0 && y < y1

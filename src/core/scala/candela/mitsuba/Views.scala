@@ -85,7 +85,7 @@ final class Views(session: Session, media: Media, scene: Path):
       Values.fail(Code.TooLarge, in.at, s"a film can't have $width × $height pixels")
     in.nested("rfilter"): Unit
     in.ignore(
-      "file_format", "banner", "compensate", "sample_border", "gamma",
+      "file_format", "banner", "compensate", "gamma",
       "tonemap_method", "attach_log", "exposure", "key", "burn", "high_quality_edges"
     )
     val crop = Seq("crop_offset_x", "crop_offset_y", "crop_width", "crop_height")
@@ -99,14 +99,14 @@ final class Views(session: Session, media: Media, scene: Path):
       session.error(
         Code.UnknownType,
         formatPosition,
-        s"unknown pixel_format `$format`",
+        s"unknown `pixel_format` `$format`",
         candela.diagnostics.Suggest.help(format, Views.PixelFormats)
       )
     else if !format.startsWith("rgb") then
       session.warn(
         Code.Unsupported,
         formatPosition,
-        s"pixel_format `$format` is not supported; red, green and blue are written"
+        s"`pixel_format` `$format` is not supported; red, green and blue are written"
       )
     val alpha =
       Option.when(format.endsWith("a"))(Param.bool("alpha", formatPosition, true))
@@ -115,7 +115,8 @@ final class Views(session: Session, media: Media, scene: Path):
       Param.int("xresolution", in.atOf("width"), width),
       Param.int("yresolution", in.atOf("height"), height),
       Param.string("filename", in.at, s"${FileName.stem(scene)}.exr"),
-      Param.bool("savefp16", in.at, isHalf)
+      Param.bool("savefp16", in.at, isHalf),
+      Param.bool("sampleborder", in.atOf("sample_border"), in.flag("sample_border", false))
     ) ++ bounds ++ alpha
     (width, height, session.declare("Film", "rgb", in.at, params))
 

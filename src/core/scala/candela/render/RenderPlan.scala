@@ -31,6 +31,7 @@ import candela.scene.SurfaceNames
   * @param fireflies         what is done about them; limited light is divided by its way
   * @param lights            number of lights
   * @param built             what the scene takes in memory, estimated, and its building in time
+  * @param sampleWindow      pixels beyond which no samples are taken, if there are any
   * @param samples           samples per pixel to take, if not as many as the sampler's points are
   *                          made for
   */
@@ -58,6 +59,7 @@ final case class RenderPlan(
     fireflies: Fireflies = Fireflies.Kept,
     lights: Int = 0,
     built: Vector[Cost] = Vector.empty,
+    sampleWindow: Option[PixelBounds] = None,
     samples: Option[Int] = None
 ):
   /** What the rendering takes in memory, estimated, and has taken in time until it begins. */
@@ -93,12 +95,13 @@ final case class RenderPlan(
     if !sharesSamples then crop
     else
       val reach = FilterReach(filter)
-      PixelBounds(
+      val reached = PixelBounds(
         crop.x0 - reach.beyondX,
         crop.y0 - reach.beyondY,
         crop.x1 + reach.beyondX,
         crop.y1 + reach.beyondY
       )
+      sampleWindow.fold(reached)(reached.within)
 
   /** Limit of a sample's indirect light, if there is one. */
   def indirectLimit: Option[SampleLimit] = fireflies match

@@ -42,6 +42,7 @@ private[render] final class TileWorker(
 
   // Accumulators of samples shared by several pixels
   private val levels: LevelPass | Null = film.levels.map(_.pass()).orNull
+  private val sampleWindow: PixelBounds | Null = plan.sampleWindow.orNull
   private val shares: SharedPass | Null = film.shares.map(_.pass(Option(levels))).orNull
   private var filmX, filmY = 0f
   private var waveWeight = 1f
@@ -126,7 +127,7 @@ private[render] final class TileWorker(
       filterSampler.sample(sampler.x, sampler.y)
       filmX = x + 0.5f + filterSampler.dx
       filmY = y + 0.5f + filterSampler.dy
-      follow()
+      if sampleWindow == null || sampleWindow.contains(filmX, filmY) then follow()
     else
       // Samplers cover the image only; pixels outside wrap around to the opposite side
       sampler.start(Math.floorMod(x, plan.width), Math.floorMod(y, plan.height), sample)

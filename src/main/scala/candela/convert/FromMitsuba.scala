@@ -38,7 +38,8 @@ object FromMitsuba:
       else if d.category == "Texture" then texture(d)
       else if d.category == "Camera" then
         withoutParams(d, "nothing is clipped", "nearclip", "farclip")
-      else if d.category == "Film" then withoutParams(d, "no alpha is written", "alpha")
+      else if d.category == "Film" then
+        withoutParams(withoutParams(d, "no alpha is written", "alpha"), "", "sampleborder")
       else if d.category == "Integrator" then
         withoutParams(d, "area lights and sky are visible", "hideemitters")
       else if d.category == "Shape" then
@@ -46,7 +47,7 @@ object FromMitsuba:
       else if d.category == "Medium" then
         if d.name.endsWith("grid") then
           warn(d, "pbrt's densities fall to 0 along the border of a grid, Mitsuba's do not")
-        phased(d)
+        phased(withoutParams(d, "the medium ends at its grid", "fillsworldbox"))
       else if d.category != "Material" then d
       else
         for p <- d.param("normalmapuv") do

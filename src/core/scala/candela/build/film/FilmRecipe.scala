@@ -21,6 +21,7 @@ object Films:
   * @param layers       requested AOVs
   * @param layersInWorld whether AOVs are in world space, instead of camera space
   * @param camera       the sensor, unless it is the standard observer
+  * @param samplesBorder whether samples beyond the crop window contribute to its pixels
   */
 final case class FilmSettings(
     width: Int,
@@ -33,7 +34,8 @@ final case class FilmSettings(
     diagonal: Float,
     layers: Vector[Layer] = Vector.empty,
     layersInWorld: Boolean = false,
-    camera: Option[CameraSensor] = None
+    camera: Option[CameraSensor] = None,
+    samplesBorder: Boolean = true
 ):
   /** Of spectral rendering, whose samples are the sensor's own responses. */
   def spectral(exposure: Float): FilmSettings = camera.fold(this): _ =>

@@ -25,9 +25,14 @@ object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
 
 object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image"):
   private val alpha = bool("alpha", "add the layer alpha, channel A", onlyMitsuba)(false)
+  private val border = bool(
+    "sampleborder",
+    "sample beyond the film, too, as far as the filter reaches",
+    onlyMitsuba
+  )(true)
   override protected def make()(using Site): FilmSettings =
-    val made = super.make()
-    if alpha() then made.copy(layers = Vector(Layer.Alpha)) else made
+    val layers = if alpha() then Vector(Layer.Alpha) else Vector.empty
+    super.make().copy(layers = layers, samplesBorder = border())
 
 object GBufferFilmRecipe
     extends SensorFilmRecipe("gbuffer", "RGB image with AOVs: positions, normals, albedo and more"):
