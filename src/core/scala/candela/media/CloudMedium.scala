@@ -31,7 +31,7 @@ final class CloudMedium(
   def isChromatic: Boolean = Medium.isChromatic(absorption, scattering)
   def describe: String = "cloud"
 
-  protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
+  protected[media] def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     val height = corner.y + y * extent.y
     val d = densityAt(corner.x + x * extent.x, height, corner.z + z * extent.z)
     out.setDensity(d, absorption, scattering)

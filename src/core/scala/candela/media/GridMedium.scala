@@ -24,7 +24,7 @@ final class GridMedium(
     val light = glow.fold("")(g => s", ${g.describe}")
     s"grid ${density.describe} with bounds of ${density.majorants.describe}$light"
 
-  protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
+  protected[media] def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     val d = Math.max(0f, density(x, y, z))
     out.setDensity(d, absorption, scattering)
     val light = glowing
@@ -75,7 +75,7 @@ final class ColorGridMedium(
   def describe: String =
     s"grid ${size.describe} of colours" + (if glow.isDefined then ", emissive" else "")
 
-  protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
+  protected[media] def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     val a = absorbing
     out.absorbR = if a == null then plain else factor * a.r(x, y, z)
     out.absorbG = if a == null then plain else factor * a.g(x, y, z)

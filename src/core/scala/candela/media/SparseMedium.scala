@@ -48,7 +48,7 @@ final class SparseMedium(
   def describe: String =
     s"sparse grid of ${density.describe}" + (if isEmissive then ", emissive by temperature" else "")
 
-  protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
+  protected[media] def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     out.setDensity(Math.max(0f, densities(x, y, z)), absorption, scattering)
     val light = glowing
     if light != null then

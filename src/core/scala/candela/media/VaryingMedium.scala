@@ -15,10 +15,14 @@ import candela.math.*
   * Volumetric Light Transport Simulation", CGF 37(2), 2018, §4.4 (weighted tracking) and §5.1.4
   * (ratio tracking).
   */
-abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb) extends Medium:
+abstract class VaryingMedium(
+    toUnit: Transform,
+    private[media] val bounds: MajorantGrid,
+    private[media] val most: Rgb
+) extends Medium:
 
   /** Coefficients at a point of the unit cube; those of `glow` only if the medium is emissive. */
-  protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit
+  protected[media] def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit
 
   final def follow(ray: Ray, first: Float, emits: Boolean, work: MediumWork): Float =
     val w = work.weights

@@ -141,7 +141,9 @@ final class Media(session: Session, colors: Colors):
           ("uniformgrid", coefficients(in, Rgb.White - a, a, phase, scale) :+ density)
         case _ =>
           ("rgbgrid", cells(in, sigmaT.parted(albedo), position, phase, scale))
-      placed(in, kind, params, sigmaT, position)
+      // Beyond a turned grid, Mitsuba goes on to the box along the world's axes
+      val fills = Option.when(sigmaT.isTurned)(Param.bool("fillsworldbox", position, true))
+      placed(in, kind, params ++ fills, sigmaT, position)
 
   /** A grid of albedos alone: empty beyond its box, unlike Mitsuba's. */
   private def shares(

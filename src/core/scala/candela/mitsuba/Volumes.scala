@@ -48,6 +48,12 @@ private[mitsuba] final class PlacedGrid(
 
   private val toGrid = toWorld.inverse
 
+  /** Whether its edges are not along the world's axes. */
+  def isTurned: Boolean =
+    val m = toWorld.m
+    val rows = Seq(0, 4, 8).map(row => Seq(m(row), m(row + 1), m(row + 2)).map(Math.abs).sorted)
+    rows.exists(row => row(1) > 1e-6 * row(2))
+
   /** Absorption and scattering of each cell of this grid of extinction.
     *
     * @param albedo a grid, which is interpolated at the cells' centres, or one colour

@@ -171,7 +171,7 @@ final class MediumSuite extends AnyFunSuite:
       def isEmissive: Boolean = false
       def isChromatic: Boolean = false
       def describe: String = "empty"
-      protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
+      protected[media] def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
         out.setDensity(0f, Rgb.Black, Rgb.Black)
 
   test("tracking without progress is given up, and its sample is not a number", Slow):

@@ -4,7 +4,7 @@ import candela.diagnostics.{Code, Suggest}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.math.*
-import candela.media.{Medium, Region, SampledGrid}
+import candela.media.{Medium, Region, SampledGrid, VaryingMedium, WorldBoxMedium}
 import candela.sampling.{HenyeyGreenstein, PhaseFunction}
 import candela.scenefile.Dialect
 
@@ -124,6 +124,17 @@ trait HasPreset extends HasCoefficients:
       )
     val basis = site.resources.basis
     found.map(m => MediumCoefficients(basis.unbounded(m.absorption), basis.unbounded(m.scattering)))
+
+/** Media of a grid, which may fill more than the grid. */
+trait FillsBox extends HasBox:
+  private val fills = bool(
+    "fillsworldbox",
+    "fill the box along the world's axes around the grid, whose outermost values continue",
+    onlyMitsuba
+  )(false)
+
+  protected def placed(toUnit: Transform)(make: Transform => VaryingMedium)(using Site): Medium =
+    if fills() then WorldBoxMedium(make(toUnit), toUnit) else make(toUnit)
 
 /** Media given by a grid. */
 trait HasGrid extends HasCells:

@@ -49,7 +49,7 @@ object UniformGridRecipe
     extends MediumRecipe("uniformgrid", "density grid", onlyV4)
     with HasScale
     with HasGrid
-    with HasBox
+    with FillsBox
     with HasTemperature:
   private val densities =
     Samples(numbers("density", "float[]", "nx by ny by nz densities, x varies fastest"))
@@ -67,7 +67,7 @@ object UniformGridRecipe
       map <- toUnit()
       density <- densities()
       light <- glow()
-    yield GridMedium(map, density, absorption, scattering, light, phase())
+    yield placed(map)(GridMedium(_, density, absorption, scattering, light, phase()))
 
   /** The emission, if any. Returns None after an error. */
   private def glow()(using site: Site): Option[Option[Glow]] =
@@ -95,7 +95,7 @@ object UniformGridRecipe
 object RgbGridRecipe
     extends MediumRecipe("rgbgrid", "grid of RGB coefficients", onlyV4)
     with HasGrid
-    with HasBox:
+    with FillsBox:
   private val sigmaA =
     numbers("sigma_a", "rgb[]", "absorption coefficient of each cell", unit = PerUnit, shown = "1")
   private val sigmaS =
@@ -130,16 +130,17 @@ object RgbGridRecipe
         scattering <- grid("sigma_s", s)
         glow <- grid("Le", light)
         size <- absorption.orElse(scattering)
-      yield ColorGridMedium(
-        map,
-        size.r,
-        absorption,
-        scattering,
-        constant = 1f,
-        Math.max(0f, scale()),
-        glow,
-        phase()
-      )
+      yield placed(map): toUnit =>
+        ColorGridMedium(
+          toUnit,
+          size.r,
+          absorption,
+          scattering,
+          constant = 1f,
+          Math.max(0f, scale()),
+          glow,
+          phase()
+        )
 
   private def colors(values: Array[Float], role: SpectrumRole)(using site: Site): Array[Float] =
     values.grouped(3).flatMap { v =>
