@@ -89,15 +89,22 @@ final class DisneyMaterial(p: DisneyParameters) extends Material, Textured(p):
     val tinted = Rgb.White * (1f - p.specularTint(at)) + hue * p.specularTint(at)
     val normal = tinted * (Schlick.normal(eta) * (1f - metallic)) + color * metallic
     val facets = SeparableTrowbridgeReitz(alpha(roughness, 1f / aspect), alpha(roughness, aspect))
-    lobes.add(
-      MicrofacetReflection(facets, DisneyReflectance(normal, metallic, eta)),
-      Math.max(normal.max, 0.04f)
-    )
+    val curve = DisneyReflectance(normal, metallic, eta)
+    val glossy = Math.max(normal.max, 0.04f)
+    val passed = color.map(c => sqrt(c)) * transmission
+    // One lobe, so that each microfacet reflects or refracts as often as its Fresnel term says
+    val isGlass = !p.isThin && eta != 1f && !passed.isBlack
+    if isGlass then
+      lobes.add(
+        RoughDielectric(facets, eta, transmittance = passed, curve = Some(curve)),
+        glossy + passed.max
+      )
+    else lobes.add(MicrofacetReflection(facets, curve), glossy)
     val coat = p.clearcoat(at)
     def sharpness = ClearcoatDistribution(lerp(p.clearcoatGloss(at), 0.1f, 1e-3f))
     lobes.add(MicrofacetReflection(sharpness, ClearcoatReflectance, Rgb.gray(coat)), 0.04f * coat)
-    val passed = color.map(c => sqrt(c)) * transmission
-    lobes.add(refraction(passed, eta, roughness, alpha, aspect, facets), passed.max)
+    val refracted = if isGlass then 0f else passed.max
+    lobes.add(refraction(passed, eta, roughness, alpha, aspect, facets), refracted)
     val through = color * passing
     lobes.add(DiffuseTransmission(Rgb.Black, through), through.max)
     lobes.result

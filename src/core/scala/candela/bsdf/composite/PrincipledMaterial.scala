@@ -46,7 +46,11 @@ final class PrincipledMaterial(p: DisneyParameters) extends Material, Textured(p
     val curve = PrincipledReflectance(color, hue, metallic, tint, eta, clear)
     // What the dielectric doesn't reflect, the metal doesn't, either
     val glossy = if eta == 1f then 0f else Math.max(color.max * metallic, 0.04f)
-    lobes.add(MicrofacetReflection(facets, curve), glossy)
+    val passed = color.map(c => sqrt(c)) * clear
+    // One lobe, so that each microfacet reflects or refracts as often as its Fresnel term says
+    val glass = RoughDielectric(facets, eta, Rgb.White, passed, Some(curve))
+    if passed.isBlack then lobes.add(MicrofacetReflection(facets, curve), glossy)
+    else lobes.add(glass, glossy + passed.max)
 
     val coat = p.clearcoat(at)
     def sharp = ClearcoatDistribution(lerp(p.clearcoatGloss(at), 0.1f, 1e-3f), isBare = true)
@@ -55,9 +59,11 @@ final class PrincipledMaterial(p: DisneyParameters) extends Material, Textured(p
       0.04f * coat
     )
 
-    val passed = color.map(c => sqrt(c)) * clear
-    lobes.add(RoughDielectric(facets, eta, Rgb.Black, passed), passed.max)
-    lobes.result
+    if passed.isBlack then lobes.result
+    else
+      lobes.result match
+        case several: Lobes => BackedBy(several, glass)
+        case single => single
 
 /** What [[PrincipledMaterial]] and [[PrincipledThinMaterial]] share. */
 private[composite] object Principled:

@@ -1,8 +1,8 @@
 package candela.bsdf.microfacet
 
 import candela.bsdf.{
-  Bounce, Bsdf, BsdfFlags, Fresnel, Hemisphere, LeanBsdf, Material, MaterialFlags, WrappedBsdf,
-  WrappedMaterial
+  Bounce, Bsdf, BsdfFlags, Fresnel, Hemisphere, LeanBsdf, Material, MaterialFlags, ReflectanceCurve,
+  WrappedBsdf, WrappedMaterial
 }
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
@@ -17,6 +17,8 @@ import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture, T
   * @param eta           index of refraction inside (below the surface) over that outside; not 1
   * @param reflectance   scale of the reflected light
   * @param transmittance scale of the refracted light
+  * @param curve         what microfacets reflect, instead of the Fresnel term; negative cosines are
+  *                      those from inside
   *
   * Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007.
   */
@@ -24,9 +26,12 @@ final class RoughDielectric(
     distribution: MicrofacetDistribution,
     eta: Float,
     reflectance: Rgb = Rgb.White,
-    transmittance: Rgb = Rgb.White
+    transmittance: Rgb = Rgb.White,
+    curve: Option[ReflectanceCurve] = None
 ) extends LeanBsdf:
   import RoughDielectric.{facet, jacobian}
+
+  private val mirror: ReflectanceCurve | Null = curve.orNull
 
   private val maxReflectance = reflectance.max
   private val maxTransmittance = transmittance.max
@@ -34,9 +39,15 @@ final class RoughDielectric(
   /** Index of refraction on the other side over that on the side of `wo`. */
   private def relativeEta(wo: Vec3): Float = if wo.z < 0f then 1f / eta else eta
 
+  /** What a microfacet reflects, given its Fresnel term. */
+  private def reflected(wo: Vec3, cosM: Float, fresnel: Float): Rgb =
+    if mirror == null then reflectance * fresnel
+    else reflectance * mirror(if wo.z < 0f then -cosM else cosM)
+
   /** Probability of sampling reflection given the Fresnel term; NaN if the surface is black. */
-  private def reflects(fresnel: Float): Float =
-    val r = fresnel * maxReflectance
+  private def reflects(wo: Vec3, cosM: Float, fresnel: Float): Float =
+    val r =
+      if mirror == null then fresnel * maxReflectance else reflected(wo, cosM, fresnel).max
     r / (r + (1f - fresnel) * maxTransmittance)
 
   def f(wo: Vec3, wi: Vec3): Rgb =
@@ -50,7 +61,8 @@ final class RoughDielectric(
       else
         val fresnel = Fresnel.dielectric(o dot m, relative)
         val density = distribution.d(m) * distribution.visibility(o, i, m)
-        if i.z > 0f then reflectance * (fresnel * density)
+        if i.z > 0f && mirror == null then reflectance * (fresnel * density)
+        else if i.z > 0f then reflected(wo, o dot m, fresnel) * density
         else
           val spread = 4f * (o dot m) * jacobian(o, i, m, relative) / (relative * relative)
           transmittance * ((1f - fresnel) * density * spread)
@@ -62,10 +74,11 @@ final class RoughDielectric(
       val o = Hemisphere.above(wo)
       val i = Hemisphere.seenFrom(wo, wi)
       val m = facet(o, i, relative)
-      if m.isZero then 0f else density(o, i, m, relative)
+      if m.isZero then 0f else density(wo, o, i, m, relative)
 
-  private def density(o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
-    val p = reflects(Fresnel.dielectric(o dot m, relative))
+  private def density(wo: Vec3, o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
+    val cosM = o dot m
+    val p = reflects(wo, cosM, Fresnel.dielectric(cosM, relative))
     if p.isNaN then 0f
     else if i.z > 0f then p * MicrofacetReflection.pdf(distribution, o, m)
     else (1f - p) * distribution.pdf(o, m) * jacobian(o, i, m, relative)
@@ -78,12 +91,14 @@ final class RoughDielectric(
     if o.z < Hemisphere.Horizon || cosM <= 0f then out.absorb()
     else
       val fresnel = Fresnel.dielectric(cosM, relative)
-      val p = reflects(fresnel)
+      val p = reflects(wo, cosM, fresnel)
       if p.isNaN then out.absorb()
       else if choice < p then
         val i = Hemisphere.reflected(o, m, cosM)
         if i.z < Hemisphere.Horizon then out.absorb()
-        else leave(wo, o, i, m, reflectance * (fresnel / p), relative, 1f, out)
+        else if mirror == null then
+          leave(wo, o, i, m, reflectance * (fresnel / p), relative, 1f, out)
+        else leave(wo, o, i, m, reflected(wo, cosM, fresnel) * (1f / p), relative, 1f, out)
       else
         val cosT = Fresnel.cosRefracted(cosM, relative)
         if cosT <= 0f then out.absorb()
@@ -103,7 +118,7 @@ final class RoughDielectric(
       sampleEta: Float,
       out: Bounce
   ): Unit =
-    val pdf = density(o, i, m, relative)
+    val pdf = density(wo, o, i, m, relative)
     if pdf > 0f && java.lang.Float.isFinite(pdf) then
       val wi = Hemisphere.seenFrom(wo, i)
       out.set(wi, weight * distribution.sampleWeight(o, i, m), pdf, false, sampleEta)
@@ -114,7 +129,7 @@ final class RoughDielectric(
     if transmittance.isBlack then own else own | BsdfFlags.Transmissive
 
   override def regularized: Bsdf =
-    RoughDielectric(distribution.regularized, eta, reflectance, transmittance)
+    RoughDielectric(distribution.regularized, eta, reflectance, transmittance, curve)
 
 object RoughDielectric:
 

@@ -46,6 +46,18 @@ class DisneySuite extends BurleySuite(DisneyMaterial(_)):
     val cloth = material(color = green, sheen = 1f, sheenTint = 1f).f(wo, wi)
     assert(cloth.g > without.g && Math.abs(cloth.r - without.r) < 1e-6f)
 
+  test("inside glass, a sample weighs what its microfacet reflects or lets through"):
+    val clear = material(color = Rgb.White, transmission = 1f, roughness = 0.2f)
+    for degrees <- Seq(100, 120, 130, 150, 175); i <- 0 until 64 do
+      val s = clear.sample(
+        Directions.at(degrees, 20),
+        (i + 0.5f) / 64,
+        (i * 7 % 64 + 0.5f) / 64,
+        (i * 11 % 64 + 0.5f) / 64
+      )
+      // Refraction to the outside compresses light by the square of the index
+      assert(s.weight.max <= (if s.wi.z > 0f then 2.26f else 1.001f), s"$degrees°, ${s.weight}")
+
   test("facets of separable masking let pass no more than correlated ones"):
     val separable = SeparableTrowbridgeReitz(0.3f, 0.5f)
     val correlated = TrowbridgeReitz(0.3f, 0.5f)

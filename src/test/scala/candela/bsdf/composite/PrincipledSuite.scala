@@ -34,6 +34,17 @@ class PrincipledSuite extends BurleySuite(PrincipledMaterial(_)):
     assert(!surface(clearcoat = 1f).f(wo, wi).isBlack)
     assert(surface(clearcoat = 1f).f(-wo, -wi).isBlack)
 
+  test("inside, a sample weighs what its microfacet reflects or lets through"):
+    val clear = material(color = Rgb.White, transmission = 1f, roughness = 0.2f)
+    val mixed = material(color = Rgb.White, transmission = 0.5f, roughness = 0.2f, clearcoat = 1f)
+    for bsdf <- Seq(clear, mixed); degrees <- Seq(100, 120, 130, 150, 175) do
+      val wo = Directions.at(degrees, 20)
+      for i <- 0 until 64 do
+        val s =
+          bsdf.sample(wo, (i + 0.5f) / 64, (i * 7 % 64 + 0.5f) / 64, (i * 11 % 64 + 0.5f) / 64)
+        // Refraction to the outside compresses light by the square of the index
+        assert(s.weight.max <= (if s.wi.z > 0f then 2.26f else 1.001f), s"$degrees°, ${s.weight}")
+
   test("reflectance blends Fresnel's term, a metal of the colour and a tinted dielectric"):
     val curve = PrincipledReflectance(color, Rgb(1.5f, 1f, 0.5f), 0.3f, 0.4f, 1.5f, 0.2f)
     val weight = Math.pow(1 - 0.6, 5)
