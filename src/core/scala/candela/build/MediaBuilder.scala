@@ -24,7 +24,8 @@ private[build] final class MediaBuilder(
     description.media.map(m => m.name -> Media.all.build(site(m.medium, m.mediumToWorld)).flatten)
   private val media: Array[Medium] = made.flatMap(_._2).toArray
   private val indexOf: Map[String, Int] =
-    made.map((name, medium) => name -> medium.fold(-1)(m => media.indexWhere(_ eq m))).toMap
+    val indices = made.scanLeft(0)((i, named) => if named._2.isEmpty then i else i + 1)
+    made.lazyZip(indices).map((named, i) => named._1 -> named._2.fold(-1)(_ => i)).toMap
 
   private val regions: Array[Region] =
     description.volumes

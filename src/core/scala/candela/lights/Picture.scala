@@ -49,6 +49,9 @@ final class Picture(image: Image, lookup: PictureLookup, colors: Option[Rgb => R
 
   private def pixel(x: Int, y: Int): Int = 3 * lookup.wrap.index(x, y, width, height)
 
+  /** Mean of the largest component. */
+  lazy val meanOfMax: Float = mean((c, _, _) => c.max)
+
   /** Mean of `f` over the pixels' colours, weighted by their position (x, y). */
   def mean(f: (Rgb, Float, Float) => Float): Float =
     var sum = 0.0

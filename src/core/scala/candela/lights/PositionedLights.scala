@@ -131,7 +131,7 @@ final class ProjectionLight(
         if onPlane then light * (1f / (d.z * d.z * d.z)) else light
 
   def bounds: Option[LightBounds] =
-    val mean = slide.fold(1f)(_.mean((c, _, _) => c.max))
+    val mean = slide.fold(1f)(_.meanOfMax)
     val most = if onPlane then 1f / (screen.cosCorner * square(screen.cosCorner)) else 1f
     val power = 4f * Pi * all.max * mean * most
     if !frame.keepsAngles then Some(LightBounds.everywhere(frame.position, power))

@@ -66,7 +66,7 @@ object UnevenLight:
 final class PictureLight(
     plain: AreaLight,
     surface: SurfaceSampler,
-    picture: Picture,
+    val picture: Picture,
     mapping: Mapping2D = UvMapping(1f, 1f, 0f, 0f)
 ) extends UnevenLight(plain, surface):
 
@@ -78,7 +78,7 @@ final class PictureLight(
     val place = mapping(at)
     picture(place.s, 1f - place.t)
 
-  protected lazy val strength: Float = picture.mean((c, _, _) => c.max)
+  protected def strength: Float = picture.meanOfMax
 
 /** An area light on an alpha-masked surface: emission is scaled by alpha.
   *

@@ -3,7 +3,7 @@ package candela.build.lights
 import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.build.shapes.EmitterHoles
-import candela.color.{ColorBasis, Rgb}
+import candela.color.Rgb
 import candela.geometry.Bounds3
 import candela.lights.*
 import candela.math.*
@@ -117,8 +117,6 @@ final class DiffuseLightRecipe(
       onlyMitsuba
     )
 
-  private val luminance = Once[Float]()
-
   private def lookup(using Site): PictureLookup =
     val around = wrap() match
       case "repeat" => Wrap.Repeat
@@ -133,13 +131,10 @@ final class DiffuseLightRecipe(
         Code.ExclusiveParameters,
         "`L` and `filename` of a diffuse area light are mutually exclusive"
       )
-    val image = if isPicture then LightImages.read("filename") else None
-    val picture = image.map(Picture(_, lookup, LightImages.conversion))
+    val picture = if isPicture then LightImages.picture("filename", lookup) else None
     val unit = if isPicture then Spectra.white else radiance()
     val emitted = unit * colored() * scale()
-    val perUnit = picture.fold(1f): p =>
-      luminance:
-        DiffuseLightRecipe.luminance(p, site.resources.basis)
+    val perUnit = picture.fold(1f)(LightImages.luminance("filename", _))
     val shines = site.resources.basis.isSpectral || (emitted.isFinite && emitted.max > 0f)
     if isPicture && picture.isEmpty then None
     else if !(shines && perUnit > 0f) then
@@ -148,10 +143,6 @@ final class DiffuseLightRecipe(
     else
       val mapping = AffineUvMapping.of(places())
       Some(AreaLightPlan(emitted, picture, mapping, perUnit, power(), twoSided(), sampleCount()))
-
-private object DiffuseLightRecipe:
-  def luminance(picture: Picture, basis: ColorBasis): Float =
-    picture.mean((c, _, _) => basis.toSrgb(c).luminance)
 
 /** Lights of an emitting mesh, created once all triangles are known.
   *

@@ -66,8 +66,9 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     )("")
 
   protected def make()(using site: Site): LightPlan =
-    val image = if slide().isEmpty then None else LightImages.read("mapname")
-    val picture = image.map(Picture(_, PictureLookup.SmoothRepeating, LightImages.conversion))
+    val picture =
+      if slide().isEmpty then None
+      else LightImages.picture("mapname", PictureLookup.SmoothRepeating)
     val (edge, full) = (cos(radians(cone())), cos(radians(cone() - fading())))
     val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
     val p = Places.far("from").getOrElse(Places.exact(from()))
@@ -75,7 +76,7 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
     else if !(cone() > 0f) then LightPlan.leftOut(s"`coneangle` must be above 0, found ${cone()}")
-    else if slide().nonEmpty && image.isEmpty then LightPlan.nothing
+    else if slide().nonEmpty && picture.isEmpty then LightPlan.nothing
     else
       LightPlan(
         (toWorld, _) =>

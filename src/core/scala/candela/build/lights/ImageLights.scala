@@ -99,10 +99,9 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     val (name, given_) = if isV4 then ("filename", filename()) else ("mapname", mapname())
     if isV4 && given_.isEmpty then
       site.error(Code.MissingParameter, "a projection light needs `filename`")
-    val image = if given_.isEmpty then None else LightImages.read(name)
-    val isLost = image.isEmpty && (isV4 || given_.nonEmpty) // already reported
     val lookup = if isV4 then PictureLookup.Nearest else PictureLookup.SmoothRepeating
-    val slide = image.map(Picture(_, lookup, LightImages.conversion))
+    val slide = if given_.isEmpty then None else LightImages.picture(name, lookup)
+    val isLost = slide.isEmpty && (isV4 || given_.nonEmpty) // already reported
     val onPlane = site.rules.fovOfWidth
     val narrow = slide.fold(1f)(s => if onPlane then Math.max(1f, s.aspect) else 1f)
     val tanHalf = Math.tan(Math.toRadians(fov() / 2.0)).toFloat / narrow
@@ -110,7 +109,7 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     val perUnit = slide.fold(1f): s =>
       powers:
         ProjectionLight.power(s, tanHalf, basis.toSrgb(_).luminance)
-    def isBlack = slide.exists(s => !(s.mean((c, _, _) => c.max) > 0f))
+    def isBlack = slide.exists(s => !(s.meanOfMax > 0f))
     val all = scaled(intensity(), power(), perUnit)
     if isLost then LightPlan.nothing
     else if !shines(all) || (!basis.isSpectral && isBlack) then

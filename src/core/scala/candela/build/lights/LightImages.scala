@@ -3,15 +3,19 @@ package candela.build.lights
 import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.color.{ColorBasis, Encoding, Rgb}
-import candela.image.{Image, ImageBands, ImageError}
-import candela.lights.{IesError, IesFile}
+import candela.image.{Image, ImageBands, ImageError, StoredImage}
+import candela.lights.{IesError, IesFile, Picture, PictureLookup}
 import candela.textures.{FloatTexels, MadeTexels, TexelBands, TileCache, Wrap}
 
 /** Loads the images of lights. */
 private[build] object LightImages:
 
-  /** The image of a statement, which has one at most. */
-  private val images = Once[Option[Image]]()
+  /** The photometry of a statement, which has one at most. */
+  private val photometries = Once[Option[Image]]()
+
+  private val images = Once[Either[ImageError, Image]]()
+  private val pictures = Once[Picture]()
+  private val luminances = Once[Float]()
 
   /** Returns the image named by the string parameter `name`, in the scene's basis. Reports images
     * that can't be used.
@@ -20,10 +24,28 @@ private[build] object LightImages:
     * reads the rows of TGA files bottom-up.
     */
   def read(name: String)(using site: Site): Option[Image] =
-    // Each basis has its own copy, but lookups convert the colours of sRGB to wavelengths
+    for
+      p <- site.declaration.param(name)
+      stored = site.resources.image(p, site.declaration, site.problems).getOrElse(StandIns.picture)
+    yield
+      // Lookups convert the colours of sRGB to wavelengths; other bases have a copy each
+      val basis = Option(site.resources.basis).filterNot(_.isSpectral)
+      images.of((stored, site.rules.decodesLights, isFromBelow, basis))(loaded(stored, name)) match
+        case Right(image) => image
+        case Left(e) =>
+          site.problems.missing(e.code, p.valuesAt, e.getMessage, StandIns.Magentas)
+          StandIns.picture.toImage.toRgb
+
+  /** Mean luminance of the image named by the string parameter `name`, in the plain basis. */
+  def luminance(name: String, picture: Picture)(using site: Site): Float =
     val basis = site.resources.basis
-    if basis.isSpectral then images(loaded(name))
-    else loaded(name)
+    luminances.of((site.declaration.folder, site.declaration.param(name).map(_.strings))):
+      picture.mean((c, _, _) => basis.toSrgb(c).luminance)
+
+  /** The flat image named by the string parameter `name`, as [[read]]. */
+  def picture(name: String, lookup: PictureLookup)(using site: Site): Option[Picture] =
+    read(name).map: image =>
+      pictures.of((image, lookup, site.resources.basis))(Picture(image, lookup, conversion))
 
   /** The image of an environment that the string parameter `name` names, as [[read]]; in tiles, if
     * images of lights are kept so.
@@ -64,7 +86,7 @@ private[build] object LightImages:
     * equirectangular image. Reports files that can't be used.
     */
   def photometry(name: String)(using site: Site): Option[Image] =
-    images:
+    photometries:
       for
         p <- site.declaration.param(name)
         file <- site.resources.file(p, site.declaration, site.problems, StandIns.LeftOut)
@@ -79,16 +101,8 @@ private[build] object LightImages:
               None
       yield image
 
-  private def loaded(name: String)(using site: Site): Option[Image] =
-    for
-      p <- site.declaration.param(name)
-      stored = site.resources.image(p, site.declaration, site.problems).getOrElse(StandIns.picture)
-    yield
-      val image = usable(stored.toImage, name) match
-        case Right(image) => image
-        case Left(e) =>
-          site.problems.missing(e.code, p.valuesAt, e.getMessage, StandIns.Magentas)
-          StandIns.picture.toImage.toRgb
+  private def loaded(stored: StoredImage, name: String)(using site: Site) =
+    usable(stored.toImage, name).map: image =>
       site.resources.counting.foreach:
         _.addImage(image.data.length / 3, SpectrumRole.Emission): i =>
           Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2))

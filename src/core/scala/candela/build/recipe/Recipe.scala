@@ -120,10 +120,15 @@ abstract class Recipe[A](
 private object Recipe:
   val NoFields: Array[Field[?]] = Array.empty
 
-/** Something that a statement needs in every colour basis, made when it is first asked for. */
+/** Something that is made when it is first asked for, and shared from then on. */
 final class Once[T]:
+  /** One for each statement, in every colour basis. */
   def apply(make: => T)(using site: Site): T =
     site.resources.once(site.declaration, this)(make)
+
+  /** One for each of equal keys, whatever statements ask. */
+  def of(key: AnyRef)(make: => T)(using site: Site): T =
+    site.resources.onceFor(key, this)(make)
 
 /** All recipes of a category, by name.
   *

@@ -126,6 +126,12 @@ final class SharedResources(
       .getOrElseUpdate(what, make)
       .asInstanceOf[T] // what this key was given
 
+  private val madeFor = mutable.Map.empty[(Once[?], AnyRef), Any]
+
+  /** As [[Once.of]]. */
+  private[recipe] def onceFor[T](key: AnyRef, what: Once[T])(make: => T): T = synchronized:
+    madeFor.getOrElseUpdate((what, key), make).asInstanceOf[T] // what this key was given
+
   /** Resolves the file that a parameter names, relative to the scene's folder. Reports a missing
     * file and returns None.
     *
