@@ -95,6 +95,20 @@ final class ShadingPoint(val wantsPartials: Boolean = false, always: Boolean = f
   /** Are they computed for the present hit even if its material reads neither? */
   var keepsPartials: Boolean = always
 
+  /** A value of this point as if it had no footprint. */
+  def withoutFootprint[T](value: ShadingPoint => T): T =
+    val (x, y) = (Vec3(dpdx.x, dpdx.y, dpdx.z), Vec3(dpdy.x, dpdy.y, dpdy.z))
+    val (ux, vx, uy, vy) = (dudx, dvdx, dudy, dvdy)
+    clearFootprint()
+    val found = value(this)
+    dpdx = x
+    dpdy = y
+    dudx = ux
+    dvdx = vx
+    dudy = uy
+    dvdy = vy
+    found
+
   /** Begins a hit.
     *
     * @param followed may what is behind the surface need its footprint?

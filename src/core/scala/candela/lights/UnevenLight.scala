@@ -80,16 +80,18 @@ final class PictureLight(
 
   protected def strength: Float = picture.meanOfMax
 
-/** An area light on an alpha-masked surface: emission is scaled by alpha.
+/** An area light on an alpha-masked surface, as in pbrt-v4: its emission is scaled by alpha, also
+  * where a ray that has passed the mask meets it, so that α² of the light is seen.
   *
-  * @param alpha opacity of the surface; the part that rays hit is opaque
+  * @param alpha opacity of the surface
   */
 final class PerforatedLight(
     light: SurfaceLight,
     surface: SurfaceSampler,
     alpha: candela.textures.FloatTexture
 ) extends UnevenLight(light, surface):
-  def radiance(at: ShadingPoint, w: Vec3): Rgb = light.radiance(at, w)
+  def radiance(at: ShadingPoint, w: Vec3): Rgb =
+    light.radiance(at, w) * at.withoutFootprint(factor)
 
   protected def factor(at: ShadingPoint): Rgb =
     Rgb.White * clamp(alpha(at), 0f, 1f)
