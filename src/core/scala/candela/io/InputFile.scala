@@ -35,7 +35,8 @@ final class InputFile private[candela] (
   def isFolder: Boolean = Files.isDirectory(place)
 
   /** Whether it is a pipe that may be read, once. */
-  def isPipe: Boolean = mayBePipe && Files.exists(place) && !isRegular && !isFolder
+  def isPipe: Boolean =
+    mayBePipe && Files.exists(place) && InputFile.endless(place).nonEmpty && !isFolder
   def size: Long = Files.size(place)
   def isSame(other: InputFile): Boolean = place == other.place || identity == other.identity
 
@@ -115,8 +116,9 @@ final class InputFile private[candela] (
 
   /** Pipes and devices might never end. */
   private def readable: Path =
-    if isFolder then throw IOException(InputFile.Folder)
-    else if !mayBePipe then for why <- obstacle do throw IOException(why)
+    val hindrance =
+      if mayBePipe && !isFolder then InputFile.pointer(place) else obstacle
+    for why <- hindrance do throw IOException(why)
     place
 
   private def attributes = Files.readAttributes(place, classOf[BasicFileAttributes])
@@ -124,10 +126,24 @@ final class InputFile private[candela] (
 object InputFile:
   private val Folder = "it is a folder"
 
-  /** Why an existing file is not to be opened unless its user named it as a stream: reading might
-    * never end.
-    */
-  def obstacle(file: Path): Option[String] =
+  /** Why an existing file is not to be opened, unless its user named it as a stream. */
+  def obstacle(file: Path): Option[String] = endless(file).orElse(pointer(file))
+
+  /** A small text that Git has in place of a large file until it is fetched. */
+  private def pointer(file: Path): Option[String] =
+    def start = Using.resource(Files.newInputStream(file))(_.readNBytes(PointerMark.length))
+    val isPointer =
+      Try(Files.isRegularFile(file) && Files.size(file) <= MaxPointerSize &&
+        String(start, ISO_8859_1) == PointerMark).getOrElse(false)
+    Option.when(isPointer)("it is a pointer of Git LFS, not the file itself: run `git lfs pull`")
+
+  private val PointerMark = "version https://git-lfs.github.com/spec/"
+
+  /** In bytes, by the specification of Git LFS. */
+  private val MaxPointerSize = 1024
+
+  /** Why reading might never end. */
+  private def endless(file: Path): Option[String] =
     Try(Files.readAttributes(file, classOf[BasicFileAttributes])).toOption.flatMap: a =>
       if a.isDirectory then Some(Folder)
       else if !a.isRegularFile then Some("it is a pipe or a device, not a regular file")
