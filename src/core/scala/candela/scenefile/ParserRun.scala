@@ -99,7 +99,7 @@ private[scenefile] final class ParserRun(
       case None => ()
       case Some(begin) =>
         misplaced.result().foreach(problems.add)
-        scene.lateDefinitions(dialect).foreach(problems.add)
+        scene.displacedDefinitions(dialect).foreach(problems.add)
         for at <- trailing if !isFollowed || dialect == Dialect.V4 do
           problems.add(Problem.warning(Code.NoWorld, at, "statements after WorldEnd are ignored"))
         if dialect != Dialect.V4 && scene.worldEnd.isEmpty && problems.errors == 0 then

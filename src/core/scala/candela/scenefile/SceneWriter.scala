@@ -30,6 +30,7 @@ final class SceneWriter(
   private val coordinateSystems = mutable.HashMap.empty[String, AnimatedTransform]
   private val texturesByName = mutable.HashMap.empty[(String, String), TextureDescription]
   private val media = mutable.LinkedHashMap.empty[String, MediumDescription]
+  private val mediaBeforeCamera = mutable.HashSet.empty[String]
   private var unknownSystems = 0
   private val objectNames = mutable.HashMap.empty[String, String]
   private var inObject = Option.empty[(String, mutable.ArrayBuffer[ShapeDescription])]
@@ -53,8 +54,27 @@ final class SceneWriter(
         if !names.isTaken("material", p.strings.head) then mixed += (d -> p)
     d
 
-  /** Warnings about mixtures of materials that are defined after them. */
-  def lateDefinitions(dialect: Dialect): Vector[Problem] =
+  /** Warnings about definitions whose place among other statements matters. */
+  def displacedDefinitions(dialect: Dialect): Vector[Problem] =
+    lateDefinitions(dialect) ++ earlyDefinitions(dialect)
+
+  /** Media with a place that are defined before the camera. */
+  private def earlyDefinitions(dialect: Dialect): Vector[Problem] =
+    def isMoved = !RenderingOrigin.toWorld(result).isIdentity
+    for
+      m <- media.values.toVector
+      if dialect == Dialect.V4 && mediaBeforeCamera(m.name)
+      if m.medium.name != "homogeneous" && isMoved
+    yield Problem.warning(
+      Code.AsInPbrt,
+      m.medium.at,
+      s"medium `${m.name}` is placed relative to the camera, as in pbrt-v4: it is defined before " +
+        "`Camera`",
+      Some("move its MakeNamedMedium after WorldBegin to place it in the world")
+    )
+
+  /** Mixtures of materials that are defined after them. */
+  private def lateDefinitions(dialect: Dialect): Vector[Problem] =
     val definitions = result.namedMaterials.map((name, material) => name -> material.at).toMap
     val definitionPositions = result.namedMaterials.map((_, material) => material.at).toSet
     def isNamed(d: Declaration) = definitionPositions(d.at)
@@ -82,7 +102,7 @@ final class SceneWriter(
     throw SceneError(Problem.error(code, at, message, help))
 
   def description(dialect: Dialect, warnings: Vector[Problem]): SceneDescription =
-    result.copy(
+    val scene = result.copy(
       dialect = dialect,
       // v4 resolves names at the Camera statement, v2 and v3 at the end of the world.
       cameraMedium = if keepsMedium(dialect) then result.cameraMedium else state.outsideMedium,
@@ -94,6 +114,7 @@ final class SceneWriter(
       media = media.values.toVector,
       warnings = warnings
     )
+    if dialect == Dialect.V4 then RenderingOrigin.placing(mediaBeforeCamera, scene) else scene
 
   private def keepsMedium(dialect: Dialect) = dialect == Dialect.V4 || isBased
 
@@ -131,6 +152,7 @@ final class SceneWriter(
     result = directive match
       case "Camera" =>
         coordinateSystems("camera") = GraphicsState.inverse(state.transform)
+        if result.camera.isEmpty then mediaBeforeCamera ++= media.keys
         result.copy(camera = d, worldToCamera = state.transform, cameraMedium = state.outsideMedium)
       case "Film" => result.copy(film = d)
       case "Sampler" => result.copy(sampler = d)

@@ -48,6 +48,24 @@ final class MediaBuilderSuite extends AnyFunSuite:
     val empty = fog.replace("\"homogeneous\"", "\"homogeneous\" \"float scale\" 0")
     assert(media(SceneTexts.plan(scene("volpath", empty), Dialect.V4)) == "none")
 
+  for (space, camera) <- Seq("cameraworld" -> 5, "world" -> 0, "camera" -> 5) do
+    test(s"a grid before the camera is placed where pbrt-v4 renders from: $space"):
+      def grid(x: Int) = s"""MakeNamedMedium "fog" "string type" "uniformgrid" "integer nx" 1
+        "integer ny" 1 "integer nz" 1 "point3 p0" [$x 0 0] "point3 p1" [${x + 1} 1 1]
+        "float density" [1] """
+      val option = s"Option \"string rendercoordsys\" \"$space\"\n"
+      val before = grid(0) + "Translate -5 0 0 Camera \"perspective\" WorldBegin"
+      val after = "Translate -5 0 0 Camera \"perspective\" WorldBegin " + grid(camera)
+      def place(text: String) =
+        val scene = SceneTexts.parse(option + text, Dialect.V4)
+        val t = scene.media.head.mediumToWorld.start
+        val x = scene.media.head.medium.param("p0").get.floats(0)
+        (t.point(candela.math.Vec3(x, 0, 0)).x, scene.warnings.map(_.code))
+      assert(place(before)._1 == place(after)._1)
+      assert(place(after)._2.isEmpty)
+      val warned = place(before)._2.contains(candela.diagnostics.Code.AsInPbrt)
+      assert(warned == (camera != 0))
+
   private val blind = Seq("path" -> Dialect.V3, "path" -> Dialect.V4, "whitted" -> Dialect.V3)
 
   for (integrator, dialect) <- blind do
