@@ -91,9 +91,13 @@ object Spectra:
     */
   def default(c: Rgb, role: SpectrumRole, site: Site): Rgb =
     val isLight = role == SpectrumRole.Emission
+    val value = SpectralValue.Color(c, site.colorSpace)
     if site.resources.basis.isSpectral || (isLight && !site.colorSpace.isSrgb) then
-      inBasis(SpectralValue.Color(c, site.colorSpace), role, site)
-    else c
+      inBasis(value, role, site)
+    else
+      // Light shows the colours of all else
+      if isLight then site.resources.counting.foreach(_.add(value, role, c))
+      c
 
   /** A colour of any space in linear sRGB. Three components can't be negative reflectances. */
   private def inSrgb(c: Rgb, space: ColorSpace, role: SpectrumRole, basis: ColorBasis): Rgb =
