@@ -1,5 +1,7 @@
 package candela.build
 
+import candela.build.recipe.{Findings, Rules}
+import candela.diagnostics.{Code, SourcePos}
 import candela.math.*
 import candela.scenefile.{AnimatedTransform, Dialect, RenderingOrigin, SceneDescription}
 
@@ -34,6 +36,19 @@ private[build] final class Motions(description: SceneDescription, origin: Positi
   def ofInstance(t: AnimatedTransform): Motion =
     if t.isAnimated && description.dialect.base == Dialect.V4 then between(t.start, t.end, v4Origin)
     else of(t)
+
+  /** Warns of a motion that pbrt-v3 and v4 interpolate otherwise: they take the mirroring for a
+    * rotation.
+    */
+  def warnOfMirror(t: AnimatedTransform, at: SourcePos, problems: Findings): Unit =
+    val isConcerned = description.dialect == Dialect.V3 || description.dialect == Dialect.V4
+    if isConcerned && (t.start.swapsHandedness || t.end.swapsHandedness) then
+      problems.warn(
+        Code.UnlikePbrt,
+        at,
+        s"this transform is animated and mirrors; ${Rules.of(description.dialect).program} can't " +
+          "interpolate such transforms, so its image differs"
+      )
 
   private lazy val v4Origin: Vec3 = RenderingOrigin.of(description)
 

@@ -47,6 +47,7 @@ private[build] final class ObjectUses(
   if isStill then own ++= description.shapes
   for s <- description.shapes if !isStill do
     if Motions.moves(s.objectToWorld) then
+      motions.warnOfMirror(s.objectToWorld, s.shape.at, problems)
       val dark = withoutLight(s, "animated shapes can't be area lights; emission is ignored")
       objects += placed(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)).view)
     else
@@ -97,6 +98,10 @@ private[build] final class ObjectUses(
         )
       own ++= shapes.map(copied(_, u))
     val (moving, still) = shapes.partition(s => Motions.moves(s.objectToWorld))
+    for s <- moving do motions.warnOfMirror(s.objectToWorld, s.shape.at, problems)
+    if plain < uses.length then
+      for u <- affine if u.instanceToWorld.isAnimated do
+        motions.warnOfMirror(u.instanceToWorld, u.at, problems)
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated
     val places = affine.motions(motions.ofInstance)
     if isAlone then own ++= affine.flatMap(u => still.map(copied(_, u)))

@@ -182,7 +182,10 @@ private[build] object CameraSetup:
         context.problems.warn(Code.NotAnimated, c.at, Motions.notAnimated("this camera"))
     val plan = context.made(description.camera, Cameras.all, "perspective")
     val toWorld = fromWorld.start.inverse
-    val motion = Motions(description, context.origin.at).camera
+    val motions = Motions(description, context.origin.at)
+    val motion = motions.camera
+    for c <- description.camera if motion.nonEmpty do
+      motions.warnOfMirror(fromWorld, c.at, context.problems)
     val camera = motion match
       case Some(moving) => MovingCamera(plan.make(Transform.Identity, image.frame), moving)
       case None => plan.make(toWorld, image.frame)

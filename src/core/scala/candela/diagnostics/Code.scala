@@ -74,6 +74,7 @@ enum Code(val number: Int):
   case IntegratorLacks extends Code(502)
   case NotAnimated extends Code(503)
   case AsInPbrt extends Code(504)
+  case UnlikePbrt extends Code(505)
 
   case NoSurface extends Code(601)
   case BrokenMesh extends Code(602)

@@ -4,6 +4,7 @@ import candela.diagnostics.{Code, Suggest}
 import candela.aov.Layer
 import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
+import candela.scenefile.Dialect
 import candela.film.{Development, SampleLimit, SpectralBands}
 
 object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
@@ -77,9 +78,11 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
   private val sensor =
     string("sensor", "sensor response: cie1931, or the name of a camera")("cie1931")
   private val most =
-    float("maxcomponentvalue", "maximum X, Y or Z of a sample; larger ones are scaled down")(
-      Float.PositiveInfinity
-    )
+    float(
+      "maxcomponentvalue",
+      "maximum of a sample's sensor values, X, Y and Z for cie1931, after `iso` and exposure and " +
+        "before white balance; larger ones are scaled down"
+    )(Float.PositiveInfinity)
   private val white =
     float(
       "whitebalance",
@@ -95,6 +98,12 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
     val development =
       Development(iso() / 100f, clipsNegative = false, isHalf = half(), space = site.colorSpace)
     val kelvin = Math.max(white(), 0f)
+    if most().isFinite && site.rules.dialect == Dialect.V4 then
+      site.warn(
+        Code.UnlikePbrt,
+        "pbrt-v4 applies `maxcomponentvalue` to samples of few random wavelengths, whose colours " +
+          "are noisy; what is brighter than half the limit may be darker in its image"
+      )
     camera() match
       case Some(found) =>
         val balanced = if kelvin == 0f then SensorFilmRecipe.White else kelvin

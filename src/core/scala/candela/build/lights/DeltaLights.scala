@@ -47,6 +47,8 @@ object PointLightRecipe extends LightRecipe("point", "isotropic point light"):
     else LightPlan((toWorld, _) => Some(PointLight(place(toWorld), i)), samples = 1)
 
 object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
+  /** What pbrt-v4 does if the cone is stretched. */
+  private[lights] val Cone = "selects it by its unscaled cone and shows nothing outside of that"
   private val intensity =
     color("I", "radiant intensity along the axis", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
   private val from = point("from", "position")(Vec3.Zero)
@@ -73,6 +75,7 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
     val p = Places.far("from").getOrElse(Places.exact(from()))
     val axis = Places.between("from", from(), "to", to())
+    warnOfScale(onlyV4, _.nonEmpty, SpotLightRecipe.Cone)
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
     else if !(cone() > 0f) then LightPlan.leftOut(s"`coneangle` must be above 0, found ${cone()}")

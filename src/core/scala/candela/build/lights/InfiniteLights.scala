@@ -52,6 +52,9 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
           val isPolar = !octahedral && site.rules.flatMaps
           val image = if isPolar then read.withEquator else read
           val unit = if octahedral then Spectra.white else radiance()
+          if portal().isEmpty then
+            val dialects = Set(Dialect.V3, Dialect.V4)
+            warnOfScale(dialects, UniformScale.isOne, "weights its light by the scale")
           def perUnit =
             if octahedral then irradiances(onThePlane(image))
             else 1f

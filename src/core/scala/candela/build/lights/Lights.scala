@@ -38,6 +38,10 @@ enum SkySampling:
   case Uneven
   case All
 
+object UniformScale:
+  /** Whether the transform keeps lengths. */
+  def isOne(scale: Option[Double]): Boolean = scale.exists(s => Math.abs(s - 1) <= 1e-5)
+
 object LightPlan:
   /** Plan of a light without effect, with a warning. */
   def leftOut(why: String)(using site: Site): LightPlan =
@@ -61,6 +65,26 @@ abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect]
   /** As `scaled`, with v4's total power: `perUnit` is the power at an emission of 1. */
   protected def scaled(c: Rgb, total: Float, perUnit: => Float)(using Site): Rgb =
     scaled(c) * (if total > 0f then total / perUnit else 1f)
+
+  /** Warns that pbrt renders a light under this transform otherwise.
+    *
+    * @param dialects whose programs do
+    * @param isExact  whether they render it as it is, given its uniform scale, if it has one
+    * @param effect   what they do
+    */
+  protected def warnOfScale(
+      dialects: Set[Dialect],
+      isExact: Option[Double] => Boolean,
+      effect: String
+  )(using site: Site): Unit =
+    if dialects(site.rules.dialect) && !site.toWorld.isFlat &&
+      !isExact(site.toWorld.uniformScale)
+    then
+      site.warn(
+        Code.UnlikePbrt,
+        s"the transform of this light scales it; ${site.rules.program} $effect, so its image " +
+          "differs"
+      )
 
   /** At three wavelengths, a light may be black. */
   protected def shines(c: Rgb)(using site: Site): Boolean =

@@ -1,0 +1,79 @@
+package candela.build
+
+import candela.diagnostics.Code
+import candela.image.{Image, ImageFiles}
+import candela.scenefile.Dialect
+import candela.testing.{SceneTexts, TempFolder}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import java.nio.file.Path
+
+/** Scenes whose own program renders another image, by an error of its own; and such that it renders
+  * alike.
+  */
+class UnlikePbrtSuite extends AnyFunSuite:
+
+  private def isWarned(text: String, dialect: Dialect, folder: Path): Boolean =
+    SceneTexts.problems(text, dialect, folder).exists(_.code == Code.UnlikePbrt)
+
+  private def scene(world: String, options: String = ""): String =
+    s"$options\nCamera \"perspective\"\nWorldBegin\nLightSource \"distant\"\n$world\n" +
+      "Shape \"sphere\""
+
+  private val spot = "LightSource \"spot\""
+  private val slide = "LightSource \"projection\" \"string filename\" \"a.pfm\""
+  private val lamp = "LightSource \"goniometric\" \"string filename\" \"a.pfm\""
+  private val sky = "LightSource \"infinite\" \"string filename\" \"a.pfm\""
+  private val skyOfV3 = "LightSource \"infinite\" \"string mapname\" \"a.pfm\""
+  private val uniformSky = "LightSource \"infinite\""
+
+  // Means of pbrt's images differ where a warning is expected, and agree elsewhere
+  for
+    (light, dialect, even, stretched) <- Seq(
+      (spot, Dialect.V4, false, true),
+      (spot, Dialect.V3, false, false),
+      (slide, Dialect.V4, false, true),
+      (lamp, Dialect.V4, true, true),
+      (sky, Dialect.V4, true, true),
+      (skyOfV3, Dialect.V3, true, true),
+      (uniformSky, Dialect.V4, false, false)
+    )
+    (transform, isOther) <- Seq(
+      "Rotate 30 1 0 0" -> false,
+      "Scale -1 1 1" -> false,
+      "Scale 2 2 2" -> even,
+      "Scale 2 1 1 Rotate 30 0 1 0" -> stretched
+    )
+  do
+    test(s"a light under a transform, in $dialect: $transform $light"):
+      TempFolder.use: folder =>
+        val gray = Image(4, 4, Image.RgbNames, Array.fill(48)(.5f))
+        ImageFiles.write(folder.resolve("a.pfm"), gray)
+        val text = scene(s"AttributeBegin $transform $light AttributeEnd")
+        assert(isWarned(text, dialect, folder) == isOther)
+
+  private val move = "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All"
+  private val mirror = "Scale -1 1 1"
+  private val instance = "ObjectBegin \"a\" Shape \"disk\" ObjectEnd\n"
+
+  for
+    dialect <- Seq(Dialect.V3, Dialect.V4)
+    (transform, isOther) <- Seq(move -> false, mirror -> false, s"$mirror $move" -> true)
+    (what, text) <- Seq(
+      "a camera" -> scene("", transform),
+      "a shape" -> scene(transform),
+      "an instance" -> scene(s"$instance$transform ObjectInstance \"a\""),
+      "a shape of an object" ->
+        scene(s"ObjectBegin \"a\" $transform Shape \"disk\" ObjectEnd ObjectInstance \"a\"")
+    )
+  do
+    test(s"$what of $dialect under a transform: $transform"):
+      assert(isWarned(text, dialect, Path.of("")) == isOther)
+
+  test("a limit of samples, which pbrt-v4 applies to noisier ones"):
+    def text(limit: String) = scene("", s"Film \"rgb\" $limit")
+    assert(isWarned(text("\"float maxcomponentvalue\" 2"), Dialect.V4, Path.of("")))
+    assert(!isWarned(text(""), Dialect.V4, Path.of("")))
+    val v3 = scene("", "Film \"image\" \"float maxsampleluminance\" 2")
+    assert(!isWarned(v3, Dialect.V3, Path.of("")))
