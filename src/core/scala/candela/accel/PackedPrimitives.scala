@@ -167,6 +167,7 @@ final class MaskedPrimitives(
     val remainingRay = ray.nested
     val direction = ray.direction
     remainingRay.set(ray.origin, direction, ray.tMax)
+    remainingRay.isPrimary = ray.isPrimary
     var passed = 0f
     var hasHit = false
     var going = shapes.intersect(number, remainingRay, hit)

@@ -44,6 +44,7 @@ object Placement:
       (m(i + 8) * dx + m(i + 9) * dy + m(i + 10) * dz).toFloat,
       ray.tMax
     )
+    local.isPrimary = ray.isPrimary
     local
 
   /** Bounds of the transformed object box, including the rounding of transformed rays. */

@@ -30,6 +30,7 @@ final class CameraRays(camera: Camera, shutter: Option[Shutter], differentialSca
       ray.time = open.at(sampler.next1D()) // leaves x and y unchanged
       scratch.time = ray.time
     camera.generate(x, y, sampler.x, sampler.y, ray)
+    ray.isPrimary = true
     val weight = if weighs then ray.weight else 1f
     if weight != 0f && differentialScale > 0f then
       camera.differential(x, y, sampler.x, sampler.y, differentialScale, ray, scratch)

@@ -52,6 +52,11 @@ final class Ray:
     */
   var time = 0f
 
+  /** Is this a camera's ray, whose origin is not offset from any surface? A camera may stand in the
+    * plane of a surface. [[set]] makes it false.
+    */
+  var isPrimary = false
+
   /** Weight of a camera ray; set only by cameras that weight their rays. */
   var weight = 1f
 
@@ -79,6 +84,7 @@ final class Ray:
     this.dy = dy
     this.dz = dz
     tMax = end
+    isPrimary = false
     invX = 1f / dx
     invY = 1f / dy
     invZ = 1f / dz

@@ -55,6 +55,7 @@ object DoubtfulHit:
     val somewhere = if isApart then mean(v, at, s, ray, e0, e1, e2) else t
     val within = intoBox(v, at, s, ray, somewhere).toFloat
     if !(within > 0f && TriangleTest.isCloser(within, primitive, ray, hit)) then false
+    else if ray.isPrimary && OriginInPlane.test(v, at, s, ray) then false
     else
       if write then
         ray.tMax = within

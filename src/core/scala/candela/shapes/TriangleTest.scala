@@ -164,6 +164,7 @@ object TriangleTest:
     else
       val end = t.toFloat
       if !(end > 0f && isCloser(end, primitive, ray, hit)) then false
+      else if ray.isPrimary && OriginInPlane.test(v, at, s, ray) then false
       else
         if write then
           ray.tMax = end

@@ -21,6 +21,31 @@ class TriangleTestSuite extends AnyFunSuite:
     assert(found == occluded)
     found
 
+  test("a camera's ray does not hit the triangle in whose plane it starts, but for rounding"):
+    val draws = Draws(7)
+    for _ <- 0 until 10000 do
+      val (a, b, c) = (draws.vec(-1, 1), draws.vec(-1, 1), draws.vec(-1, 1))
+      val (u, v) = (draws.between(0.01f, 0.49f), draws.between(0.01f, 0.49f))
+      val place = a * (1 - u - v) + b * u + c * v
+      val n = (b - a) cross (c - a)
+      if n.length > 0.01f then
+        val d = draws.vec(-1, 1).normalized
+        ray.set(place, d, Float.PositiveInfinity)
+        ray.isPrimary = true
+        val v = corners(a, b, c)
+        assert(!TriangleTest.isHit(v, 0, ray, hit) && !TriangleTest.intersect(v, 0, ray, hit))
+        // Ten times the rounding away, it does
+        val aside = place + n.normalized * 1e-5f
+        ray.set(aside, (place - aside).normalized, Float.PositiveInfinity)
+        ray.isPrimary = true
+        assert(TriangleTest.isHit(v, 0, ray, hit)): Unit
+
+  test("a camera close above a level floor sees it, however large it is"):
+    val floor = corners(Vec3(-1e6f, 0, -1e6f), Vec3(1e6f, 0, -1e6f), Vec3(0, 0, 1e6f))
+    ray.set(Vec3(3, 1e-6f, 5), Vec3(0.6f, -0.8f, 0), Float.PositiveInfinity)
+    ray.isPrimary = true
+    assert(TriangleTest.intersect(floor, 0, ray, hit))
+
   test("distance and weights are those of the point that was aimed at"):
     val draws = Draws(1)
     for _ <- 0 until 100000 do
