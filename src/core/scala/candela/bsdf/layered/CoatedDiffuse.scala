@@ -20,6 +20,8 @@ import candela.textures.{RgbTexture, Textured}
   * evaluation; `CoatedDiffuseSuite` checks against such a walk.
   *
   * @param series albedo · Σ (albedo · R)^k, by colour, under any coat: see the companion
+  * @param sampledSeries the same for sampled directions, which may have one reflection fewer: see
+  *               [[LayerMedium.sampledBaseHits]]
   * @param top    roughness of the outer interface
   * @param coat   transmittance and internal reflectance; its roughness may differ slightly from
   *               `top`
@@ -30,16 +32,22 @@ import candela.textures.{RgbTexture, Textured}
   */
 final class CoatedDiffuse(
     series: Coat => Rgb,
+    sampledSeries: Coat => Rgb,
     top: MicrofacetDistribution,
     coat: Coat,
     gloss: Rgb = Rgb.White
 ) extends LeanBsdf:
   private val eta = coat.eta
   private val topIsSmooth = top.isSmooth || eta == 1f
-  private val base = series(coat) * (InvPi / (eta * eta))
+  private val base = under(series)
+  private val sampledBase = if sampledSeries eq series then base else under(sampledSeries)
   private val meanBase = base.max * Pi * coat.meanTransmittance
 
-  def f(wo: Vec3, wi: Vec3): Rgb =
+  private def under(series: Coat => Rgb): Rgb = series(coat) * (InvPi / (eta * eta))
+
+  def f(wo: Vec3, wi: Vec3): Rgb = value(base, wo, wi)
+
+  private def value(base: Rgb, wo: Vec3, wi: Vec3): Rgb =
     if !Hemisphere.same(wo, wi) then Rgb.Black
     else
       val under = base * (coat.transmittance(wo) * coat.transmittance(wi))
@@ -84,17 +92,17 @@ final class CoatedDiffuse(
 
   private def weigh(wo: Vec3, wi: Vec3, out: Bounce): Unit =
     val density = pdf(wo, wi)
-    val value = if density > 0f then f(wo, wi) else Rgb.Black
-    if density <= 0f || value.isBlack then out.absorb()
+    val reflected = if density > 0f then value(sampledBase, wo, wi) else Rgb.Black
+    if density <= 0f || reflected.isBlack then out.absorb()
     else
-      val weight = value * (Hemisphere.absCos(wi) / density)
+      val weight = reflected * (Hemisphere.absCos(wi) / density)
       out.set(wi, weight, density, isSpecular = false)
 
   def flags: BsdfFlags = BsdfFlags.Diffuse | BsdfFlags.Glossy | BsdfFlags.Choosing
 
   // Cached: the series of a spectrum is expensive
   override lazy val regularized: Bsdf =
-    new CoatedDiffuse(series, top.regularized, coat.regularized, gloss)
+    new CoatedDiffuse(series, sampledSeries, top.regularized, coat.regularized, gloss)
 
 object CoatedDiffuse:
 
@@ -102,7 +110,18 @@ object CoatedDiffuse:
     * @param baseHits maximum number of reflections at the base
     */
   def apply(albedo: Rgb, top: TrowbridgeReitz, coat: Coat, baseHits: Int): CoatedDiffuse =
-    new CoatedDiffuse(under => albedo.map(series(_, under, baseHits)), top, coat)
+    apply(baseHits, baseHits, top, coat)(f => albedo.map(f))
+
+  /** @param ofReflectance applies a function to the base's reflectance, channel by channel or by
+    *                      wavelength
+    */
+  def apply(baseHits: Int, sampledBaseHits: Int, top: TrowbridgeReitz, coat: Coat)(
+      ofReflectance: (Float => Float) => Rgb
+  ): CoatedDiffuse =
+    def of(hits: Int): Coat => Rgb = under => ofReflectance(series(_, under, hits))
+    val whole = of(baseHits)
+    val sampled = if sampledBaseHits == baseHits then whole else of(sampledBaseHits)
+    new CoatedDiffuse(whole, sampled, top, coat)
 
   /** albedo · Σ (albedo · R)^k by Horner's scheme, for k below `baseHits`. */
   def series(albedo: Float, coat: Coat, baseHits: Int): Float =
@@ -115,7 +134,7 @@ object CoatedDiffuse:
 
 /** [[CoatedDiffuse]]; `reflectance` is clamped to [0, 1].
   *
-  * @param baseHits   maximum number of reflections at the base
+  * @param medium     limits the reflections at the base
   * @param bySpectrum applies a function to the reflectance spectrum, wavelength by wavelength, if
   *                   the spectrum is known: interreflection under the coat is not linear in colour.
   *                   Expensive; used for constant surfaces only
@@ -124,7 +143,7 @@ final class CoatedDiffuseMaterial private (
     reflectance: RgbTexture,
     roughness: Roughness,
     coating: CoatedDiffuseMaterial.Coating,
-    baseHits: Int,
+    medium: LayerMedium,
     bySpectrum: Option[(Float => Float) => Rgb]
 ) extends Material,
       Textured(reflectance, roughness):
@@ -133,10 +152,10 @@ final class CoatedDiffuseMaterial private (
   def bsdf(at: ShadingPoint): Bsdf =
     val top = roughness.trowbridgeReitz(at)
     val coat = coating.at(top)
-    spectrum match
-      case Some(colored) =>
-        new CoatedDiffuse(c => colored(CoatedDiffuse.series(_, c, baseHits)), top, coat)
-      case None => CoatedDiffuse(reflectance.albedo(at), top, coat, baseHits)
+    val ofReflectance = spectrum.getOrElse:
+      val albedo = reflectance.albedo(at)
+      (f: Float => Float) => albedo.map(f)
+    CoatedDiffuse(medium.baseHits, medium.sampledBaseHits, top, coat)(ofReflectance)
 
 object CoatedDiffuseMaterial:
 
@@ -168,11 +187,9 @@ object CoatedDiffuseMaterial:
         thickness <- medium.thickness.constant
         _ <- medium.albedo.constant.filter(_.max <= 0f)
       yield
-        // Events alternate, starting at the base
-        val hits = (medium.maxDepth + 1) / 2
         val coating = Coating(roughness, eta, thickness, coats)
         (reflectance: RgbTexture, bySpectrum: Option[(Float => Float) => Rgb]) =>
-          new CoatedDiffuseMaterial(reflectance, roughness, coating, hits, bySpectrum)
+          new CoatedDiffuseMaterial(reflectance, roughness, coating, medium, bySpectrum)
     summed.getOrElse: (reflectance, _) =>
       LayeredMaterial(DiffuseLayers(reflectance, roughness, eta, medium))
 

@@ -12,7 +12,8 @@ import candela.sampling.{HenyeyGreenstein, SampleHash}
   * @param thickness of the medium, in mean free paths, at least 0
   * @param albedo    single-scattering albedo of the medium; 0 only absorbs
   * @param maxDepth  maximum number of events below the interface: at the base, in the medium, and
-  *                  internal reflections
+  *                  internal reflections; leaving counts, too, if the direction is sampled, as in
+  *                  PBRT 4
   * @param walks     random walks averaged per evaluation, at least 1
   * @param gloss     roughness of a glossy base, for the pdf of its lobe
   * @param share     fraction of the pdf below the interface that is the lobe's, in [0, 1); the rest
@@ -193,7 +194,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
   private def walk(wo: Vec3, path: LayerPath, u1: Float, u2: Float, chance: Float): BsdfSample =
     var result = BsdfSample.Absorbed
     var events = 0
-    while !path.isOver do
+    while events < layers.maxDepth && !path.isOver do
       path.roulette(events)
       if !path.isOver then
         val event = path.advance()
@@ -208,7 +209,6 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
           path.throughput = path.throughput * layers.albedo
           path.scatterInMedium()
         events += 1
-        if events > layers.maxDepth then path.w = Vec3.Zero
     result
 
   /** @param i      sampled direction in the upper hemisphere

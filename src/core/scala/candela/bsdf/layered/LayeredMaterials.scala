@@ -22,6 +22,16 @@ final class LayerMedium(
     val walks: Int
 ) extends Textured(thickness, albedo, asymmetry):
 
+  /** Largest number of reflections at the base, if the medium does not scatter: events alternate,
+    * starting at the base.
+    */
+  def baseHits: Int = (maxDepth + 1) / 2
+
+  /** The same for sampled directions: in PBRT 4, leaving the layers is an event of their paths, but
+    * not of evaluated ones.
+    */
+  def sampledBaseHits: Int = maxDepth / 2
+
   /** The layers over `base`; by default without a glossy lobe. */
   private[bsdf] def layers(
       top: TrowbridgeReitz,

@@ -161,5 +161,5 @@ object CoatedConductorRecipe
       nm =>
         val trip = base(nm) * kept
         var sum = 0f
-        for _ <- 0 until (medium.maxDepth + 1) / 2 do sum = trip * (1f + outer * sum)
+        for _ <- 0 until medium.sampledBaseHits do sum = trip * (1f + outer * sum)
         outer + square(1f - outer) * sum

@@ -5,6 +5,7 @@ import candela.bsdf.microfacet.{Conductor, TrowbridgeReitz}
 import candela.color.Rgb
 import candela.math.*
 import candela.sampling.HenyeyGreenstein
+import candela.textures.{ConstantFloat, ConstantRgb}
 
 class LayeredSuite extends BsdfLaws:
   private val copper = ConductorReflectance(Rgb(0.2f, 0.9f, 1.1f), Rgb(3.9f, 2.6f, 2.4f))
@@ -86,6 +87,36 @@ class LayeredSuite extends BsdfLaws:
         // 0.5 %: the tables of rough coats
         val off = Math.abs(walks.mean - expected)
         assert(off < 4.5 * walks.error + 5e-3 * expected, s"$walks, not $expected, at $wo $wi")
+
+  test("of an odd number of events, sampled directions leave one out, as in PBRT 4"):
+    val random = java.util.SplittableRandom(5)
+    val top = rough(0f)
+    val wo = Directions.at(30, 0)
+    def power(bsdf: Int => Bsdf): Statistics =
+      val powers = Statistics()
+      for i <- 0 until 40000 do
+        def u() = random.nextDouble().toFloat
+        powers.add(bsdf(i).sample(wo, u(), u(), u()).weight.g)
+      powers
+    for depth <- 1 to 4 do
+      val layers = LayerMedium(
+        ConstantFloat(0.1f),
+        ConstantRgb(Rgb.Black),
+        ConstantFloat(0f),
+        depth,
+        walks = 1
+      )
+      val coat = Coats().of(top, 1.5f, 0.1f)
+      val exact = CoatedDiffuse(layers.baseHits, layers.sampledBaseHits, top, coat)(f =>
+        Rgb.gray(f(0.9f))
+      )
+      val walks = power(i => layered(top, lambert(0.9f), maxDepth = depth, seed = i))
+      val summed = power(_ => exact)
+      val even = power: i =>
+        layered(top, lambert(0.9f), maxDepth = depth / 2 * 2, seed = i)
+      def agree(a: Statistics, b: Statistics) =
+        Math.abs(a.mean - b.mean) < 4.5 * (a.error + b.error)
+      assert(agree(walks, summed) && agree(walks, even), s"$walks, $summed, $even, $depth events")
 
   test("light that is scattered once in a medium without an interface has its closed form"):
     val (thickness, g) = (0.7, 0.4f)
