@@ -9,7 +9,7 @@ import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{AreaLightPlan, MeshLights}
 import candela.build.recipe.*
 import candela.build.shapes.{
-  EmitterHoles, FarPoints, Rectangles, ShapeGeometry, ShapePlan, Shapes, SoupBuilder
+  EmitterHoles, FarPoints, Rectangles, ShapeGeometry, ShapePlan, Shapes, SoupBuilder, UvSides
 }
 import candela.lights.{Light, ShownLight, SurfaceLight}
 import candela.math.Transform
@@ -162,7 +162,9 @@ private[build] final class SurfaceBuilder(
     private val isConsistent = context.rules.facesEmitters
 
     def place(geometry: ShapeGeometry): Unit = geometry match
-      case mesh: ShapeGeometry.Triangles => addMesh(mesh)
+      case mesh: ShapeGeometry.Triangles if context.isV2 && emitter.isDefined =>
+        for (sides, isTurned) <- UvSides.of(mesh) do addMesh(sides, isTurned)
+      case mesh: ShapeGeometry.Triangles => addMesh(mesh, isTurned = false)
       case ShapeGeometry.Solid(_, _) if toWorld.isFlat => () // reported before
       case ShapeGeometry.Solid(make, turned) =>
         val facesInwards = isReversed != (isConsistent && isReflected)
@@ -224,7 +226,8 @@ private[build] final class SurfaceBuilder(
         here.warn(Code.DarkLight, "this area light has no area; it is ignored")
       isFinite && shape.area > 0f
 
-    private def addMesh(mesh: ShapeGeometry.Triangles): Unit =
+    /** @param isTurned do rays see the other sides? */
+    private def addMesh(mesh: ShapeGeometry.Triangles, isTurned: Boolean): Unit =
       val count = mesh.indices.length / 3
       val most = SurfaceBuilder.MostTriangles
       if soup.triangleCount.toLong + count > most then
@@ -232,8 +235,10 @@ private[build] final class SurfaceBuilder(
       else
         val light = emitter.fold(-1)(_ => lightCount)
         val flipNormals = !context.isV2
-        val corners =
-          emitter.filter(isUniform).fold(Vector.empty)(_ => Rectangles.of(mesh, toWorld))
+        val contrary = isContrary(mesh) != isTurned
+        val corners = emitter
+          .filter(isUniform(_) && !contrary)
+          .fold(Vector.empty)(_ => Rectangles.of(mesh, toWorld))
         val isPaired = corners.nonEmpty
         val readsPartials = emitter.isDefined || !materials.materials(dressed.material).isConstant
         val first = soup.add(
@@ -241,11 +246,13 @@ private[build] final class SurfaceBuilder(
           toWorld,
           isReversed,
           flipNormals,
+          isTurned,
           dressed.material,
           light,
           bumps,
           isPaired,
           readsPartials,
+          facesFacet = context.isV2 && emitter.isDefined,
           turned = context.dialect == Dialect.V3 && materials.materials(dressed.material).isDirected
         )
         meshMasks.add(mask)
@@ -257,8 +264,14 @@ private[build] final class SurfaceBuilder(
             addLights(corners.size, emitter, shown, 2)(MeshLights.ofRectangles(first, corners).of)
           else
             addLights(count, emitter, shown)(
-              MeshLights.ofTriangles(holes, first, count, here).of
+              MeshLights.ofTriangles(holes, first, count, contrary, here).of
             )
+
+    /** pbrt-v3 turns a reversed mesh with normals over for rays only, pbrt-v2 a mirrored one. */
+    private def isContrary(mesh: ShapeGeometry.Triangles): Boolean = context.dialect match
+      case Dialect.V3 => isReversed && mesh.normals.nonEmpty
+      case Dialect.V2 => toWorld.swapsHandedness
+      case Dialect.V4 | Dialect.Mitsuba => false
 
     private def isUniform(emitter: Declaration): Boolean =
       holes == EmitterHoles.Ignored && context.emission(emitter).exists(_.isUniform)

@@ -10,22 +10,26 @@ import candela.sampling.{SphericalTriangle, Warp}
   *
   * Sources: [[SphericalTriangle]]; by area Heitz, "A Low-Distortion Map Between Triangle and
   * Square", 2019.
+  *
+  * @param isInverted whether its normals are opposite to those that rays see
   */
-final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSampler:
+final class TriangleSampler(soup: TriangleSoup, triangle: Int, isInverted: Boolean = false)
+    extends SurfaceSampler:
   private val p0 = soup.vertex(triangle, 0)
   private val p1 = soup.vertex(triangle, 1)
   private val p2 = soup.vertex(triangle, 2)
   private val cross = (p1 - p0) cross (p2 - p0)
   val area: Float = 0.5f * cross.length
 
-  /** Outward unit normal, as [[TriangleSoup.surface]] orients it at the centroid. */
+  /** Outward unit normal, as [[TriangleSoup.surface]] orients it at the centroid; or its opposite.
+    */
   val normal: Vec3 =
     val at = candela.geometry.ShadingPoint()
     val hit = candela.geometry.Hit()
     hit.u = 1.0 / 3
     hit.v = 1.0 / 3
     soup.surface(triangle, hit, at)
-    at.geometricNormal
+    if isInverted then -at.geometricNormal else at.geometricNormal
 
   def vertices: Seq[Vec3] = Seq(p0, p1, p2)
   val bounds: Bounds3 = Bounds3.of(vertices)

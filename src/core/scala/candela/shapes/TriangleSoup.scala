@@ -17,6 +17,7 @@ import candela.math.*
   * @param bumps         tangents for displacements, if it has normals
   * @param paired        does a light consist of two triangles each?
   * @param readsPartials may its material or light read partial derivatives or footprints?
+  * @param facesFacet    whether its geometric normals follow the corners alone, not `normals`
   * @param turned        whether its shading tangent is −∂p/∂u, if it has normals
   */
 final class Mesh(
@@ -31,6 +32,7 @@ final class Mesh(
     val bumps: BumpTangents = BumpTangents.Along,
     val paired: Boolean = false,
     val readsPartials: Boolean = true,
+    val facesFacet: Boolean = false,
     val turned: Boolean = false,
     val content: Option[String] = None
 ):
@@ -100,7 +102,8 @@ final class TriangleSoup(
     n.set(at.geometricNormal)
     if mesh.normals.length > 0 then
       shadingNormal(mesh, i0, i1, i2, b1, b2, n)
-      if (at.geometricNormal dot n) < 0f then at.geometricNormal = -at.geometricNormal
+      if !mesh.facesFacet && (at.geometricNormal dot n) < 0f then
+        at.geometricNormal = -at.geometricNormal
     uv(mesh, i0, i1, i2, b1, b2, at)
     at.hasPartials = at.wantsPartials && (mesh.readsPartials || at.keepsPartials)
     if !tangents && !at.hasPartials then at.frame.alignToNormal()

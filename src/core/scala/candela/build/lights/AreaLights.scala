@@ -46,16 +46,18 @@ final class AreaLightPlan(
       emitted * (power / (perUnit * area * Pi * sides))
     else emitted
 
-  /** Light of one triangle. Each triangle of a mesh has the full power, as in pbrt-v4. */
-  def ofTriangle(triangle: TriangleSampler): SurfaceLight =
-    light(triangle, triangle.bounds, triangle.normal, 1f, contrary = false)
+  /** Light of one triangle. Each triangle of a mesh has the full power, as in pbrt-v4.
+    *
+    * @param contrary see [[candela.lights.Light.isContrary]]
+    */
+  def ofTriangle(triangle: TriangleSampler, contrary: Boolean): SurfaceLight =
+    light(triangle, triangle.bounds, triangle.normal, 1f, contrary && !twoSided)
 
   /** Light of two triangles that form a rectangle. */
   def ofRectangle(rectangle: RectangleSampler): SurfaceLight =
     val emitted = radiance(rectangle.area / 2)
     AreaLight(rectangle, emitted, twoSided, rectangle.bounds, rectangle.normal, 1f)
 
-  /** @param contrary see [[candela.lights.Light.isContrary]] */
   def ofShape(shape: Shape, contrary: Boolean): SurfaceLight =
     val (axis, cosSpread) = shape.normals
     light(shape, shape.bounds, axis, cosSpread, contrary && !twoSided)
@@ -161,12 +163,18 @@ private[build] final class MeshLights[S](
 private[build] object MeshLights:
   /** One light for each triangle.
     *
-    * @param first index of the first triangle
+    * @param first    index of the first triangle
+    * @param contrary see [[candela.lights.Light.isContrary]]
     */
-  def ofTriangles(holes: EmitterHoles, first: Int, count: Int, site: Site)
-      : MeshLights[TriangleSampler] =
+  def ofTriangles(
+      holes: EmitterHoles,
+      first: Int,
+      count: Int,
+      contrary: Boolean,
+      site: Site
+  ): MeshLights[TriangleSampler] =
     def find(triangles: TriangleSoup) =
-      val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
+      val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k, contrary))
       val flat = samplers.count(s => !(s.area > 0f))
       if flat > 0 then
         site.warn(
@@ -174,7 +182,7 @@ private[build] object MeshLights:
           s"$flat of $count triangles of this area light have no area; they emit nothing"
         )
       samplers
-    MeshLights(find, (plan, s) => holes.light(plan.ofTriangle(s), s))
+    MeshLights(find, (plan, s) => holes.light(plan.ofTriangle(s, contrary), s))
 
   /** One light for each rectangle of two triangles.
     *

@@ -23,21 +23,24 @@ final class SoupBuilder:
     *
     * @param flipNormals whether to flip the given shading normals (pbrt-v4 does for
     *                    ReverseOrientation)
+    * @param isTurned    whether the geometric normals are turned over once more
     * @param firstLight  index of its first triangle's light; −1: it does not emit
     * @param paired      does a light consist of two triangles each?
     * @param readsPartials may its material or light read partial derivatives or footprints?
-    * @param turned as in [[Mesh]]
+    * @param facesFacet, turned as in [[Mesh]]
     */
   def add(
       mesh: ShapeGeometry.Triangles,
       toWorld: Transform,
       reversed: Boolean,
       flipNormals: Boolean,
+      isTurned: Boolean,
       material: Int,
       firstLight: Int,
       bumps: BumpTangents,
       paired: Boolean = false,
       readsPartials: Boolean = true,
+      facesFacet: Boolean = false,
       turned: Boolean = false
   ): Int =
     val first = triangles
@@ -50,12 +53,13 @@ final class SoupBuilder:
       triangles = mesh.indices.length / 3,
       normals = SoupBuilder.normals(mesh.normals, toWorld, reversed && flipNormals),
       uvs = SoupBuilder.compact(mesh.uvs),
-      flipped = reversed != toWorld.swapsHandedness,
+      flipped = (reversed != toWorld.swapsHandedness) != isTurned,
       material = material,
       firstLight = firstLight,
       bumps = bumps,
       paired = paired,
       readsPartials = readsPartials,
+      facesFacet = facesFacet,
       turned = turned,
       content = mesh.content.map(c => s"$c ${toWorld.m.mkString(" ")}")
     )

@@ -18,6 +18,7 @@ class SoupBuilderSuite extends AnyFunSuite:
         Transform.Identity,
         reversed = false,
         flipNormals = true,
+        isTurned = false,
         material = 0,
         firstLight = -1,
         BumpTangents.Along
