@@ -24,15 +24,16 @@ final class ChosenMaterial(blend: MixedMaterial) extends WrappedMaterial(blend):
         case chosen: ChosenMaterial => part = chosen.within
         case mixed: MixedMaterial if mixed.first eq mixed.second => part = mixed.first
         case mixed: MixedMaterial =>
-          val share = mixed.amount.albedo(at)
-          val isGray = share.r == share.g && share.r == share.b
-          val chance = if isGray then share.r else (share.r + share.g + share.b) / 3f
+          val share = mixed.amountAt(at)
+          val isGray = share.r == share.g && share.r == share.b && share.r <= 1f
+          val fraction = share.map(Math.min(_, 1f))
+          val chance = if isGray then share.r else (fraction.r + fraction.g + fraction.b) / 3f
           bits = SampleHash.mix64(bits + SampleHash.Step)
           if SampleHash.toUnit((bits >>> 32).toInt) < chance then
             if !isGray then weight *= share * (1f / chance)
             part = mixed.first
           else
-            if !isGray then weight *= (Rgb.White - share) * (1f / (1f - chance))
+            if !isGray then weight *= MixedMaterial.rest(share) * (1f / (1f - chance))
             part = mixed.second
         case _ => goesOn = false
     val found = MixedMaterial.scatter(part, at)

@@ -115,8 +115,8 @@ final class TranslucentMaterial(
 object TranslucentMaterial:
   private inline val Index = 1.5f
 
-/** Blend of two materials: `amount` (clamped to [0, 1], per channel) of the first, the rest of the
-  * second.
+/** Blend of two materials: `amount` of the first, the rest of the second, if any is left. The
+  * amount is at least 0 and, unless `gains`, at most 1, per channel.
   *
   * A blend of a material with itself is that material. The shading normal of the first is used for
   * both, as in PBRT 2 and 3.
@@ -124,13 +124,17 @@ object TranslucentMaterial:
 final class MixedMaterial(
     private[composite] val first: Material,
     private[composite] val second: Material,
-    private[composite] val amount: RgbTexture
+    amount: RgbTexture,
+    gains: Boolean = false
 ) extends JoinedMaterial(first, second, amount):
+  private[composite] def amountAt(at: ShadingPoint): Rgb =
+    if gains then amount.positive(at) else amount.albedo(at)
+
   def bsdf(at: ShadingPoint): Bsdf =
     if first eq second then MixedMaterial.scatter(first, at)
     else
-      val part = amount.albedo(at)
-      val rest = Rgb.White - part
+      val part = amountAt(at)
+      val rest = MixedMaterial.rest(part)
       val frame = at.frame.toFrame
       val other = MixedMaterial.scatter(second, at)
       at.frame.set(frame)
@@ -141,6 +145,8 @@ final class MixedMaterial(
 
 object MixedMaterial:
   private val clear = Passthrough(Rgb.White)
+
+  private[composite] def rest(part: Rgb): Rgb = part.map(c => Math.max(1f - c, 0f))
 
   /** Within a blend, an interface is a transparent lobe, not the absence of a surface. */
   private[composite] def scatter(material: Material, at: ShadingPoint): Bsdf =

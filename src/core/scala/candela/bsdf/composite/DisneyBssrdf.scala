@@ -68,7 +68,7 @@ final class DisneyInterior(p: DisneyParameters) extends Interior, Textured(p):
     val share = (1f - p.metallic(at)) * (1f - p.transmission(at))
     if distance.isBlack || !(share > 0f) then null
     else
-      val color = p.color(at).map(c => clamp(c, 0f, 1f)) * share
+      val color = p.color.positive(at) * share
       DisneyBssrdf(color, distance * DisneyInterior.Shape, p.eta(at))
 
 private object DisneyInterior:

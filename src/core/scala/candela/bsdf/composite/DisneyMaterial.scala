@@ -13,7 +13,7 @@ import candela.textures.{ConstantRgb, FloatTexture, RgbTexture, Textured}
 
 /** Parameters of [[DisneyMaterial]], in [0, 1] unless stated otherwise.
   *
-  * @param color           base colour; clamped to [0, 1]
+  * @param color           base colour; clamped to at least 0
   * @param metallic        0: dielectric, 1: metal
   * @param eta             index of refraction
   * @param specularTint    tint of dielectric highlights towards the hue of the base colour
@@ -65,7 +65,7 @@ final class DisneyParameters(
 final class DisneyMaterial(p: DisneyParameters) extends Material, Textured(p):
 
   def bsdf(at: ShadingPoint): Bsdf =
-    val color = p.color.albedo(at)
+    val color = p.color.positive(at)
     val metallic = p.metallic(at)
     val eta = p.eta(at)
     val roughness = p.roughness(at)

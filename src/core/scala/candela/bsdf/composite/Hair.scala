@@ -265,7 +265,7 @@ object Pigment:
     */
   private[bsdf] def ofColor(color: Rgb, n: Float): Rgb =
     val fit = 5.969f + n * (-0.215f + n * (2.532f + n * (-10.73f + n * (5.574f + n * 0.245f))))
-    color.map(c => square(log(clamp(c, 1e-4f, 1f)) / fit))
+    color.map(c => square(log(Math.max(c, 1e-4f)) / fit))
 
 /** [[Hair]] on a curve, whose v is the offset across its width. */
 final class HairMaterial(

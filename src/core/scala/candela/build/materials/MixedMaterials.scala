@@ -42,7 +42,7 @@ object MixRecipe
         "\"mix\" does not support subsurface scattering; light passes through the inside " +
           "unscattered"
       )
-    MixedMaterial(a, b, amount)
+    MixedMaterial(a, b, amount, gains = site.dialect != Dialect.V4)
 
 object TwoSidedRecipe
     extends MaterialRecipe(
