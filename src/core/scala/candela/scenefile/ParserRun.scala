@@ -67,7 +67,7 @@ private[scenefile] final class ParserRun(
   def clues: Vector[DialectClue] = evidence.clues
 
   def read(): Unit =
-    statements(Tokenizer(source, None))
+    statements(Tokenizer(source, None, problems.add))
     if problems.errors == 0 then scene.blocks.unclosed.foreach(problems.add)
 
   /** The Film statement read so far. */
@@ -245,7 +245,7 @@ private[scenefile] final class ParserRun(
           case Right(source) =>
             sources += file.path
             if !file.isShown then doubts.raise(file.toString)
-            Right(Included(file, Tokenizer(source, Some(at))))
+            Right(Included(file, Tokenizer(source, Some(at), problems.add)))
 
   /** Runs `body`, which reads the file. */
   private def withIncluded(from: Tokenizer, included: Included)(body: => Unit): Unit =

@@ -11,8 +11,13 @@ import java.util.Arrays
   * tokens. Commas are whitespace, which pbrt-v3 allows after numbers.
   *
   * @param includedFrom statement that includes this file
+  * @param warn         receives warnings
   */
-final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
+final class Tokenizer(
+    val source: Source,
+    val includedFrom: Option[SourcePos],
+    warn: Problem => Unit = _ => ()
+):
   private val number = NumberReader(source)
   private val names = NameCache()
 
@@ -242,14 +247,13 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     if hasEscapes then content = unescaped(start + 1, cursor - 1)
 
   private def unescaped(from: Int, until: Int): String =
-    Escapes.unescaped(source.bytes, from, until) match
-      case Right(text) => text
-      case Left(i) =>
-        content = ""
-        val position = SourcePos(source.name, line, tokenColumn + i - start - 1, includedFrom)
-        val message = s"unknown escape sequence `\\${source.text(i, i + 1)}`"
-        val help = Some("write `\\\\` for a backslash, `/` between folders")
-        throw SceneError(Problem.error(Code.Token, position, message, help))
+    Escapes.unescaped(source.bytes, from, until): i =>
+      val position = SourcePos(source.name, line, tokenColumn + i - start - 1, includedFrom)
+      val letter = source.text(i, i + 1)
+      val message = s"unknown escape sequence `\\$letter`, which pbrt-v3 and v4 reject; " +
+        s"reading it as `$letter`, as pbrt-v2 does"
+      val help = Some("write `\\\\` for a backslash, `/` between folders")
+      warn(Problem.warning(Code.Token, position, message, help))
 
   private inline def isContinuation(c: Byte): Boolean = (c & 0xc0) == 0x80
 
@@ -289,20 +293,22 @@ private object Escapes:
   private val Written = "nrtbf\\\"'"
   private val Meant = "\n\r\t\b\f\\\"'"
 
-  /** The unescaped text of a range, or the offset of an unknown escape. */
-  def unescaped(bytes: Array[Byte], from: Int, until: Int): Either[Int, String] =
+  /** The unescaped text of a range. Unknown escapes mean the character itself.
+    *
+    * @param unknown receives the offset of the character after the backslash
+    */
+  def unescaped(bytes: Array[Byte], from: Int, until: Int)(unknown: Int => Unit): String =
     val out = ByteArrayOutputStream(until - from)
     var i = from
-    var isKnown = true
-    while i < until && isKnown do
+    while i < until do
       if bytes(i) != '\\' then out.write(bytes(i))
       else
         i += 1
         val meaning = Written.indexOf(bytes(i))
-        isKnown = meaning >= 0
-        if isKnown then out.write(Meant.charAt(meaning))
-      if isKnown then i += 1
-    if isKnown then Right(out.toString(UTF_8)) else Left(i)
+        if meaning < 0 then unknown(i)
+        out.write(if meaning >= 0 then Meant.charAt(meaning).toInt else bytes(i).toInt)
+      i += 1
+    out.toString(UTF_8)
 
 /** Converts words to Strings; caches the few names that recur, with their bytes. */
 private final class NameCache:

@@ -138,8 +138,8 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
       case _ => "[ 0.1 0.2 0.3 ]"
     s"for example \"${param.paramType.spelling} ${param.name}\" $values"
 
-  /** A list must consist of whole pairs or triples; v2 and v3 ignore the rest. An empty list is
-    * reported.
+  /** A list must consist of whole pairs or triples; v2 and v3 ignore the rest, even if nothing else
+    * is left. An empty list is reported.
     */
   def checkCount(param: Param): Param =
     val n = count(param)
@@ -166,9 +166,12 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
       val group = if size == 2 then "pairs" else "triples"
       val noun = if n == 1 then "number" else "numbers"
       val message = s"values of `${param.name}` must come in $group, found $n $noun"
-      if n < size || isV4() then fail(message)
+      if isV4() then fail(message)
       else
-        val ignored = if excess == 1 then "the last is" else s"the last $excess are"
+        val ignored =
+          if n < size then if n == 1 then "it is" else "they are"
+          else if excess == 1 then "the last is"
+          else s"the last $excess are"
         warn(Problem.warning(
           Code.ParameterSyntax,
           param.valuesAt,

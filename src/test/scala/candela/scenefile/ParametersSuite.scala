@@ -116,6 +116,8 @@ class ParametersSuite extends AnyFunSuite:
     val points = params("\"point P\" [1 2 3 4 5]", isV4 = false).head
     assert(points.floats.toSeq == Seq(1f, 2f, 3f))
     assert(warnings.head.message.endsWith("found 5 numbers; the last 2 are ignored"))
+    assert(params("\"rgb Kd\" [.5 .5]", isV4 = false).head.floats.isEmpty)
+    assert(warnings.head.message.endsWith("found 2 numbers; they are ignored"))
 
   test("lists that are no whole number of pairs or triples, are errors"):
     assert(error("\"rgb L\" [1 2]").contains("must come in triples, found 2 numbers"))

@@ -1,7 +1,7 @@
 package candela.scenefile
 
 import candela.base.{FloatBuffer, RestBuffer}
-import candela.diagnostics.SceneError
+import candela.diagnostics.{Problem, SceneError, Severity}
 import candela.io.InputFile
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
 import java.nio.file.Files
@@ -52,6 +52,16 @@ class TokenizerSuite extends AnyFunSuite:
   test("escapes in texts mean what they mean in C"):
     val text = raw""" "a\"b\\c\nd\te\rf\bg\fh\'i" """
     assert(tokens(text).map(_._2) == Vector("a\"b\\c\nd\te\rf\bg\fh'i"))
+
+  test("unknown escapes are the character itself, with a warning"):
+    var problems = Vector.empty[Problem]
+    val in = Tokenizer(Source.fromText("test", raw""" "out\Cat\\é" """), None, problems :+= _)
+    in.advance()
+    assert(in.text == raw"outCat\é")
+    assert(problems.map(p => (p.severity, p.at.map(_.column))) == Vector((
+      Severity.Warning,
+      Some(6)
+    )))
 
   test("columns count characters, not bytes"):
     assert(tokens("\"é€😀\" X").map(_._4) == Vector(1, 7))

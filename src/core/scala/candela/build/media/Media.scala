@@ -116,10 +116,10 @@ trait HasPreset extends HasCoefficients:
     val name = preset()
     val found = MeasuredMedia.find(name, site.dialect)
     if name.nonEmpty && found.isEmpty then
-      site.missing(
+      site.problems.warn(
         Code.UnknownType,
-        s"unknown measured medium \"$name\"",
-        StandIns.Default,
+        site.declaration.param("preset").fold(site.declaration.at)(_.valuesAt),
+        s"unknown measured medium \"$name\"; using the coefficients, as pbrt does",
         Suggest.help(name, MeasuredMedia.names(site.dialect))
       )
     val basis = site.resources.basis

@@ -147,6 +147,9 @@ object Spectra:
         Some(SpectralValue.Color(Rgb.gray(p.floats(0))))
       case ParamType.Spectrum if p.strings.nonEmpty =>
         named(p, site, StandIns.Default).map(SpectralValue.Wavelengths(_))
+      case ParamType.Spectrum if p.floats.isEmpty && untilV3(site.dialect) =>
+        // pbrt-v2 and v3 make a spectrum of no samples
+        Some(SpectralValue.Color(Rgb.Black))
       case ParamType.Spectrum if p.floats.length >= 2 && p.floats.length % 2 == 0 =>
         pairs(p.floats, p, site).map(SpectralValue.Wavelengths(_))
       case other =>
