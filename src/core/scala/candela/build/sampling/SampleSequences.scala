@@ -91,12 +91,21 @@ object AdaptiveRecipe
       onlyV2
     ):
   private val most = integer("maxsamples", "maximum samples per pixel")(32)
+  private val least = integer("minsamples", "minimum samples per pixel")(4)
   declare(
-    integer("minsamples", "minimum samples per pixel")(4),
     string("method", "criterion: contrast, shapeid")("contrast")
   )
   override def substitute: Option[String] =
-    Some("using `maxsamples` in every pixel, the most that it would take")
+    Some("taking `maxsamples` in every pixel, also where `minsamples` agree and pbrt-v2 stops")
+
+  /** Samples of a pixel in which the first ones differ. pbrt-v2 rounds both numbers up to powers of
+    * two, takes the larger one, and doubles it if they are the same.
+    */
+  private def maxSamples()(using Site): Int =
+    def power(n: Int) = Integer.highestOneBit(Math.max(2, Math.min(n, 1 << 29)) * 2 - 1)
+    val (a, b) = (power(least()), power(most()))
+    if a == b then 2 * a else Math.max(a, b)
+
   protected def make()(using Site): SamplerRequest => SamplerPlan =
-    val n = most()
+    val n = maxSamples()
     request => SamplerPlan(name, request.spp.getOrElse(n), request.seed, PointSet.Sobol)
