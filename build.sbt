@@ -399,15 +399,27 @@ def facts = Def.setting {
   */
 def versionSource = Def.task {
   val file = (Compile / sourceManaged).value / "candela" / "base" / "Version.scala"
+  val release = (ThisBuild / revision).value.release
+  val sources = (Compile / unmanagedSources).value ++ (Compile / unmanagedResources).value
   val text =
     s"""package candela.base
        |
-       |/** The number of this release, or of the next one; build.sbt writes this file. */
+       |/** Which program this is; build.sbt writes this file. */
        |object Version:
-       |  val current: String = "${(ThisBuild / revision).value.release}"
+       |  /** The number of this release, or of the next one. */
+       |  val current: String = "$release"
+       |
+       |  /** The same, with a digest of the sources: other builds may make other files. */
+       |  val build: String = "$release-${digest(sources)}"
        |""".stripMargin
   if (!file.exists || IO.read(file) != text) IO.write(file, text)
   Seq(file)
+}
+
+/** Of the content of files, wherever they are, with the line ends of any system. */
+def digest(files: Seq[File]): String = {
+  val sums = files.filter(_.isFile).map(f => f.getName + Hash.toHex(Hash(IO.read(f).replace("\r", ""))))
+  Hash.toHex(Hash(sums.sorted.mkString(" "))).take(12)
 }
 
 /** What `--version` says of the sources; a resource, so that no commit compiles anything anew. */

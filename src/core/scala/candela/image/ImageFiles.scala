@@ -75,7 +75,7 @@ object ImageFiles:
       if !Remarkable(suffix) then None
       else
         val size = Files.size(file.path)
-        val (start, end) = Using.resource(file.stream()): in =>
+        val (start, end) = Using.resource(file.again()): in =>
           val beginning = in.readNBytes(1 << 16)
           in.skipNBytes(Math.max(0, size - beginning.length - (1 << 12)))
           (beginning, in.readAllBytes())

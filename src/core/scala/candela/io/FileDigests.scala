@@ -8,8 +8,10 @@ import scala.util.Try
 
 /** Digests of files, which are remembered while the files are not touched: by this process, and in
   * cached files for later ones, a table for each folder. Safe for threads.
+  *
+  * @param rest milliseconds that a file must not have changed for
   */
-final class FileDigests(files: Option[PartFiles]):
+final class FileDigests(files: Option[PartFiles], rest: Long = FileStamp.RestMillis):
   import FileDigests.*
 
   private val folders = ConcurrentHashMap[Path, Table]()
@@ -21,18 +23,20 @@ final class FileDigests(files: Option[PartFiles]):
   def apply(file: InputFile)(make: => String): String =
     val place = file.whole
     val name = place.getFileName.toString
-    val table = folders.computeIfAbsent(place.getParent, f => Table(written(f)))
-    val before = file.stamp
-    before.flatMap(table.find(name, _)).getOrElse:
+    val table = folders.computeIfAbsent(place.getParent, f => Table(written(f), isTimed(f)))
+    val before = file.stamp(rest).filter(_ => table.isTimed)
+    val known = before.flatMap(table.find(name, _)).getOrElse:
       val made = make
-      for stamp <- before if file.stamp.contains(stamp) do table.put(name, stamp, made)
+      for stamp <- before if file.stamp(rest).contains(stamp) do table.put(name, stamp, made)
       made
+    file.note(known)
+    known
 
   /** Writes what is new for later processes. */
   def save(): Unit =
     for store <- files do
       folders.forEach: (folder, table) =>
-        for rows <- table.taken() if isTimed(folder) do
+        for rows <- table.taken() do
           // Another may have written some since
           val all = written(folder) ++ rows
           val there = all.filter((name, _) => isThere(folder, name))
@@ -42,11 +46,10 @@ final class FileDigests(files: Option[PartFiles]):
     files.flatMap(_.read(TableForm, folder.toString)).getOrElse(Map.empty)
 
 object FileDigests:
-  /** File systems whose kernel sets the times of change by its own clock. On others, such as FAT,
-    * programs can set all times, or a server does, and a digest may outlive its file.
+  /** File systems whose kernel sets the times of change by its own clock, also if a file is written
+    * in memory (`mmap`). On others, such as FAT and tmpfs, a digest may outlive its file.
     */
-  private val Timed = Set("ext2", "ext3", "ext4", "xfs", "btrfs", "bcachefs", "zfs", "f2fs") ++
-    Set("jfs", "tmpfs", "overlay", "apfs", "hfs", "ufs")
+  private val Timed = Set("ext2", "ext3", "ext4", "xfs", "btrfs", "f2fs")
 
   private[candela] def isTimed(folder: Path): Boolean =
     Try(Files.getFileStore(folder).`type`).toOption.exists(t => Timed(t.toLowerCase))
@@ -58,7 +61,7 @@ object FileDigests:
   /** Stamp and digest of each file, by its name. */
   private[candela] type Rows = Map[String, (FileStamp, String)]
 
-  private final class Table(before: Rows):
+  private final class Table(before: Rows, val isTimed: Boolean):
     private val rows = ConcurrentHashMap[String, (FileStamp, String)](before.asJava)
     private val fresh = ConcurrentHashMap.newKeySet[String]()
     @volatile private var isNew = false

@@ -1,11 +1,12 @@
 package candela.io
 
-import java.io.{BufferedInputStream, FilterInputStream, InputStream, IOException}
+import java.io.{BufferedInputStream, FilterInputStream, InputStream, IOException, OutputStream}
 import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.attribute.{BasicFileAttributes, FileTime}
 import java.nio.file.{Files, InvalidPathException, Path, StandardOpenOption}
+import java.security.MessageDigest
 import java.util.concurrent.TimeUnit.NANOSECONDS
 
 import scala.util.{Try, Using}
@@ -17,13 +18,15 @@ import scala.util.{Try, Using}
   * @param place where it is opened
   * @param gate  counts what is read
   * @param isShown whether messages may quote it
+  * @param reads receives the digest of what is read
   */
 final class InputFile private[candela] (
     val path: Path,
     private val place: Path,
     gate: Long => Unit,
     mayBePipe: Boolean,
-    shown: => Boolean
+    shown: => Boolean,
+    reads: ReadFiles = ReadFiles()
 ):
   lazy val isShown: Boolean = shown
 
@@ -51,7 +54,9 @@ final class InputFile private[candela] (
   /** All bytes. A file of 2 GB or more is an OutOfMemoryError. */
   def bytes(): Array[Byte] =
     gate(Files.size(readable))
-    Files.readAllBytes(readable)
+    val all = Files.readAllBytes(readable)
+    if isRegular then note(Sha256.of(ByteBuffer.wrap(all)))
+    all
 
   /** The file as Latin-1, in which no byte is wrong. */
   def text(): String = String(bytes(), ISO_8859_1)
@@ -62,7 +67,11 @@ final class InputFile private[candela] (
   def words(): Vector[String] =
     lines().flatMap(_.takeWhile(_ != '#').split("\\s+")).filter(_.nonEmpty)
 
-  def stream(): InputStream = BufferedInputStream(Gated(Files.newInputStream(readable), gate))
+  def stream(): InputStream =
+    val plain = Files.newInputStream(readable)
+    // The rest of a pipe may never come
+    val raw = if isRegular then Digesting(plain, note) else plain
+    BufferedInputStream(Gated(raw, gate))
 
   /** Its first bytes, to look at in passing: they are not counted, since they are read again. */
   def beginning(most: Int): Array[Byte] =
@@ -78,27 +87,37 @@ final class InputFile private[candela] (
     *
     * @throws IOException if it can't be read
     */
-  def digest(): String = Sha256.ofAll(again())
+  def digest(): String =
+    val made = Sha256.ofAll(again())
+    note(made)
+    made
+
+  /** Its content is what has this digest. */
+  private[candela] def note(digest: String): Unit = reads.note(path, digest)
 
   /** Changes when the file changes; None if the system has no such stamp, or if the file has
     * changed so recently that another change would go unnoticed.
     */
-  private[candela] def stamp: Option[FileStamp] = FileStamp.of(place)
+  private[candela] def stamp(rest: Long = FileStamp.RestMillis): Option[FileStamp] =
+    FileStamp.of(place, rest)
 
   /** Where it is, whatever the user's folder. */
   private[candela] def whole: Path = place.toAbsolutePath.normalize
 
   /** Tells whether the file is surely as it is now. */
   def watch(): () => Boolean =
-    val now = stamp
-    () => now.nonEmpty && stamp == now
+    val isTimed = FileDigests.isTimed(whole.getParent)
+    val now = stamp().filter(_ => isTimed)
+    () => now.nonEmpty && stamp() == now
 
   /** In memory as the system sees fit. Its whole size is counted. */
   def map(): ByteBuffer = Using.resource(channel()): channel =>
     if channel.size > Int.MaxValue then throw IOException("larger than 2 GB")
-    channel.map(FileChannel.MapMode.READ_ONLY, 0, channel.size)
+    val all = channel.map(FileChannel.MapMode.READ_ONLY, 0, channel.size)
+    note(Sha256.of(all.duplicate))
+    all
 
-  /** For reading. Its whole size is counted. */
+  /** For reading. Its whole size is counted. What is read is not digested: `digest` does that. */
   def channel(): FileChannel =
     val opened = FileChannel.open(readable, StandardOpenOption.READ)
     try
@@ -176,11 +195,13 @@ object InputFile:
 private[candela] final case class FileStamp(words: String)
 
 private[candela] object FileStamp:
-  /** Clocks of file systems tick: two changes within a tick have one time. In milliseconds. */
-  val Tick = 2000L
+  /** A second write in memory (`mmap`) changes no time until the kernel has written the first one
+    * to disk, which Linux does within 35 seconds. In milliseconds.
+    */
+  val RestMillis = 120_000L
 
   /** @param rest milliseconds since its last change, at least */
-  def of(file: Path, rest: Long = Tick): Option[FileStamp] = Try:
+  def of(file: Path, rest: Long = RestMillis): Option[FileStamp] = Try:
     val all = Files.readAttributes(file, "unix:size,lastModifiedTime,ctime,dev,ino")
     def time(name: String) = all.get(name).asInstanceOf[FileTime]
     val times = Seq("lastModifiedTime", "ctime").map(time(_).to(NANOSECONDS))
@@ -188,6 +209,32 @@ private[candela] object FileStamp:
       FileStamp((all.get("size") +: times :+ all.get("dev") :+ all.get("ino")).mkString(" "))
     Option.when(System.currentTimeMillis - time("ctime").toMillis >= rest)(stamp)
   .toOption.flatten
+
+/** Digests the whole file, also what its reader leaves.
+  *
+  * @param note receives the digest when the stream is closed
+  */
+private final class Digesting(in: InputStream, note: String => Unit) extends InputStream:
+  private val sum = MessageDigest.getInstance("SHA-256")
+  private val single = new Array[Byte](1)
+  private var isOpen = true
+
+  override def read(): Int = if read(single, 0, 1) < 0 then -1 else single(0) & 0xff
+
+  override def read(into: Array[Byte], from: Int, length: Int): Int =
+    val n = in.read(into, from, length)
+    if n > 0 then sum.update(into, from, n)
+    n
+
+  override def available(): Int = in.available()
+
+  override def close(): Unit =
+    if isOpen then
+      isOpen = false
+      try
+        transferTo(OutputStream.nullOutputStream): Unit
+        note(Sha256.hex(sum.digest))
+      finally in.close()
 
 /** Counts the bytes read. */
 private final class Gated(in: InputStream, gate: Long => Unit) extends FilterInputStream(in):

@@ -13,11 +13,11 @@ import java.util.concurrent.atomic.AtomicInteger
   * It has what the scene before the latest has used, or the latest itself, and gives that up where
   * the JVM lacks memory.
   */
-final class Keep private (val isKeeping: Boolean, files: Option[PartFiles]):
+final class Keep private (val isKeeping: Boolean, files: Option[PartFiles], rest: Long):
   import Keep.*
 
   private val things = ConcurrentHashMap[(Shelf[?], String), Kept]()
-  private val digests = FileDigests(files)
+  private val digests = FileDigests(files, rest)
   private val scenes = AtomicInteger()
 
   /** Whether some is kept in files. */
@@ -100,11 +100,14 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles]):
     if isKeeping then digests(file)(file.digest()) else file.digest()
 
 object Keep:
-  /** @param files also keep large things */
-  def apply(files: Option[PartFiles] = None): Keep = new Keep(true, files)
+  /** @param files also keep large things
+    * @param rest  milliseconds after which the times of files are trusted
+    */
+  def apply(files: Option[PartFiles] = None, rest: Long = FileStamp.RestMillis): Keep =
+    new Keep(true, files, rest)
 
   /** Keeps nothing. */
-  val Nothing: Keep = new Keep(false, None)
+  val Nothing: Keep = new Keep(false, None, FileStamp.RestMillis)
 
   /** A cache of values of one kind, compared by identity.
     *

@@ -57,7 +57,7 @@ final class PartFiles(folder: CacheFolder):
 
   /** What is made by another version may differ. */
   private def mark(form: PartForm[?], key: String) =
-    s"${CacheFolder.Mark}${form.name} $key ${Version.current}"
+    s"${CacheFolder.Mark}${form.name} $key ${Version.build}"
 
 object PartFiles:
   /** Smaller things are computed as fast as their files are read. */

@@ -17,6 +17,9 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
   def isConfined: Boolean = guard.isConfined
   def allowance: Allowance = guard.allowance
 
+  /** Digests of what was read through this folder and those made of it by `at`. */
+  private[candela] def reads: ReadFiles = guard.reads
+
   /** Another folder, whose files are guarded as those of this one. */
   def at(other: Path): SceneFolder = new SceneFolder(other, guard)
 
@@ -122,6 +125,7 @@ object SceneFolder:
   * @param isConfined whether all files must be in it
   */
 private final class FileGuard(root: Path, val isConfined: Boolean, val allowance: Allowance):
+  val reads: ReadFiles = ReadFiles()
   private lazy val realRoot = Try(root.toAbsolutePath.toRealPath()).toOption
 
   def mayOpen(path: Path): Boolean = !isConfined || inside(path).nonEmpty
@@ -139,11 +143,18 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
         )
       allowance.countFile(place, at)
       def gate(count: Long) = allowance.countBytes(count, path, at)
-      InputFile(path, place, gate, mayBePipe = false, shown = isInside(path))
+      InputFile(path, place, gate, mayBePipe = false, shown = isInside(path), reads)
 
   /** A file that the user has named, of any kind. */
   def asked(path: Path): InputFile =
-    InputFile(path, path, allowance.countBytes(_, path, None), mayBePipe = true, shown = true)
+    InputFile(
+      path,
+      path,
+      allowance.countBytes(_, path, None),
+      mayBePipe = true,
+      shown = true,
+      reads
+    )
 
   private def outside(path: Path, at: Option[SourcePos]): Refusal =
     val isLink = path.toAbsolutePath.normalize.startsWith(root.toAbsolutePath.normalize)

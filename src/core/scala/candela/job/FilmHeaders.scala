@@ -30,7 +30,7 @@ object FilmHeaders:
   ): FilmHeader =
     val plan = prepared.plan
     FilmHeader(
-      Version.current,
+      Version.build,
       scene,
       relative(film.toAbsolutePath.getParent, here).toString,
       SettingsCodec.identity(settings),
@@ -65,14 +65,15 @@ object FilmHeaders:
     s"${plan.width}x${plan.height}, pixels $x0 to $x1, $y0 to $y1, " +
       (if plan.sharesSamples then "splatted" else "one pixel each")
 
-  /** SHA-256 of the scene's files, by their names relative to the scene's folder, and of what is in
-    * no file.
+  /** SHA-256 of the scene's files, as they were read, by their names relative to the scene's
+    * folder, and of what is in no file.
     */
   private def digests(scene: SceneDescription): Vector[(String, String)] =
     val files = SceneFiles.of(scene).map(_.toAbsolutePath.normalize)
     val folder = scene.sources.headOption.map(_.toAbsolutePath.normalize.getParent)
     val filed = files.map: file =>
-      folder.fold(file)(relative(_, file)).toString -> digest(file)
+      folder.fold(file)(relative(_, file)).toString ->
+        scene.folder.reads.digest(file).getOrElse(digest(file))
     filed ++ scene.unfiled
 
   private def digest(file: Path): String =

@@ -100,10 +100,10 @@ object FilmKeeper:
         s"`${FilmFile.previous(film.path).getFileName}`"
       warn(Problem.general(Code.DamagedFilm, message).copy(severity = Severity.Warning))
     val version = film.header.version
-    if version != Version.current then
+    if version != Version.build then
       fail(
         Code.OtherRendering,
-        s"`$path` was written by Candela $version; this is ${Version.current}"
+        s"`$path` was written by Candela $version; this is ${Version.build}"
       )
     film
 
@@ -117,7 +117,7 @@ object FilmKeeper:
   def fail(code: Code, message: String, help: String = ""): Nothing =
     throw SceneError(Problem.general(code, message, Option.when(help.nonEmpty)(help)))
 
-  private def unwritable(path: Path, why: String): Problem =
+  def unwritable(path: Path, why: String): Problem =
     Problem(Code.Unwritable, Severity.Warning, None, s"can't write the film file `$path`: $why")
 
   /** The rendering that continues a saved one. */

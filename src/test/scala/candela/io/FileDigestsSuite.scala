@@ -10,7 +10,7 @@ import candela.testing.TempFolder
 class FileDigestsSuite extends AnyFunSuite:
 
   /** As of another process. */
-  private def digests(cache: Path) = FileDigests(Some(parts(cache)))
+  private def digests(cache: Path) = FileDigests(Some(parts(cache)), Rest)
   private def parts(cache: Path) = PartFiles(CacheFolder(cache, Long.MaxValue))
 
   private def rows(cache: Path, folder: Path) =
@@ -19,7 +19,8 @@ class FileDigestsSuite extends AnyFunSuite:
   /** A file's digest as it is known; `new` if it is not. */
   private def known(of: FileDigests, file: InputFile): String = of(file)("new")
 
-  private def rest(): Unit = Thread.sleep(FileStamp.Tick + 100)
+  private val Rest = 1000L
+  private def rest(): Unit = Thread.sleep(Rest + 100)
 
   /** Files of these names, at rest, in a folder; and the folder of the cache. */
   private def withFiles(names: String*)(body: (Path, Vector[InputFile]) => Any): Unit =
@@ -80,7 +81,7 @@ class FileDigestsSuite extends AnyFunSuite:
   test("a cache that can't be written is no trouble", Slow):
     withFiles("a"): (_, files) =>
       val store = parts(Files.writeString(files(0).path.resolveSibling("file"), ""))
-      val all = FileDigests(Some(store))
+      val all = FileDigests(Some(store), Rest)
       assert(all(files(0))("first") == "first")
       all.save()
       assert(store.trouble().isEmpty && known(all, files(0)) == "first")
@@ -103,7 +104,7 @@ class FileDigestsSuite extends AnyFunSuite:
 
   test("without a cache, a process remembers its own", Slow):
     withFiles("a"): (_, files) =>
-      val own = FileDigests(None)
+      val own = FileDigests(None, Rest)
       assert(own(files(0))("first") == "first")
       own.save()
-      assert(known(own, files(0)) == "first" && known(FileDigests(None), files(0)) == "new")
+      assert(known(own, files(0)) == "first" && known(FileDigests(None, Rest), files(0)) == "new")

@@ -67,16 +67,16 @@ class KeepSuite extends AnyFunSuite:
 
   test("a file that is at rest is read for its digest once", Slow):
     TempFolder.use: folder =>
-      val keep = Keep()
+      val rest = 1000L
+      val keep = Keep(rest = rest)
       val file = written(folder.resolve("a"), "aaa")
       assume(FileStamp.of(folder.resolve("a"), rest = 0).nonEmpty, "needs a Unix file system")
       val stamp = FileStamp.of(folder.resolve("a"), rest = 0)
-      assert(file.stamp.isEmpty, "it was written just now")
+      assert(file.stamp(rest).isEmpty, "it was written just now")
       val _ = written(folder.resolve("a"), "aab")
       assert(FileStamp.of(folder.resolve("a"), rest = 0) != stamp)
-      val rested = FileStamp.Tick + 100
-      Thread.sleep(rested)
-      assert(file.stamp.nonEmpty && keep.digest(file) == Sha256.of("aab"))
+      Thread.sleep(rest + 100)
+      assert(file.stamp(rest).nonEmpty && keep.digest(file) == Sha256.of("aab"))
 
   test("what was made while its file was written is not kept"):
     TempFolder.use: folder =>

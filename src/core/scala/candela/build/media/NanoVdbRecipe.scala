@@ -1,7 +1,8 @@
 package candela.build.media
 
 import candela.diagnostics.{Code, Suggest}
-import candela.io.InputFile
+import candela.io.{InputFile, IoReason}
+import java.io.IOException
 import candela.build.recipe.*
 import candela.geometry.Bounds3
 import candela.math.*
@@ -65,6 +66,7 @@ object NanoVdbRecipe
       )
       None
     try
+      file.digest(): Unit
       NanoVdbFile.read(file, gridName()) match
         case Left(names) =>
           val found = names.distinct.sorted.mkString("`", "`, `", "`")
@@ -78,7 +80,9 @@ object NanoVdbRecipe
               s"`${filename()}` has no grid `${temperatureName()}`; it does not emit"
             )
           voxels(grid, temperature).orElse(refuse("its voxels have no volume"))
-    catch case e: NanoVdbError => refuse(e.getMessage)
+    catch
+      case e: NanoVdbError => refuse(e.getMessage)
+      case e: IOException => refuse(IoReason(e))
 
   /** The box of a grid, upright in the medium's space; beyond it, there is nothing. */
   private def voxels(grid: NanoVdbGrid, temperature: Option[NanoVdbGrid]): Option[Voxels] =

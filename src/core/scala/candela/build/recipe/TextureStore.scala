@@ -190,4 +190,4 @@ object TextureStore:
       case ((folder, name), at) => Refusal.placed(at)(folder.glance(name))
 
   /** Texels may differ from those of another version. */
-  private def versioned(digest: String) = s"$digest ${Version.current}"
+  private def versioned(digest: String) = s"$digest ${Version.build}"
