@@ -232,6 +232,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       if measurement == 0f then measurement = field.measurements(region) * throughput
       val transmits = !vertex.isInMedium && vertex.bsdf.isTransmissive
       if factor == 0f || measurement == 0f || transmits then 1f
+      else if throughput.isNaN then 1f // a lost path: its sample is discarded
       else
         isExpected = true
         val maxBranches = Math.min(BranchPoints.MaxBranches.toFloat, MostInAll / splits)

@@ -26,6 +26,9 @@ final class SampledGrid(
     greatest
 
 object SampledGrid:
+  /** A larger value is no density, but damage: a path through it would have no end. */
+  val MaxValue = 1e9f
+
   /** A single sample at the centre of the cube. Surrounded by zeros, it is 1 there alone and half
     * of it at the centre of each face.
     */

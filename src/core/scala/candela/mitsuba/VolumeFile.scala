@@ -23,6 +23,9 @@ private[mitsuba] final class VolumeFile(
 private[mitsuba] object VolumeFile:
   private val Header = 48
 
+  /** A larger value is damage. */
+  private val MaxValue = 1e9f
+
   def read(file: InputFile, at: SourcePos): VolumeFile =
     def fail(why: String) =
       Values.fail(Code.DamagedVolume, at, s"can't read the volume `${file.path.getFileName}`: $why")
@@ -45,5 +48,7 @@ private[mitsuba] object VolumeFile:
       fail(s"it is too short for ${size.mkString(" × ")} cells")
     val values = new Array[Float](cells.toInt * channels)
     in.asFloatBuffer.get(values)
-    loop(values.length)(i => if !(values(i) >= 0f) then values(i) = 0f)
+    loop(values.length): i =>
+      if !(values(i) <= MaxValue) then fail(s"its value ${values(i)} is damaged")
+      values(i) = Math.max(0f, values(i))
     VolumeFile(size, channels, bounds, values)

@@ -177,6 +177,21 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val near = only(s"Material \"dielektric\" $sphere", Dialect.V4)
     assertError(near, "unknown material \"dielektric\"", "did you mean `dielectric`?")
 
+  test("values of a grid that are no density are limited with a warning"):
+    val box = "\"integer nx\" 1 \"integer ny\" 1 \"integer nz\" 2 "
+    for value <- Seq("1e30", "-1") do
+      val media = Seq(
+        Dialect.V4 -> s"\"uniformgrid\" $box \"float density\" [1 $value]",
+        Dialect.V4 -> s"\"rgbgrid\" $box \"rgb sigma_s\" [1 1 1 1 $value 1]",
+        Dialect.V3 -> s"\"heterogeneous\" $box \"float density\" [1 $value]"
+      )
+      for (dialect, medium) <- media do
+        val scene = "Camera \"perspective\" WorldBegin LightSource \"infinite\" " +
+          s"MakeNamedMedium \"m\" \"string type\" $medium\n" +
+          "Material \"interface\" MediumInterface \"m\" \"\"\nShape \"sphere\"\n"
+        val told = SceneTexts.problems(scene, dialect).map(_.message)
+        assert(told.exists(_.contains("must be between 0 and")), s"$medium $told")
+
   test("a scene whose media glow is not told that it will be dark"):
     val box = "Material \"interface\"\nMediumInterface \"m\" \"\"\nShape \"sphere\"\n"
     val grid = "\"integer nx\" 1 \"integer ny\" 1 \"integer nz\" 1 \"float density\" 1 "

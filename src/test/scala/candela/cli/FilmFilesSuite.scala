@@ -217,6 +217,9 @@ class FilmFilesSuite extends AnyFunSuite:
       val (code, captured) = f.captured(Vector(f.scene, "--checkpoint", "--outfile", f("a.exr")))
       assert(code == 1 && captured.err.contains(s"can't write the film file `${f("a.film")}`"))
       assert(f.image("a.exr").width == 24)
+      val (quietCode, quiet) =
+        f.captured(Vector(f.scene, "--quiet", "--checkpoint", "--outfile", f("a.exr")))
+      assert(quietCode == 1 && quiet.err.contains(s"error: can't write the film file"), quiet.err)
 
   test("a sequence goes on after a failing scene, and skips what is done on the next run"):
     withScene(): f =>

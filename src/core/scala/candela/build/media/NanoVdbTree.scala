@@ -6,7 +6,7 @@ import java.nio.ByteBuffer
 import scala.collection.mutable
 
 import candela.math.Transform
-import candela.media.{VoxelNode, VoxelTree}
+import candela.media.{SampledGrid, VoxelNode, VoxelTree}
 
 /** Reads the grid of a [[NanoVdbFile]]: its map and its tree of root, upper nodes (32³ lower ones),
   * lower nodes (16³ leaves) and leaves (8³ voxels).
@@ -161,7 +161,10 @@ private[media] object NanoVdbTree:
         throw NanoVdbError(s"more than $MostConstants of its large tiles differ")
       made
 
-    private def number(value: Float): Float = if java.lang.Float.isFinite(value) then value else 0f
+    private def number(value: Float): Float =
+      if !(Math.abs(value) <= SampledGrid.MaxValue) then
+        throw NanoVdbError(s"its value $value is no density: it is damaged")
+      value
 
     private def add(corner: Vector[Int], n: Int, node: VoxelNode): Unit =
       nodes.append((

@@ -3,6 +3,7 @@ package candela.build.recipe
 import candela.diagnostics.Code
 import candela.geometry.Bounds3
 import candela.math.*
+import candela.media.SampledGrid
 import candela.scenefile.Dialect
 
 /** Cells of a grid. */
@@ -22,13 +23,20 @@ trait HasCells extends Fields:
       val shape = (Seq(nx, ny, nz) ++ Option.when(channels > 1)(channels)).mkString("·")
       site.error(Code.ParameterCount, s"`$name` must have $shape numbers, found ${values.length}")
       None
-    else Some((nx, ny, nz))
+    else
+      for odd <- values.find(v => !(v >= 0f && v <= SampledGrid.MaxValue)) do
+        site.warn(
+          Code.CorrectedValue,
+          s"`$name` must be between 0 and ${SampledGrid.MaxValue}, found $odd; using 0 for what " +
+            "is negative, NaN or infinite, and the limit for what exceeds it"
+        )
+      Some((nx, ny, nz))
 
-  /** One of the channels, without what is not a positive number. */
+  /** One of the channels, within the limits. */
   protected def channel(values: Array[Float], c: Int, channels: Int): Array[Float] =
     Array.tabulate(values.length / channels): i =>
       val v = values(i * channels + c)
-      if v > 0f && java.lang.Float.isFinite(v) then v else 0f
+      if v > 0f && java.lang.Float.isFinite(v) then Math.min(v, SampledGrid.MaxValue) else 0f
 
 /** Bounding box of a medium or texture, in its own space. */
 trait HasBox extends Fields:

@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.diagnostics.{Problem, SceneError}
+import candela.diagnostics.{Problem, SceneError, Severity}
 import candela.cli.files.Denoised
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
@@ -54,10 +54,14 @@ private[cli] final class SceneRun(
         .filter(_ => writer.paths.isEmpty && checkpoints.forall(_.failure.isEmpty))
       val (files, failures) = tell(result, films.toVector)
       watching.foreach(_.await(files))
-      val lost = failures ++ errorLog.toVector.flatMap(_.failure)
+      // The warning of it is not printed with --quiet
+      val unsaved =
+        for k <- keeping; c <- checkpoints if options.quiet && c.failure.nonEmpty
+        yield FilmKeeper.unwritable(k.path, c.failure).copy(severity = Severity.Error)
+      val lost = failures ++ errorLog.toVector.flatMap(_.failure) ++ unsaved
       if lost.nonEmpty then throw SceneError(lost)
       if !result.isComplete || checkpoints.exists(_.failure.nonEmpty) then ExitCode.BadInput
-      else if !rendering.isComplete then ExitCode.Interrupted
+      else if !rendering.isComplete && !(isLate && result.hasAll) then ExitCode.Interrupted
       else ExitCode.Done
     finally watching.foreach(_.close())
 
@@ -96,6 +100,9 @@ private[cli] final class SceneRun(
       writeSeconds: Double
   ):
     def isComplete: Boolean = written.size == wanted.size
+
+    /** Whether no older image was kept. */
+    def hasAll: Boolean = wanted.size == writer.paths.size
 
   private def results(rendering: Rendering): Result =
     val started = System.nanoTime

@@ -28,8 +28,8 @@ enum ExitCode(val number: Int, val word: String, val meaning: String):
         130,
         "interrupted",
         "interrupted by Ctrl-C, or by `stop` on the live page, or `--time` was over before " +
-          "each pixel had a sample; the partial image was written, or nothing if the rendering " +
-          "had not begun, or Ctrl-C came twice"
+          "each pixel had a sample and an older image was kept; the partial image was " +
+          "written, or nothing if the rendering had not begun, or Ctrl-C came twice"
       )
 
   def worseOf(other: ExitCode): ExitCode = if other.ordinal > ordinal then other else this

@@ -36,6 +36,11 @@ final class NanoVdbFileSuite extends AnyFunSuite:
   private def at(grid: NanoVdbGrid, p: (Int, Int, Int)) =
     grid.tree.interpolated(p._1.toFloat, p._2.toFloat, p._3.toFloat)
 
+  test("a value that is no density is refused, as it would make paths without an end"):
+    for value <- Vector(1e30f, -1e30f, Float.NaN, Float.PositiveInfinity) do
+      val bytes = NanoVdb.file(Vector(VdbGrid("density", Map((0, 0, 0) -> value))))
+      assert(refusal(bytes) == s"its value $value is no density: it is damaged")
+
   for zipped <- Vector(false, true) do
     test(s"every voxel is read, and zero everywhere else${if zipped then ", by ZIP" else ""}"):
       val found = grid(NanoVdb.file(Vector(VdbGrid("density", values)), zipped))
