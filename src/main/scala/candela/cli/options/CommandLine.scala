@@ -25,7 +25,7 @@ object CommandLine:
 
   /** @param columns width of the help, in characters */
   def parse(args: Seq[String], columns: Int = Terminal.UsualColumns): Either[Answer, Options] =
-    missing(args).orElse(asked(args, HelpText(columns))) match
+    unreadable(args).orElse(missing(args)).orElse(asked(args, HelpText(columns))) match
       case Some(answer) => Left(answer)
       case None =>
         translated(args) match
@@ -33,6 +33,13 @@ object CommandLine:
             Left(refusal(Vector(UsageError(Code.UnknownOption, instead)), Command.Render))
           case Right(words, notes) => parseOurs(words).map: o =>
               o.copy(notes = notes ++ IdleOptions.of(o))
+
+  /** Of bytes that are no UTF-8, Java makes one character: two files would have one name. */
+  private def unreadable(args: Seq[String]): Option[Answer] =
+    for word <- args.find(_.contains('\uFFFD')) yield
+      val message = s"`$word` is not UTF-8, so its file can't be told from others"
+      val help = Some("rename the file, or set LC_ALL=C.UTF-8 where the locale is another")
+      Answer(Vector.empty, Vector(Problem.general(Code.NoSuchFile, message, help)))
 
   /** The cure, if a module that is not installed has the command. */
   private def missing(args: Seq[String]): Option[Answer] =

@@ -216,6 +216,11 @@ class CommandLineSuite extends AnyFunSuite:
       assert(parse(line) == Right(one.copy(outfiles = Vector("x.exr"))))
     assert(parse("merge a.film -o x.exr").toOption.get.outfiles == Vector("x.exr"))
 
+  test("a name that is not UTF-8 is refused: all such names would be one"):
+    for line <- Vector("a.pbrt --outfile \uFFFD.exr", "image \uFFFD.exr -o b.exr", "\uFFFD.pbrt") do
+      val answer = parse(line).left.toOption.get
+      assert(answer.code == ExitCode.BadUsage && answer.err.contains("is not UTF-8"), line)
+
   test("--version prints version, commit, the Java that runs it, and whether SIMD kernels do"):
     for line <- Vector("--version", "version", "-V") do
       val answer = parse(line).left.toOption.get
