@@ -178,6 +178,20 @@ class LauncherSuite extends AnyFunSuite:
       assert(p.run(env = Make).code == 0 && p.starts.size == 2)
       assert(p.run(env = Make).code == 0 && p.starts.size == 2)
 
+  test("an archive that is cut or ends in zeros is not used, and is made anew"):
+    staged: p =>
+      val _ = p.jdk("99")
+      assert(p.run(env = Make).code == 0)
+      val archive = p.archives(p.lib).head
+      val whole = Files.readAllBytes(archive)
+      val half = whole.take(whole.length / 2)
+      for damaged <- Seq(half, half.padTo(whole.length, 0.toByte)) do
+        val _ = Files.write(archive, damaged)
+        assert(p.run(env = Make).code == 0)
+        assert(Files.readAllBytes(archive).sameElements(whole))
+      assert(p.run(env = Map.empty).code == 0)
+      assert(p.starts.last.exists(_.startsWith("-XX:AOTCache=")))
+
   test("each JDK has its archive, of the kind that it knows"):
     staged: p =>
       val older = p.jdk("17.0.1", in = "elsewhere")
@@ -231,7 +245,11 @@ class LauncherSuite extends AnyFunSuite:
       assert(processes.map(p.ended(_).code) == Vector.fill(4)(0))
       assert(p.starts.size == 1)
       assert(p.archives(p.lib).size == 1)
-      assert(TempFolder.names(p.archives(p.lib).head.getParent) == Set("99.aot", "99.aot.of"))
+      assert(TempFolder.names(p.archives(p.lib).head.getParent) == Set(
+        "99.aot",
+        "99.aot.of",
+        "99.aot.sum"
+      ))
 
   test("what a start left behind that was ended on its way is no hindrance"):
     staged: p =>
@@ -250,7 +268,7 @@ class LauncherSuite extends AnyFunSuite:
       assert((ended.code, ended.out, ended.err) == (0, "", ""))
       // Until what it worked in is gone, too; files may go while they are listed
       def files = Try(TempFolder.names(p.archives(p.lib).head.getParent)).toOption
-      eventually("archive")(files.filter(_ == Set("99.aot", "99.aot.of")))
+      eventually("archive")(files.filter(_ == Set("99.aot", "99.aot.of", "99.aot.sum")))
       assert(p.starts.map(_.exists(_.endsWith("a.pbrt"))) == Vector(false, true))
       assert(p.archives(p.lib).size == 1)
 
