@@ -45,11 +45,22 @@ object Suggest:
   private val MostListed = 500
   private val Examples = 5
 
-  /** The nearest of the names in the folder of a missing file. */
+  /** The nearest of the names in the folder of a missing file. A file with another number is not
+    * meant: `Mesh090.obj` is not `Mesh000.obj`.
+    */
   def file(path: Path, names: Iterable[String]): Option[String] =
-    Option(path.getFileName).flatMap(n => nearest(n.toString, names)).map(n =>
-      s"did you mean `$n`?"
-    )
+    for
+      name <- Option(path.getFileName).map(_.toString)
+      near <- nearest(name, names.filterNot(differsInNumber(name, _)))
+    yield s"did you mean `$near`?"
+
+  /** Whether two names differ in the values of their numbers alone. */
+  private def differsInNumber(a: String, b: String): Boolean =
+    def words(name: String) = Digits.replaceAllIn(name.toLowerCase, "0")
+    def numbers(name: String) = Digits.findAllIn(name).map(BigInt(_)).toVector
+    a.exists(_.isDigit) && words(a) == words(b) && numbers(a) != numbers(b)
+
+  private val Digits = "[0-9]+".r
 
   /** Edit distance (insertion, deletion, substitution, transposition of neighbours) from `a` to
     * `b`.

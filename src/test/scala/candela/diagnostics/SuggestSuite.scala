@@ -21,6 +21,18 @@ class SuggestSuite extends AnyFunSuite:
     )
     assert(Suggest.help("velvet", Nil).isEmpty)
 
+  test("a file with another number is no near miss, one with more zeros is"):
+    def near(name: String, existing: String*) =
+      Suggest.file(java.nio.file.Path.of("models", name), existing)
+    assert(near("Mesh090.obj", "Mesh000.obj", "Mesh091.obj").isEmpty)
+    assert(near(
+      "Mesh090.obj",
+      "mesh000.obj",
+      "Mesj090.obj"
+    ).contains("did you mean `Mesj090.obj`?"))
+    assert(near("Mesh1.obj", "Mesh01.obj").contains("did you mean `Mesh01.obj`?"))
+    assert(near("Mesh.obj", "Mesh1.obj").contains("did you mean `Mesh1.obj`?"))
+
   test("a near miss is worded as a question"):
     assert(Suggest.help("mirorr", materials).contains("did you mean `mirror`?"))
 
