@@ -268,8 +268,8 @@ private[build] final class WorldBuilder(
 
   private def warnOfDarkness(scene: Scene, mediaGlow: Boolean): Unit =
     if scene.lights.isEmpty && !mediaGlow && integrator.isLit && !problems.hasErrors then
-      for c <- description.camera do
-        problems.warn(Code.DarkScene, c.at, "the scene has no light; its image will be black")
+      val message = "the scene has no light; its image will be black"
+      problems.warn(Code.DarkScene, description.camera.map(_.at), message)
     if !integrator.samplesLights && scene.lights.exists(_.isDelta) then
       for i <- description.integrator do
         problems.warn(

@@ -66,7 +66,7 @@ object UnevenLight:
 final class PictureLight(
     plain: AreaLight,
     surface: SurfaceSampler,
-    val picture: Picture,
+    picture: Picture,
     mapping: Mapping2D = UvMapping(1f, 1f, 0f, 0f)
 ) extends UnevenLight(plain, surface):
 

@@ -39,10 +39,7 @@ final class Sphere private[shapes] (
     val a = dx * dx + dy * dy + dz * dz
     val b = ox * dx + oy * dy + oz * dz
     val r2 = radius.toDouble * radius
-    val o2 = ox * ox + oy * oy + oz * oz
-    // As in OriginInPlane: a camera's ray that starts on the sphere does not hit it there
-    val isOnSphere = ray.isPrimary && Math.abs(o2 - r2) <= Sphere.OnSphere * r2
-    val c = if isOnSphere then 0.0 else o2 - r2
+    val c = ox * ox + oy * oy + oz * oz - r2
     // r² − |o − (b/a) d|² does not cancel far from a small sphere, as b² − ac does (Haines et al.,
     // "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019)
     val s = b / a
@@ -155,9 +152,6 @@ final class Sphere private[shapes] (
     1f / (phiMax * radius * (zMax - zMin) * stretch)
 
 object Sphere:
-  /** Difference of the squared distance from the centre, relative to the squared radius. */
-  private final val OnSphere = 16 * MachineEpsilon
-
   /** @param zMin, zMax clipping planes in object space; −radius, radius for a full sphere
     * @param phiMax     sweep in radians, 2π for a full sphere
     * @param reversed   whether the outside faces the centre

@@ -76,7 +76,7 @@ class ChoicesSuite extends AnyFunSuite:
     assert(told(RenderSettings(), "guiding").isEmpty && told(RenderSettings(), "caustics").isEmpty)
     // Nobody asked for it, so that it is not possible is no matter of warnings
     val (other, warnings) = SceneBuilder.build(
-      SceneTexts.parse("Integrator \"bdpt\"\nWorldBegin\n", Dialect.V4),
+      SceneTexts.parse("Integrator \"bdpt\"\nWorldBegin\nLightSource \"infinite\"\n", Dialect.V4),
       timed
     )
     assert(warnings.isEmpty && other.method.takesCameraSamples)

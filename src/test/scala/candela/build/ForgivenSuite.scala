@@ -133,3 +133,8 @@ final class ForgivenSuite extends AnyFunSuite:
     for d <- Seq(Dialect.V3, Dialect.V4) do
       val mean = SceneTexts.mean(scene(d, triangle, plain, view), d).average
       assertMean(d, triangle, mean, "it is ignored, as pbrt does", camera)
+
+  test("a scene without light says so, with and without a camera"):
+    for camera <- Seq("", "Camera \"perspective\"\n") do
+      val problems = SceneTexts.problems(s"${camera}WorldBegin\nShape \"sphere\"\n", Dialect.V4)
+      assert(problems.exists(_.code == candela.diagnostics.Code.DarkScene), problems)
