@@ -67,8 +67,8 @@ final class Expansion(
 
   /** As `folders`, after that of the innermost file. */
   private def foldersFrom(files: List[InputFile]): Vector[Path] =
-    files.drop(1).headOption.fold(folders): _ =>
-      Option(files.head.path.getParent).getOrElse(Path.of("")) +: folders
+    if files.sizeIs <= 1 then folders
+    else Option(files.head.path.getParent).getOrElse(Path.of("")) +: folders
 
   /** @param files files being read, innermost first */
   private def contents(root: Element, files: List[InputFile]): Vector[Element] =

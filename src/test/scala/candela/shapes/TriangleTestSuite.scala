@@ -21,22 +21,27 @@ class TriangleTestSuite extends AnyFunSuite:
     assert(found == occluded)
     found
 
+  /** A random triangle, and a point in it of these barycentric coordinates. */
+  private final class Triangle(draws: Draws):
+    private val (a, b, c) = (draws.vec(-1, 1), draws.vec(-1, 1), draws.vec(-1, 1))
+    val (b1, b2) = (draws.between(0.01f, 0.49f), draws.between(0.01f, 0.49f))
+    val point: Vec3 = a * (1 - b1 - b2) + b * b1 + c * b2
+    val n: Vec3 = (b - a) cross (c - a)
+    val v: Array[Float] = corners(a, b, c)
+
   test("a camera's ray does not hit the triangle in whose plane it starts, but for rounding"):
     val draws = Draws(7)
     for _ <- 0 until 10000 do
-      val (a, b, c) = (draws.vec(-1, 1), draws.vec(-1, 1), draws.vec(-1, 1))
-      val (u, v) = (draws.between(0.01f, 0.49f), draws.between(0.01f, 0.49f))
-      val place = a * (1 - u - v) + b * u + c * v
-      val n = (b - a) cross (c - a)
+      val triangle = Triangle(draws)
+      import triangle.{n, point, v}
       if n.length > 0.01f then
         val d = draws.vec(-1, 1).normalized
-        ray.set(place, d, Float.PositiveInfinity)
+        ray.set(point, d, Float.PositiveInfinity)
         ray.isPrimary = true
-        val v = corners(a, b, c)
         assert(!TriangleTest.isHit(v, 0, ray, hit) && !TriangleTest.intersect(v, 0, ray, hit))
         // Ten times the rounding away, it does
-        val aside = place + n.normalized * 1e-5f
-        ray.set(aside, (place - aside).normalized, Float.PositiveInfinity)
+        val aside = point + n.normalized * 1e-5f
+        ray.set(aside, (point - aside).normalized, Float.PositiveInfinity)
         ray.isPrimary = true
         assert(TriangleTest.isHit(v, 0, ray, hit)): Unit
 
@@ -49,17 +54,15 @@ class TriangleTestSuite extends AnyFunSuite:
   test("distance and weights are those of the point that was aimed at"):
     val draws = Draws(1)
     for _ <- 0 until 100000 do
-      val (a, b, c) = (draws.vec(-1, 1), draws.vec(-1, 1), draws.vec(-1, 1))
-      val (u, v) = (draws.between(0.01f, 0.49f), draws.between(0.01f, 0.49f))
-      val target = a * (1 - u - v) + b * u + c * v
-      val n = (b - a) cross (c - a)
+      val triangle = Triangle(draws)
+      import triangle.n
       val o = draws.vec(-3, 3)
-      val d = target - o
+      val d = triangle.point - o
       // Seen at more than 6° and wide enough, an error of a few round-offs of the coordinates stays
       // below 1e-4 of the sides
       if n.length > 0.1f && (n.normalized absDot d) > 0.1f * d.length then
-        assert(meets(corners(a, b, c), o, d))
-        val off = Math.max(Math.abs(hit.u - u), Math.abs(hit.v - v))
+        assert(meets(triangle.v, o, d))
+        val off = Math.max(Math.abs(hit.u - triangle.b1), Math.abs(hit.v - triangle.b2))
         assert(abs(ray.tMax - 1f) < 1e-4f && off < 1e-4): Unit
 
   test("both sides are hit alike"):

@@ -55,7 +55,7 @@ object GoniometricLightRecipe
       LightImages.read("filename").filter(i => LightImages.isSquare(i.width, i.height)) match
         case None => LightPlan.nothing
         case Some(image) =>
-          val gray = grays(LightImages.gray(image))
+          val gray = grays.of(image)(LightImages.gray(image))
           val mean = gray.data.foldLeft(0.0)(_ + _) / gray.data.length
           val i = scaled(intensity(), power(), 4f * Pi * mean.toFloat)
           warnOfScale(onlyV4, UniformScale.isOne, "looks up its image in wrong directions")
