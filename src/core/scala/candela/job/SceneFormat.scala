@@ -1,10 +1,10 @@
 package candela.job
 
-import candela.diagnostics.{Code, Problem, SceneError, Severity}
+import candela.diagnostics.{Code, Problem, Severity}
 import candela.io.{FileName, SceneFolder}
 import candela.build.DialectChoice
 import candela.mitsuba.MitsubaScene
-import candela.scenefile.{Parser, SceneDescription}
+import candela.scenefile.{Defines, Parser, SceneDescription}
 import candela.settings.ReadSettings
 
 import java.nio.file.{Files, Path}
@@ -81,9 +81,14 @@ object SceneFormat:
         reading: ReadSettings,
         world: Option[Int]
     ): SceneDescription =
-      checkDefines(file, reading)
-      val read =
-        Parser.readable(file, reading.dialect, reading.keepGoing, world.getOrElse(0), Some(within))
+      val read = Parser.readable(
+        file,
+        reading.dialect,
+        reading.keepGoing,
+        world.getOrElse(0),
+        Some(within),
+        Defines(reading.defines)
+      )
       val scene = DialectChoice.of(read, reading.dialect)
       if !scene.isFollowed || world.isDefined then scene
       else
@@ -97,24 +102,21 @@ object SceneFormat:
         within: SceneFolder,
         reading: ReadSettings
     ): SceneDescription =
-      checkDefines(name, reading)
       val dialect = reading.dialect
-      val read = Parser.readableText(name.toString, text, within, dialect, reading.keepGoing)
+      val defines = Defines(reading.defines)
+      val read =
+        Parser.readableText(name.toString, text, within, dialect, reading.keepGoing, defines)
       DialectChoice.of(read, dialect)
-
-    private def checkDefines(file: Path, reading: ReadSettings): Unit =
-      if reading.defines.nonEmpty then
-        val help = "-D sets parameters of Mitsuba's XML files"
-        throw SceneError(Problem.general(
-          Code.SceneParameter,
-          s"`$file` has no parameters",
-          Some(help)
-        ))
 
     def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
       if !Files.isRegularFile(file) then None // it can be read once
       else
-        Parser.film(file, reading.dialect, within).flatMap(_.param("filename")) match
+        Parser.film(
+          file,
+          reading.dialect,
+          within,
+          Defines(reading.defines)
+        ).flatMap(_.param("filename")) match
           case Some(name) => name.strings.headOption.map(Some(_))
           case None => Some(None)
 

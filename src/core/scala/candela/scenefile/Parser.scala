@@ -19,6 +19,7 @@ object Parser:
     * @param keepGoing if true, skips missing include files
     * @param world which of the file's worlds, from 0: v2's and v3's files may have several
     * @param within the scene's folder, if it is confined or has limits
+    * @param defines values of `$NAME` in its files
     * @throws SceneError if the file contains no scene at all
     */
   def readable(
@@ -26,12 +27,13 @@ object Parser:
       dialect: Option[Dialect],
       keepGoing: Boolean,
       world: Int = 0,
-      within: Option[SceneFolder] = None
+      within: Option[SceneFolder] = None,
+      defines: Defines = Defines.Nothing
   ): SceneDescription =
     val folder = within.getOrElse(SceneFolder.of(file))
     val opened = folder.scene(file)
-    Refusal.placed(start(file))(Source.read(opened)) match
-      case Right(source) => read(source, folder, Some(opened), dialect, keepGoing, world)
+    Refusal.placed(start(file))(Source.read(opened).map(defines.in)) match
+      case Right(source) => read(source, folder, Some(opened), dialect, keepGoing, world, defines)
       case Left(reason) =>
         throw SceneError(Problem.general(
           Code.Unreadable,
@@ -41,9 +43,14 @@ object Parser:
   private def start(file: Path) = SourcePos(file.toString, 1, 1)
 
   /** The Film statement of a scene's first world, if it can be read; not the world itself. */
-  def film(file: Path, dialect: Option[Dialect], within: SceneFolder): Option[Declaration] =
+  def film(
+      file: Path,
+      dialect: Option[Dialect],
+      within: SceneFolder,
+      defines: Defines = Defines.Nothing
+  ): Option[Declaration] =
     val opened = within.scene(file)
-    Source.read(opened).toOption.flatMap: source =>
+    Source.read(opened).toOption.map(defines.in).flatMap: source =>
       val run = ParserRun(
         source,
         within,
@@ -51,6 +58,7 @@ object Parser:
         dialect.getOrElse(Dialect.V3),
         keepGoing = true,
         world = 0,
+        defines,
         isHead = true
       )
       run.read()
@@ -70,7 +78,8 @@ object Parser:
       world: Int = 0
   ): SceneDescription =
     val sceneFolder = SceneFolder(folder)
-    validated(read(Source.fromText(name, text), sceneFolder, None, dialect, keepGoing, world))
+    val source = Source.fromText(name, text)
+    validated(read(source, sceneFolder, None, dialect, keepGoing, world, Defines.Nothing))
 
   /** The readable part of a scene in a string; see [[SceneDescription.errors]]. */
   def readableText(
@@ -78,9 +87,11 @@ object Parser:
       text: String,
       within: SceneFolder,
       dialect: Option[Dialect],
-      keepGoing: Boolean
+      keepGoing: Boolean,
+      defines: Defines = Defines.Nothing
   ): SceneDescription =
-    read(Source.fromText(name, text), within, None, dialect, keepGoing, world = 0)
+    val source = defines.in(Source.fromText(name, text))
+    read(source, within, None, dialect, keepGoing, world = 0, defines)
 
   /** The scene, if it has no errors. */
   def validated(scene: SceneDescription): SceneDescription =
@@ -93,9 +104,10 @@ object Parser:
       file: Option[InputFile],
       dialect: Option[Dialect],
       keepGoing: Boolean,
-      world: Int
+      world: Int,
+      defines: Defines
   ): SceneDescription =
-    attempt(source, folder, file, dialect, keepGoing, world) match
+    val scene = attempt(source, folder, file, dialect, keepGoing, world, defines) match
       case Right(scene) => scene
       case Left(better) =>
         val reopened = source.again.getOrElse:
@@ -104,7 +116,11 @@ object Parser:
             s"can't read `${source.name}` a second time"
           ))
         folder.allowance.readAgain()
-        attempt(reopened, folder, file, Some(better), keepGoing, world).toOption.get
+        attempt(
+          defines.in(reopened), folder, file, Some(better), keepGoing, world, defines
+        ).toOption.get
+    defines.requireUse()
+    scene
 
   /** The scene; or the dialect to parse it with again: the few statements that v4 treats
     * differently were parsed as v3's.
@@ -115,9 +131,11 @@ object Parser:
       file: Option[InputFile],
       dialect: Option[Dialect],
       keepGoing: Boolean,
-      world: Int
+      world: Int,
+      defines: Defines
   ): Either[Dialect, SceneDescription] =
-    val run = ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3), keepGoing, world)
+    val run =
+      ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3), keepGoing, world, defines)
     run.read()
     val guess = dialect.getOrElse(run.guess)
     if dialect.isEmpty && run.queriedDialect && guess == Dialect.V4 then Left(guess)

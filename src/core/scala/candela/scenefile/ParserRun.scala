@@ -13,6 +13,7 @@ import scala.util.Try
   * @param dialect decides the meaning of statements that differ between dialects
   * @param keepGoing if true, skips missing include files
   * @param world which of the file's worlds to read, from 0
+  * @param defines values of `$NAME`
   * @param isHead whether to read what is before the world only
   */
 private[scenefile] final class ParserRun(
@@ -22,6 +23,7 @@ private[scenefile] final class ParserRun(
     dialect: Dialect,
     keepGoing: Boolean,
     world: Int,
+    defines: Defines,
     isHead: Boolean = false
 ):
   import ParserRun.*
@@ -240,7 +242,7 @@ private[scenefile] final class ParserRun(
         for reason <- circle(file, name) do
           throw SceneError(Problem.error(Code.IncludeCircle, nameAt, reason))
         countInclude(nameAt)
-        Source.readNamed(file) match
+        Source.readNamed(file).map(defines.in) match
           case Left(reason) => Left(Missing(Code.NoScene, s"can't include `$name`: $reason", None))
           case Right(source) =>
             sources += file.path

@@ -68,6 +68,16 @@ final class Source private (val name: String, room: Int, input: Input):
   /** The same source from its start, if it can be reopened. */
   def again: Option[Source] = input.again().toOption.map(new Source(name, room, _))
 
+  /** The bytes that are left, from the window's start on, if they are few enough for an array. */
+  private[scenefile] def remaining(): Option[Array[Byte]] =
+    val first = java.util.Arrays.copyOf(window, end)
+    if isDone then Some(first)
+    else
+      val more = input.stream.readNBytes(Source.MaxWhole - end)
+      val isWhole = input.stream.read() < 0
+      close()
+      Option.when(isWhole)(first ++ more)
+
   /** Decodes a range of the window: UTF-8, or Latin-1 if invalid (old exporters). */
   def text(from: Int, until: Int): String =
     try
@@ -117,6 +127,8 @@ object Source:
   private val Window = 1 << 17
 
   private val MaxTokenBytes = 1 << 20
+
+  private val MaxWhole = 1 << 30
 
 /** Input stream of a [[Source]].
   *

@@ -66,7 +66,9 @@ final class Tokenizer(
     if kind == Token.End then "the end of the file"
     else
       val token = source.text(start, cursor)
-      if token.length > 60 then s"`${token.take(57)}…`" else s"`$token`"
+      val name = if kind == Token.Word then Defines.nameIn(token) else None
+      val cure = name.fold("")(n => s", which has no value (-D$n=VALUE sets it)")
+      (if token.length > 60 then s"`${token.take(57)}…`" else s"`$token`") + cure
 
   def advance(): Unit =
     skipBlank()

@@ -100,11 +100,12 @@ object SettingsTable:
     option("dialect", "v2|v3|v4", "parse the scene as this pbrt version (default: auto-detected)")(
       _.reading.dialect
     )((s, d) => parse(s)(_.copy(dialect = Some(d)))),
-    many("define", "NAME=VALUE", "set $NAME of a Mitsuba scene; also -DNAME=VALUE")(
+    many("define", "NAME=VALUE", "set $NAME in the scene's files; also -DNAME=VALUE")(
       _.reading.defines.toVector.sorted
     )((s, d) => parse(s)(r => r.copy(defines = r.defines + d)))(using TextForm.definition)
       .repeatable.short('D')
-      .explained("[Mitsuba scenes](MITSUBA.md)."),
+      .explained("In a sequence, `%d` in a value is the frame's number: " +
+        "[a turntable](guide/13-recipes.md#turntable)."),
     flag("keep-going", "replace missing files and types with placeholders, with a warning each")(
       _.reading.keepGoing
     )(parse(_)(_.copy(keepGoing = true))).explained(

@@ -61,6 +61,22 @@ class FilmFilesSuite extends AnyFunSuite:
       f.run(Vector("merge", "--partial", f("0.film"), f("1.film"), "--outfile", f("two.exr")))
       assert(f.bytes("some.exr") == f.bytes("two.exr"))
 
+  test("each frame has the number in its values of -D, and its films continue with it"):
+    TempFolder.use: folder =>
+      def f(name: String) = folder.resolve(name).toString
+      val text = "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\n" +
+        "Sampler \"halton\" \"integer pixelsamples\" 1\nCamera \"perspective\"\nWorldBegin\n" +
+        "LightSource \"infinite\" \"rgb L\" [ $x $x $x ]\n"
+      val scene = Files.writeString(folder.resolve("s.pbrt"), text).toString
+      val words = Vector(scene, "-Dx=%d", "--outfile", f("o%d.pfm"), "--checkpoint")
+      val (code, said) = Captured.run((words :+ "--frames" :+ "2-6x2")*)
+      assert(code == 0, said.err)
+      for n <- Vector(2, 4, 6) do
+        val data = ImageFiles.read(folder.resolve(s"o$n.pfm")).data
+        assert(data.forall(x => Math.abs(x - n) < 1e-3 * n), n)
+      assert(Files.notExists(folder.resolve("o3.pfm")))
+      assert(Captured.run((words :+ "--frames" :+ "2-6x0")*)._1 == 2)
+
   test("more frames than can be listed are a wrong option"):
     withScene(): f =>
       for (first, size) <- Vector("1" -> "2147483647", "0" -> "2147483648") do

@@ -75,9 +75,9 @@ private[cli] final class ClusterCommand(
 
   /** Sends a scene to the cluster, unless its image is done. */
   private def submit(frame: Frame, cluster: Cluster): Unit =
-    val Frame(scene, outfiles) = frame
-    val prepared = renderer.load(scene, outfiles)
-    val writer = renderer.images(scene, prepared, outfiles)
+    val Frame(scene, outfiles, options) = frame
+    val prepared = renderer.load(frame)
+    val writer = renderer.images(frame, prepared)
     val film = outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
     if writer.isDone then
       prepared.close()

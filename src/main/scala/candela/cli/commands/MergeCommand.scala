@@ -96,7 +96,7 @@ final class MergeCommand(
     val done = FilmHeader.averageDone(films.map(_.header))
     val planned = if options.film.partial then done else header.samples
     val command = RenderCommand(saved, terminal, report, loader)
-    val writer = command.writer(header.scene, loaded, outfiles.paths)
+    val writer = command.writer(saved, header.scene, loaded, outfiles.paths)
     command.finish(
       writer,
       loaded,

@@ -61,19 +61,20 @@ final class RenderCommand(
         world = None
         sequence.ended(frame.scene):
           report.guarded:
-            Using.resource(load(frame.scene, frame.outfiles, n)): prepared =>
+            Using.resource(load(frame, n)): prepared =>
               if isLookedAt then look(prepared)
               else
                 val isFollowed = prepared.description.isFollowed
                 val names = Sequence.ofWorld(frame.scene, frame.outfiles, n, isFollowed)
                 world = Option.when(isFollowed)(n + 1)
-                render(frame.scene, prepared, names, sequence)
+                render(frame, prepared, names, sequence)
     if !options.quiet && !cancellation.isRequested then
       sequence.summary.foreach(terminal.out.println)
     terminal.out.flush()
     sequence.code
 
-  private[cli] def load(scene: String, outfiles: Vector[String], world: Int = 0): Prepared =
+  private[cli] def load(frame: Frame, world: Int = 0): Prepared =
+    val Frame(scene, outfiles, options) = frame
     if world > 0 then
       for why <- InputFile.obstacle(OutputFiles.path(scene)) do
         val message = s"can't read world ${world + 1} of `$scene`: $why"
@@ -100,16 +101,17 @@ final class RenderCommand(
     case _ => PixelTrace.run(prepared, options, terminal.out)
 
   private def render(
-      scene: String,
+      frame: Frame,
       prepared: Prepared,
       outfiles: Vector[String],
       sequence: Sequence
   ): ExitCode =
-    val paths = files.images(scene, prepared, outfiles)
-    val name = resumed.fold(scene)(_.header.scene)
+    val options = frame.options
+    val paths = files.images(frame.scene, prepared, outfiles)
+    val name = resumed.fold(frame.scene)(_.header.scene)
     val keeping = FilmKeeping.of(options, report, name, prepared, outfiles, paths, resumed)
     try
-      val writer = this.writer(name, prepared, paths)
+      val writer = this.writer(options, name, prepared, paths)
       if isDone(writer, keeping) then
         sequence.skip(name)
         ExitCode.Done
@@ -128,15 +130,17 @@ final class RenderCommand(
     *
     * @throws SceneError if one can't be written
     */
-  private[cli] def images(
-      scene: String,
-      prepared: Prepared,
-      outfiles: Vector[String]
-  ): ImageWriter =
-    writer(scene, prepared, files.images(scene, prepared, outfiles))
+  private[cli] def images(frame: Frame, prepared: Prepared): ImageWriter =
+    val paths = files.images(frame.scene, prepared, frame.outfiles)
+    writer(frame.options, frame.scene, prepared, paths)
 
   /** Likewise, if they are known to be writable. */
-  private[cli] def writer(scene: String, prepared: Prepared, paths: Vector[Path]): ImageWriter =
+  private[cli] def writer(
+      options: Options,
+      scene: String,
+      prepared: Prepared,
+      paths: Vector[Path]
+  ): ImageWriter =
     ImageWriter(options, report, denoising, scene, prepared, paths)
 
   /** Writes the image of a rendering that was put together from film files; one without samples

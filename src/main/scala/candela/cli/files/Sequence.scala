@@ -7,8 +7,8 @@ import candela.image.{ImageFiles, OutputFormat}
 
 import java.nio.file.Path
 
-/** A scene of a sequence, and the output files asked for. */
-private[cli] final case class Frame(scene: String, outfiles: Vector[String])
+/** A scene of a sequence, the output files asked for, and its options. */
+private[cli] final case class Frame(scene: String, outfiles: Vector[String], options: Options)
 
 /** The scenes of a command line, and what became of them. */
 private[cli] final class Sequence(options: Options):
@@ -18,12 +18,13 @@ private[cli] final class Sequence(options: Options):
   private var failed = Vector.empty[String]
 
   val frames: Vector[Frame] = options.film.frames match
-    case None => options.files.map(Frame(_, options.outfiles))
+    case None => options.files.map(Frame(_, options.outfiles, options))
     case Some(numbers) =>
       numbers.toVector.map: n =>
         Frame(
           FrameNames.numbered(options.files.head, n),
-          options.outfiles.map(FrameNames.numbered(_, n))
+          options.outfiles.map(FrameNames.numbered(_, n)),
+          options.defining(_.view.mapValues(FrameNames.numbered(_, n)).toMap)
         )
 
   def code: ExitCode = worst

@@ -256,6 +256,10 @@ final case class Options(
 
   def controlling(change: BuildControl => BuildControl): Options = copy(control = change(control))
 
+  /** The same with other values of `$NAME`. */
+  def defining(change: Map[String, String] => Map[String, String]): Options =
+    setting(s => s.copy(reading = s.reading.copy(defines = change(s.reading.defines))))
+
   /** What is rendered, with what is looked at. */
   def sceneSettings: RenderSettings =
     // A traced pixel is one of the whole image

@@ -55,11 +55,19 @@ private[cli] object FilmTable extends OptionRows:
       case Array(Some(i), Some(n)) if i >= 0 && i < n => Shard(i, n)
       case _ => throw IllegalArgumentException("expected i/n with 0 <= i < n, e.g. 0/4")
 
+  private val Frames = raw"\s*(\d+)\s*(?:-\s*(\d+)\s*(?:x(\d+))?)?".r
+
+  private object Number:
+    def unapply(digits: String): Option[Int] = Option(digits).flatMap(_.toIntOption)
+
   private given Read[Range] = Read.reads: text =>
-    text.split("-", -1).map(_.trim.toIntOption) match
-      case Array(Some(a), Some(b)) if a >= 0 && a <= b => a to b
-      case Array(Some(a)) if a >= 0 => a to a
-      case _ => throw IllegalArgumentException("expected first-last, e.g. 1-250")
+    text match
+      case Frames(Number(first), null, _) => first to first
+      case Frames(Number(first), Number(last), null) if first <= last => first to last
+      case Frames(Number(first), Number(last), Number(step)) if first <= last && step > 0 =>
+        first to last by step
+      case _ =>
+        throw IllegalArgumentException("expected first-last or first-lastxstep, e.g. 0-350x10")
 
   private def change(o: Options)(f: FilmOptions => FilmOptions): Options = o.copy(film = f(o.film))
 
@@ -84,14 +92,14 @@ private[cli] object FilmTable extends OptionRows:
         "`merge` combines the parts: [several machines](FILMS.md#several-machines)."
       ))
       .action((s, o) => change(o)(_.copy(shard = s))),
-    opt[Range]("frames").valueName("FIRST-LAST")
+    opt[Range]("frames").valueName("FIRST-LAST[xSTEP]")
       .text(OptionText(
-        "render a sequence: the scene's name has %d, or %04d, for the number",
-        "It implies `--skip-done`: [sequences](FILMS.md#sequences)."
+        "render a sequence: %d, or %04d, is the number in the names of files and the values of -D",
+        "`0-350x10` are 0, 10, … 350. It implies `--skip-done`: [sequences](FILMS.md#sequences)."
       ))
       .validate: r =>
         // Java has no range so long
-        val size = r.end.toLong - r.start + 1
+        val size = (r.end.toLong - r.start) / r.step + 1
         if size <= FilmOptions.MostFrames then success
         else failure(s"--frames must be at most ${FilmOptions.MostFrames} frames, found `$size`")
       .action((r, o) => change(o)(_.copy(frames = Some(r), skipDone = true))),
@@ -106,6 +114,11 @@ private[cli] object FilmTable extends OptionRows:
       .action((_, o) => change(o)(_.copy(partial = true)))
   ) ++ LimitTable.options
 
+  /** Whether the frames of a sequence differ in their scenes, and have files of their own. */
+  private def isNumbered(o: Options): Boolean =
+    val scenes = o.files ++ o.settings.reading.defines.values
+    scenes.exists(FrameNames.hasNumber) && o.outfiles.forall(FrameNames.hasNumber)
+
   /** What is wrong with the options of `render`, if anything. */
   def problem(o: Options): Option[String] =
     val films = o.outfiles.filter(FilmOptions.isFilm)
@@ -118,9 +131,10 @@ private[cli] object FilmTable extends OptionRows:
     else if film.checkpoint.exists(_.nonEmpty) && o.files.size > 1 then
       Some("--checkpoint FILE needs a single scene, found several")
     else if film.frames.isDefined && o.files.size != 1 then
-      Some("--frames needs a single scene name, with %d for the number")
-    else if film.frames.isDefined && !(o.files ++ o.outfiles).forall(FrameNames.hasNumber) then
-      Some("--frames needs %d, or %04d, for the number in the names of scene and output files")
+      Some("--frames needs a single scene name, found several, or none")
+    else if film.frames.isDefined && !isNumbered(o) then
+      Some("--frames needs %d, or %04d, for the number: in the names of the output files, and in " +
+        "that of the scene or a value of -D")
     else if !film.shard.isWhole && o.settings.goal.isGiven then
       Some("--shard can't end by --time or --error: all shards need the same samples")
     else None
