@@ -18,7 +18,9 @@
 
   const words = text => text.toLowerCase().split(/[^\p{L}\p{N}_-]+/u).filter(w => w.length > 1)
 
-  /** Sections with all words: those in titles count more, and long sections less. */
+  /** Sections with all words: those in titles count more, long sections less. Decisions come after
+    * the pages that say how to do something.
+    */
   const find = query => {
     const wanted = words(query)
     if (!wanted.length) return []
@@ -33,6 +35,7 @@
           if (!one) return null
           score += one
         }
+        if (url.includes("decisions/")) score /= 4
         return { url, page, title, text, score, wanted }
       })
       .filter(hit => hit)
