@@ -10,23 +10,20 @@ import Tally.{color, numbers, plane, vector}
 /** An AOV: an image channel group besides colour, mostly a property of the first visible surface. A
   * case defines everything about an AOV.
   *
-  * @param word            command-line name
-  * @param channels        channel names as in pbrt-v4, or customary names where it has none
-  * @param meaning         one line for the help
-  * @param statistic       one value per channel
-  * @param needsFootprints whether the scene must track ray differentials for it
-  * @param needsFloat      whether its values need 32 bits even if the image has 16
-  * @param dividesLight    whether the integrator must divide its light ([[LightParts]])
+  * @param word      command-line name
+  * @param channels  channel names as in pbrt-v4, or customary names where it has none
+  * @param meaning   one line for the help
+  * @param statistic one value per channel
   */
 enum Layer(
     val word: String,
     val channels: Vector[String],
     val meaning: String,
     private[aov] val statistic: Statistic,
-    val needsFootprints: Boolean = false,
-    val needsFloat: Boolean = false,
-    val dividesLight: Boolean = false
-):
+    override val needsFootprints: Boolean = false,
+    override val needsFloat: Boolean = false,
+    override val dividesLight: Boolean = false
+) extends ImageLayer:
   /** A part of the light, which the integrator must divide. */
   private def this(word: String, name: String, meaning: String, part: Int) =
     this(
@@ -161,10 +158,9 @@ enum Layer(
         "alpha",
         Vector("A"),
         "coverage by surfaces; in Mitsuba's scenes, a visible sky covers all",
-        MeanOfAll(Tally.everywhere(_.coverage))
+        MeanOfAll(Tally.always(numbers(_.coverage)))
       )
 
-  /** Channels in an image whose lights have these groups. */
   def channelsOf(groups: Vector[String]): Vector[String] = this match
     case Lights => groups.flatMap(group => Layer.rgb(s"Combined_$group"))
     case _ => channels
@@ -173,11 +169,9 @@ enum Layer(
     case Lights => ScaledMeanOfAll(Tally.light(LightParts.Groups, groups.size))
     case _ => statistic
 
-  /** Whether it is made of the parts of the light, where the integrator has them. */
-  def isLight: Boolean = dividesLight || this == Emission
+  override def isLight: Boolean = dividesLight || this == Emission
 
-  /** Matrix from linear sRGB to the colour space of the image, for layers of colours. */
-  private[aov] def to(space: ColorSpace): Option[Matrix3] = this match
+  private[aov] override def to(space: ColorSpace): Option[Matrix3] = this match
     case Albedo | DenoisingAlbedo => Some(space.ofSrgbAdapted)
     case Emission => Some(space.ofSrgb)
     case _ => None
@@ -233,12 +227,12 @@ private[aov] object Tally:
         sums.add(at + i, weight * all(i)(seen))
         i += 1
 
-  /** A number that samples without a surface have, too. */
-  def everywhere(of: Number): Tally = new Tally(1):
+  /** A tally that counts samples without a surface, too. */
+  def always(tally: Tally): Tally = new Tally(tally.size):
     override def needsSurface: Boolean = false
 
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
-      sums.add(at, weight * of(seen))
+      tally.add(sums, at, weight, light, seen)
 
   def vector(of: VisibleSurface => Vec3): Tally = new Tally(3):
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =

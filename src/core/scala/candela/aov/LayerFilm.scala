@@ -18,7 +18,7 @@ final class LayerFilm(
     y0: Int,
     x1: Int,
     y1: Int,
-    layers: Vector[Layer],
+    layers: Vector[ImageLayer],
     groups: Option[Vector[String]] = None
 ):
   private val width = x1 - x0
@@ -75,7 +75,7 @@ final class LayerFilm(
       image.channelNames ++ layers.flatMap(_.channelsOf(groups.getOrElse(Vector.empty)))
     val data = new Array[Float](names.size * width * height)
     val space = image.colorSpace
-    def convert(layer: Layer): Array[Double] => Array[Float] =
+    def convert(layer: ImageLayer): Array[Double] => Array[Float] =
       if groups.isDefined && layer.isLight then
         own =>
           val values = own.map(_.toFloat)
@@ -104,7 +104,7 @@ final class LayerFilm(
 
   /** What light paths bring to the layer's channels, three by three, if light is divided. */
   private def splatted(
-      layer: Layer,
+      layer: ImageLayer,
       splats: Option[SplatFilm],
       scale: Float
   ): Array[Array[Float]] =
@@ -126,7 +126,7 @@ final class LayerFilm(
 
 object LayerFilm:
   /** Numbers of a pixel, while they are accumulated or in the image, whichever are more. */
-  def size(layers: Vector[Layer], groups: Option[Vector[String]]): Long =
+  def size(layers: Vector[ImageLayer], groups: Option[Vector[String]]): Long =
     val names = groups.getOrElse(Vector.empty)
     val sums = 3L + layers.map(_.statisticOf(names).tally).distinct.map(_.size.toLong).sum
     Math.max(sums, 3L + layers.map(_.channelsOf(names).size.toLong).sum)

@@ -15,6 +15,7 @@ import candela.scene.{Scene, SurfaceNames}
   * @param motion        projection of moving points, if the camera has one
   * @param hidesEmitters whether the camera sees through emitters
   * @param skyCovers     whether samples of the sky count as covered
+  * @param firstHit      what the ray meets first, if a layer asks for it
   */
 final class VisibleSurface(
     val scene: Scene,
@@ -23,7 +24,8 @@ final class VisibleSurface(
     names: SurfaceNames = SurfaceNames.Empty,
     motionOnFilm: Option[ScreenMotion] = None,
     hidesEmitters: Boolean = false,
-    skyCovers: Boolean = false
+    skyCovers: Boolean = false,
+    firstHit: Option[FirstHit] = None
 ):
   private val ray = Ray()
   private val map = new Array[Double](Motion.Work)
@@ -32,6 +34,7 @@ final class VisibleSurface(
   private var isHit = false
   private var distance = 0f
   private var sample = 0
+  private val ownFirst: FirstHit | Null = firstHit.map(_.copy()).orNull
   private val moved: ScreenMotion | Null = motionOnFilm.map(_.copy()).orNull
 
   // What is seen through specular surfaces; traced once per camera ray, when asked for
@@ -49,7 +52,7 @@ final class VisibleSurface(
   val at: ShadingPoint = scene.newPoint(always = true)
 
   def copy(): VisibleSurface =
-    VisibleSurface(scene, output, basis, names, motionOnFilm, hidesEmitters, skyCovers)
+    VisibleSurface(scene, output, basis, names, motionOnFilm, hidesEmitters, skyCovers, firstHit)
 
   /** Traces a camera ray through interfaces; leaves the ray unchanged.
     *
@@ -57,6 +60,7 @@ final class VisibleSurface(
     */
   def look(from: Ray, sample: Int = 0): Unit =
     this.sample = sample
+    if ownFirst != null then ownFirst.look(from)
     ray.set(from.origin, from.direction, Float.PositiveInfinity)
     ray.time = from.time
     ray.differential.copy(from.differential)
@@ -80,6 +84,9 @@ final class VisibleSurface(
 
   /** 1 or 0, also of a ray that missed. */
   def coverage: Float = if isHit || skyCovers then 1f else 0f
+
+  /** What the ray meets first; exists if a layer asks for it. */
+  def first: FirstHit = ownFirst.nn
 
   def p: Vec3 = vector(at.p) + Vec3(map(3).toFloat, map(7).toFloat, map(11).toFloat)
 

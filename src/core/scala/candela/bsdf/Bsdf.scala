@@ -32,6 +32,13 @@ abstract class Bsdf:
   def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     if isSpecular then sample(wo, choice, 0.5f, 0.5f) else BsdfSample.Absorbed
 
+  /** Fraction of the light that its diffuse part reflects; without such a part, π times its value
+    * for light along the normal.
+    *
+    * Source: Mitsuba 3, `BSDF::eval_diffuse_reflectance`.
+    */
+  def diffuseReflectance(wo: Vec3): Rgb = f(wo, Vec3.Z) * Pi
+
   /** Properties for light transport. */
   def flags: BsdfFlags
 

@@ -46,4 +46,5 @@ final class Framed(inner: Bsdf, frame: Frame) extends LeanBsdf:
 
   def flags: BsdfFlags = inner.flags | BsdfFlags.OneWay
   override def straight(wo: Vec3): Rgb = inner.straight(frame.toLocal(wo))
+  override def diffuseReflectance(wo: Vec3): Rgb = inner.diffuseReflectance(frame.toLocal(wo))
   override def regularized: Bsdf = Framed(inner.regularized, frame)

@@ -5,6 +5,8 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{RgbTexture, Textured}
 
+import scala.annotation.unused
+
 /** Ideal diffuse reflection: constant radiance in the hemisphere of the light.
   *
   * @param albedo reflected fraction of the power, in [0, 1]; Mitsuba's surfaces may add light
@@ -23,6 +25,7 @@ final class Lambert(albedo: Rgb) extends LeanBsdf:
     if absorbs || !Hemisphere.same(wo, wi) then out.absorb()
     else out.set(wi, albedo, Hemisphere.cosinePdf(wi), isSpecular = false)
 
+  override def diffuseReflectance(@unused wo: Vec3): Rgb = albedo
   def flags: BsdfFlags = BsdfFlags.Diffuse
 
 object Lambert:

@@ -90,6 +90,9 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
       i += 1
     sum
 
+  override def diffuseReflectance(wo: Vec3): Rgb =
+    lobes.foldLeft(Rgb.Black)((sum, lobe) => sum + lobe.diffuseReflectance(wo))
+
   override def regularized: Bsdf = Lobes(lobes.map(_.regularized), probabilities)
 
 object Lobes:
@@ -135,6 +138,7 @@ final class Scaled(inner: Bsdf, scale: Rgb) extends WrappedBsdf(inner):
     BsdfSample(s.wi, s.weight * scale, s.pdf, s.isSpecular, s.eta)
 
   override def straight(wo: Vec3): Rgb = inner.straight(wo) * scale
+  override def diffuseReflectance(wo: Vec3): Rgb = inner.diffuseReflectance(wo) * scale
   override def regularized: Bsdf = Scaled(inner.regularized, scale)
 
 /** Transmits what `reflection` would reflect.

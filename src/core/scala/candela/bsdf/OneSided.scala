@@ -26,4 +26,5 @@ final class OneSided(inner: Bsdf) extends LeanBsdf:
     if wo.z > 0f then inner.sampleSpecular(wo, choice) else BsdfSample.Absorbed
 
   def flags: BsdfFlags = inner.flags.without(BsdfFlags.Transmissive | BsdfFlags.Pane)
+  override def diffuseReflectance(wo: Vec3): Rgb = inner.diffuseReflectance(wo)
   override def regularized: Bsdf = OneSided(inner.regularized)

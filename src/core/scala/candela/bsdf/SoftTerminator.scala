@@ -127,5 +127,6 @@ final class SoftTerminator(
     // Through the perturbed surface, where its normals are turned
     if base.z < 1f then changed | BsdfFlags.Transmissive else changed
 
+  override def diffuseReflectance(wo: Vec3): Rgb = inner.diffuseReflectance(wo)
   override def regularized: Bsdf =
     SoftTerminator(inner.regularized, base, alpha2, turns, isDirected)

@@ -38,6 +38,8 @@ final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
 
   val flags: BsdfFlags =
     (front.flags | back.flags).without(BsdfFlags.Transmissive | BsdfFlags.Pane)
+  override def diffuseReflectance(wo: Vec3): Rgb =
+    (if wo.z > 0f then front else back).diffuseReflectance(Hemisphere.above(wo))
   override def regularized: Bsdf =
     val facing = front.regularized
     TwoSided(facing, if back eq front then facing else back.regularized)

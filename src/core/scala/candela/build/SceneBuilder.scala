@@ -4,7 +4,9 @@ import candela.base.JavaHeap
 import candela.concurrency.Parallel
 import candela.diagnostics.{Code, Limit, Problem}
 import candela.accel.tracing.Hierarchies
-import candela.aov.{Layer, LayerFilm, ScreenMotion, VisibleSurface}
+import candela.aov.{
+  FirstHit, ImageLayer, Layer, LayerFilm, NamedLayer, ScreenMotion, VisibleSurface
+}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
 import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralBands}
@@ -47,7 +49,9 @@ object SceneBuilder:
     val sampling = SamplingSetup.of(context, settings, image, integrator, control.footprint)
     val camera = CameraSetup.of(context, image)
     for layer <- image.layers if layer.needsFootprints do
-      context.resources.askForFootprints(s"the image's ${layer.channels.mkString(" and ")}")
+      context.resources.askForFootprints(
+        s"the image's ${layer.channelsOf(Vector.empty).mkString(" and ")}"
+      )
     def footprints =
       val cone = Option.when(context.isV4 && !context.resources.settings.unfiltered):
         camera.cone(image, sampling.footprint)
@@ -296,6 +300,8 @@ object SceneBuilder:
       else SurfaceNames.Empty
     val motion =
       if wants(Layer.Motion) then ScreenMotion.of(camera.camera, camera.shutter) else None
+    val first = Option.when(image.layers.exists(_.isInstanceOf[NamedLayer])):
+      FirstHit(world.scene, context.origin.at, context.resources.basis)
     val scene = context.description
     val surface = VisibleSurface(
       world.scene,
@@ -305,12 +311,13 @@ object SceneBuilder:
       motion,
       scene.hidesEmitters,
       skyCovers =
-        context.rules.skyCovers && !scene.hidesEmitters && world.scene.environments.nonEmpty
+        context.rules.skyCovers && !scene.hidesEmitters && world.scene.environments.nonEmpty,
+      first
     )
     val groups = world.scene.lightGroups.filter(_ => world.method.dividesLight).map(_.names)
     LayerPlan(image.layers, surface, names, groups)
 
-  private def described(layers: Vector[Layer], bands: Option[SpectralBands]): String =
+  private def described(layers: Vector[ImageLayer], bands: Option[SpectralBands]): String =
     val all = layers.map(_.word) ++ bands.map(b => s"bands of wavelengths, ${b.describe}")
     if all.isEmpty then "none" else all.mkString(", ")
 

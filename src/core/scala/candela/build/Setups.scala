@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
-import candela.aov.Layer
+import candela.aov.ImageLayer
 import candela.build.cameras.Cameras
 import candela.build.film.{FilmSettings, Films, Filters}
 import candela.build.integrators.IntegratorPlan
@@ -22,7 +22,7 @@ private[build] final case class ImageSetup(
     width: Int,
     height: Int,
     filter: Filter,
-    layers: Vector[Layer]
+    layers: Vector[ImageLayer]
 ):
   def frame: FilmFrame = FilmFrame(width, height, film.diagonal)
 

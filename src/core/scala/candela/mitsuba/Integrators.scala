@@ -31,15 +31,14 @@ final class Integrators(session: Session):
         )
       case "aov" | "moment" | "stokes" =>
         in.ignore("aovs")
-        if p.name == "aov" then
-          val layers = Some("--aov writes layers: depth, normal, albedo and others")
+        val within = in.nested("integrator")
+        for surplus <- within.drop(1) do
           session.warn(
             Code.Unsupported,
-            in.at,
-            "the layers of \"aov\" are chosen on the command line",
-            layers
+            surplus.at,
+            s"only the first integrator of ${p.description} is rendered; this one is ignored"
           )
-        in.nested("integrator").headOption.fold(Integrators.default(session, in.at))(apply)
+        within.headOption.fold(Integrators.default(session, in.at))(apply)
       case _ =>
         val fallback = "using \"path\""
         Plugins.unsupported(p, fallback, session)

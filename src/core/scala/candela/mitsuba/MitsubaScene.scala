@@ -2,7 +2,7 @@ package candela.mitsuba
 
 import candela.diagnostics.{Code, SceneError, Severity, SourcePos}
 import candela.io.SceneFolder
-import candela.scenefile.{Declaration, Dialect, Excerpts, InstanceList, SceneDescription}
+import candela.scenefile.{Declaration, Dialect, Param, Excerpts, InstanceList, SceneDescription}
 
 import java.nio.file.Path
 
@@ -89,10 +89,12 @@ private final class Translation(session: Session, file: Path):
         session.attempt(views.addSensor(first, scene)).getOrElse(scene)
     val integrator =
       objectsOf("integrator").headOption.flatMap(p => session.attempt(Integrators(session)(p)))
+    val aovs = objectsOf("integrator").headOption.fold(Vector.empty)(Aovs(session)(_))
     val tracer = integrator.getOrElse(Integrators.default(session, start))
     val complete = framed.copy(
       integrator = Some(tracer),
-      film = if tracer.name == "lightpath" then framed.film.map(opaque) else framed.film,
+      film = framed.film.map: film =>
+        layered(if tracer.name == "lightpath" then opaque(film) else film, aovs),
       textures = textures.result(),
       namedMaterials = surfaces.result(),
       lights = lights,
@@ -109,6 +111,10 @@ private final class Translation(session: Session, file: Path):
         objects = Map.empty,
         instances = InstanceList.Empty
       )
+
+  private def layered(film: Declaration, aovs: Vector[String]): Declaration =
+    if aovs.isEmpty then film
+    else film.copy(params = film.params :+ Param.string("aovs", film.at, aovs*))
 
   /** Paths from lights find no coverage. */
   private def opaque(film: Declaration): Declaration =

@@ -76,13 +76,16 @@ final class Properties(val plugin: Plugin, val session: Session):
   /** Nested and referenced objects of a kind; all of them if no name is given. */
   def nested(kind: String, name: String = ""): Vector[Plugin] =
     if name.nonEmpty then names += name
+    named(kind).collect { case (of, child) if name.isEmpty || of == name => child }
+
+  /** The same of any name, with their names. */
+  def named(kind: String): Vector[(String, Plugin)] =
     for
       p <- plugin.properties
-      if name.isEmpty || p.name == name
       child <- objectOf(p) if child.kind == kind
     yield
       queried += p
-      child
+      (p.name, child)
 
   private def objectOf(p: Property): Option[Plugin] = p.value match
     case Value.Nested(plugin) => Some(plugin)

@@ -1,6 +1,6 @@
 package candela.render
 
-import candela.aov.{Layer, LayerFilm}
+import candela.aov.{ImageLayer, Layer, LayerFilm}
 import candela.film.{Fireflies, SpectralBands}
 import candela.guiding.{GuideRecords, GuideSettings}
 
@@ -15,7 +15,7 @@ object FilmSize:
   def least(
       pixels: Long,
       samples: Int,
-      layers: Vector[Layer],
+      layers: Vector[ImageLayer],
       bands: Option[SpectralBands]
   ): Cost =
     val layerNumbers = if layers.isEmpty then 0L else LayerFilm.size(layers, None)

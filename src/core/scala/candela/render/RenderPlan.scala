@@ -138,12 +138,12 @@ final case class ErrorFile(reference: String, file: String)
   * @param groups names of the light groups, if the samples' light is divided
   */
 final case class LayerPlan(
-    layers: Vector[Layer],
+    layers: Vector[ImageLayer],
     surface: VisibleSurface,
     names: SurfaceNames = SurfaceNames.Empty,
     groups: Option[Vector[String]] = None
 ):
-  def channels(layer: Layer): Vector[String] = layer.channelsOf(groups.getOrElse(Vector.empty))
+  def channels(layer: ImageLayer): Vector[String] = layer.channelsOf(groups.getOrElse(Vector.empty))
 
   /** Legends of the layers in the image. */
   def metadata(image: Image): Vector[(String, String)] = layers.flatMap:

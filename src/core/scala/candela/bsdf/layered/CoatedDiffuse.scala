@@ -26,6 +26,7 @@ import candela.textures.{RgbTexture, Textured}
   * @param coat   transmittance and internal reflectance; its roughness may differ slightly from
   *               `top`
   * @param gloss  scale of the reflection at the outer interface
+  * @param albedo of the base, if it is [[diffuseReflectance]]
   *
   * Source of the model: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary
   * Layered BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
@@ -35,7 +36,8 @@ final class CoatedDiffuse(
     sampledSeries: Coat => Rgb,
     top: MicrofacetDistribution,
     coat: Coat,
-    gloss: Rgb = Rgb.White
+    gloss: Rgb = Rgb.White,
+    albedo: Rgb | Null = null
 ) extends LeanBsdf:
   private val eta = coat.eta
   private val topIsSmooth = top.isSmooth || eta == 1f
@@ -98,11 +100,14 @@ final class CoatedDiffuse(
       val weight = reflected * (Hemisphere.absCos(wi) / density)
       out.set(wi, weight, density, isSpecular = false)
 
+  override def diffuseReflectance(wo: Vec3): Rgb =
+    if albedo == null then super.diffuseReflectance(wo) else albedo
+
   def flags: BsdfFlags = BsdfFlags.Diffuse | BsdfFlags.Glossy | BsdfFlags.Choosing
 
   // Cached: the series of a spectrum is expensive
   override lazy val regularized: Bsdf =
-    new CoatedDiffuse(series, sampledSeries, top.regularized, coat.regularized, gloss)
+    new CoatedDiffuse(series, sampledSeries, top.regularized, coat.regularized, gloss, albedo)
 
 object CoatedDiffuse:
 

@@ -47,7 +47,7 @@ final class VarnishMaterial(
         albedo.map(c => c / (1f - back * c))
       // Light that leaves is spread by the factor η², which Mitsuba leaves out here
       case Varnish.Once => albedo * (eta * eta)
-    new CoatedDiffuse(series, series, roughness(at), coat, specular.positive(at))
+    new CoatedDiffuse(series, series, roughness(at), coat, specular.positive(at), albedo)
 
   /** Of light from the base. Under smooth coats Mitsuba takes fits. Under rough ones it takes the
     * mean of 64 cosines, both ends included, so that the reflectance at normal incidence counts too

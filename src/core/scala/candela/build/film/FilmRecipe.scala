@@ -1,7 +1,7 @@
 package candela.build.film
 
 import candela.diagnostics.Code
-import candela.aov.Layer
+import candela.aov.ImageLayer
 import candela.build.recipe.*
 import candela.color.CameraSensor
 import candela.film.{Development, SampleLimit}
@@ -32,7 +32,7 @@ final case class FilmSettings(
     development: Development,
     limit: Float => Option[SampleLimit],
     diagonal: Float,
-    layers: Vector[Layer] = Vector.empty,
+    layers: Vector[ImageLayer] = Vector.empty,
     layersInWorld: Boolean = false,
     camera: Option[CameraSensor] = None,
     samplesBorder: Boolean = true

@@ -1,7 +1,7 @@
 package candela.build.film
 
 import candela.diagnostics.{Code, Suggest}
-import candela.aov.Layer
+import candela.aov.{HitValue, Layer, NamedLayer}
 import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
 import candela.scenefile.Dialect
@@ -31,9 +31,18 @@ object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image"):
     "sample beyond the film, too, as far as the filter reaches",
     onlyMitsuba
   )(true)
+  private val named = strings(
+    "aovs",
+    "string[]",
+    "layers of the first surface, each a name and a quantity: `a:depth` is the channel `a.T`",
+    onlyMitsuba
+  )
   override protected def make()(using Site): FilmSettings =
-    val layers = if alpha() then Vector(Layer.Alpha) else Vector.empty
-    super.make().copy(layers = layers, samplesBorder = border())
+    val layers = Option.when(alpha())(Layer.Alpha) ++
+      named().flatMap: text =>
+        val (name, word) = (text.take(text.lastIndexOf(':')), text.drop(text.lastIndexOf(':') + 1))
+        HitValue.values.find(_.word == word).map(NamedLayer(name, _))
+    super.make().copy(layers = layers.toVector, samplesBorder = border())
 
 object GBufferFilmRecipe
     extends SensorFilmRecipe("gbuffer", "RGB image with AOVs: positions, normals, albedo and more"):

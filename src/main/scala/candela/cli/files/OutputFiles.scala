@@ -2,7 +2,7 @@ package candela.cli.files
 
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.FileName
-import candela.aov.Layer
+import candela.aov.{ImageLayer, Layer, NamedLayer}
 import candela.build.film.FilmRecipe
 import candela.cli.options.FilmOptions
 import candela.image.{Contents, ImageError, OutputFormat}
@@ -86,12 +86,13 @@ object OutputFiles:
     val problems = failures(paths)(write).map(_._2)
     if problems.nonEmpty then throw SceneError(problems)
 
-  /** Whether a file must store layers; alpha, which scenes ask for, and those that only guide the
-    * denoiser need none.
+  /** Whether a file must store layers; alpha and what scenes name themselves, and those that only
+    * guide the denoiser, need none.
     */
   def needLayers(plan: RenderPlan, denoises: Boolean): Boolean =
     val guides = Layer.Alpha +: (if denoises then Layer.denoising else Vector.empty)
-    plan.layers.exists(_.layers.diff(guides).nonEmpty) || plan.development.bands.nonEmpty
+    def isIdle(layer: ImageLayer) = guides.contains(layer) || layer.isInstanceOf[NamedLayer]
+    plan.layers.exists(!_.layers.forall(isIdle)) || plan.development.bands.nonEmpty
 
   /** Exactly the requested images. */
   def asked(names: Vector[String]): OutputFiles =

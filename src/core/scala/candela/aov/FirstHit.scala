@@ -1,0 +1,58 @@
+package candela.aov
+
+import candela.color.{ColorBasis, Rgb}
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.math.*
+import candela.scene.Scene
+
+/** The first surface of a camera ray, be it an interface or a hidden light; all its properties are
+  * 0 if there is none. In world space; v is 1 at the bottom of images, where textures have 0.
+  * Mutable, one per worker.
+  *
+  * @param origin of the scene, in its world
+  * @param basis  of the scene's colours
+  */
+final class FirstHit(scene: Scene, origin: Position, basis: ColorBasis):
+  private val ray = Ray()
+  private val hit = Hit()
+  private val at: ShadingPoint = scene.newPoint(always = true)
+  private var isThere = false
+  private var reflectance = Rgb.Black
+  private var distance = 0f
+
+  def copy(): FirstHit = FirstHit(scene, origin, basis)
+
+  /** Traces a camera ray; leaves the ray unchanged. */
+  def look(from: Ray): Unit =
+    ray.set(from.origin, from.direction, from.tMax)
+    ray.time = from.time
+    isThere = scene.closest(ray, hit)
+    if isThere then
+      scene.surface(ray, hit, at)
+      distance = (at.p - from.origin).length
+      reflectance =
+        if scene.isInterface(at) then Rgb.Black
+        else
+          val bsdf = scene.bsdf(at) // which turns the shading frame
+          bsdf.diffuseReflectance(at.frame.toLocal(-from.direction))
+
+  private def number(x: Float): Float = if isThere then x else 0f
+  private def vector(v: Vec3): Vec3 = if isThere then v else Vec3.Zero
+
+  def depth: Float = number(distance)
+  def position: Vec3 =
+    def sum(x: Float, of: Double) = (x + of).toFloat
+    vector(Vec3(sum(at.p.x, origin.x), sum(at.p.y, origin.y), sum(at.p.z, origin.z)))
+  def u: Float = number(at.u)
+  def v: Float = number(1f - at.v)
+
+  /** Unit normals on the surface's outside. */
+  def geometricNormal: Vec3 = vector(at.geometricNormal)
+  def shadingNormal: Vec3 = vector(at.frame.n)
+
+  /** Partial derivatives of the position by `u` and `v`; 0 unless the scene has them. */
+  def dpdu: Vec3 = vector(at.dpdu)
+  def dpdv: Vec3 = vector(-at.dpdv)
+
+  /** As of [[candela.bsdf.Bsdf]], in linear sRGB. */
+  def diffuseReflectance: Rgb = if isThere then basis.toSrgb(reflectance) else Rgb.Black
