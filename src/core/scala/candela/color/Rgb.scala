@@ -16,6 +16,9 @@ final class Rgb(val r: Float, val g: Float, val b: Float):
     java.lang.Float.isFinite(r) && java.lang.Float.isFinite(g) && java.lang.Float.isFinite(b)
   def max: Float = if r > g then (if r > b then r else b) else if g > b then g else b
 
+  /** The larger of each component. */
+  def atLeast(c: Rgb): Rgb = Rgb(Math.max(r, c.r), Math.max(g, c.g), Math.max(b, c.b))
+
   /** Largest magnitude: the colour of a single wavelength may be negative. */
   def largest: Float =
     val x = Math.abs(r)

@@ -21,6 +21,8 @@ final class CheckerboardRgb(checks: Checks, even: RgbTexture, odd: RgbTexture) e
     else if share >= 1f then odd(at)
     else even(at) * (1f - share) + odd(at) * share
 
+  override def maximum: Rgb = even.maximum.atLeast(odd.maximum)
+
 /** Layout of a checkerboard; the check from the origin to (1, 1, …) is even. */
 abstract class Checks:
 

@@ -25,6 +25,7 @@ final class ProductRgb private (a: RgbTexture, b: RgbTexture) extends RgbTexture
   def apply(at: ShadingPoint): Rgb =
     val x = a(at)
     x * (if b eq a then x else b(at))
+  override def maximum: Rgb = a.maximum * b.maximum
 
 object ProductRgb:
   def of(a: RgbTexture, b: RgbTexture): RgbTexture = (a.constant, b.constant) match
@@ -36,6 +37,7 @@ object ProductRgb:
 /** A colour scaled by a number (pbrt-v4). */
 final class ScaledRgb private (a: RgbTexture, scale: FloatTexture) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb = a(at) * scale(at)
+  override def maximum: Rgb = a.maximum * scale.constant.getOrElse(1f)
 
 object ScaledRgb:
   def of(a: RgbTexture, scale: FloatTexture): RgbTexture = (a.constant, scale.constant) match
@@ -78,3 +80,4 @@ object MixRgb:
 /** A texture of linear sRGB colours, converted to another basis. */
 final class RebasedTexture(texture: RgbTexture, convert: Rgb => Rgb) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb = convert(texture(at))
+  override def maximum: Rgb = texture.maximum

@@ -1,5 +1,6 @@
 package candela.textures
 
+import candela.base.loop
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
@@ -40,6 +41,8 @@ final class RgbImageTexture(
     if scale == 1f && !invert then color
     else color.map(v => ImageTexture.finish(v, scale, invert))
 
+  override def maximum: Rgb = if invert then Rgb.White else lookup.maximum * scale
+
 private object ImageTexture:
   def finish(value: Float, scale: Float, invert: Boolean): Float =
     val scaled = value * scale
@@ -56,6 +59,9 @@ abstract class ImageLookup(bottomUp: Boolean):
 
   /** Derivatives by s and t of an image that has one level of detail, and a single channel. */
   def slopes(c: TexCoord): Slopes | Null = null
+
+  /** The largest value of each channel. */
+  def maximum: Rgb
 
   /** Distance from the image's upper edge, as a fraction of its height. */
   protected final def row(t: Float): Float = if bottomUp then 1f - t else t
@@ -74,6 +80,17 @@ abstract class FilteredLookup(pyramid: MipMap, bottomUp: Boolean, turned: Boolea
     val c = mapping(at)
     val f = mapping.footprint(at)
     filtered(c.s, row(c.t), f.dsdx, f.dtdx * down, f.dsdy, f.dtdy * down)
+
+  final def maximum: Rgb =
+    val image = pyramid(0)
+    val reader = image.reader
+    var largest = Rgb.Black
+    loop(image.height): y =>
+      loop(image.width): x =>
+        val i = image.index(x, y)
+        def channel(c: Int) = reader(i, if image.isGray then 0 else c)
+        largest = largest.atLeast(Rgb(channel(0), channel(1), channel(2)))
+    largest
 
   /** Filters around a point, over the parallelogram of the two steps (`dsdx`, `dydx`) and (`dsdy`,
     * `dydy`).

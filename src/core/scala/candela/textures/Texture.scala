@@ -44,6 +44,9 @@ abstract class RgbTexture extends Varying:
   def apply(at: ShadingPoint): Rgb
   def constant: Option[Rgb] = None
 
+  /** An upper limit of each component; 1 of textures that know none. */
+  def maximum: Rgb = constant.getOrElse(Rgb.White)
+
   /** The colour, clamped to at least 0. */
   final def positive(at: ShadingPoint): Rgb = apply(at).map(c => Math.max(c, 0f))
 

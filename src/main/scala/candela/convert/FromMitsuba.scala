@@ -101,12 +101,46 @@ object FromMitsuba:
         case "conductor" => conductor(isotropic(d))
         case "twosided" | "nested" => front(d)
         case "dielectric" => dielectric(isotropic(d))
+        case "phong" | "ward" => glossed(d)
+        case "roughdiffuse" => rough(d)
+        case "coating" =>
+          warn(d, "pbrt has no coats on other materials; this one is left out")
+          front(d)
+        case "scatteringlayer" =>
+          warn(d, "\"hk\" is approximated by pbrt-v4's \"diffusetransmission\"")
+          d.copy(name = "diffusetransmission", params = bumpsOf(d))
         case "thindielectric" => withoutParams(d, "using 1", "reflectance", "transmittance")
         case "principled" if d.param("thin").exists(_.bools.contains(true)) => sheet(d)
         case "principled" =>
           warn(d, "\"principled\" is approximated by pbrt-v3's \"disney\"")
           d.copy(name = "disney", dialect = Some(Dialect.V3))
         case _ => d
+
+    private def bumpsOf(d: Declaration) = d.params.filter(p => FromMitsuba.BumpParams(p.name))
+
+    /** The peak of a power of the cosine is as that of facets of this roughness. */
+    private def glossed(d: Declaration): Declaration =
+      warn(d, s"\"${d.name}\" is approximated by pbrt-v3's \"substrate\"")
+      val exponent = d.param("exponent").flatMap(_.floats.headOption).getOrElse(30f)
+      val alpha = Math.sqrt(1 / (2.0 * exponent + 1)).toFloat
+      val axes = Vector("uroughness", "vroughness")
+      val roughness =
+        if d.name == "ward" then axes.flatMap(d.param) else axes.map(Param.float(_, d.at, alpha))
+      val colors = Vector("reflectance" -> "Kd", "specular" -> "Ks")
+        .flatMap((from, to) => d.param(from).map(_.renamed(to)))
+      val params = colors ++ roughness :+ Param.bool("remaproughness", d.at, false)
+      d.copy(name = "substrate", params = params ++ bumpsOf(d), dialect = Some(Dialect.V3))
+
+    /** A standard deviation in degrees. */
+    private def rough(d: Declaration): Declaration =
+      warn(d, "\"roughdiffuse\" is approximated by pbrt-v3's \"matte\"")
+      val degrees = Math.toDegrees(Math.sqrt(0.5)).toFloat
+      val sigma = d.param("roughness").toVector.map: p =>
+        val renamed = p.renamed("sigma")
+        if p.paramType == ParamType.Texture then times(renamed, "float", degrees)
+        else Param.float("sigma", p.at, p.floats.head * degrees)
+      val color = d.param("reflectance").toVector.map(_.renamed("Kd"))
+      d.copy(name = "matte", params = color ++ sigma ++ bumpsOf(d), dialect = Some(Dialect.V3))
 
     private def warn(d: Declaration, message: String): Unit =
       problems += Problem.warning(Code.Inexpressible, d.at, message)
@@ -144,7 +178,12 @@ object FromMitsuba:
           Param.float("fov", p.at, Math.toDegrees(2 * Math.atan(halfWidth)).toFloat))
 
     private def texture(d: Declaration): Declaration =
-      if d.name == "grid" then gridMean(d) else plainTexture(d)
+      d.name match
+        case "grid" => gridMean(d)
+        case "lines" =>
+          warn(d, "pbrt has no textures of lines; using the value between them")
+          d.copy(name = "constant", params = d.param("tex1").toVector.map(_.renamed("value")))
+        case _ => plainTexture(d)
 
     private def gridMean(d: Declaration): Declaration =
       def cells(axis: String) = d.param(axis).fold(1)(_.ints.headOption.getOrElse(1))
@@ -193,16 +232,16 @@ object FromMitsuba:
           Some(s"the thin glass is at ${thinDielectric.at}")
         )
 
-    /** pbrt has one distribution. Half the microfacets of a Beckmann distribution are steeper than
-      * α √(ln 2), half those of GGX than α.
+    /** pbrt has one distribution. Half the microfacets of a Beckmann distribution, or of a smooth
+      * one of Phong, are steeper than α √(ln 2), half those of GGX than α.
       */
     private def isotropic(d: Declaration): Declaration =
       val remaining = withoutParams(d, "", "distribution")
-      d.param("distribution").filter(_.strings.contains("beckmann")).fold(remaining): p =>
+      d.param("distribution").filterNot(_.strings.contains("ggx")).fold(remaining): p =>
         problems += Problem.warning(
           Code.Inexpressible,
           p.at,
-          "pbrt has no distribution `beckmann`; using `ggx` of equal median slope"
+          s"pbrt has no distribution `${p.strings.head}`; using `ggx` of equal median slope"
         )
         val factor = Math.sqrt(Math.log(2)).toFloat
         remaining.copy(params = remaining.params.map: q =>
@@ -320,7 +359,7 @@ object FromMitsuba:
       val names = d.param("materials").orElse(d.param("material")).get.strings
       if names.distinct.length > 1 then
         warn(d, "pbrt has no separate material for the back; using that of the front for both")
-      val bumps = d.params.filter(p => FromMitsuba.BumpParams(p.name))
+      val bumps = bumpsOf(d)
       val front = named(names.head)
       val takesBumps =
         front.name != "mix" && !front.params.exists(p => FromMitsuba.BumpParams(p.name))
@@ -339,8 +378,7 @@ object FromMitsuba:
           color(d, "color") match
             case Some(c) => rgb(name, c * fraction, d)
             case None => times(d.param("color").get.renamed(name), "spectrum", fraction)
-      val bumps = d.params.filter(p => FromMitsuba.BumpParams(p.name))
-      d.copy(name = "diffusetransmission", params = colors ++ bumps)
+      d.copy(name = "diffusetransmission", params = colors ++ bumpsOf(d))
 
     private def rgb(name: String, c: Rgb, d: Declaration): Param =
       Param.floats(ParamType.Rgb, name, d.at, Array(c.r, c.g, c.b))

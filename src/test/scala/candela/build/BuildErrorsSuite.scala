@@ -155,7 +155,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val near = only("LightSource \"moon\"").help
     assert(near.exists(h => h.contains("infinite") && !h.contains("sunsky")))
     assertError(only("LightSource \"sunsky\"", Dialect.V4), "unknown light \"sunsky\"")
-    for name <- Seq("principled", "roughplastic", "twosided") do
+    for name <- Seq("principled", "roughplastic", "twosided", "phong", "coating") do
       val v3 = only(s"Material \"$name\" $sphere")
       assertWarning(v3, s"unknown material \"$name\"; using \"matte\", as pbrt does")
       assertError(only(s"Material \"$name\" $sphere", Dialect.V4), s"unknown material \"$name\"")

@@ -61,4 +61,5 @@ object Examples:
   private def textures(kind: String, texts: Vector[(String, String)]): Map[String, Example] =
     shown(texts.map((name, rest) => name -> s"Texture \"shown\" \"$kind\" \"$name\" $rest")) +
       ("ptex" -> Unseen("input files are produced by other programs")) +
-      ("grid" -> Unseen("of Mitsuba's scenes"))
+      ("grid" -> Unseen("of Mitsuba's scenes")) +
+      ("lines" -> Unseen("of Mitsuba's scenes"))

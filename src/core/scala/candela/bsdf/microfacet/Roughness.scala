@@ -32,11 +32,15 @@ enum RoughnessModel:
   /** Mitsuba, `beckmann`: `alpha` itself. */
   case Gaussian
 
+  /** Mitsuba 0.6, `phong`: `alpha` itself. */
+  case CosineAlpha
+
   def distribution(u: Float, v: Float): MicrofacetDistribution = this match
     case BlinnExponent => CosinePower(1f / u)
     case AnisotropicExponents => new CosinePower(1f / u, 1f / v)
     case SeparableGgx => plain(u, v, SeparableTrowbridgeReitz(_, _))
     case Gaussian => plain(u, v, Beckmann(_, _))
+    case CosineAlpha => plain(u, v, CosineFacets(_, _))
     case _ => trowbridgeReitz(u, v)
 
   private def plain(
@@ -57,7 +61,7 @@ enum RoughnessModel:
     case PolynomialAlpha => Math.max(Roughness.polynomialAlpha(roughness), 1e-3f)
     case BoundedAlpha => Math.max(roughness, 1e-3f)
     case SquareRootAlpha => safeSqrt(roughness)
-    case PlainAlpha | SeparableGgx | Gaussian => Math.max(roughness, 0f)
+    case PlainAlpha | SeparableGgx | Gaussian | CosineAlpha => Math.max(roughness, 0f)
 
 /** Textured roughness.
   *

@@ -25,28 +25,22 @@ final class SeparableTrowbridgeReitz(alphaX: Float, alphaY: Float) extends Micro
 
   def sampleWeight(wo: Vec3, wi: Vec3, m: Vec3): Float = 2f * Math.abs(wi.z) * masked(wi)
 
-/** Beckmann's distribution, of Gaussian slopes, with uncorrelated masking and shadowing.
+/** Distributions whose uncorrelated masking and shadowing is that of Gaussian slopes.
   *
   * Samples the visible normals of [[TrowbridgeReitz]], whose density is at most 4/e times smaller.
   *
-  * Sources: Beckmann and Spizzichino, "The Scattering of Electromagnetic Waves from Rough
-  * Surfaces", 1963; Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR
-  * 2007, whose fit of the masking is off by at most 0.35 %.
+  * Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007,
+  * whose fit of the masking is off by at most 0.35 %.
   */
-final class Beckmann(alphaX: Float, alphaY: Float) extends MicrofacetDistribution:
-  import Beckmann.Unmasked
+abstract class GaussianMasking(alphaX: Float, alphaY: Float) extends MicrofacetDistribution:
+  import GaussianMasking.Unmasked
   private val visible = TrowbridgeReitz(alphaX, alphaY)
-  private val ax = Math.max(alphaX, TrowbridgeReitz.LeastAlpha)
-  private val ay = Math.max(alphaY, TrowbridgeReitz.LeastAlpha)
+  protected final val ax = Math.max(alphaX, TrowbridgeReitz.LeastAlpha)
+  protected final val ay = Math.max(alphaY, TrowbridgeReitz.LeastAlpha)
 
   def isSmooth: Boolean = false
   def isNarrow: Boolean = visible.isNarrow
   def isIsotropic: Boolean = alphaX == alphaY
-
-  def d(m: Vec3): Float =
-    val cos2 = m.z * m.z
-    if cos2 < 1e-8f then 0f
-    else exp(-(square(m.x / ax) + square(m.y / ay)) / cos2) / (Pi * ax * ay * cos2 * cos2)
 
   /** Fraction of the microfacets that `w` sees. */
   private def masked(w: Vec3): Float =
@@ -70,8 +64,54 @@ final class Beckmann(alphaX: Float, alphaY: Float) extends MicrofacetDistributio
 
   override def regularized: MicrofacetDistribution =
     val wide = visible.regularized
-    if wide eq visible then this else Beckmann(wide.alphaX, wide.alphaY)
+    if wide eq visible then this else ofRoughness(wide.alphaX, wide.alphaY)
 
-object Beckmann:
+  /** The distribution of another roughness. */
+  protected def ofRoughness(alphaX: Float, alphaY: Float): MicrofacetDistribution
+
+/** Beckmann's distribution, of Gaussian slopes.
+  *
+  * Source: Beckmann and Spizzichino, "The Scattering of Electromagnetic Waves from Rough Surfaces",
+  * 1963.
+  */
+final class Beckmann(alphaX: Float, alphaY: Float) extends GaussianMasking(alphaX, alphaY):
+  def d(m: Vec3): Float =
+    val cos2 = m.z * m.z
+    if cos2 < 1e-8f then 0f
+    else exp(-(square(m.x / ax) + square(m.y / ay)) / cos2) / (Pi * ax * ay * cos2 * cos2)
+
+  protected def ofRoughness(alphaX: Float, alphaY: Float): MicrofacetDistribution =
+    Beckmann(alphaX, alphaY)
+
+/** Powers of the cosine, with the exponents that make the peak as high as that of [[Beckmann]]: the
+  * distribution `phong` or `as` of Mitsuba 0.6.
+  *
+  * Source: Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", Journal of Graphics Tools
+  * 5(2), 2000; Walter et al. 2007, §5.2, for the exponents.
+  */
+final class CosineFacets(alphaX: Float, alphaY: Float) extends GaussianMasking(alphaX, alphaY):
+  private val ex = CosineFacets.exponent(ax)
+  private val ey = CosineFacets.exponent(ay)
+  private val peak = Math.sqrt((ex + 2.0) * (ey + 2.0)) / (2.0 * Math.PI)
+
+  def d(m: Vec3): Float =
+    val (x2, y2) = (m.x.toDouble * m.x, m.y.toDouble * m.y)
+    val s2 = x2 + y2
+    if s2 <= 0.0 then peak.toFloat
+    else if s2 >= 1.0 then 0f
+    else
+      val density = peak * Math.exp(0.5 * (ex * x2 + ey * y2) / s2 * Math.log1p(-s2))
+      if density > CosineFacets.MinDensity then density.toFloat else 0f
+
+  protected def ofRoughness(alphaX: Float, alphaY: Float): MicrofacetDistribution =
+    CosineFacets(alphaX, alphaY)
+
+private object CosineFacets:
+  /** Smaller densities lose digits as Floats. */
+  val MinDensity = 1e-30
+
+  def exponent(alpha: Float): Double = Math.max(2.0 / (alpha.toDouble * alpha) - 2.0, 0.0)
+
+private object GaussianMasking:
   /** Cotangent, in units of the roughness, above which nothing is masked. */
   private inline val Unmasked = 1.6f

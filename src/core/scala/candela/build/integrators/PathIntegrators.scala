@@ -22,7 +22,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     // v2 samples lights at one vertex more than it counts
     val depth = events() + (if site.dialect == Dialect.V2 then 1 else 0)
     // "path" of v2 and v4 renders such a surface as glass, or as its reflection only
-    val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
+    val goesBeneath = site.rules.goesBeneath || name == "volpath"
     val regularizes = regularize()
     // Mitsuba's "path" counts what thin glass transmits as scattered, "volpath" does not
     val crossesPanes = name == "volpath" && site.rules.passes

@@ -32,6 +32,11 @@ object Materials:
       CoatedDiffuseRecipe,
       CoatedConductorRecipe,
       RoughPlasticRecipe,
+      CoatingRecipe,
+      ScatteringLayerRecipe,
+      PhongRecipe,
+      WardRecipe,
+      RoughDiffuseRecipe,
       GlassRecipe,
       DielectricRecipe,
       ThinDielectricRecipe,
@@ -61,7 +66,8 @@ object Materials:
   /** Names of the materials that a material may refer to. */
   def parts(d: Declaration): Vector[String] =
     val references = Set("namedmaterial1", "namedmaterial2", "materials", "material")
-    if !Set(MixRecipe, TwoSidedRecipe, NestedRecipe).exists(_.name == d.name) then Vector.empty
+    if !Set(MixRecipe, TwoSidedRecipe, NestedRecipe, CoatingRecipe).exists(_.name == d.name) then
+      Vector.empty
     else d.params.filter(p => references(p.name)).flatMap(_.strings)
 
   def build(site: Site): Material =
@@ -187,7 +193,7 @@ abstract class RoughRecipe(
   private val u = alongAxis("u")
   private val v = alongAxis("v")
   private val distribution =
-    oneOf("distribution", "microfacets", Seq("ggx", "beckmann"), onlyMitsuba)("ggx")
+    oneOf("distribution", "microfacets", Seq("ggx", "beckmann", "phong"), onlyMitsuba)("ggx")
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
 
@@ -206,7 +212,10 @@ abstract class RoughRecipe(
         if remap() then RoughnessModel.PolynomialAlpha else RoughnessModel.BoundedAlpha
       case Dialect.V4 | Dialect.Mitsuba =>
         if site.rules.separates then
-          if distribution() == "ggx" then RoughnessModel.SeparableGgx else RoughnessModel.Gaussian
+          distribution() match
+            case "ggx" => RoughnessModel.SeparableGgx
+            case "phong" => RoughnessModel.CosineAlpha
+            case _ => RoughnessModel.Gaussian
         else if remap() then RoughnessModel.SquareRootAlpha
         else RoughnessModel.PlainAlpha
     val along = u.flatMap(_.given_()).getOrElse(both())

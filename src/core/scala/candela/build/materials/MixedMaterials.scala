@@ -71,7 +71,7 @@ private def pair(a: String, parameter: String, b: String, other: String)(using
   val one = named(a, parameter)
   (one, if b == a then one else named(b, other))
 
-private def named(name: String, parameter: String)(using site: Site): Material =
+private[materials] def named(name: String, parameter: String)(using site: Site): Material =
   val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)
   val found = site.resources.materials(name, at, site.resources, site.problems)
   if site.dialect == Dialect.V4 && found.isInterface then

@@ -29,10 +29,15 @@ private[build] object OtherNames:
 
   /** Of types that only Mitsuba's scenes have. */
   private val Mitsubas = Map(
+    "coating" -> "coateddiffuse",
+    "phong" -> "plastic",
     "principled" -> "disney",
+    "roughdiffuse" -> "matte",
     "roughplastic" -> "plastic",
+    "scatteringlayer" -> "translucent",
     "sunsky" -> "infinite",
-    "twosided" -> "mix"
+    "twosided" -> "mix",
+    "ward" -> "substrate"
   )
 
   /** The name in this dialect of a type of another one. */

@@ -33,6 +33,7 @@ import candela.textures.{TexelBands, Texels}
   * @param facesEmitters whether samples of emitters lie on the side that rays see
   * @param passes    whether light passes panes and openings of masks unscattered, and what it meets
   *                  there counts as passed
+  * @param goesBeneath whether `path` follows light beneath surfaces
   * @param skyCovers whether the sky is opaque
   * @param defaultsToIndependent whether independent samples are what scenes have that don't choose
   */
@@ -59,6 +60,7 @@ final case class Rules(
     glows: Boolean = true,
     facesEmitters: Boolean = false,
     passes: Boolean = false,
+    goesBeneath: Boolean = false,
     skyCovers: Boolean = false,
     defaultsToIndependent: Boolean = false
 )
@@ -81,7 +83,7 @@ object Rules:
     case Dialect.Mitsuba => mitsuba
 
   private val v2 = Rules(Dialect.V2, "pbrt-v2", gridEdge = GridEdge.Clamped)
-  private val v3 = Rules(Dialect.V3, "pbrt-v3")
+  private val v3 = Rules(Dialect.V3, "pbrt-v3", goesBeneath = true)
 
   private val v4 = Rules(
     Dialect.V4,
@@ -114,6 +116,7 @@ object Rules:
     fovOfWidth = true,
     facesEmitters = true,
     passes = true,
+    goesBeneath = true,
     skyCovers = true,
     defaultsToIndependent = true
   )

@@ -64,3 +64,18 @@ object RgbDotsRecipe extends MappedRecipe[RgbTexture]("dots", "polka dots"):
 object RgbUvRecipe
     extends MappedRecipe[RgbTexture]("uv", "texture coordinates as red and green", untilV3):
   protected def make()(using Site): RgbTexture = UvColor(mapped(1))
+
+abstract class LinesRecipe[A]
+    extends MappedRecipe[A]("lines", "lines where s or t is an integer", onlyMitsuba):
+  private val width = float("linewidth", "half the width of a line")(0.01f)
+  protected def lines()(using Site): Lines = Lines(mapped(1), width())
+
+object FloatLinesRecipe extends LinesRecipe[FloatTexture]:
+  private val tex1 = floatTexture("tex1", "value between the lines")(0.2f)
+  private val tex2 = floatTexture("tex2", "value of the lines")(0.4f)
+  protected def make()(using Site): FloatTexture = LinesFloat(lines(), tex1(), tex2())
+
+object RgbLinesRecipe extends LinesRecipe[RgbTexture]:
+  private val tex1 = rgbTexture("tex1", "value between the lines")(Rgb.gray(0.2f))
+  private val tex2 = rgbTexture("tex2", "value of the lines")(Rgb.gray(0.4f))
+  protected def make()(using Site): RgbTexture = LinesRgb(lines(), tex1(), tex2())
