@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import candela
+from candela import Transform
 
 SCENE = """
 Camera "perspective" "float fov" 40
@@ -25,6 +26,285 @@ Material "diffuse" "rgb reflectance" [ 0.2 0.4 0.6 ]
 Translate 0 0 5
 Shape "sphere"
 """
+
+
+XML = """<scene version="3.0.0">
+  <!-- a ball under a sky -->
+  <sensor type="perspective">
+    <transform name="to_world"><lookat origin="0, 0, -5" target="0, 0, 0" up="0, 1, 0"/></transform>
+    <film type="hdrfilm"><integer name="width" value="24"/><integer name="height" value="16"/></film>
+  </sensor>
+  <bsdf type="diffuse" id="red"><rgb name="reflectance" value="0.8, 0.2, 0.1"/></bsdf>
+  <shape type="sphere" id="ball"><ref id="red"/></shape>
+  <emitter type="constant"/>
+</scene>
+"""
+
+
+def mitsuba():
+    """The scene of XML, as Mitsuba's load_dict takes it."""
+    return {
+        "type": "scene",
+        "sensor": {
+            "type": "perspective",
+            "to_world": Transform().look_at(origin=[0, 0, -5], target=[0, 0, 0], up=[0, 1, 0]),
+            "film": {"type": "hdrfilm", "width": 24, "height": 16},
+        },
+        "red": {"type": "diffuse", "reflectance": {"type": "rgb", "value": [0.8, 0.2, 0.1]}},
+        "ball": {"type": "sphere", "bsdf": {"type": "ref", "id": "red"}},
+        "sky": {"type": "constant"},
+    }
+
+
+class InMemory(unittest.TestCase):
+    """Scenes that are no files."""
+
+    def test_a_dict_and_a_text_are_the_same_scene(self):
+        a = candela.load_dict(mitsuba()).render(spp=4)
+        b = candela.load_string(XML).render(spp=4)
+        np.testing.assert_allclose(a.rgb, b.rgb, rtol=1e-5)
+        self.assertEqual(a.rgb.shape, (16, 24, 3))
+
+    def test_a_text_in_pbrts_format_is_that_of_a_file(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            file = Path(folder) / "a.pbrt"
+            file.write_text(SCENE)
+            np.testing.assert_array_equal(
+                candela.load_string(SCENE).render().rgb, candela.load_file(file).render().rgb
+            )
+
+    def test_files_that_a_text_names_are_of_its_folder(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            (Path(folder) / "ball.pbrt").write_text('Shape "sphere"\n')
+            text = SCENE.replace('Shape "sphere"', 'Include "ball.pbrt"')
+            a = candela.load_string(text, folder=folder).render(spp=1)
+            np.testing.assert_array_equal(a.rgb, candela.load_string(SCENE).render(spp=1).rgb)
+            with self.assertRaisesRegex(candela.SceneError, "ball.pbrt"):
+                candela.load_string(text).render(spp=1)
+
+    def test_changed_values_are_rendered(self):
+        of_text = candela.load_string(XML)
+        for scene in (candela.load_dict(mitsuba()), of_text):
+            before = scene.render(spp=4).rgb
+            values = candela.traverse(scene)
+            self.assertEqual(values["red.reflectance.value"], [0.8, 0.2, 0.1])
+            values["red.reflectance.value"] = [0.1, 0.2, 0.8]
+            values["sensor.film.width"] = 36
+            values.update()
+            after = scene.render(spp=4).rgb
+            self.assertEqual(after.shape, (16, 36, 3))
+            middle = after[8, 18] / before[8, 12]
+            np.testing.assert_allclose(middle, [0.125, 1, 8], rtol=1e-3)
+            values["red.reflectance"] = 0.5  # Mitsuba's suffix may be left out
+            grey = scene.render(spp=4).rgb[8, 18]
+            np.testing.assert_allclose(grey, grey[0], rtol=1e-6)
+
+    def test_values_may_be_transforms_and_objects(self):
+        scene = candela.load_string(XML)
+        values = scene.parameters()
+        seen = values["sensor.to_world"]
+        np.testing.assert_allclose(seen.matrix, mitsuba()["sensor"]["to_world"].matrix, atol=1e-12)
+        values["sensor.to_world"] = Transform().translate([100, 0, 0]) @ seen
+        values["red.reflectance"] = {"type": "checkerboard", "color0": 0.1, "color1": 0.9}
+        self.assertIn("red.reflectance.color0", values)
+        np.testing.assert_array_equal(scene.render(spp=1).rgb, np.ones((16, 24, 3)))  # the sky
+
+    def test_values_that_the_scene_has_not_are_told_of(self):
+        values = candela.load_string(XML).parameters()
+        with self.assertRaisesRegex(KeyError, "did you mean 'red.reflectance.value'"):
+            values["red.reflectanc"] = 1
+        self.assertNotIn("red.reflectanc", values)
+        with self.assertRaisesRegex(candela.SceneError, "red.reflectance.value: error: expected"):
+            values["red.reflectance.value"] = None
+
+    def test_transforms_are_mitsubas(self):
+        t = Transform().translate([1, 2, 3]).rotate([0, 0, 1], 90).scale(2)
+        # The last acts first: (1, 0, 0) is scaled, turned and moved
+        moved = np.array(t.matrix) @ [1, 0, 0, 1]
+        np.testing.assert_allclose(moved, [1, 4, 3, 1], atol=1e-12)
+        scene = mitsuba()
+        scene["sensor"]["to_world"] = np.array(scene["sensor"]["to_world"].matrix)
+        a = candela.load_dict(scene).render(spp=1)
+        np.testing.assert_array_equal(a.rgb, candela.load_dict(mitsuba()).render(spp=1).rgb)
+        with self.assertRaises(ValueError):
+            Transform([[1, 2], [3, 4]])
+
+    def test_numpys_values_are_values(self):
+        scene = mitsuba()
+        scene["red"]["reflectance"]["value"] = np.array([0.8, 0.2, 0.1])
+        scene["ball"].update(radius=np.float32(1), center=np.zeros(3), flip_normals=np.bool_(False))
+        scene["sensor"]["film"]["width"] = np.int64(24)
+        a = candela.load_dict(scene).render(spp=1)
+        np.testing.assert_array_equal(a.rgb, candela.load_dict(mitsuba()).render(spp=1).rgb)
+
+    def test_faults_of_a_dict_are_all_told_with_their_keys(self):
+        scene = mitsuba()
+        scene["red"]["type"] = "difuse"
+        scene["ball"]["radius"] = None
+        scene["sky"]["radiance"] = {"value": 1}
+        scene["width"] = 3
+        with self.assertRaises(candela.SceneError) as caught:
+            candela.load_dict(scene)
+        keys = [p.key for p in caught.exception.problems]
+        self.assertEqual(keys, ["red", "ball.radius", "sky.radiance", "width"])
+        self.assertIn("did you mean `diffuse`?", str(caught.exception))
+
+    def test_what_the_renderer_finds_in_a_dict_has_a_key_and_no_line(self):
+        warned, wrong = mitsuba(), mitsuba()
+        warned["red"]["reflectanc"] = 0.5
+        wrong["ball"]["bsdf"]["id"] = "green"
+        problems = candela.load_dict(warned).check()
+        self.assertEqual([(p.key, p.severity) for p in problems], [("red.reflectanc", "warning")])
+        with self.assertRaises(candela.SceneError) as caught:
+            candela.load_dict(wrong).render()
+        problems += caught.exception.problems
+        self.assertEqual([(p.key, p.severity) for p in problems[1:]], [("ball.bsdf", "error")])
+        self.assertTrue(all(p.line is None and "scene.xml" not in p.text for p in problems))
+
+    def test_progress_has_numbers(self):
+        seen = []
+        candela.load_dict(mitsuba()).render(spp=4, progress=seen.append)
+        self.assertEqual((seen[-1].done, seen[-1].samples), (1, 24 * 16 * 4))
+        self.assertGreater(seen[-1].seconds, 0)
+        self.assertIn("samples/s", seen[-1].line)
+
+    def test_messages_have_keywords(self):
+        with self.assertRaises(candela.UsageError) as caught:
+            candela.load_dict(mitsuba()).render(spp=-1)
+        self.assertIn("error: spp must be at least 1", str(caught.exception))
+        self.assertNotIn("--", str(caught.exception))
+
+    def test_warnings_are_of_the_line_that_renders(self):
+        scene = mitsuba()
+        scene["red"]["reflectanc"] = 0.5
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            candela.load_dict(scene).render(spp=1)
+        self.assertEqual([w.filename for w in caught], [__file__])
+
+
+class Images(unittest.TestCase):
+    def test_files_have_what_the_image_has(self):
+        image = candela.load_dict(mitsuba()).render(
+            spp=4, aov=["albedo", "depth"], cropwindow=(0.25, 0.75, 0, 1)
+        )
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            npz, exr, png = (Path(folder) / f"x.{suffix}" for suffix in ("npz", "exr", "png"))
+            for path in (npz, exr, png):
+                image.save(path)
+            again = candela.load(npz)
+            self.assertEqual((again.window, again.metadata), (image.window, image.metadata))
+            for name, values in image.layers.items():
+                np.testing.assert_array_equal(again[name], values)
+            self.assertEqual(np.load(npz)["rgb"].shape, (16, 12, 3))
+            self.assertIn("12x16", candela.run("info", exr))
+            self.assertIn("Albedo.G", candela.run("info", exr))
+            pfm = Path(folder) / "x.pfm"
+            candela.run("image", exr, "--outfile", pfm)
+            values = np.frombuffer(pfm.read_bytes()[-4 * image.rgb.size :], "<f4")
+            np.testing.assert_array_equal(values.reshape(image.rgb.shape)[::-1], image.rgb)
+            for picture in (png.read_bytes(), image._repr_png_()):
+                self.assertTrue(picture.startswith(b"\x89PNG"))
+            with self.assertRaisesRegex(candela.CandelaError, "x.tiff"):
+                image.save(Path(folder) / "x.tiff")
+
+    def test_without_numpy_images_are_memoryviews(self):
+        code = f"""
+import sys
+sys.modules["numpy"] = None
+import candela
+image = candela.load_string({XML!r}).render(spp=1)
+assert image.rgb.shape == (16, 24, 3) and image.rgb.format == "f"
+assert image._repr_png_().startswith(b"\\x89PNG")
+print(image.rgb[8, 12, 0])
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        expected = candela.load_string(XML).render(spp=1).rgb[8, 12, 0]
+        self.assertAlmostEqual(float(done.stdout), float(expected), places=6)
+
+
+class Processes(unittest.TestCase):
+    """The Java process that stays."""
+
+    def pid(self):
+        return candela._session.session().pid
+
+    def test_it_is_one(self):
+        candela.load_string(XML).render(spp=1)
+        pid = self.pid()
+        candela.load_dict(mitsuba()).render(spp=1)
+        with self.assertRaises(candela.UsageError):
+            candela.load_dict(mitsuba()).render(sppp=1)
+        self.assertEqual(self.pid(), pid)
+        candela.close()
+        candela.load_string(XML).render(spp=1)
+        self.assertNotEqual(self.pid(), pid)
+
+    @unittest.skipIf(os.name == "nt", "signals")
+    def test_one_that_is_killed_is_an_exception_and_the_next_call_starts_another(self):
+        scene = candela.load_string(XML)
+        scene.render(spp=1)
+        pid = self.pid()
+
+        def kill(progress):
+            os.kill(pid, signal.SIGKILL)
+
+        with self.assertRaisesRegex(candela.InternalError, "ended by signal 9; the next call"):
+            scene.render(spp=100_000_000, progress=kill)
+        scene.render(spp=1)
+        pid = self.pid()
+        os.kill(pid, signal.SIGKILL)
+        while candela._session._session.is_usable:
+            time.sleep(0.01)
+        scene.render(spp=1)
+        self.assertNotEqual(self.pid(), pid)
+
+    def test_the_current_folder_is_pythons(self):
+        before = os.getcwd()
+        self.addCleanup(os.chdir, before)
+        candela.load_string(XML).render(spp=1)
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            os.chdir(folder)
+            Path("here.xml").write_text(XML)
+            candela.render("here.xml", spp=1, outfile="here.png")
+            self.assertTrue(Path("here.png").exists())
+            os.chdir(before)
+        candela.close()
+
+    def test_threads_wait_for_each_other(self):
+        scene, images = candela.load_string(XML), {}
+
+        def render(seed):
+            images[seed] = scene.render(spp=1, seed=seed).rgb
+
+        threads = [threading.Thread(target=render, args=(seed,)) for seed in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for seed, image in images.items():
+            np.testing.assert_array_equal(image, scene.render(spp=1, seed=seed).rgb)
+
+    @unittest.skipIf(os.name == "nt", "ps")
+    def test_it_ends_with_python(self):
+        for end in ("", "os.kill(os.getpid(), 9)"):
+            code = f"""
+import os, candela
+candela.load_string({XML!r}).render(spp=1)
+print(candela._session.session().pid, flush=True)
+{end}
+"""
+            done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+            deadline = time.monotonic() + 30
+            while is_running(done.stdout) and time.monotonic() < deadline:
+                time.sleep(0.1)
+            self.assertFalse(is_running(done.stdout))
+
+
+def is_running(pid):
+    done = subprocess.run(["ps", "-o", "stat=", "-p", pid.strip()], capture_output=True, text=True)
+    return done.stdout.strip()[:1] not in ("", "Z")
 
 
 class Scenes(unittest.TestCase):

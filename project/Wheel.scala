@@ -55,18 +55,23 @@ object Wheel {
        |Classifier: Programming Language :: Python :: 3
        |Classifier: Topic :: Multimedia :: Graphics :: 3D Rendering
        |Classifier: Typing :: Typed
-       |Requires-Python: >=3.8
-       |Requires-Dist: numpy>=1.20
+       |Requires-Python: >=3.9
+       |Provides-Extra: numpy
+       |Requires-Dist: numpy>=1.20; extra == "numpy"
        |Description-Content-Type: text/markdown
        |
        |${facts.name} is a physically based renderer for pbrt-v2, v3, v4 and Mitsuba 3 scenes. This
        |package has the program `${facts.command}`, its Java runtime, and a module that returns
-       |what it renders as NumPy arrays:
+       |what it renders as arrays:
        |
        |```python
        |import candela
        |image = candela.render("scene.pbrt", spp=64, aov=["albedo", "depth"])
        |image.rgb        # height × width × 3, linear light
+       |
+       |scene = candela.load_dict({"type": "scene", "ball": {"type": "sphere"}, ...})
+       |scene.parameters()["ball.radius"] = 2
+       |scene.render(spp=64)
        |```
        |""".stripMargin
 

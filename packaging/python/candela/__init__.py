@@ -7,8 +7,15 @@
 >>> image["albedo"].mean()
 0.42
 
-The module runs the program ``candela``, which is part of the package, and returns what it
-rendered as NumPy arrays. All options of ``candela help render`` are arguments.
+Scenes may also be made in Python, changed, and rendered again:
+
+>>> scene = candela.load_dict({"type": "scene", "ball": {"type": "sphere"}, ...})
+>>> scene.parameters()["ball.radius"] = 2
+>>> scene.render(spp=64)
+
+The program ``candela``, which is part of the package, renders in a process that stays until Python
+ends. Images are NumPy arrays if NumPy is installed. All options of ``candela help render`` are
+arguments.
 """
 
 from ._errors import (
@@ -20,22 +27,33 @@ from ._errors import (
     UsageError,
 )
 from ._image import Image, load
-from ._program import Progress, program, run
 from ._render import check, render, version
+from ._scene import Scene, load_dict, load_file, load_string, traverse
+from ._session import Progress, close, program, run
+from ._transform import Transform
+from ._xml import Parameters
 
 __all__ = [
     "CandelaError",
     "CandelaWarning",
     "Image",
     "InternalError",
+    "Parameters",
     "Problem",
     "Progress",
+    "Scene",
     "SceneError",
+    "Transform",
     "UsageError",
     "check",
+    "close",
     "load",
+    "load_dict",
+    "load_file",
+    "load_string",
     "program",
     "render",
     "run",
+    "traverse",
     "version",
 ]

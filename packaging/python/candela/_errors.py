@@ -12,7 +12,8 @@ class Problem:
     """An error or a warning.
 
     ``text`` is the whole of it, with the line of the scene and the advice below it; ``number``
-    is that which ``candela explain`` explains, such as ``E0401``.
+    is that which ``candela explain`` explains, such as ``E0401``. In a scene of a dict, ``key``
+    names its place, such as ``ball.bsdf``; in others, ``file``, ``line`` and ``column`` do.
     """
 
     severity: str
@@ -22,6 +23,7 @@ class Problem:
     line: Optional[int] = None
     column: Optional[int] = None
     number: Optional[str] = None
+    key: Optional[str] = None
 
     def __str__(self) -> str:
         return self.text
@@ -30,8 +32,8 @@ class Problem:
 class CandelaError(Exception):
     """The program failed.
 
-    ``problems`` are its errors; ``file``, ``line`` and ``column`` tell the place of the first,
-    or are ``None``.
+    ``problems`` are its errors, and warnings after them; ``file``, ``line`` and ``column`` tell the
+    place of the first, or are ``None``.
     """
 
     def __init__(self, message: str, problems: Tuple[Problem, ...] = (), code: int = 1) -> None:
@@ -66,35 +68,65 @@ _FIRST = re.compile(
 )
 
 
-def problems_in(lines: Iterable[str]) -> List[Problem]:
-    """The problems in the program's messages; lines that begin with a blank belong to the last."""
+_OPTION = re.compile(r"(?<![\w-])--([a-z][a-z0-9-]*)(?: (?=[A-Z]+\b))?")
+_EXCERPT = re.compile(r"^ +\d* \|")
+
+
+def in_python(line: str) -> str:
+    """A line of a message, with keywords instead of the command line's options."""
+    if _EXCERPT.match(line):
+        return line
+    line = line.replace("`candela help render` says", "`help(candela.render)` and COMMANDS.md say")
+    return _OPTION.sub(lambda o: o[1].replace("-", "_") + ("=" if o[0].endswith(" ") else ""), line)
+
+
+def problems_in(lines: Iterable[str], keys: Optional[List[str]] = None) -> List[Problem]:
+    """The problems in the program's messages; lines that begin with a blank belong to the last.
+
+    :param keys: of the lines of the scene, if it is a dict's
+    """
     found: List[List[str]] = []
     for line in lines:
         if _FIRST.match(line):
             found.append([line])
         elif line.startswith(" ") and found:
             found[-1].append(line)
-    return [_problem(each) for each in found]
+    return [_problem([in_python(line) for line in each], keys) for each in found]
 
 
-def _problem(lines: List[str]) -> Problem:
+def _problem(lines: List[str], keys: Optional[List[str]]) -> Problem:
     first = _FIRST.match(lines[0])
     assert first is not None
     place = first["file"]
+    line = int(first["line"]) if place else None
+    column = int(first["column"]) if place else None
+    key = None
+    if keys is not None and line is not None:
+        # The user has seen no text
+        key = keys[line - 1] if line <= len(keys) else ""
+        place = line = column = None
+        number = f" [{first['number']}]" if first["number"] else ""
+        start = f"{key}: " if key else ""
+        lines = [
+            f"{start}{first['severity']}: {first['message']}{number}",
+            *(below for below in lines[1:] if not _EXCERPT.match(below)),
+        ]
     return Problem(
         severity=first["severity"],
         message=first["message"],
         text="\n".join(lines),
         file=place,
-        line=int(first["line"]) if place else None,
-        column=int(first["column"]) if place else None,
+        line=line,
+        column=column,
         number=first["number"],
+        key=key or None,
     )
 
 
-def error_of(code: int, lines: List[str]) -> CandelaError:
+def error_of(code: int, lines: List[str], keys: Optional[List[str]] = None) -> CandelaError:
     """The exception for an exit code and what was printed."""
-    errors = tuple(p for p in problems_in(lines) if p.severity == "error")
-    message = "\n".join(p.text for p in errors) or "\n".join(lines[-20:])
+    problems = sorted(problems_in(lines, keys), key=lambda p: p.severity)
+    errors = [p.text for p in problems if p.severity == "error"]
+    message = "\n".join(errors) or "\n".join(lines[-20:])
     kind = {1: SceneError, 2: UsageError}.get(code, InternalError)
-    return kind(message or f"candela has ended with exit code {code}", errors, code)
+    return kind(message or f"candela has ended with exit code {code}", tuple(problems), code)

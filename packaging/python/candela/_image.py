@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import os
+import struct
+import tempfile
+import zipfile
+from array import array
+from pathlib import Path
 from typing import Any, Dict, List, Optional, Tuple, Union
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError:  # images have memoryviews
+    np = None  # type: ignore[assignment]
+
+PathLike = Union[str, "os.PathLike[str]"]
 
 
 class Image:
@@ -16,11 +27,13 @@ class Image:
     height × width, and the others by the names of their channels, such as ``Albedo`` and ``Z``.
     ``channels`` names the channels of each. ``metadata`` tells scene, seed and samples. ``window``
     is the place of a crop in the whole image: x, y, and the whole's width and height.
+
+    Arrays are NumPy's, of float32; without NumPy, they are memoryviews: ``image.rgb[y, x, 0]``.
     """
 
     def __init__(
         self,
-        layers: Dict[str, np.ndarray],
+        layers: Dict[str, Any],
         metadata: Dict[str, str],
         channels: Dict[str, List[str]],
         window: Optional[Tuple[int, int, int, int]] = None,
@@ -31,12 +44,12 @@ class Image:
         self.window = window
 
     @property
-    def rgb(self) -> np.ndarray:
+    def rgb(self) -> Any:
         """Red, green and blue, in float32."""
         return self["rgb"]
 
     @property
-    def alpha(self) -> Optional[np.ndarray]:
+    def alpha(self) -> Optional[Any]:
         """The opacity of each pixel, if the film has it."""
         return self.layers.get("alpha")
 
@@ -48,24 +61,47 @@ class Image:
     def width(self) -> int:
         return int(self._any().shape[1])
 
-    def _any(self) -> np.ndarray:
+    def _any(self) -> Any:
         return next(iter(self.layers.values()))
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> Any:
         """A layer by its name, in upper or lower case; ``depth`` is ``Z``, as in EXR files."""
         wanted = _ALIASES.get(name.lower(), name.lower())
-        for layer, array in self.layers.items():
+        for layer, values in self.layers.items():
             if layer.lower() == wanted:
-                return array
+                return values
         raise KeyError(f"{name}: the layers are {', '.join(self.layers)}")
 
     def __contains__(self, name: str) -> bool:
         wanted = _ALIASES.get(name.lower(), name.lower())
         return any(layer.lower() == wanted for layer in self.layers)
 
-    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> np.ndarray:
-        array = self.rgb if dtype is None else self.rgb.astype(dtype)
-        return array.copy() if copy else array
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Any:
+        values = np.asarray(self.rgb)
+        values = values if dtype is None else values.astype(dtype)
+        return values.copy() if copy else values
+
+    def save(self, path: PathLike) -> None:
+        """Writes a file in the format of its name, as ``candela image`` does: ``.exr`` and ``.npz``
+        with all layers, ``.png``, ``.jpg``, ``.qoi`` and ``.tga`` as shown on a screen, ``.pfm``.
+        """
+        from ._session import execute
+
+        target = os.fspath(path)
+        if target.lower().endswith(".npz"):
+            _write_npz(self, target)
+            return
+        with tempfile.TemporaryDirectory(prefix="candela-") as folder:
+            source = Path(folder) / "image.exr"
+            source.write_bytes(_exr(self))
+            execute(["image", str(source), "--outfile", target])
+
+    def _repr_png_(self) -> bytes:
+        """The picture that notebooks show."""
+        with tempfile.TemporaryDirectory(prefix="candela-") as folder:
+            picture = Path(folder) / "image.png"
+            self.save(picture)
+            return picture.read_bytes()
 
     def __repr__(self) -> str:
         return f"<candela.Image {self.width}x{self.height}: {', '.join(self.layers)}>"
@@ -74,10 +110,91 @@ class Image:
 _ALIASES = {"depth": "z", "normal": "n", "shadingnormal": "ns", "position": "p"}
 
 
-def load(path: Union[str, "os.PathLike[str]"]) -> Image:
+def load(path: PathLike) -> Image:
     """Reads an image that the program has written as ``.npz``."""
-    with np.load(path, allow_pickle=False) as archive:
-        about = json.loads(archive["metadata.json"])
-        layers = {name: archive[name] for name in archive.files if name != "metadata.json"}
+    with zipfile.ZipFile(path) as archive:
+        about = json.loads(archive.read("metadata.json"))
+        layers = {
+            name[: -len(".npy")]: _array(archive.read(name))
+            for name in archive.namelist()
+            if name.endswith(".npy")
+        }
     window = tuple(about["window"]) if "window" in about else None
     return Image(layers, about["texts"], about["channels"], window)
+
+
+# Source: NumPy reference, "numpy.lib.format", version 1.0
+_NPY = b"\x93NUMPY\x01\x00"
+
+
+def _array(data: bytes) -> Any:
+    (length,) = struct.unpack_from("<H", data, len(_NPY))
+    start = len(_NPY) + 2
+    shape = ast.literal_eval(data[start : start + length].decode("latin-1").strip())["shape"]
+    values = bytearray(data[start + length :])  # which may be written to
+    if np is not None:
+        return np.frombuffer(values, "<f4").reshape(shape)
+    return memoryview(values).cast("f", shape=list(shape))
+
+
+def _write_npz(image: Image, path: str) -> None:
+    about: Dict[str, Any] = {"channels": image.channels, "texts": image.metadata}
+    if image.window is not None:
+        about["window"] = list(image.window)
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, values in image.layers.items():
+            text = f"{{'descr': '<f4', 'fortran_order': False, 'shape': {tuple(values.shape)}, }}"
+            length = -(-(len(text) + 11) // 64) * 64 - 10
+            header = _NPY + struct.pack("<H", length) + text.ljust(length - 1).encode() + b"\n"
+            archive.writestr(f"{name}.npy", header + _flat(values).tobytes())
+        archive.writestr("metadata.json", json.dumps(about))
+
+
+def _flat(values: Any) -> "array[float]":
+    """All values, one after the other."""
+    data = array("f")
+    contiguous = values if np is None else np.ascontiguousarray(values, "<f4")
+    data.frombytes(contiguous.tobytes())
+    return data
+
+
+def _exr(image: Image) -> bytes:
+    """A file of 32-bit floats, not packed. Source: OpenEXR, "OpenEXR File Layout"."""
+    width, height = image.width, image.height
+    planes: Dict[bytes, "array[float]"] = {}
+    for layer, values in image.layers.items():
+        flat, names = _flat(values), image.channels[layer]
+        for i, name in enumerate(names):
+            planes[name.encode()] = flat[i :: len(names)]
+    names = sorted(planes)
+    x, y, whole_width, whole_height = image.window or (0, 0, width, height)
+
+    def attribute(name: str, kind: str, data: bytes) -> bytes:
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
+
+    channels = b"".join(n + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for n in names) + b"\0"
+    data = struct.pack("<iiii", x, y, x + width - 1, y + height - 1)
+    display = struct.pack("<iiii", 0, 0, whole_width - 1, whole_height - 1)
+    header = b"".join(
+        [
+            struct.pack("<ii", 20000630, 2),
+            attribute("channels", "chlist", channels),
+            attribute("compression", "compression", b"\0"),
+            attribute("dataWindow", "box2i", data),
+            attribute("displayWindow", "box2i", display),
+            attribute("lineOrder", "lineOrder", b"\0"),
+            attribute("pixelAspectRatio", "float", struct.pack("<f", 1)),
+            attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0)),
+            attribute("screenWindowWidth", "float", struct.pack("<f", 1)),
+            b"\0",
+        ]
+    )
+    size = 4 * width * len(names)
+    first = len(header) + 8 * height
+    offsets = struct.pack(f"<{height}Q", *(first + row * (8 + size) for row in range(height)))
+    rows = [
+        struct.pack("<ii", y + row, size)
+        + b"".join(planes[n][row * width : (row + 1) * width].tobytes() for n in names)
+        for row in range(height)
+    ]
+    return header + offsets + b"".join(rows)

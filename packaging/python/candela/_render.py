@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 import warnings
 from pathlib import Path
 from typing import Iterable, List, Optional, Union
 
-from ._errors import CandelaWarning, Problem, SceneError, UsageError, problems_in
+from ._errors import CandelaWarning, Problem, SceneError, UsageError
 from ._image import Image, load
-from ._program import Listener, execute
+from ._scene import Scene, load_file
+from ._session import Listener, execute
 
 PathLike = Union[str, "os.PathLike[str]"]
 Value = Union[str, int, float, bool, None, Iterable[Union[str, int, float]]]
 
 # What names no option of a rendering that returns one image
 _OTHERS = {
-    "checkpoint", "shard", "watch_after", "debug", "skip_done", "frames", "help", "pixelmaterial"
+    "checkpoint", "shard", "watch_after", "debug", "skip_done", "frames", "help", "pixelmaterial",
+    "spark",
 }
 
 
 def render(
-    scene: PathLike,
+    scene: Union[PathLike, Scene],
     *,
     spp: Optional[int] = None,
     aov: Iterable[str] = (),
@@ -32,7 +35,7 @@ def render(
 ) -> Image:
     """Renders a scene and returns the image.
 
-    :param scene: a file in pbrt's or Mitsuba's format
+    :param scene: a file in pbrt's or Mitsuba's format, or a ``Scene``
     :param spp: samples per pixel, instead of the scene's
     :param aov: layers beside the colours, such as ``"albedo"``, ``"normal"``, ``"depth"``
     :param outfile: image files to write, too, such as ``"x.exr"``
@@ -49,28 +52,34 @@ def render(
         raise UsageError(f"`{name}` does not go with `render`; candela.run takes any option")
     with tempfile.TemporaryDirectory(prefix="candela-") as folder:
         file = Path(folder) / "image.npz"
-        words = [os.fspath(scene)]
+        name, text, keys = _scene(scene).source()
+        words = ["render", name]
         for path in [file, *_paths(outfile)]:
             words += ["--outfile", os.fspath(path)]
         for layer in [aov] if isinstance(aov, str) else aov:
             words += ["--aov", layer]
-        _, messages = execute([*words, *_words({"spp": spp, **options})], progress)
-        _warn(problems_in(messages))
+        words += _words({"spp": spp, **options})
+        _, problems = execute(words, text and (name, text), keys, progress)
+        _warn(problems)
         return load(file)
 
 
-def check(scene: PathLike, **options: Value) -> List[Problem]:
+def check(scene: Union[PathLike, Scene], **options: Value) -> List[Problem]:
     """Parses and builds a scene without rendering it, and returns its errors and warnings."""
+    name, text, keys = _scene(scene).source()
     try:
-        _, messages = execute(["check", os.fspath(scene), *_words(options)])
+        return execute(["check", name, *_words(options)], text and (name, text), keys)[1]
     except SceneError as error:
         return list(error.problems)
-    return problems_in(messages)
 
 
 def version() -> str:
     """What ``candela --version`` prints: version, commit, Java and kernels."""
     return execute(["--version"])[0].rstrip("\n")
+
+
+def _scene(scene: Union[PathLike, Scene]) -> Scene:
+    return scene if isinstance(scene, Scene) else load_file(scene)
 
 
 def _paths(outfile: Union[None, PathLike, Iterable[PathLike]]) -> List[PathLike]:
@@ -96,7 +105,15 @@ def _words(options: "dict[str, Value]") -> List[str]:
     return words
 
 
+def _user_frame() -> int:
+    """How far above ``_warn`` the call is that is not of this package."""
+    frame, level = sys._getframe(2), 2
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        frame, level = frame.f_back, level + 1
+    return level
+
+
 def _warn(problems: List[Problem]) -> None:
     for problem in problems:
         if problem.severity == "warning":
-            warnings.warn(problem.text, CandelaWarning, stacklevel=3)
+            warnings.warn(problem.text, CandelaWarning, stacklevel=_user_frame())

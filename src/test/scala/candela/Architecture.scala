@@ -105,7 +105,7 @@ object Architecture:
     "scopt" -> Set("cli.options", "bench"),
     "sun" -> Set("cli", "cli.terminal"),
     "scalatags" -> Set("report", "bench.report"),
-    "ujson" -> Set("report", "bench.report"),
+    "ujson" -> Set("report", "cli", "bench.report"),
     "com" -> Set("bench.suite"),
     "jdk" -> Set("accel.tracing")
   )

@@ -3,7 +3,7 @@ package candela.api
 import candela.base.Version
 import candela.io.SceneFolder
 import candela.accel.tracing.Hierarchies
-import candela.job.{Render, SceneFormat, SceneName}
+import candela.job.{Render, SceneName}
 
 import java.nio.file.Path
 
@@ -43,9 +43,7 @@ object Candela:
     */
   def parse(text: String, name: Path, how: ReadSettings): Scene =
     Scenes.read(name.toString, how):
-      val folder = how.control.limits.folder(name)
-      val read = Render.withinLimits(SceneFormat.of(name).readText(name, text, folder, how.of))
-      read.copy(unfiled = Vector(s"$name, a text" -> candela.io.Sha256.of(text)))
+      Render.withinLimits(Render.readText(name, text, how.of, how.control))
 
   /** Builds a scene in code; file names in it are relative to the current folder. */
   def build(): SceneBuilder = build(Path.of(""))

@@ -4,6 +4,7 @@ import candela.base.JavaHeap
 import candela.diagnostics.{Refusal, SceneError}
 import candela.build.SceneBuilder
 import candela.image.Image
+import candela.io.Sha256
 import candela.render.{RenderControl, Renderer, RenderFailure, Rendering, ThreadPool}
 import candela.scenefile.{Excerpts, SceneDescription}
 import candela.settings.{BuildControl, ReadSettings, RenderSettings}
@@ -35,6 +36,20 @@ object Render:
   def read(file: Path, reading: ReadSettings, control: BuildControl): SceneDescription =
     try SceneFormat.of(file).read(file, control.limits.folder(file), reading, control.world)
     catch case e: SceneError => throw ForeignAdvice.problem(file).fold(e)(SceneError(_))
+
+  /** Parses a text.
+    *
+    * @param name of the text in messages; its suffix tells the format, and its folder is that of
+    *             file names
+    */
+  def readText(
+      name: Path,
+      text: String,
+      reading: ReadSettings,
+      control: BuildControl
+  ): SceneDescription =
+    val read = SceneFormat.of(name).readText(name, text, control.limits.folder(name), reading)
+    read.copy(unfiled = Vector(s"$name, a text" -> Sha256.of(text)))
 
   /** Builds the objects that render the scene, each the simplest that does, and chooses the method.
     *

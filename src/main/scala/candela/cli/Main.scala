@@ -27,7 +27,9 @@ object Main:
     val code =
       try
         val terminal = Terminal.ofProcess
-        if terminal.belongsToProgram then Interrupts.quitAfter(System.in, terminal.interrupts)
+        val readsInput = args.headOption.contains(Command.Session.word)
+        if terminal.belongsToProgram && !readsInput then
+          Interrupts.quitAfter(System.in, terminal.interrupts)
         run(args.toVector, terminal)
       catch
         case _: OutOfMemoryError =>
@@ -95,6 +97,7 @@ object Main:
       case Command.Convert => ConvertCommand(options, terminal, report).run()
       case Command.Explain => ExplainCommand(options, terminal, report).run()
       case Command.Completion => CompletionCommand(options, terminal, report).run()
+      case Command.Session => Session(System.in, terminal, loader).run()
       case Command.Bench | Command.Robustness =>
         CommandService.of(options.command).run(options, terminal, report)
 

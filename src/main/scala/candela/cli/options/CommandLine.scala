@@ -174,6 +174,7 @@ enum Command(val word: String, val module: Option[String] = None):
   case Info extends Command("info")
   case Explain extends Command("explain")
   case Completion extends Command("completion")
+  case Session extends Command("session")
 
 /** Whole pages that `describe` prints, by the options that ask for them. */
 enum Page(val option: String):

@@ -184,6 +184,14 @@ private[cli] object CommandTable extends OptionRows:
       Words.Of(Words.shells),
       Vector.empty,
       Completion.Install
+    ),
+    CommandRow(
+      Command.Session,
+      "run the command lines that a program sends, in a process that stays",
+      Vector.empty,
+      Words.Anything,
+      Vector.empty,
+      "[Other programs](PYTHON.md#other-programs) describes requests and answers."
     )
   )
 

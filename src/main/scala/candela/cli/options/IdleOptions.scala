@@ -22,7 +22,8 @@ private[candela] object IdleOptions:
     case Command.Compare => compared(o.compare)
     case Command.Describe => described(o)
     case Command.Bench | Command.Robustness => CommandService.of(o.command).idle(o)
-    case Command.Merge | Command.Info | Command.Explain | Command.Completion => Vector.empty
+    case Command.Merge | Command.Info | Command.Explain | Command.Completion | Command.Session =>
+      Vector.empty
 
   def idle(option: String, why: String)(isSo: Boolean): Vector[String] =
     Option.when(isSo)(s"--$option has no effect$why").toVector

@@ -70,7 +70,8 @@ private[cli] final class SceneRun(
       checkpoints: Option[Checkpoints],
       watching: Option[Watching]
   ): Rendering =
-    val shown = Option.when(!options.quiet)(RenderListener.onProgress(progress.update))
+    val update = terminal.follow.getOrElse(progress.update)
+    val shown = Option.when(!options.quiet)(RenderListener.onProgress(update))
     val followed = watching.map(w => RenderListener.onStart(w.start))
     val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
     val listeners = shown ++ errorLog ++ images ++ followed

@@ -35,12 +35,16 @@ object Interrupts:
     * may be killed and tell nobody.
     */
   def quitAfter(input: InputStream, interrupts: Interrupts): Unit =
-    val watch = Thread: () =>
+    listening:
       val _ = Try(while input.read() >= 0 do ())
       interrupts.quit(ExitCode.Interrupted)
-    watch.setDaemon(true)
-    watch.setName("parent")
-    watch.start()
+
+  /** Runs `body`, which reads what the program says that started this one, while commands run. */
+  def listening(body: => Unit): Unit =
+    val reader = Thread(() => body)
+    reader.setDaemon(true)
+    reader.setName("parent")
+    reader.start()
 
   /** @param isInteractive whether the terminal echoes `^C` on the line
     * @param signal        of Ctrl-C

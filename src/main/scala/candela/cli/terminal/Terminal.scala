@@ -1,5 +1,7 @@
 package candela.cli.terminal
 
+import candela.render.Progress
+
 import java.io.{
   BufferedOutputStream, Console, FileDescriptor, FileOutputStream, FilterOutputStream, IOException,
   OutputStreamWriter, PrintStream, Writer
@@ -18,6 +20,7 @@ import scala.util.Try
   * @param environment variables of the process
   * @param lost why output was lost, if it is known
   * @param isSeen whether results are shown by a terminal, instead of going to a file or program
+  * @param follow receives the progress of renderings, instead of lines on `err`
   */
 final class Terminal(
     stdout: PrintStream,
@@ -27,7 +30,8 @@ final class Terminal(
     val columns: Int = Terminal.UsualColumns,
     val environment: Map[String, String] = Map.empty,
     lost: () => Option[IOException] = () => None,
-    isSeen: Boolean = false
+    isSeen: Boolean = false,
+    val follow: Option[Progress => Unit] = None
 ):
   val out: Printer = Printer(stdout)
   val err: Printer = Printer(stderr)
@@ -49,7 +53,8 @@ final class Terminal(
       other,
       columns,
       environment,
-      lost
+      lost,
+      follow = follow
     )
 
   /** Whether `err` shows colours. Source: "NO_COLOR", no-color.org. */

@@ -1,0 +1,123 @@
+"""Scenes that stay in Python: from a text, a dict or a file, changed and rendered again."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Dict, Optional, Tuple
+from xml.etree.ElementTree import Element, ParseError
+
+from . import _xml
+from ._errors import SceneError, UsageError, Problem
+
+PathLike = "str | os.PathLike[str]"
+
+
+class Scene:
+    """A scene, of ``load_dict``, ``load_string`` or ``load_file``.
+
+    ``parameters()`` has its values, which may be changed; ``render`` and ``check`` take the options
+    of ``candela.render`` and ``candela.check``.
+    """
+
+    def __init__(self, name: str, text: Optional[str], tree: Optional[Element] = None) -> None:
+        self._name = name  # the file, or the name in messages
+        self._text = text  # None: that of the file, or of the tree
+        self._tree = tree
+        self._of_dict = tree is not None
+
+    @property
+    def is_mitsuba(self) -> bool:
+        """Whether it has Mitsuba's format; otherwise it has pbrt's."""
+        return self._of_dict or self._name.lower().endswith((".xml", ".xml.gz"))
+
+    def source(self) -> Tuple[str, Optional[str], Optional[_xml.Keys]]:
+        """The name, the text unless it is a file, and the keys of its lines if it is a dict's."""
+        if self._of_dict and self._tree is not None:
+            text, keys = _xml.in_lines(self._tree)
+            return self._name, text, keys
+        return self._name, self._text, None
+
+    def parameters(self) -> _xml.Parameters:
+        """The values of the scene by their names; see ``candela.traverse``."""
+        if not self.is_mitsuba:
+            raise UsageError("parameters of pbrt scenes can't be changed; scenes of Mitsuba's format can")
+        if self._tree is None:
+            try:
+                self._tree = _xml.of_text(self._whole())
+            except ParseError as e:
+                line, column = e.position
+                message = f"{self._name}:{line}:{column + 1}: error: {e.msg}"
+                fault = Problem("error", str(e.msg), message, self._name, line, column + 1)
+                raise SceneError(message, (fault,)) from None
+        return _xml.Parameters(self._tree, self._changed)
+
+    def _whole(self) -> str:
+        if self._text is not None:
+            return self._text
+        if self._name.lower().endswith(".gz"):
+            raise UsageError(f"{self._name}: unpack it first: the values of packed files can't be changed")
+        with open(self._name, encoding="utf-8") as file:
+            return file.read()
+
+    def _changed(self) -> None:
+        if not self._of_dict and self._tree is not None:
+            self._text = _xml.to_text(self._tree)
+
+    def render(self, **options: Any) -> "Any":
+        """The image; see ``candela.render``."""
+        from ._render import render
+
+        return render(self, **options)
+
+    def check(self, **options: Any) -> "Any":
+        """Its errors and warnings; see ``candela.check``."""
+        from ._render import check
+
+        return check(self, **options)
+
+    def __repr__(self) -> str:
+        return f"<candela.Scene {self._name}>"
+
+
+def load_dict(scene: Dict[str, Any]) -> Scene:
+    """The scene of a dict as Mitsuba's ``load_dict`` takes it.
+
+    >>> scene = candela.load_dict({
+    ...     "type": "scene",
+    ...     "sensor": {"type": "perspective", "fov": 40, "to_world": candela.Transform().look_at(
+    ...         origin=[0, 1, -5], target=[0, 0, 0], up=[0, 1, 0])},
+    ...     "sky": {"type": "constant"},
+    ...     "ball": {"type": "sphere", "bsdf": {"type": "diffuse", "reflectance": 0.5}},
+    ... })
+    >>> scene.parameters()["ball.bsdf.reflectance"] = [0.8, 0.2, 0.1]
+    >>> scene.render(spp=64)
+
+    Raises ``SceneError`` with all faults of the dict; those that the renderer finds come with
+    ``render`` and ``check``. A problem's ``key`` names its place, such as ``ball.bsdf``.
+    """
+    return Scene("scene.xml", None, _xml.of_dict(scene))
+
+
+def load_string(text: str, folder: Optional[PathLike] = None) -> Scene:
+    """The scene of a text in pbrt's format, or in Mitsuba's XML.
+
+    :param folder: of the files that it names, instead of the current one
+    """
+    name = "scene.xml" if text.lstrip("\ufeff \t\r\n").startswith("<") else "scene.pbrt"
+    return Scene(name if folder is None else os.path.join(os.fspath(folder), name), text)
+
+
+def load_file(path: PathLike) -> Scene:
+    """The scene of a file, which is read when it is rendered, or its values are asked for."""
+    return Scene(os.fspath(path), None)
+
+
+def traverse(scene: Scene) -> _xml.Parameters:
+    """The values of a scene by their names, as Mitsuba's ``traverse`` has them: what its text or
+    dict says, without defaults.
+
+    >>> values = candela.traverse(scene)
+    >>> values["light.intensity.value"] = [1, 2, 3]
+    >>> values["ball.to_world"] = candela.Transform().translate([0, 1, 0])
+    """
+    return scene.parameters()

@@ -1,0 +1,342 @@
+"""Scenes as trees of Mitsuba's XML elements: made from a dict, and changed by name."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import numbers
+import os
+import xml.etree.ElementTree as ET
+from collections.abc import MutableMapping
+from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple
+
+from ._errors import Problem, SceneError
+from ._plugins import ELEMENTS
+from ._transform import Transform, rows
+
+Keys = List[str]  # of the elements that begin in each line of a text, from line 1
+
+
+def of_dict(scene: Dict[str, Any]) -> ET.Element:
+    """The tree of a dict as Mitsuba's ``load_dict`` takes it."""
+    faults: List[Problem] = []
+    if not isinstance(scene, dict) or scene.get("type") != "scene":
+        raise _error([_fault("", "expected a dict with 'type': 'scene'")])
+    root = ET.Element("scene", version="3.0.0")
+    for name, value in scene.items():
+        if name == "type":
+            continue
+        element = _element(name, value, name, faults)
+        if element is None:
+            continue
+        if element.tag not in _OBJECTS and element.tag != "ref":
+            faults.append(_fault(name, f"a scene takes no {element.tag} `{name}`: expected a dict"))
+        del element.attrib["name"]
+        element.attrib.setdefault("id", name)
+        root.append(element)
+    if faults:
+        raise _error(faults)
+    return root
+
+
+_OBJECTS = set(ELEMENTS.values())
+
+
+def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional[ET.Element]:
+    """The element of a value; what is wrong with it is added to the faults."""
+
+    def wrong(message: str, number: str = "E0304") -> None:
+        faults.append(_fault(key, message, number))
+
+    def plain(tag: str, text: str) -> ET.Element:
+        return ET.Element(tag, name=name, value=text)
+
+    if getattr(value, "shape", None) == () and hasattr(value, "item"):
+        value = value.item()  # one of NumPy
+    if isinstance(value, dict):
+        return _object(name, value, key, faults)
+    if isinstance(value, bool):
+        return plain("boolean", "true" if value else "false")
+    if isinstance(value, (str, os.PathLike)):
+        return plain("string", os.fspath(value))
+    if isinstance(value, numbers.Integral):
+        return plain("integer", str(int(value)))
+    if isinstance(value, numbers.Real):
+        if math.isfinite(value):
+            return plain("float", repr(float(value)))
+        return wrong(f"expected a number, found {value}")
+    if _is_transform(value):
+        element = ET.Element("transform", name=name)
+        element.append(ET.Element("matrix", value=_numbers(sum(rows(value), []))))
+        return element
+    try:
+        items = [float(x) for x in value]
+    except (TypeError, ValueError):
+        hint = ": use its dict" if type(value).__module__.startswith("mitsuba") else ""
+        return wrong(f"expected a number, a text, a dict or a transform, found {value!r:.80}{hint}")
+    if len(items) == 1:
+        return plain("float", repr(items[0]))
+    return plain("vector" if len(items) == 3 else "string", _numbers(items))
+
+
+def _object(name: str, value: Dict[str, Any], key: str, faults: List[Problem]) -> Optional[ET.Element]:
+    kind = value.get("type")
+    if kind == "ref":
+        if isinstance(value.get("id"), str):
+            return ET.Element("ref", name=name, id=value["id"])
+        faults.append(_fault(key, "a reference needs the 'id' of an object"))
+        return None
+    if kind in ("rgb", "spectrum"):
+        return _color(name, kind, value, key, faults)
+    element = ELEMENTS.get(kind) if isinstance(kind, str) else None
+    if element is None:
+        near = difflib.get_close_matches(str(kind), [*ELEMENTS, "rgb", "spectrum", "ref"], 1)
+        message = "a dict needs a 'type'" if kind is None else f"unknown type `{kind}`"
+        faults.append(_fault(key, message, "E0401", f"did you mean `{near[0]}`?" if near else None))
+        return None
+    tree = ET.Element(element, type=kind, name=name)
+    if isinstance(value.get("id"), str):
+        tree.set("id", value["id"])
+    for inner, each in value.items():
+        if inner not in ("type", "id"):
+            child = _element(inner, each, f"{key}.{inner}", faults)
+            if child is not None:
+                tree.append(child)
+    return tree
+
+
+def _color(
+    name: str, kind: str, value: Dict[str, Any], key: str, faults: List[Problem]
+) -> Optional[ET.Element]:
+    element = ET.Element(kind, name=name)
+    given = value.get("value")
+    if kind == "spectrum" and "filename" in value:
+        element.set("filename", os.fspath(value["filename"]))
+        return element
+    try:
+        if isinstance(given, str):
+            text = given
+        elif isinstance(given, numbers.Real):
+            text = repr(float(given))
+        elif kind == "rgb":
+            text = _numbers([float(x) for x in given])
+        else:  # pairs of a wavelength and a value
+            text = ", ".join(f"{float(w)!r}:{float(x)!r}" for w, x in given)
+    except (TypeError, ValueError):
+        expected = "three numbers" if kind == "rgb" else "a number, or pairs of wavelength and value"
+        faults.append(_fault(key, f"`{kind}` needs a 'value': expected {expected}, found {given!r:.80}"))
+        return None
+    element.set("value", text)
+    return element
+
+
+def _is_transform(value: Any) -> bool:
+    shape = getattr(value, "shape", None)
+    nested = isinstance(value, (list, tuple)) and any(isinstance(x, (list, tuple)) for x in value)
+    return hasattr(value, "matrix") or nested or (shape is not None and len(shape) == 2)
+
+
+def _numbers(values: List[float]) -> str:
+    return ", ".join(repr(float(x)) for x in values)
+
+
+def _fault(key: str, message: str, number: str = "E0304", help: Optional[str] = None) -> Problem:
+    first = f"{key}: error: {message} [{number}]" if key else f"error: {message} [{number}]"
+    text = first if help is None else f"{first}\n {help}"
+    return Problem("error", message, text, number=number, key=key or None)
+
+
+def _error(faults: List[Problem]) -> SceneError:
+    return SceneError("\n".join(f.text for f in faults), tuple(faults))
+
+
+# --- texts ---------------------------------------------------------------------------------------
+
+
+def of_text(text: str) -> ET.Element:
+    """The tree of a text, with its comments."""
+    parser = ET.XMLParser(target=ET.TreeBuilder(insert_comments=True))
+    return ET.fromstring(text, parser)
+
+
+def to_text(root: ET.Element) -> str:
+    return ET.tostring(root, encoding="unicode")
+
+
+def in_lines(root: ET.Element) -> Tuple[str, Keys]:
+    """The text of a dict's tree, an element a line, with the keys of the lines."""
+    lines: List[str] = []
+    keys: Keys = []
+
+    def write(element: ET.Element, key: str) -> None:
+        attributes = "".join(f" {n}={_quoted(v)}" for n, v in element.attrib.items())
+        children = list(element)
+        lines.append(f"<{element.tag}{attributes}{'' if children else '/'}>")
+        keys.append(key)
+        for child in children:
+            write(child, _joined(key, _name(child)))
+        if children:
+            lines.append(f"</{element.tag}>")
+            keys.append(key)
+
+    write(root, "")
+    return "\n".join(lines) + "\n", keys
+
+
+def _quoted(text: str) -> str:
+    escaped = text.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
+    return f'"{escaped}"'
+
+
+# --- parameters ----------------------------------------------------------------------------------
+
+Path = Tuple[ET.Element, ET.Element]  # an element, with its parent
+
+
+class Parameters(MutableMapping):  # type: ignore[type-arg]
+    """The values of a scene by their names, such as ``ball.bsdf.reflectance.value``.
+
+    A change counts from the next rendering on; ``update`` takes several, and no call of it is
+    needed. Values are numbers, texts, lists of three numbers, or a ``Transform``; a new value may
+    also be a dict, such as a texture.
+    """
+
+    def __init__(self, root: ET.Element, changed: Callable[[], None]) -> None:
+        self._root = root
+        self._changed = changed
+
+    def _all(self) -> Dict[str, Path]:
+        found: Dict[str, Path] = {}
+
+        def collect(parent: ET.Element, key: str) -> None:
+            for child in parent:
+                name = _name(child) if isinstance(child.tag, str) else ""
+                if not name:
+                    continue  # a comment, or a part of a transform
+                inner = _joined(key, name)
+                if child.tag in _OBJECTS and "type" in child.attrib:
+                    collect(child, inner)
+                elif child.tag in _VALUES:
+                    suffix = ".value" if child.tag in ("rgb", "spectrum") else ""
+                    found.setdefault(inner + suffix, (parent, child))
+
+        collect(self._root, "")
+        return found
+
+    def _path(self, key: str) -> Path:
+        found = self._all()
+        path = found.get(key) or found.get(f"{key}.value")
+        if path is None:
+            near = difflib.get_close_matches(key, found, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise KeyError(f"the scene has no parameter {key!r}{hint}")
+        return path
+
+    def __getitem__(self, key: str) -> Any:
+        return _value(self._path(key)[1])
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        parent, old = self._path(key)
+        faults: List[Problem] = []
+        new = _element(old.get("name", ""), _like(old, value), key, faults)
+        if faults or new is None:
+            raise _error(faults)
+        new.tail = old.tail
+        parent[list(parent).index(old)] = new
+        self._changed()
+
+    def __delitem__(self, key: str) -> None:
+        """Takes its value out of the scene: the default is used."""
+        parent, old = self._path(key)
+        parent.remove(old)
+        self._changed()
+
+    def __contains__(self, key: object) -> bool:
+        found = self._all()
+        return key in found or f"{key}.value" in found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all())
+
+    def __len__(self) -> int:
+        return len(self._all())
+
+    def __repr__(self) -> str:
+        lines = [f"  {key!r}: {value!r}" for key, value in self.items()]
+        return "\n".join(["candela.Parameters:", *lines])
+
+
+_VALUES = {"float", "integer", "boolean", "string", "vector", "point", "rgb", "spectrum", "transform"}
+
+
+def _name(element: ET.Element) -> str:
+    return element.get("name") or element.get("id") or (element.tag if "type" in element.attrib else "")
+
+
+def _joined(key: str, name: str) -> str:
+    return f"{key}.{name}" if key and name else key or name
+
+
+def _like(old: ET.Element, value: Any) -> Any:
+    """A plain new value, as what the element has been."""
+    is_plain = isinstance(value, (int, float)) or (hasattr(value, "__len__") and not isinstance(value, (str, dict)))
+    if is_plain and not isinstance(value, bool) and not _is_transform(value):
+        is_list = hasattr(value, "__len__")
+        if old.tag == "rgb" or (is_list and old.tag in ("spectrum", "float")):
+            return {"type": "rgb", "value": value}
+        if old.tag == "spectrum":
+            return {"type": "spectrum", "value": value}
+    return value
+
+
+def _value(element: ET.Element) -> Any:
+    text = element.get("value", "")
+    try:
+        if element.tag == "transform":
+            return _transform(element)
+        if element.tag == "integer":
+            return int(text)
+        if element.tag == "float":
+            return float(text)
+        if element.tag == "boolean":
+            return {"true": True, "false": False}[text.strip().lower()]
+        if element.tag in ("vector", "point", "rgb"):
+            numbers = [float(x) for x in text.replace(",", " ").split()]
+            if not text:
+                numbers = [float(element.get(axis, 0)) for axis in "xyz"]
+            return numbers * 3 if len(numbers) == 1 else numbers
+        if element.tag == "spectrum" and text:
+            return float(text)
+    except (ValueError, KeyError):
+        pass  # such as `$name`, which is given where the scene is loaded
+    return text or element.get("filename", "")
+
+
+def _transform(element: ET.Element) -> Transform:
+    whole = Transform()
+    for step in element:
+
+        def triple(name: str) -> List[float]:
+            return [float(x) for x in step.attrib[name].replace(",", " ").split()]
+
+        def axes(default: float) -> List[float]:
+            if "value" in step.attrib:
+                given = triple("value")
+                return given * 3 if len(given) == 1 else given
+            return [float(step.get(axis, default)) for axis in "xyz"]
+
+        one = Transform()
+        if step.tag == "translate":
+            one = one.translate(axes(0))
+        elif step.tag == "scale":
+            one = one.scale(axes(1))
+        elif step.tag == "rotate":
+            one = one.rotate(axes(0), float(step.attrib["angle"]))
+        elif step.tag == "lookat":
+            one = one.look_at(triple("origin"), triple("target"), triple("up"))
+        elif step.tag == "matrix":
+            flat = triple("value")
+            side = math.isqrt(len(flat))
+            one = Transform([flat[i * side : (i + 1) * side] for i in range(side)])
+        whole = one @ whole
+    return whole

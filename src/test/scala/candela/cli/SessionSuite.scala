@@ -1,0 +1,89 @@
+package candela.cli
+
+import candela.cli.terminal.{ExitCode, Interrupts, Terminal}
+import candela.job.SceneLoader
+import candela.testing.TempFolder
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import java.io.{ByteArrayInputStream, ByteArrayOutputStream, PrintStream}
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Files, Path}
+
+class SessionSuite extends AnyFunSuite:
+  private val scene =
+    """<scene version="3.0.0">
+      |<sensor type="perspective">
+      |<film type="hdrfilm">
+      |<integer name="width" value="12"/><integer name="height" value="8"/>
+      |</film>
+      |</sensor>
+      |<emitter type="constant"/>
+      |<shape type="sphere"><point name="center" value="0, 0, 4"/></shape>
+      |</scene>""".stripMargin
+
+  /** The answers to requests, which come one after the other. */
+  private def answers(requests: ujson.Value*): Vector[ujson.Value] =
+    lines(requests.map(ujson.write(_))*)
+
+  private def lines(input: String*): Vector[ujson.Value] =
+    val out = ByteArrayOutputStream()
+    val printed = PrintStream(out, false, UTF_8)
+    val terminal = Terminal(printed, printed, isInteractive = false, Interrupts.Ignored)
+    val bytes = input.map(_ + "\n").mkString.getBytes(UTF_8)
+    val session = Session(ByteArrayInputStream(bytes), terminal, SceneLoader.FromFile)
+    assert(session.run() == ExitCode.Done)
+    out.toString(UTF_8).linesIterator.map(ujson.read(_)).toVector
+
+  private def render(file: Path, spp: Int = 4)(text: String = scene): ujson.Value =
+    val words = Vector("render", "a.xml", s"--spp=$spp", s"--outfile=$file")
+    ujson.Obj("run" -> words, "scene" -> "a.xml", "text" -> text)
+
+  private def codes(answers: Vector[ujson.Value]): Vector[Int] =
+    answers.flatMap(_.obj.get("code")).map(_.num.toInt)
+
+  private def messages(answers: Vector[ujson.Value]): Vector[String] =
+    answers.flatMap(_.obj.get("message")).map(_.str)
+
+  test("scenes that are no files are rendered, and changed, in one process"):
+    TempFolder.use: folder =>
+      val files = Vector("a", "b", "c").map(name => folder.resolve(s"$name.pfm"))
+      val file = Files.writeString(folder.resolve("scene.xml"), scene)
+      val answered = answers(
+        render(files(0))(),
+        render(files(1))(scene.replace("0, 0, 4", "0, 0, 6")),
+        ujson.Obj("run" -> Vector(s"$file", "--spp=4", s"--outfile=${files(2)}"))
+      )
+      assert(codes(answered) == Vector(0, 0, 0) && messages(answered).isEmpty, answered)
+      val Vector(a, b, c) = files.map(Files.readAllBytes(_).toVector): @unchecked
+      assert(a == c && a != b)
+
+  test("an answer has the output of the command, and the progress in numbers"):
+    TempFolder.use: folder =>
+      val answered = answers(render(folder.resolve("a.pfm"))())
+      assert(answered.last("output").str.startsWith("wrote "))
+      val progress = answered.flatMap(_.obj.get("progress"))
+      assert(progress.last("done").num == 1 && progress.last("samples").num == 12 * 8 * 4)
+      assert(progress.last("seconds").num > 0)
+
+  test("what is wrong with a scene is told with its place, and the next request goes on"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.pfm")
+      val answered = answers(render(file)(scene.replace("sphere", "spere")), render(file)())
+      assert(codes(answered) == Vector(1, 0))
+      assert(messages(answered).head.startsWith("a.xml:8:1: error: unknown shape \"spere\""))
+
+  test("lines that are no requests are refused, and the next one goes on"):
+    val answered = lines(
+      "", "[]", "{\"run\": 3}", "{\"run\": [\"session\"]}", "{\"run\": [\"explain\", \"E0401\"]}"
+    )
+    assert(codes(answered) == Vector(2, 2, 2, 2, 0))
+    assert(messages(answered).forall(_.startsWith("error: not a request")))
+    assert(answered.last("output").str.contains("E0401"))
+
+  test("a rendering ends when that is asked for, and the next one is whole"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.pfm")
+      val endless = render(file, spp = 100_000_000)()
+      val answered = answers(endless, ujson.Obj("cancel" -> true), render(file)())
+      assert(codes(answered) == Vector(130, 0), answered)
