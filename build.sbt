@@ -354,8 +354,12 @@ def packages = Def.task {
   val base = (ThisBuild / baseDirectory).value
   val files = (Universal / mappings).value.map { case (file, name) =>
     name.replace('\\', '/') -> file.toPath
-  } :+
-    ("LICENSE" -> (base / "LICENSE").toPath)
+  } ++ Seq(
+    "LICENSE",
+    "scenes/showcase.pbrt",
+    "scenes/include/showcase-spiral.pbrt",
+    "scenes/textures/dusk-equalarea.exr"
+  ).map(name => name -> (base / name).toPath)
   val program = files ++ shared(files.toMap.apply("lib/candela.jar"), target.value / "share")
   Distribution.Plan(
     facts.value,

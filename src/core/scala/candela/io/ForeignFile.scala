@@ -85,7 +85,7 @@ object ForeignFile:
     Mark("ustar", Packed, "a TAR archive", at = 257),
     Mark("\u00fd7zXZ", Packed, "an xz-compressed file"),
     Mark("BZh", Packed, "a bzip2-compressed file"),
-    Mark("\u0028\u00b5\u002f\u00fd", Packed, "a zstd-compressed file"),
+    Mark("\u0028\u00b5\u002f\u00fd", Packed, "a zstd-compressed file, as Blender writes"),
     Mark("%PDF-", Other, "a PDF file"),
     Mark("\u007fELF", Other, "a program"),
     Mark("MZ\u0090\u0000", Other, "a program"),

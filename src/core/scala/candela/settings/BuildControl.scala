@@ -26,7 +26,7 @@ final case class BuildControl(
 ):
   /** As the limits allow. */
   def limited: BuildControl = copy(
-    // Scenes of strangers write nothing that their user did not ask for
+    // Untrusted scenes write nothing that their user did not ask for
     textures = textures.copy(isShared = !limits.sandbox),
     // What a limited scene may use is counted as it is made
     cache = if limits.all.isEmpty then cache else Keep.Nothing

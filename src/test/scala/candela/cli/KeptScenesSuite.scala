@@ -227,7 +227,7 @@ class KeptScenesSuite extends AnyFunSuite:
       assert(image == alone)
       assert(said.linesIterator.count(_.contains("the scene cache gets no more files")) == 1, said)
 
-  test("scenes of strangers have no scene cache"):
+  test("untrusted scenes have no scene cache"):
     prepared: folder =>
       val cache = folder.resolve("cache")
       val _ = rendered(folder, "--sandbox", "--scene-cache", s"$cache")
