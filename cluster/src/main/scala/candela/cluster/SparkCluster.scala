@@ -136,7 +136,7 @@ private final class SparkRun(
       LockSupport.parkNanos(Tick)
     context.defaultParallelism
 
-private object SparkRun:
+private[cluster] object SparkRun:
   val ShardsPerCore = 4
 
   /** Films that are added up at once. */

@@ -1,6 +1,6 @@
 package candela.cluster
 
-import candela.job.ShardRenderer
+import candela.job.{ClusterFailure, ShardRenderer}
 import candela.render.storage.FilmHeader
 import candela.render.{Cancellation, RenderControl, RenderListener, Shard}
 
@@ -21,7 +21,24 @@ final class Assignment(
     val digest: String,
     val threads: Int
 ) extends Serializable:
-  def renderer: ShardRenderer = ExecutorScenes.renderer(this)
+  private val java = JavaRelease.here
+
+  /** @throws ClusterFailure if this executor runs on another Java than the driver */
+  def renderer: ShardRenderer =
+    JavaRelease.check(driver = java)
+    ExecutorScenes.renderer(this)
+
+/** Releases of Java, whose mathematical functions may round differently. */
+private[cluster] object JavaRelease:
+  def here: Int = Runtime.version.feature
+
+  /** @throws ClusterFailure if they differ */
+  def check(driver: Int, executor: Int = here): Unit =
+    if driver != executor then
+      throw ClusterFailure(
+        s"an executor runs on Java $executor, the program on Java $driver, which may not make the " +
+          "same image: set JAVA_HOME to one JDK for Spark's workers (spark-class) and the program"
+      )
 
 /** Renders shards; their films are the result. A class, as Spark has to serialise it.
   *
