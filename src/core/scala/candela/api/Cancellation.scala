@@ -6,6 +6,7 @@ final class Cancellation private (private[api] val of: candela.render.Cancellati
   /** Cancels all renderings with this object. Each returns its image so far within a second. */
   def cancel(): Unit = of.request()
   def isCancelled: Boolean = of.isRequested
+  override def toString: String = Shown("Cancellation", if isCancelled then "cancelled" else "")
 
 object Cancellation:
   def apply(): Cancellation = new Cancellation(candela.render.Cancellation())

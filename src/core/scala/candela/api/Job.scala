@@ -75,6 +75,11 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
           try rendered(control, Some(keeper), problems)
           finally keeper.close()
 
+  /** As `Job(scene.pbrt, 640x360, 16 samples per pixel)`. */
+  override def toString: String =
+    val state = if isClosed then "closed" else ""
+    Shown("Job", scene.name, s"${width}x$height", Shown.perPixel(samplesPerPixel), state)
+
   /** Ends its threads. */
   def close(): Unit =
     isClosed = true

@@ -100,6 +100,11 @@ final class Parameters private (private val makers: Vector[SourcePos => Param]):
   def spectrum(name: String, pairs: Array[Double]): Parameters =
     doubles(ParamType.Spectrum, name, pairs)
 
+  /** As `Parameters(rgb reflectance, float roughness)`. */
+  override def toString: String =
+    val names = at(SourcePos.Nowhere).map(p => s"${p.paramType.spelling} ${p.name}")
+    Shown("Parameters", names*)
+
   private[api] def at(place: SourcePos): Vector[Param] = makers.map(_(place))
 
 object Parameters:

@@ -50,8 +50,9 @@ final class Problem private[api] (found: candela.diagnostics.Problem):
 /** A scene that can't be rendered, or an invalid setting. [[Candela.read]] and
   * [[Scene.check]] return problems instead of throwing them.
   */
-final class SceneException private[api] (found: Vector[candela.diagnostics.Problem])
-    extends RuntimeException(Problems.ofCore(found).iterator.next().toString):
+final class SceneException private[api] (
+    private[api] val found: Vector[candela.diagnostics.Problem]
+) extends RuntimeException(Problems.ofCore(found).iterator.next().toString):
 
   /** All of them, errors and warnings, in the order of the scene; at least one. */
   def problems: java.util.List[Problem] = Problems.ofCore(found)

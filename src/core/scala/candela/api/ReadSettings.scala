@@ -50,6 +50,18 @@ final class ReadSettings private (
   /** Which of the worlds of a file of pbrt-v2 or v3 to read, from 0. */
   def withWorld(number: Int): ReadSettings = controlled(control.copy(world = Some(number)))
 
+  /** As `ReadSettings(dialect v3, sandbox)`: what is not the default. */
+  override def toString: String =
+    val defines = of.defines.toVector.sorted.map((name, value) => s"$name=$value")
+    val rest = Vector(
+      of.dialect.map(d => s"dialect ${d.toString.toLowerCase}"),
+      Option.when(of.keepGoing)("placeholders"),
+      Option.when(control.limits.sandbox)("sandbox"),
+      control.limits.endsAt.map(_ => "time limit"),
+      control.world.map(n => s"world $n")
+    )
+    Shown("ReadSettings", (defines ++ rest.flatten)*)
+
 object ReadSettings:
   /** The default settings. */
   def apply(): ReadSettings = new ReadSettings(CoreSettings(), BuildControl(cache = Keep()))

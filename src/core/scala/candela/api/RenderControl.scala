@@ -44,6 +44,12 @@ final class RenderControl private (
   /** Sets how often the film file is written; it is also written at the end. */
   def withFilmInterval(time: Duration): RenderControl = copy(every = Some(time))
 
+  /** As `RenderControl(4 threads, image.film)`. */
+  override def toString: String =
+    val estimated = if estimates then "error estimates" else ""
+    val file = film.fold("")(_.toString)
+    Shown("RenderControl", Shown.count(threads, "thread"), estimated, file)
+
 object RenderControl:
   /** One thread per processor, no listener. */
   def apply(): RenderControl =

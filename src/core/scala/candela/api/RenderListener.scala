@@ -54,6 +54,10 @@ final class Progress private[api] (of: CoreProgress):
   /** Root of the relative mean squared error, if it is estimated. */
   def error: OptionalDouble = of.outlook.error.toJavaPrimitive
 
+  /** As `Progress(42.0 %, 12.0 s)`. */
+  override def toString: String =
+    Shown("Progress", s"${Shown.rounded(part * 100)} %", s"${Shown.rounded(of.seconds)} s")
+
 /** A pass, after which all pixels have the same number of samples. Valid until
   * [[RenderListener.passed]] returns.
   */
@@ -67,12 +71,14 @@ final class Pass private[api] (of: CorePass, develop: () => RenderedImage):
 
   /** The image so far. */
   def image: RenderedImage = develop()
+  override def toString: String = Shown("Pass", Shown.perPixel(samples))
 
 /** A rendering in progress, for observers in any thread. */
 final class LiveRendering private[api] (live: Live, develop: () => RenderedImage):
   /** The image at this moment; pixels may have different numbers of samples. */
   def image: RenderedImage = develop()
   def progress: Progress = Progress(live.progress)
+  override def toString: String = Shown("LiveRendering", s"$progress")
 
 private[api] object Times:
   def of(seconds: Double): Duration = Duration.ofNanos(Math.round(seconds * 1e9))

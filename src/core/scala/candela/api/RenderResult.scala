@@ -47,6 +47,13 @@ final class RenderResult private[api] (
   /** Problems of rendering, such as a film file that could not be written. */
   def problems: JList[Problem] = Problems.ofCore(found)
 
+  /** As `RenderResult(640x360, 16 samples per pixel, 12.3 s)`. */
+  override def toString: String =
+    val size = s"${image.width}x${image.height}"
+    val state = if isComplete then "" else "incomplete"
+    val seconds = s"${Shown.rounded(rendering.seconds)} s"
+    Shown("RenderResult", size, Shown.perPixel(samplesPerPixel), seconds, state)
+
 /** A bug in Candela, or a lack of memory. */
 final class RenderException private[api] (val x: Int, val y: Int, val sample: Int, cause: Throwable)
     extends RuntimeException(s"at pixel ($x, $y), sample $sample: $cause", cause)

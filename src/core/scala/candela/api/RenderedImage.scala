@@ -76,6 +76,10 @@ final class RenderedImage private[api] (
     */
   def save(file: Path): Unit = Problems.thrown(write(file))
 
+  /** As `RenderedImage(640x360, R, G, B)`. */
+  override def toString: String =
+    Shown("RenderedImage", s"${width}x$height" +: image.channelNames*)
+
   /** The bytes of a PNG file. */
   def png: Array[Byte] = Problems.thrown(ImageFiles.png(Denoising.shown(image), display))
 

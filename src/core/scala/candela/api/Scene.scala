@@ -2,7 +2,7 @@ package candela.api
 
 import candela.diagnostics.{Code, SceneError, Severity as Grade}
 import candela.job.{Prepared, Render}
-import candela.scenefile.SceneDescription
+import candela.scenefile.{MaterialRef, SceneDescription}
 
 import java.nio.file.Path
 import java.util.List as JList
@@ -15,13 +15,37 @@ final class Scene private[api] (
     val name: String,
     private[api] val description: Option[SceneDescription],
     private val found: Vector[candela.diagnostics.Problem],
-    private[api] val how: ReadSettings
+    private[api] val how: ReadSettings,
+    private val isBuilt: Boolean = false
 ):
-  /** Errors and warnings of reading; [[check]] returns all. */
-  def problems: JList[Problem] = Problems.ofCore(found)
+  private lazy val known: Vector[candela.diagnostics.Problem] =
+    if isBuilt then checked(RenderSettings()) else found
 
-  /** Whether errors prevent rendering. */
-  def hasErrors: Boolean = found.exists(_.severity == Grade.Error)
+  /** Errors and warnings: of a file or a text, those of reading it, and [[check]] returns all; of a
+    * scene built or edited in code, all.
+    */
+  def problems: JList[Problem] = Problems.ofCore(known)
+
+  /** Whether errors prevent rendering, as far as [[problems]] has them. */
+  def hasErrors: Boolean = known.exists(_.severity == Grade.Error)
+
+  /** The shapes, each in a few words, for edits by their indices; those of objects, which instances
+    * place, are not among them.
+    */
+  def shapes: JList[String] =
+    listed(_.shapes): s =>
+      val material = s.material match
+        case MaterialRef.Default => ""
+        case MaterialRef.Named(name, _) => s"material $name"
+        case MaterialRef.Inline(m) => s"material of type ${m.name}"
+      Vector(s"${s.shape.name} of ${s.shape.at}", material) ++ s.areaLight.map(_ => "area light")
+
+  /** The lights but area lights, each in a few words, for edits by their indices. */
+  def lights: JList[String] = listed(_.lights)(l => Vector(s"${l.light.name} of ${l.light.at}"))
+
+  private def listed[A](all: SceneDescription => Vector[A])(words: A => Vector[String]) =
+    val texts = description.fold(Vector.empty)(all).map(words(_).filter(_.nonEmpty).mkString(", "))
+    java.util.List.copyOf(texts.asJava)
 
   /** `v2`, `v3` or `v4` of pbrt, or `mitsuba`; empty if it could not be read. */
   def dialect: String = description.fold("")(_.dialect.toString.toLowerCase)
@@ -47,18 +71,24 @@ final class Scene private[api] (
     Job(this, settings, Problems.thrown(prepared(settings, threads, isRendered = true)))
 
   /** All errors and warnings, also of the scene's files; builds the scene and discards it. */
-  def check(settings: RenderSettings): JList[Problem] =
+  def check(settings: RenderSettings): JList[Problem] = Problems.ofCore(checked(settings))
+
+  private def checked(settings: RenderSettings): Vector[candela.diagnostics.Problem] =
     try
       val threads = Runtime.getRuntime.availableProcessors
       val ready = Problems.thrown(prepared(settings, threads, isRendered = false))
       ready.close()
-      Problems.ofCore(ready.warnings)
-    catch case e: SceneException => e.problems
+      ready.warnings
+    catch case e: SceneException => e.found
 
   /** Starts an edited copy of this scene. */
   def edit(): SceneBuilder =
     val base = readable
     SceneBuilder(name, base.folder, Some(this))
+
+  /** As `Scene(scene.pbrt, 3 shapes, 1 light)`. */
+  override def toString: String =
+    Shown("Scene", description.fold(Vector(name, "unreadable"))(Shown.contents(name, _))*)
 
   /** @throws SceneError if there is nothing */
   private def readable: SceneDescription = description.getOrElse(throw SceneException(found))
@@ -78,3 +108,7 @@ private[api] object Scenes:
 
   def of(name: String, description: SceneDescription, how: ReadSettings): Scene =
     Scene(name, Some(description), description.errors ++ description.warnings, how)
+
+  /** A scene built in code. */
+  def built(name: String, description: SceneDescription, how: ReadSettings): Scene =
+    Scene(name, Some(description), Vector.empty, how, isBuilt = true)

@@ -20,7 +20,8 @@ enum TextureValues extends java.lang.Enum[TextureValues]:
 
 /** Builds a scene from statements of pbrt-v4, or edits another scene. Names, parameters and values
   * are those of scene files (docs/REFERENCE.md), with the same checks and messages. Errors are in
-  * the problems of [[scene]], with the line of source code that called the builder.
+  * the problems of [[scene]], with the line of source code that called the builder; so are calls
+  * without effect, such as a material that no shape follows.
   * {{{
   * val scene = Candela.build()
   *   .film("rgb", Parameters().integer("xresolution", 64).integer("yresolution", 48))
@@ -37,6 +38,7 @@ enum TextureValues extends java.lang.Enum[TextureValues]:
 final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: Option[Scene]):
   private val runner = StatementRunner(folder, base.flatMap(_.description))
   private val sum = StatementSum()
+  private val idle = IdleStatements()
   private var shownName = name
 
   // The image, before the world
@@ -201,13 +203,44 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   def changeMaterial(name: String, parameters: Parameters): SceneBuilder =
     edited("change material", name, parameters)(SceneEdits.material(name, _))
 
+  /** Changes parameters of the material of one shape, which may be a named one: other shapes keep
+    * theirs.
+    *
+    * @param shape index in [[Scene.shapes]]
+    */
+  def changeMaterialOf(shape: Int, parameters: Parameters): SceneBuilder =
+    edited("change material of", shape.toString, parameters)(SceneEdits.materialOf(shape, _))
+
+  /** Changes parameters of a shape, and keeps its others.
+    *
+    * @param shape index in [[Scene.shapes]]
+    */
+  def changeShape(shape: Int, parameters: Parameters): SceneBuilder =
+    edited("change shape", shape.toString, parameters)(SceneEdits.shape(shape, _))
+
+  /** Changes parameters of the light that a shape emits, and keeps its others.
+    *
+    * @param shape index in [[Scene.shapes]]
+    */
+  def changeAreaLightOf(shape: Int, parameters: Parameters): SceneBuilder =
+    edited("change area light of", shape.toString, parameters)(SceneEdits.areaLightOf(shape, _))
+
+  /** Changes parameters of a light, and keeps its others.
+    *
+    * @param light index in [[Scene.lights]]
+    */
+  def changeLight(light: Int, parameters: Parameters): SceneBuilder =
+    edited("change light", light.toString, parameters)(SceneEdits.light(light, _))
+
   /** Changes parameters of a texture, and keeps its others. */
   def changeTexture(name: String, parameters: Parameters): SceneBuilder =
     edited("change texture", name, parameters)(SceneEdits.texture(name, _))
 
   /** Moves the camera to the current transform; it keeps its parameters. */
   def placeCamera(): SceneBuilder =
-    sum.add(GivenStatement("place camera", SourcePos.Nowhere))
+    val statement = GivenStatement("place camera", SourcePos.Nowhere)
+    sum.add(statement)
+    idle.note(statement)
     runner.placeCamera()
     this
 
@@ -229,11 +262,21 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
   /** The scene so far. The builder remains usable. */
   def scene(): Scene =
     val made = runner.result
-    val whole = made.copy(folder = folder, unfiled = made.unfiled :+ ("statements" -> sum.digest))
-    Scenes.of(shownName, whole, base.fold(ReadSettings())(_.how))
+    val whole = made.copy(
+      folder = folder,
+      unfiled = made.unfiled :+ ("statements" -> sum.digest),
+      warnings = made.warnings ++ idle.warnings(isEdit = base.nonEmpty)
+    )
+    Scenes.built(shownName, whole, base.fold(ReadSettings())(_.how))
+
+  /** As `SceneBuilder(scene: 3 shapes, 1 light)`. */
+  override def toString: String =
+    val made = runner.result
+    Shown("SceneBuilder", Shown.contents(shownName, made)*)
 
   private def run(statement: GivenStatement): SceneBuilder =
     sum.add(statement)
+    idle.note(statement)
     runner.run(statement)
     this
 

@@ -1,7 +1,9 @@
 package candela.api
 
 import candela.diagnostics.{Code, Problem as Found, SceneError, SourcePos, Suggest}
-import candela.scenefile.{Declaration, GivenStatement, Param, SceneDescription}
+import candela.scenefile.{
+  Declaration, GivenStatement, MaterialRef, Param, SceneDescription, ShapeDescription
+}
 
 import java.nio.ByteBuffer
 import java.nio.charset.StandardCharsets.UTF_8
@@ -38,6 +40,45 @@ private[api] object SceneEdits:
       fail(Code.Undefined, params, s"unknown material `$name`", Suggest.help(name, names))
     scene.copy(namedMaterials = scene.namedMaterials.map: (other, made) =>
       other -> (if other == name then put(made, params) else made))
+
+  /** Gives one shape a changed copy of its material.
+    *
+    * @throws SceneError if there is no such shape, or it has none
+    */
+  def materialOf(shape: Int, params: Vector[Param]): Edit = scene =>
+    def changed(old: ShapeDescription): ShapeDescription =
+      val named = old.material.declared(scene.namedMaterials.toMap).getOrElse:
+        val help = "give shapes one by material(…) before them"
+        fail(Code.Undefined, params, s"shape $shape has no material to change", Some(help))
+      old.copy(material = MaterialRef.Inline(put(named, params)))
+    shapeAt(shape, params, scene)(changed)
+
+  /** @throws SceneError if there is no such shape */
+  def shape(shape: Int, params: Vector[Param]): Edit = scene =>
+    shapeAt(shape, params, scene)(old => old.copy(shape = put(old.shape, params)))
+
+  /** @throws SceneError if there is no such shape, or it emits no light */
+  def areaLightOf(shape: Int, params: Vector[Param]): Edit = scene =>
+    shapeAt(shape, params, scene): old =>
+      if old.areaLight.isEmpty then
+        fail(Code.Undefined, params, s"shape $shape has no area light to change", None)
+      old.copy(areaLight = old.areaLight.map(put(_, params)))
+
+  /** @throws SceneError if there is no such light */
+  def light(light: Int, params: Vector[Param]): Edit = scene =>
+    val old = at("light", scene.lights, light, params)
+    scene.copy(lights = scene.lights.updated(light, old.copy(light = put(old.light, params))))
+
+  private def shapeAt(shape: Int, params: Vector[Param], scene: SceneDescription)(
+      change: ShapeDescription => ShapeDescription
+  ): SceneDescription =
+    val old = at("shape", scene.shapes, shape, params)
+    scene.copy(shapes = scene.shapes.updated(shape, change(old)))
+
+  private def at[A](what: String, all: Vector[A], index: Int, params: Vector[Param]): A =
+    all.lift(index).getOrElse:
+      val those = if all.isEmpty then "it has none" else s"they are 0 to ${all.size - 1}"
+      fail(Code.Undefined, params, s"the scene has no $what $index", Some(those))
 
   /** @throws SceneError if there is no such texture */
   def texture(name: String, params: Vector[Param]): Edit = scene =>

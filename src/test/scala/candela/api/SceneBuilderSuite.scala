@@ -62,7 +62,11 @@ class SceneBuilderSuite extends AnyFunSuite:
       ),
       ("", "ObjectInstance \"ston\"", _.instance("ston")),
       ("", "Film \"rgb\"", _.film("rgb", Parameters())),
-      ("", "Rotate 10 0 0 0", _.rotate(10, 0, 0, 0)),
+      (
+        "",
+        "Rotate 10 0 0 0 Shape \"sphere\"",
+        _.rotate(10, 0, 0, 0).shape("sphere", Parameters())
+      ),
       ("", "ColorSpace \"rec202\"", _.colorSpace("rec202")),
       ("", "Attribute \"shap\"", _.defaults("shap", Parameters())),
       (
@@ -141,6 +145,122 @@ class SceneBuilderSuite extends AnyFunSuite:
     assert(image(there) == image(Candela.parse(moved)))
     val empty = start.edit().removeLights().removeShapes().scene()
     assert(image(empty).forall(_ == 0f))
+
+  test("a scene made in code has all its problems"):
+    val scene = Candela.build()
+      .film("rgbb", Parameters())
+      .sampler("halton", Parameters().integer("pixelsample", 4))
+      .world()
+      .light("infinit", Parameters())
+      .material("diffuse", Parameters().number("reflectance", 1))
+      .shape("spher", Parameters())
+      .shape("sphere", Parameters().number("radius", -1))
+      .scene()
+    assert(scene.hasErrors)
+    val told = texts(scene.problems)
+    for word <- Vector("rgbb", "pixelsample", "infinit", "reflectance", "spher") do
+      assert(told.exists(_.contains(s"`$word`")) || told.exists(_.contains(s"\"$word\"")), told)
+    assert(told == texts(scene.check(RenderSettings())))
+    assert(LibraryScenes.built().shape("spher", Parameters()).scene().edit().scene().hasErrors)
+
+  test("calls that change nothing say so, with the call that does"):
+    val start = Candela.parse(LibraryScenes.text())
+    val edited = start.edit().lookAt(0, 2, -7, 0, 0, 0, 0, 1, 0)
+      .material("conductor", Parameters()).areaLight("diffuse", Parameters()).scene()
+    def told(scene: Scene) =
+      scene.problems.asScala.map(p => (p.message, p.help.orElse(""))).toVector
+    assert(!edited.hasErrors)
+    val Vector(lookAt, material, light) = told(edited): @unchecked
+    assert(lookAt._1 == "LookAt has no effect here" && lookAt._2.contains("placeCamera()"))
+    assert(material._1 == "Material has no effect here" && material._2.contains("changeMaterialOf"))
+    assert(light._1 == "AreaLightSource has no effect here" && light._2.contains("changeAreaLight"))
+    assert(edited.problems.asScala.forall(_.file.get == "SceneBuilderSuite.scala"))
+    val built = LibraryScenes.built()
+    val inBlock = built.attributes(_.translate(1, 0, 0).useMaterial("coat")).shape(
+      "sphere",
+      Parameters().number("radius", 1)
+    ).scene()
+    assert(told(inBlock).map(_._1) == Vector(
+      "Translate",
+      "NamedMaterial"
+    ).map(_ + " has no effect here"))
+    val late =
+      Candela.build().camera("perspective", Parameters()).lookAt(0, 1, -6, 0, 0, 0, 0, 1, 0)
+        .world().shape("sphere", Parameters()).light("infinite", Parameters()).scene()
+    assert(told(late).map(_._1) == Vector("LookAt has no effect here"))
+
+  test("calls that change something say nothing"):
+    val start = Candela.parse(LibraryScenes.text())
+    val edited = start.edit()
+      .attributes(_.identity().lookAt(0, 2, -7, 0, 0, 0, 0, 1, 0).placeCamera())
+      .attributes(_.translate(1, 0, 0).coordinateSystem("here"))
+      .material("diffuse", Parameters())
+      .attributes(_.translate(0, 2, 0).shape("sphere", Parameters()))
+      .scene()
+    assert(edited.problems.isEmpty, edited.problems)
+
+  test("materials without a name, shapes and lights are changed by their indices"):
+    val text = LibraryScenes.text() +
+      "Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3] Shape \"sphere\" \"float radius\" .4\n" +
+      "NamedMaterial \"coat\" Shape \"sphere\" \"float radius\" .2\n"
+    val scene = Candela.parse(text)
+    val names = scene.shapes.asScala.toVector
+    assert(names.map(_.takeWhile(_ != ' ')) == Vector("sphere", "disk", "sphere", "sphere"))
+    assert(names(1).endsWith("area light") && names(2).endsWith("material of type diffuse"))
+    assert(names(3).endsWith("material coat") && scene.lights.size == 1)
+    def edited(edit: SceneBuilder => SceneBuilder): Scene =
+      val changed = edit(scene.edit()).scene()
+      assert(changed.problems.isEmpty, changed.problems)
+      changed
+    def replaced(a: String, b: String): Scene =
+      assert(text.contains(a))
+      Candela.parse(text.replace(a, b))
+    val red = Parameters().rgb("reflectance", 0.9, 0.1, 0.1)
+    val pairs = Vector(
+      edited(_.changeMaterialOf(2, red)) -> replaced(".1 .2 .3", ".9 .1 .1"),
+      edited(_.changeShape(2, Parameters().number("radius", 0.6))) ->
+        replaced("\"float radius\" .4", "\"float radius\" .6"),
+      edited(_.changeAreaLightOf(1, Parameters().rgb("L", 1, 2, 3))) -> replaced("4 4 3", "1 2 3"),
+      edited(_.changeLight(0, Parameters().rgb("L", 1, 2, 3))) -> replaced(".3 .4 .6", "1 2 3")
+    )
+    for ((a, b), i) <- pairs.zipWithIndex do assert(image(a) == image(b), i)
+    // The other shape of that material keeps it
+    val one = edited(_.changeMaterialOf(3, Parameters().rgb("reflectance", 0.9, 0.1, 0.1)))
+    assert(one.shapes.get(0).endsWith("material coat"))
+    assert(one.shapes.get(3).endsWith("material of type coateddiffuse"))
+    val wrong = scene.edit().changeShape(4, Parameters().number("radius", 1))
+      .changeLight(-1, Parameters()).changeAreaLightOf(0, Parameters()).scene()
+    assert(texts(wrong.problems) == Vector(
+      "the scene has no shape 4",
+      "the scene has no light -1",
+      "shape 0 has no area light to change"
+    ))
+
+  test("objects of the library show what they are"):
+    val scene = Candela.parse(LibraryScenes.text())
+    assert(s"$scene" == "Scene(scene.pbrt, 3 shapes, 2 instances, 2 lights)")
+    assert(s"${LibraryScenes.built()}" == "SceneBuilder(scene, 3 shapes, 2 instances, 2 lights)")
+    assert(s"${Candela.read(java.nio.file.Path.of("none.pbrt"))}" == "Scene(none.pbrt, unreadable)")
+    Using.resource(scene.prepare(RenderSettings(samples = 1), 2)): job =>
+      assert(s"$job" == "Job(scene.pbrt, 24x16, 1 sample per pixel)")
+      val result = job.render(2)
+      assert(s"$result".startsWith("RenderResult(24x16, 1 sample per pixel, "))
+      assert(s"${result.image}" == "RenderedImage(24x16, R, G, B)")
+    // Whatever the class, no hash codes
+    val folder = java.nio.file.Path.of(classOf[Scene].getResource("Scene.class").toURI).getParent
+    val classes = Using.resource(Files.list(folder)): files =>
+      files.iterator.asScala.map(_.getFileName.toString).filter(_.matches(raw"\w+\.class")).toVector
+    val shown =
+      for
+        name <- classes
+        c = Class.forName(s"candela.api.${name.stripSuffix(".class")}")
+        if !c.isInterface && !c.isEnum && !classOf[Throwable].isAssignableFrom(c)
+        if c.getDeclaredConstructors.exists(_.getParameterCount > 0)
+        if !Set("IdleStatements", "Followed")(c.getSimpleName)
+      yield
+        assert(c.getDeclaredMethods.exists(_.getName == "toString"), name)
+        name
+    assert(shown.size > 10, shown)
 
 object SceneBuilderSuite:
   private val old =
