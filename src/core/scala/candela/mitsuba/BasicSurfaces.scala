@@ -9,7 +9,9 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
 
   def apply(in: Properties): Surface = in.plugin.name match
     case "diffuse" =>
-      surface(in, "diffuse", isOneSided = true)(color(in, "reflectance", 0.5f, "reflectance"))
+      surface(in, "diffuse", isOneSided = true)(
+        color(in, reflectance(in), 0.5f, "reflectance")
+      )
     case "dielectric" => dielectric(in, isRough = false)
     case "roughdielectric" => dielectric(in, isRough = true)
     case "thindielectric" =>
@@ -69,18 +71,25 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       )*
     )
 
-  private def surface(in: Properties, name: String, isOneSided: Boolean)(
+  /** The name of a diffuse reflectance: Mitsuba 0.6 knows two. */
+  def reflectance(in: Properties): String =
+    if in.contains("diffuse_reflectance") then "diffuse_reflectance" else "reflectance"
+
+  def surface(in: Properties, name: String, isOneSided: Boolean)(
       params: Param*
   ): Surface =
     Surface(session.declare("Material", name, in.at, params), isOneSided)
 
-  private def color(in: Properties, property: String, default: Float, name: String): Param =
+  def color(in: Properties, property: String, default: Float, name: String): Param =
     val shade = colors.shade(in, property, Rgb.gray(default), Role.Reflectance)
     textures.color(name, shade, in.atOf(property))
 
   /** Alpha as it is, in both directions. */
-  private def roughness(in: Properties): Vector[Param] =
-    val distribution = in.word("distribution", "beckmann", "beckmann", "ggx")
+  def roughness(in: Properties): Vector[Param] =
+    val distribution =
+      in.word("distribution", "beckmann", "beckmann", "ggx", "phong", "as") match
+        case "as" => "phong"
+        case other => other
     in.ignore("sample_visible")
     val perAxis =
       for
@@ -96,7 +105,7 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     Vector("uroughness", "vroughness").map(textures.number(_, in, "alpha", 0.1))
 
   /** Colours that scale reflection and transmission, unless they are white. */
-  private def scales(in: Properties, names: (String, String)*): Vector[Param] =
+  def scales(in: Properties, names: (String, String)*): Vector[Param] =
     for
       (property, name) <- names.toVector
       shade <- colors.givenShade(in, property, Role.Reflectance)
@@ -130,11 +139,11 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
 
   private def conductor(in: Properties, isRough: Boolean): Surface =
     val rough = if isRough then roughness(in) else Vector.empty
-    val material = in.text("material", "none")
+    val material = in.text("material", if in.plugin.isOld then "Cu" else "none")
     val tint = scales(in, "specular_reflectance" -> "scale")
     in.ignore("ext_eta")
     val params =
-      if material == "none" && !in.contains("eta") then
+      if material == "none" && (in.plugin.isOld || !in.contains("eta")) then
         // A perfect mirror, of which roughness is a blur
         in.ignore("k")
         Vector(Textures.rgb("eta", Rgb.Black, in.at), Textures.rgb("k", Rgb.White, in.at))

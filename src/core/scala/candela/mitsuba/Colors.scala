@@ -85,6 +85,16 @@ final class Colors(session: Session):
           blackbody(in.number("temperature", 5000).toFloat, in.at) *
             in.number("scale", 1).toFloat)
       case "rawconstant" => Some(session.translate(p)(raw))
+      case "scale" => scaled(p, role)
+      case "wireframe" =>
+        session.warn(
+          Code.Unsupported,
+          p.at,
+          s"${p.description} is not supported; using the colour of its interior"
+        )
+        Some(session.translate(p): in =>
+          in.ignore("edge_color", "line_width", "step_width")
+          fixed(in, "interior_color", Rgb.gray(0.5f), role))
       case "volume" =>
         val properties = Properties(p, session)
         properties.objectNamed("volume") match
@@ -93,6 +103,13 @@ final class Colors(session: Session):
           case Some(v) if v.kind == "volume" => None
           case _ => Some(session.translate(p)(fixed(_, "volume", Rgb.gray(0.75f), role)))
       case _ => None
+
+  /** A constant times a factor; None around textures. */
+  private def scaled(p: Plugin, role: Role): Option[Rgb] =
+    val in = Properties(p, session)
+    val inner = in.nested("texture") ++ in.nested("spectrum")
+    val value = inner.headOption.fold(givenShade(in, "value", role))(ofPlugin(_, role, in, "value"))
+    value.flatMap(_.constant).map(_ * fixed(in, "scale", Rgb.White, Role.Unbounded))
 
   /** Of a constant volume. */
   def everywhere(v: Plugin, default: Rgb, role: Role): Rgb =

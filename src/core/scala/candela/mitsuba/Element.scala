@@ -14,13 +14,15 @@ import scala.util.Using
   *
   * @param at         position of its start tag
   * @param formerName the attribute `name` of the file, if Mitsuba has renamed it
+  * @param isOld      whether the file is one of Mitsuba 0.6
   */
 final case class Element(
     tag: String,
     attributes: Map[String, String],
     children: Vector[Element],
     at: SourcePos,
-    formerName: Option[String] = None
+    formerName: Option[String] = None,
+    isOld: Boolean = false
 ):
   def apply(attribute: String): Option[String] = attributes.get(attribute)
 

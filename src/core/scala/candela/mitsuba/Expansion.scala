@@ -195,17 +195,18 @@ private[mitsuba] object OldNames:
 
   def upgraded(e: Element): Element =
     val attributes = e.attributes.map:
-      case ("name", text) => "name" -> snake(text)
+      case ("name", text) => "name" -> OldSurfaces.renamed(e.tag, snake(text))
+      case ("type", text) => "type" -> OldSurfaces.typeOf(e.tag, text)
       case other => other
-    val children = e.children.map(upgraded)
+    val children = e.children.map(upgraded) ++ OldSurfaces.added(e)
     val tag = if e.tag == "lookAt" then "lookat" else e.tag
     val (moved, remaining) = children.partition(c => Moved(c("name").getOrElse("")))
     val isTexture = tag == "texture" && moved.nonEmpty
     val inner = if isTexture then remaining :+ toUv(moved, e) else children
     val formerName = e("name").filterNot(attributes.get("name").contains)
-    Element(tag, attributes, inner, e.at, formerName)
+    Element(tag, attributes, inner, e.at, formerName, isOld = true)
 
-  private val Moved = Set("uoffset", "voffset", "uscale", "vscale")
+  private val Moved = Set("uoffset", "voffset", "uscale", "vscale", "uvscale")
 
   /** Offsets and scales of texture coordinates, as the transform that replaced them. */
   private def toUv(moved: Vector[Element], e: Element): Element =
@@ -213,11 +214,18 @@ private[mitsuba] object OldNames:
       moved.find(_("name").contains(name)).flatMap(_("value")).getOrElse(default)
     def step(tag: String, x: String, y: String) =
       Element(tag, Map("x" -> x, "y" -> y), Vector.empty, e.at)
+    val both = value("uvscale", "1")
     val steps = Vector(
-      step("scale", value("uscale", "1"), value("vscale", "1")),
+      step("scale", value("uscale", both), value("vscale", both)),
       step("translate", value("uoffset", "0"), value("voffset", "0"))
     )
     Element("transform", Map("name" -> "to_uv"), steps, e.at)
+
+  /** `to_world` as `toWorld`, `int_ior` as `intIOR`. */
+  def camel(name: String): String =
+    val words = name.split('_').filter(_.nonEmpty)
+    words.take(1).mkString +
+      words.drop(1).map(word => if word == "ior" then "IOR" else word.capitalize).mkString
 
   /** `toWorld` as `to_world`, `intIOR` as `int_ior`. */
   def snake(name: String): String =

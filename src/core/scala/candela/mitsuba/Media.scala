@@ -26,13 +26,23 @@ final class Media(session: Session, colors: Colors):
   private def translated(in: Properties): MediumDescription =
     val phase = in.nested("phase").headOption.fold(Phase.Isotropic)(phaseOf)
     in.ignore("sample_emitters", "has_spectral_extinction", "majorant_resolution_factor")
+    if in.plugin.isOld then
+      in.ignore("method", "step_size", "strategy", "sampling_density", "medium_sampling_weight")
+      in.warnUnsupported("all channels are rendered", "channel", "monochromatic")
+      for v <- in.objectNamed("orientation") do
+        session.warn(Code.Unsupported, v.at, "orientations of particles are not supported; ignored")
     val scale = in.number("scale", 1).toFloat
     in.plugin.name match
+      case "homogeneous" if in.plugin.isOld || in.contains("material") =>
+        // Their scale is that of the medium
+        val known = Presets.coefficients(in, colors)
+        described(in, known.sigmaA, known.sigmaS, phase, 1f)
       case "homogeneous" => uniformExtinction(in, phase, scale)
       case "heterogeneous" =>
-        in.objectNamed("sigma_t").filter(_.kind == "volume").map(v => (v, v.name)) match
+        volume(in, "sigma_t").map(v => (v, v.name)) match
           case Some((v, "gridvolume")) =>
             session.translate(v)(grid(in, _, phase, scale)).getOrElse(empty(in))
+          case Some((_, "constvolume")) if in.plugin.isOld => uniformExtinction(in, phase, scale)
           case _ if albedoGrid(in).nonEmpty => uniformExtinction(in, phase, scale)
           case volume => boxed(in, volume.map(_._1), phase, scale)
       case _ =>
@@ -82,14 +92,24 @@ final class Media(session: Session, colors: Colors):
   private val BoxResolution = 8
 
   private def albedoGrid(in: Properties): Option[Plugin] =
-    in.objectNamed("albedo").filter(v => v.kind == "volume" && v.name == "gridvolume")
+    volume(in, "albedo").filter(_.name == "gridvolume")
+
+  /** A volume, without what keeps a part of it in memory. */
+  private def volume(in: Properties, name: String): Option[Plugin] =
+    in.objectNamed(name).filter(_.kind == "volume").flatMap: v =>
+      if v.name != "volcache" then Some(v)
+      else
+        session.translate(v): cache =>
+          cache.ignore("block_size", "voxel_width", "memory_limit", "step_size_multiplier")
+          cache.ignore("to_world")
+          cache.nested("volume").headOption
 
   private def empty(in: Properties): MediumDescription =
     homogeneous(in, Phase.Isotropic, 1f, Rgb.Black, Rgb.Black)
 
   /** A colour, which may be given as a constant volume. */
   private def fixed(in: Properties, name: String, default: Float): Rgb =
-    in.objectNamed(name).filter(_.kind == "volume") match
+    volume(in, name) match
       case Some(v) if v.name == "constvolume" =>
         colors.everywhere(v, Rgb.gray(default), Role.Unbounded)
       case Some(v) =>
@@ -107,6 +127,9 @@ final class Media(session: Session, colors: Colors):
       if in.contains("sigma_a") || in.contains("sigma_s") then
         (fixed(in, "sigma_a", 0f), fixed(in, "sigma_s", 0f))
       else (sigmaT * (Rgb.White - albedo), sigmaT * albedo)
+    described(in, a, s, phase, scale)
+
+  private def described(in: Properties, a: Rgb, s: Rgb, phase: Phase, scale: Float) =
     MediumDescription(
       fresh(in),
       session.declare("Medium", "homogeneous", in.at, coefficients(in, a, s, phase, scale)),
@@ -114,9 +137,10 @@ final class Media(session: Session, colors: Colors):
     )
 
   private def coefficients(in: Properties, a: Rgb, s: Rgb, phase: Phase, scale: Float): Seq[Param] =
+    val (absorbed, scattered) = phase.reduced(a, s)
     Seq(
-      Textures.rgb("sigma_a", a, in.at),
-      Textures.rgb("sigma_s", s, in.at),
+      Textures.rgb("sigma_a", absorbed, in.at),
+      Textures.rgb("sigma_s", scattered, in.at),
       Param.float("scale", in.at, scale)
     ) ++ phase.params(in.at)
 
@@ -164,7 +188,9 @@ final class Media(session: Session, colors: Colors):
       phase: Phase,
       scale: Float
   ): Seq[Param] =
-    val (absorbed, scattered) = coefficients
+    val share = phase.scattered
+    val scattered = coefficients._2.map(_ * share)
+    val absorbed = coefficients._1.lazyZip(coefficients._2).map((a, s) => a + s * (1f - share))
     Seq(
       Param.floats(ParamType.Rgb, "sigma_a", at, absorbed),
       Param.floats(ParamType.Rgb, "sigma_s", at, scattered),

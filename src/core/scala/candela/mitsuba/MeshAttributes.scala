@@ -2,12 +2,15 @@ package candela.mitsuba
 
 import candela.base.loop
 import candela.build.shapes.PlyMesh
+import candela.color.Encoding
 
 /** Numbers of a mesh, at its vertices or of its faces, by Mitsuba's names. Each triangle has 2 × 2
   * cells of a grid over u and v, in which they are interpolated: bilinearly between three corners
   * and a fourth that continues the plane is linearly.
+  *
+  * @param isSrgb whether Mitsuba 0.6 decodes the colours
   */
-final class MeshAttributes(ply: PlyMesh):
+final class MeshAttributes(ply: PlyMesh, isSrgb: Boolean = true):
   private val triangles = ply.indices.length / 3
   private val across = Math.max(1, Math.ceil(Math.sqrt(triangles.toDouble)).toInt)
 
@@ -23,21 +26,32 @@ final class MeshAttributes(ply: PlyMesh):
 
   /** The grid of an attribute, channels of a cell adjacent, with their number; None: unknown. */
   def grid(name: String): Option[(Int, Array[Float])] =
-    groups.get(name).map: channels =>
-      val count = channels.size
-      val texels = new Array[Float](width * height * count)
-      loop(triangles): t =>
-        loop(count): c =>
-          val values = channels(c)
-          def corner(k: Int) =
-            if name.startsWith("face") then values(t) else values(ply.indices(3 * t + k))
-          val (p, q, r) = (corner(0), corner(1), corner(2))
-          val base = cell(t)
-          texels(base * count + c) = p
-          texels((base + 1) * count + c) = q
-          texels((base + width) * count + c) = r
-          texels((base + width + 1) * count + c) = q + r - p
-      (count, texels)
+    groups.get(name).map(grid(name, _))
+
+  /** The colours of vertices in linear light, as of Mitsuba 0.6. */
+  def vertexColors: Option[(Int, Array[Float])] =
+    for channels <- groups.get("vertex_color").map(_.take(3)) if channels.size == 3 yield
+      val areBytes = channels.exists(_.exists(_ > 1f))
+      def linear(x: Float) =
+        val value = if areBytes then x / 255f else x
+        if isSrgb then Encoding.Srgb.decode(value) else value
+      grid("vertex_color", channels.map(_.map(linear)))
+
+  private def grid(name: String, channels: Vector[Array[Float]]): (Int, Array[Float]) =
+    val count = channels.size
+    val texels = new Array[Float](width * height * count)
+    loop(triangles): t =>
+      loop(count): c =>
+        val values = channels(c)
+        def corner(k: Int) =
+          if name.startsWith("face") then values(t) else values(ply.indices(3 * t + k))
+        val (p, q, r) = (corner(0), corner(1), corner(2))
+        val base = cell(t)
+        texels(base * count + c) = p
+        texels((base + 1) * count + c) = q
+        texels((base + width) * count + c) = r
+        texels((base + width + 1) * count + c) = q + r - p
+    (count, texels)
 
   private def cell(triangle: Int): Int =
     triangle / across * 2 * width + triangle % across * 2
@@ -63,6 +77,9 @@ final class MeshAttributes(ply: PlyMesh):
     )
 
 object MeshAttributes:
+  /** Types of textures that show them. */
+  val Types: Set[String] = Set("mesh_attribute", "vertexcolors")
+
   private val Colors = Vector(Vector("r", "g", "b", "a"), Vector("red", "green", "blue", "alpha"))
   private val Numbered =
     Vector("x y z w", "r g b a", "0 1 2 3", "1 2 3 4").map(_.split(" ").toVector)

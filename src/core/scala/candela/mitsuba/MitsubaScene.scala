@@ -64,7 +64,7 @@ private final class Translation(session: Session, file: Path):
     objectsOf("shape").foreach(shapes.add)
     // Errors of BSDFs that no shape uses are errors, too
     // Those that need a mesh are translated with it
-    objectsOf("bsdf").filterNot(surfaces.textureTypes(_)("mesh_attribute"))
+    objectsOf("bsdf").filterNot(surfaces.textureTypes(_).exists(MeshAttributes.Types))
       .foreach(p => session.attempt(surfaces(p)))
     val lights = objectsOf("emitter").flatMap(emitters(_))
     val start = SourcePos(file.toString, 1, 1)

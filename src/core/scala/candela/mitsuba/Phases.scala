@@ -1,10 +1,20 @@
 package candela.mitsuba
 
+import candela.color.Rgb
 import candela.diagnostics.{Code, SourcePos}
 import candela.scenefile.{Param, ParamType}
 
-/** A phase function, as parameters of a medium. */
-final case class Phase(lobes: Vector[Phase.Lobe]):
+/** A phase function, as parameters of a medium.
+  *
+  * @param scattered share of the light that is scattered, not absorbed
+  */
+final case class Phase(lobes: Vector[Phase.Lobe], scattered: Float = 1f):
+
+  /** Absorption and scattering of a medium that scatters so. */
+  def reduced(sigmaA: Rgb, sigmaS: Rgb): (Rgb, Rgb) =
+    if scattered == 1f then (sigmaA, sigmaS)
+    else (sigmaA + sigmaS * (1f - scattered), sigmaS * scattered)
+
   def params(at: SourcePos): Seq[Param] = lobes match
     case Vector(Phase.Lobe("hg", _, Vector(g))) => Seq(Param.float("g", at, g))
     case _ =>
@@ -31,6 +41,12 @@ object Phase:
       case "rayleigh" => of("rayleigh", Vector.empty)
       case "tabphase" => session.translate(p)(tabulated)
       case "blendphase" => session.translate(p)(blended(_, session)(number))
+      case "mixturephase" => session.translate(p)(mixed(_, session)(number))
+      case "kkay" =>
+        Plugins.unsupported(p, "using \"isotropic\" times `kd`, as without orientation", session)
+        session.translate(p): in =>
+          in.ignore("ks", "exponent")
+          Isotropic.copy(scattered = in.number("kd", 0.2).toFloat)
       case _ =>
         Plugins.unsupported(p, "using \"isotropic\"", session)
         Isotropic
@@ -57,9 +73,7 @@ object Phase:
     in.nested("phase").map(translated(_, session)(number)) match
       case Vector(first, second) =>
         val shares = Seq(first -> (1f - weight), second -> weight)
-        Phase(shares.toVector.flatMap((phase, share) =>
-          phase.lobes.map(lobe => lobe.copy(weight = lobe.weight * share))
-        ))
+        summed(shares)
       case phases =>
         session.error(
           Code.ParameterValue,
@@ -67,3 +81,21 @@ object Phase:
           s"${in.plugin.description} must have two phase functions, found ${phases.size}"
         )
         Isotropic
+
+  private def summed(shares: Seq[(Phase, Float)]): Phase =
+    val scattered = shares.map((phase, share) => phase.scattered * share).sum
+    val lobes =
+      for
+        (phase, share) <- shares.toVector
+        lobe <- phase.lobes
+      yield lobe.copy(weight = lobe.weight * phase.scattered * share / scattered)
+    Phase(lobes, scattered)
+
+  /** What the weights leave of 1 is absorbed. */
+  private def mixed(
+      in: Properties,
+      session: Session
+  )(number: (Properties, String) => Float): Phase =
+    val phases = in.nested("phase").map(translated(_, session)(number))
+    Mixture.weights(in, phases.size, "phase function").fold(Isotropic): weights =>
+      summed(phases.zip(weights.map(_.toFloat)))

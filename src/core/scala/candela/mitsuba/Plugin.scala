@@ -26,12 +26,14 @@ final class Property(val name: String, val value: Value, val at: SourcePos)
   *
   * @param kind element: `shape`, `bsdf`, `emitter`, …
   * @param name its type: `sphere`, `diffuse`, `area`, …
+  * @param isOld whether its file is one of Mitsuba 0.6, whose defaults may differ
   */
 final class Plugin(
     val kind: String,
     val name: String,
     val id: Option[String],
     val at: SourcePos,
-    val properties: Vector[Property]
+    val properties: Vector[Property],
+    val isOld: Boolean = false
 ):
   def description: String = s"$kind \"$name\""

@@ -7,19 +7,22 @@ import candela.diagnostics.Code
   */
 object Plugins:
   val bsdfs: Vector[String] = Vector(
-    "blendbsdf", "bumpmap", "circular", "conductor", "dielectric", "diffuse",
-    "hair", "mask", "measured", "normalmap", "null", "plastic", "polarizer", "pplastic",
-    "principled",
-    "principledthin", "retarder", "roughconductor", "roughdielectric", "roughplastic",
-    "thindielectric", "twosided"
+    "blendbsdf", "bumpmap", "circular", "coating", "conductor", "dielectric", "difftrans",
+    "diffuse", "hair", "hk", "mask", "measured", "mixturebsdf", "normalmap", "null", "phong",
+    "plastic", "polarizer", "pplastic", "principled", "principledthin", "retarder", "roughcoating",
+    "roughconductor", "roughdielectric", "roughdiffuse", "roughplastic", "thindielectric",
+    "twosided", "ward"
   )
   val shapes: Vector[String] = Vector("bsplinecurve", "cube", "cylinder", "disk", "instance",
     "linearcurve", "merge", "obj", "ply", "rectangle", "serialized", "shapegroup", "sphere")
   val emitters: Vector[String] =
     Vector("area", "constant", "directional", "envmap", "point", "projector", "spot",
       "sunsky", "timed_sunsky")
-  val textures: Vector[String] = Vector("bitmap", "blackbody", "checkerboard", "d65", "irregular",
-    "mesh_attribute", "rawconstant", "regular", "srgb", "uniform", "volume")
+  val textures: Vector[String] = Vector(
+    "bitmap", "blackbody", "checkerboard", "d65",
+    "gridtexture", "irregular", "mesh_attribute", "rawconstant", "regular", "scale", "srgb",
+    "uniform", "vertexcolors", "volume"
+  )
   val sensors: Vector[String] = Vector("orthographic", "perspective", "thinlens")
   val integrators: Vector[String] = Vector("aov", "direct", "moment", "path", "prb", "prb_basic",
     "prbvolpath", "ptracer", "stokes", "volpath", "volpathmis")
@@ -30,19 +33,22 @@ object Plugins:
     Vector("box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent")
   val films: Vector[String] = Vector("hdrfilm", "ldrfilm")
   val phases: Vector[String] =
-    Vector("blendphase", "hg", "isotropic", "rayleigh", "tabphase")
-  val volumes: Vector[String] = Vector("constvolume", "gridvolume")
+    Vector("blendphase", "hg", "isotropic", "mixturephase", "rayleigh", "tabphase")
+  val volumes: Vector[String] = Vector("constvolume", "gridvolume", "volcache")
+  val subsurfaces: Vector[String] = Vector("dipole", "singlescatter")
 
-  /** Types that exist in Mitsuba 3, but are not read. */
+  /** Types that exist in Mitsuba 3 or 0.6, but are not read. */
   val unsupportedTypes: Map[String, Vector[String]] = Map(
-    "bsdf" -> Vector("acousticbsdf", "measured_polarized"),
+    "bsdf" -> Vector("acousticbsdf", "irawan", "measured_polarized"),
+    "texture" -> Vector("curvature", "wireframe"),
     "shape" -> Vector("ellipsoids", "ellipsoidsmesh", "sdfgrid"),
     "emitter" -> Vector("directionalarea", "volumelight"),
     "sensor" -> Vector("batch", "distant", "irradiancemeter", "radiancemeter"),
     "integrator" -> Vector("acousticpath", "depth", "direct_projective", "emission",
       "prb_projective", "volprim_rf_basic"),
     "film" -> Vector("specfilm"),
-    "phase" -> Vector("sggx")
+    "phase" -> Vector("kkay", "microflake", "sggx"),
+    "volume" -> Vector("hgridvolume")
   )
 
   /** By element. */
@@ -58,6 +64,7 @@ object Plugins:
     "rfilter" -> filters,
     "film" -> films,
     "phase" -> phases,
+    "subsurface" -> subsurfaces,
     "volume" -> volumes
   )
 

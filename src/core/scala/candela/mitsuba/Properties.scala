@@ -113,6 +113,9 @@ final class Properties(val plugin: Plugin, val session: Session):
         s"`$name` of ${plugin.description} is not supported; $consequence"
       )
 
+  /** A name as files of this version spell it. */
+  private def inFile(name: String): String = if plugin.isOld then OldNames.camel(name) else name
+
   def finish(): Unit =
     for p <- plugin.properties if !queried(p) do
       p.value match
@@ -133,5 +136,5 @@ final class Properties(val plugin: Plugin, val session: Session):
             Code.IdleParameter,
             p.at,
             s"`${p.name}` is not a parameter of ${plugin.description}; it is ignored",
-            Suggest.help(p.name, names)
+            Suggest.help(inFile(p.name), names.map(inFile))
           )

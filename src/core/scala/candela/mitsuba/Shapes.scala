@@ -75,7 +75,11 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       session.warn(Code.Nesting, b.at, "a shape has one bsdf; this one is ignored")
     )
     val attributes = bsdf.headOption.flatMap(attributesFor(in, _))
+    val scattering = in.nested("subsurface").headOption
     val (surface, material) = bsdf.headOption match
+      case inner if scattering.isDefined =>
+        val s = surfaces.scattering(scattering.get, inner.map(surfaces(_)))
+        (s, MaterialRef.Inline(s.material))
       case Some(p) =>
         val s = attributes.fold(surfaces(p))(surfaces.onMesh(_, p))
         // Masks don't dim emitters
@@ -118,16 +122,16 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   /** Of the mesh, if its surface uses them. */
   private def attributesFor(in: Properties, bsdf: Plugin): Option[MeshAttributes] =
     val types = surfaces.textureTypes(bsdf)
-    if !types("mesh_attribute") || in.plugin.name != "ply" then None
+    if !types.exists(MeshAttributes.Types) || in.plugin.name != "ply" then None
     else
-      if types("bitmap") || types("checkerboard") then
+      if types.exists(Set("bitmap", "checkerboard", "gridtexture")) then
         session.warn(
           Code.Unsupported,
           in.at,
-          "textures by u and v are not supported beside a mesh_attribute; they lie elsewhere"
+          "textures by u and v are not supported beside attributes of a mesh; they lie elsewhere"
         )
       fileOf(in).map(file =>
-        MeshAttributes(PlyFile.read(file, Some(in.at), keepsAll = true))
+        MeshAttributes(PlyFile.read(file, Some(in.at), keepsAll = true), in.flag("srgb", true))
       )
 
   private def form(in: Properties, attributes: Option[MeshAttributes]): Option[Form] =
@@ -257,7 +261,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
 
   /** Does the look of the surface depend on u and v? */
   private def isMapped(bsdf: Plugin): Boolean =
-    surfaces.textureTypes(bsdf).exists(Set("bitmap", "checkerboard"))
+    surfaces.textureTypes(bsdf).exists(Set("bitmap", "checkerboard", "gridtexture"))
 
   private def params(m: Mesh, in: Properties): Seq[Param] =
     val uvs = m.uvs.clone

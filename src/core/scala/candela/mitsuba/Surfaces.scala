@@ -1,5 +1,6 @@
 package candela.mitsuba
 
+import candela.color.Rgb
 import candela.diagnostics.{Code, SourcePos}
 import candela.scenefile.{Declaration, MaterialRef, Param, ParamType}
 
@@ -28,6 +29,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   private val named = mutable.LinkedHashMap.empty[String, Declaration]
   private val names = mutable.HashMap.empty[Declaration, String]
   private val basic = BasicSurfaces(session, colors, textures)
+  private val earlier = EarlierSurfaces(session, colors, textures, basic)
   private val kinds = SurfaceKinds(named.get)
   private var depth = 0
 
@@ -83,12 +85,20 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       }
     )
 
-  private def translated(in: Properties): Surface = in.plugin.name match
+  private def translated(in: Properties): Surface =
+    if in.plugin.isOld then in.ignore("ensure_energy_conservation")
+    kindOf(in)
+
+  private def kindOf(in: Properties): Surface = in.plugin.name match
     case "twosided" => twoSided(in)
     case "mask" => masked(in)
-    case "bumpmap" => bumped(in)
+    case "bumpmap" | "bump" => bumped(in)
     case "normalmap" => mapped(in)
     case "blendbsdf" => blended(in)
+    case "mixturebsdf" => mixture(in)
+    case "coating" => coated(in, Vector.empty)
+    case "roughcoating" => coated(in, basic.roughness(in))
+    case name if EarlierSurfaces.types(name) => earlier(in)
     case _ => basic(in)
 
   /** The only BSDF within another. */
@@ -206,6 +216,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       else
         session.translate(t): bitmap =>
           bitmap.ignore("raw", "filter_type", "wrap_mode", "format", "accel")
+          bitmap.ignore(Textures.OldOptions*)
           val mapping = textures.imageMapping(bitmap)
           bitmap.text("filename").flatMap(session.file(_, bitmap.atOf("filename"), "ignored"))
             .map(path => Bump.Normals(session.named(path), mapping))
@@ -238,14 +249,108 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     in.nested("bsdf").toList match
       case a :: b :: surplus =>
         warnSurplus(in, surplus)
-        val surfaces = List(a, b).map(p => inlineMask(apply(p)))
-        val isOneSided = surfaces.forall(_.isOneSided)
-        val Seq(first, second) = List(a, b).zip(surfaces).map: (p, s) =>
-          nameOf(p, if isOneSided then s else blackBehind(s))
+        val (Seq(first, second), isOneSided) = parts(Seq(a, b)): @unchecked
         mixed(in.at, first, second, weight).copy(isOneSided = isOneSided)
       case _ =>
         session.error(Code.MissingParameter, in.at, "blendbsdf must contain two bsdfs")
         basic.grey(in)
+
+  /** Names of what is blended, and whether all of it is black from behind. */
+  private def parts(inner: Seq[Plugin]): (Seq[String], Boolean) =
+    val surfaces = inner.map(p => inlineMask(apply(p)))
+    val isOneSided = surfaces.forall(_.isOneSided)
+    val names = inner.zip(surfaces).map: (p, s) =>
+      nameOf(p, if isOneSided then s else blackBehind(s))
+    (names, isOneSided)
+
+  /** A sum of any number of BSDFs by weight; what the weights leave of 1 is black. */
+  private def mixture(in: Properties): Surface =
+    val inner = in.nested("bsdf")
+    Mixture.weights(in, inner.size, "bsdf").filter(_ => inner.nonEmpty).fold(basic.grey(in)):
+      weights =>
+        val (names, isOneSided) = parts(inner)
+        val rest = Math.max(0.0, 1.0 - weights.sum)
+        val black = Option.when(rest > Surfaces.MinRest):
+          val d = session.declare(
+            "Material",
+            "diffuse",
+            in.at,
+            Seq(Textures.rgb("reflectance", Rgb.Black, in.at))
+          )
+          (name("black", d), rest)
+        val used = names.zip(weights).filter(_._2 > 0.0) ++ black
+        val (last, _) = used.init.foldRight(used.last):
+          case ((first, weight), (second, others)) =>
+            val amount = (others / (weight + others)).toFloat
+            val blend = mixed(in.at, first, second, Param.float("amount", in.at, amount))
+            (name(in.plugin.id.getOrElse("mixturebsdf"), blend.material), weight + others)
+        Surface(named(last), isOneSided)
+
+  /** What scatters light beneath a surface, by pbrt's diffusion of photon beams. The roughness of
+    * the surface remains.
+    */
+  def scattering(p: Plugin, s: Option[Surface]): Surface = session.translate(p): in =>
+    in.ignore(Surfaces.Sampling*)
+    val medium = Presets.coefficients(in, colors)
+    for surface <- s if !Surfaces.Interfaces(surface.material.name) do
+      session.warn(
+        Code.Unsupported,
+        surface.material.at,
+        "the surface of what scatters light beneath it reflects as glass does; this one does, too"
+      )
+    for
+      surface <- s if surface.material.name == "roughplastic"
+      base <- surface.material.param("reflectance")
+      if base.strings.nonEmpty || base.floats.exists(_ > 0f)
+    do
+      session.warn(
+        Code.Unsupported,
+        base.at,
+        s"diffuse reflection is not supported beside ${p.description}; it is left out"
+      )
+    session.warn(
+      Code.Unsupported,
+      p.at,
+      s"${p.description} is rendered as multiple and single scattering by photon beam diffusion"
+    )
+    val rough = s.toVector.flatMap(_.material.params)
+      .filter(q => Set("uroughness", "vroughness", "remaproughness")(q.name))
+    val params = Vector(
+      Textures.rgb("sigma_a", medium.sigmaA, in.at),
+      Textures.rgb("sigma_s", medium.sigmaS, in.at),
+      Param.float("eta", in.at, medium.eta.toFloat)
+    )
+    Surface(session.declare("Material", "subsurface", in.at, params ++ rough), isOneSided = false)
+
+  /** A BSDF under a coat, which reflects on either side. */
+  private def coated(in: Properties, rough: Vector[Param]): Surface =
+    val inner = blackBehind(inlineMask(child(in)))
+    val absorption = colors.shade(in, "sigma_a", Rgb.Black, Role.Unbounded)
+    val params = Vector(
+      Param.string("material", in.at, name(inner.material.name, inner.material)),
+      Param.float("eta", in.at, Indices.relative(in, "bk7").toFloat),
+      Param.float("thickness", in.atOf("thickness"), in.number("thickness", 1).toFloat),
+      textures.color("sigma_a", absorption, in.atOf("sigma_a"))
+    )
+    val gloss = basic.scales(in, "specular_reflectance" -> "specular")
+    Surface(
+      session.declare("Material", "coating", in.at, params ++ gloss ++ rough),
+      isOneSided = false
+    )
+
+private object Surfaces:
+  /** How precisely Mitsuba 0.6 computes subsurface scattering. */
+  private val Sampling = Vector(
+    "irr_samples", "irr_indirect", "sample_multiplier", "quality", "fast_single_scatter",
+    "fss_samples", "single_scatter_shadow_rays", "single_scatter_transmittance",
+    "single_scatter_depth"
+  )
+
+  /** Materials whose interface is a dielectric one. */
+  private val Interfaces = Set("roughplastic", "dielectric")
+
+  /** What is left of 1 by the rounding of decimal weights. */
+  private val MinRest = 1e-6
 
 /** Properties of materials, derived from their declarations.
   *
@@ -271,7 +376,7 @@ private final class SurfaceKinds(named: String => Option[Declaration]):
     case _ if !isFlat(d) => true
     case "principled" => !d.param("thin").exists(_.bools.contains(true))
     case "nested" if d.param("onesided").exists(_.bools.contains(true)) => true
-    case "mix" | "nested" => children(d).exists(hasDistinctSides)
+    case "mix" | "nested" | "coating" => children(d).exists(hasDistinctSides)
     case _ => false
 
   /** Whether light passes through it. */
@@ -279,9 +384,10 @@ private final class SurfaceKinds(named: String => Option[Declaration]):
 
   private def isTransmissive(d: Declaration): Boolean = d.name match
     case "interface" | "dielectric" | "thindielectric" | "hair" => true
+    case "diffusetransmission" | "scatteringlayer" => true
     case "principled" => Seq("spectrans", "difftrans").flatMap(d.param).exists: p =>
         p.strings.nonEmpty || p.floats.exists(_ > 0f)
-    case "mix" | "nested" => children(d).exists(isTransmissive)
+    case "mix" | "nested" | "coating" => children(d).exists(isTransmissive)
     case _ => false
 
 private object SurfaceKinds:

@@ -3,7 +3,7 @@ package candela.mitsuba
 import candela.diagnostics.{Code, SourcePos, Suggest}
 import candela.color.Rgb
 import candela.scenefile.{
-  AnimatedTransform, Declaration, GraphicsState, Param, ParamType, TextureDescription
+  AnimatedTransform, Declaration, Dialect, GraphicsState, Param, ParamType, TextureDescription
 }
 
 import scala.collection.mutable
@@ -64,6 +64,33 @@ final class Textures(session: Session, colors: Colors):
     )
 
   private def define(p: Plugin, valueType: String, scale: Float): Option[String] =
+    if p.name == "scale" then session.translate(p)(scaled(_, valueType, scale))
+    else plain(p, valueType, scale)
+
+  /** A texture times a number or a colour. */
+  private def scaled(in: Properties, valueType: String, scale: Float): Option[String] =
+    val factor = colors.fixed(in, "scale", Rgb.White, Role.Unbounded)
+    val isGrey = valueType == "float" || (factor.r == factor.g && factor.g == factor.b)
+    val inner = in.nested("texture").headOption
+    if inner.isEmpty then
+      session.error(
+        Code.MissingParameter,
+        in.at,
+        s"${in.plugin.description} must contain a texture, or have a `value`"
+      )
+    inner.flatMap: p =>
+      if isGrey then apply(p, valueType, scale * factor.luminance)
+      else
+        apply(p, valueType, scale).map: name =>
+          val params = Seq(
+            Param.texture("tex1", in.at, name),
+            Textures.rgb("tex2", factor, in.at)
+          )
+          add(name, valueType, session.declare("Texture", "scale", in.at, params, V3))
+
+  private val V3 = Some(Dialect.V3)
+
+  private def plain(p: Plugin, valueType: String, scale: Float): Option[String] =
     val parameters = p.name match
       case "bitmap" => session.translate(p)(bitmap).map((_, GraphicsState.Identity))
       case "checkerboard" =>
@@ -71,6 +98,12 @@ final class Textures(session: Session, colors: Colors):
       case "volume" => session.translate(p)(volume(_, valueType))
       case "mesh_attribute" =>
         session.translate(p)(attribute(_, valueType)).map((_, GraphicsState.Identity))
+      case "vertexcolors" =>
+        session.translate(p): in =>
+          attribute(in, "vertex_color", 1f, mesh.flatMap(_.vertexColors), valueType)
+        .map((_, GraphicsState.Identity))
+      case "gridtexture" =>
+        session.translate(p)(lines(_, valueType)).map((_, GraphicsState.Identity))
       case _ =>
         Plugins.unsupported(p, s"using ${Textures.Fallback.r}", session)
         None
@@ -100,10 +133,11 @@ final class Textures(session: Session, colors: Colors):
 
   private def bitmap(in: Properties): Option[(String, Seq[Param])] =
     val position = in.at
-    val filter = in.word("filter_type", "bilinear", "bilinear", "nearest")
-    val wrap = in.word("wrap_mode", "repeat", "repeat", "mirror", "clamp")
-    val isRaw = in.flag("raw", false)
-    in.ignore("format", "accel")
+    val filter = filterOf(in)
+    val wrap = wrapOf(in)
+    val encoding = encodingOf(in)
+    in.ignore("format", "accel", "cache", "max_anisotropy")
+    in.warnUnsupported("using the luminance of all of them", "channel")
     val mapping = coordinates(in, flipped = true)
     for
       name <- in.text("filename").orElse:
@@ -114,8 +148,59 @@ final class Textures(session: Session, colors: Colors):
       Param.string("filename", in.atOf("filename"), session.named(path)),
       Param.string("filter", position, if filter == "nearest" then "point" else "bilinear"),
       Param.string("wrap", position, wrap),
-      Param.string("encoding", position, if isRaw then "linear" else "sRGB")
+      Param.string("encoding", position, encoding)
     ) ++ mapping)
+
+  private def filterOf(in: Properties): String =
+    val filter = in.word("filter_type", "bilinear", "bilinear", "nearest", "trilinear", "ewa")
+    if filter == "trilinear" || filter == "ewa" then
+      session.warn(
+        Code.CorrectedValue,
+        in.atOf("filter_type"),
+        "images are not filtered over footprints; using `bilinear`"
+      )
+    filter
+
+  /** Mitsuba 0.6 has one for u and one for v. */
+  private def wrapOf(in: Properties): String =
+    def word(name: String, default: String) =
+      in.word(name, default, "repeat", "mirror", "clamp", "zero", "black", "one", "white")
+    val both = word("wrap_mode", "repeat")
+    val (u, v) = (word("wrap_mode_u", both), word("wrap_mode_v", both))
+    if u != v then
+      session.warn(
+        Code.Unsupported,
+        in.atOf("wrap_mode_v"),
+        s"images are wrapped by u as by v; using `$u`"
+      )
+    u match
+      case "zero" | "black" => "black"
+      case "one" | "white" =>
+        session.warn(Code.Unsupported, in.at, s"the wrap mode `$u` is not supported; using `clamp`")
+        "clamp"
+      case other => other
+
+  /** By a flag, or by the exponent of Mitsuba 0.6. */
+  private def encodingOf(in: Properties): String =
+    if in.flag("raw", false) then "linear"
+    else
+      in.number("gamma", 0) match
+        case 1.0 => "linear"
+        case gamma if gamma > 0 => s"gamma ${gamma.toFloat}"
+        case _ => "sRGB"
+
+  /** Lines along integer u and v. */
+  private def lines(in: Properties, valueType: String): Option[(String, Seq[Param])] =
+    def color(ours: String, name: String, default: Float): Param =
+      val shade = colors.shade(in, name, Rgb.gray(default), Role.Reflectance)
+      if valueType == "float" then number(ours, shade, in.atOf(name))
+      else this.color(ours, shade, in.atOf(name))
+    val width = in.number("line_width", 0.01).toFloat
+    Some("lines" -> (Seq(
+      color("tex1", "color0", 0.2f),
+      color("tex2", "color1", 0.4f),
+      Param.float("linewidth", in.atOf("line_width"), width)
+    ) ++ coordinates(in, flipped = false)))
 
   private def checkerboard(in: Properties, valueType: String): Option[(String, Seq[Param])] =
     def square(ours: String, name: String, default: Float): Param =
@@ -124,8 +209,9 @@ final class Textures(session: Session, colors: Colors):
       else color(ours, shade, in.atOf(name))
     // Two squares of pbrt's are one period of Mitsuba's
     val mapping = coordinates(in, flipped = false, factor = 2f)
-    // As a number, Mitsuba's has the two colours the other way round
-    val (even, odd) = if valueType == "float" then ("tex2", "tex1") else ("tex1", "tex2")
+    // As a number, Mitsuba 3's has the two colours the other way round
+    val isExchanged = valueType == "float" && !in.plugin.isOld
+    val (even, odd) = if isExchanged then ("tex2", "tex1") else ("tex1", "tex2")
     Some("checkerboard" ->
       (Seq(square(even, "color0", 0.4f), square(odd, "color1", 0.2f)) ++ mapping))
 
@@ -151,8 +237,15 @@ final class Textures(session: Session, colors: Colors):
   /** A number or a colour at each point of the mesh. */
   private def attribute(in: Properties, valueType: String): Option[(String, Seq[Param])] =
     val name = in.text("name", "")
-    val scale = in.number("scale", 1).toFloat
-    val grid = mesh.flatMap(_.grid(name))
+    attribute(in, name, in.number("scale", 1).toFloat, mesh.flatMap(_.grid(name)), valueType)
+
+  private def attribute(
+      in: Properties,
+      name: String,
+      scale: Float,
+      grid: Option[(Int, Array[Float])],
+      valueType: String
+  ): Option[(String, Seq[Param])] =
     if grid.isEmpty then
       session.warn(
         Code.CorrectedValue,
@@ -161,7 +254,7 @@ final class Textures(session: Session, colors: Colors):
         mesh.flatMap(m => Suggest.help(name, m.names.toVector))
       )
     for m <- mesh; (channels, values) <- grid yield
-      warnOfIntegers(in, name, values)
+      if in.plugin.name == "mesh_attribute" then warnOfIntegers(in, name, values)
       val wanted = if valueType == "float" then 1 else 3
       val cells = m.width * m.height
       def value(cell: Int, c: Int) =
@@ -213,6 +306,10 @@ final class Textures(session: Session, colors: Colors):
     Vector(su, skewU, du, across, up, shift).map(_.toFloat)
 
 object Textures:
+  /** Parameters of bitmaps of Mitsuba 0.6. */
+  val OldOptions: Vector[String] =
+    Vector("gamma", "cache", "max_anisotropy", "wrap_mode_u", "wrap_mode_v")
+
   /** Instead of a texture that is not supported. */
   val Fallback: Rgb = Rgb.gray(0.5f)
 

@@ -35,7 +35,7 @@ final class Values(
       e.at,
       s"<${e.tag}> must have the attribute `type`"
     ))
-    Plugin(e.tag, name, e("id"), e.at, e.children.flatMap(property))
+    Plugin(e.tag, name, e("id"), e.at, e.children.flatMap(property), e.isOld)
 
   private def attempt[A](body: => A): Option[A] =
     try Some(body)
@@ -173,7 +173,7 @@ object Values:
   /** Elements that are objects. */
   val Kinds: Set[String] =
     Set("bsdf", "emitter", "film", "integrator", "medium", "phase", "rfilter", "sampler", "sensor",
-      "shape", "spectrum", "texture", "volume")
+      "shape", "spectrum", "subsurface", "texture", "volume")
 
   /** Elements that are values. */
   private val Tags =

@@ -23,6 +23,9 @@ private[mitsuba] final class VolumeFile(
 private[mitsuba] object VolumeFile:
   private val Header = 48
 
+  /** The encoding of Mitsuba 0.6 in bytes: 255 is 1. */
+  private val Bytes = 3
+
   /** A larger value is damage. */
   private val MaxValue = 1e9f
 
@@ -36,18 +39,20 @@ private[mitsuba] object VolumeFile:
     if in.remaining < Header || in.get() != 'V' || in.get() != 'O' || in.get() != 'L' then
       fail("it does not begin with VOL")
     if in.get() != 3 then fail("only version 3 is known")
-    if in.getInt() != 1 then fail("only 32-bit floats are known")
+    val encoding = in.getInt()
+    if encoding != 1 && encoding != Bytes then fail("only 32-bit floats and bytes are known")
     val size = Array.fill(3)(in.getInt())
     val channels = in.getInt()
     val bounds = Array.fill(6)(in.getFloat())
     if channels != 1 && channels != 3 then
       fail(s"it has $channels channels; only one or three are supported")
-    val room = in.remaining / 4 / channels
+    val room = in.remaining / (if encoding == Bytes then 1 else 4) / channels
     val cells = size.map(_.toLong).product
     if size.exists(n => n < 1 || n > 65536) || cells > room then
       fail(s"it is too short for ${size.mkString(" × ")} cells")
     val values = new Array[Float](cells.toInt * channels)
-    in.asFloatBuffer.get(values)
+    if encoding == Bytes then loop(values.length)(i => values(i) = (in.get() & 0xff) / 255f)
+    else in.asFloatBuffer.get(values)
     loop(values.length): i =>
       if !(values(i) <= MaxValue) then fail(s"its value ${values(i)} is damaged")
       values(i) = Math.max(0f, values(i))

@@ -10,7 +10,7 @@ import candela.scenefile.{Param, ParamType}
 private[mitsuba] final class Volumes(session: Session):
 
   def apply(in: Properties): Option[PlacedGrid] =
-    in.ignore("raw", "accel")
+    in.ignore("raw", "accel", "send_data")
     if in.word("filter_type", "trilinear", "trilinear", "nearest") == "nearest" then
       session.warn(
         Code.CorrectedValue,
@@ -25,6 +25,9 @@ private[mitsuba] final class Volumes(session: Session):
       )
     val toWorld = in.transform("to_world")
     val usesBox = in.flag("use_grid_bbox", false)
+    val stated =
+      for (a, b, c) <- in.triple("min"); (d, e, f) <- in.triple("max")
+      yield Array(a, b, c, d, e, f).map(_.toFloat)
     for
       name <- in.text("filename").orElse:
         session.error(Code.MissingParameter, in.at, "a gridvolume must have a `filename`")
@@ -32,8 +35,20 @@ private[mitsuba] final class Volumes(session: Session):
       path <- session.file(name, in.atOf("filename"), "skipped")
       file <- session.attempt(VolumeFile.read(path, in.atOf("filename")))
     yield
-      val box = if usesBox then file.bounds else Array(0f, 0f, 0f, 1f, 1f, 1f)
+      val box =
+        if in.plugin.isOld then beyond(stated.getOrElse(file.bounds), file.size)
+        else if usesBox then file.bounds
+        else Array(0f, 0f, 0f, 1f, 1f, 1f)
       PlacedGrid(file, toWorld, box)
+
+  /** The box of cells whose centres reach the border of another one, where Mitsuba 0.6 has the
+    * outermost values.
+    */
+  private def beyond(bounds: Array[Float], size: Array[Int]): Array[Float] =
+    Array.tabulate(6): i =>
+      val n = size(i % 3)
+      val half = if n > 1 then 0.5f * (bounds(i % 3 + 3) - bounds(i % 3)) / (n - 1) else 0f
+      if i < 3 then bounds(i) - half else bounds(i) + half
 
 /** A grid with its place.
   *

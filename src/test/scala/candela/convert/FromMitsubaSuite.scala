@@ -53,6 +53,26 @@ class FromMitsubaSuite extends AnyFunSuite:
       lost == Vector("pbrt has no `phases` of \"homogeneous\"; using g = 0.15 for rayleigh and hg")
     )
 
+  test("surfaces of Mitsuba 0.6 become pbrt's nearest"):
+    for
+      (kind, name) <- Seq(
+        "phong" -> "substrate",
+        "ward" -> "substrate",
+        "roughdiffuse" -> "matte",
+        "hk" -> "diffusetransmission"
+      )
+    do
+      val (d, lost) = converted(s"<bsdf type=\"$kind\"/>")
+      assert(d.name == name && lost.mkString.contains(s"by pbrt-v"), kind)
+    val (phong, _) =
+      converted("<bsdf type=\"phong\"><float name=\"exponent\" value=\"12\"/></bsdf>")
+    assert(Math.abs(phong.param("uroughness").get.floats.head - 0.2f) < 1e-6f)
+    val (base, lost) = converted("<bsdf type=\"coating\"><bsdf type=\"dielectric\"/></bsdf>")
+    assert(base.name == "dielectric" && lost.mkString.contains("no coats"))
+    val facets = "<string name=\"distribution\" value=\"as\"/>"
+    val (_, wider) = converted(s"<bsdf type=\"roughconductor\">$facets</bsdf>")
+    assert(wider.mkString.contains("no distribution `phong`"))
+
   test("grids on surfaces become their mean"):
     val file = Path.of("scenes/mitsuba/colors.vol").toAbsolutePath
     val grid = "<texture type=\"volume\" name=\"reflectance\"><volume type=\"gridvolume\" " +

@@ -14,11 +14,14 @@ import org.scalatest.funsuite.AnyFunSuite
 abstract class MitsubaPictures extends AnyFunSuite:
   protected def read(body: String): SceneDescription = using(body)(identity)
 
+  /** Of the files. */
+  protected def version: String = "3.0.0"
+
   protected def using[A](body: String)(use: SceneDescription => A): A =
     val folder = Files.createTempDirectory("candela-surfaces")
     val scene = Files.writeString(
       folder.resolve("scene.xml"),
-      s"""<scene version="3.0.0">$body</scene>"""
+      s"""<scene version="$version">$body</scene>"""
     )
     try use(MitsubaScene.readable(scene, Map.empty, keepGoing = false))
     finally

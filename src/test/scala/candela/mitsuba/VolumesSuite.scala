@@ -23,6 +23,22 @@ class VolumesSuite extends AnyFunSuite:
       VolumeFile.read(InputFile.asked(Files.write(file, bytes.array)), SourcePos("scene.xml", 1, 1))
     finally Files.delete(file)
 
+  test("a volume may be of bytes, of which 255 is 1"):
+    val bytes = ByteBuffer.allocate(51).order(ByteOrder.LITTLE_ENDIAN)
+    bytes.put("VOL".getBytes("US-ASCII")).put(3.toByte).putInt(3)
+    Seq(3, 1, 1, 1).foreach(bytes.putInt)
+    Seq(0f, 0f, 0f, 2f, 1f, 1f).foreach(bytes.putFloat)
+    bytes.put(Array(0, 51, -1).map(_.toByte))
+    val file = Files.createTempFile("candela", ".vol")
+    try
+      val read =
+        VolumeFile.read(
+          InputFile.asked(Files.write(file, bytes.array)),
+          SourcePos("scene.xml", 1, 1)
+        )
+      assert(read.values.toVector == Vector(0f, 0.2f, 1f))
+    finally Files.delete(file)
+
   private val unit = Array(0f, 0f, 0f, 1f, 1f, 1f)
 
   test("a volume has one or three channels"):
