@@ -50,7 +50,7 @@ final class ShapeRecipesSuite
 final class MaterialRecipesSuite
     extends RecipeLaws[Material](
       Materials.all,
-      demanding = Set("measured", "fourier", "mix", "twosided", "nested")
+      demanding = Set("measured", "fourier", "mix", "twosided", "nested", "coating")
     )
 
 final class LightRecipesSuite

@@ -16,7 +16,7 @@ class VaryingMaterialsSuite extends AnyFunSuite:
   private def beside(material: String, parameter: String, dialect: Dialect): String =
     (material, parameter, dialect.base) match
       case ("mix" | "twosided", _, Dialect.V4) => "\"string materials\" [\"a\" \"b\"]"
-      case ("nested", _, _) => "\"string material\" \"a\""
+      case ("nested" | "coating", _, _) => "\"string material\" \"a\""
       case ("mix", _, _) => "\"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\""
       case ("subsurface", "sigma_a", Dialect.V4) => "\"rgb sigma_s\" [1 1 1]"
       case ("subsurface", "sigma_s", Dialect.V4) => "\"rgb sigma_a\" [1 1 1]"
