@@ -7,7 +7,7 @@ import candela.accel.{Accelerator, Instances, Primitives}
 import candela.aov.Cryptomatte
 import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{LightPlan, Lights, SkySampling}
-import candela.build.options.{Accelerators, BvhRecipe}
+import candela.build.options.{AcceleratorPlan, Accelerators, BvhRecipe}
 import candela.build.textures.Textures
 import candela.cameras.Shutter
 import candela.color.{CameraSensor, ColorBasis}
@@ -100,6 +100,9 @@ private[build] final class WorldBuilder(
       (collected(uses.world), uses.shared.map(o => collected(o.shapes)))
     val lightPlans = clock.during(CostKind.Lights):
       description.lights.map(l => l -> lightPlan(l, context))
+    val hierarchies = description.accelerator
+      .flatMap(d => Accelerators.all.build(context.site(d)))
+      .getOrElse(BvhRecipe.accelerator(context.resources))
     problems.stopAtErrors()
 
     val (lit, litObjects) = clock.during(CostKind.Triangles):
@@ -111,7 +114,7 @@ private[build] final class WorldBuilder(
       val shining = lightPlans.flatMap((l, plan) => light(l, plan, skies).map(l -> _))
       (shining, areaLights(context) ++ shining.map(_._2))
     val placed = clock.during(CostKind.Hierarchies):
-      structure(lit.surfaces, litObjects.map(_.surfaces), uses.shared)
+      structure(lit.surfaces, litObjects.map(_.surfaces), uses.shared, hierarchies)
     val all = lights.map(_.light).toArray
     val pool = context.resources.pool
     val selection = clock.during(CostKind.Lights):
@@ -233,10 +236,12 @@ private[build] final class WorldBuilder(
       light <- plan.make(l.lightToWorld.start, skies)
     yield SampledLight(light, plan.samples, l.light)
 
-  private def structure(world: Surfaces, objects: Vector[Surfaces], uses: Vector[PlacedObject]) =
-    val asked =
-      description.accelerator.flatMap(d => Accelerators.all.build(context.site(d)))
-    val plan = asked.getOrElse(BvhRecipe.accelerator(context.resources))
+  private def structure(
+      world: Surfaces,
+      objects: Vector[Surfaces],
+      uses: Vector[PlacedObject],
+      plan: AcceleratorPlan
+  ) =
     def accelerate(primitives: Primitives): Accelerator = plan(primitives, samples)
     val places = placesOf(uses)
     for i <- description.instances.headOption do

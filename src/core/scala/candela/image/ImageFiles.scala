@@ -8,6 +8,7 @@ import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, NoSuchFileException, Path}
 
 import scala.util.Using
+import scala.util.control.ControlThrowable
 
 /** Reads and writes image files of all supported formats. Every failure is an [[ImageError]]. */
 object ImageFiles:
@@ -51,6 +52,17 @@ object ImageFiles:
         val limit = ByteCount.show(JavaHeap.limit)
         val message = s"$file: not enough memory for its pixels: Java's heap is limited to $limit"
         throw ImageError(Code.OutOfMemory, message)
+
+  /** What is wrong with a file, as far as it is read to know the size of the image. */
+  def fault(file: InputFile): Option[ImageError] =
+    try
+      load(file, (_, _) => throw SizeKnown): Unit
+      None
+    catch
+      case SizeKnown => None
+      case e: ImageError => Some(e)
+
+  private object SizeKnown extends ControlThrowable
 
   /** The image of a file, which must have colours.
     *

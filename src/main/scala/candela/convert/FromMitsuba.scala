@@ -39,7 +39,12 @@ object FromMitsuba:
       else if d.category == "Camera" then
         withoutParams(d, "nothing is clipped", "nearclip", "farclip")
       else if d.category == "Film" then
-        withoutParams(withoutParams(d, "no alpha is written", "alpha"), "", "sampleborder")
+        val opaque = withoutParams(d, "no alpha is written", "alpha")
+        withoutParams(
+          withoutParams(opaque, "the layers of Mitsuba's \"aov\" are not written", "aovs"),
+          "",
+          "sampleborder"
+        )
       else if d.category == "Integrator" then
         withoutParams(d, "area lights and sky are visible", "hideemitters")
       else if d.category == "Shape" then

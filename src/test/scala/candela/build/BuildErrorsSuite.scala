@@ -5,7 +5,8 @@ import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.image.{Image, ImageFiles}
+import candela.image.{Image, ImageFiles, Samples}
+import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Dialect, Parser}
 import candela.settings.RenderSettings
 import candela.testing.SceneTexts
@@ -36,6 +37,32 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val p = only("Shape \"sphere\" \"float raduis\" 2")
     assertWarning(p, "`raduis` is not a parameter of \"sphere\"", "`radius`")
     assert(p.at.map(_.column).contains(16))
+
+  test("a missing mesh hides no error of another kind"):
+    Samples.inFolder: folder =>
+      Files.write(folder.resolve("bad.png"), Array[Byte](1, 2, 3)): Unit
+      val mesh = "Shape \"plymesh\" \"string filename\" \"gone.ply\"\n"
+      val texture = "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"bad.png\"\n"
+      val world = s"Accelerator \"octree\"\nWorldBegin\n$mesh$texture"
+      def said(text: String) = SceneTexts.problems(text, Dialect.V4, folder).map(_.message)
+      val expected = Seq("no file `gone.ply`", "not a valid .png file", "\"octree\"")
+      for text <- expected do assert(said(world).exists(_.contains(text)), said(world))
+
+  test("a missing mesh of Mitsuba's hides no broken image"):
+    Samples.inFolder: folder =>
+      Files.write(folder.resolve("bad.png"), Array[Byte](1, 2, 3)): Unit
+      val image = """<bsdf type="diffuse"><texture type="bitmap" name="reflectance">
+        <string name="filename" value="bad.png"/></texture></bsdf>"""
+      val file = Files.writeString(
+        folder.resolve("scene.xml"),
+        s"""<scene version="3.0.0"><integrator type="path"/><sensor type="perspective"/>
+          <emitter type="envmap"><string name="filename" value="bad.png"/></emitter>
+          <shape type="obj"><string name="filename" value="gone.obj"/></shape>
+          <shape type="sphere">$image</shape></scene>"""
+      )
+      val scene = MitsubaScene.readable(file, Map.empty, keepGoing = false)
+      val told = intercept[SceneError](SceneBuilder.build(scene, RenderSettings())).problems
+      assert(told.flatMap(_.at.map(_.line)) == Vector(2, 3, 5), told)
 
   test("a misspelt parameter of a substituted type is found, too"):
     val ptex = s"Texture \"t\" \"float\" \"ptex\" \"string filenam\" \"x\" $sphere"

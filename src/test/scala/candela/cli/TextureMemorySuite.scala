@@ -148,10 +148,13 @@ class TextureMemorySuite extends AnyFunSuite:
       val (_, said) = render(scene, "--keep-going")
       assert(said.contains("E0703") && said.split("warning").length == 2, said)
 
-  test("images are not decoded where a statement can't be read"):
+  test("where a statement can't be read, pixels are not decoded, but files checked"):
     TempFolder.use: folder =>
       val scene = scenes(folder).head
-      Files.write(folder.resolve("a.png"), Array[Byte](1, 2, 3)): Unit
+      val whole = Files.readAllBytes(folder.resolve("a.png"))
+      def broken(bytes: Array[Byte]) =
+        Files.write(folder.resolve("a.png"), bytes): Unit
+      broken(whole.take(whole.length / 2))
       Files.writeString(scene, Files.readString(scene) + "\nShape \"sphere\" \"float\" 1"): Unit
       for memory <- Seq("1M", "1G") do
         val cache = folder.resolve("cache")
@@ -160,6 +163,10 @@ class TextureMemorySuite extends AnyFunSuite:
         val (code, captured) = Captured.run(words*)
         assert(code == 1 && !captured.err.contains("a.png"), captured.err)
         assert(!Files.exists(cache))
+        broken(Array[Byte](1, 2, 3))
+        val (_, told) = Captured.run(words*)
+        assert(told.err.contains("a.png: not a valid .png file"), told.err)
+        broken(whole.take(whole.length / 2))
 
   test("an image with texels that are no numbers is named, in tiles and in memory, and once more"):
     TempFolder.use: folder =>

@@ -149,9 +149,17 @@ final class SharedResources(
           problems.missing(Code.NoSuchFile, at, message, standIn, help)
       found
 
-  /** The file of an image, unless the scene can't be rendered anyway: images take seconds. */
+  private val faults = ConcurrentHashMap[Path, Option[ImageError]]()
+
+  /** The file of an image. Of a scene that can't be rendered anyway, only what is wrong before the
+    * pixels is told: these take seconds.
+    */
   private def toRead(p: Param, from: Declaration, problems: Findings, standIn: String) =
-    file(p, from, problems, standIn).filter(_ => isReadable)
+    file(p, from, problems, standIn).filter: file =>
+      if !isReadable then
+        for e <- faults.computeIfAbsent(file.path, _ => ImageFiles.fault(file)) do
+          told(Left(e), file, p, problems, standIn): Unit
+      isReadable
 
   private def load(file: InputFile, at: SourcePos): Either[ImageError, StoredImage] = synchronized:
     images.getOrElseUpdate(
