@@ -230,7 +230,7 @@ lazy val root: Project = (project in file("."))
 
     // What makes the packages is tested, too.
     Test / unmanagedSources ++=
-      Seq("Facts", "JavaRuntime", "Manifests", "PlainLambdas", "ProgramFiles",
+      Seq("Distribution", "Facts", "JavaRuntime", "Manifests", "PlainLambdas", "ProgramFiles",
         "Revision", "Wheel", "ZipWriter")
         .map(name => (ThisBuild / baseDirectory).value / "project" / s"$name.scala"),
 
@@ -422,7 +422,8 @@ def versionSource = Def.task {
 
 /** Of the content of files, wherever they are, with the line ends of any system. */
 def digest(files: Seq[File]): String = {
-  val sums = files.filter(_.isFile).map(f => f.getName + Hash.toHex(Hash(IO.read(f).replace("\r", ""))))
+  val sums =
+    files.filter(_.isFile).map(f => f.getName + Hash.toHex(Hash(IO.read(f).replace("\r", ""))))
   Hash.toHex(Hash(sums.sorted.mkString(" "))).take(12)
 }
 

@@ -101,5 +101,5 @@ set -- -jar "$launcher" "$@"
 set -- -Duser.home="$home" -Dfile.encoding=UTF-8 ${SBT_OPTS:-} "$@"
 # JDK 24 and later warn about what Scala's lazy values do.
 if [ "$major" -ge 23 ]; then set -- --sun-misc-unsafe-memory-access=allow "$@"; fi
-exec "$java" -Xms256m -Xmx1g -Xss8m -XX:+UseParallelGC -XX:ReservedCodeCacheSize=256m \
+exec "$java" -Xms256m -Xmx2g -Xss8m -XX:+UseParallelGC -XX:ReservedCodeCacheSize=256m \
   --enable-native-access=ALL-UNNAMED "$@"

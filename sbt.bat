@@ -43,7 +43,7 @@ if errorlevel 1 exit /b 1
 rem JDK 24 and later warn about what Scala's lazy values do.
 set "QUIET="
 if %MAJOR% GEQ 23 set "QUIET=--sun-misc-unsafe-memory-access=allow"
-"%JAVA%" -Xms256m -Xmx1g -Xss8m -XX:+UseParallelGC -XX:ReservedCodeCacheSize=256m ^
+"%JAVA%" -Xms256m -Xmx2g -Xss8m -XX:+UseParallelGC -XX:ReservedCodeCacheSize=256m ^
   --enable-native-access=ALL-UNNAMED %QUIET% -Dfile.encoding=UTF-8 %SBT_OPTS% -jar "%LAUNCHER%" %*
 exit /b %ERRORLEVEL%
 

@@ -24,9 +24,16 @@ object Distribution {
       folder: Path
   )
 
-  /** Makes all packages that can be made here; what is in the folder is deleted. */
+  /** Makes all packages of this system; what is in the folder is deleted.
+    *
+    * @throws RuntimeException before it makes any, if one of them can't be made
+    */
   def make(plan: Plan, say: String => Unit): Unit = {
     import plan.{facts, folder}
+    val here = Platform.here.getOrElse(sys.error(
+      "no package is made for this system; `./sbt stage` makes a program for it"
+    ))
+    val jdk = plan.jdk.fold(why => sys.error(why), identity)
     delete(folder)
     Files.createDirectories(folder)
     val program = for ((name, path) <- plan.program if Files.isRegularFile(path))
@@ -38,16 +45,14 @@ object Distribution {
       entries
     }
     for (platform <- Platform.all) zip(platform, None)
-    withRuntime(plan, say) { (platform, runtime) =>
-      val entries = zip(platform, Some(runtime))
-      Wheel.write(
-        facts,
-        platform,
-        entries,
-        ProgramFiles.module(plan.module),
-        folder.resolve(facts.wheelFile(platform))
-      )
-    }
+    say(s"the Java runtime for ${here.name} is made by $jdk")
+    val runtime = folder.resolve("runtime")
+    try {
+      JavaRuntime.make(jdk, runtime)
+      val entries = zip(here, Some(ProgramFiles.runtime(runtime)))
+      val module = ProgramFiles.module(plan.module)
+      Wheel.write(facts, here, entries, module, folder.resolve(facts.wheelFile(here)))
+    } finally delete(runtime)
     describe(plan, say)
   }
 
@@ -72,25 +77,6 @@ object Distribution {
       Files.writeString(file, text)
     }
     for (a <- made) say("%6.1f MB  %s".format(a.size / 1e6, a.file))
-  }
-
-  private def withRuntime(plan: Plan, say: String => Unit)(
-      body: (Platform, Seq[Entry]) => Unit
-  ): Unit = {
-    val maker = for {
-      platform <- Platform.here.toRight("no package is made for this system")
-      jdk <- plan.jdk
-    } yield (platform, jdk)
-    maker match {
-      case Left(why) => say(s"no package with a Java runtime, and no wheel: $why")
-      case Right((platform, jdk)) =>
-        say(s"the Java runtime for ${platform.name} is made by $jdk")
-        val to = plan.folder.resolve("runtime")
-        try {
-          JavaRuntime.make(jdk, to)
-          body(platform, ProgramFiles.runtime(to))
-        } finally delete(to)
-    }
   }
 
   private def delete(folder: Path): Unit = if (Files.exists(folder)) {

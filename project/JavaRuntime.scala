@@ -31,8 +31,9 @@ object JavaRuntime {
       case None =>
         val known = environment.get("JAVA_HOME").filter(_.nonEmpty).map(Path.of(_)).toSeq :+ own
         known.find(home => fault(home).isEmpty && major(home) >= bestJava).toRight(
-          s"neither JAVA_HOME nor the Java of this build is a JDK $bestJava or newer with jlink " +
-            "and jdk.incubator.vector; CANDELA_RUNTIME_JDK names one"
+          s"the zip with Java and the wheel need a JDK $bestJava or newer with jlink, for example " +
+            "from https://adoptium.net: install it, and set JAVA_HOME or CANDELA_RUNTIME_JDK to " +
+            "its folder"
         )
     }
 

@@ -2,7 +2,8 @@ package candela.cli
 
 import candela.testing.TempFolder
 import packaging.{
-  Artifact, Entry, Facts, JavaRuntime, Manifests, Platform, ProgramFiles, Revision, Wheel, ZipWriter
+  Artifact, Distribution, Entry, Facts, JavaRuntime, Manifests, Platform, ProgramFiles, Revision,
+  Wheel, ZipWriter
 }
 
 import java.net.URI
@@ -160,3 +161,12 @@ class DistributionSuite extends AnyFunSuite:
       assert(chosen(good, "CANDELA_RUNTIME_JDK" -> old.toString) == Right(old))
       val refused = chosen(good, "CANDELA_RUNTIME_JDK" -> bare.toString)
       assert(refused.left.exists(_.contains("lacks java.management, ")))
+
+  test("without a JDK for the runtime nothing is made, and the message says what to install"):
+    TempFolder.use: folder =>
+      val jdk = JavaRuntime.jdk(Map.empty, folder, 25)
+      val dist = folder.resolve("dist")
+      val plan = Distribution.Plan(facts, Nil, folder, jdk, Nil, Nil, dist)
+      val failure = intercept[RuntimeException](Distribution.make(plan, _ => ()))
+      assert(failure.getMessage.contains("JDK 25") && failure.getMessage.contains("adoptium.net"))
+      assert(!Files.exists(dist))
