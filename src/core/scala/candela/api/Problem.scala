@@ -47,12 +47,13 @@ final class Problem private[api] (found: candela.diagnostics.Problem):
     val place = at.fold("")(p => s"$p: ")
     s"$place${severity.toString.toLowerCase}: $message${found.help.fold("")(h => s"; $h")}"
 
-/** A scene that can't be rendered, or an invalid setting. [[Candela.read]] and
-  * [[Scene.check]] return problems instead of throwing them.
+/** A scene that can't be rendered, or an invalid setting. Its message is that of the first error,
+  * with its number, and says how many others there are. [[Candela.read]] and [[Scene.check]] return
+  * problems instead of throwing them.
   */
 final class SceneException private[api] (
     private[api] val found: Vector[candela.diagnostics.Problem]
-) extends RuntimeException(Problems.ofCore(found).iterator.next().toString):
+) extends RuntimeException(Problems.summary(found)):
 
   /** All of them, errors and warnings, in the order of the scene; at least one. */
   def problems: java.util.List[Problem] = Problems.ofCore(found)

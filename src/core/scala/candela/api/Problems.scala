@@ -11,6 +11,16 @@ private[api] object Problems:
   def ofCore(found: Vector[candela.diagnostics.Problem]): java.util.List[Problem] =
     java.util.List.copyOf(found.map(Problem(_)).asJava)
 
+  /** The first error, or the first warning if there is none, and the number of further ones. */
+  def summary(found: Vector[candela.diagnostics.Problem]): String =
+    val (errors, warnings) = found.partition(_.severity == candela.diagnostics.Severity.Error)
+    val (all, noun) = if errors.nonEmpty then (errors, "error") else (warnings, "warning")
+    val first = Problem(all.head)
+    all.size - 1 match
+      case 0 => s"$first [${first.number}]"
+      case 1 => s"$first [${first.number}], and 1 more $noun"
+      case more => s"$first [${first.number}], and $more more ${noun}s"
+
   /** Runs `body` and turns its errors into a [[SceneException]]. */
   def thrown[A](body: => A): A =
     try body

@@ -106,6 +106,16 @@ class LibrarySuite extends AnyFunSuite:
     val own = ours -- before
     Eventually.eventually("end of all threads")(Option.when(!own.exists(_.isAlive))(()))
 
+  test("the message of an exception is the first error, with its number and that of the others"):
+    def message(world: String) =
+      val scene = Candela.parse(s"Film \"rgb\" \"float oddity\" 1\nWorldBegin\n$world")
+      intercept[SceneException](scene.prepare(RenderSettings())).getMessage
+    val unknown = "Shape \"spher\"\n"
+    val one = message(unknown)
+    assert(one.startsWith("scene.pbrt:3:7: error: ") && one.contains("[E0401]"), one)
+    assert(!one.contains(" more "), one)
+    assert(message(unknown * 3).endsWith("[E0401], and 2 more errors"), message(unknown * 3))
+
   test("nothing is printed, no property is set"):
     val (out, err) = (System.out, System.err)
     val bytes = ByteArrayOutputStream()
