@@ -35,6 +35,7 @@ object SkyImages:
         else if toSquare then
           val side = Math.min(Math.max(2 * source.height, 64), 4096)
           resampled(source, LatLongMap, side, side, EqualAreaMap, smooth = true)
+        else if source.width == 2 * source.height then source
         else
           val height = Math.min(source.height, 4096)
           resampled(source, EqualAreaMap, 2 * height, height, LatLongMap, smooth = false)

@@ -20,7 +20,12 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     )
   private val mapname = string("mapname", "equirectangular image", untilV3, shown = "none")("")
   private val filename =
-    string("filename", "equal-area octahedral image", onlyV4, shown = "none")("")
+    string(
+      "filename",
+      "equal-area octahedral image, or an equirectangular one",
+      onlyV4,
+      shown = "none"
+    )("")
   private val illuminance =
     float(
       "illuminance", "illuminance on a plane, overrides the magnitude of `L`", onlyV4, "lx", "none"
@@ -46,9 +51,12 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
       )
     if given_.nonEmpty then
       val found = LightImages.environment(named)
-      found.filter(i => !octahedral || LightImages.isSquare(i.width, i.height)) match
+      def isLatLong(i: EnvironmentImage) = !octahedral || i.width == 2 * i.height
+      found.filter(i => isLatLong(i) || LightImages.isSquare(i.width, i.height)) match
         case None => LightPlan.nothing
         case Some(read) =>
+          val isEqualArea = !isLatLong(read)
+          if octahedral && !isEqualArea then warnOfLatLong(read)
           val isPolar = !octahedral && site.rules.flatMaps
           val image = if isPolar then read.withEquator else read
           val unit = if octahedral then Spectra.white else radiance()
@@ -56,14 +64,14 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
             val dialects = Set(Dialect.V3, Dialect.V4)
             warnOfScale(dialects, UniformScale.isOne, "weights its light by the scale")
           def perUnit =
-            if octahedral then irradiances(onThePlane(image))
+            if octahedral then irradiances(onThePlane(image, isEqualArea))
             else 1f
           val l = scaled(unit, illuminance(), perUnit)
           val (layout, mapping) =
-            if octahedral then (EqualAreaMap, "octahedral")
+            if isEqualArea then (EqualAreaMap, "octahedral")
             else if isPolar then (PolarLatLongMap(image.height), "polar")
             else (LatLongMap, "even")
-          val sphere = image.on(layout, l, smooth = !octahedral)
+          val sphere = image.on(layout, l, smooth = !isEqualArea)
           val basis = site.resources.basis
           val colors =
             if basis.isSpectral then "as stored" else s"${basis.isSrgb} ${l.r} ${l.g} ${l.b}"
@@ -81,6 +89,16 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
           (_, finds) => Some(ConstantEnvironment(l, complete = finds == SkySampling.All)),
           sampleCount()
         )
+
+  private def warnOfLatLong(image: EnvironmentImage)(using site: Site): Unit =
+    for p <- site.declaration.param("filename") do
+      site.problems.warn(
+        Code.UnlikePbrt,
+        p.valuesAt,
+        s"an image of ${image.width}×${image.height} pixels is taken for equirectangular, which " +
+          "pbrt-v4 rejects",
+        Some(LightImages.EqualArea)
+      )
 
   /** @param table its sampling table; see [[ImageEnvironment.distribution]] */
   private def around(l: Rgb, image: SphereImage)(table: Boolean => Distribution2D)(using
@@ -148,17 +166,21 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     * value, because it gives each pixel 2π over their count instead of 4π. For EXR files, whose
     * channel order is B, G, R, pbrt-v4 also swaps red and blue.
     */
-  private def onThePlane(image: EnvironmentImage)(using site: Site): Float =
+  private def onThePlane(image: EnvironmentImage, isEqualArea: Boolean)(using
+      site: Site
+  ): Float =
     var sum = 0.0
-    val size = image.width
+    val (width, height) = (image.width, image.height)
     val basis = site.resources.basis
-    val isSwapped = filename().toLowerCase.endsWith(".exr")
-    val luminances = image.on(EqualAreaMap, Rgb.White, smooth = false).ofPixels: (r, g, b) =>
+    val isSwapped = isEqualArea && filename().toLowerCase.endsWith(".exr")
+    val map = if isEqualArea then EqualAreaMap else LatLongMap
+    val luminances = image.on(map, Rgb.White, smooth = false).ofPixels: (r, g, b) =>
       val srgb = basis.toSrgb(Rgb(r, g, b))
       val weighed = if isSwapped then Rgb(srgb.b, srgb.g, srgb.r) else srgb
       weighed.luminance
-    loop(size): y =>
-      loop(size): x =>
-        val d = EqualAreaMap.toDirection((x + 0.5f) / size, (y + 0.5f) / size)
-        if d.z > 0f then sum += luminances(y * size + x) * d.z
-    (sum * 2 * Math.PI / (size.toDouble * size)).toFloat
+    loop(height): y =>
+      val share = map.stretch((y + 0.5f) / height) / (4f * Pi)
+      loop(width): x =>
+        val d = map.toDirection((x + 0.5f) / width, (y + 0.5f) / height)
+        if d.z > 0f then sum += luminances(y * width + x) * d.z * share
+    (sum * 2 * Math.PI / (width.toDouble * height)).toFloat

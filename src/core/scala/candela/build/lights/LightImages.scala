@@ -141,6 +141,10 @@ private[build] object LightImages:
     while i < values.length && Math.abs(values(i)) < Brightest do i += 1
     i
 
+  /** Makes an equal-area map of an equirectangular one. */
+  val EqualArea: String =
+    "`candela image IN --outfile OUT --environment equalarea` converts an equirectangular image"
+
   /** Checks that an equal-area map is square. Reports an error otherwise. */
   def isSquare(width: Int, height: Int)(using site: Site): Boolean =
     val isSquare = width == height
@@ -148,7 +152,7 @@ private[build] object LightImages:
       site.error(
         Code.ImageContents,
         s"an equal-area map must be square, found $width×$height pixels",
-        Some("`candela image IN OUT --environment equalarea` converts an equirectangular image")
+        Some(EqualArea)
       )
     isSquare
 
