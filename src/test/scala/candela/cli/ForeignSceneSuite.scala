@@ -91,6 +91,12 @@ class ForeignSceneSuite extends AnyFunSuite:
       assert(code == 0, captured.err)
       val facts = captured.out.linesIterator.map(_.split(" {2,}", 2)).map(w => w(0) -> w(1)).toMap
       assert(facts("scene") == s"$scene" && facts("samples") == "4 of 4 per pixel: complete")
+      val part = s"$folder/part.film"
+      val words = Vector("--spp", "16", "--shard", "0/2", "--outfile", part)
+      assert(Captured.run(scene.toString +: words*)._1 == 0)
+      val of = Captured.run("info", part)._2.out.linesIterator.toVector
+      assert(of.exists(_.endsWith("8 of 16 per pixel")), of)
+      assert(of.exists(_.endsWith("0/2: complete")), of)
       assert(facts("size").startsWith("2x3") && facts("options") == "--seed 7")
 
   test("an included file that is no scene is named where it is included"):

@@ -32,12 +32,15 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
     ForeignFile.of(path).exists(_.kind == ForeignKind.Film)
 
   private def described(film: FilmHeader): Vector[String] =
-    val samples = s"${film.done} of ${film.samples} per pixel"
+    val share = film.shards.size.toDouble / film.count
+    val samples = s"${Figures.general(film.done * share)} of ${film.samples} per pixel"
     val about = Vector(
       "scene" -> film.scene,
       "size" -> film.size,
-      "samples" -> (if film.isComplete then s"$samples: complete" else samples)
-    ) ++ Option.when(film.count > 1)("part" -> film.part) ++
+      "samples" -> (if film.isComplete && film.isWhole then s"$samples: complete" else samples)
+    ) ++ Option.when(film.count > 1):
+      "part" -> (if film.isComplete then s"${film.part}: complete" else film.part)
+    ++
       Option.when(film.words.nonEmpty)("options" -> film.words.mkString(" ")) ++
       Option.when(film.outfiles.nonEmpty)("images" -> film.outfiles.mkString(", ")) ++
       Vector(
