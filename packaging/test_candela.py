@@ -99,6 +99,30 @@ class InMemory(unittest.TestCase):
             grey = scene.render(spp=4).rgb[8, 18]
             np.testing.assert_allclose(grey, grey[0], rtol=1e-6)
 
+    def test_files_are_changed_in_memory_alone(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            file = Path(folder) / "a.xml"
+            text = '<?xml version="1.0" encoding="utf-8"?>\n' + XML.replace('"24"', '"$width"')
+            file.write_text(text)
+            scene = candela.load_file(file)
+            self.assertEqual(scene.parameters()["sensor.film.width"], "$width")
+            scene.parameters()["red.reflectance"] = [0.1, 0.2, 0.8]
+            image = scene.render(spp=4, define="width=36")
+            self.assertEqual(image.rgb.shape, (16, 36, 3))
+            self.assertGreater(image.rgb[8, 18, 2], 2 * image.rgb[8, 18, 0])
+            self.assertEqual(file.read_text(), text)
+
+    def test_a_text_that_is_no_scene_is_a_problem_with_its_line(self):
+        for text in ("", "nonsense", "<scene", "<scene version='3.0.0'></scen>"):
+            with self.assertRaises(candela.SceneError, msg=text):
+                candela.load_string(text).render()
+            self.assertTrue(candela.load_string(text).check(), text)
+        with self.assertRaises(candela.SceneError) as caught:
+            candela.load_string("<scene version='3.0.0'>\n</scen>").parameters()
+        self.assertEqual((caught.exception.line, caught.exception.file), (2, "scene.xml"))
+        with self.assertRaises(candela.UsageError):
+            candela.load_string(SCENE).parameters()
+
     def test_values_may_be_transforms_and_objects(self):
         scene = candela.load_string(XML)
         values = scene.parameters()
@@ -167,6 +191,12 @@ class InMemory(unittest.TestCase):
         self.assertEqual((seen[-1].done, seen[-1].samples), (1, 24 * 16 * 4))
         self.assertGreater(seen[-1].seconds, 0)
         self.assertIn("samples/s", seen[-1].line)
+
+    def test_a_progress_that_renders_is_told_so(self):
+        scene = candela.load_string(XML)
+        with self.assertRaisesRegex(candela.UsageError, "progress"):
+            scene.render(spp=4, progress=lambda p: scene.render(spp=1))
+        scene.render(spp=1)
 
     def test_messages_have_keywords(self):
         with self.assertRaises(candela.UsageError) as caught:

@@ -166,13 +166,13 @@ def _exr(image: Image) -> bytes:
         flat, names = _flat(values), image.channels[layer]
         for i, name in enumerate(names):
             planes[name.encode()] = flat[i :: len(names)]
-    names = sorted(planes)
+    channel_names = sorted(planes)
     x, y, whole_width, whole_height = image.window or (0, 0, width, height)
 
     def attribute(name: str, kind: str, data: bytes) -> bytes:
         return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
 
-    channels = b"".join(n + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for n in names) + b"\0"
+    channels = b"".join(n + b"\0" + struct.pack("<iiii", 2, 0, 1, 1) for n in channel_names) + b"\0"
     data = struct.pack("<iiii", x, y, x + width - 1, y + height - 1)
     display = struct.pack("<iiii", 0, 0, whole_width - 1, whole_height - 1)
     header = b"".join(
@@ -189,12 +189,12 @@ def _exr(image: Image) -> bytes:
             b"\0",
         ]
     )
-    size = 4 * width * len(names)
+    size = 4 * width * len(channel_names)
     first = len(header) + 8 * height
     offsets = struct.pack(f"<{height}Q", *(first + row * (8 + size) for row in range(height)))
     rows = [
         struct.pack("<ii", y + row, size)
-        + b"".join(planes[n][row * width : (row + 1) * width].tobytes() for n in names)
+        + b"".join(planes[n][row * width : (row + 1) * width].tobytes() for n in channel_names)
         for row in range(height)
     ]
     return header + offsets + b"".join(rows)

@@ -59,7 +59,7 @@ def render(
         for layer in [aov] if isinstance(aov, str) else aov:
             words += ["--aov", layer]
         words += _words({"spp": spp, **options})
-        _, problems = execute(words, text and (name, text), keys, progress)
+        _, problems = execute(words, None if text is None else (name, text), keys, progress)
         _warn(problems)
         return load(file)
 
@@ -68,7 +68,8 @@ def check(scene: Union[PathLike, Scene], **options: Value) -> List[Problem]:
     """Parses and builds a scene without rendering it, and returns its errors and warnings."""
     name, text, keys = _scene(scene).source()
     try:
-        return execute(["check", name, *_words(options)], text and (name, text), keys)[1]
+        given = None if text is None else (name, text)
+        return execute(["check", name, *_words(options)], given, keys)[1]
     except SceneError as error:
         return list(error.problems)
 

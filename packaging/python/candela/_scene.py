@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 from xml.etree.ElementTree import Element, ParseError
 
 from . import _xml
-from ._errors import SceneError, UsageError, Problem
+from ._errors import Problem, SceneError, UsageError
 
-PathLike = "str | os.PathLike[str]"
+if TYPE_CHECKING:
+    from ._image import Image
+
+PathLike = Union[str, "os.PathLike[str]"]
 
 
 class Scene:
@@ -63,13 +66,13 @@ class Scene:
         if not self._of_dict and self._tree is not None:
             self._text = _xml.to_text(self._tree)
 
-    def render(self, **options: Any) -> "Any":
+    def render(self, **options: Any) -> Image:
         """The image; see ``candela.render``."""
         from ._render import render
 
         return render(self, **options)
 
-    def check(self, **options: Any) -> "Any":
+    def check(self, **options: Any) -> List[Problem]:
         """Its errors and warnings; see ``candela.check``."""
         from ._render import check
 

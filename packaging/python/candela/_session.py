@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, Callable, Dict, List, Optional, Sequence, Tuple
 
-from ._errors import InternalError, Problem, error_of, problems_in
+from ._errors import InternalError, Problem, UsageError, error_of, problems_in
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def program() -> Path:
 def start(words: Sequence[str], **streams: Any) -> "subprocess.Popen[str]":
     """Starts the program in a process group of its own: Ctrl-C reaches Python alone."""
     new_group: Dict[str, Any] = (
-        {"creationflags": subprocess.CREATE_NEW_PROCESS_GROUP}
+        {"creationflags": getattr(subprocess, "CREATE_NEW_PROCESS_GROUP")}
         if sys.platform == "win32"
         else {"start_new_session": True}
     )
@@ -78,6 +78,7 @@ class Session:
 
     def __init__(self) -> None:
         self.key = _key()
+        self._is_running = False
         self._errors: IO[bytes] = tempfile.TemporaryFile()
         self._child = start(["session"], stdout=subprocess.PIPE, stderr=self._errors)
         self._answers: "queue.Queue[Optional[Dict[str, Any]]]" = queue.Queue()
@@ -138,6 +139,17 @@ class Session:
         self, words: Sequence[str], text: Optional[Text] = None, progress: Optional[Listener] = None
     ) -> Tuple[int, str, List[str]]:
         """The exit code of a command line, what it prints, and its messages."""
+        if self._is_running:
+            raise UsageError("a rendering's `progress` can't call candela: the rendering goes on")
+        self._is_running = True
+        try:
+            return self._run(words, text, progress)
+        finally:
+            self._is_running = False
+
+    def _run(
+        self, words: Sequence[str], text: Optional[Text], progress: Optional[Listener]
+    ) -> Tuple[int, str, List[str]]:
         request: Dict[str, Any] = {"run": list(words)}
         if text is not None:
             request["scene"], request["text"] = text

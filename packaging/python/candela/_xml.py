@@ -45,8 +45,8 @@ _OBJECTS = set(ELEMENTS.values())
 def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional[ET.Element]:
     """The element of a value; what is wrong with it is added to the faults."""
 
-    def wrong(message: str, number: str = "E0304") -> None:
-        faults.append(_fault(key, message, number))
+    def wrong(message: str) -> None:
+        faults.append(_fault(key, message))
 
     def plain(tag: str, text: str) -> ET.Element:
         return ET.Element(tag, name=name, value=text)
@@ -64,7 +64,8 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
     if isinstance(value, numbers.Real):
         if math.isfinite(value):
             return plain("float", repr(float(value)))
-        return wrong(f"expected a number, found {value}")
+        wrong(f"expected a number, found {value}")
+        return None
     if _is_transform(value):
         element = ET.Element("transform", name=name)
         element.append(ET.Element("matrix", value=_numbers(sum(rows(value), []))))
@@ -73,7 +74,8 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
         items = [float(x) for x in value]
     except (TypeError, ValueError):
         hint = ": use its dict" if type(value).__module__.startswith("mitsuba") else ""
-        return wrong(f"expected a number, a text, a dict or a transform, found {value!r:.80}{hint}")
+        wrong(f"expected a number, a text, a dict or a transform, found {value!r:.80}{hint}")
+        return None
     if len(items) == 1:
         return plain("float", repr(items[0]))
     return plain("vector" if len(items) == 3 else "string", _numbers(items))
@@ -94,7 +96,7 @@ def _object(name: str, value: Dict[str, Any], key: str, faults: List[Problem]) -
         message = "a dict needs a 'type'" if kind is None else f"unknown type `{kind}`"
         faults.append(_fault(key, message, "E0401", f"did you mean `{near[0]}`?" if near else None))
         return None
-    tree = ET.Element(element, type=kind, name=name)
+    tree = ET.Element(element, type=str(kind), name=name)
     if isinstance(value.get("id"), str):
         tree.set("id", value["id"])
     for inner, each in value.items():
@@ -109,7 +111,7 @@ def _color(
     name: str, kind: str, value: Dict[str, Any], key: str, faults: List[Problem]
 ) -> Optional[ET.Element]:
     element = ET.Element(kind, name=name)
-    given = value.get("value")
+    given: Any = value.get("value")
     if kind == "spectrum" and "filename" in value:
         element.set("filename", os.fspath(value["filename"]))
         return element
