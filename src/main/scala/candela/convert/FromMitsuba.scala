@@ -1,7 +1,7 @@
 package candela.convert
 
 import candela.base.loop
-import candela.diagnostics.{Code, Problem}
+import candela.diagnostics.{Code, Problem, SourcePos}
 import candela.io.SceneFolder
 import scala.collection.mutable
 import scala.util.Try
@@ -56,19 +56,15 @@ object FromMitsuba:
       else if d.category != "Material" then d
       else
         for p <- d.param("normalmapuv") do
-          problems += Problem.warning(
-            Code.Inexpressible,
-            p.at,
-            "pbrt maps normal maps by u and v directly; `to_uv` of this one is dropped"
-          )
+          warn(p, "pbrt maps normal maps by u and v directly; `to_uv` of this one is dropped")
         for p <- d.params if FromMitsuba.BumpParams(p.name) && isSoft(d) do
-          problems += Problem.warning(
-            Code.Inexpressible,
-            p.at,
-            "pbrt does not darken the edge of the shadow on bumps, as Mitsuba does"
-          )
+          warn(p, "pbrt does not darken the edge of the shadow on bumps, as Mitsuba does")
         val mapped = withoutParams(d, "", "normalmapuv", "softedges", "turnednormals")
-        if d.dialect.isDefined then mapped else material(mapped)
+        if d.dialect.isDefined then mapped else spelled(material(mapped))
+
+    private def spelled(d: Declaration): Declaration =
+      def inV3(p: Param) = if p.name == "displacement" then p.renamed("bumpmap") else p
+      if d.dialect.isEmpty then d else d.copy(params = d.params.map(inV3))
 
     private def isSoft(d: Declaration): Boolean =
       !d.param("softedges").exists(_.bools.contains(false))
@@ -147,8 +143,10 @@ object FromMitsuba:
       val color = d.param("reflectance").toVector.map(_.renamed("Kd"))
       d.copy(name = "matte", params = color ++ sigma ++ bumpsOf(d), dialect = Some(Dialect.V3))
 
-    private def warn(d: Declaration, message: String): Unit =
-      problems += Problem.warning(Code.Inexpressible, d.at, message)
+    private def warn(d: Declaration, message: String): Unit = warn(d.at, message)
+    private def warn(p: Param, message: String): Unit = warn(p.at, message)
+    private def warn(at: SourcePos, message: String): Unit =
+      problems += Problem.warning(Code.Inexpressible, at, message)
 
     private def light(d: Declaration): Declaration =
       d.name match
@@ -272,11 +270,7 @@ object FromMitsuba:
 
     private def withoutParams(d: Declaration, instead: String, names: String*): Declaration =
       for p <- d.params if names.contains(p.name) && instead.nonEmpty do
-        problems += Problem.warning(
-          Code.Inexpressible,
-          p.at,
-          s"pbrt has no `${p.name}` of \"${d.name}\"; $instead"
-        )
+        warn(p, s"pbrt has no `${p.name}` of \"${d.name}\"; $instead")
       d.copy(params = d.params.filterNot(p => names.contains(p.name)))
 
     private def color(d: Declaration, name: String): Option[Rgb] =

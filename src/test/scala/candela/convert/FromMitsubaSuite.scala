@@ -67,6 +67,10 @@ class FromMitsubaSuite extends AnyFunSuite:
     val (phong, _) =
       converted("<bsdf type=\"phong\"><float name=\"exponent\" value=\"12\"/></bsdf>")
     assert(Math.abs(phong.param("uroughness").get.floats.head - 0.2f) < 1e-6f)
+    val bumps = "<bsdf type=\"bumpmap\"><texture type=\"checkerboard\"/>"
+    for kind <- Seq("phong", "principled") do
+      val (d, _) = converted(s"$bumps<bsdf type=\"$kind\"/></bsdf>")
+      assert(d.param("bumpmap").isDefined && d.param("displacement").isEmpty, kind)
     val (base, lost) = converted("<bsdf type=\"coating\"><bsdf type=\"dielectric\"/></bsdf>")
     assert(base.name == "dielectric" && lost.mkString.contains("no coats"))
     val facets = "<string name=\"distribution\" value=\"as\"/>"
