@@ -13,7 +13,7 @@ import candela.scene.Scene
   * @param cosine   sample directions by their cosine?
   * @param weighs   weight directions by their cosine? Else all count the same
   * @param open     value of a point without occlusion
-  * @param showsSky do camera rays that leave the scene show the environment? Else they are black
+  * @param beyond   what camera rays show that leave the scene
   */
 final case class Occlusion(
     samples: Int,
@@ -22,8 +22,16 @@ final case class Occlusion(
     cosine: Boolean,
     weighs: Boolean,
     open: Rgb,
-    showsSky: Boolean
+    beyond: Beyond
 )
+
+enum Beyond:
+  /** The environment. */
+  case Sky
+  case Black
+
+  /** The value of a point without occlusion. */
+  case Open
 
 /** The unoccluded fraction of the hemisphere above a point, whatever the materials and lights.
   *
@@ -32,7 +40,7 @@ final case class Occlusion(
   */
 final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch | Null = null)
     extends SurfaceWalk(scene, volumes):
-  import rule.{cosine, open, samples, showsSky, weighs}
+  import rule.{beyond, cosine, open, samples, weighs}
 
   private val shadowRay = Ray()
   private val shadowHit = Hit()
@@ -50,8 +58,12 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
       else if isHit then
         addScattered(open * openness(vertex, sampler))
         end()
-      else if showsSky then addEnvironment()
-      else end()
+      else
+        beyond match
+          case Beyond.Sky => addEnvironment()
+          case Beyond.Open => addScattered(open)
+          case Beyond.Black => ()
+        end()
     L.toRgb
 
   /** Of the hemisphere around the geometric normal. */

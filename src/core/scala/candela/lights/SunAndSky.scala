@@ -12,7 +12,7 @@ import candela.sampling.Warp
   * @param toSun    unit, in light space, above the horizon
   * @param halfSize half of the angle that the sun subtends, in radians
   * @param sky      scale of the sky's radiance
-  * @param sun      scale of the sun's irradiance
+  * @param sunlight irradiance by the sun on a plane that faces it
   * @param convert  from linear sRGB to the scene's basis
   * @param complete see [[ImageEnvironment.distribution]]
   */
@@ -22,7 +22,7 @@ final class SunAndSky(
     toSun: Vec3,
     halfSize: Float,
     sky: Float,
-    sun: Float,
+    sunlight: Rgb,
     convert: Rgb => Rgb,
     complete: Boolean
 ) extends EnvironmentLight:
@@ -31,7 +31,7 @@ final class SunAndSky(
   /** 1 − cos of the sun's half-angle. */
   private val spread = 2f * square(Math.sin(halfSize / 2.0).toFloat)
   private val sunPdf = Warp.uniformConePdf(spread)
-  private val disk = model.sunIrradiance * (sun * sunPdf)
+  private val disk = sunlight * sunPdf
 
   private val distribution =
     val picture =
@@ -45,12 +45,12 @@ final class SunAndSky(
     * half by the cosine.
     */
   private val sunShare =
-    val direct = Math.max(0f, model.sunIrradiance.average * sun)
+    val direct = Math.max(0f, sunlight.average)
     val diffuse = (distribution.integral / 2).toFloat
     if direct + diffuse > 0f then direct / (direct + diffuse) else 0f
 
   protected def total: Float =
-    distribution.integral.toFloat + Math.max(0f, model.sunIrradiance.max * sun)
+    distribution.integral.toFloat + Math.max(0f, sunlight.max)
 
   def radiance(from: Vec3, d: Vec3): Rgb = inLight(frame.toLight(d))
 

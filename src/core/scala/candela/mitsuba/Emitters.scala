@@ -46,9 +46,16 @@ final class Emitters(
       case Shade.Textured(t) => spread(t)
     params.map(session.declare("AreaLightSource", "diffuse", in.at, _))
 
-  /** A light of its own. */
-  def apply(p: Plugin): Option[LightDescription] =
-    if ofShapes(p) then None else session.attempt(session.translate(p)(lone)).flatten
+  /** The lights of an emitter of its own. */
+  def apply(p: Plugin): Vector[LightDescription] =
+    if ofShapes(p) then Vector.empty
+    else
+      session.attempt(session.translate(p): in =>
+        if isOldSky(p) then OldSkies(session, skies)(in) else lone(in).toVector)
+        .getOrElse(Vector.empty)
+
+  private def isOldSky(p: Plugin): Boolean =
+    p.name == "sky" || p.name == "sun" || p.name == "sunsky" && p.isOld
 
   private def lone(in: Properties): Option[LightDescription] =
     in.ignore("sampling_weight")
@@ -91,7 +98,8 @@ final class Emitters(
   /** pbrt's poles are ±z, Mitsuba's ±y, and pbrt's azimuth begins at x, Mitsuba's at −z. */
   private def environment(in: Properties): Option[LightDescription] =
     val axes = Transform.fromRows(Vector(0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, 0, 1)).get
-    in.ignore("mis_compensation")
+    in.ignore("mis_compensation", "cache")
+    in.warnUnsupported("8-bit images are decoded from sRGB", "gamma")
     val scale = in.number("scale", 1).toFloat
     for
       name <- in.text("filename").orElse:

@@ -73,7 +73,7 @@ final class Expansion(
   /** @param files files being read, innermost first */
   private def contents(root: Element, files: List[InputFile]): Vector[Element] =
     if root.tag != "scene" then fail(Code.Nesting, root, s"expected <scene>, found <${root.tag}>")
-    val isOld = root("version").flatMap(_.takeWhile(_ != '.').toIntOption).exists(_ < 2)
+    val oldNames = OldNames.of(root)
     root.children.flatMap: child =>
       folder.allowance.checkTime(Some(child.at))
       child.tag match
@@ -98,7 +98,8 @@ final class Expansion(
           aliases(required(e, "as")) = required(e, "id")
           Vector.empty
         case _ =>
-          Vector(if isOld then OldNames.upgraded(substituted(child)) else substituted(child))
+          val e = substituted(child)
+          Vector(oldNames.fold(e)(_.upgraded(e)))
 
   private def included(e: Element, files: List[InputFile]): Vector[Element] =
     val name = required(e, "filename")
@@ -183,52 +184,10 @@ final class Expansion(
     throw SceneError(Problem.error(code, e.at, message, help))
 
 object Expansion:
-  private val Variable = raw"\$$(\w+)".r
+  /** Films of Mitsuba 0.6 write `$sensor['toWorld']`, which is no parameter. */
+  private val Variable = raw"\$$(\w++)(?!\[)".r
   private val MaxIncludes = 15
   private val MaxFiles = 10_000
 
   /** Put in place of names; values of values may be exponentially long. */
   private val MaxTextLength = 20_000_000
-
-/** Names of Mitsuba 0.6, which Mitsuba 3 upgrades in files of a version before 2. */
-private[mitsuba] object OldNames:
-
-  def upgraded(e: Element): Element =
-    val attributes = e.attributes.map:
-      case ("name", text) => "name" -> OldSurfaces.renamed(e.tag, snake(text))
-      case ("type", text) => "type" -> OldSurfaces.typeOf(e.tag, text)
-      case other => other
-    val children = e.children.map(upgraded) ++ OldSurfaces.added(e)
-    val tag = if e.tag == "lookAt" then "lookat" else e.tag
-    val (moved, remaining) = children.partition(c => Moved(c("name").getOrElse("")))
-    val isTexture = tag == "texture" && moved.nonEmpty
-    val inner = if isTexture then remaining :+ toUv(moved, e) else children
-    val formerName = e("name").filterNot(attributes.get("name").contains)
-    Element(tag, attributes, inner, e.at, formerName, isOld = true)
-
-  private val Moved = Set("uoffset", "voffset", "uscale", "vscale", "uvscale")
-
-  /** Offsets and scales of texture coordinates, as the transform that replaced them. */
-  private def toUv(moved: Vector[Element], e: Element): Element =
-    def value(name: String, default: String) =
-      moved.find(_("name").contains(name)).flatMap(_("value")).getOrElse(default)
-    def step(tag: String, x: String, y: String) =
-      Element(tag, Map("x" -> x, "y" -> y), Vector.empty, e.at)
-    val both = value("uvscale", "1")
-    val steps = Vector(
-      step("scale", value("uscale", both), value("vscale", both)),
-      step("translate", value("uoffset", "0"), value("voffset", "0"))
-    )
-    Element("transform", Map("name" -> "to_uv"), steps, e.at)
-
-  /** `to_world` as `toWorld`, `int_ior` as `intIOR`. */
-  def camel(name: String): String =
-    val words = name.split('_').filter(_.nonEmpty)
-    words.take(1).mkString +
-      words.drop(1).map(word => if word == "ior" then "IOR" else word.capitalize).mkString
-
-  /** `toWorld` as `to_world`, `intIOR` as `int_ior`. */
-  def snake(name: String): String =
-    name.replaceAll("(?<=[a-z])(?=[A-Z])", "_").split("(?<=_)").map: part =>
-      if part.headOption.exists(_.isUpper) then part.toLowerCase else part
-    .mkString

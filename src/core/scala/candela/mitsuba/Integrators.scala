@@ -3,8 +3,11 @@ package candela.mitsuba
 import candela.diagnostics.{Code, Limit, SourcePos}
 import candela.scenefile.{Declaration, Param}
 
-/** Translates integrators. */
-final class Integrators(session: Session):
+/** Translates integrators.
+  *
+  * @param sampleCount samples per pixel of the sensor
+  */
+final class Integrators(session: Session, sampleCount: => Int):
 
   def apply(p: Plugin): Declaration = session.translate(p): in =>
     // Read to be checked only: roulette starts where it does in all dialects, with the same mean
@@ -17,9 +20,26 @@ final class Integrators(session: Session):
       )
     in.ignore("emitter_samples", "bsdf_samples", "shading_samples", "block_size",
       "samples_per_pass", "timeout", "use_nee", "sampling_integrator")
+    in.ignore(Integrators.Effort.getOrElse(p.name, Vector.empty)*)
+    if in.flag("strict_normals", false) then
+      in.warnUnsupported("light may leak at shading normals", "strict_normals")
     p.name match
       case "path" | "prb" | "prb_basic" => limited(in, "path", hiding(in)*)
-      case "volpath" | "volpathmis" | "prbvolpath" => limited(in, "volpath", hiding(in)*)
+      case "volpath" | "volpathmis" | "prbvolpath" | "volpath_simple" =>
+        limited(in, "volpath", hiding(in)*)
+      case "photonmapper" | "ppm" | "sppm" | "vpl" =>
+        instead(in, "\"volpath\", whose image has no bias")
+        limited(in, "volpath", hiding(in)*)
+      case "bdpt" =>
+        if in.flag("show_weighted", false) then
+          in.warnUnsupported("only the image is rendered", "show_weighted")
+        limited(in, "bdpt")
+      case "mlt" | "pssmlt" | "erpt" => metropolis(in)
+      case "ao" =>
+        val position = in.atOf("ray_length")
+        val distance = Param.float("maxdistance", position, in.number("ray_length", -1).toFloat)
+        session.declare("Integrator", "ambientocclusion", in.at, Seq(distance))
+      case "adaptive" | "irrcache" | "multichannel" => within(in)
       case "ptracer" =>
         in.warnUnsupported("area lights are visible", "hide_emitters")
         limited(in, "lightpath")
@@ -44,6 +64,42 @@ final class Integrators(session: Session):
         Plugins.unsupported(p, fallback, session)
         in.ignore(p.properties.map(_.name)*)
         Integrators.default(session, in.at)
+
+  private def instead(in: Properties, what: String): Unit =
+    val message = s"${in.plugin.description} is not supported; using $what"
+    session.warn(Code.Unsupported, in.at, message)
+
+  /** pbrt's Metropolis light transport, which mutates random numbers. */
+  private def metropolis(in: Properties): Declaration =
+    if in.plugin.name != "pssmlt" then
+      instead(in, "\"pssmlt\": paths are mutated by their random numbers")
+    val large = in.number("p_large", 0.3)
+    if !(large > 0 && large <= 1) then
+      session.error(Code.ParameterValue, in.atOf("p_large"), "`p_large` must be from 0 to 1")
+    limited(
+      in,
+      "mlt",
+      Param.int("mutationsperpixel", in.at, sampleCount),
+      Param.float("largestepprobability", in.atOf("p_large"), large.toFloat),
+      Param.int(
+        "bootstrapsamples",
+        in.atOf("luminance_samples"),
+        in.integer("luminance_samples", 100000)
+      )
+    )
+
+  /** Renders the first image among those within. */
+  private def within(in: Properties): Declaration =
+    val help = in.plugin.name match
+      case "adaptive" => "--error ends a rendering at an error"
+      case "irrcache" => "the integrator within has no bias"
+      case _ => "--aov writes layers: depth, normal, albedo and others"
+    val message = s"${in.plugin.description} is not supported; using the integrator within"
+    session.warn(Code.Unsupported, in.at, message, Some(help))
+    in.ignore(in.plugin.properties.map(_.name).filter(_.nonEmpty)*)
+    val inner = in.nested("integrator")
+    inner.find(_.name != "field").orElse(inner.headOption)
+      .fold(Integrators.default(session, in.at))(apply)
 
   /** Mitsuba counts the edges of a path, pbrt the surfaces between. */
   private def limited(in: Properties, name: String, extra: Param*): Declaration =
@@ -73,6 +129,35 @@ final class Integrators(session: Session):
     Option.when(in.flag("hide_emitters", false))(Param.bool("hideemitters", position, true)).toSeq
 
 object Integrators:
+  /** Parameters of Mitsuba 0.6 that have an effect on time and noise, or bias, alone. */
+  private val Effort: Map[String, Vector[String]] =
+    val photons = Vector("granularity", "auto_cancel_gathering")
+    val progressive =
+      photons ++ Vector("initial_radius", "alpha", "photon_count", "max_passes")
+    val mutations = Vector(
+      "bidirectional_mutation", "lens_perturbation", "caustic_perturbation",
+      "multi_chain_perturbation", "manifold_perturbation", "prob_factor", "lambda",
+      "direct_samples", "two_stage", "first_stage", "first_stage_size_reduction", "work_units"
+    )
+    Map(
+      "bdpt" -> Vector("light_image", "sample_direct"),
+      "ptracer" -> Vector("granularity", "brute_force"),
+      "photonmapper" -> (photons ++ Vector(
+        "direct_samples", "glossy_samples",
+        "max_specular_depth", "global_photons", "caustic_photons", "volume_photons",
+        "global_lookup_radius", "caustic_lookup_radius", "lookup_size", "global_lookup_size",
+        "caustic_lookup_size", "volume_lookup_size", "gather_locally"
+      )),
+      "ppm" -> progressive,
+      "sppm" -> progressive,
+      "vpl" -> Vector("shadow_map_resolution", "clamping"),
+      "mlt" -> mutations,
+      "erpt" -> (mutations ++ Vector("num_chains", "max_chains", "chain_length",
+        "avg_angle_change_surface", "avg_angle_change_medium")),
+      "pssmlt" -> (mutations ++ Vector("bidirectional", "kelemen_style_weights",
+        "direct_sampling", "mutation_size_low", "mutation_size_high"))
+    )
+
   /** Whether its paths have no edge: they see nothing, not even lights. */
   def isBlack(p: Plugin): Boolean = p.properties.exists: q =>
     q.value match

@@ -60,16 +60,13 @@ final class Mesh(
   def onTriangles: Mesh =
     if uvs.nonEmpty then this
     else
-      def apart(values: Array[Float]) =
-        if values.isEmpty then values
-        else Array.tabulate(3 * indices.length)(i => values(3 * indices(i / 3) + i % 3))
       val corners = Array(0f, 0f, 1f, 0f, 0f, 1f)
       Mesh(
-        apart(positions),
-        apart(normals),
+        atCorners(positions, 3),
+        atCorners(normals, 3),
         Array.tabulate(2 * indices.length)(i => corners(i % 6)),
         Array.range(0, indices.length),
-        apart(rests)
+        atCorners(rests, 3)
       )
 
   /** Without vertex normals. */
@@ -104,24 +101,61 @@ final class Mesh(
     if normals.nonEmpty then this
     else
       val sums = new Array[Float](positions.length)
-      val local = if isFar then centred else positions
-      def point(i: Int) = Vec3(local(3 * i), local(3 * i + 1), local(3 * i + 2))
-      loop(indices.length / 3): t =>
-        val corners = Array(indices(3 * t), indices(3 * t + 1), indices(3 * t + 2))
-        val p = corners.map(point)
-        val n = ((p(1) - p(0)) cross (p(2) - p(0)))
-        if n.lengthSquared > 0f then
-          val unit = n.normalized
-          loop(3): c =>
-            val a = (p((c + 1) % 3) - p(c)).normalized
-            val b = (p((c + 2) % 3) - p(c)).normalized
-            val angle = Math.acos(Math.max(-1.0, Math.min(1.0, a.dot(b).toDouble))).toFloat
-            if angle.isFinite then
-              val offset = 3 * corners(c)
-              sums(offset) += unit.x * angle
-              sums(offset + 1) += unit.y * angle
-              sums(offset + 2) += unit.z * angle
+      val parts = cornerNormals
+      loop(indices.length): c =>
+        loop(3)(k => sums(3 * indices(c) + k) += parts(3 * c + k))
       Mesh(positions, sums, uvs, indices, rests).unit
+
+  /** Normals of the triangles times their angles, at each corner. */
+  private def cornerNormals: Array[Float] =
+    val result = new Array[Float](3 * indices.length)
+    val local = if isFar then centred else positions
+    def point(i: Int) = Vec3(local(3 * i), local(3 * i + 1), local(3 * i + 2))
+    loop(indices.length / 3): t =>
+      val p = Array(indices(3 * t), indices(3 * t + 1), indices(3 * t + 2)).map(point)
+      val n = ((p(1) - p(0)) cross (p(2) - p(0)))
+      if n.lengthSquared > 0f then
+        val unit = n.normalized
+        loop(3): c =>
+          val a = (p((c + 1) % 3) - p(c)).normalized
+          val b = (p((c + 2) % 3) - p(c)).normalized
+          val angle = Math.acos(Math.max(-1.0, Math.min(1.0, a.dot(b).toDouble))).toFloat
+          if angle.isFinite then
+            result(9 * t + 3 * c) = unit.x * angle
+            result(9 * t + 3 * c + 1) = unit.y * angle
+            result(9 * t + 3 * c + 2) = unit.z * angle
+    result
+
+  /** With vertex normals of its triangles, which are smooth across edges of at most an angle. */
+  def smoothBelow(degrees: Double): Mesh =
+    val parts = cornerNormals
+    def part(c: Int) = Vec3(parts(3 * c), parts(3 * c + 1), parts(3 * c + 2))
+    def unitOf(v: Vec3) = if v.lengthSquared > 0f then v.normalized else v
+    val units = Array.tabulate(indices.length)(c => unitOf(part(c)))
+    val neighbours = indices.indices.groupBy: c =>
+      val i = indices(c)
+      (positions(3 * i), positions(3 * i + 1), positions(3 * i + 2))
+    val minCosine = Math.cos(Math.toRadians(Math.max(0.0, Math.min(180.0, degrees)))) - 1e-5
+    val sums = new Array[Float](3 * indices.length)
+    for
+      corners <- neighbours.values
+      c <- corners
+      other <- corners
+      if units(c).dot(units(other)) >= minCosine
+      k <- 0 until 3
+    do sums(3 * c + k) += parts(3 * other + k)
+    Mesh(
+      atCorners(positions, 3),
+      sums,
+      atCorners(uvs, 2),
+      Array.range(0, indices.length),
+      atCorners(rests, 3)
+    ).unit
+
+  /** Values of vertices, at each corner. */
+  private def atCorners(values: Array[Float], width: Int): Array[Float] =
+    if values.isEmpty then values
+    else Array.tabulate(width * indices.length)(i => values(width * indices(i / width) + i % width))
 
   private def unit: Mesh =
     Mesh(

@@ -44,21 +44,12 @@ private final class Translation(session: Session, file: Path):
   private val surfaces = Surfaces(session, colors, textures)
   private val media = Media(session, colors)
   private val emitters =
-    Emitters(session, colors, textures, Skies(session, colors, shutter), media(_))
+    Emitters(session, colors, textures, Skies(session, colors), media(_))
   private val shapes = Shapes(session, surfaces, emitters, media)
   private val views = Views(session, media, file)
 
   private val objects = session.objects.map(_.value).collect { case Value.Nested(p) => p }
   private def objectsOf(kind: String) = objects.filter(_.kind == kind)
-
-  /** When the first sensor's shutter opens and closes. */
-  private def shutter: (Double, Double) =
-    def time(name: String) =
-      objectsOf(
-        "sensor"
-      ).headOption.flatMap(_.properties.findLast(_.name == name)).map(_.value).collect:
-        case Value.Number(x) => x
-    (time("shutter_open").getOrElse(0), time("shutter_close").getOrElse(0))
 
   def result(): SceneDescription =
     objectsOf("shape").foreach(shapes.add)
@@ -67,9 +58,13 @@ private final class Translation(session: Session, file: Path):
     objectsOf("bsdf").filterNot(surfaces.textureTypes(_).exists(MeshAttributes.Types))
       .foreach(p => session.attempt(surfaces(p)))
     val lights = objectsOf("emitter").flatMap(emitters(_))
+    val (open, close) = session.shutter
     val start = SourcePos(file.toString, 1, 1)
-    val scene = SceneDescription(Dialect.Mitsuba)
-    val framed = objectsOf("sensor").toList match
+    val times = if close > open then (open.toFloat, close.toFloat) else (0f, 1f)
+    val scene = SceneDescription(Dialect.Mitsuba, transformTimes = times)
+    val ofShapes = objectsOf("shape").flatMap(_.properties).map(_.value).collect:
+      case Value.Nested(p) if p.kind == "sensor" => p
+    val framed = (objectsOf("sensor") ++ ofShapes).toList match
       case Nil =>
         session.error(
           Code.Nesting,
@@ -87,8 +82,9 @@ private final class Translation(session: Session, file: Path):
           )
         )
         session.attempt(views.addSensor(first, scene)).getOrElse(scene)
-    val integrator =
-      objectsOf("integrator").headOption.flatMap(p => session.attempt(Integrators(session)(p)))
+    def sampleCount = framed.sampler.fold(1)(Views.sampleCount)
+    val integrator = objectsOf("integrator").headOption
+      .flatMap(p => session.attempt(Integrators(session, sampleCount)(p)))
     val aovs = objectsOf("integrator").headOption.fold(Vector.empty)(Aovs(session)(_))
     val tracer = integrator.getOrElse(Integrators.default(session, start))
     val complete = framed.copy(

@@ -16,6 +16,9 @@ enum Value(val description: String):
   /** A spectrum of equal values, whose light is not white. */
   case Flat(x: Double) extends Value("a spectrum")
   case Placed(t: Transform) extends Value("a transform")
+
+  /** @param keys transforms by their times, in order */
+  case Moving(keys: Vector[(Double, Transform)]) extends Value("a motion")
   case Nested(plugin: Plugin) extends Value("an object")
   case Reference(id: String) extends Value("a reference")
 

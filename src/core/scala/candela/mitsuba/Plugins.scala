@@ -2,8 +2,8 @@ package candela.mitsuba
 
 import candela.diagnostics.Code
 
-/** The types of Mitsuba 3 that are read, by the element that names them. Those it has besides are
-  * known, too, so that messages can tell them from misspelled ones.
+/** The types of Mitsuba 3 and 0.6 that are read, by the element that names them. Those they have
+  * besides are known, too, so that messages can tell them from misspelled ones.
   */
 object Plugins:
   val bsdfs: Vector[String] = Vector(
@@ -13,25 +13,36 @@ object Plugins:
     "roughconductor", "roughdielectric", "roughdiffuse", "roughplastic", "thindielectric",
     "twosided", "ward"
   )
-  val shapes: Vector[String] = Vector("bsplinecurve", "cube", "cylinder", "disk", "instance",
-    "linearcurve", "merge", "obj", "ply", "rectangle", "serialized", "shapegroup", "sphere")
+  val shapes: Vector[String] =
+    Vector(
+      "bsplinecurve", "cube", "cylinder", "deformable", "disk", "hair", "heightfield",
+      "instance", "linearcurve", "merge", "obj", "ply", "rectangle", "serialized", "shapegroup",
+      "sphere"
+    )
   val emitters: Vector[String] =
-    Vector("area", "constant", "directional", "envmap", "point", "projector", "spot",
+    Vector("area", "constant", "directional", "envmap", "point", "projector", "sky", "spot", "sun",
       "sunsky", "timed_sunsky")
   val textures: Vector[String] = Vector(
     "bitmap", "blackbody", "checkerboard", "d65",
     "gridtexture", "irregular", "mesh_attribute", "rawconstant", "regular", "scale", "srgb",
     "uniform", "vertexcolors", "volume"
   )
-  val sensors: Vector[String] = Vector("orthographic", "perspective", "thinlens")
-  val integrators: Vector[String] = Vector("aov", "direct", "moment", "path", "prb", "prb_basic",
-    "prbvolpath", "ptracer", "stokes", "volpath", "volpathmis")
+  val sensors: Vector[String] =
+    Vector("orthographic", "perspective", "perspective_rdist", "spherical", "telecentric",
+      "thinlens")
+  val integrators: Vector[String] = Vector(
+    "adaptive", "ao", "aov", "bdpt", "direct", "erpt",
+    "irrcache", "mlt", "moment", "multichannel", "path", "photonmapper", "ppm", "prb",
+    "prb_basic", "prbvolpath", "pssmlt", "ptracer", "sppm", "stokes", "volpath", "volpath_simple",
+    "volpathmis", "vpl"
+  )
   val media: Vector[String] = Vector("heterogeneous", "homogeneous")
   val samplers: Vector[String] =
-    Vector("independent", "ldsampler", "multijitter", "orthogonal", "stratified")
+    Vector("halton", "hammersley", "independent", "ldsampler", "multijitter", "orthogonal",
+      "sobol", "stratified")
   val filters: Vector[String] =
     Vector("box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent")
-  val films: Vector[String] = Vector("hdrfilm", "ldrfilm")
+  val films: Vector[String] = Vector("hdrfilm", "ldrfilm", "tiledhdrfilm")
   val phases: Vector[String] =
     Vector("blendphase", "hg", "isotropic", "mixturephase", "rayleigh", "tabphase")
   val volumes: Vector[String] = Vector("constvolume", "gridvolume", "volcache")
@@ -42,11 +53,11 @@ object Plugins:
     "bsdf" -> Vector("acousticbsdf", "irawan", "measured_polarized"),
     "texture" -> Vector("curvature", "wireframe"),
     "shape" -> Vector("ellipsoids", "ellipsoidsmesh", "sdfgrid"),
-    "emitter" -> Vector("directionalarea", "volumelight"),
-    "sensor" -> Vector("batch", "distant", "irradiancemeter", "radiancemeter"),
-    "integrator" -> Vector("acousticpath", "depth", "direct_projective", "emission",
-      "prb_projective", "volprim_rf_basic"),
-    "film" -> Vector("specfilm"),
+    "emitter" -> Vector("collimated", "directionalarea", "volumelight"),
+    "sensor" -> Vector("batch", "distant", "fluencemeter", "irradiancemeter", "radiancemeter"),
+    "integrator" -> Vector("acousticpath", "depth", "direct_projective", "emission", "field",
+      "motion", "prb_projective", "volprim_rf_basic"),
+    "film" -> Vector("mfilm", "specfilm"),
     "phase" -> Vector("kkay", "microflake", "sggx"),
     "volume" -> Vector("hgridvolume")
   )

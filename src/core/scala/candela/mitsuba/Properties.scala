@@ -2,6 +2,7 @@ package candela.mitsuba
 
 import candela.diagnostics.{Code, SourcePos, Suggest}
 import candela.math.Transform
+import candela.scenefile.{AnimatedTransform, GraphicsState}
 
 import scala.collection.mutable
 
@@ -57,8 +58,23 @@ final class Properties(val plugin: Plugin, val session: Session):
   def text(name: String, default: String): String = text(name).getOrElse(default)
   def triple(name: String): Option[(Double, Double, Double)] =
     value(name, "a vector") { case Value.Triple(x, y, z) => (x, y, z) }
+
+  /** A transform that may move. */
+  def motion(name: String): Option[AnimatedTransform] =
+    value(name, "a transform"):
+      case Value.Placed(t) => GraphicsState.still(t)
+      case Value.Moving(keys) => session.motion(keys, atOf(name))
+
+  /** A transform where nothing can move. */
   def transform(name: String): Transform =
-    value(name, "a transform") { case Value.Placed(t) => t }.getOrElse(Transform.Identity)
+    motion(name).fold(Transform.Identity): t =>
+      if t.isAnimated then
+        session.warn(
+          Code.NotAnimated,
+          atOf(name),
+          s"${plugin.description} can't move; using its place as the shutter opens"
+        )
+      t.start
 
   /** One of the words. */
   def word(name: String, default: String, choices: String*): String =

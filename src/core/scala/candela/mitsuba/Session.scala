@@ -2,7 +2,8 @@ package candela.mitsuba
 
 import candela.diagnostics.{Allowance, Code, Problem, SceneError, SourcePos, Suggest}
 import candela.io.{InputFile, SceneFolder}
-import candela.scenefile.{Declaration, Dialect, Param, Problems}
+import candela.math.{Interpolation, Transform, Vec3}
+import candela.scenefile.{AnimatedTransform, Declaration, Dialect, GraphicsState, Param, Problems}
 
 import java.nio.file.Path
 import java.util.regex.Matcher
@@ -29,6 +30,29 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
     expanded.elements.flatMap: e =>
       if e.tag == "ref" then None
       else values.plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.at))
+
+  /** When the first sensor's shutter opens and closes. */
+  lazy val shutter: (Double, Double) =
+    val sensor = objects.map(_.value).collectFirst:
+      case Value.Nested(p) if p.kind == "sensor" => p
+    def time(name: String): Double =
+      sensor.flatMap(_.properties.findLast(_.name == name)).map(_.value).collect:
+        case Value.Number(x) => x
+      .getOrElse(0)
+    (time("shutter_open"), time("shutter_close"))
+
+  /** What a motion is while the shutter is open. */
+  def motion(keys: Vector[(Double, Transform)], at: SourcePos): AnimatedTransform =
+    val (open, close) = shutter
+    if keys.exists((time, _) => time > open && time < close) then
+      warn(
+        Code.NotAnimated,
+        at,
+        "motion between two times within the shutter's is not supported; the path is straight"
+      )
+    val start = Session.between(keys, open)
+    if close > open then AnimatedTransform(start, Session.between(keys, close))
+    else GraphicsState.still(start)
 
   private val byId: Map[String, Plugin] =
     val plugins = mutable.HashMap.empty[String, Plugin]
@@ -158,6 +182,16 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
 
 object Session:
   private val Quoted = "`(\\w+)`".r
+
+  /** A motion at a time. */
+  private def between(keys: Vector[(Double, Transform)], time: Double): Transform =
+    keys.indexWhere(_._1 > time) match
+      case -1 => keys.last._2
+      case 0 => keys.head._2
+      case i =>
+        val ((from, start), (to, end)) = (keys(i - 1), keys(i))
+        Interpolation(start, end, from.toFloat, to.toFloat, shortest = true, Vec3.Zero)
+          .transform(time.toFloat)
 
   /** References through references, at most. */
   val MaxDepth = 50

@@ -15,6 +15,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   private val groups = mutable.LinkedHashMap.empty[Plugin, (String, Vector[ShapeDescription])]
   private val placed = InstanceList.newBuilder
 
+  private val old = OldShapes(session, fileOf, params)
+
   private var depth = 0
 
   def shapes: Vector[ShapeDescription] = world.result()
@@ -25,14 +27,24 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   def add(p: Plugin): Unit =
     session.attempt(descriptions(p)).foreach(world ++= _)
 
-  private def descriptions(p: Plugin): Vector[ShapeDescription] = p.name match
+  /** Shapes that move are translated where they would be without their transform. */
+  private def descriptions(p: Plugin): Vector[ShapeDescription] =
+    val motion = if p.name == "instance" then None else Properties(p, session).motion("to_world")
+    motion.filter(_.isAnimated) match
+      case None => ofType(p)
+      case Some(moving) =>
+        val unplaced = p.properties.filterNot(_.name == "to_world")
+        ofType(Plugin(p.kind, p.name, p.id, p.at, unplaced, p.isOld)).map: s =>
+          s.copy(objectToWorld = moving.after(s.objectToWorld))
+
+  private def ofType(p: Plugin): Vector[ShapeDescription] = p.name match
     case "shapegroup" =>
       group(p)
       Vector.empty
     case "instance" =>
       session.translate(p): in =>
         for g <- in.nested("shape").headOption do
-          val placement = GraphicsState.still(in.transform("to_world"))
+          val placement = in.motion("to_world").getOrElse(GraphicsState.Identity)
           if g.name != "shapegroup" then
             session.error(
               Code.MissingParameter,
@@ -41,6 +53,16 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
             )
           else placed += InstanceDescription(group(g), in.at, placement)
       Vector.empty
+    case "deformable" =>
+      session.translate(p): in =>
+        session.warn(
+          Code.Unsupported,
+          in.at,
+          s"${p.description} is not supported; it does not move"
+        )
+        in.ignore(p.properties.map(_.name).filter(_.nonEmpty)*)
+        // Its meshes are those of its times
+        in.nested("shape").headOption.toVector.flatMap(descriptions)
     case "merge" =>
       depth += 1
       if depth > Session.MaxDepth then
@@ -70,6 +92,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   private def shape(in: Properties): Vector[ShapeDescription] =
     in.ignore("silhouette_sampling_weight", "filename_id")
     val emitter = in.nested("emitter").headOption
+    in.nested("sensor"): Unit
     val bsdf = in.nested("bsdf")
     bsdf.drop(1).foreach(b =>
       session.warn(Code.Nesting, b.at, "a shape has one bsdf; this one is ignored")
@@ -89,8 +112,10 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         val s = bare(in, emitter.isDefined)
         (s, MaterialRef.Inline(s.material))
     val isHair = surface.material.name == "hair"
-    val forms = if isHair && in.plugin.name == "bsplinecurve" then fibres(in)
-    else form(in, attributes).toVector
+    val forms = in.plugin.name match
+      case "bsplinecurve" if isHair => fibres(in)
+      case "hair" => old.hair(in, suitsRibbons = isHair)
+      case _ => form(in, attributes).toVector
     for Form(name, params, toWorld, isReversed) <- forms yield
       val alpha = surface.alpha.toVector
       def medium(side: String) = in.nested("medium", side).headOption.fold("")(media(_))
@@ -102,7 +127,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         emitter.flatMap(emitters.area),
         medium("interior"),
         medium("exterior"),
-        surface.isOneSided
+        // Curves face the viewer
+        surface.isOneSided && name != "curve"
       )
 
   /** Without a BSDF, emitters are black. */
@@ -111,13 +137,6 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val material =
       session.declare("Material", "diffuse", in.at, Seq(Textures.rgb("reflectance", grey, in.at)))
     Surface(material, isOneSided = true)
-
-  private final case class Form(
-      name: String,
-      params: Seq[Param],
-      toWorld: Transform,
-      isReversed: Boolean
-  )
 
   /** Of the mesh, if its surface uses them. */
   private def attributesFor(in: Properties, bsdf: Plugin): Option[MeshAttributes] =
@@ -169,9 +188,15 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       case "cube" => Some(meshForm(in, Mesh.cube, isFlipped, toWorld))
       case "obj" =>
         val isUp = in.flag("flip_tex_coords", true)
+        in.ignore("collapse")
+        if in.flag("load_materials", false) then
+          in.warnUnsupported("materials of .mtl files are not read", "load_materials")
+        if in.integer("shape_index", -1) >= 0 then
+          in.warnUnsupported("all parts of the file are read", "shape_index")
         mesh(in, toWorld, isFlipped)(ObjFile.read(_, isUp, in.at))
       case "ply" =>
         val isUp = in.flag("flip_tex_coords", false)
+        in.ignore("srgb")
         mesh(in, toWorld, isFlipped, attributes): file =>
           val ply = PlyFile.read(file, Some(in.at))
           if isUp then loop(ply.uvs.length / 2)(i => ply.uvs(2 * i + 1) = 1 - ply.uvs(2 * i + 1))
@@ -180,6 +205,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         val index = in.integer("shape_index", 0)
         in.ignore("flip_tex_coords")
         mesh(in, toWorld, isFlipped)(SerializedFile.read(_, index, in.at))
+      case "heightfield" => old.heightfield(in, toWorld, isFlipped)
       case "bsplinecurve" => curves(in, minPoints = 4, isFlipped)(Tubes.splines)
       case "linearcurve" => curves(in, minPoints = 2, isFlipped)(Tubes.capsules)
       case _ =>
@@ -254,7 +280,10 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       attributes: Option[MeshAttributes] = None
   ): Form =
     val inWorld = mesh.placed(toWorld)
-    val withNormals = if in.flag("face_normals", false) then inWorld.faceted else inWorld.smooth
+    val isFaceted = in.flag("face_normals", false)
+    val withNormals = in.number("max_smooth_angle") match
+      case Some(degrees) if !isFaceted && attributes.isEmpty => inWorld.smoothBelow(degrees)
+      case _ => if isFaceted then inWorld.faceted else inWorld.smooth
     val laid = attributes.fold(withNormals)(_.laidOut(withNormals))
     val shaded = if in.nested("bsdf").headOption.exists(isMapped) then laid.onTriangles else laid
     Form("trianglemesh", params(shaded, in), Transform.Identity, isFlipped)

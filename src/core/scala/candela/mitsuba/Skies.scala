@@ -5,11 +5,8 @@ import candela.color.Rgb
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{Declaration, Param, ParamType}
 
-/** Translates the emitters "sunsky" and "timed_sunsky".
-  *
-  * @param shutter when the shutter opens and closes
-  */
-final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)):
+/** Translates the emitters "sunsky" and "timed_sunsky". */
+final class Skies(session: Session, colors: Colors):
 
   /** A light, to be placed by the emitter's transform. */
   def apply(in: Properties, toWorld: Transform): Declaration =
@@ -30,20 +27,25 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
         in.atOf("complex_sun"),
         "`complex_sun` is not supported; using a uniform disk"
       )
-    val albedo = colors.fixed(in, "albedo", Rgb.gray(0.3f), Role.Reflectance)
+    val skyScale = checked(in, "sky_scale", 1, "at least 0")(_ >= 0)
+    val sun = Seq(
+      number(in, "sun_aperture", "sunaperture", 0.5358, "between 0 and 180")(x => x > 0 && x < 180),
+      number(in, "sun_scale", "sunscale", 1, "at least 0")(_ >= 0)
+    )
+    val sky = params(in, toSun, Rgb.gray(0.3f), skyScale)
+    session.declare("LightSource", "sunsky", in.at, sky ++ sun)
+
+  /** Those of the sky, and the sun's direction. */
+  def params(in: Properties, toSun: Vec3, defaultAlbedo: Rgb, skyScale: Double): Seq[Param] =
+    val albedo = colors.fixed(in, "albedo", defaultAlbedo, Role.Reflectance)
     if Seq(albedo.r, albedo.g, albedo.b).exists(c => !(c >= 0f && c <= 1f)) then
       session.error(Code.ParameterValue, in.atOf("albedo"), "`albedo` must be from 0 to 1")
-    val numbers = Seq(
+    Seq(
       number(in, "turbidity", "turbidity", 3, "from 1 to 10")(x => x >= 1 && x <= 10),
-      number(in, "sun_aperture", "sunaperture", 0.5358, "between 0 and 180")(x => x > 0 && x < 180),
-      number(in, "sun_scale", "sunscale", 1, "at least 0")(_ >= 0),
-      number(in, "sky_scale", "skyscale", 1, "at least 0")(_ >= 0)
-    )
-    val params = numbers ++ Seq(
+      Param.float("skyscale", in.at, skyScale.toFloat),
       Param.float("albedo", in.atOf("albedo"), albedo.r, albedo.g, albedo.b),
       Param.floats(ParamType.Vector3, "sun", in.at, Array(toSun.x, toSun.y, toSun.z))
     )
-    session.declare("LightSource", "sunsky", in.at, params)
 
   private def number(in: Properties, name: String, ours: String, default: Double, range: String)(
       isIn: Double => Boolean
@@ -60,7 +62,8 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
       session.error(Code.ParameterValue, in.atOf(name), s"`$name` must be $range, found $x")
       default
 
-  private def fixed(in: Properties): PlaceAndTime =
+  /** When and where the sun is seen. */
+  def fixed(in: Properties): PlaceAndTime =
     val hour = in.number("hour", 15) +
       (in.number("minute", 0) + in.number("second", 0) / 60) / 60
     placeAndTime(in, in.integer("year", 2010), in.integer("month", 7), in.integer("day", 10), hour)
@@ -99,7 +102,7 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
         in.at,
         "the period of \"timed_sunsky\" ends before it begins"
       )
-    val (first, last) = shutter
+    val (first, last) = session.shutter
     if last > first then
       session.warn(
         Code.CorrectedValue,
@@ -128,6 +131,6 @@ final class Skies(session: Session, colors: Colors, shutter: => (Double, Double)
     )
 
 object Skies:
-  private val Times = Seq(
+  val Times: Seq[String] = Seq(
     "latitude", "longitude", "timezone", "year", "month", "day", "hour", "minute", "second"
   )

@@ -50,11 +50,33 @@ object Tubes:
         firstSegment += 1
     builder.mesh
 
+  /** Straight segments of equal radius, mitred where they meet and open at their ends. */
+  def polylines(fibres: Vector[HairFile.Fibre], radius: Float): Mesh =
+    val builder = TubeBuilder(fibres.map(_.size - 1).sum, ringsOfSegment = 8)
+    for fibre <- fibres do
+      val segments = fibre.size - 1
+      val directions = fibre.zip(fibre.drop(1)).map((a, b) => (b - a).normalized)
+      for s <- 0 until segments do
+        builder.beginTube()
+        for end <- 0 to 1 do
+          val (tangent, neighbour) =
+            (directions(s), directions(clamp(s + 2 * end - 1, 0, segments - 1)))
+          val across = tangent + neighbour
+          val cosine = across dot tangent
+          // Of acute angles, the ends are not as long as they would be
+          val slope = if cosine > 0.5f then across * (1f / cosine) else tangent
+          builder.ring(
+            Ring(fibre(s + end), tangent, radius, 1f, Vec3.Zero, slope = slope - tangent),
+            (s + end).toFloat / segments
+          )
+    builder.mesh
+
   private def lerp(t: Double, a: Double, b: Double): Double = (1 - t) * a + t * b
 
 /** A circle of a tube.
   *
   * @param across,along of the normal: `across` times the direction from the middle, plus `along`
+  * @param slope        by how much a point at a distance lies before the circle's plane
   */
 private[mitsuba] final case class Ring(
     middle: Vec3,
@@ -62,7 +84,8 @@ private[mitsuba] final case class Ring(
     radius: Float,
     across: Float,
     along: Vec3,
-    bend: Vec3 = Vec3.Zero
+    bend: Vec3 = Vec3.Zero,
+    slope: Vec3 = Vec3.Zero
 )
 
 /** Segments of uniform cubic B-splines. */
@@ -136,7 +159,8 @@ private[mitsuba] final class TubeBuilder(segments: Int, ringsOfSegment: Int):
     loop(sides + 1): k =>
       val phi = 2 * Math.PI * (k % sides) / sides
       val outward = side * Math.cos(phi).toFloat + bitangent * Math.sin(phi).toFloat
-      push(positions, r.middle + outward * (r.radius * swell))
+      val reach = r.radius * swell
+      push(positions, r.middle + outward * reach - r.tangent * (reach * (outward dot r.slope)))
       // The normal of a bent tube leans by the radius
       val lean = 1f - r.radius * (outward dot r.bend)
       push(normals, (outward * (r.across * lean) + r.along).normalized)

@@ -93,12 +93,16 @@ final class Values(
             "blackbody",
             None,
             position,
-            Vector(
-              Property("temperature", Value.Number(kelvin), position)
-            )
+            Vector(Property("temperature", Value.Number(kelvin), position)) ++
+              e("scale").map(s => Property("scale", Value.Number(number(s, e.at)), position))
           )
         )
       case "transform" => Value.Placed(Transforms.of(e))
+      case "animation" =>
+        val keys = e.children.filter(_.tag == "transform").map: key =>
+          number(key("time").getOrElse("0"), key.at) -> Transforms.of(key)
+        if keys.isEmpty then fail(Code.UnknownElement, e.at, "<animation> must have a <transform>")
+        Value.Moving(keys.sortBy(_._1))
       case "ref" =>
         Value.Reference(e("id").getOrElse(fail(
           Code.UnknownElement,
@@ -177,7 +181,8 @@ object Values:
 
   /** Elements that are values. */
   private val Tags =
-    Set("boolean", "float", "integer", "point", "ref", "rgb", "string", "transform", "vector")
+    Set("animation", "boolean", "float", "integer", "point", "ref", "rgb", "string", "transform",
+      "vector")
 
   def fail(code: Code, at: SourcePos, message: String, help: Option[String] = None): Nothing =
     throw SceneError(Problem.error(code, at, message, help))

@@ -2,7 +2,7 @@ package candela.mitsuba
 
 import candela.diagnostics.{Code, SourcePos}
 import candela.io.FileName
-import candela.math.Transform
+import candela.math.{Transform, Vec3}
 import candela.scenefile.{Declaration, GraphicsState, Param, SceneDescription}
 
 import java.nio.file.Path
@@ -22,13 +22,13 @@ final class Views(session: Session, media: Media, scene: Path):
       val sampler =
         in.nested("sampler").headOption.getOrElse(plain("sampler", "independent", in.at))
       in.ignore("srf")
-      val toWorld = in.transform("to_world")
+      val toWorld = in.motion("to_world").getOrElse(GraphicsState.Identity)
       val medium = in.nested("medium").headOption.fold("")(media(_))
-      // Mitsuba's x points left, pbrt's right
-      val toCamera = (toWorld * Transform.scale(-1, 1, 1).get).inverse
+      val axes = if p.name == "spherical" then Views.PanoramaAxes else Views.Axes
+      val toCamera = GraphicsState.inverse(toWorld.after(GraphicsState.still(axes)))
       from.copy(
         camera = Some(camera(in, width, height)),
-        worldToCamera = GraphicsState.still(toCamera),
+        worldToCamera = toCamera,
         cameraMedium = medium,
         film = Some(film),
         filter = Some(session.translate(filter)(filterOf)),
@@ -52,48 +52,68 @@ final class Views(session: Session, media: Media, scene: Path):
       val (cx, cy) = (2 * dx * halfX, -2 * dy * halfY)
       val sides = Seq(cx - halfX, cx + halfX, cy - halfY, cy + halfY).map(_.toFloat)
       Param.float("screenwindow", in.at, sides*)
+    def lens(scale: Double) =
+      val focus = in.number("focus_distance").orElse(in.number("far_clip")).getOrElse(1e4)
+      Seq(
+        Param.float("lensradius", in.at, (in.number("aperture_radius", 0) / scale).toFloat),
+        Param.float("focaldistance", in.atOf("focus_distance"), (focus / scale).toFloat)
+      )
     in.plugin.name match
-      case "orthographic" =>
-        session.declare("Camera", "orthographic", in.at, always :+ window(1, 1 / aspect))
+      case "orthographic" | "telecentric" =>
+        val isFlat = in.plugin.name == "orthographic"
+        // The lens is as large in the world as it says
+        val scale = in.transform("to_world").vector(Vec3.X).length
+        if isFlat then in.ignore("focus_distance")
+        session.declare(
+          "Camera",
+          "orthographic",
+          in.at,
+          (always :+ window(1, 1 / aspect)) ++ (if isFlat then Nil else lens(scale))
+        )
+      case "spherical" =>
+        in.ignore("near_clip", "far_clip")
+        val layout = Param.string("mapping", in.at, "equirectangular")
+        session.declare("Camera", "spherical", in.at, shutter :+ layout)
       case name =>
-        if name != "perspective" && name != "thinlens" then
+        if !Views.Perspective(name) then
           Plugins.unsupported(in.plugin, "using \"perspective\"", session)
           in.ignore(in.plugin.properties.map(_.name)*)
+        for coefficients <- in.text("kc") do
+          if name != "perspective_rdist" || coefficients.exists(c => c >= '1' && c <= '9') then
+            in.warnUnsupported("the image is not distorted", "kc")
+        if name != "thinlens" then in.ignore("focus_distance")
         val view =
           Seq(Param.float("fov", in.atOf("fov"), FieldOfView.shorter(in, aspect).toFloat)) ++
             Option.when(dx != 0 || dy != 0)(window(halfX, halfY))
-        val focus = in.number("focus_distance")
-        val lens =
-          if name != "thinlens" then Nil
-          else
-            Seq(
-              Param.float("lensradius", in.at, in.number("aperture_radius", 0).toFloat),
-              Param.float(
-                "focaldistance",
-                in.at,
-                focus.orElse(in.number("far_clip")).getOrElse(1e4).toFloat
-              )
-            )
-        session.declare("Camera", "perspective", in.at, view ++ lens ++ always)
+        val optics = if name == "thinlens" then lens(1) else Nil
+        session.declare("Camera", "perspective", in.at, view ++ optics ++ always)
 
   /** Width and height in pixels, and the film. */
   private def filmOf(in: Properties): (Int, Int, Declaration) =
     if !Plugins.films.contains(in.plugin.name) then
       Plugins.unsupported(in.plugin, "using \"hdrfilm\"", session)
-    val (width, height) = (in.integer("width", 768), in.integer("height", 576))
+    val isText = in.plugin.name == "mfilm"
+    val width = in.integer("width", if isText then 1 else 768)
+    val height = in.integer("height", if isText then 1 else 576)
     if width < 1 || height < 1 then
       Values.fail(Code.TooLarge, in.at, s"a film can't have $width × $height pixels")
     in.nested("rfilter"): Unit
-    in.ignore(
-      "file_format", "banner", "compensate", "gamma",
-      "tonemap_method", "attach_log", "exposure", "key", "burn", "high_quality_edges"
-    )
+    in.ignore("file_format", "banner", "compensate", "attach_log", "digits", "variable")
+    if in.text("tonemap_method", "gamma").toLowerCase != "gamma" then
+      in.warnUnsupported(Views.Linear, "tonemap_method")
+    for (name, neutral) <- Views.ToneDefaults if in.number(name).exists(_ != neutral) do
+      in.warnUnsupported(Views.Linear, name)
+    for p <- in.plugin.properties if p.name.startsWith("label[") || p.name.startsWith("metadata[")
+    do in.warnUnsupported("nothing is written in its place", p.name)
     val crop = Seq("crop_offset_x", "crop_offset_y", "crop_width", "crop_height")
     val bounds = Option.when(crop.exists(in.contains)):
       val (x, y) = (in.integer("crop_offset_x", 0), in.integer("crop_offset_y", 0))
       val (w, h) = (in.integer("crop_width", width), in.integer("crop_height", height))
       Param.int("pixelbounds", in.at, x, x + w, y, y + h)
-    val format = in.text("pixel_format", "rgb").toLowerCase
+    // Only multichannel integrators have several
+    val formats = in.text("pixel_format", "rgb").toLowerCase.split("[\\s,]+").filter(_.nonEmpty)
+    val format = formats.headOption.getOrElse("rgb")
+    in.ignore("channel_names")
     val formatPosition = in.atOf("pixel_format")
     if !Views.PixelFormats.contains(format) then
       session.error(
@@ -110,13 +130,15 @@ final class Views(session: Session, media: Media, scene: Path):
       )
     val alpha =
       Option.when(format.endsWith("a"))(Param.bool("alpha", formatPosition, true))
+    val edges = in.flag("high_quality_edges", false)
+    val samplesBorder = in.flag("sample_border", edges)
     val isHalf = in.text("component_format", "float16").toLowerCase == "float16"
     val params = Seq(
       Param.int("xresolution", in.atOf("width"), width),
       Param.int("yresolution", in.atOf("height"), height),
       Param.string("filename", in.at, s"${FileName.stem(scene)}.exr"),
       Param.bool("savefp16", in.at, isHalf),
-      Param.bool("sampleborder", in.atOf("sample_border"), in.flag("sample_border", false))
+      Param.bool("sampleborder", in.atOf("sample_border"), samplesBorder)
     ) ++ bounds ++ alpha
     (width, height, session.declare("Film", "rgb", in.at, params))
 
@@ -126,7 +148,7 @@ final class Views(session: Session, media: Media, scene: Path):
       session.declare("PixelFilter", name, in.at, size ++ extra)
     def number(name: String, x: Double) = Param.float(name, in.at, x.toFloat)
     in.plugin.name match
-      case "box" => filter("box", 0.5)
+      case "box" => filter("box", in.number("radius", 0.5))
       case "tent" => filter("triangle", in.number("radius", 1))
       case "mitchell" =>
         filter(
@@ -145,7 +167,7 @@ final class Views(session: Session, media: Media, scene: Path):
         filter("gaussian", 4 * sigma, number("sigma", sigma))
 
   private def samplerOf(in: Properties): Declaration =
-    in.ignore("seed", "jitter", "strength")
+    in.ignore("seed", "jitter", "strength", "scramble", "dimension")
     val count = in.integer("sample_count", 4)
     if count < 1 then
       Values.fail(Code.ParameterValue, in.atOf("sample_count"), "`sample_count` must be at least 1")
@@ -153,6 +175,12 @@ final class Views(session: Session, media: Media, scene: Path):
     val countPosition = in.atOf("sample_count")
     in.plugin.name match
       case "ldsampler" => sampler("paddedsobol", Param.int("pixelsamples", countPosition, count))
+      case "sobol" => sampler("sobol", Param.int("pixelsamples", countPosition, count))
+      case "halton" | "hammersley" =>
+        if in.plugin.name == "hammersley" then
+          val message = s"${in.plugin.description} is not supported; using \"halton\""
+          session.warn(Code.Unsupported, in.at, message)
+        sampler("halton", Param.int("pixelsamples", countPosition, count))
       case "stratified" | "multijitter" | "orthogonal" =>
         val x = Math.ceil(Math.sqrt(count)).toInt
         sampler(
@@ -165,6 +193,26 @@ final class Views(session: Session, media: Media, scene: Path):
           Plugins.unsupported(in.plugin, "using \"independent\"", session)
         sampler("independent", Param.int("pixelsamples", countPosition, count))
 
-private object Views:
+private[mitsuba] object Views:
   private val PixelFormats =
-    Vector("luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza", "multichannel")
+    Vector("luminance", "luminance_alpha", "luminancealpha", "rgb", "rgba", "xyz", "xyza",
+      "spectrum", "spectrumalpha", "multichannel")
+
+  private val Perspective = Set("perspective", "perspective_rdist", "thinlens")
+
+  /** Parameters of tone mapping, with values that change nothing. */
+  private val ToneDefaults =
+    Seq("gamma" -> -1.0, "exposure" -> 0.0, "key" -> 0.18, "burn" -> 0.0)
+  private val Linear = "the image has linear values"
+
+  /** Mitsuba's x points left, pbrt's right. */
+  private val Axes = Transform.scale(-1, 1, 1).get
+
+  /** The azimuth of panoramas begins at Mitsuba's −z, at pbrt's x. */
+  private val PanoramaAxes =
+    Transform.fromRows(Vector(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1)).get
+
+  /** Samples per pixel of a sampler's statement. */
+  def sampleCount(sampler: Declaration): Int =
+    def number(name: String) = sampler.param(name).flatMap(_.ints.headOption)
+    number("pixelsamples").orElse(number("xsamples").map(x => x * x)).getOrElse(1)

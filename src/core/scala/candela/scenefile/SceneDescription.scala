@@ -10,6 +10,12 @@ import java.nio.file.Path
 final case class AnimatedTransform(start: Transform, end: Transform):
   def isAnimated: Boolean = (start ne end) && start != end
 
+  /** Applies `first`, then this. */
+  def after(first: AnimatedTransform): AnimatedTransform =
+    val begin = start * first.start
+    if isAnimated || first.isAnimated then AnimatedTransform(begin, end * first.end)
+    else AnimatedTransform(begin, begin)
+
 /** The material of a shape. */
 enum MaterialRef:
   /** Not specified: the dialect's default. */

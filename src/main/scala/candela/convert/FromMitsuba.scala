@@ -12,7 +12,7 @@ import candela.image.ImageFiles
 import candela.sampling.PhaseFunction
 import candela.scenefile.{
   Declaration, Dialect, GraphicsState, MaterialRef, Param, ParamType, SceneDescription,
-  TextureDescription
+  ShapeDescription, TextureDescription
 }
 
 /** Replaces the materials that pbrt lacks in scenes of Mitsuba, and reports lights that differ. */
@@ -23,8 +23,13 @@ object FromMitsuba:
     run.disks(scene)
     run.thinDielectrics(scene)
     val plain = Declarations.map(scene)(run.plain)
-    val textures = plain.textures ++ run.addedTextures
-    Converted(plain.copy(dialect = Dialect.V4, textures = textures), run.warnings)
+    val converted = plain.copy(
+      dialect = Dialect.V4,
+      textures = plain.textures ++ run.addedTextures,
+      shapes = run.withoutHeightMaps(plain.shapes),
+      objects = plain.objects.map((name, shapes) => name -> run.withoutHeightMaps(shapes))
+    )
+    Converted(converted, run.warnings)
 
   private final class Run(named: Map[String, Declaration]):
     private val problems = mutable.LinkedHashSet.empty[Problem]
@@ -46,7 +51,7 @@ object FromMitsuba:
           "sampleborder"
         )
       else if d.category == "Integrator" then
-        withoutParams(d, "area lights and sky are visible", "hideemitters")
+        integrator(withoutParams(d, "area lights and sky are visible", "hideemitters"))
       else if d.category == "Shape" then
         withoutParams(d, "the inside of open tubes is visible", "cullbackfaces")
       else if d.category == "Medium" then
@@ -65,6 +70,21 @@ object FromMitsuba:
     private def spelled(d: Declaration): Declaration =
       def inV3(p: Param) = if p.name == "displacement" then p.renamed("bumpmap") else p
       if d.dialect.isEmpty then d else d.copy(params = d.params.map(inV3))
+
+    private def integrator(d: Declaration): Declaration =
+      if d.name != "ambientocclusion" then d
+      else
+        warn(d, "pixels without a surface are black in pbrt, white in Mitsuba")
+        if d.param("maxdistance").exists(_.floats.exists(_ < 0f)) then
+          withoutParams(d, "surfaces at any distance occlude", "maxdistance")
+        else d
+
+    def withoutHeightMaps(shapes: Vector[ShapeDescription]): Vector[ShapeDescription] =
+      shapes.filter: s =>
+        val isExpressible = s.shape.name != "heightmap"
+        if !isExpressible then
+          warn(s.shape, "pbrt has no height fields of images; this one is omitted")
+        isExpressible
 
     private def isSoft(d: Declaration): Boolean =
       !d.param("softedges").exists(_.bools.contains(false))

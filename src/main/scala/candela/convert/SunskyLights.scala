@@ -53,7 +53,10 @@ private[convert] object SunskyLights:
         val file = files.add("sky", "exr", ImageFiles.exr(picture))
         val scale = Option.when(sky != 1f)(Param.float("scale", d.at, sky))
         light("infinite", Param.string("filename", d.at, file) +: scale.toSeq*)
-      val c = (model.sunIrradiance * sun).map(Math.max(0f, _))
+      val irradiance = numbers("sunirradiance") match
+        case Some(Array(r, g, b)) => Rgb(r, g, b)
+        case _ => model.sunIrradiance
+      val c = (irradiance * sun).map(Math.max(0f, _))
       val disk = Option.when(c.max > 0f):
         val (picture, scale) = SunImage(toSun, number("sunaperture", 0.5358f), c)
         val file = files.add("sun", "exr", ImageFiles.exr(picture))

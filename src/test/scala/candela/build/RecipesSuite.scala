@@ -43,7 +43,8 @@ final class ShapeRecipesSuite
     extends RecipeLaws[Option[ShapePlan]](
       Shapes.all,
       demanding = Set(
-        "trianglemesh", "plymesh", "loopsubdiv", "heightfield", "nurbs", "bilinearmesh", "curve"
+        "trianglemesh", "plymesh", "loopsubdiv", "heightfield", "heightmap", "nurbs",
+        "bilinearmesh", "curve"
       )
     )
 

@@ -44,7 +44,7 @@ object Examples:
   private val Ambiguous = Set("measured", "realistic")
 
   private lazy val tables: Map[String, Map[String, Example]] = Map(
-    "Shape" -> shown(ShapeExamples.all),
+    "Shape" -> (shown(ShapeExamples.all) + ("heightmap" -> Unseen("of Mitsuba's scenes"))),
     "Material" -> (shown(SurfaceExamples.materials) ++ SurfaceExamples.unseen),
     "Texture (float)" -> textures("float", SurfaceExamples.floats),
     "Texture (spectrum)" -> textures("spectrum", SurfaceExamples.colors),

@@ -11,13 +11,14 @@ final class SunAndSkySuite extends AnyFunSuite:
   private def light(degrees: Double, sun: Float, sky: Float, aperture: Double = 10): SunAndSky =
     val elevation = Math.toRadians(degrees).toFloat
     val toSun = Vec3(cos(elevation), 0f, sin(elevation))
+    val model = SkyModel(3.3f, Rgb(0.1f, 0.3f, 0.8f), elevation)
     SunAndSky(
       LightFrame(Transform.rotate(25, 1, 1, 0).get),
-      SkyModel(3.3f, Rgb(0.1f, 0.3f, 0.8f), elevation),
+      model,
       toSun,
       Math.toRadians(aperture / 2).toFloat,
       sky,
-      sun,
+      model.sunIrradiance * sun,
       identity,
       complete = true
     )

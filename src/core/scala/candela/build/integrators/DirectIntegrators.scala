@@ -2,9 +2,10 @@ package candela.build.integrators
 
 import candela.build.recipe.*
 import candela.color.Rgb
-import candela.integrators.{AmbientOcclusion, DirectLighting, Occlusion, Whitted}
+import candela.integrators.{AmbientOcclusion, Beyond, DirectLighting, Occlusion, Whitted}
 import candela.math.*
 import candela.render.RenderMethod
+import candela.scene.Scene
 import candela.scenefile.Dialect
 
 object DirectLightingRecipe
@@ -57,7 +58,8 @@ object WhittedRecipe
     ))
 
 /** Differs between dialects: v2 computes the unoccluded fraction of the rays, v3 their
-  * cosine-weighted mean times π, v4 that mean, which is 1 at an unoccluded point.
+  * cosine-weighted mean times π, v4 that mean, which is 1 at an unoccluded point, Mitsuba the same,
+  * which is 1 beyond all surfaces, too.
   */
 object AmbientOcclusionRecipe
     extends Recipe[IntegratorPlan]("ambientocclusion", "unoccluded part of the hemisphere")
@@ -88,7 +90,7 @@ object AmbientOcclusionRecipe
           cosine = false,
           weighs = false,
           open = white,
-          showsSky = true
+          Beyond.Sky
         )
       case Dialect.V3 =>
         Occlusion(
@@ -98,15 +100,21 @@ object AmbientOcclusionRecipe
           cosine(),
           weighs = true,
           white * Pi,
-          showsSky = false
+          Beyond.Black
         )
       case Dialect.V4 | Dialect.Mitsuba =>
-        Occlusion(1, 0f, distanceV4(), cosine(), weighs = true, white, showsSky = false)
+        val beyond = if site.rules.dialect == Dialect.Mitsuba then Beyond.Open else Beyond.Black
+        Occlusion(1, 0f, distanceV4(), cosine(), weighs = true, white, beyond)
+    // Below 0, Mitsuba 0.6 takes a quarter of the scene's diameter
+    def within(scene: Scene) =
+      if rule.end >= 0f then rule else rule.copy(end = scene.ball.radius / 2)
     windowed(IntegratorPlan(
-      (scene, _) => RenderMethod.tiles(scene)(AmbientOcclusion(_, rule)),
+      (scene, _) => RenderMethod.tiles(scene)(AmbientOcclusion(_, within(scene))),
       samplesBsdf = true,
       s"ambientocclusion, ${rule.samples} rays per point",
       isLit = false,
       throughVolumes =
-        Some((scene, _, march) => RenderMethod.tiles(scene)(AmbientOcclusion(_, rule, march())))
+        Some((scene, _, march) =>
+          RenderMethod.tiles(scene)(AmbientOcclusion(_, within(scene), march()))
+        )
     ))

@@ -16,6 +16,8 @@ object SunskyLightRecipe
   private val aperture =
     float("sunaperture", "angle that the sun subtends", unit = "degrees")(0.5358f)
   private val sunScale = float("sunscale", "scale of the sun's radiance")(1f)
+  private val sunIrradiance =
+    numbers("sunirradiance", "float[3]", "irradiance by the sun", shown = "the model's")
   private val skyScale = float("skyscale", "scale of the sky's radiance")(1f)
 
   protected def make()(using site: Site): LightPlan =
@@ -58,7 +60,10 @@ object SunskyLightRecipe
               s,
               half,
               skyScale(),
-              sunScale(),
+              sunIrradiance() match
+                case Array(r, g, b) => Rgb(r, g, b) * sunScale()
+                case _ => model.sunIrradiance * sunScale()
+              ,
               c => convert(c) * all,
               complete = finds != SkySampling.Bright
             )

@@ -1,13 +1,15 @@
 package candela.build.shapes
 
 import candela.base.loop
+import candela.color.Rgb
 import candela.concurrency.Parallel
 import candela.diagnostics.{Code, Limit, SceneError}
 import candela.io.{Keep, Sha256}
 import candela.io.Sha256.Numbers
 import candela.build.recipe.*
 import candela.geometry.ShadingPoint
-import candela.math.{Position, Transform}
+import candela.image.Image
+import candela.math.{Position, Transform, Vec3}
 import candela.scenefile.Dialect
 import candela.shapes.{DisplacedMesh, LoopSubdivision, MeshError, SubdividedMesh}
 
@@ -234,3 +236,75 @@ object HeightFieldRecipe
         positions(3 * i + 1) = uvs(2 * i + 1)
         positions(3 * i + 2) = z(i)
       MeshArrays.checked(positions, Array.empty, uvs, MeshArrays.grid(columns, rows))
+
+/** Heights of an image, whose first row is at y = -1. */
+object HeightMapRecipe
+    extends MeshRecipe(
+      "heightmap",
+      "height field over the square of ±1, from an image",
+      onlyMitsuba
+    ):
+  private val filename =
+    string("filename", "image; colours count as luminances", shown = "none")("")
+  private val scale = float("scale", "height of 1")(1f)
+  private val smooth = bool("smooth", "interpolate the normals of the image's cells")(true)
+
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
+    if filename().isEmpty then
+      site.error(Code.MissingParameter, "a \"heightmap\" needs `filename`")
+      None
+    else
+      val p = site.declaration.param("filename").get
+      for
+        stored <- site.resources.image(p, site.declaration, site.problems, "it is flat")
+        field <- heights(stored.toImage.linear)
+        mesh <- field.mesh(smooth())
+      yield mesh
+
+  private def heights(image: Image)(using site: Site): Option[HeightField] =
+    val rgb = image.toRgb
+    if rgb.width < 2 || rgb.height < 2 then
+      site.warn(Code.NoSurface, "an image of heights must have 2 × 2 pixels; it is ignored")
+      None
+    else
+      site.allowance.check(
+        Limit.Triangles,
+        2L * rgb.width * rgb.height,
+        Some(site.declaration.at)
+      )(s"a height field of ${rgb.width} × ${rgb.height} pixels")
+      val z = Array.tabulate(rgb.width * rgb.height): i =>
+        scale() * Rgb(rgb.data(3 * i), rgb.data(3 * i + 1), rgb.data(3 * i + 2)).luminance
+      Some(HeightField(rgb.width, rgb.height, z))
+
+private final class HeightField(columns: Int, rows: Int, z: Array[Float]):
+
+  def mesh(smooth: Boolean)(using Site): Option[ShapeGeometry] =
+    val uvs = new Array[Float](2 * z.length)
+    val positions = new Array[Float](3 * z.length)
+    loop(z.length): i =>
+      val (u, v) = ((i % columns).toFloat / (columns - 1), (i / columns).toFloat / (rows - 1))
+      uvs(2 * i) = u
+      uvs(2 * i + 1) = 1 - v
+      positions(3 * i) = 2 * u - 1
+      positions(3 * i + 1) = 2 * v - 1
+      positions(3 * i + 2) = z(i)
+    val normals = if smooth then smoothNormals else Array.emptyFloatArray
+    MeshArrays.checked(positions, normals, uvs, MeshArrays.grid(columns, rows))
+
+  /** Sums of the unit normals of a pixel's cells. */
+  private def smoothNormals: Array[Float] =
+    val sums = new Array[Float](3 * z.length)
+    def add(i: Int, dx: Float, dy: Float): Unit =
+      val n = Vec3(-dx * (columns - 1) / 2, -dy * (rows - 1) / 2, 1f).normalized
+      sums(3 * i) += n.x
+      sums(3 * i + 1) += n.y
+      sums(3 * i + 2) += n.z
+    loop(rows - 1): y =>
+      loop(columns - 1): x =>
+        val i = y * columns + x
+        val (z00, z10, z01, z11) = (z(i), z(i + 1), z(i + columns), z(i + columns + 1))
+        add(i, z10 - z00, z01 - z00)
+        add(i + 1, z10 - z00, z11 - z10)
+        add(i + columns, z11 - z01, z01 - z00)
+        add(i + columns + 1, z11 - z01, z11 - z10)
+    sums

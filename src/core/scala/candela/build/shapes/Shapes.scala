@@ -16,7 +16,7 @@ object Shapes:
       Vector(
         SphereRecipe, CylinderRecipe, DiskRecipe, ConeRecipe, ParaboloidRecipe, HyperboloidRecipe,
         TriangleMeshRecipe, PlyMeshRecipe, BilinearMeshRecipe, LoopSubdivRecipe, CurveRecipe,
-        HeightFieldRecipe, NurbsRecipe
+        HeightFieldRecipe, HeightMapRecipe, NurbsRecipe
       )
     )
 
