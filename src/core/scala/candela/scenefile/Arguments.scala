@@ -16,6 +16,11 @@ abstract class Arguments(directive: Directive, val at: SourcePos, val report: Pr
   protected final def wrongNumber(at: SourcePos, count: Int, i: Int, actual: String): Nothing =
     fail(at, s"${directive.name} expects $count numbers; number ${i + 1} is $actual")
 
+  /** As Floats, which most of what is placed has. */
+  protected final def finite(values: Array[Double]): Array[Double] =
+    val i = values.indexWhere(x => !(Math.abs(x) <= Float.MaxValue))
+    if i < 0 then values else wrongNumber(at, values.length, i, s"${values(i)}")
+
   protected final def notQuoted(at: SourcePos, expected: String, actual: String): Nothing =
     fail(at, s"${directive.name} expects $expected in quotes, found $actual")
 
@@ -75,7 +80,7 @@ private[scenefile] final class WrittenArguments(
     if read < count then
       val actual = if in.current == Token.End then "missing: the file ends here" else in.description
       wrongNumber(in.at, count, read, actual)
-    values
+    finite(values)
 
   /** With or without brackets. */
   def matrix(): Array[Double] =

@@ -94,11 +94,9 @@ private final class GivenArguments(
     fail(nameAt, s"${directive.name} is for files only")
 
   def numbers(count: Int): Array[Double] =
-    Array.tabulate(count): i =>
+    finite(Array.tabulate(count): i =>
       if !remainingNumbers.hasNext then wrongNumber(at, count, i, "missing")
-      val x = remainingNumbers.next()
-      if x.isNaN || x.isInfinite then wrongNumber(at, count, i, x.toString)
-      x
+      remainingNumbers.next())
 
   def matrix(): Array[Double] = numbers(16)
 

@@ -19,6 +19,11 @@ class ParserErrorsSuite extends AnyFunSuite:
     val many = errors("WorldBegin" + " Shape 3" * 1100)
     assert(many.size == 1001 && many.last == "parsing stopped after 1000 errors")
 
+  test("a transform of a number that no Float holds is an error"):
+    val rows = Seq.fill(15)("0").mkString(" ")
+    for text <- Seq("Translate 1e400 0 0", "Scale 1e300 1 1", s"Transform [ -1e400 $rows ]") do
+      assert(errors(text).exists(_.contains("numbers; number 1 is ")), text)
+
   test("a typing error in a Begin makes no second error of its End"):
     assert(errors("WorldBegin\nAttributBegin\nShape \"a\"\nAttributeEnd\nWorldEnd").size == 1)
 
