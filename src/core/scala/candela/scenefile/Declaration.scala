@@ -111,6 +111,20 @@ final class Param(
   def withFloats(values: Array[Float]): Param =
     copy(floats = values, colorSpace = None, rests = Array.emptyFloatArray)
 
+  /** With each of its numbers changed. */
+  def mapped(change: Float => Float): Param = Param(
+    paramType,
+    name,
+    at,
+    valuesAt,
+    floats.map(change),
+    ints.map(i => if change(i.toFloat) == i.toFloat then i else change(i.toFloat).toInt),
+    bools,
+    strings,
+    isDefault,
+    colorSpace
+  )
+
   /** With the first `count` of its numbers. */
   def truncated(count: Int): Param = copy(floats = floats.take(count), rests = rests.take(count))
 

@@ -217,7 +217,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
           s"MakeNamedMedium \"m\" \"string type\" $medium\n" +
           "Material \"interface\" MediumInterface \"m\" \"\"\nShape \"sphere\"\n"
         val told = SceneTexts.problems(scene, dialect).map(_.message)
-        assert(told.exists(_.contains("must be between 0 and")), s"$medium $told")
+        assert(told.exists(_.contains("must be from 0 to")), s"$medium $told")
 
   test("a scene whose media glow is not told that it will be dark"):
     val box = "Material \"interface\"\nMediumInterface \"m\" \"\"\nShape \"sphere\"\n"

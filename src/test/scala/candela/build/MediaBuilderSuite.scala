@@ -173,4 +173,4 @@ final class MediaBuilderSuite extends AnyFunSuite:
         |WorldEnd
         |""".stripMargin
     val found = SceneTexts.problems(text, Dialect.V2)
-    assert(found.exists(_.message == "`stepsize` must be above 0, found 0.0"), found)
+    assert(found.exists(_.message == "`stepsize` must be above 0, found 0"), found)

@@ -169,4 +169,4 @@ final class PhotonMapperSuite extends AnyFunSuite:
 
   test("a radius of nothing is an error"):
     val text = room("\"sppm\" \"float radius\" 0", "")
-    assert(SceneTexts.problems(text).exists(_.message.contains("`radius` must be above 0")))
+    assert(SceneTexts.problems(text).exists(_.message.contains("`radius` must be at least")))

@@ -12,7 +12,12 @@ import candela.scenefile.Dialect
 abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
     extends CameraRecipe(name, meaning, dialects):
   private val aspect =
-    float("frameaspectratio", "aspect ratio, width over height", shown = "the image's")(0f)
+    float(
+      "frameaspectratio",
+      "aspect ratio, width over height",
+      shown = "the image's",
+      range = Range.above(0f).told
+    )(0f)
   private val window =
     numbers(
       "screenwindow",
@@ -21,7 +26,12 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
       shown = "by the aspect"
     )
   private val lens =
-    float("lensradius", "radius of the aperture; 0: pinhole", unit = "scene units")(0f)
+    float(
+      "lensradius",
+      "radius of the aperture; 0: pinhole",
+      unit = "scene units",
+      range = Range.atLeast(0f).limited
+    )(0f)
   private val focus =
     float("focaldistance", "distance to the plane in focus", unit = "scene units")(
       if v2 then 1e30f else 1e6f
@@ -32,20 +42,21 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
   )
 
   private val near =
-    float("nearclip", "near clipping distance", onlyMitsuba, "scene units")(0.01f)
+    float(
+      "nearclip", "near clipping distance", onlyMitsuba, "scene units", range = Range.above(0f)
+    )(0.01f)
   private val far =
-    float("farclip", "far clipping distance", onlyMitsuba, "scene units")(1e4f)
+    float(
+      "farclip", "far clipping distance", onlyMitsuba, "scene units", range = Range.above(0f)
+    )(1e4f)
 
   /** The camera, which clips if it is to. */
   protected def clipped(toWorld: Transform, camera: Camera)(using site: Site): Camera =
     if !site.rules.clips then camera
     else
       val (first, last) = (near(), far())
-      if !(first > 0f && first < last) then
-        site.error(
-          Code.ParameterValue,
-          s"clipping distances must be above 0 and rise, found $first and $last"
-        )
+      if !(first < last) then
+        site.error(Code.ParameterValue, s"clipping distances must rise, found $first and $last")
       ClippedCamera(camera, toWorld, first, last)
 
   protected def setup(toWorld: Transform, frame: FilmFrame)(using site: Site): ProjectiveSetup =
@@ -65,27 +76,31 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
     ProjectiveSetup(toWorld, width, height, screen, lens(), focus())
 
 object PerspectiveRecipe extends ProjectiveRecipe("perspective", "perspective projection"):
-  private val fov = float("fov", "field of view along the shorter side", unit = "degrees")(90f)
+  private val fov = float(
+    "fov",
+    "field of view along the shorter side",
+    unit = "degrees",
+    range = Range.between(0f, 180f).used
+  )(90f)
   private val half =
-    float("halffov", "half of `fov`, instead of `fov`", untilV3, "degrees", "none")(-1f)
+    float(
+      "halffov",
+      "half of `fov`, instead of `fov`",
+      untilV3,
+      "degrees",
+      "none",
+      Range.between(0f, 90f).told
+    )(-1f)
 
-  protected def make()(using site: Site): CameraPlan =
+  protected def make()(using Site): CameraPlan =
     val angle = if half() > 0f then 2f * half() else fov()
     // A screen at infinity, or one behind the camera, has an image, too
     val turned = Math.abs(angle) % 360f
     val isAngle = angle > 0f && angle < 180f
-    if !java.lang.Float.isFinite(angle) then
-      site.error(Code.ParameterValue, s"`fov` must be between 0 and 180 degrees, found $angle")
-    else if !isAngle then
-      site.warn(
-        Code.CorrectedValue,
-        s"`fov` should be between 0 and 180 degrees, found $angle; rendered as in pbrt"
-      )
     CameraPlan(
       (toWorld, frame) =>
         val fits =
           if isAngle then angle
-          else if !java.lang.Float.isFinite(angle) then 90f
           else if turned == 0f then PerspectiveRecipe.Narrowest
           else if turned == 180f then 180f - PerspectiveRecipe.Narrowest
           else angle

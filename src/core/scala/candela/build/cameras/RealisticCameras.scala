@@ -19,9 +19,19 @@ object RealisticRecipe
       "file with radius, thickness, index and diameter of each surface",
       shown = "none"
     )("")
-  private val diameter = float("aperturediameter", "diameter of the aperture stop", unit = "mm")(1f)
+  private val diameter = float(
+    "aperturediameter",
+    "diameter of the aperture stop",
+    unit = "mm",
+    range = Range.above(0f)
+  )(1f)
   private val distance =
-    float("focusdistance", "distance from the film to the plane in focus", unit = "m")(10f)
+    float(
+      "focusdistance",
+      "distance from the film to the plane in focus",
+      unit = "m",
+      range = Range.above(0f)
+    )(10f)
   private val simple = bool(
     "simpleweighting",
     "normalise the brightness of the centre; otherwise use absolute irradiance on the film",

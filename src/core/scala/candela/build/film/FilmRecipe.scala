@@ -48,9 +48,12 @@ final case class FilmSettings(
 abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends Recipe[FilmSettings](name, meaning, dialects):
   private val x =
-    integer("xresolution", "image width", unit = "pixels")(if v2 then 640 else 1280)
+    integer("xresolution", "image width", unit = "pixels", range = FilmRecipe.Across)(if v2 then 640
+    else 1280)
   private val y =
-    integer("yresolution", "image height", unit = "pixels")(if v2 then 480 else 720)
+    integer("yresolution", "image height", unit = "pixels", range = FilmRecipe.Across)(if v2 then
+      480
+    else 720)
   private val crop =
     numbers(
       "cropwindow",
@@ -68,15 +71,17 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
       "image file; its extension selects the format; by default, it has the scene's name"
     )(FilmRecipe.DefaultFile)
   private val diagonal =
-    float("diagonal", "diagonal of the film, for realistic cameras", sinceV3, unit = "mm")(35f)
+    float(
+      "diagonal",
+      "diagonal of the film, for realistic cameras",
+      sinceV3,
+      unit = "mm",
+      range = Range.above(0f)
+    )(35f)
 
   protected def settings(development: Development, limit: Float => Option[SampleLimit])(using
       site: Site
   ): FilmSettings =
-    val (w, h) = (x(), y())
-    // How many may be rendered at once is asked of the crop window
-    if w < 1 || h < 1 || Math.max(w, h) > FilmRecipe.MostAcross then
-      site.error(Code.TooLarge, s"can't render an image of $w×$h pixels")
     // v4 prefers the fractional window if both are given
     val inPixels = crop().isEmpty && pixels().length == 4
     val asked = if inPixels then pixels().map(_.toFloat) else crop()
@@ -85,11 +90,9 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
       val message = s"`cropwindow` must be x0 x1 y0 y1, found ${asked.length} numbers"
       site.warn(Code.CorrectedValue, s"$message; it is ignored, as pbrt does")
     val window = if isWindow then asked else Array.emptyFloatArray
-    if !(diagonal() > 0f) then
-      site.error(Code.ParameterValue, s"`diagonal` must be above 0 mm, found ${diagonal()}")
     FilmSettings(
-      Math.max(w, 1),
-      Math.max(h, 1),
+      x(),
+      y(),
       if window.length == 4 then ordered(window) else Array(0f, 1f, 0f, 1f),
       inPixels,
       file(),
@@ -106,5 +109,10 @@ object FilmRecipe:
   /** The image file of scenes that name none. */
   val DefaultFile = "pbrt.exr"
 
-  /** Pixels: as far as Floats count all of them. */
-  private val MostAcross = 1 << 24
+  /** Of pixels; what is larger or smaller has products that overflow or vanish. */
+  val Gain: Range = Range(1e-10f, 1e10f)
+
+  /** Pixels: as far as Floats count all of them. How many may be rendered at once is asked of the
+    * crop window.
+    */
+  private val Across = Range(1f, 1 << 24)

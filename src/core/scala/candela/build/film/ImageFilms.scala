@@ -8,12 +8,14 @@ import candela.scenefile.Dialect
 import candela.film.{Development, SampleLimit, SpectralBands}
 
 object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
-  private val scale = float("scale", "scale of all pixel values", onlyV3)(1f)
+  private val scale =
+    float("scale", "scale of all pixel values", onlyV3, range = FilmRecipe.Gain)(1f)
   private val most =
     float(
       "maxsampleluminance",
       "maximum luminance of a sample; brighter ones are scaled down",
-      onlyV3
+      onlyV3,
+      range = Range.endless
     )(Float.PositiveInfinity)
   noMeaning("no external program displays the image")(
     bool("display", "display the image during rendering", onlyV2)(false)
@@ -56,20 +58,18 @@ object GBufferFilmRecipe
 
 object SpectralFilmRecipe
     extends SensorFilmRecipe("spectral", "spectral image in bands of wavelengths"):
-  private val buckets = integer("nbuckets", "number of spectral bands")(16)
-  private val shortest = float("lambdamin", "shortest wavelength", unit = "nm")(360f)
-  private val longest = float("lambdamax", "longest wavelength", unit = "nm")(830f)
+  private val buckets =
+    integer("nbuckets", "number of spectral bands", range = Range(1f, 1000f))(16)
+  private val Visible = Range(360f, 830f)
+  private val shortest =
+    float("lambdamin", "shortest wavelength", unit = "nm", range = Visible)(360f)
+  private val longest = float("lambdamax", "longest wavelength", unit = "nm", range = Visible)(830f)
 
   override protected def make()(using site: Site): FilmSettings =
     val (from, to) = (shortest(), longest())
-    if buckets() < 1 then
-      site.error(Code.ParameterValue, s"`nbuckets` must be at least 1, found ${buckets()}")
-    if !(from >= 360f && from < to && to <= 830f) then
-      site.error(
-        Code.ParameterValue,
-        s"`lambdamin` and `lambdamax` must be between 360 and 830 nm, found $from and $to"
-      )
-    site.resources.counting.foreach(_.addBands(Math.max(buckets(), 1)))
+    if !(from < to) then
+      site.error(Code.ParameterValue, s"`lambdamin`, $from nm, must be below `lambdamax`, $to nm")
+    site.resources.counting.foreach(_.addBands(buckets()))
     if !site.resources.mayBeSpectral then
       site.warn(
         Code.Unsupported,
@@ -77,36 +77,37 @@ object SpectralFilmRecipe
           "colour"
       )
     val made = super.make()
-    val bands = SpectralBands(Math.max(buckets(), 1), from, to)
+    val bands = SpectralBands(buckets(), from, to)
     made.copy(development = made.development.copy(bands = Some(bands)))
 
 /** Base of v4's films, with a sensor model. */
 abstract class SensorFilmRecipe(name: String, meaning: String)
     extends FilmRecipe(name, meaning, onlyV4):
-  private val iso = float("iso", "sensor sensitivity; 100: unscaled")(100f)
+  private val iso = float("iso", "sensor sensitivity; 100: unscaled", range = FilmRecipe.Gain)(100f)
   private val sensor =
     string("sensor", "sensor response: cie1931, or the name of a camera")("cie1931")
   private val most =
     float(
       "maxcomponentvalue",
       "maximum of a sample's sensor values, X, Y and Z for cie1931, after `iso` and exposure and " +
-        "before white balance; larger ones are scaled down"
+        "before white balance; larger ones are scaled down",
+      range = Range.endless
     )(Float.PositiveInfinity)
   private val white =
     float(
       "whitebalance",
       "colour temperature of white; none: no white balance, but 6500 for cameras",
       unit = "K",
-      shown = "none"
+      shown = "none",
+      // Below, the white point has next to no green and blue
+      range = Range.atLeast(1000f).or(0f)
     )(0f)
   private val half = bool("savefp16", "write 16-bit instead of 32-bit values")(true)
 
   protected def make()(using site: Site): FilmSettings =
-    if white() < 0f then
-      site.error(Code.ParameterValue, s"`whitebalance` must not be below 0 K, found ${white()}")
     val development =
       Development(iso() / 100f, clipsNegative = false, isHalf = half(), space = site.colorSpace)
-    val kelvin = Math.max(white(), 0f)
+    val kelvin = white()
     if most().isFinite && site.rules.dialect == Dialect.V4 then
       site.warn(
         Code.UnlikePbrt,

@@ -66,13 +66,19 @@ object AmbientOcclusionRecipe
     with Windowed:
   private val cosine = bool("cossample", "sample directions by the cosine", sinceV3)(true)
   private val samples =
-    integer("nsamples", "rays per point", untilV3)(if v2 then 2048 else 64)
+    integer("nsamples", "rays per point", untilV3, range = Range.atLeast(1f).limited)(if v2 then
+      2048
+    else 64)
   private val distance =
-    float("maxdist", "maximum distance of occluders", onlyV2, "scene units")(
+    float(
+      "maxdist", "maximum distance of occluders", onlyV2, "scene units", range = Range.endless
+    )(
       Float.PositiveInfinity
     )
   private val distanceV4 =
-    float("maxdistance", "maximum distance of occluders", onlyV4, "scene units")(
+    float(
+      "maxdistance", "maximum distance of occluders", onlyV4, "scene units", range = Range.endless
+    )(
       Float.PositiveInfinity
     )
 
@@ -84,7 +90,7 @@ object AmbientOcclusionRecipe
     val rule = site.dialect match
       case Dialect.V2 =>
         Occlusion(
-          Math.max(1, samples()),
+          samples(),
           NearV2,
           distance(),
           cosine = false,
@@ -94,7 +100,7 @@ object AmbientOcclusionRecipe
         )
       case Dialect.V3 =>
         Occlusion(
-          Math.max(1, samples()),
+          samples(),
           0f,
           Float.PositiveInfinity,
           cosine(),

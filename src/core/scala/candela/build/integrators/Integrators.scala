@@ -110,14 +110,14 @@ object IntegratorPlan:
     case Dialect.V3 => Interfaces.Lossy
     case Dialect.V4 | Dialect.Mitsuba => Interfaces.Closed
 
+/** More than any path has, and fewer than overflow. */
+private[build] val PathDepths = Range(0f, 1e9f).limited
+
 /** Base of integrators with a maximum path depth. */
 abstract class IntegratorRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends Recipe[IntegratorPlan](name, meaning, dialects):
   protected val maxDepth: Field[Int] =
-    integer("maxdepth", "maximum number of scattering events")(5)
-
-  /** `maxdepth`, at least 0. */
-  protected final def events()(using Site): Int = Math.max(0, maxDepth())
+    integer("maxdepth", "maximum number of scattering events", range = PathDepths)(5)
 
 /** Integrators whose v3 form limits the rendered pixels, in addition to the film. */
 trait Windowed extends Recipe[IntegratorPlan]:
@@ -174,7 +174,7 @@ trait PathInstead extends Recipe[IntegratorPlan]:
   protected def depth()(using Site): Int = 5
 
   protected def make()(using site: Site): IntegratorPlan =
-    val most = Math.max(0, depth())
+    val most = depth()
     val limits =
       PathLimits(most, rouletteAfter = 1, seesThrough = site.dialect == Dialect.V3)
     val interfaces = IntegratorPlan.interfaces

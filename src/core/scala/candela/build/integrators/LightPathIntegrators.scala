@@ -31,6 +31,9 @@ object BdptRecipe extends IntegratorRecipe("bdpt", "bidirectional path tracing",
   protected def make()(using Site): IntegratorPlan =
     windowed(BidirectionalPlans.plan(name, maxDepth(), regularize()))
 
+private[build] object MetropolisRanges:
+  val Counts: Range = Range(1f, 1e8f)
+
 object MltRecipe
     extends IntegratorRecipe(
       "mlt",
@@ -41,11 +44,20 @@ object MltRecipe
   private val bootstrap = integer(
     "bootstrapsamples",
     "minimum number of bootstrap paths; more are traced until the brightness has a standard " +
-      "error of 0.3 %, or until there are as many as mutations"
+      "error of 0.3 %, or until there are as many as mutations",
+    range = MetropolisRanges.Counts
   )(100000)
-  private val chains = integer("chains", "Markov chains")(1000)
-  private val mutations = integer("mutationsperpixel", "path mutations per pixel")(100)
-  private val largeStep = float("largestepprobability", "probability of an independent path")(0.3f)
+  private val chains = integer("chains", "Markov chains", range = MetropolisRanges.Counts)(1000)
+  private val mutations = integer(
+    "mutationsperpixel",
+    "path mutations per pixel",
+    range = MetropolisRanges.Counts
+  )(100)
+  private val largeStep = float(
+    "largestepprobability",
+    "probability of an independent path",
+    range = Range(0f, 1f)
+  )(0.3f)
   private val sigma = float("sigma", "standard deviation of small mutations")(0.01f)
 
   protected def make()(using Site): IntegratorPlan =
@@ -53,7 +65,12 @@ object MltRecipe
     BidirectionalPlans.metropolis(name, maxDepth(), mutations(), settings, regularize())
 
 object SppmRecipe extends IntegratorRecipe("sppm", "progressive photon mapping", sinceV3):
-  private val passes = integer("numiterations", "photon passes", onlyV3)(64)
+  private val passes = integer(
+    "numiterations",
+    "photon passes",
+    onlyV3,
+    range = Range.atLeast(1f).limited
+  )(64)
   private val passesToo = integer(
     "iterations",
     "alias of `numiterations`",
@@ -63,7 +80,12 @@ object SppmRecipe extends IntegratorRecipe("sppm", "progressive photon mapping",
   private val photons =
     integer("photonsperiteration", "light paths per pass", shown = "one per pixel")(-1)
   private val radius =
-    float("radius", "initial search radius for photons", unit = "scene units")(1f)
+    float(
+      "radius",
+      "initial search radius for photons",
+      unit = "scene units",
+      range = PhotonPlans.Radius
+    )(1f)
   private val seed =
     integer("seed", "random seed", onlyV4, shown = "the option's")(0)
   noMeaning("the image is written once, at the end")(
@@ -78,9 +100,9 @@ object SppmRecipe extends IntegratorRecipe("sppm", "progressive photon mapping",
   protected def make()(using site: Site): IntegratorPlan =
     val asked = if passesToo() > 0 then passesToo() else passes()
     // In v4 the sampler sets the number of passes
-    val count = Option.when(site.dialect == Dialect.V3)(Math.max(1, asked))
+    val count = Option.when(site.dialect == Dialect.V3)(asked)
     val settings =
-      PhotonSettings(radius(), photons(), events(), compresses = true, seed())
+      PhotonSettings(radius(), photons(), maxDepth(), compresses = true, seed())
     PhotonPlans.plan(name, maxDepth(), settings, count)
 
 object LightPathRecipe
@@ -91,7 +113,7 @@ object LightPathRecipe
       onlyV4
     ):
   protected def make()(using site: Site): IntegratorPlan =
-    val most = events()
+    val most = maxDepth()
     val passes = site.rules.passes
     IntegratorPlan(
       (scene, _) =>
@@ -131,7 +153,7 @@ private[build] object BidirectionalPlans:
   def plan(name: String, depth: Int, regularizes: Boolean = false)(using
       site: Site
   ): IntegratorPlan =
-    val most = Math.max(0, depth)
+    val most = depth
     val dialect = site.dialect
     IntegratorPlan(
       (scene, _) => SplattedTiles(tracers(scene, most, regularizes)),
@@ -208,20 +230,7 @@ private[build] object BidirectionalPlans:
       regularizes: Boolean = false
   )(using site: Site): IntegratorPlan =
     val isV2 = site.dialect == Dialect.V2
-    for
-      (count, parameter) <- Seq(
-        mutations -> (if isV2 then "samplesperpixel" else "mutationsperpixel"),
-        settings.bootstrap -> "bootstrapsamples",
-        settings.chains -> "chains"
-      )
-      if count < 1
-    do site.error(Code.ParameterValue, s"`$parameter` must be at least 1, found $count")
-    if !(settings.largeStep >= 0f && settings.largeStep <= 1f) then
-      site.error(
-        Code.ParameterValue,
-        s"`largestepprobability` must be in [0, 1], found ${settings.largeStep}"
-      )
-    val most = Math.max(0, depth)
+    val most = depth
     val seeded = settings.copy(seed = site.resources.seed)
     def chains(scene: Scene, media: SceneMedia | Null) =
       Chains(
@@ -237,13 +246,15 @@ private[build] object BidirectionalPlans:
           case Some(what) => inVolpath(name, what, scene, media, most, regularizes)
       ,
       describe = s"$name, up to $most scattering events, ${settings.chains} chains",
-      samples = Some(Math.max(1, mutations))
+      samples = Some(mutations)
     )
 
   private val Lack = "misses caustics from point lights"
 
 /** Plans that use [[PhotonPasses]]. */
 private[build] object PhotonPlans:
+  /** Whose square is a number. */
+  val Radius: Range = Range.atLeast(1e-15f)
 
   /** @param depth  maximum number of scattering events of a camera path
     * @param passes number of passes, if set by the scene
@@ -251,10 +262,7 @@ private[build] object PhotonPlans:
   def plan(name: String, depth: Int, settings: PhotonSettings, passes: Option[Int])(
       using site: Site
   ): IntegratorPlan =
-    val most = Math.max(0, depth)
-    if !(settings.radius > 0f) then
-      val parameter = if site.dialect == Dialect.V2 then "maxdist" else "radius"
-      site.error(Code.ParameterValue, s"`$parameter` must be above 0, found ${settings.radius}")
+    val most = depth
     val seeded = settings.copy(seed = settings.seed ^ site.resources.seed)
     val interfaces =
       if site.dialect == Dialect.V4 then Interfaces.Weighed else IntegratorPlan.interfaces

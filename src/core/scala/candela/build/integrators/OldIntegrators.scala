@@ -16,10 +16,17 @@ final class PhotonMapRecipe(name: String)
       "photon mapping; rendered by progressive photon mapping, with the same image",
       onlyV2
     ):
-  private val bounces = integer("maxphotondepth", "maximum bounces of a photon")(5)
-  private val specular = integer("maxspeculardepth", "maximum specular bounces")(5)
+  private val bounces =
+    integer("maxphotondepth", "maximum bounces of a photon", range = PathDepths)(5)
+  private val specular =
+    integer("maxspeculardepth", "maximum specular bounces", range = PathDepths)(5)
   private val radius =
-    float("maxdist", "initial search radius for photons", unit = "scene units")(0.1f)
+    float(
+      "maxdist",
+      "initial search radius for photons",
+      unit = "scene units",
+      range = PhotonPlans.Radius
+    )(0.1f)
   private val caustics =
     integer(
       "causticphotons",
@@ -39,7 +46,7 @@ final class PhotonMapRecipe(name: String)
     val settings = PhotonSettings(
       radius(),
       paths = -1,
-      maxEdges = Math.max(0, bounces()),
+      maxEdges = bounces(),
       compresses = false,
       caustics = caustics() > 0,
       indirect = indirect() > 0,
@@ -71,7 +78,8 @@ object IrradianceCacheRecipe
       "using \"path\" with as many bounces, which does not interpolate and includes glossy " +
         "indirect light"
     )
-  private val bounces = integer("maxindirectdepth", "maximum diffuse bounces")(3)
+  private val bounces =
+    integer("maxindirectdepth", "maximum diffuse bounces", range = PathDepths)(3)
   override protected def depth()(using Site): Int = 1 + bounces()
   declare(
     float("minweight", "minimum weight of a cached sample")(0.5f),
@@ -98,7 +106,7 @@ object DipoleSubsurfaceRecipe
 
   protected def make()(using Site): IntegratorPlan =
     // Specular bounces; "directlighting" also counts the last surface
-    val depth = events() + 1
+    val depth = maxDepth() + 1
     IntegratorPlan(
       (scene, samples) =>
         RenderMethod.tiles(scene): over =>

@@ -20,7 +20,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
 
   protected def make()(using site: Site): IntegratorPlan =
     // v2 samples lights at one vertex more than it counts
-    val depth = events() + (if site.dialect == Dialect.V2 then 1 else 0)
+    val depth = maxDepth() + (if site.dialect == Dialect.V2 then 1 else 0)
     // "path" of v2 and v4 renders such a surface as glass, or as its reflection only
     val goesBeneath = site.rules.goesBeneath || name == "volpath"
     val regularizes = regularize()
@@ -102,7 +102,7 @@ object SimpleVolPathRecipe
       onlyV4
     ):
   protected def make()(using Site): IntegratorPlan =
-    val most = events()
+    val most = maxDepth()
     val options = PathOptions(samplesLights = false)
     SimplePlans
       .plan(name, most, samplesLights = false, Onward.Bsdf)
@@ -131,7 +131,7 @@ private object SimplePlans:
       onward: Onward,
       crosses: Boolean = true
   ): IntegratorPlan =
-    val most = Math.max(0, depth)
+    val most = depth
     val by = if samplesLights then "" else ", without light sampling"
     IntegratorPlan(
       (scene, _) =>

@@ -1,6 +1,5 @@
 package candela.build.integrators
 
-import candela.diagnostics.Code
 import candela.mlt.MetropolisSettings
 import candela.build.recipe.*
 
@@ -40,13 +39,22 @@ object MetropolisRecipe
       "Metropolis light transport with bidirectional paths",
       onlyV2
     ):
-  private val depth = integer("maxdepth", "maximum bounces")(7)
-  private val largeStep = float("largestepprobability", "probability of an independent path")(0.25f)
-  private val mutations = integer("samplesperpixel", "path mutations per pixel")(100)
+  private val depth = integer("maxdepth", "maximum bounces", range = PathDepths)(7)
+  private val largeStep = float(
+    "largestepprobability",
+    "probability of an independent path",
+    range = Range(0f, 1f)
+  )(0.25f)
+  private val mutations = integer(
+    "samplesperpixel",
+    "path mutations per pixel",
+    range = MetropolisRanges.Counts
+  )(100)
   private val bootstrap = integer(
     "bootstrapsamples",
     "minimum number of bootstrap paths; more are traced until the brightness has a standard " +
-      "error of 0.3 %, or until there are as many as mutations"
+      "error of 0.3 %, or until there are as many as mutations",
+    range = MetropolisRanges.Counts
   )(100000)
   noMeaning("the chains sample all light with bidirectional paths, with the same mean")(
     integer("directsamples", "direct light samples per pixel")(4),
@@ -134,11 +142,12 @@ object VolumeIntegrators:
 
 final class VolumeIntegratorRecipe(name: String, meaning: String, scatters: Boolean)
     extends Recipe[VolumeMethod](name, meaning, onlyV2):
-  private val stepSize = float("stepsize", "step of ray marching", unit = "scene units")(1f)
+  private val stepSize = float(
+    "stepsize",
+    "step of ray marching",
+    unit = "scene units",
+    range = Range.above(0f)
+  )(1f)
 
-  protected def make()(using site: Site): VolumeMethod =
-    val size = stepSize()
-    if size > 0f then VolumeMethod(size, scatters)
-    else
-      site.error(Code.ParameterValue, s"`stepsize` must be above 0, found $size")
-      VolumeMethod(1f, scatters)
+  protected def make()(using Site): VolumeMethod =
+    VolumeMethod(stepSize(), scatters)

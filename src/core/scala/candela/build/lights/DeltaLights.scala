@@ -54,7 +54,12 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
   private val from = point("from", "position")(Vec3.Zero)
   private val to = point("to", "target of the axis")(Vec3.Z)
   private val cone =
-    float("coneangle", "angle between the axis and the edge of the cone", unit = "degrees")(30f)
+    float(
+      "coneangle",
+      "angle between the axis and the edge of the cone",
+      unit = "degrees",
+      range = Range.above(0f).told
+    )(30f)
   private val fading =
     float("conedeltaangle", "angular width of the falloff inside the edge", unit = "degrees")(5f)
   private val power =

@@ -90,7 +90,12 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     string("mapname", "image of the slide; none: white", untilV3, shown = "none")("")
   private val filename = string("filename", "image of the slide", onlyV4, shown = "none")("")
   private val fov =
-    float("fov", "field of view along the shorter side", unit = "degrees")(if v4 then 90f else 45f)
+    float(
+      "fov",
+      "field of view along the shorter side",
+      unit = "degrees",
+      range = Range.between(0f, 180f).told
+    )(if v4 then 90f else 45f)
   private val power =
     float("power", "total power, overrides the magnitude of the image", onlyV4, "lm", "none")(-1f)
   private val powers = Once[Float]()

@@ -93,9 +93,19 @@ abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect]
 /** Number of samples of a light in v2's and v3's direct lighting. */
 trait SampleCounts extends Fields:
   private val nsamples =
-    integer("nsamples", "light samples per point in \"directlighting\"", untilV3)(1)
+    integer(
+      "nsamples",
+      "light samples per point in \"directlighting\"",
+      untilV3,
+      range = Range.atLeast(1f).limited
+    )(1)
   private val samples =
-    integer("samples", "alias of `nsamples`", onlyV3, shown = "nsamples")(1)
+    integer(
+      "samples",
+      "alias of `nsamples`",
+      onlyV3,
+      shown = "nsamples",
+      range = Range.atLeast(1f).limited
+    )(1)
 
-  protected def sampleCount()(using Site): Int =
-    Math.max(1, samples.given_().getOrElse(nsamples()))
+  protected def sampleCount()(using Site): Int = samples.given_().getOrElse(nsamples())

@@ -29,7 +29,11 @@ private[build] trait LayerFields extends Fields:
     floatTexture("thickness", "thickness of the coating, in mean free paths")(0.01f),
     rgbTexture("albedo", "albedo of the medium inside the coating")(Rgb.Black),
     floatTexture("g", "scattering asymmetry inside the coating, -1 to 1")(0f),
-    integer("maxdepth", "maximum interactions between the layers")(10),
+    integer(
+      "maxdepth",
+      "maximum interactions between the layers",
+      range = Range.atLeast(1f).told
+    )(10),
     integer("nsamples", "random walks per evaluation, if layers are sampled stochastically")(1)
   )
 
@@ -40,7 +44,11 @@ object CoatedDiffuseRecipe
   protected val tint: Field[RgbTexture] =
     rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
   private val layers = layerParameters()
-  private val eta = spectrum("eta", "index of refraction of the coating")(Indices.glass)
+  private val eta = spectrum(
+    "eta",
+    "index of refraction of the coating",
+    range = Indices.range
+  )(Indices.glass)
   protected def tinted()(using site: Site): (RgbTexture, Site) => Material =
     val basis = site.resources.basis
     val coating = eta()
@@ -62,7 +70,7 @@ object RoughPlasticRecipe
     bool("nonlinear", "apply the base colour at each interreflection")(false)
   private val interreflection =
     bool("interreflection", "simulate interreflection between coat and base")(true)
-  private val eta = float("eta", "index of refraction of the coating")(1.49f)
+  private val eta = float("eta", "index of refraction of the coating", range = Indices.range)(1.49f)
   protected def make()(using site: Site): Material =
     val rough = roughness()
     if !rough.isConstant && interreflection() then
@@ -101,7 +109,11 @@ object CoatedConductorRecipe
   private val conductor = Side("conductor")
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha")(true)
-  private val eta = spectrum("interface.eta", "index of refraction of the coating")(Indices.glass)
+  private val eta = spectrum(
+    "interface.eta",
+    "index of refraction of the coating",
+    range = Indices.range
+  )(Indices.glass)
   private val index = metalIndex("conductor.", tint = true)
   private val layers = layerParameters()
   protected val tint: Field[RgbTexture] = index.reflectance.get

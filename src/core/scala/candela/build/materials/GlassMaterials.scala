@@ -14,8 +14,10 @@ object GlassRecipe
     extends MaterialRecipe("glass", "dielectric interface, smooth or rough", untilV3):
   private val kr = rgbTexture("Kr", "scale of reflection")(Rgb.White)
   private val kt = rgbTexture("Kt", "scale of refraction")(Rgb.White)
-  private val eta = floatTexture("eta", "index of refraction", onlyV3, shown = "index")(1.5f)
-  private val index = floatTexture("index", "index of refraction")(1.5f)
+  private val eta = floatTexture(
+    "eta", "index of refraction", onlyV3, shown = "index", range = Indices.range
+  )(1.5f)
+  private val index = floatTexture("index", "index of refraction", range = Indices.range)(1.5f)
   private val u = floatTexture("uroughness", "roughness along u; 0: smooth", onlyV3)(0f)
   private val v = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
   private val remap =
@@ -39,7 +41,7 @@ private[build] trait GlassTints extends Fields:
 object DielectricRecipe
     extends RoughRecipe("dielectric", "dielectric interface, smooth or rough", onlyV4, 0f)
     with GlassTints:
-  private val eta = spectrum("eta", "index of refraction")(Indices.glass)
+  private val eta = spectrum("eta", "index of refraction", range = Indices.range)(Indices.glass)
   protected def make()(using Site): Material =
     val (kr, kt) = tints()
     val index = ConstantFloat(Indices.one(eta()))
@@ -48,7 +50,7 @@ object DielectricRecipe
 object ThinDielectricRecipe
     extends MaterialRecipe("thindielectric", "thin dielectric slab, such as a window pane", onlyV4)
     with GlassTints:
-  private val eta = spectrum("eta", "index of refraction")(Indices.glass)
+  private val eta = spectrum("eta", "index of refraction", range = Indices.range)(Indices.glass)
   protected def make()(using Site): Material =
     val (kr, kt) = tints()
     Indices.disperse(eta())(ThinDielectricMaterial(Indices.one(eta()), kr, kt).folded)
@@ -56,6 +58,11 @@ object ThinDielectricRecipe
 /** Indices of refraction given as numbers or spectra. */
 private[build] object Indices:
   val glass: SpectralValue = SpectralValue.Color(Rgb.gray(1.5f))
+
+  /** In pbrt-v4, 0 means 1. */
+  def range(using dialect: Dialect): Range =
+    val positive = Range.atLeast(0.01f).limited
+    if dialect.base == Dialect.V4 then positive.or(0f) else positive
 
   def spectrum(v: SpectralValue): Float => Float = v match
     case SpectralValue.Wavelengths(s) => s(_)

@@ -41,8 +41,10 @@ object UberRecipe extends RoughRecipe(
   private val kt = rgbTexture("Kt", "scale of refraction")(Rgb.Black)
   private val opacity =
     rgbTexture("opacity", "fraction that does not pass through unscattered")(Rgb.White)
-  private val eta = floatTexture("eta", "index of refraction", onlyV3, shown = "index")(1.5f)
-  private val index = floatTexture("index", "index of refraction")(1.5f)
+  private val eta = floatTexture(
+    "eta", "index of refraction", onlyV3, shown = "index", range = Indices.range
+  )(1.5f)
+  private val index = floatTexture("index", "index of refraction", range = Indices.range)(1.5f)
   protected def make()(using site: Site): Material =
     val n = eta.given_().getOrElse(index())
     UberMaterial(kd(), ks(), kr(), kt(), opacity(), n, roughness(), edition(site.dialect))
@@ -71,7 +73,7 @@ abstract class DisneyFields(name: String, meaning: String, dialects: Set[Dialect
   private val color = rgbTexture("color", "base colour")(Rgb.gray(0.5f))
   private val metallic =
     floatTexture("metallic", "metallic weight; 0: dielectric, 1: conductor")(0f)
-  private val eta = floatTexture("eta", "index of refraction")(1.5f)
+  private val eta = floatTexture("eta", "index of refraction", range = Indices.range)(1.5f)
   private val roughness = floatTexture("roughness", "surface roughness")(0.5f)
   private val tint =
     floatTexture("speculartint", "tint of the specular lobe; 0: white, 1: hue of the surface")(0f)

@@ -31,7 +31,7 @@ object HairRecipe
       "concentration of pheomelanin (red), instead of `sigma_a`",
       shown = "none"
     )(0f)
-  private val eta = floatTexture("eta", "index of refraction")(1.55f)
+  private val eta = floatTexture("eta", "index of refraction", range = Indices.range)(1.55f)
   private val betaM = floatTexture("beta_m", "longitudinal roughness, 0 to 1")(0.3f)
   private val betaN = floatTexture("beta_n", "azimuthal roughness, 0 to 1")(0.3f)
   private val alpha = floatTexture("alpha", "tilt of the cuticle scales", unit = "degrees")(2f)

@@ -23,9 +23,14 @@ abstract class BssrdfRecipe(
 ) extends MaterialRecipe(name, meaning, dialects):
   private val kr = rgbTexture("Kr", "scale of reflection", untilV3)(Rgb.White)
   private val kt = rgbTexture("Kt", "scale of refraction", onlyV3)(Rgb.White)
-  protected val eta: Field[Float] = float("eta", "index of refraction", sinceV3)(1.33f)
+  protected val eta: Field[Float] = float(
+    "eta",
+    "index of refraction",
+    sinceV3,
+    range = Indices.range
+  )(1.33f)
   protected val index: Field[FloatTexture] =
-    floatTexture("index", "index of refraction", onlyV2)(1.3f)
+    floatTexture("index", "index of refraction", onlyV2, range = Indices.range)(1.3f)
   private val both = floatTexture("roughness", "roughness along u and v; 0: smooth", onlyV4)(0f)
   private val alongV3 = floatTexture("uroughness", "roughness along u; 0: smooth", onlyV3)(0f)
   private val acrossV3 = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
@@ -35,7 +40,12 @@ abstract class BssrdfRecipe(
     floatTexture("vroughness", "roughness along v", onlyV4, shown = "roughness")(0f)
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
-  protected val g: Field[Float] = float("g", "scattering asymmetry, -1 to 1", sinceV3)(0f)
+  protected val g: Field[Float] = float(
+    "g",
+    "scattering asymmetry",
+    sinceV3,
+    range = Range(-1f, 1f).limited
+  )(0f)
 
   protected def interior()(using Site): Interior
 

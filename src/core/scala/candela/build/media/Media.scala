@@ -25,9 +25,18 @@ object Volumes:
 
 private[build] val PerUnit = "1/scene unit"
 
+/** Of coefficients and their scales, whose product is a number, too. */
+private[build] val Coefficients: Range = Range(0f, 1e15f).limited
+private[build] val Held: Option[Range] = Some(Coefficients)
+
 /** Phase function and checks of media and volumes. */
 trait Scatters extends Fields:
-  private val asymmetry = float("g", "scattering asymmetry, -1 to 1")(0f)
+  // pbrt-v4's bound; nearer to 1 the phase function exceeds Float precision
+  private val asymmetry = float(
+    "g",
+    "scattering asymmetry",
+    range = (if v4 then Range(-0.99f, 0.99f) else Range(-0.999f, 0.999f)).limited
+  )(0f)
 
   private val kinds =
     strings(
@@ -46,30 +55,15 @@ trait Scatters extends Fields:
     )
 
   protected def phase()(using site: Site): PhaseFunction =
-    if kinds().isEmpty then plain()
+    if kinds().isEmpty then HenyeyGreenstein(asymmetry())
     else
       val summed = PhaseFunction.of(kinds(), weights().toVector, values().toVector)
       if summed.isEmpty then
         site.error(Code.ParameterCount, "`phases`, `phaseweights` and `phasevalues` don't match")
       summed.getOrElse(HenyeyGreenstein(0f))
 
-  private def plain()(using site: Site): PhaseFunction =
-    // pbrt-v4's bound; nearer to 1 the phase function exceeds Float precision
-    val most = if site.dialect == Dialect.V4 then 0.99f else 0.999f
-    val g = asymmetry()
-    if !(Math.abs(g) <= most) then
-      site.warn(Code.CorrectedValue, s"`g` must be within ±$most, found $g; clamping it")
-    HenyeyGreenstein(if g.isNaN then 0f else clamp(g, -most, most))
-
-  /** Coefficients can't be negative. */
-  protected def held(c: Rgb, name: String)(using site: Site): Rgb =
-    if c.isFinite && c.r >= 0f && c.g >= 0f && c.b >= 0f then c
-    else
-      site.warn(
-        Code.CorrectedValue,
-        s"`$name` must not be negative, NaN or infinite; using 0 for such components"
-      )
-      c.map(v => if v > 0f && java.lang.Float.isFinite(v) then v else 0f)
+  /** Colours that sRGB lacks have negative components. */
+  protected def notNegative(c: Rgb): Rgb = c.map(Math.max(_, 0f))
 
 /** Base of v3's and v4's media. */
 abstract class MediumRecipe(name: String, meaning: String, dialects: Set[Dialect])
@@ -79,11 +73,15 @@ abstract class MediumRecipe(name: String, meaning: String, dialects: Set[Dialect
 /** Coefficients of a homogeneous medium, or scales of a density. */
 trait HasCoefficients extends Scatters:
   private val sigmaA =
-    color("sigma_a", "absorption coefficient", SpectrumRole.Unbounded, unit = PerUnit)(
+    color(
+      "sigma_a", "absorption coefficient", SpectrumRole.Unbounded, unit = PerUnit, range = Held
+    )(
       if v4 then Rgb.White else Rgb(0.0011f, 0.0024f, 0.014f)
     )
   private val sigmaS =
-    color("sigma_s", "scattering coefficient", SpectrumRole.Unbounded, unit = PerUnit)(
+    color(
+      "sigma_s", "scattering coefficient", SpectrumRole.Unbounded, unit = PerUnit, range = Held
+    )(
       if v4 then Rgb.White else Rgb(2.55f, 3.21f, 3.77f)
     )
 
@@ -98,14 +96,14 @@ trait HasCoefficients extends Scatters:
     def of(given_ : Option[Rgb], preset: Option[Rgb], default: => Rgb) =
       val first =
         if site.dialect == Dialect.V4 then preset.orElse(given_) else given_.orElse(preset)
-      first.getOrElse(default) * factor()
+      notNegative(first.getOrElse(default) * factor())
     (
-      held(of(sigmaA.given_(), known.map(_.absorption), sigmaA()), "sigma_a"),
-      held(of(sigmaS.given_(), known.map(_.scattering), sigmaS()), "sigma_s")
+      of(sigmaA.given_(), known.map(_.absorption), sigmaA()),
+      of(sigmaS.given_(), known.map(_.scattering), sigmaS())
     )
 
 trait HasScale extends HasCoefficients:
-  private val scale = float("scale", "scale of the coefficients")(1f)
+  private val scale = float("scale", "scale of the coefficients", range = Coefficients)(1f)
   override protected def factor()(using Site): Float = scale()
 
 trait HasPreset extends HasCoefficients:
@@ -138,6 +136,11 @@ trait FillsBox extends HasBox:
 
 /** Media given by a grid. */
 trait HasGrid extends HasCells:
+  protected final val Cells: Range = Range(0f, SampledGrid.MaxValue).limited
+
+  protected final def densityOfCells: Field[Array[Float]] =
+    numbers("density", "float[]", "nx by ny by nz densities, x varies fastest", range = Cells)
+
   /** Samples of one value each; None, after a report, if there is a wrong number of them. */
   protected final class Samples(values: Field[Array[Float]]):
     private val made = Once[Option[SampledGrid]]()

@@ -12,12 +12,15 @@ object HomogeneousRecipe
     with HasPreset
     with HasScale:
   private val emitted =
-    color("Le", "emitted radiance", SpectrumRole.Emission, onlyV4, "W/(m² sr)", "none")(Rgb.Black)
-  private val emittedScale = float("Lescale", "scale of the emission", onlyV4)(1f)
+    color(
+      "Le", "emitted radiance", SpectrumRole.Emission, onlyV4, "W/(m² sr)", "none", Held
+    )(Rgb.Black)
+  private val emittedScale =
+    float("Lescale", "scale of the emission", onlyV4, range = Coefficients)(1f)
 
-  protected def make()(using site: Site): Option[Medium] =
+  protected def make()(using Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
-    val le = held(emitted() * emittedScale(), "Le")
+    val le = notNegative(emitted() * emittedScale())
     Option.unless((absorption + scattering).isBlack)(
       HomogeneousMedium(absorption, scattering, le, phase())
     )
@@ -29,7 +32,7 @@ object HeterogeneousRecipe
     with HasGrid
     with HasBox:
   private val densities =
-    Samples(numbers("density", "float[]", "nx by ny by nz densities, x varies fastest"))
+    Samples(densityOfCells)
 
   protected def make()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
@@ -52,14 +55,22 @@ object UniformGridRecipe
     with FillsBox
     with HasTemperature:
   private val densities =
-    Samples(numbers("density", "float[]", "nx by ny by nz densities, x varies fastest"))
+    Samples(densityOfCells)
   private val temperature =
-    numbers("temperature", "float[]", "temperature of each cell, for thermal emission", unit = "K")
+    numbers(
+      "temperature",
+      "float[]",
+      "temperature of each cell, for thermal emission",
+      unit = "K",
+      range = Cells
+    )
   private val emittedScale =
-    numbers("Lescale", "float[]", "scale of each cell's emission", shown = "1")
+    numbers("Lescale", "float[]", "scale of each cell's emission", shown = "1", range = Cells)
   private val (heat, scales) = (Samples(temperature), Samples(emittedScale))
   private val emitted =
-    color("Le", "emitted radiance", SpectrumRole.Emission, onlyV4, "W/(m² sr)", "none")(Rgb.Black)
+    color(
+      "Le", "emitted radiance", SpectrumRole.Emission, onlyV4, "W/(m² sr)", "none", Held
+    )(Rgb.Black)
 
   protected def make()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
@@ -72,7 +83,7 @@ object UniformGridRecipe
   /** The emission, if any. Returns None after an error. */
   private def glow()(using site: Site): Option[Option[Glow]] =
     val (temperatures, factors) = (temperature(), emittedScale())
-    val le = held(emitted(), "Le")
+    val le = notNegative(emitted())
     val scale =
       if factors.isEmpty then Some(SampledGrid.One)
       else scales()
@@ -97,13 +108,28 @@ object RgbGridRecipe
     with HasGrid
     with FillsBox:
   private val sigmaA =
-    numbers("sigma_a", "rgb[]", "absorption coefficient of each cell", unit = PerUnit, shown = "1")
+    numbers(
+      "sigma_a",
+      "rgb[]",
+      "absorption coefficient of each cell",
+      unit = PerUnit,
+      shown = "1",
+      range = Cells
+    )
   private val sigmaS =
-    numbers("sigma_s", "rgb[]", "scattering coefficient of each cell", unit = PerUnit, shown = "1")
+    numbers(
+      "sigma_s",
+      "rgb[]",
+      "scattering coefficient of each cell",
+      unit = PerUnit,
+      shown = "1",
+      range = Cells
+    )
   private val emitted =
-    numbers("Le", "rgb[]", "emitted radiance of each cell", unit = "W/(m² sr)")
-  private val scale = float("scale", "factor of the coefficients")(1f)
-  private val emittedScale = float("Lescale", "scale of the emission", onlyV4)(1f)
+    numbers("Le", "rgb[]", "emitted radiance of each cell", unit = "W/(m² sr)", range = Cells)
+  private val scale = float("scale", "factor of the coefficients", range = Coefficients)(1f)
+  private val emittedScale =
+    float("Lescale", "scale of the emission", onlyV4, range = Coefficients)(1f)
 
   protected def make()(using site: Site): Option[Medium] =
     val (a, s, le) = (
@@ -137,7 +163,7 @@ object RgbGridRecipe
           absorption,
           scattering,
           constant = 1f,
-          Math.max(0f, scale()),
+          scale(),
           glow,
           phase()
         )
@@ -159,7 +185,7 @@ object CloudRecipe
     extends MediumRecipe("cloud", "procedural cloud of noise", onlyV4)
     with HasCoefficients
     with HasBox:
-  private val density = float("density", "scale of the density")(1f)
+  private val density = float("density", "scale of the density", range = Coefficients)(1f)
   private val wispiness = float("wispiness", "wispiness of the edges")(1f)
   private val frequency = float("frequency", "frequency of the noise")(5f)
 

@@ -17,7 +17,8 @@ object NanoVdbRecipe
   private val gridName = string("gridname", "name of the density grid")("density")
   private val temperatureName =
     string("temperaturename", "name of the temperature grid, if there is one")("temperature")
-  private val emittedScale = float("Lescale", "scale of the emission", onlyV4)(1f)
+  private val emittedScale =
+    float("Lescale", "scale of the emission", onlyV4, range = Coefficients)(1f)
   private val stored = Once[Option[Voxels]]()
   private val Ignored = "ignoring the medium"
 

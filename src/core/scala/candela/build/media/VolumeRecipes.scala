@@ -13,14 +13,20 @@ abstract class VolumeRecipe(name: String, meaning: String)
     with Scatters
     with HasBox:
   private val sigmaA =
-    color("sigma_a", "absorption coefficient", SpectrumRole.Reflectance, unit = PerUnit)(Rgb.Black)
+    color(
+      "sigma_a", "absorption coefficient", SpectrumRole.Reflectance, unit = PerUnit, range = Held
+    )(Rgb.Black)
   private val sigmaS =
-    color("sigma_s", "scattering coefficient", SpectrumRole.Reflectance, unit = PerUnit)(Rgb.Black)
+    color(
+      "sigma_s", "scattering coefficient", SpectrumRole.Reflectance, unit = PerUnit, range = Held
+    )(Rgb.Black)
   private val emitted =
-    color("Le", "emitted radiance", SpectrumRole.Emission, unit = "W/(m³ sr)")(Rgb.Black)
+    color("Le", "emitted radiance", SpectrumRole.Emission, unit = "W/(m³ sr)", range = Held)(
+      Rgb.Black
+    )
 
   protected def filling()(using Site): Filling =
-    Filling(held(sigmaA(), "sigma_a"), held(sigmaS(), "sigma_s"), held(emitted(), "Le"), phase())
+    Filling(notNegative(sigmaA()), notNegative(sigmaS()), notNegative(emitted()), phase())
 
   /** The box and its transform to the world. Warns and returns None if it is empty or its transform
     * is singular.
@@ -48,7 +54,7 @@ object HomogeneousVolumeRecipe extends VolumeRecipe("homogeneous", "homogeneous 
 
 object ExponentialVolumeRecipe
     extends VolumeRecipe("exponential", "density that falls off with height h: a exp(-b h)"):
-  private val ground = float("a", "density at height 0")(1f)
+  private val ground = float("a", "density at height 0", range = Coefficients)(1f)
   private val fall = float("b", "falloff of the density", unit = PerUnit)(1f)
   private val up = vector("updir", "direction of height")(Vec3.Y)
 
@@ -64,13 +70,13 @@ object ExponentialVolumeRecipe
         b,
         filling(),
         direction.normalized,
-        Math.max(0f, ground()),
+        ground(),
         fall()
       )
 
 object VolumeGridRecipe extends VolumeRecipe("volumegrid", "density grid in a box") with HasGrid:
   private val densities =
-    Samples(numbers("density", "float[]", "nx by ny by nz densities, x varies fastest"))
+    Samples(densityOfCells)
 
   protected def make()(using site: Site): Option[Region] =
     for

@@ -20,7 +20,11 @@ object OptionRecipe extends Recipe[RenderSettings]("", "settings of the whole sc
     "disablewavelengthjitter",
     "use the same wavelengths for all samples, if rendering is spectral: colours are off"
   )(false)
-  private val edgeScale = float("displacementedgescale", "scale of `edgelength` of all meshes")(1f)
+  private val edgeScale = float(
+    "displacementedgescale",
+    "scale of `edgelength` of all meshes",
+    range = Range.above(0f)
+  )(1f)
   private val reference =
     string("msereferenceimage", "reference image for `msereferenceout`", shown = "none")("")
   private val errors = string(
@@ -43,9 +47,6 @@ object OptionRecipe extends Recipe[RenderSettings]("", "settings of the whole sc
 
   protected def make()(using site: Site): RenderSettings =
     val _ = space() // `Motions` reads it from the description
-    val scale = edgeScale.given_()
-    for s <- scale if !(s > 0f) do
-      site.error(Code.ParameterValue, s"`displacementedgescale` must be above 0, found $s")
     for (one, other) <- Seq(reference -> errors, errors -> reference) do
       if one().nonEmpty && other().isEmpty then
         site.error(Code.ExclusiveParameters, s"option `${one.name}` needs `${other.name}`, too")
@@ -55,7 +56,7 @@ object OptionRecipe extends Recipe[RenderSettings]("", "settings of the whole sc
       unfiltered = unfiltered(),
       oneColorSet = oneColorSet(),
       diffuse = diffuse(),
-      edgeScale = scale,
+      edgeScale = edgeScale.given_(),
       output = OutputSettings(
         reference = placed(reference)((folder, name, at) =>
           folder.find(name, Some(at)).fold(folder.path.resolve(name))(_.path).toString

@@ -3,12 +3,13 @@ package candela.build.recipe
 import candela.diagnostics.Code
 import candela.color.Rgb
 import candela.math.Vec3
-import candela.scenefile.{Dialect, Param}
+import candela.scenefile.{Dialect, Param, ParamType}
 
 /** One parameter of a recipe: name, type, default, documentation and reader.
   *
   * @param typeName the type as spelled in scene files, for documentation and messages
   * @param unit     unit of the values, or empty
+  * @param range    the numbers that it takes, per dialect
   * @param default  default value, per dialect
   * @param shown    default as text, per dialect
   * @param adapt    the default for a site
@@ -19,6 +20,7 @@ class Field[T](
     val doc: String,
     val dialects: Set[Dialect],
     val unit: String,
+    val range: Dialect => Range,
     val default: Dialect => T,
     val shown: Dialect => String,
     read: (Param, Site) => Option[T],
@@ -33,13 +35,17 @@ class Field[T](
 
   /** Returns the value given by the scene file, if any. */
   def given_()(using site: Site): Option[T] = site.declaration.param(name) match
-    case Some(p) if site.speaks(dialects) && fits(p, site) => read(p, site)
+    case Some(p) if site.speaks(dialects) && fits(p, site) => held(p, site)
     case _ => None
 
   /** The value at a site whose statement has the parameter, of the type that was accepted of
     * another, which it is alike.
     */
-  def again()(using site: Site): Option[T] = site.declaration.param(name).flatMap(read(_, site))
+  def again()(using site: Site): Option[T] = site.declaration.param(name).flatMap(held(_, site))
+
+  private def held(p: Param, site: Site): Option[T] =
+    val taken = if Field.OfSpectra(p.paramType) then Range.Any else range(site.dialect)
+    taken.held(p, unit, site).flatMap(read(_, site))
 
   /** Whether pbrt finds the value, which it looks for by type. Mitsuba's reader knows the types of
     * recipes, not those of pbrt.
@@ -56,6 +62,10 @@ class Field[T](
         ValueTypes.example(typeName, p)
       )
     fits
+
+private object Field:
+  /** Spectra have wavelengths among their numbers, XYZ negative ones. */
+  val OfSpectra: Set[ParamType] = Set(ParamType.Spectrum, ParamType.Xyz, ParamType.Blackbody)
 
 /** Level of support for a parameter. */
 enum Support:

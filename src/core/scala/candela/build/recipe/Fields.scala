@@ -29,9 +29,10 @@ trait Fields:
         doc: String,
         in: Set[Dialect] = every,
         unit: String = "",
-        shown: String = ""
+        shown: String = "",
+        range: Dialect ?=> Range = Range.Any
     )(default: Dialect ?=> T): Field[T] =
-      field(name, typeName, doc, in, unit, shown, default)(text)(read)
+      field(name, typeName, doc, in, unit, shown, range, default)(text)(read)
 
   protected final val float =
     ValueType[Float]("float", DefaultText.number)(floats(1, _, _).map(_(0)))
@@ -69,7 +70,7 @@ trait Fields:
       instead: String = ""
   )(default: Dialect ?=> String): Field[String] =
     val words = s"$doc: ${values.mkString(", ")}"
-    field(name, "string", words, in, "", "", default)(DefaultText.quoted): (p, site) =>
+    field(name, "string", words, in, "", "", Range.Any, default)(DefaultText.quoted): (p, site) =>
       if p.paramType != ParamType.String || p.strings.size != 1 then
         wrong(p, site, "one string", "string")
       else
@@ -100,9 +101,10 @@ trait Fields:
       doc: String,
       in: Set[Dialect] = every,
       unit: String = "",
-      shown: String = "none"
+      shown: String = "none",
+      range: Dialect ?=> Range = Range.Any
   ): Field[Array[Float]] =
-    field(name, typeName, doc, in, unit, shown, Array.emptyFloatArray)(_ => ""): (p, site) =>
+    field(name, typeName, doc, in, unit, shown, range, Array.emptyFloatArray)(_ => ""): (p, site) =>
       if p.paramType == ParamType.Integer then Some(p.ints.map(_.toFloat))
       else if Fields.numeric(p.paramType) then Some(p.floats)
       else wrong(p, site, "numbers", typeName)
@@ -114,7 +116,7 @@ trait Fields:
       typeName: String = "integer[]",
       shown: String = "none"
   ): Field[Array[Int]] =
-    field(name, typeName, doc, in, "", shown, Array.emptyIntArray)(_ => ""): (p, site) =>
+    field(name, typeName, doc, in, "", shown, Range.Any, Array.emptyIntArray)(_ => ""): (p, site) =>
       if p.paramType == ParamType.Integer then Some(p.ints)
       else wrong(p, site, "integers", "integer")
 
@@ -125,9 +127,10 @@ trait Fields:
       doc: String,
       in: Set[Dialect] = every
   ): Field[Vector[String]] =
-    field(name, typeName, doc, in, "", "none", Vector.empty[String])(_ => ""): (p, site) =>
-      if p.paramType == ParamType.String then Some(p.strings)
-      else wrong(p, site, "strings", "string")
+    field(name, typeName, doc, in, "", "none", Range.Any, Vector.empty[String])(_ => ""):
+      (p, site) =>
+        if p.paramType == ParamType.String then Some(p.strings)
+        else wrong(p, site, "strings", "string")
 
   /** A colour that can't be textured: emission or an index of refraction. The default of emission
     * is in the colour space of the statement: 1 is the space's illuminant.
@@ -138,9 +141,10 @@ trait Fields:
       role: SpectrumRole,
       in: Set[Dialect] = every,
       unit: String = "",
-      shown: String = ""
+      shown: String = "",
+      range: Option[Range] = None
   )(default: Dialect ?=> Rgb): Field[Rgb] =
-    adapted(name, "spectrum", doc, in, unit, shown, default)(
+    adapted(name, "spectrum", doc, in, unit, shown, range.getOrElse(ofColors(role)), default)(
       DefaultText.color,
       (c, site) => Spectra.default(c, role, site)
     )(Spectra.rgb(_, role, _))
@@ -152,9 +156,10 @@ trait Fields:
       in: Set[Dialect] = every,
       unit: String = "",
       shown: String = "",
-      typeName: String = "spectrum"
+      typeName: String = "spectrum",
+      range: Dialect ?=> Range = Range.Any
   )(default: Dialect ?=> SpectralValue): Field[SpectralValue] =
-    field(name, typeName, doc, in, unit, shown, default)(DefaultText.spectrum)(
+    field(name, typeName, doc, in, unit, shown, range, default)(DefaultText.spectrum)(
       Spectra.value(_, _)
     )
 
@@ -163,11 +168,12 @@ trait Fields:
       doc: String,
       in: Set[Dialect] = every,
       unit: String = "",
-      shown: String = ""
+      shown: String = "",
+      range: Dialect ?=> Range = Range.Any
   )(default: Dialect ?=> Float): Field[FloatTexture] =
-    field[FloatTexture](name, "float texture", doc, in, unit, shown, ConstantFloat(default))(
-      _.constant.fold("")(DefaultText.number)
-    ): (p, site) =>
+    field[FloatTexture](
+      name, "float texture", doc, in, unit, shown, range, ConstantFloat(default)
+    )(_.constant.fold("")(DefaultText.number)): (p, site) =>
       if p.paramType == ParamType.Texture then site.resources.floatTexture(p, site.problems)
       else firstFloat(p, site).map(ConstantFloat(_))
 
@@ -184,10 +190,15 @@ trait Fields:
       else Spectra.rgb(p, role, site).map(ConstantRgb(_))
     def forSite(texture: RgbTexture, site: Site) =
       texture.constant.fold(texture)(c => ConstantRgb(Spectra.default(c, role, site)))
-    adapted[RgbTexture](name, "spectrum texture", doc, in, unit, shown, ConstantRgb(default))(
-      _.constant.fold("")(DefaultText.color),
-      forSite
-    )(read)
+    adapted[RgbTexture](
+      name, "spectrum texture", doc, in, unit, shown, ofColors(role), ConstantRgb(default)
+    )(_.constant.fold("")(DefaultText.color), forSite)(read)
+
+  /** The components of colours: pbrt-v4 rejects others. */
+  private def ofColors(role: SpectrumRole)(using Dialect): Range =
+    if !v4 then Range.Any
+    else if role == SpectrumRole.Reflectance then Range(0f, 1f).used
+    else Range.atLeast(0f).used
 
   /** Constants of textures: pbrt-v2 and v3 take the first of several numbers. */
   private def firstFloat(p: Param, site: Site): Option[Float] =
@@ -228,9 +239,10 @@ trait Fields:
       in: Set[Dialect],
       unit: String,
       shown: String,
+      range: Dialect ?=> Range,
       default: Dialect ?=> T
   )(text: T => String)(read: (Param, Site) => Option[T]): Field[T] =
-    adapted(name, typeName, doc, in, unit, shown, default)(text, (value, _) => value)(read)
+    adapted(name, typeName, doc, in, unit, shown, range, default)(text, (value, _) => value)(read)
 
   /** As above, with a default that depends on the site. */
   private def adapted[T](
@@ -240,10 +252,12 @@ trait Fields:
       in: Set[Dialect],
       unit: String,
       shown: String,
+      range: Dialect ?=> Range,
       default: Dialect ?=> T
   )(text: T => String, adapt: (T, Site) => T)(read: (Param, Site) => Option[T]): Field[T] =
     val written = (d: Dialect) => if shown.nonEmpty then shown else text(default(using d))
-    register(Field(name, typeName, doc, in, unit, d => default(using d), written, read, adapt))
+    val (ranges, defaults) = ((d: Dialect) => range(using d), (d: Dialect) => default(using d))
+    register(Field(name, typeName, doc, in, unit, ranges, defaults, written, read, adapt))
 
 object Fields:
   private[build] val numeric: Set[ParamType] = Set(

@@ -23,14 +23,7 @@ trait HasCells extends Fields:
       val shape = (Seq(nx, ny, nz) ++ Option.when(channels > 1)(channels)).mkString("·")
       site.error(Code.ParameterCount, s"`$name` must have $shape numbers, found ${values.length}")
       None
-    else
-      for odd <- values.find(v => !(v >= 0f && v <= SampledGrid.MaxValue)) do
-        site.warn(
-          Code.CorrectedValue,
-          s"`$name` must be between 0 and ${SampledGrid.MaxValue}, found $odd; using 0 for what " +
-            "is negative, NaN or infinite, and the limit for what exceeds it"
-        )
-      Some((nx, ny, nz))
+    else Some((nx, ny, nz))
 
   /** One of the channels, within the limits. */
   protected def channel(values: Array[Float], c: Int, channels: Int): Array[Float] =
@@ -38,10 +31,14 @@ trait HasCells extends Fields:
       val v = values(i * channels + c)
       if v > 0f && java.lang.Float.isFinite(v) then Math.min(v, SampledGrid.MaxValue) else 0f
 
+private object HasBox:
+  val Places: Range = Range(-1e15f, 1e15f).limited
+
 /** Bounding box of a medium or texture, in its own space. */
 trait HasBox extends Fields:
-  private val first = point("p0", "corner of the box")(Vec3.Zero)
-  private val second = point("p1", "opposite corner of the box")(Vec3(1f, 1f, 1f))
+  private val first = point("p0", "corner of the box", range = HasBox.Places)(Vec3.Zero)
+  private val second =
+    point("p1", "opposite corner of the box", range = HasBox.Places)(Vec3(1f, 1f, 1f))
 
   /** Two opposite corners; if `sorted`, the minimum and the maximum. */
   protected def corners(sorted: Boolean)(using Site): (Vec3, Vec3) =

@@ -32,20 +32,7 @@ object Spectra:
         val found = named(p, site, StandIns.Magentas).map(SpectralValue.Wavelengths(_))
         Some(inBasis(found.getOrElse(SpectralValue.Color(StandIns.Magenta)), role, site))
       case _ =>
-        val found = value(p, site)
-        if site.dialect == Dialect.V4 && p.paramType == ParamType.Rgb then
-          warnOf(found, p, role, site)
-        found.map(inBasis(_, role, site))
-
-  /** Warnings about colours that pbrt-v4 rejects. */
-  private def warnOf(found: Option[SpectralValue], p: Param, role: SpectrumRole, site: Site): Unit =
-    def refused(what: String) =
-      val shown = p.floats.mkString(" ")
-      val message = s"`${p.name}` has a component $what, which pbrt-v4 rejects: found $shown"
-      site.problems.warn(Code.ParameterValue, p.valuesAt, message)
-    for case SpectralValue.Color(c, _) <- found do
-      if c.r < 0f || c.g < 0f || c.b < 0f then refused("below 0")
-      else if role == SpectrumRole.Reflectance && c.max > 1f then refused("above 1")
+        value(p, site).map(inBasis(_, role, site))
 
   /** The value in the scene's basis. */
   def inBasis(value: SpectralValue, role: SpectrumRole, site: Site): Rgb =
@@ -165,19 +152,14 @@ object Spectra:
   /** The spectrum and its scale. */
   private def blackbody(p: Param, site: Site): Option[(SpectralValue, Float)] =
     val scale = if p.floats.length >= 2 && site.dialect != Dialect.V4 then p.floats(1) else 1f
-    if p.floats.length == 0 || !(p.floats(0) > 0f) then
-      site.problems.error(
-        Code.ParameterValue,
-        p.valuesAt,
-        s"`${p.name}` must be a temperature above 0 K"
-      )
-      None
-    else
+    for case Array(kelvin) <- Kelvins.held(p.truncated(1), "K", site).map(_.floats) yield
       // pbrt-v2 normalises the spectrum at 555 nm, v3 and v4 at its maximum
       val body =
-        if site.dialect == Dialect.V2 then Spectrum.blackbody(p.floats(0), unitAt = 555f)
-        else Spectrum.blackbody(p.floats(0))
-      Some((SpectralValue.Wavelengths(body), scale))
+        if site.dialect == Dialect.V2 then Spectrum.blackbody(kelvin, unitAt = 555f)
+        else Spectrum.blackbody(kelvin)
+      (SpectralValue.Wavelengths(body), scale)
+
+  private val Kelvins = Range.above(0f)
 
   private def pairs(numbers: Array[Float], p: Param, site: Site): Option[Spectrum] =
     val sorted = numbers.grouped(2).map(a => (a(0), a(1))).toArray.sortBy(_._1)
@@ -258,6 +240,7 @@ trait SpectrumFields extends Fields:
       doc,
       in,
       "",
+      _ => Range.Any,
       d => SpectrumSource.Uniform(default(using d)),
       _ => shown,
       (p, site) =>

@@ -57,15 +57,17 @@ object HaltonRecipe extends SamplerRecipe("halton", "Halton points"):
 
 object StratifiedRecipe
     extends Recipe[SamplerRequest => SamplerPlan]("stratified", "stratified (jittered) samples"):
-  private val x = integer("xsamples", "strata along x")(if v2 then 2 else 4)
-  private val y = integer("ysamples", "strata along y")(if v2 then 2 else 4)
+  private val x =
+    integer("xsamples", "strata along x", range = Range.atLeast(1f).limited)(if v2 then 2 else 4)
+  private val y =
+    integer("ysamples", "strata along y", range = Range.atLeast(1f).limited)(if v2 then 2 else 4)
   private val jitter = bool("jitter", "jitter samples in strata; otherwise at their centres")(true)
   private val seed = integer("seed", "random seed", onlyV4, shown = "the option's")(0)
   noMeaning("all dimensions are equally well sampled")(
     integer("dimensions", "well-sampled dimensions", onlyV3)(4)
   )
   protected def make()(using site: Site): SamplerRequest => SamplerPlan =
-    val asked = Strata(Math.max(1, x()), Math.max(1, y()), jitter())
+    val asked = Strata(x(), y(), jitter())
     val fixed =
       if asked.x.toLong * asked.y <= Int.MaxValue then asked
       else
@@ -90,8 +92,9 @@ object AdaptiveRecipe
       "adaptive sampling by contrast or shape",
       onlyV2
     ):
-  private val most = integer("maxsamples", "maximum samples per pixel")(32)
-  private val least = integer("minsamples", "minimum samples per pixel")(4)
+  private val Samples = Range(1f, 1 << 29).limited
+  private val most = integer("maxsamples", "maximum samples per pixel", range = Samples)(32)
+  private val least = integer("minsamples", "minimum samples per pixel", range = Samples)(4)
   declare(
     string("method", "criterion: contrast, shapeid")("contrast")
   )
@@ -102,7 +105,7 @@ object AdaptiveRecipe
     * two, takes the larger one, and doubles it if they are the same.
     */
   private def maxSamples()(using Site): Int =
-    def power(n: Int) = Integer.highestOneBit(Math.max(2, Math.min(n, 1 << 29)) * 2 - 1)
+    def power(n: Int) = Integer.highestOneBit(Math.max(2, n) * 2 - 1)
     val (a, b) = (power(least()), power(most()))
     if a == b then 2 * a else Math.max(a, b)
 

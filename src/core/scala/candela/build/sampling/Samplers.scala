@@ -1,6 +1,5 @@
 package candela.build.sampling
 
-import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.sampling.PointSet
 import candela.scenefile.Dialect
@@ -40,7 +39,9 @@ abstract class SamplerRecipe(
     dialects: Set[Dialect] = every,
     default: Int = 16
 ) extends Recipe[SamplerRequest => SamplerPlan](name, meaning, dialects):
-  private val samples = integer("pixelsamples", "samples per pixel")(if v2 then 4 else default)
+  private val samples =
+    integer("pixelsamples", "samples per pixel", range = Range.atLeast(1f))(if v2 then 4
+    else default)
   private val seed = integer("seed", "random seed", onlyV4, shown = "the option's")(0)
 
   protected def asked(points: PointSet, isEven: Boolean = true)(using
@@ -49,8 +50,5 @@ abstract class SamplerRecipe(
     val s = seed()
     request => SamplerPlan(name, count(request), request.seed ^ s, points, isEven)
 
-  private def count(request: SamplerRequest)(using site: Site): Int =
-    request.spp.getOrElse:
-      val n = samples()
-      if n < 1 then site.error(Code.ParameterValue, s"`pixelsamples` must be at least 1, found $n")
-      Math.max(1, n)
+  private def count(request: SamplerRequest)(using Site): Int =
+    request.spp.getOrElse(samples())

@@ -9,7 +9,7 @@ import candela.shapes.{CurveForm, CurveKind}
 object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or grass", sinceV3):
   private val points = numbers("P", "point3[]", "control points")
   private val basis = oneOf("basis", "spline basis", Seq("bezier", "bspline"))("bezier")
-  private val degree = integer("degree", "spline degree, 2 or 3")(3)
+  private val degree = integer("degree", "spline degree", range = Range(2f, 3f).told)(3)
   private val kind = oneOf(
     "type",
     "curve type",
@@ -17,12 +17,31 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
     forgiven = true,
     instead = "cylinder"
   )("flat")
-  private val width = float("width", "constant width", unit = "scene units")(1f)
-  private val width0 = float("width0", "width at the start", shown = "width")(1f)
-  private val width1 = float("width1", "width at the end", shown = "width")(1f)
+  private val width = float(
+    "width",
+    "constant width",
+    unit = "scene units",
+    range = Range.atLeast(0f).told
+  )(1f)
+  private val width0 = float(
+    "width0",
+    "width at the start",
+    shown = "width",
+    range = Range.atLeast(0f).told
+  )(1f)
+  private val width1 = float(
+    "width1",
+    "width at the end",
+    shown = "width",
+    range = Range.atLeast(0f).told
+  )(1f)
   private val normals = numbers("N", "normal[]", "normals of a ribbon, at the ends of its segments")
   private val splitdepth =
-    float("splitdepth", "number of halvings: each curve is split into 2^splitdepth pieces")(3f)
+    float(
+      "splitdepth",
+      "number of halvings: each curve is split into 2^splitdepth pieces",
+      range = Range(0f, 16f)
+    )(3f)
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val p = points()
@@ -69,9 +88,6 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
     val depth = splitdepth().toInt
     if !(w0 >= 0f && w1 >= 0f && w0 + w1 > 0f) then
       site.warn(Code.NoSurface, s"a curve of width $w0 to $w1 is invisible; it is ignored")
-      None
-    else if depth < 0 || depth > 16 then
-      site.error(Code.ParameterValue, s"`splitdepth` must be between 0 and 16, found $depth")
       None
     else
       val count = curves.toLong << depth

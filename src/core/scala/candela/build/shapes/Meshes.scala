@@ -56,7 +56,13 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
   private val displacement =
     floatTexture("displacement", "height along the normal", onlyV4, "object space", "none")(0f)
   private val edge =
-    float("edgelength", "maximum edge length of the displaced mesh", onlyV4, "scene units")(1f)
+    float(
+      "edgelength",
+      "maximum edge length of the displaced mesh",
+      onlyV4,
+      "scene units",
+      range = Range.above(0f)
+    )(1f)
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     site.declaration.param("filename") match
@@ -91,9 +97,6 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
     val longest = edge() * site.resources.settings.edgeScale.getOrElse(1f)
     if mesh.uvs.isEmpty then
       site.error(Code.MissingParameter, "a displaced mesh needs texture coordinates, as in pbrt")
-      None
-    else if !(longest > 0f) then
-      site.error(Code.ParameterValue, s"`edgelength` must be above 0, found $longest")
       None
     else
       val heights = displacement()
@@ -163,9 +166,10 @@ object BilinearMeshRecipe
 
 object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surface"):
   private val Fine = Keep.Shelf[SubdividedMesh]()
-  private val levels = integer("levels", "number of subdivision levels", sinceV3)(3)
+  private val Levels = Range(0f, 10f)
+  private val levels = integer("levels", "number of subdivision levels", sinceV3, range = Levels)(3)
   private val nlevels =
-    integer("nlevels", "number of subdivision levels", untilV3)(3)
+    integer("nlevels", "number of subdivision levels", untilV3, range = Levels)(3)
   private val indices = integers("indices", "three vertex indices per triangle of the control mesh")
   private val points = numbers("P", "point3[]", "vertices of the control mesh")
   noMeaning("only Loop subdivision exists")(string("scheme", "subdivision scheme")("loop"))
@@ -174,12 +178,6 @@ object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surf
     val depth = levels.given_().orElse(nlevels.given_()).getOrElse(3)
     if points().isEmpty || indices().isEmpty then
       site.unusable(Code.MissingParameter, "a \"loopsubdiv\" needs `P` and `indices`")
-      None
-    else if depth < 0 || depth > 10 then
-      site.error(
-        Code.ParameterValue,
-        s"`levels` of \"loopsubdiv\" must be between 0 and 10, found $depth"
-      )
       None
     else
       val faces = MeshArrays.wholeFaces(indices(), 3)
@@ -204,8 +202,18 @@ object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surf
 
 object HeightFieldRecipe
     extends ShapeRecipe("heightfield", "height field over the unit square", untilV3):
-  private val nu = integer("nu", "grid points along x", shown = "none")(0)
-  private val nv = integer("nv", "grid points along y", shown = "none")(0)
+  private val nu = integer(
+    "nu",
+    "grid points along x",
+    shown = "none",
+    range = Range.atLeast(2f).told
+  )(0)
+  private val nv = integer(
+    "nv",
+    "grid points along y",
+    shown = "none",
+    range = Range.atLeast(2f).told
+  )(0)
   private val heights = numbers("Pz", "float[]", "heights, in rows of constant y")
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =

@@ -54,8 +54,18 @@ object NurbsRecipe
 
   private def side(d: String): NurbsSide = NurbsSide(
     d,
-    integer(s"n$d", s"number of control points along $d", shown = "none")(0),
-    integer(s"${d}order", s"order (degree + 1) along $d", shown = "none")(0),
+    integer(
+      s"n$d",
+      s"number of control points along $d",
+      shown = "none",
+      range = Range.atLeast(2f).told
+    )(0),
+    integer(
+      s"${d}order",
+      s"order (degree + 1) along $d",
+      shown = "none",
+      range = Range.atLeast(2f).told
+    )(0),
     numbers(s"${d}knots", "float[]", s"knots along $d"),
     float(s"${d}0", s"start of $d", shown = s"${d}knots[${d}order - 1]")(0f),
     float(s"${d}1", s"end of $d", shown = s"${d}knots[n$d]")(1f)

@@ -7,12 +7,22 @@ import candela.scenefile.Dialect
 import candela.shapes.{Disk, Profile, Quadric, Spheres}
 
 object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whole or partial"):
-  private val radius = float("radius", "radius", unit = "scene units")(1f)
-  private val zmin =
-    float("zmin", "z of the lower clip plane", shown = "-radius")(Float.NegativeInfinity)
-  private val zmax =
-    float("zmax", "z of the upper clip plane", shown = "radius")(Float.PositiveInfinity)
-  private val phimax = float("phimax", "sweep angle about z", unit = "degrees")(360f)
+  private val radius =
+    float("radius", "radius", unit = "scene units", range = Range.atLeast(0f).told)(1f)
+  private val zmin = float(
+    "zmin",
+    "z of the lower clip plane",
+    shown = "-radius",
+    range = Range.Unlimited
+  )(Float.NegativeInfinity)
+  private val zmax = float(
+    "zmax",
+    "z of the upper clip plane",
+    shown = "radius",
+    range = Range.Unlimited
+  )(Float.PositiveInfinity)
+  private val phimax =
+    float("phimax", "sweep angle about z", unit = "degrees", range = Swept.Degrees)(360f)
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val r = Math.abs(radius())
@@ -24,7 +34,7 @@ object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whol
         Some(s"write \"float radius\" $r")
       )
     val (z0, z1) = (clamp(zmin(), -r, r), clamp(zmax(), -r, r))
-    val phi = radians(clamp(phimax(), 0f, 360f))
+    val phi = radians(phimax())
     if r == 0f then
       site.warn(Code.NoSurface, "this sphere has no surface, because `radius` is 0; it is ignored")
       None
@@ -41,7 +51,8 @@ object DiskRecipe
   private val height = float("height", "position along z", unit = "scene units")(0f)
   private val radius = float("radius", "outer radius", unit = "scene units")(1f)
   private val inner = float("innerradius", "inner radius", unit = "scene units")(0f)
-  private val phimax = float("phimax", "sweep angle about z", unit = "degrees")(360f)
+  private val phimax =
+    float("phimax", "sweep angle about z", unit = "degrees", range = Swept.Degrees)(360f)
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val (r, i) = (radius(), inner())
@@ -51,29 +62,32 @@ object DiskRecipe
     if r == 0f then leftOut("`radius` is 0")
     else if !(Math.abs(i) < Math.abs(r)) then
       leftOut(s"`innerradius`, $i, is not below `radius`, $r")
-    else if !(phimax() > 0f) then
-      leftOut(s"`phimax` is ${phimax()}")
+    else if phimax() == 0f then leftOut("`phimax` is 0")
     else
       if r < 0f || i < 0f then
         site.warn(
           Code.CorrectedValue,
           s"radii of this disk are negative: $r and $i; as in pbrt, their squares count"
         )
-      val (h, phi) = (height(), radians(clamp(phimax(), 0f, 360f)))
+      val (h, phi) = (height(), radians(phimax()))
       def disk(toWorld: Transform, reversed: Boolean) =
         Disk(toWorld, h, r, i, phi, reversed, site.rules.diskU)
       Some(ShapeGeometry.Solid(disk, turned = r < 0f))
 
+private object Swept:
+  val Degrees: Range = Range(0f, 360f).limited
+
 /** Base of surfaces of revolution about the z-axis. */
 abstract class SweptRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends ShapeRecipe(name, meaning, dialects):
-  private val phimax = float("phimax", "sweep angle about z", unit = "degrees")(360f)
+  private val phimax =
+    float("phimax", "sweep angle about z", unit = "degrees", range = Swept.Degrees)(360f)
 
   protected final def swept(profile: Profile)(using site: Site): Option[ShapeGeometry] =
-    val phi = radians(clamp(phimax(), 0f, 360f))
+    val phi = radians(phimax())
     if phi > 0f then
       Some(ShapeGeometry.Solid((toWorld, reversed) => Quadric(toWorld, profile, phi, reversed)))
-    else leftOut(s"`phimax` is ${phimax()}")
+    else leftOut("`phimax` is 0")
 
   /** Ignores a shape without a surface, with a warning: pbrt renders such scenes. */
   protected final def leftOut(why: String)(using site: Site): Option[ShapeGeometry] =
@@ -93,7 +107,7 @@ object CylinderRecipe extends SweptRecipe("cylinder", "open cylinder about the z
 
 object ConeRecipe extends SweptRecipe("cone", "open cone about z, from z = 0 to its apex", untilV3):
   private val radius = float("radius", "radius at z = 0", unit = "scene units")(1f)
-  private val height = float("height", "z of the apex")(1f)
+  private val height = float("height", "z of the apex", range = Range.above(0f).told)(1f)
 
   protected def geometry()(using Site): Option[ShapeGeometry] =
     if radius() == 0f then leftOut("`radius` is 0")

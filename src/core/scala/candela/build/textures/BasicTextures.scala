@@ -1,6 +1,7 @@
 package candela.build.textures
 
 import candela.build.recipe.*
+import candela.diagnostics.Code
 import candela.color.Rgb
 import candela.math.Vec3
 import candela.scenefile.Dialect
@@ -48,7 +49,9 @@ object RgbMixRecipe extends Recipe[RgbTexture]("mix", "blend of two textures"):
 abstract class DirectionMixRecipe[A]
     extends Recipe[A]("directionmix", "blend by the direction of the surface normal", onlyV4):
   private val direction = vector("dir", "direction (and its opposite) of `tex1`")(Vec3.Y)
-  protected def axis()(using site: Site): Vec3 = site.toWorld.vector(direction()).normalized
+  protected def axis()(using site: Site): Vec3 =
+    if direction().isZero then site.error(Code.ParameterValue, "`dir` must not be zero")
+    site.toWorld.vector(direction()).normalized
 
 object FloatDirectionMixRecipe extends DirectionMixRecipe[FloatTexture]:
   private val tex1 = floatTexture("tex1", "value where the normal is along `dir`")(0f)

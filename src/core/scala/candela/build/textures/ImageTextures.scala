@@ -43,7 +43,11 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
   private val trilinear =
     bool("trilinear", "use trilinear instead of EWA filtering", untilV3)(false)
   private val anisotropy =
-    float("maxanisotropy", "maximum anisotropy: footprint length over width")(8f)
+    float(
+      "maxanisotropy",
+      "maximum anisotropy: footprint length over width",
+      range = Range(1f, 1000f).limited
+    )(8f)
 
   /** The texels of an image of the scene. */
   protected def texels(image: ImageBands, decode: Float => Float)(using Site): TexelBands

@@ -6,7 +6,11 @@ import candela.textures.*
 
 abstract class NoiseRecipe[A](name: String, meaning: String, dialects: Set[Dialect])
     extends Recipe[A](name, meaning, dialects):
-  private val octaves = integer("octaves", "maximum number of octaves")(8)
+  private val octaves = integer(
+    "octaves",
+    "maximum number of octaves",
+    range = Range(0f, 100f).limited
+  )(8)
   private val roughness =
     float("roughness", "amplitude of an octave relative to the previous")(0.5f)
 

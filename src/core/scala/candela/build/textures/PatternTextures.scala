@@ -7,7 +7,8 @@ import candela.textures.*
 
 abstract class CheckerboardRecipe[A]
     extends MappedRecipe[A]("checkerboard", "checkerboard of two textures"):
-  private val dimension = integer("dimension", "2, or 3 for a solid checkerboard")(2)
+  private val dimension =
+    integer("dimension", "3 for a solid checkerboard", range = Range(2f, 3f).told)(2)
   private val aamode =
     oneOf("aamode", "antialiasing of edges", Seq("closedform", "none"), untilV3)("closedform")
 

@@ -144,16 +144,25 @@ final class Described(asked: Set[Dialect]):
   private def named(dialects: Set[Dialect]): String =
     Dialect.values.filter(dialects).map(Dialects.name).mkString(" ")
 
-  /** The default, or each default with its dialects: `80 (v2 v3), 5 (v4)`. */
   private def default(field: Field[?], recipe: Recipe[?]): String =
+    each(field, recipe)(field.shown)
+
+  /** What holds in all dialects, or in each with its dialects: `80 (v2 v3), 5 (v4)`. */
+  private def each(field: Field[?], recipe: Recipe[?])(text: Dialect => String): String =
     val dialects =
       Dialect.values.toVector.filter(d => recipe.dialectsOf(field)(d) && asked(d))
-    val texts = dialects.map(field.shown).distinct
+    val texts = dialects.map(text).distinct
     if texts.size == 1 then texts.head
     else
       texts
-        .map(t => s"$t (${named(dialects.filter(field.shown(_) == t).toSet)})")
+        .map(t => s"$t (${named(dialects.filter(text(_) == t).toSet)})")
         .mkString(", ")
+
+  /** The numbers that it takes; of colours, which all take the same, none. */
+  private def range(field: Field[?], recipe: Recipe[?]): String =
+    val isColor = field.typeName.startsWith("spectrum")
+    val text = if isColor then "" else each(field, recipe)(d => field.range(d.base).text)
+    if text.isEmpty then "" else s"; $text"
 
   private def meaning(field: Field[?], recipe: Recipe[?]): String =
     val unit = if field.unit.isEmpty then "" else s" [${field.unit}]"
@@ -161,7 +170,7 @@ final class Described(asked: Set[Dialect]):
       case Support.Used => ""
       case Support.Unsupported(instead) => s"; not supported: $instead"
       case Support.NoMeaning(reason) => s"; no effect: $reason"
-    s"${field.doc}$unit$support"
+    s"${field.doc}${range(field, recipe)}$unit$support"
 
 /** Formats the reference for a terminal. */
 final class ReferenceText(described: Described, columns: Int):
@@ -295,5 +304,8 @@ private object ReferenceMarkdown:
       |A parameter's type precedes its name: `"float radius" 2`. `float texture` and `spectrum
       |texture` accept a value or `"texture NAME" "TEXTURE"`. A `spectrum` is given as `rgb`,
       |`spectrum` or `blackbody`; in v2 and v3 also as `color` or `xyz`. Units are in
-      |brackets. A parameter without an entry under *in* exists in all dialects of its type.
-      |Parameters that several types have are described once for each category.""".stripMargin
+      |brackets, ranges before them: other numbers are an error, or a warning says what is used
+      |instead. All numbers must be within ±1e30. pbrt-v4 rejects colours below 0 and reflectances
+      |above 1; they are used, with a warning. A parameter without an entry under *in* exists in
+      |all dialects of its type. Parameters that several types have are described once for each
+      |category.""".stripMargin

@@ -46,7 +46,7 @@ final class LensFileSuite extends AnyFunSuite:
     val near = said(s"$lens \"float aperturediameter\" 10 \"float focusdistance\" .1")
     assert(near.exists(p => p.message.contains("at least") && p.severity == Severity.Error))
     val none = said(s"$lens \"float aperturediameter\" 0")
-    assert(none.exists(p => p.message.contains("too small") && p.severity == Severity.Error))
+    assert(none.exists(p => p.message.contains("must be above 0") && p.severity == Severity.Error))
 
   test("of pbrt-v2 only forks have lenses"):
     assert(said("", Dialect.V2).exists(_.message.contains("only forks of pbrt-v2")))

@@ -249,8 +249,8 @@ final class FilmLayersSuite extends AnyFunSuite:
     assert(pixel(image, 0, 0)("S0.595,000nm").forall(s => s > 0.4f && s < 0.6f))
     def wrong(parameters: String) =
       SceneTexts.problems(s"$view\n${film("spectral")} $parameters\n$world", Dialect.V4)
-    assert(wrong("\"integer nbuckets\" 0").exists(_.message.contains("must be at least 1")))
-    assert(wrong("\"float lambdamin\" 300").exists(_.message.contains("360 and 830 nm")))
+    assert(wrong("\"integer nbuckets\" 0").exists(_.message.contains("must be from 1 to 1000")))
+    assert(wrong("\"float lambdamin\" 300").exists(_.message.contains("from 360 to 830 nm")))
 
   test("the layers are pbrt-v4's"):
     val reference = ImageFiles.read(Path.of("reference-images", "v4-gbuffer.exr"))

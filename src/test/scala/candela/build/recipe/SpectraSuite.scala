@@ -62,16 +62,25 @@ final class SpectraSuite extends AnyFunSuite:
 
   test("colours that v4 refuses are told of, and taken"):
     def messages(numbers: String, role: SpectrumRole, dialect: Dialect = Dialect.V4) =
-      told(s"\"rgb I\" [$numbers]", dialect, role)._2
+      object PlainRecipe extends Recipe[Rgb]("point", "a colour"):
+        private val i = color("I", "colour", role)(Rgb.White)
+        protected def make()(using Site): Rgb = i()
+      val text = s"WorldBegin\nLightSource \"point\" \"rgb I\" [$numbers]\n"
+      val light = SceneTexts.parse(text, dialect).lights.head.light
+      val site = Site(light, dialect, Resources(ColorBasis.Srgb), Findings())
+      assert(Vector(
+        PlainRecipe.build(site)
+      ).flatMap(c => Vector(c.r, c.g, c.b)) == numbers.split(' ').toVector.map(_.toFloat))
+      site.problems.result.map(_.message)
     import SpectrumRole.*
     for role <- SpectrumRole.values do
       assert(messages("0 0.5 1", role).isEmpty)
-      val refused = "`I` has a component below 0, which pbrt-v4 rejects: found 1.0 -0.5 0.0"
-      assert(messages("1 -0.5 0", role) == Vector(refused))
+      val range = if role == Reflectance then "from 0 to 1" else "at least 0"
+      assert(messages("1 -0.5 0", role) == Vector(s"`I` must be $range, found -0.5; using it"))
       for dialect <- Seq(Dialect.V2, Dialect.V3) do
         assert(messages("1 -0.5 2", role, dialect).isEmpty)
     for role <- Seq(Unbounded, Emission) do assert(messages("1 2 3", role).isEmpty)
-    val refused = "`I` has a component above 1, which pbrt-v4 rejects: found 1.0 2.0 3.0"
+    val refused = "`I` must be from 0 to 1, found 2; using it"
     assert(messages("1 2 3", Reflectance) == Vector(refused))
 
   test("wavelengths that do not ascend are sorted, and told of in v4, which refuses them"):
