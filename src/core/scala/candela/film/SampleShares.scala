@@ -204,12 +204,16 @@ final class FilterReach(filter: Filter):
 object FilterReach:
   private def beyond(radius: Float): Int = Math.ceil(radius - 0.5).toInt
 
-  /** Whether sharing samples pays off. Not if all samples stay in their own pixel, nor if the
-    * filter is so wide that the border of a tile needs more memory than the tile.
+  /** Whether sharing samples pays off. Not if all samples stay in their own pixel, if the filter is
+    * so wide that the border of a tile needs more memory than the tile, or if it is so narrow that
+    * few samples count.
     */
   def isUseful(filter: Filter): Boolean =
     val most = Math.max(beyond(filter.radiusX), beyond(filter.radiusY))
-    most >= 1 && most <= MaxPixels
+    most >= 1 && most <= MaxPixels && filter.correlation >= MinArea
 
   /** Reach of a filter beyond its pixel. */
   private val MaxPixels = 8
+
+  /** Pixels whose samples count as much as those under the filter. */
+  private val MinArea = 0.5

@@ -110,8 +110,10 @@ class SampleSharesSuite extends AnyFunSuite:
     assert(image(before).data.forall(v => v == 4f || v == 8f || v == 0.5f))
     assert(image(s.since(before)).data.forall(v => v == 1f || v == 2f || v == 0.5f))
 
-  test("filters that stay in the pixel, or are very wide, are not shared by"):
+  test("filters that stay in the pixel, or are very wide or narrow, are not shared by"):
     assert(!FilterReach.isUseful(BoxFilter(0.5f, 0.5f)))
     assert(FilterReach.isUseful(BoxFilter(0.5f, 0.6f)))
     assert(FilterReach.isUseful(LanczosSincFilter(4f, 4f, 3f)))
     assert(!FilterReach.isUseful(TriangleFilter(1f, 20f)))
+    assert(!FilterReach.isUseful(TriangleFilter(0.01f, 2f)))
+    assert(!FilterReach.isUseful(GaussianFilter.ofSigma(1.5f, 1.5f, 0.01f)))
