@@ -86,7 +86,9 @@ private[build] object DefaultText:
     else if x == Float.NegativeInfinity then "-infinite"
     else
       val decimal = java.math.BigDecimal(x.toString).stripTrailingZeros
-      if Math.abs(x) < 1e6f then decimal.toPlainString else decimal.toString.replace("E+", "e")
+      val size = Math.abs(x)
+      if size < 1e6f && !(size > 0f && size < 1e-6f) then decimal.toPlainString
+      else decimal.toString.replace("E+", "e").replace("E", "e")
 
   def quoted(s: String): String = "\"" + s + "\""
 

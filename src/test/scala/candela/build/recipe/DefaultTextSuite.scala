@@ -13,6 +13,7 @@ final class DefaultTextSuite extends AnyFunSuite:
       -1f -> "-1",
       0.1f -> "0.1",
       1e-4f -> "0.0001",
+      1e-10f -> "1e-10",
       1.5f -> "1.5",
       100000f -> "100000",
       1e6f -> "1e6",
