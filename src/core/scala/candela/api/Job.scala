@@ -3,7 +3,7 @@ package candela.api
 import candela.diagnostics.SceneError
 import candela.image.{Image, Oidn}
 import candela.job.{
-  Denoising, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared, Render
+  Denoising, EmptyImage, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared, Render
 }
 import candela.render.{RenderControl as CoreControl, RenderFailure, Rendering, StoppingRule}
 
@@ -127,7 +127,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
       image(rendering, developed, denoising.map(_.describe)),
       recorder.flatMap(_.errorAt(rendering.samplesDone)).filter(!_.isNaN),
       recorder.flatMap(_.squares(rendering.samplesDone)).map(errors(_, developed)),
-      problems.toVector
+      problems.toVector ++ EmptyImage.problem(prepared, rendering, developed)
     )
 
   private def image(rendering: Rendering, image: Image, denoiser: Option[String]): RenderedImage =

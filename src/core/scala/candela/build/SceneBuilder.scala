@@ -263,7 +263,8 @@ object SceneBuilder:
       lights = world.scene.lights.length,
       built = world.costs,
       sampleWindow = image.sampleWindow,
-      samples = taken
+      samples = taken,
+      sight = Some(world.sight)
     )
 
   /** What is said of guiding, if it was asked for or chosen. */

@@ -14,7 +14,7 @@ import candela.color.{CameraSensor, ColorBasis}
 import candela.integrators.CausticsMode
 import candela.math.Motion
 import candela.lights.LightSelection
-import candela.render.{Cost, CostKind, RenderMethod}
+import candela.render.{Cost, CostKind, RenderMethod, Sight}
 import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}
 import candela.scenefile.{Declaration, Dialect, LightDescription, ShapeDescription}
 import candela.settings.{ColorMode, LightGrouping}
@@ -27,6 +27,7 @@ private[build] final class World(
     val features: Vector[(String, String)],
     val moves: Boolean,
     val costs: Vector[Cost],
+    val sight: Sight,
     names: () => SurfaceNames,
     survey: () => CausticSurvey
 ):
@@ -178,6 +179,7 @@ private[build] final class WorldBuilder(
       ) ++ scene.lightGroups.map(g => "light groups" -> g.names.mkString(", ")),
       placed.instanced.instances.moving > 0,
       memory.costs,
+      Sight(scene, objectPlaces(lit, uses.shared), description.camera.map(_.at)),
       () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id),
       () =>
         val worn = shapes.indices.iterator.map(materials.materialOf)
@@ -199,14 +201,21 @@ private[build] final class WorldBuilder(
 
   /** Of the world's shapes, then of instances: static ones come first. */
   private def objectNames(world: LitSurfaces, objects: Vector[PlacedObject]): Vector[String] =
+    val instances = stillFirst(objects): (o, i) =>
+      if o.name.isEmpty then StatementName(o.shapes.head.shape) else s"${o.name}.${i + 1}"
+    world.statements.map(StatementName(_)) ++ instances
+
+  /** Likewise, of their statements. */
+  private def objectPlaces(world: LitSurfaces, objects: Vector[PlacedObject]) =
+    lazy val all =
+      world.statements.map(_.at) ++ stillFirst(objects)((o, _) => o.shapes.head.shape.at)
+    (i: Int) => all.lift(i)
+
+  private def stillFirst[A](objects: Vector[PlacedObject])(of: (PlacedObject, Int) => A) =
     val places = objects.flatMap: o =>
-      o.places.zipWithIndex.map: (motion, i) =>
-        (
-          motion.moves,
-          if o.name.isEmpty then StatementName(o.shapes.head.shape) else s"${o.name}.${i + 1}"
-        )
+      o.places.zipWithIndex.map((motion, i) => (motion.moves, of(o, i)))
     val (moving, still) = places.partition(_._1)
-    world.statements.map(StatementName(_)) ++ (still ++ moving).map(_._2)
+    (still ++ moving).map(_._2)
 
   private def lightPlan(l: LightDescription, context: BuildContext): Option[LightPlan] =
     Lights.all.build(context.stillSite(l.light, l.lightToWorld, "a light"))

@@ -81,6 +81,7 @@ enum Code(val number: Int):
   case DarkScene extends Code(603)
   case DarkLight extends Code(604)
   case NoVolume extends Code(605)
+  case EmptyView extends Code(606)
 
   case DamagedImage extends Code(701)
   case UnsupportedImage extends Code(702)
@@ -116,6 +117,7 @@ enum Code(val number: Int):
   case MissedGoal extends Code(1104)
   case DiscardedSamples extends Code(1105)
   case Denoiser extends Code(1106)
+  case EmptyImage extends Code(1107)
 
   case SuiteFile extends Code(1201)
   case NoProgram extends Code(1202)

@@ -67,7 +67,10 @@ object Render:
       val ((plan, warnings), seconds) = timed:
         val (plan, warnings) = SceneBuilder.build(description, settings, limited, pool)
         (if control.isRendered then plan.piloted else plan, warnings)
-      val all = description.warnings ++ warnings
+      // Placeholders show nothing, and were told of
+      val hasAll = warnings.forall(_.standIn.isEmpty)
+      val all = description.warnings ++ warnings ++
+        (if hasAll then EmptyImage.foreseen(plan) else None)
       Prepared(description, plan, all, buildSeconds = seconds, pool = pool, settings = settings)
     catch
       case e: Throwable =>

@@ -34,6 +34,7 @@ import candela.scene.SurfaceNames
   * @param sampleWindow      pixels beyond which no samples are taken, if there are any
   * @param samples           samples per pixel to take, if not as many as the sampler's points are
   *                          made for
+  * @param sight             what the camera can see
   */
 final case class RenderPlan(
     width: Int,
@@ -60,7 +61,8 @@ final case class RenderPlan(
     lights: Int = 0,
     built: Vector[Cost] = Vector.empty,
     sampleWindow: Option[PixelBounds] = None,
-    samples: Option[Int] = None
+    samples: Option[Int] = None,
+    sight: Option[Sight] = None
 ):
   /** What the rendering takes in memory, estimated, and has taken in time until it begins. */
   def costs: Costs = Costs() ++ (built ++ FilmSize.of(this))

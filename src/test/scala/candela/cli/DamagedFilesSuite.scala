@@ -20,7 +20,7 @@ class DamagedFilesSuite extends AnyFunSuite:
 
   private def texture(name: String) =
     head + s"Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"$name\"\n" +
-      "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n"
+      "Material \"diffuse\" \"texture reflectance\" \"t\"\nTranslate 0 0 5 Shape \"sphere\"\n"
 
   private def light(name: String) =
     head + s"LightSource \"infinite\" \"string filename\" \"$name\"\n"

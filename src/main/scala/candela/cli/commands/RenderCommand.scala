@@ -152,10 +152,12 @@ final class RenderCommand(
       rendering: Rendering
   ): ExitCode =
     val wanted = writer.writable(rendering)
-    val written = writer.write(wanted, rendering, writer.image(rendering))
+    val image = writer.image(rendering)
+    val written = writer.write(wanted, rendering, image)
     if wanted.size < writer.paths.size then
       terminal.err.println(Summary.kept(writer.paths.diff(wanted), rendering))
     Summary.print(options, terminal, written, prepared, rendering)
+    writer.warnIfEmpty(rendering, image)
     if written.size < writer.paths.size then ExitCode.BadInput else ExitCode.Done
 
 /** Prints the features of a plan, one line each: the choices that the builder made. */

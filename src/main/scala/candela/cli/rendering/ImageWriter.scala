@@ -4,8 +4,9 @@ import candela.cli.files.{OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
 import candela.image.Image
-import candela.job.{Denoising, FilmHeaders, ImageFile, Prepared, Render}
+import candela.job.{Denoising, EmptyImage, FilmHeaders, ImageFile, Prepared, Render}
 import candela.render.Rendering
+import candela.scenefile.Excerpts
 
 import java.nio.file.{Files, Path}
 
@@ -35,6 +36,11 @@ private[cli] final class ImageWriter(
 
   /** The image, denoised too if asked. */
   def image(rendering: Rendering): Image = Render.develop(prepared, rendering, denoising)
+
+  /** Warns of an image that shows nothing. */
+  def warnIfEmpty(rendering: Rendering, image: Image): Unit =
+    val problem = EmptyImage.problem(prepared, rendering, image)
+    report.warnings(Excerpts.fill(problem.toVector), all = true)
 
   /** An image without samples must not replace another one. */
   def writable(rendering: Rendering): Vector[Path] =

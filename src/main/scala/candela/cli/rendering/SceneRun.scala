@@ -132,6 +132,7 @@ private[cli] final class SceneRun(
       for r <- recorder if !isPreview; error <- r.errorAt(rendering.samplesDone)
       yield Summary.noise(error, r.interval(rendering.samplesDone))
     Summary.print(options, terminal, files, prepared, rendering, after, isLate, noise.getOrElse(""))
+    writer.warnIfEmpty(rendering, image)
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
     for log <- errorLog; remark <- log.remark if told do terminal.err.println(remark)

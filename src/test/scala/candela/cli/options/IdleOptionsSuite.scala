@@ -79,7 +79,7 @@ class IdleOptionsSuite extends AnyFunSuite:
            |Integrator $integrator
            |WorldBegin
            |LightSource "infinite" "rgb L" [1 1 1]
-           |Shape "sphere"
+           |Translate 0 0 5 Shape "sphere"
            |""".stripMargin
       )
       val captured = Captured()

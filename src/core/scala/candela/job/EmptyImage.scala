@@ -1,0 +1,116 @@
+package candela.job
+
+import candela.base.loop
+import candela.diagnostics.{Code, Problem, Severity}
+import candela.image.Image
+import candela.render.{FirstSurfaces, RenderPlan, Rendering, ViewSurvey}
+import candela.scenefile.Excerpts
+
+import java.util.Locale
+
+/** Warns of images that show nothing, with the reason as far as it can be known. */
+object EmptyImage:
+
+  /** Before rendering: the camera looks at nothing, or stands in a dark enclosure. */
+  def foreseen(plan: RenderPlan): Option[Problem] =
+    for
+      survey <- ViewSurvey.of(plan)
+      seen = survey.seen
+      if plan.lights > 0 && seen.rays > 0
+      why <-
+        if seen.isNothing then Some(s"$Past, and no light is there")
+        else
+          val inside = "the camera is inside a closed surface, which no light enters: "
+          Option.when(survey.isEnclosed)(inside + nearest(seen))
+      if survey.isDark
+    yield warning(Code.EmptyView, plan, why, "`candela preview` shows the surfaces in view")
+
+  /** Of a rendered image. */
+  def problem(prepared: Prepared, rendering: Rendering, image: Image): Option[Problem] =
+    val plan = prepared.plan
+    val isPreview = prepared.settings.preview
+    val colors = Colors(image)
+    val told =
+      if rendering.samplesDone == 0 || colors.pixels < MinPixels then None
+      else if colors.isMostly(colors.broken) then
+        Some(s"${share(colors.broken, colors)} of the pixels are NaN" -> developed(rendering))
+      else if colors.black == colors.pixels then
+        Some("the image is black" -> s": ${whyBlack(plan)}")
+      else if colors.isMostly(colors.negative) then
+        val what = s"${share(colors.negative, colors)} of the pixels have negative values"
+        Some(what -> limited(plan).getOrElse(developed(rendering)))
+      // The headlight of a preview shades a wall so
+      else if colors.isUniform && plan.sight.isDefined && (!isPreview || sameness(plan).nonEmpty)
+      then
+        Some("all pixels have the same colour" -> sameness(plan))
+      else None
+    told.map: (what, why) =>
+      val preview = if isPreview then "" else "`candela preview` shows the surfaces in view, and "
+      val help = s"$preview--pixelmaterial x,y prints what a pixel shows"
+      warning(Code.EmptyImage, plan, what + why, help)
+
+  private val Past = "the camera looks past all surfaces"
+
+  /** Fewer pixels may be black or alike by chance. */
+  private val MinPixels = 16
+
+  /** At the nearest surface, or at the camera that sees none. */
+  private def warning(code: Code, plan: RenderPlan, message: String, help: String): Problem =
+    val at = plan.sight.flatMap: sight =>
+      ViewSurvey(plan, sight).seen.statement.orElse(sight.camera)
+    Excerpts.fill(Vector(Problem(
+      code, Severity.Warning, at.flatMap(_.known), message, Some(help)
+    ))).head
+
+  private def whyBlack(plan: RenderPlan): String =
+    if plan.lights == 0 then "the scene has no light"
+    else
+      ViewSurvey.of(plan).map(_.seen).filter(_.rays > 0).fold("no sample has light"): seen =>
+        if seen.isNothing then Past
+        else s"no light reaches the surfaces that the camera sees: ${nearest(seen)}"
+
+  private def nearest(seen: FirstSurfaces): String =
+    "the nearest is at distance %.3g".formatLocal(Locale.ROOT, seen.distance)
+
+  /** Whether the colours became so after the samples were added. */
+  private def developed(rendering: Rendering): String =
+    val light = Colors(rendering.film.toImage(1f))
+    if light.isMostly(light.broken) || light.isMostly(light.negative) then ""
+    else "; the light is not: the film's sensor, white balance or scale makes them so"
+
+  private def limited(plan: RenderPlan): Option[String] =
+    plan.limit.filter(_.most < 0).map(_ => "; the film's largest value of a sample is negative")
+
+  private def sameness(plan: RenderPlan): String =
+    ViewSurvey.of(plan).map(_.seen).filter(_.isNothing)
+      .fold("")(_ => s": $Past")
+
+  private def share(count: Int, of: Colors): String =
+    if count == of.pixels then "all" else s"${100L * count / of.pixels} %"
+
+  /** Numbers of pixels of a kind. */
+  private final class Colors(image: Image):
+    private val channels = image.colorChannels.distinct.toArray
+    val pixels: Int = image.width * image.height
+    var broken, negative, black = 0
+    private var isSame = true
+
+    locally:
+      val first = channels.map(image.data(_))
+      loop(pixels): pixel =>
+        var isBroken, isNegative = false
+        var isBlack = true
+        loop(channels.length): c =>
+          val value = image.data(pixel * image.channels + channels(c))
+          if value.isNaN then isBroken = true
+          if value < 0 then isNegative = true
+          if value != 0 then isBlack = false
+          if value != first(c) then isSame = false
+        if isBroken then broken += 1
+        if isNegative then negative += 1
+        if isBlack then black += 1
+
+    def isUniform: Boolean = isSame
+
+    /** Whether these are more than half of the pixels. */
+    def isMostly(count: Int): Boolean = count > pixels / 2
