@@ -125,7 +125,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     RenderResult(
       rendering,
       image(rendering, developed, denoising.map(_.describe)),
-      recorder.flatMap(_.errorAt(rendering.samplesDone)).filter(!_.isNaN),
+      recorder.flatMap(_.errorAt(rendering.samplesDone)),
       recorder.flatMap(_.squares(rendering.samplesDone)).map(errors(_, developed)),
       problems.toVector ++ EmptyImage.problem(prepared, rendering, developed)
     )

@@ -9,8 +9,13 @@ import candela.render.{Looks, Pass, Rendering, RenderListener}
 /** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
   *
   * @param reference same size as the image; None: errors are estimated from the noise
+  * @param estimates when errors are estimated
   */
-class ErrorRecorder(development: Development, reference: Option[Image]) extends RenderListener:
+class ErrorRecorder(
+    development: Development,
+    reference: Option[Image],
+    estimates: Looks = Looks.Waves
+) extends RenderListener:
   private val curve = Vector.newBuilder[CurvePoint]
   private val scatter = HalfScatter()
   private var spent = 0.0
@@ -28,8 +33,7 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
     */
   def squares(samples: Double): Option[Array[Float]] = scatter.squares(samples)
 
-  /** The estimate compares parts of the samples. */
-  override def looks: Looks = if reference.isEmpty then Looks.Waves else Looks.Doublings
+  override def looks: Looks = if reference.isEmpty then estimates else Looks.Doublings
 
   override def begins(samples: Int, film: Film): Unit =
     if reference.isEmpty && samples > 0 then
@@ -42,7 +46,7 @@ class ErrorRecorder(development: Development, reference: Option[Image]) extends 
   def errorAt(samples: Double): Option[Double] =
     val errors =
       if reference.isEmpty then estimate.map(_.at(samples)) else points.lastOption.map(_.errors)
-    errors.map(e => Math.sqrt(e.relativeMse))
+    errors.map(e => Math.sqrt(e.relativeMse)).filter(_.isFinite)
 
   /** The estimated relative MSE after so many samples per pixel, with its 95 % interval. */
   def interval(samples: Double): Option[Interval] =

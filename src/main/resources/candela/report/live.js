@@ -202,7 +202,7 @@ function figures(state) {
   write("seconds", clock(state.seconds));
   write("left", state.left === null ? "–" : clock(state.left));
   write("rate", metric(state.rate));
-  write("error", state.error === null ? "–" : short(state.error));
+  write("error", state.error === null ? "–" : `${short(100 * state.error)} %`);
   byId("stop").disabled = state.stage !== "rendering";
   const over = isOver(state), hadFocus = ["stop", "keep", "save"].includes(document.activeElement.id);
   byId("stop").hidden = byId("save").hidden = over;

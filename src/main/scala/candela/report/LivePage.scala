@@ -73,7 +73,7 @@ object LivePage:
     tag("details")(cls := "warning", tag("summary")(count), warnings.map(p(_)))
 
   private def figures(isEstimated: Boolean): Frag =
-    val error = ErrorCharts(Vector.empty, isEstimated).word("relative MSE")
+    val error = ErrorCharts(Vector.empty, isEstimated).word("relative error")
     val figures = Vector("samples" -> "samples per pixel", "left" -> "left") ++
       Vector("seconds" -> "rendering", "rate" -> "samples per second", "error" -> error)
     div(

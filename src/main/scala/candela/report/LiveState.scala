@@ -82,7 +82,7 @@ object LiveData:
         "rate" -> s.rate,
         "tiles" -> ujson.Arr.from(s.tiles.map(t => ujson.Arr(t.x0, t.y0, t.x1, t.y1))),
         "error" -> s.points.lastOption.fold(ujson.Null: ujson.Value): p =>
-          RenderData.number(p.errors.relativeMse),
+          RenderData.number(Math.sqrt(p.errors.relativeMse)),
         "points" -> s.points.size,
         "viewers" -> s.viewers,
         "keepsOn" -> s.keepsOn.fold(ujson.Null: ujson.Value)(ujson.Bool(_)),

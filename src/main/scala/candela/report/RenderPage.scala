@@ -46,7 +46,7 @@ object RenderPage:
     val slope = LogLogFit.slope(r.points.map(p => (p.samples.toDouble, p.errors.relativeMse)))
     div(
       cls := "tiles",
-      finalPoint.map(p => Page.tile(relative(p), charts.word("relative MSE"))),
+      finalPoint.map(p => Page.tile(error(p), charts.word("relative error"))),
       finalPoint.map(p => Page.tile(s"${Numbers.short(p.seconds)} s", "rendering")),
       finalPoint.map(p => Page.tile(p.samples.toString, "samples per pixel")),
       finalPoint.filter(p => p.errors.relativeMse > 0).map: p =>
@@ -71,21 +71,24 @@ object RenderPage:
     p(cls := "soft", explanation)
 
   private def figures(r: RenderReport): Frag =
-    val head = Vector("samples", "seconds", "relative MSE", "MSE", "MAE", "PSNR", "FLIP") :+
+    val head = Vector(
+      "samples", "seconds", "relative error", "relative MSE", "MSE", "MAE", "PSNR", "FLIP"
+    ) :+
       "mean ratio R, G, B"
     Page.grid(head, r.points.map(row))
 
-  /** The relative MSE, with its interval if it is estimated. */
-  private def relative(p: CurvePoint): String =
-    Numbers.short(p.errors.relativeMse) + p.interval.fold(""): i =>
-      if i.isBounded then s" (${Numbers.short(i.low)} to ${Numbers.short(i.high)})"
-      else s" (at least ${Numbers.short(i.low)})"
+  /** The relative error, with its interval if it is estimated. */
+  private def error(p: CurvePoint): String =
+    def percentage(relativeMse: Double) = Numbers.short(100 * Math.sqrt(relativeMse))
+    percentage(p.errors.relativeMse) + p.interval.fold(" %"): i =>
+      if i.isBounded then s" % (${percentage(i.low)} to ${percentage(i.high)} %)"
+      else s" % (at least ${percentage(i.low)} %)"
 
   private def row(p: CurvePoint): Vector[Frag] =
     val e = p.errors
     val psnr = e.psnr.map(d => if d.isInfinite then "infinite" else s"${Numbers.fixed(d, 2)} dB")
     val words = Vector(p.samples.toString, Numbers.short(p.seconds)) ++
-      Vector(relative(p), Numbers.short(e.mse)) ++
+      Vector(error(p), Numbers.short(e.relativeMse), Numbers.short(e.mse)) ++
       Vector(e.mae.map(Numbers.short), psnr, e.flip.map(Numbers.short)).map(_.getOrElse("–")) :+
       (if e.meanRatio.isEmpty then "–" else e.meanRatio.map(Numbers.fixed(_, 4)).mkString(", "))
     words.map(stringFrag)

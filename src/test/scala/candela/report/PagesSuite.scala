@@ -51,8 +51,8 @@ class PagesSuite extends AnyFunSuite:
       Reports.report.copy(reference = None, points = Vector(point))
     def limits(high: Double) =
       ujson.read(RenderData.json(report(high)))("points")(0)("relmseInterval")
-    assert(RenderPage.html(report(0.5)).contains("0.3000 (0.2500 to 0.5000)"))
-    assert(RenderPage.html(report(Double.PositiveInfinity)).contains("0.3000 (at least 0.2500)"))
+    assert(RenderPage.html(report(0.5)).contains("54.77 % (50.00 to 70.71 %)"))
+    assert(RenderPage.html(report(Double.PositiveInfinity)).contains("54.77 % (at least 50.00 %)"))
     assert(limits(0.5)("low").num == 0.25 && limits(0.5)("high").num == 0.5)
     assert(limits(Double.PositiveInfinity)("high").isNull)
     assert(RenderData.csv(report(Double.PositiveInfinity)).trim.endsWith(",0.25,"))

@@ -134,6 +134,7 @@ final case class Comparison(
     val difference = Figures.scientific(m.largest.value)
     val most = m.largest
     Vector(
+      s"error         ${Comparison.error(m.relativeMse)}",
       s"MSE           ${Figures.scientific(m.mse)}",
       s"RMSE          ${Figures.scientific(m.rmse)}",
       s"MAE           ${Figures.scientific(m.mae)}",
@@ -171,6 +172,9 @@ object Comparison:
     val metrics = Metrics.compare(pair.image, pair.reference)
     val flip = Option.when(pair.isColor)(ErrorMap.mean(ErrorMap(Metric.Flip, pair)))
     Comparison(pair, metrics, flip)
+
+  /** The relative error, as `--error` has it. */
+  def error(relativeMse: Double): String = Figures.percentage(Math.sqrt(relativeMse))
 
   def decibels(psnr: Double): String =
     if psnr.isInfinite then "infinite" else s"${Figures.fixed(psnr, 2)} dB"
@@ -220,10 +224,12 @@ object ReferenceSet:
     // Which MSE and relative MSE include
     val isOwnKnown = comparisons.exists(_._2.own.isDefined)
     val last = Option.when(isOwnKnown)("reference's relative MSE")
-    val head = Vector("image", "MSE", "MAE", "relative MSE", "PSNR", "FLIP", "bias") ++ last
+    val head =
+      Vector("image", "error", "MSE", "MAE", "relative MSE", "PSNR", "FLIP", "bias") ++ last
     def row(name: String, c: Comparison) =
       val m = c.metrics
-      Vector(m.mse, m.mae, m.relativeMse).map(Figures.scientific).prepended(name) ++
+      Vector(name, Comparison.error(m.relativeMse)) ++
+        Vector(m.mse, m.mae, m.relativeMse).map(Figures.scientific) ++
         Vector(Comparison.decibels(m.psnr), c.flip.fold("-")(Figures.scientific)) ++
         Vector(Figures.scientific(m.bias)) ++
         Option.when(isOwnKnown)(c.own.fold("-")(o => Figures.scientific(o.relativeMse)))
@@ -231,7 +237,9 @@ object ReferenceSet:
       Figures.scientific(comparisons.map((_, c) => figure(c)).sum / comparisons.size)
     val means = Option.when(comparisons.sizeIs > 1):
       val flip = if comparisons.forall(_._2.flip.isDefined) then mean(_.flip.get) else "-"
-      Vector("mean", mean(_.metrics.mse), mean(_.metrics.mae), mean(_.metrics.relativeMse), "") ++
+      val error = comparisons.map((_, c) => c.metrics.relativeMse).sum / comparisons.size
+      Vector("mean", Comparison.error(error)) ++
+        Vector(mean(_.metrics.mse), mean(_.metrics.mae), mean(_.metrics.relativeMse), "") ++
         Vector(flip, mean(_.metrics.bias)) ++ Option.when(isOwnKnown)("")
     Comparison.aligned(
       head +: (comparisons.map((path, c) => row(path.getFileName.toString, c)) ++ means)

@@ -11,8 +11,8 @@ import candela.measure.Errors
   */
 private[cli] final case class Denoised(image: Image, renderSeconds: Double, seconds: Double):
 
-  /** Relative MSE of the noisy and of the denoised image; between them that of the noisy image if
-    * the time had been spent on samples, whose error falls as 1/time.
+  /** Relative error of the noisy and of the denoised image; between them that of the noisy image if
+    * the time had been spent on samples, whose MSE falls as 1/time.
     */
   def errors(reference: Image): String =
     def error(of: Image) = Errors.quickly(reference)(of).relativeMse
@@ -20,4 +20,6 @@ private[cli] final case class Denoised(image: Image, renderSeconds: Double, seco
     val atEqualTime = noisy * renderSeconds / (renderSeconds + seconds)
     val figures = Vector(noisy, atEqualTime, error(Denoising.shown(image).toRgb))
     val names = Vector("noisy", "noisy in the same time", "denoised")
-    figures.map(Figures.scientific).zip(names).map((e, name) => s"$e $name").mkString(", ")
+    figures.map(e => Figures.percentage(Math.sqrt(e))).zip(names).map((e, name) =>
+      s"$e $name"
+    ).mkString(", ")

@@ -45,7 +45,7 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
   ): RenderReport =
     val (last, others) = recorder.pictures.splitAt(1)
     val errors =
-      for d <- denoised; r <- recorder.reference yield "relative MSE" -> d.errors(r)
+      for d <- denoised; r <- recorder.reference yield "error" -> d.errors(r)
     val clean = denoised.map: d =>
       Picture(s"${last.map(_.name).mkString}, denoised", Denoising.shown(d.image))
     RenderReport(

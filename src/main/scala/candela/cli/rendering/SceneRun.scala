@@ -5,8 +5,8 @@ import candela.cli.files.Denoised
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
-import candela.job.{Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, ReachedError, Render}
-import candela.render.{Cancellation, RenderControl, Rendering, RenderListener, StoppingRule}
+import candela.job.{Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, Render}
+import candela.render.{Cancellation, Looks, RenderControl, Rendering, RenderListener, StoppingRule}
 import candela.render.storage.Checkpoints
 
 import java.nio.file.Path
@@ -33,9 +33,9 @@ private[cli] final class SceneRun(
   private val errorLog = ErrorLog.of(plan)
   private val recorder: Option[ErrorRecorder] = reporting.map(_.recorder).orElse:
     val tells = !options.quiet && !isPreview && options.film.shard.isWhole
-    if settings.goal.isGiven then Some(ErrorRecorder(plan.development, None))
-    else if tells then ReachedError.of(plan.development, plan.samplesPerPixel)
-    else None
+    val estimates = if settings.goal.isGiven then Looks.Waves else Looks.Doublings
+    Option.when(settings.goal.isGiven || tells):
+      ErrorRecorder(plan.development, None, estimates)
   private val goal = recorder.map(Goal(settings.goal, plan.samplesPerPixel, _))
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
@@ -129,8 +129,12 @@ private[cli] final class SceneRun(
     val develops = if denoised.isEmpty then "develop" else "develop and denoise"
     val after = Vector(develops -> developSeconds, "write" -> writeSeconds)
     val noise =
-      for r <- recorder if !isPreview; error <- r.errorAt(rendering.samplesDone)
-      yield Summary.noise(error, r.interval(rendering.samplesDone))
+      for r <- recorder if !isPreview
+      yield Summary.noise(
+        rendering.samplesDone,
+        r.errorAt(rendering.samplesDone),
+        r.interval(rendering.samplesDone)
+      )
     Summary.print(options, terminal, files, prepared, rendering, after, isLate, noise.getOrElse(""))
     writer.warnIfEmpty(rendering, image)
     // A preview has neither goals nor options of its own to reach them
@@ -142,7 +146,7 @@ private[cli] final class SceneRun(
     for path <- pages if told do terminal.out.println(s"wrote $path")
     terminal.out.flush()
     for r <- reference; d <- denoised if told do
-      terminal.out.println(s"relative MSE  ${d.errors(r)}")
+      terminal.out.println(s"error  ${d.errors(r)}")
     for kind <- options.thumbnail do
       val shown = Denoising.shown(image)
       terminal.out.control(Thumbnail.of(shown, options.display, kind, terminal))

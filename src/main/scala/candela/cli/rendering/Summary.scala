@@ -3,7 +3,7 @@ package candela.cli.rendering
 import candela.diagnostics.Code
 import candela.cli.options.Options
 import candela.cli.terminal.{Figures, ProblemText, Terminal}
-import candela.job.Prepared
+import candela.job.{Goal, Prepared}
 import candela.measure.Interval
 import candela.render.{Refused, Rendering}
 import candela.render.storage.FilmFile
@@ -46,12 +46,20 @@ object Summary:
         else s"$done sample"
       s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r)}$missing"
 
-  /** `error 4.6 % (3.3 to 5.2 %)`: with the interval, where that is wider than 15 %.
+  /** `error 4.6 % (3.3 to 5.2 %)`: with the interval, where that is wider than 15 %; of too few
+    * samples for an estimate, and of images without finite values, `error unknown`.
     *
-    * @param error    relative error
+    * @param error    relative error, if it is known
     * @param interval of the relative MSE, which is the error's square; with 95 % confidence
     */
-  def noise(error: Double, interval: Option[Interval]): String =
+  def noise(samples: Int, error: Option[Double], interval: Option[Interval]): String =
+    error.filter(_ => samples >= Goal.MinSamples).fold(unknown(samples)):
+      known(_, interval)
+
+  private def unknown(samples: Int): String =
+    if samples < Goal.MinSamples then "error unknown: too few samples" else "error unknown"
+
+  private def known(error: Double, interval: Option[Interval]): String =
     val limits = interval.filter(_.isKnown).map(i => (Math.sqrt(i.low), Math.sqrt(i.high)))
     def isWide(limit: Double) = Math.abs(limit / error - 1) > MaxOmitted
     val range = limits match

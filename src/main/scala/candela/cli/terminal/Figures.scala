@@ -37,9 +37,10 @@ object Figures:
     if Math.abs(value) >= 1e-4 && Math.abs(value) < 1e9 then rounded.toPlainString
     else rounded.toString.replace('E', 'e')
 
-  /** `1 error`, `2 errors`. */
   /** `1.23 %`: three digits, or fewer. */
   def percentage(part: Double): String =
-    general(BigDecimal(100 * part).round(java.math.MathContext(3)).toDouble) + " %"
+    if !part.isFinite then "unknown"
+    else general(BigDecimal(100 * part).round(java.math.MathContext(3)).toDouble) + " %"
 
+  /** `1 error`, `2 errors`. */
   def count(n: Long, noun: String): String = if n == 1 then s"1 $noun" else s"$n ${noun}s"

@@ -1,0 +1,48 @@
+package candela.cli.rendering
+
+import candela.cli.Captured
+import candela.testing.TempFolder
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+/** The last line of a rendering tells its error. */
+class LastLineSuite extends AnyFunSuite:
+
+  private def said(args: String*): String =
+    val (code, said) = Captured.run(args*)
+    assert(code == 0, said.err)
+    said.out.linesIterator.filter(_.startsWith("wrote ")).toVector.last
+
+  private def scene(folder: Path): String =
+    val text =
+      """LookAt 0 0 -5  0 0 0  0 1 0
+        |Camera "perspective" "float fov" 30
+        |Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+        |WorldBegin
+        |LightSource "infinite"
+        |Shape "sphere"
+        |""".stripMargin
+    Files.writeString(folder.resolve("scene.pbrt"), text).toString
+
+  test("of any number of samples, a continued rendering and one with a goal"):
+    TempFolder.use: folder =>
+      val file = scene(folder)
+      val image = s"$folder/a.exr"
+      for samples <- Vector("4", "5", "13", "64", "100") do
+        val last = said(file, "--spp", samples, "--outfile", image)
+        assert(last.matches(".*, error [0-9.]+ %.*"), last)
+      val film = s"$folder/a.film"
+      val _ = said(file, "--spp", "6", "--sampler", "sobol", "--outfile", s"$image,$film")
+      val resumed = said("resume", film, "--spp", "20")
+      assert(resumed.matches(".*, error [0-9.]+ %.*"), resumed)
+      val goal = said(file, "--error", "5%", "--outfile", image)
+      assert(goal.matches(".*, error [0-9.]+ %.*"), goal)
+
+  test("fewer than four samples say too little"):
+    TempFolder.use: folder =>
+      for samples <- Vector("1", "2") do
+        val last =
+          said(scene(folder), "--spp", samples, "--outfile", s"$folder/a.exr")
+        assert(last.endsWith("error unknown: too few samples"), last)
