@@ -50,7 +50,8 @@ object DialectChoice:
         val owners = Dialect.ofPbrt.toSet.filter(c.weight(_) > 0)
         s"${shown(c)} is of ${Dialects.list(owners)}"
       val name = Dialects.name(chosen)
-      val other = Dialect.ofPbrt.maxBy(d => contrary.map(_.weight(d)).sum)
+      // Of two that fit as well, the newer one
+      val other = Dialect.ofPbrt.reverse.maxBy(d => contrary.map(_.weight(d)).sum)
       Problem.warning(
         Code.MixedDialects,
         first.at.get,

@@ -56,7 +56,7 @@ object SettingsTable:
     option(
       "error",
       "X",
-      "end when the relative error, estimated from the noise, is below X, e.g. 0.02 or 2%; " +
+      "end when the relative error, estimated from the noise, is below X, e.g. 2% or 0.02; " +
         "--spp N is then a maximum"
     )(_.goal.error)((s, x) => end(s)(_.copy(error = Some(x))))(using TextForm.share).apart
       .explained("[How the error is estimated](NOISE.md)."),

@@ -98,17 +98,21 @@ object TextForm:
     _.toString
   )
 
-  /** A part of a whole: 0.002, or 0.2 %. */
-  val share: TextForm[Double] = TextForm(
-    "a positive number or percentage, e.g. 0.02 or 2%",
-    text =>
-      val isPercentage = text.endsWith("%")
-      val number = if isPercentage then text.dropRight(1).trim else text
-      Decimal.double(number).map(x => if isPercentage then x / 100 else x)
-        .filter(x => x > 0 && x < Double.PositiveInfinity)
-    ,
-    _.toString
-  )
+  /** A part of a whole: 0.002, or 0.2 %. A number of 1 or more is meant in percent. */
+  val share: TextForm[Double] =
+    def positive(text: String) = Decimal.double(text).filter(x => x > 0 && x.isFinite)
+    val expected = "a percentage or a number below 1, e.g. 2% or 0.02"
+    new TextForm(
+      expected,
+      text =>
+        if !text.endsWith("%") then positive(text).filter(_ < 1)
+        else
+          val number = text.dropRight(1).trim
+          positive(number).map(_ => (BigDecimal(number) / 100).toDouble)
+      ,
+      x => if x < 1 then x.toString else s"${BigDecimal(x) * 100}%",
+      text => if positive(text).isDefined then s"$expected; did you mean $text%?" else expected
+    )
 
   val definition: TextForm[(String, String)] = TextForm(
     "NAME=VALUE",

@@ -64,6 +64,10 @@ final class BuildErrorsSuite extends AnyFunSuite:
       val told = intercept[SceneError](SceneBuilder.build(scene, RenderSettings())).problems
       assert(told.flatMap(_.at.map(_.line)) == Vector(2, 3, 5), told)
 
+  test("of a parameter of another dialect, this one's name is suggested"):
+    val p = only("Material \"matte\" \"rgb reflectance\" [.5 .5 .5] Shape \"sphere\"")
+    assertWarning(p, "`reflectance` is not a parameter of \"matte\"", "did you mean `Kd`?")
+
   test("a misspelt parameter of a substituted type is found, too"):
     val ptex = s"Texture \"t\" \"float\" \"ptex\" \"string filenam\" \"x\" $sphere"
     val found = SceneTexts.problems(s"WorldBegin\n$ptex\nLightSource \"point\"\n")

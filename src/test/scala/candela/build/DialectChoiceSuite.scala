@@ -44,6 +44,12 @@ final class DialectChoiceSuite extends AnyFunSuite:
     assert(told.message.contains("Material \"disney\" (line 6) is of v3"), told)
     assert(told.help.exists(_.contains("--dialect v3")) && told.at.map(_.line).contains(6))
 
+  test("of two dialects that fit as well, the newer one is suggested"):
+    val mixed = "Film \"image\"\nWorldBegin\nMaterial \"diffuse\"\nMaterial \"matte\"\n" +
+      "LightSource \"infinite\"\nShape \"sphere\"\n"
+    val told = chosen(mixed).warnings
+    assert(told.exists(_.help.exists(_.startsWith("`--dialect v3` reads it"))), told)
+
   test("a dialect that is asked for is taken without weighing"):
     val scene = chosen(world + "WorldEnd\n", Some(Dialect.V3))
     assert(scene.dialect == Dialect.V3 && scene.dialectReason == "as requested")

@@ -27,6 +27,21 @@ private[build] object OtherNames:
     ("area light", "area", "diffuse")
   )
 
+  /** Parameters of v2 and v3, each with the one of v4. */
+  private val Parameters = Vector(
+    "Kd" -> "reflectance",
+    "Kr" -> "reflectance",
+    "Kt" -> "transmittance",
+    "index" -> "eta",
+    "bumpmap" -> "displacement"
+  )
+
+  /** The name in `names` of another dialect's parameter. */
+  def parameter(name: String, names: Iterable[String]): Option[String] =
+    Parameters.collectFirst:
+      case (`name`, modern) if names.exists(_ == modern) => s"did you mean `$modern`?"
+      case (old, `name`) if names.exists(_ == old) => s"did you mean `$old`?"
+
   /** Of types that only Mitsuba's scenes have. */
   private val Mitsubas = Map(
     "coating" -> "coateddiffuse",

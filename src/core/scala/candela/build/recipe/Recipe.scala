@@ -95,11 +95,12 @@ abstract class Recipe[A](
           )
         case None if p.isDefault => () // `Attribute` sets defaults for many types
         case None =>
+          val names = declared.filter(f => site.speaks(f.dialects)).map(_.name)
           site.problems.warn(
             Code.UnknownParameter,
             p.at,
             s"`${p.name}` is not a parameter of \"$name\"; it is ignored",
-            Suggest.help(p.name, declared.filter(f => site.speaks(f.dialects)).map(_.name))
+            OtherNames.parameter(p.name, names).orElse(Suggest.help(p.name, names))
           )
     made(site)
 

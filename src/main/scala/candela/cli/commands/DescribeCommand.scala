@@ -53,15 +53,20 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
         "describe expects a category, a type, or both"
       ))
 
-  /** The types called `name`. */
+  /** The types called `name`, or else those that have a parameter called so. */
   private def of(in: Vector[Category], name: String, others: Vector[String]): Vector[String] =
     val types = in.flatMap(described.types)
     types.filter(_.name.equalsIgnoreCase(name)) match
-      case Vector() => unknown(
-          if in.size == 1 then in.head.name else "type",
-          name,
-          types.map(_.name).filter(_.nonEmpty) ++ others
-        )
+      case Vector() =>
+        val having = types.flatMap(_.only(name))
+        if having.nonEmpty then separated(having.map(text.parameters))
+        else
+          val known = types.map(_.name).filter(_.nonEmpty) ++ others
+          unknown(
+            if in.size == 1 then in.head.name else "type",
+            name,
+            known ++ types.flatMap(_.parameters.map(_.name)).distinct
+          )
       case found => separated(found.map(text.parameters))
 
   private def isCalled(c: Category, word: String): Boolean =
@@ -104,6 +109,11 @@ final case class DescribedType(
     substitute: Option[String],
     parameters: Vector[DescribedParameter]
 ):
+  /** With the parameters of this name alone, if there are any. */
+  def only(parameter: String): Option[DescribedType] =
+    val named = parameters.filter(_.name.equalsIgnoreCase(parameter))
+    Option.when(named.nonEmpty)(copy(parameters = named))
+
   /** The statement as written in a scene file; options have no type name. */
   def title: String = category.name match
     case s"Texture ($values)" => s"Texture \"…\" \"$values\" \"$name\""
@@ -186,7 +196,8 @@ final class ReferenceText(described: Described, columns: Int):
     table.lines(rows, indent = 0) ++
       Vector(
         "",
-        "`candela describe CATEGORY` lists types, `candela describe TYPE` parameters."
+        "`candela describe CATEGORY` lists types, `candela describe TYPE` parameters,",
+        "`candela describe PARAMETER` the types that have it."
       )
 
   /** Lists a category's types; of a single type, its parameters. */

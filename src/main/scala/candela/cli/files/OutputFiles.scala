@@ -112,12 +112,7 @@ object OutputFiles:
       for p <- problem if p.severity == Severity.Error do throw SceneError(p)
       val files = ofFilm(loaded.plan.filename, folder)
       files.copy(warnings = problem.toVector ++ files.warnings)
-    else
-      val files = ofName(scene, folder)
-      val message = s"`$scene` names no image file; writing `${files.paths.head}`"
-      files.copy(warnings =
-        files.warnings :+ Problem(Code.ImageName, Severity.Warning, None, message)
-      )
+    else ofName(scene, folder)
 
   /** Of a scene that is not loaded yet. */
   def named(scene: String, image: ImageName): OutputFiles =

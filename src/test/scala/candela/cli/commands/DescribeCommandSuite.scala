@@ -43,6 +43,12 @@ class DescribeCommandSuite extends AnyFunSuite:
     assert(out.startsWith("Material \"plastic\" (v2 v3): "))
     assert(out.linesIterator.exists(_.matches(" +Kd +spectrum texture +0\\.25 +v2 v3 +.*")))
 
+  test("a parameter prints the types that have it"):
+    val out = printed("lensradius")
+    assert(out.contains("Camera \"perspective\"") && out.contains("Camera \"orthographic\""))
+    assert(out.contains("radius of the aperture") && !out.contains("focaldistance"))
+    assert(refused("lensradiu").contains("did you mean `lensradius`?"))
+
   test("a default that depends on the dialect is printed for each"):
     assert(printed("sampler stratified").contains("2 (v2), 4 (v3 v4)"))
     val v3 = printed("film image --dialect v3")

@@ -157,6 +157,7 @@ class CommandLineSuite extends AnyFunSuite:
     "check --scene-cache a.pbrt" -> "`candela check` has no option `--scene-cache`",
     "--texture-memory 100k a.pbrt" -> "--texture-memory must be at least 1M, found 100 kB",
     "--outfile x.exr a.pbrt b.pbrt" -> "--outfile needs a single scene",
+    "--error 2 a.pbrt" -> "e.g. 2% or 0.02; did you mean 2%?",
     "--report x.html a.pbrt b.pbrt" -> "--report needs a single scene",
     "--reference x.exr a.pbrt" -> "--reference needs --report",
     "--watch a.pbrt b.pbrt" -> "--watch needs a single scene",
