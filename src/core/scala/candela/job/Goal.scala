@@ -10,9 +10,14 @@ import candela.settings.RenderGoal
   *
   * @param planned  samples per pixel at which it ends in any case
   * @param recorder measures the error
+  * @param isWhole  whether each pixel gets a sample, whatever the time
   */
-final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
-    extends StoppingRule:
+final class Goal(
+    val options: RenderGoal,
+    planned: Int,
+    recorder: ErrorRecorder,
+    isWhole: Boolean = false
+) extends StoppingRule:
   private var hasReached = false
   private var seen, step, parts = 0
   private var now, perSample = 0.0
@@ -76,7 +81,8 @@ final class Goal(val options: RenderGoal, planned: Int, recorder: ErrorRecorder)
     */
   override def isOver(seconds: Double, idleSeconds: Double): Boolean =
     val late = if step == 0 || idleSeconds > Goal.MaxIdleSeconds then 0 else Goal.MaxLateSeconds
-    if options.time.exists(_ + late <= seconds) then hasReached = true
+    val mayEnd = !isWhole || seen > 0
+    if mayEnd && options.time.exists(_ + late <= seconds) then hasReached = true
     hasReached
 
   override def expectedEnd: Option[ExpectedEnd] = Option.when(options.isGiven):

@@ -5,7 +5,7 @@ import candela.diagnostics.{Refusal, SceneError}
 import candela.build.SceneBuilder
 import candela.image.Image
 import candela.io.Sha256
-import candela.render.{RenderControl, Renderer, RenderFailure, Rendering, ThreadPool}
+import candela.render.{RenderControl, Renderer, RenderFailure, Rendering, RenderPlan, ThreadPool}
 import candela.scenefile.{Excerpts, SceneDescription}
 import candela.settings.{BuildControl, ReadSettings, RenderSettings}
 
@@ -66,7 +66,7 @@ object Render:
       limited.cache.begin()
       val ((plan, warnings), seconds) = timed:
         val (plan, warnings) = SceneBuilder.build(description, settings, limited, pool)
-        (if control.isRendered then plan.piloted else plan, warnings)
+        (if control.isRendered then piloted(plan, control) else plan, warnings)
       // Placeholders show nothing, and were told of
       val hasAll = warnings.forall(_.standIn.isEmpty)
       val all = description.warnings ++ warnings ++
@@ -76,6 +76,9 @@ object Render:
       case e: Throwable =>
         pool.close()
         throw e
+
+  private def piloted(plan: RenderPlan, control: BuildControl): RenderPlan =
+    if plan.method.pilot.isEmpty then plan else control.stages.during("pilot")(plan.piloted)
 
   /** Takes samples until all are taken, the rule stops them, or the rendering is cancelled.
     *

@@ -13,6 +13,7 @@ import candela.io.Keep
   *                   are others
   * @param textures   how image textures are cached
   * @param cache      has the meshes, textures and tables of other scenes
+  * @param stages     is told of long stages
   */
 final case class BuildControl(
     limits: SceneLimits = SceneLimits(),
@@ -22,7 +23,8 @@ final case class BuildControl(
     footprint: Option[Float] = None,
     world: Option[Int] = Some(0),
     textures: TextureControl = TextureControl(),
-    cache: Keep = Keep.Nothing
+    cache: Keep = Keep.Nothing,
+    stages: BuildStages = BuildStages.Silent
 ):
   /** As the limits allow. */
   def limited: BuildControl = copy(
@@ -31,3 +33,12 @@ final case class BuildControl(
     // What a limited scene may use is counted as it is made
     cache = if limits.all.isEmpty then cache else Keep.Nothing
   )
+
+/** Told of the stages before rendering that may take long. */
+abstract class BuildStages:
+  /** Runs a stage. */
+  def during[A](stage: String)(body: => A): A
+
+object BuildStages:
+  object Silent extends BuildStages:
+    def during[A](stage: String)(body: => A): A = body

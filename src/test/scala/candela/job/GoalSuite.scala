@@ -50,6 +50,14 @@ class GoalSuite extends AnyFunSuite:
     assert(expected.seconds.isEmpty && expected.samples.exists(_.expected == samples))
     assert(Math.abs(ended.errorAt(24).get * Math.sqrt(24 * 12) - 1) < 0.08)
 
+  test("a preview takes a sample of each pixel, whatever the time"):
+    val recorder = ErrorRecorder(Development(), None)
+    val late = Goal(RenderGoal(time = Some(1e-9)), 16, recorder, isWhole = true)
+    val rendering = rendered(late, spp = 16)
+    assert(rendering.isComplete && rendering.samplesDone >= 1)
+    assert(!Goal(RenderGoal(time = Some(1)), 16, recorder, isWhole = true).isOver(99, 99))
+    assert(Goal(RenderGoal(time = Some(1)), 16, recorder).isOver(99, 99))
+
   private val film = Film(0, 0, 1, 1)
 
   /** When a rendering ends whose samples take a second each, the first one, and then `actual`

@@ -5,13 +5,13 @@ import candela.io.{InputFile, Keep}
 import candela.cli.files.{FileRegister, FilmKeeping, Frame, OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.rendering.{CostRows, ImageWriter, RenderOutputs, SceneRun, Summary}
-import candela.cli.terminal.{ExitCode, Printer, Report, Terminal, Thumbnail}
+import candela.cli.terminal.{ExitCode, Printer, Report, StageLine, Terminal, Thumbnail}
 import candela.image.Oidn
 import candela.job.{Denoising, FilmKeeper, Prepared, SceneLoader}
 import candela.render.{Cancellation, RenderPlan, Rendering}
 import candela.render.storage.FilmFile
 import candela.scene.PathReport
-import candela.settings.RenderRegion
+import candela.settings.{BuildStages, RenderRegion}
 
 import java.nio.file.Path
 
@@ -84,7 +84,8 @@ final class RenderCommand(
     files.check(scene, outfiles)
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
-    val control = options.building.copy(world = Some(world), cache = keep)
+    val stages = if options.quiet then BuildStages.Silent else StageLine(terminal)
+    val control = options.building.copy(world = Some(world), cache = keep, stages = stages)
     val prepared = loader.load(scene, options.sceneSettings, control)
     // A first look ignores most of what warnings are about.
     val isBrief = options.settings.preview && !options.verbose

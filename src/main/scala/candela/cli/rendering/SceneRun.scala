@@ -36,7 +36,7 @@ private[cli] final class SceneRun(
     val estimates = if settings.goal.isGiven then Looks.Waves else Looks.Doublings
     Option.when(settings.goal.isGiven || tells):
       ErrorRecorder(plan.development, None, estimates)
-  private val goal = recorder.map(Goal(settings.goal, plan.samplesPerPixel, _))
+  private val goal = recorder.map(Goal(settings.goal, plan.samplesPerPixel, _, isWhole = isPreview))
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
 
