@@ -27,6 +27,9 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
       case _ => false
     idle("sampler", takesNone && isNamed)(chains)
     idle("disable-pixel-jitter", takesNone && settings.centers)(chains)
+    idle("sky", settings.sky.nonEmpty && takesNone)(s"the Markov chains of $integrator show it")
+    idle("sky", settings.sky.nonEmpty && !takesNone && world.scene.environments.isEmpty):
+      "the scene has no sky"
     idle("disable-wavelength-jitter", settings.oneColorSet && !world.color.isSpectral):
       "rendering is RGB; --color spectral uses wavelengths"
     def isDisplaced = context.description.shapes.exists(_.shape.param("displacement").isDefined) ||

@@ -17,7 +17,7 @@ import candela.render.{ErrorFile, FilmSize, LayerPlan, Passes, RenderMethod, Ren
 import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
 import candela.scenefile.SceneDescription
-import candela.settings.{BuildControl, Choices, LightGrouping, RenderSettings}
+import candela.settings.{BuildControl, Choices, LightGrouping, RenderSettings, SkyView}
 
 /** Builds a render plan from a description. Connects scene files to rendering.
   *
@@ -252,7 +252,7 @@ object SceneBuilder:
       layers = Option.when(image.layers.nonEmpty && usesSampler):
         val space =
           if film.layersInWorld then Still(context.origin.at.fromOrigin) else camera.fromWorld
-        layerPlan(context, image, camera, world, space)
+        layerPlan(context, image, camera, world, space, hidesSky(context, settings, image))
       ,
       sharesSamples = shares,
       bands = bands,
@@ -264,8 +264,16 @@ object SceneBuilder:
       built = world.costs,
       sampleWindow = image.sampleWindow,
       samples = taken,
-      sight = Some(world.sight)
+      sight = Some(world.sight),
+      hidesSky = hidesSky(context, settings, image)
     )
+
+  /** Pictures with alpha show what is behind them, instead of the sky: but not those that the
+    * program of the dialect makes.
+    */
+  private def hidesSky(context: BuildContext, settings: RenderSettings, image: ImageSetup) =
+    def isAsked = settings.layers.contains(Layer.Alpha) && image.layers.contains(Layer.Alpha)
+    settings.sky.fold(isAsked && !context.rules.skyCovers)(_ == SkyView.Hide)
 
   /** What is said of guiding, if it was asked for or chosen. */
   private def guiding(
@@ -293,7 +301,8 @@ object SceneBuilder:
       image: ImageSetup,
       camera: CameraSetup,
       world: World,
-      space: Motion
+      space: Motion,
+      hidesSky: Boolean
   ): LayerPlan =
     def wants(some: Layer*) = some.exists(image.layers.contains)
     val names =
@@ -311,8 +320,8 @@ object SceneBuilder:
       names,
       motion,
       scene.hidesEmitters,
-      skyCovers =
-        context.rules.skyCovers && !scene.hidesEmitters && world.scene.environments.nonEmpty,
+      skyCovers = context.rules.skyCovers && !scene.hidesEmitters && !hidesSky &&
+        world.scene.environments.nonEmpty,
       first
     )
     val groups = world.scene.lightGroups.filter(_ => world.method.dividesLight).map(_.names)

@@ -8,8 +8,14 @@ import candela.sampling.Sampler
   *
   * @param shutter           shutter interval, if anything is animated
   * @param differentialScale scale of the differentials; 0 if nothing in the scene needs them
+  * @param hidesSky          whether the camera sees no sky
   */
-final class CameraRays(camera: Camera, shutter: Option[Shutter], differentialScale: Float):
+final class CameraRays(
+    camera: Camera,
+    shutter: Option[Shutter],
+    differentialScale: Float,
+    hidesSky: Boolean = false
+):
   private val weighs = camera.weighs
   private val hasLens = camera.hasLens
   private val moves = shutter.isDefined
@@ -31,6 +37,7 @@ final class CameraRays(camera: Camera, shutter: Option[Shutter], differentialSca
       scratch.time = ray.time
     camera.generate(x, y, sampler.x, sampler.y, ray)
     ray.isPrimary = true
+    ray.hidesSky = hidesSky
     val weight = if weighs then ray.weight else 1f
     if weight != 0f && differentialScale > 0f then
       camera.differential(x, y, sampler.x, sampler.y, differentialScale, ray, scratch)

@@ -57,6 +57,9 @@ final class Ray:
     */
   var isPrimary = false
 
+  /** Does the ray see no sky? [[set]] makes it false. */
+  var hidesSky = false
+
   /** Weight of a camera ray; set only by cameras that weight their rays. */
   var weight = 1f
 
@@ -85,6 +88,7 @@ final class Ray:
     this.dz = dz
     tMax = end
     isPrimary = false
+    hidesSky = false
     invX = 1f / dx
     invY = 1f / dy
     invZ = 1f / dz

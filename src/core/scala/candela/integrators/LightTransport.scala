@@ -37,8 +37,8 @@ object LightTransport:
     else if sampler.next1D() < throughput then 1f / throughput
     else 0f
 
-  /** Radiance of the environment along a ray that left the scene, each light times `weight` of its
-    * index and itself.
+  /** Radiance of the environment along a ray that left the scene, unless it is hidden from the ray;
+    * each light times `weight` of its index and itself.
     *
     * @param contribution receives each light's index and contribution
     */
@@ -50,7 +50,8 @@ object LightTransport:
   ): Rgb =
     var r, g, b = 0f
     var i = 0
-    while i < scene.environments.length do
+    val end = if ray.hidesSky then 0 else scene.environments.length
+    while i < end do
       val source = scene.environments(i)
       val w = weight(scene.environmentIndex(i), source)
       val arriving = source.radiance(ray.origin, ray.direction)

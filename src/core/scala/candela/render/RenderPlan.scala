@@ -35,6 +35,7 @@ import candela.scene.SurfaceNames
   * @param samples           samples per pixel to take, if not as many as the sampler's points are
   *                          made for
   * @param sight             what the camera can see
+  * @param hidesSky          whether the camera sees no sky, though it lights the scene
   */
 final case class RenderPlan(
     width: Int,
@@ -62,7 +63,8 @@ final case class RenderPlan(
     built: Vector[Cost] = Vector.empty,
     sampleWindow: Option[PixelBounds] = None,
     samples: Option[Int] = None,
-    sight: Option[Sight] = None
+    sight: Option[Sight] = None,
+    hidesSky: Boolean = false
 ):
   /** What the rendering takes in memory, estimated, and has taken in time until it begins. */
   def costs: Costs = Costs() ++ (built ++ FilmSize.of(this))

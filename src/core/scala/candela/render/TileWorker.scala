@@ -27,7 +27,7 @@ private[render] final class TileWorker(
   private val camera = plan.camera
   private val getsOn = () => beat()
   private val sampler = plan.sampler.copy()
-  private val rays = CameraRays(camera, plan.shutter, plan.differentialScale)
+  private val rays = CameraRays(camera, plan.shutter, plan.differentialScale, plan.hidesSky)
   private val ray = rays.ray
   private val weighs = camera.weighs
   private val weighsLast = weighs && !plan.weighsFirst

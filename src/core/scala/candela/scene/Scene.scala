@@ -71,7 +71,9 @@ final class Scene(
   /** Continues a ray in its direction, through the interface at `at`. */
   def passThrough(ray: Ray, at: ShadingPoint): Unit =
     val direction = ray.direction
+    val hidesSky = ray.hidesSky
     ray.set(at.offsetOrigin(direction), direction, Float.PositiveInfinity)
+    ray.hidesSky = hidesSky
     val rule = footprintRule
     if rule != null then rule.passed(ray)
 

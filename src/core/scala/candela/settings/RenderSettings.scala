@@ -28,6 +28,7 @@ import candela.scenefile.Dialect
   * @param meanImages  replace image textures by their mean
   * @param oneColorSet take the same wavelengths for all samples
   * @param diffuse     make all materials diffuse
+  * @param sky         whether the camera sees the sky, if asked for
   * @param edgeScale   scale of `edgelength` of displaced meshes
   * @param reading     how the scene's files are read
   * @param output      what is written of the image
@@ -51,6 +52,7 @@ final case class RenderSettings(
     meanImages: Boolean = false,
     oneColorSet: Boolean = false,
     diffuse: Boolean = false,
+    sky: Option[SkyView] = None,
     edgeScale: Option[Float] = None,
     reading: ReadSettings = ReadSettings(),
     output: OutputSettings = OutputSettings()

@@ -198,6 +198,12 @@ object SettingsTable:
       "`auto` is the default with `--time` and `--error`. [What it brings](CAUSTICS.md)."
     ),
     option(
+      "sky",
+      "show|hide",
+      "whether the camera sees the sky, which lights the scene in any case (default: hide with " +
+        "--film rgba or --aov alpha, else show)"
+    )(_.sky)((s, v) => s.copy(sky = Some(v))),
+    option(
       "displacement-edge-scale",
       "X",
       "scale of the edge length of displaced meshes (default 1)"

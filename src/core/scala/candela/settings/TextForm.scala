@@ -130,6 +130,8 @@ object TextForm:
 
   given TextForm[CausticsMode] = named(CausticsMode.values.toSeq, lower, "auto, on, off or photons")
 
+  given TextForm[SkyView] = named(SkyView.values.toSeq, lower, "show or hide")
+
   given TextForm[PointChoice] = oneOf(PointChoice.all, _.word)
 
   given TextForm[Fireflies] = TextForm(

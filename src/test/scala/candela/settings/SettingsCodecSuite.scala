@@ -90,6 +90,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       guiding <- Gen.option(Gen.oneOf(GuidingMode.values.toSeq))
       caustics <- Gen.option(Gen.oneOf(CausticsMode.values.toSeq))
       flags <- Gen.listOfN(5, flag)
+      sky <- Gen.option(Gen.oneOf(SkyView.values.toSeq))
       edgeScale <- Gen.option(positive)
       reading <- readings
       output <- outputs(layers)
@@ -114,6 +115,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
         meanImages,
         oneColorSet,
         diffuse,
+        sky,
         edgeScale,
         reading,
         output

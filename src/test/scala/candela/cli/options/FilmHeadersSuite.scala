@@ -40,6 +40,7 @@ class FilmHeadersSuite extends AnyFunSuite:
       .map(_.toString.toLowerCase),
     "guiding" -> GuidingMode.values.toVector.filter(_ != GuidingMode.Off)
       .map(_.toString.toLowerCase),
+    "sky" -> Vector("show", "hide"),
     "displacement-edge-scale" -> Vector("2.5")
   )
 
