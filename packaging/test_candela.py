@@ -73,6 +73,15 @@ class InMemory(unittest.TestCase):
                 candela.load_string(SCENE).render().rgb, candela.load_file(file).render().rgb
             )
 
+    def test_names_of_a_text_have_the_values_of_define(self):
+        scene = candela.load_string(SCENE.replace("0.2 0.4 0.6", "$red 0.4 $blue"))
+        a = scene.render(spp=1, define={"red": 0.2, "blue": 0.6})
+        np.testing.assert_array_equal(a.rgb, candela.load_string(SCENE).render(spp=1).rgb)
+        b = scene.render(spp=1, define={"red": 0.4, "blue": 0.6})
+        # Colours become spectra: other channels change a little
+        self.assertGreater(b.rgb[8, 12, 0], 1.5 * a.rgb[8, 12, 0])
+        np.testing.assert_allclose(b.rgb[8, 12, 1:], a.rgb[8, 12, 1:], rtol=0.02)
+
     def test_files_that_a_text_names_are_of_its_folder(self):
         with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
             (Path(folder) / "ball.pbrt").write_text('Shape "sphere"\n')

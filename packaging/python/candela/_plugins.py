@@ -5,14 +5,16 @@ from __future__ import annotations
 from typing import Dict
 
 _TYPES: Dict[str, str] = {
-    "bsdf": """acousticbsdf blendbsdf bumpmap circular conductor dielectric diffuse hair mask measured
-        measured_polarized normalmap null plastic polarizer pplastic principled principledthin
-        retarder roughconductor roughdielectric roughplastic thindielectric twosided""",
+    "bsdf": """acousticbsdf blendbsdf bumpmap circular coating conductor dielectric difftrans
+        diffuse hair hk irawan mask measured measured_polarized mixturebsdf normalmap null phong
+        plastic polarizer pplastic principled principledthin retarder roughcoating roughconductor
+        roughdielectric roughdiffuse roughplastic thindielectric twosided ward""",
     "shape": """bsplinecurve cube cylinder disk ellipsoids ellipsoidsmesh instance linearcurve merge
         obj ply rectangle sdfgrid serialized shapegroup sphere""",
     "emitter": """area constant directional directionalarea envmap point projector spot sunsky
         timed_sunsky volumelight""",
-    "texture": "bitmap checkerboard mesh_attribute volume",
+    "texture": """bitmap checkerboard curvature gridtexture mesh_attribute scale vertexcolors volume
+        wireframe""",
     "spectrum": "blackbody d65 irregular rawconstant regular srgb uniform",
     "sensor": """batch distant irradiancemeter orthographic perspective radiancemeter thinlens""",
     "integrator": """acousticpath aov depth direct direct_projective emission moment path prb
@@ -21,8 +23,9 @@ _TYPES: Dict[str, str] = {
     "sampler": "independent ldsampler multijitter orthogonal stratified",
     "rfilter": "box catmullrom gaussian lanczos mitchell tent",
     "film": "hdrfilm ldrfilm specfilm",
-    "phase": "blendphase hg isotropic rayleigh sggx tabphase",
-    "volume": "constvolume gridvolume",
+    "phase": "blendphase hg isotropic kkay microflake mixturephase rayleigh sggx tabphase",
+    "subsurface": "dipole singlescatter",
+    "volume": "constvolume gridvolume hgridvolume volcache",
 }
 
 ELEMENTS: Dict[str, str] = {

@@ -7,7 +7,7 @@ import sys
 import tempfile
 import warnings
 from pathlib import Path
-from typing import Iterable, List, Optional, Union
+from typing import Dict, Iterable, List, Optional, Union
 
 from ._errors import CandelaWarning, Problem, SceneError, UsageError
 from ._image import Image, load
@@ -15,7 +15,8 @@ from ._scene import Scene, load_file
 from ._session import Listener, execute
 
 PathLike = Union[str, "os.PathLike[str]"]
-Value = Union[str, int, float, bool, None, Iterable[Union[str, int, float]]]
+Plain = Union[str, int, float]
+Value = Union[Plain, bool, None, Iterable[Plain], Dict[str, Plain]]
 
 # What names no option of a rendering that returns one image
 _OTHERS = {
@@ -42,7 +43,8 @@ def render(
     :param progress: is called several times a second with a ``Progress``; an exception from it
         ends the rendering
     :param options: all other options of ``candela help render``, with ``_`` for ``-``:
-        ``seed=1``, ``time="90s"``, ``denoise=True``, ``cropwindow=(0, 0.5, 0, 0.5)``
+        ``seed=1``, ``time="90s"``, ``denoise=True``, ``cropwindow=(0, 0.5, 0, 0.5)``,
+        ``define={"name": 3}`` for ``$name`` in the scene
 
     Errors are exceptions: ``SceneError`` with the place in the scene, ``UsageError`` for
     options. Warnings are Python's, of the class ``CandelaWarning``. ``KeyboardInterrupt`` ends
@@ -101,6 +103,8 @@ def _words(options: "dict[str, Value]") -> List[str]:
             continue
         elif isinstance(value, (str, int, float)):
             words.append(f"{option}={value}")
+        elif isinstance(value, dict):
+            words += [f"{option}={key}={each}" for key, each in value.items()]
         else:
             words.append(f"{option}={','.join(str(v) for v in value)}")
     return words

@@ -43,7 +43,10 @@ class Scene:
     def parameters(self) -> _xml.Parameters:
         """The values of the scene by their names; see ``candela.traverse``."""
         if not self.is_mitsuba:
-            raise UsageError("parameters of pbrt scenes can't be changed; scenes of Mitsuba's format can")
+            raise UsageError(
+                "scenes of pbrt's format have no parameters: write $name in the text, and give its "
+                "value to render, as define={'name': 3}"
+            )
         if self._tree is None:
             try:
                 self._tree = _xml.of_text(self._whole())
@@ -58,7 +61,7 @@ class Scene:
         if self._text is not None:
             return self._text
         if self._name.lower().endswith(".gz"):
-            raise UsageError(f"{self._name}: unpack it first: the values of packed files can't be changed")
+            raise UsageError(f"{self._name} is packed: unpack it to change its values")
         with open(self._name, encoding="utf-8") as file:
             return file.read()
 

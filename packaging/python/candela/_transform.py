@@ -95,5 +95,7 @@ def _cross(a: Sequence[float], b: Sequence[float]) -> List[float]:
 def _unit(v: Sequence[float]) -> List[float]:
     length = math.sqrt(sum(x * x for x in v))
     if length == 0:
-        raise ValueError("a vector of length 0 has no direction: target equals origin, or up is parallel")
+        raise ValueError(
+            "a vector of length 0 has no direction: target equals origin, or up is parallel"
+        )
     return [x / length for x in v]

@@ -81,7 +81,9 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
     return plain("vector" if len(items) == 3 else "string", _numbers(items))
 
 
-def _object(name: str, value: Dict[str, Any], key: str, faults: List[Problem]) -> Optional[ET.Element]:
+def _object(
+    name: str, value: Dict[str, Any], key: str, faults: List[Problem]
+) -> Optional[ET.Element]:
     kind = value.get("type")
     if kind == "ref":
         if isinstance(value.get("id"), str):
@@ -125,8 +127,10 @@ def _color(
         else:  # pairs of a wavelength and a value
             text = ", ".join(f"{float(w)!r}:{float(x)!r}" for w, x in given)
     except (TypeError, ValueError):
-        expected = "three numbers" if kind == "rgb" else "a number, or pairs of wavelength and value"
-        faults.append(_fault(key, f"`{kind}` needs a 'value': expected {expected}, found {given!r:.80}"))
+        pairs = "a number, or pairs of wavelength and value"
+        expected = "three numbers" if kind == "rgb" else pairs
+        message = f"`{kind}` needs a 'value': expected {expected}, found {given!r:.80}"
+        faults.append(_fault(key, message))
         return None
     element.set("value", text)
     return element
@@ -268,11 +272,12 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         return "\n".join(["candela.Parameters:", *lines])
 
 
-_VALUES = {"float", "integer", "boolean", "string", "vector", "point", "rgb", "spectrum", "transform"}
+_VALUES = set("float integer boolean string vector point rgb spectrum transform".split())
 
 
 def _name(element: ET.Element) -> str:
-    return element.get("name") or element.get("id") or (element.tag if "type" in element.attrib else "")
+    given = element.get("name") or element.get("id")
+    return given or (element.tag if "type" in element.attrib else "")
 
 
 def _joined(key: str, name: str) -> str:
@@ -281,9 +286,9 @@ def _joined(key: str, name: str) -> str:
 
 def _like(old: ET.Element, value: Any) -> Any:
     """A plain new value, as what the element has been."""
-    is_plain = isinstance(value, (int, float)) or (hasattr(value, "__len__") and not isinstance(value, (str, dict)))
-    if is_plain and not isinstance(value, bool) and not _is_transform(value):
-        is_list = hasattr(value, "__len__")
+    is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
+    is_list = hasattr(value, "__len__") and not isinstance(value, (str, dict))
+    if (is_number or is_list) and not _is_transform(value):
         if old.tag == "rgb" or (is_list and old.tag in ("spectrum", "float")):
             return {"type": "rgb", "value": value}
         if old.tag == "spectrum":
