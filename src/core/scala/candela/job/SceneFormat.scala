@@ -1,11 +1,11 @@
 package candela.job
 
-import candela.diagnostics.{Code, Problem, Severity}
+import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.{FileName, SceneFolder}
 import candela.build.DialectChoice
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Defines, Parser, SceneDescription}
-import candela.settings.ReadSettings
+import candela.settings.{ReadSettings, Sensors}
 
 import java.nio.file.{Files, Path}
 
@@ -21,6 +21,10 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
 
   /** Whether its meshes usually come from other files. */
   def keepsMeshesApart: Boolean
+
+  /** What each image of a file is of, and the number of the first. */
+  def worlds: String
+  def firstWorld: Int
 
   /** The readable part of a scene; see [[SceneDescription.errors]].
     *
@@ -74,6 +78,8 @@ object SceneFormat:
   private object Pbrt extends SceneFormat("pbrt", Vector("pbrt")):
     def hasDialects: Boolean = true
     def keepsMeshesApart: Boolean = false
+    def worlds: String = "worlds"
+    def firstWorld: Int = 1
 
     def read(
         file: Path,
@@ -81,6 +87,7 @@ object SceneFormat:
         reading: ReadSettings,
         world: Option[Int]
     ): SceneDescription =
+      checkSensors(file, reading)
       val read = Parser.readable(
         file,
         reading.dialect,
@@ -108,6 +115,12 @@ object SceneFormat:
         Parser.readableText(name.toString, text, within, dialect, reading.keepGoing, defines)
       DialectChoice.of(read, dialect)
 
+    private def checkSensors(file: Path, reading: ReadSettings): Unit =
+      if reading.sensors.nonEmpty then
+        val help = "--sensor chooses among those of Mitsuba's XML files"
+        val message = s"`$file` has no sensors"
+        throw SceneError(Problem.general(Code.OptionMisfit, message, Some(help)))
+
     def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
       if !Files.isRegularFile(file) then None // it can be read once
       else
@@ -125,6 +138,8 @@ object SceneFormat:
   private object Mitsuba extends SceneFormat("Mitsuba", Vector("xml")):
     def hasDialects: Boolean = false
     def keepsMeshesApart: Boolean = true
+    def worlds: String = "sensors"
+    def firstWorld: Int = 0
 
     def read(
         file: Path,
@@ -132,7 +147,17 @@ object SceneFormat:
         reading: ReadSettings,
         world: Option[Int]
     ): SceneDescription =
-      MitsubaScene.readable(file, reading.defines, reading.keepGoing, Some(within))
+      val sensor = reading.sensors.map:
+        case Sensors.One(index) => index
+        case Sensors.All => world.getOrElse(0)
+      val scene = MitsubaScene.readable(
+        file,
+        reading.defines,
+        reading.keepGoing,
+        Some(within),
+        sensor = sensor
+      )
+      if reading.sensors.contains(Sensors.All) then scene else scene.copy(isFollowed = false)
 
     def readText(
         name: Path,

@@ -1,7 +1,7 @@
 package candela.mitsuba
 
 import candela.diagnostics.{Code, SceneError, Severity, SourcePos}
-import candela.io.SceneFolder
+import candela.io.{FileName, SceneFolder}
 import candela.scenefile.{Declaration, Dialect, Param, Excerpts, InstanceList, SceneDescription}
 
 import java.nio.file.Path
@@ -15,6 +15,8 @@ object MitsubaScene:
     * @param keepGoing if true, replaces missing files
     * @param within    the scene's folder, if it is confined or has limits
     * @param text      what is read instead of the file
+    * @param sensor    index of the sensor that sees the scene; none: the first, and a warning of
+    *                  others
     * @throws SceneError if the file contains no scene at all
     */
   def readable(
@@ -22,13 +24,14 @@ object MitsubaScene:
       defines: Map[String, String],
       keepGoing: Boolean,
       within: Option[SceneFolder] = None,
-      text: Option[String] = None
+      text: Option[String] = None,
+      sensor: Option[Int] = None
   ): SceneDescription =
     val folder = within.getOrElse(SceneFolder.of(file))
     val expanded =
       try Expansion(file, folder, defines, text).result()
       catch case e: SceneError => throw SceneError(Excerpts.fill(e.problems))
-    val session = Session(expanded, folder, keepGoing)
+    val session = Session(expanded, folder, keepGoing, sensor)
     val scene = Translation(session, file).result()
     val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
     scene.copy(
@@ -39,6 +42,8 @@ object MitsubaScene:
     )
 
 private final class Translation(session: Session, file: Path):
+  import session.{sensor, sensors}
+
   private val colors = Colors(session)
   private val textures = Textures(session, colors)
   private val surfaces = Surfaces(session, colors, textures)
@@ -46,7 +51,6 @@ private final class Translation(session: Session, file: Path):
   private val emitters =
     Emitters(session, colors, textures, Skies(session, colors), media(_))
   private val shapes = Shapes(session, surfaces, emitters, media)
-  private val views = Views(session, media, file)
 
   private val objects = session.objects.map(_.value).collect { case Value.Nested(p) => p }
   private def objectsOf(kind: String) = objects.filter(_.kind == kind)
@@ -61,27 +65,7 @@ private final class Translation(session: Session, file: Path):
     val (open, close) = session.shutter
     val start = SourcePos(file.toString, 1, 1)
     val times = if close > open then (open.toFloat, close.toFloat) else (0f, 1f)
-    val scene = SceneDescription(Dialect.Mitsuba, transformTimes = times)
-    val ofShapes = objectsOf("shape").flatMap(_.properties).map(_.value).collect:
-      case Value.Nested(p) if p.kind == "sensor" => p
-    val framed = (objectsOf("sensor") ++ ofShapes).toList match
-      case Nil =>
-        session.error(
-          Code.Nesting,
-          start,
-          "the scene has no sensor",
-          Some("add <sensor type=\"perspective\">")
-        )
-        scene
-      case first :: surplus =>
-        surplus.foreach(o =>
-          session.warn(
-            Code.Unsupported,
-            o.at,
-            "only the first sensor is rendered; this one is ignored"
-          )
-        )
-        session.attempt(views.addSensor(first, scene)).getOrElse(scene)
+    val framed = framedBy(SceneDescription(Dialect.Mitsuba, transformTimes = times), start)
     def sampleCount = framed.sampler.fold(1)(Views.sampleCount)
     val integrator = objectsOf("integrator").headOption
       .flatMap(p => session.attempt(Integrators(session, sampleCount)(p)))
@@ -107,6 +91,32 @@ private final class Translation(session: Session, file: Path):
         objects = Map.empty,
         instances = InstanceList.Empty
       )
+
+  /** The scene as the sensor sees it. */
+  private def framedBy(scene: SceneDescription, start: SourcePos): SceneDescription =
+    if sensors.isEmpty then
+      val help = Some("add <sensor type=\"perspective\">")
+      session.error(Code.Nesting, start, "the scene has no sensor", help)
+    else if sensor.exists(_ >= sensors.size) then
+      val last = sensors.size - 1
+      val message = s"there is no sensor ${sensor.get}"
+      val help = if last == 0 then "the only one is 0" else s"they are 0 to $last"
+      session.error(Code.OptionMisfit, start, message, Some(help))
+    if sensor.isEmpty then
+      for surplus <- sensors.drop(1) do
+        session.warn(
+          Code.Unsupported,
+          surplus.at,
+          "only the first sensor is rendered; this one is ignored",
+          Some("--sensor all renders each, --sensor 1 the second")
+        )
+    val index = sensor.getOrElse(0)
+    val stem = FileName.stem(file)
+    val image = if sensor.isEmpty || sensors.size == 1 then stem else s"$stem-$index"
+    sensors.lift(index)
+      .flatMap(p => session.attempt(Views(session, media, image).addSensor(p, scene)))
+      .getOrElse(scene)
+      .copy(isFollowed = index + 1 < sensors.size)
 
   private def layered(film: Declaration, aovs: Vector[String]): Declaration =
     if aovs.isEmpty then film

@@ -12,8 +12,15 @@ import scala.collection.mutable
 
 /** State of translating one scene: its objects by id, the folders of its files, and the problems
   * found so far.
+  *
+  * @param sensor which of the scene's sensors is asked for, from 0, if any is
   */
-final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean):
+final class Session(
+    expanded: Expanded,
+    folder: SceneFolder,
+    keepGoing: Boolean,
+    val sensor: Option[Int] = None
+):
   private val collected = Problems()
   private val files = mutable.LinkedHashSet.empty[Path]
   private val reported = mutable.LinkedHashSet.empty[Problem]
@@ -31,12 +38,20 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
       if e.tag == "ref" then None
       else values.plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.at))
 
-  /** When the first sensor's shutter opens and closes. */
+  /** The sensors of the scene, those in shapes last. */
+  lazy val sensors: Vector[Plugin] =
+    val plugins = objects.map(_.value).collect { case Value.Nested(p) => p }
+    val ofShapes =
+      for p <- plugins if p.kind == "shape"; q <- p.properties
+      yield q.value
+    plugins.filter(_.kind == "sensor") ++
+      ofShapes.collect { case Value.Nested(p) if p.kind == "sensor" => p }
+
+  /** When the sensor's shutter opens and closes. */
   lazy val shutter: (Double, Double) =
-    val sensor = objects.map(_.value).collectFirst:
-      case Value.Nested(p) if p.kind == "sensor" => p
+    val rendered = sensors.lift(sensor.getOrElse(0))
     def time(name: String): Double =
-      sensor.flatMap(_.properties.findLast(_.name == name)).map(_.value).collect:
+      rendered.flatMap(_.properties.findLast(_.name == name)).map(_.value).collect:
         case Value.Number(x) => x
       .getOrElse(0)
     (time("shutter_open"), time("shutter_close"))

@@ -1,14 +1,14 @@
 package candela.mitsuba
 
 import candela.diagnostics.{Code, SourcePos}
-import candela.io.FileName
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{Declaration, GraphicsState, Param, SceneDescription}
 
-import java.nio.file.Path
-
-/** Translates sensors with their films, filters and samplers. */
-final class Views(session: Session, media: Media, scene: Path):
+/** Translates sensors with their films, filters and samplers.
+  *
+  * @param image name of the image, without a suffix
+  */
+final class Views(session: Session, media: Media, image: String):
 
   /** The scene as seen by a sensor. */
   def addSensor(p: Plugin, from: SceneDescription): SceneDescription =
@@ -136,7 +136,7 @@ final class Views(session: Session, media: Media, scene: Path):
     val params = Seq(
       Param.int("xresolution", in.atOf("width"), width),
       Param.int("yresolution", in.atOf("height"), height),
-      Param.string("filename", in.at, s"${FileName.stem(scene)}.exr"),
+      Param.string("filename", in.at, s"$image.exr"),
       Param.bool("savefp16", in.at, isHalf),
       Param.bool("sampleborder", in.atOf("sample_border"), samplesBorder)
     ) ++ bounds ++ alpha

@@ -133,12 +133,21 @@ enum RenderRegion:
   * @param dialect   instead of the one that they seem to be of
   * @param defines   parameters of a Mitsuba scene, by name
   * @param keepGoing whether to replace missing items by placeholders
+  * @param sensors   of a Mitsuba scene; none: the first
   */
 final case class ReadSettings(
     dialect: Option[Dialect] = None,
     defines: Map[String, String] = Map.empty,
-    keepGoing: Boolean = false
+    keepGoing: Boolean = false,
+    sensors: Option[Sensors] = None
 )
+
+/** The sensors of a scene that are rendered. */
+enum Sensors:
+  case All
+
+  /** @param index from 0 on */
+  case One(index: Int)
 
 /** Output settings of an image.
   *

@@ -220,6 +220,12 @@ object SettingsTable:
     ) { case p: RenderRegion.Pixel => p },
     flag("preview", "a small image, shaded by a headlight")(_.preview)(_.copy(preview = true)),
     option(
+      "sensor",
+      "N|all",
+      "render sensor N of a Mitsuba scene, from 0 on, or all, one image each (default: the first)"
+    )(_.reading.sensors)((s, all) => parse(s)(_.copy(sensors = Some(all))))
+      .explained("The images are `SCENE-0.exr`, `SCENE-1.exr` …, or `%d` in `--outfile` is N."),
+    option(
       "mse-reference-image",
       "FILE",
       "reference image for --mse-reference-out, which it needs"

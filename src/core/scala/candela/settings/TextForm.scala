@@ -150,6 +150,18 @@ object TextForm:
         case other => other.word
   )
 
+  given TextForm[Sensors] = TextForm(
+    "the number of a sensor, from 0 on, or `all`",
+    {
+      case "all" => Some(Sensors.All)
+      case text => text.toIntOption.filter(_ >= 0).map(Sensors.One(_))
+    },
+    {
+      case Sensors.All => "all"
+      case Sensors.One(index) => index.toString
+    }
+  )
+
   given window: TextForm[RenderRegion.Window] = TextForm(
     "x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5",
     numbers(Decimal.float)(_).collect:

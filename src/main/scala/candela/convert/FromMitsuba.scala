@@ -1,7 +1,7 @@
 package candela.convert
 
 import candela.base.loop
-import candela.diagnostics.{Code, Problem, SourcePos}
+import candela.diagnostics.{Code, Problem}
 import candela.io.SceneFolder
 import scala.collection.mutable
 import scala.util.Try
@@ -9,10 +9,9 @@ import scala.util.Try
 import candela.bsdf.Fresnel
 import candela.color.Rgb
 import candela.image.ImageFiles
-import candela.sampling.PhaseFunction
 import candela.scenefile.{
   Declaration, Dialect, GraphicsState, MaterialRef, Param, ParamType, SceneDescription,
-  ShapeDescription, TextureDescription
+  TextureDescription
 }
 
 /** Replaces the materials that pbrt lacks in scenes of Mitsuba, and reports lights that differ. */
@@ -31,10 +30,8 @@ object FromMitsuba:
     )
     Converted(converted, run.warnings)
 
-  private final class Run(named: Map[String, Declaration]):
-    private val problems = mutable.LinkedHashSet.empty[Problem]
+  private final class Run(named: Map[String, Declaration]) extends MitsubaLosses:
     private val added = mutable.LinkedHashMap.empty[String, TextureDescription]
-    def warnings: Vector[Problem] = problems.toVector
     def addedTextures: Vector[TextureDescription] = added.values.toVector
 
     def plain(d: Declaration): Declaration =
@@ -71,21 +68,6 @@ object FromMitsuba:
       def inV3(p: Param) = if p.name == "displacement" then p.renamed("bumpmap") else p
       if d.dialect.isEmpty then d else d.copy(params = d.params.map(inV3))
 
-    private def integrator(d: Declaration): Declaration =
-      if d.name != "ambientocclusion" then d
-      else
-        warn(d, "pixels without a surface are black in pbrt, white in Mitsuba")
-        if d.param("maxdistance").exists(_.floats.exists(_ < 0f)) then
-          withoutParams(d, "surfaces at any distance occlude", "maxdistance")
-        else d
-
-    def withoutHeightMaps(shapes: Vector[ShapeDescription]): Vector[ShapeDescription] =
-      shapes.filter: s =>
-        val isExpressible = s.shape.name != "heightmap"
-        if !isExpressible then
-          warn(s.shape, "pbrt has no height fields of images; this one is omitted")
-        isExpressible
-
     private def isSoft(d: Declaration): Boolean =
       !d.param("softedges").exists(_.bools.contains(false))
 
@@ -98,23 +80,6 @@ object FromMitsuba:
         "",
         "wrap"
       )
-
-    /** pbrt's media scatter by Henyey and Greenstein: the mean cosine stays. */
-    private def phased(d: Declaration): Declaration =
-      def numbers(name: String) = d.param(name).fold(Vector.empty)(_.floats.toVector)
-      val summed =
-        for
-          kinds <- d.param("phases")
-          phase <- PhaseFunction.of(kinds.strings, numbers("phaseweights"), numbers("phasevalues"))
-        yield (kinds.strings, Param.float("g", d.at, phase.asymmetry))
-      summed.fold(d): (kinds, g) =>
-        val named = withoutParams(
-          d,
-          s"using g = ${Math.round(g.floats(0) * 100) / 100.0} for ${kinds.mkString(" and ")}",
-          "phases"
-        )
-        val plain = withoutParams(named, "", "phaseweights", "phasevalues")
-        plain.copy(params = plain.params :+ g)
 
     private def material(d: Declaration): Declaration =
       d.name match
@@ -162,11 +127,6 @@ object FromMitsuba:
         else Param.float("sigma", p.at, p.floats.head * degrees)
       val color = d.param("reflectance").toVector.map(_.renamed("Kd"))
       d.copy(name = "matte", params = color ++ sigma ++ bumpsOf(d), dialect = Some(Dialect.V3))
-
-    private def warn(d: Declaration, message: String): Unit = warn(d.at, message)
-    private def warn(p: Param, message: String): Unit = warn(p.at, message)
-    private def warn(at: SourcePos, message: String): Unit =
-      problems += Problem.warning(Code.Inexpressible, at, message)
 
     private def light(d: Declaration): Declaration =
       d.name match
@@ -287,11 +247,6 @@ object FromMitsuba:
         TextureDescription(name, valueType, scale, GraphicsState.Identity)
       )
       Param.texture(p.name, p.at, name)
-
-    private def withoutParams(d: Declaration, instead: String, names: String*): Declaration =
-      for p <- d.params if names.contains(p.name) && instead.nonEmpty do
-        warn(p, s"pbrt has no `${p.name}` of \"${d.name}\"; $instead")
-      d.copy(params = d.params.filterNot(p => names.contains(p.name)))
 
     private def color(d: Declaration, name: String): Option[Rgb] =
       d.param(name).map(_.floats).collect { case Array(r, g, b) => Rgb(r, g, b) }

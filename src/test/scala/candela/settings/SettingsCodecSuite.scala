@@ -58,7 +58,8 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       dialect <- Gen.option(Gen.oneOf(Dialect.ofPbrt))
       defines <- Gen.mapOf(Gen.zip(name, Gen.alphaNumStr))
       keepGoing <- flag
-    yield ReadSettings(dialect, defines, keepGoing)
+      sensors <- Gen.option(Gen.oneOf(Sensors.All, Sensors.One(0), Sensors.One(3)))
+    yield ReadSettings(dialect, defines, keepGoing, sensors)
 
   /** Precisions are of layers that are there. */
   private def outputs(layers: Vector[Layer]): Gen[OutputSettings] =
@@ -123,7 +124,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   test("settings are read from words as they were written, all of them", Slow):
     val fields = Vector(RenderSettings(), RenderGoal(), ReadSettings(), OutputSettings())
-    assert(fields.map(_.productArity) == Vector(21, 2, 3, 6), "`settings` must make the new field")
+    assert(fields.map(_.productArity) == Vector(21, 2, 4, 6), "`settings` must make the new field")
     forAll(settings, minSuccessful(500)): s =>
       assert(SettingsCodec.settings(SettingsCodec.words(s)) == Right(s))
 

@@ -4,6 +4,7 @@ import candela.diagnostics.{Code, Problem, SceneError}
 import candela.cli.options.{FilmOptions, FrameNames, Options}
 import candela.cli.terminal.{ExitCode, Figures}
 import candela.image.{ImageFiles, OutputFormat}
+import candela.job.SceneFormat
 
 import java.nio.file.Path
 
@@ -59,8 +60,8 @@ private[cli] object Sequence:
   /** Name of the metadata that identify a complete rendering. */
   val Digest = "rendering"
 
-  /** The output files of a world of a scene; its number, from 1, is in their names if there are
-    * several.
+  /** The output files of a world, or a sensor, of a scene; its number is in their names if there
+    * are several.
     *
     * @param n          index of the world
     * @param isFollowed whether another follows
@@ -74,21 +75,23 @@ private[cli] object Sequence:
   ): Vector[String] =
     if n == 0 && !isFollowed then outfiles
     else
+      val format = SceneFormat.of(OutputFiles.path(scene))
+      val several = s"`$scene` has several ${format.worlds}"
       for name <- outfiles
       yield
         if FilmOptions.isFilm(name) then
           throw SceneError(Problem.general(
             Code.FrameNames,
-            s"`$scene` has several worlds; a .film file holds one"
+            s"$several; a .film file holds one"
           ))
         else if !FrameNames.hasNumber(name) then
-          val message = s"`$scene` has several worlds, each an image; `$name` names one"
+          val message = s"$several, each an image; `$name` names one"
           throw SceneError(Problem.general(
             Code.FrameNames,
             message,
             Some("write %d, or %04d, for the number")
           ))
-        else FrameNames.numbered(name, n + 1)
+        else FrameNames.numbered(name, n + format.firstWorld)
 
   /** Whether all images are whole, and of the rendering with this digest. Those that can't hold it
     * are written before those that can.

@@ -19,6 +19,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "dialect" -> Vector("v3"),
     "define" -> Vector("spp=16"),
     "keep-going" -> Vector(""),
+    "sensor" -> Vector("0", "3", "all"),
     "color" -> Vector("rgb", "spectral"),
     "sampler" -> Vector("scene", "progressive", "halton", "stratified"),
     "fireflies" -> Vector("reweight", "clamp:2.5"),
