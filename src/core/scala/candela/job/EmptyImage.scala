@@ -38,7 +38,7 @@ object EmptyImage:
         Some("the image is black" -> s": ${whyBlack(plan)}")
       else if colors.isMostly(colors.negative) then
         val what = s"${share(colors.negative, colors)} of the pixels have negative values"
-        Some(what -> limited(plan).getOrElse(developed(rendering)))
+        Some(what -> developed(rendering))
       // The headlight of a preview shades a wall so
       else if colors.isUniform && plan.sight.isDefined && (!isPreview || sameness(plan).nonEmpty)
       then
@@ -77,9 +77,6 @@ object EmptyImage:
     val light = Colors(rendering.film.toImage(1f))
     if light.isMostly(light.broken) || light.isMostly(light.negative) then ""
     else "; the light is not: the film's sensor, white balance or scale makes them so"
-
-  private def limited(plan: RenderPlan): Option[String] =
-    plan.limit.filter(_.most < 0).map(_ => "; the film's largest value of a sample is negative")
 
   private def sameness(plan: RenderPlan): String =
     ViewSurvey.of(plan).map(_.seen).filter(_.isNothing)

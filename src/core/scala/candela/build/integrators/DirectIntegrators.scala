@@ -77,7 +77,11 @@ object AmbientOcclusionRecipe
     )
   private val distanceV4 =
     float(
-      "maxdistance", "maximum distance of occluders", onlyV4, "scene units", range = Range.endless
+      "maxdistance",
+      "maximum distance of occluders",
+      onlyV4,
+      "scene units",
+      range = Range.Unlimited
     )(
       Float.PositiveInfinity
     )
@@ -111,9 +115,10 @@ object AmbientOcclusionRecipe
       case Dialect.V4 | Dialect.Mitsuba =>
         val beyond = if site.rules.dialect == Dialect.Mitsuba then Beyond.Open else Beyond.Black
         Occlusion(1, 0f, distanceV4(), cosine(), weighs = true, white, beyond)
-    // Below 0, Mitsuba 0.6 takes a quarter of the scene's diameter
+    // Below 0, Mitsuba 0.6 takes a quarter of the scene's diameter; in pbrt, nothing occludes
+    val isRelative = rule.end < 0f && site.rules.dialect == Dialect.Mitsuba
     def within(scene: Scene) =
-      if rule.end >= 0f then rule else rule.copy(end = scene.ball.radius / 2)
+      if isRelative then rule.copy(end = scene.ball.radius / 2) else rule
     windowed(IntegratorPlan(
       (scene, _) => RenderMethod.tiles(scene)(AmbientOcclusion(_, within(scene))),
       samplesBsdf = true,
