@@ -30,6 +30,8 @@ private[mitsuba] final class OldNames(minor: Int):
     val plain = Element(tag, attributes, inner, e.at, formerName, isOld = true)
     tag match
       case "srgb" => decoded(plain)
+      // Often `nan`, and not used
+      case "spectrum" if parent == "integrator field" => text("undefined", "", plain)
       case "spectrum" if isWhite(plain, parent) => plain.copy(tag = "rgb")
       case "boolean" if minor < 4 && attributes.get("name").contains("map_smaller_side") =>
         val axis = if e("value").contains("false") then "larger" else "smaller"

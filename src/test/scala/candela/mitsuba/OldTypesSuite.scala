@@ -17,7 +17,9 @@ class OldTypesSuite extends OldScenes:
   test("`adaptive`, `irrcache` and `multichannel` render the integrator within"):
     for kind <- Seq("adaptive", "irrcache", "multichannel") do
       val body = s"""${sensor(more = fov)}<integrator type="$kind"><float name="quality" value="2"/>
-        <integrator type="field"><string name="field" value="uv"/></integrator>
+        <integrator type="field">
+          <string name="field" value="uv"/><spectrum name="undefined" value="nan"/>
+        </integrator>
         <integrator type="bdpt"><integer name="maxDepth" value="3"/></integrator>
         </integrator>$box"""
       using(body, "0.6.0"): scene =>
