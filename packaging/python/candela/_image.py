@@ -12,6 +12,8 @@ from array import array
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Tuple, Union
 
+from ._errors import UsageError
+
 try:
     import numpy as np
 except ImportError:  # images have memoryviews
@@ -66,6 +68,8 @@ class Image:
 
     def __getitem__(self, name: str) -> Any:
         """A layer by its name, in upper or lower case; ``depth`` is ``Z``, as in EXR files."""
+        if not isinstance(name, str):
+            raise TypeError("an image has layers by name; image.rgb[y, x] is a pixel")
         wanted = _ALIASES.get(name.lower(), name.lower())
         for layer, values in self.layers.items():
             if layer.lower() == wanted:
@@ -112,6 +116,9 @@ _ALIASES = {"depth": "z", "normal": "n", "shadingnormal": "ns", "position": "p"}
 
 def load(path: PathLike) -> Image:
     """Reads an image that the program has written as ``.npz``."""
+    if not zipfile.is_zipfile(path):
+        help = "candela.load reads .npz files; NumPy, OpenEXR or imageio read others"
+        raise UsageError(f"{os.fspath(path)} is not an .npz file: {help}")
     with zipfile.ZipFile(path) as archive:
         about = json.loads(archive.read("metadata.json"))
         layers = {

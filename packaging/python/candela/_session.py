@@ -49,7 +49,10 @@ def program() -> Path:
     name = "candela.bat" if os.name == "nt" else "candela"
     path = Path(other) if other else Path(__file__).parent / "program" / "bin" / name
     if not path.is_file():
-        raise InternalError(f"there is no program at {path}")
+        raise UsageError(
+            f"there is no program at {path}: set CANDELA_PROGRAM to bin/candela of a zip or of "
+            "`./sbt stage`, or install the wheel"
+        )
     return path
 
 

@@ -1,6 +1,7 @@
 package candela.api
 
 import candela.diagnostics.{Code, SceneError, Severity as Grade}
+import candela.image.Oidn
 import candela.job.{Prepared, Render}
 import candela.scenefile.{MaterialRef, SceneDescription}
 
@@ -97,6 +98,8 @@ final class Scene private[api] (
     val known = description.getOrElse(throw SceneError(found))
     val all = settings.of.copy(reading = how.of)
     val control = how.control.copy(threads = threads, isRendered = isRendered)
+    // Lest an image be lost after all the time that it takes
+    if all.output.denoise then Oidn.load(): Unit
     Render.withinLimits(Render.build(known, all, control))
 
 private[api] object Scenes:

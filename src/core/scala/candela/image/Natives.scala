@@ -97,9 +97,10 @@ final class MissingNatives private[image] (module: String, platform: String)
   def help: String =
     val classifier = "natives-" + platform.stripSuffix("-x64")
     val name = if module.isEmpty then "lwjgl" else s"lwjgl-$module"
-    s"add org.lwjgl:$name:${org.lwjgl.Version.getVersion.takeWhile(_ != '+')} with the " +
-      s"classifier $classifier to the dependencies; EXR files need lwjgl and lwjgl-tinyexr, " +
-      "PNG, JPEG and TGA files that are read need lwjgl and lwjgl-stb"
+    val version = org.lwjgl.Version.getVersion.takeWhile(c => c.isDigit || c == '.')
+    s"add org.lwjgl:$name:$version with the classifier $classifier to the dependencies; " +
+      "EXR files need lwjgl and lwjgl-tinyexr, PNG, JPEG and TGA files that are read need lwjgl " +
+      "and lwjgl-stb"
 
 /** What LWJGL prints is lost. */
 final class NoStream extends Supplier[PrintStream]:

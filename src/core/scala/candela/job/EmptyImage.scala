@@ -23,7 +23,11 @@ object EmptyImage:
           val inside = "the camera is inside a closed surface, which no light enters: "
           Option.when(survey.isEnclosed)(inside + nearest(seen))
       if survey.isDark
-    yield warning(Code.EmptyView, plan, why, "`candela preview` shows the surfaces in view")
+    yield
+      val help =
+        if seen.isNothing then "turn the camera: the second point of LookAt is what it looks at"
+        else "`candela preview` shows the surfaces in view"
+      warning(Code.EmptyView, plan, why, help)
 
   /** Of a rendered image. */
   def problem(prepared: Prepared, rendering: Rendering, image: Image): Option[Problem] =
@@ -67,7 +71,7 @@ object EmptyImage:
     else
       ViewSurvey.of(plan).map(_.seen).filter(_.rays > 0).fold("no sample has light"): seen =>
         if seen.isNothing then Past
-        else s"no light reaches the surfaces that the camera sees: ${nearest(seen)}"
+        else s"no light comes from the surfaces that the camera sees: ${nearest(seen)}"
 
   private def nearest(seen: FirstSurfaces): String =
     "the nearest is at distance %.3g".formatLocal(Locale.ROOT, seen.distance)

@@ -134,7 +134,8 @@ object FilmKeeper:
         fail(
           Code.NothingToAdd,
           s"can't change the ${header.samples} samples per pixel of `${film.path}`: $why",
-          "render with --spp N --checkpoint, N being the most you may want, and --time or --error"
+          "resume with --error or --time, or render with --spp N --checkpoint, " +
+            "N being the most you may want"
         )
     if samples < header.done then
       fail(Code.NothingToAdd, s"`${film.path}` has ${header.done} samples per pixel already")

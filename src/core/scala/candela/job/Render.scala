@@ -75,7 +75,9 @@ object Render:
     catch
       case e: Throwable =>
         pool.close()
-        throw e
+        e match
+          case e: SceneError => throw SceneError((e.problems ++ description.warnings).distinct)
+          case _ => throw e
 
   private def piloted(plan: RenderPlan, control: BuildControl): RenderPlan =
     if plan.method.pilot.isEmpty then plan else control.stages.during("pilot")(plan.piloted)

@@ -40,6 +40,7 @@ object DisplacedMesh:
       longest: Float,
       most: Int = MostVertices
   )(height: (Vec3, Float, Float) => Float): DisplacedMesh =
+    if leastVertices(positions, indices, toWorld, longest) > most then throw tooMany(longest, most)
     val start = if normals.isEmpty then normalsOf(positions, indices) else normals
     val mesh = Refinement(positions, start, uvs, toWorld, longest, most)
     loop(indices.length / 3)(f => mesh.add(indices(3 * f), indices(3 * f + 1), indices(3 * f + 2)))
@@ -54,6 +55,30 @@ object DisplacedMesh:
       fine.uvs,
       fine.indices
     )
+
+  /** Vertices that the largest triangle needs at least: triangles of these edges have at most √3/4
+    * of their square as area, and twice as many triangles as vertices fill a plane (Euler). Edges
+    * are not split below the spacing of the coordinates.
+    */
+  private def leastVertices(
+      positions: Array[Float],
+      indices: Array[Int],
+      toWorld: Transform,
+      longest: Float
+  ): Double =
+    var least = 0.0
+    loop(indices.length / 3): f =>
+      val corners = (0 until 3).map(k => toWorld.point(vector(positions, indices(3 * f + k))))
+      val Seq(a, b, c) = corners: @unchecked
+      val largest =
+        corners.map(p => Math.max(Math.abs(p.x), Math.max(Math.abs(p.y), Math.abs(p.z))))
+      val edge = Math.max(longest, 4 * Math.ulp(largest.max)).toDouble
+      val area = ((b - a) cross (c - a)).length / 2.0
+      least = Math.max(least, area / (Math.sqrt(3) / 4 * edge * edge) / 2)
+    least
+
+  private def tooMany(longest: Float, most: Int) =
+    MeshError(s"an edge length of $longest makes more than $most vertices")
 
   /** Vertices of the finest mesh: some 4 GB. */
   val MostVertices: Int = 100_000_000
@@ -130,8 +155,7 @@ object DisplacedMesh:
     private def newMiddle(a: Int, b: Int): Int =
       val made = count
       count += 1
-      if made >= most then
-        throw MeshError(s"an edge length of $longest makes more than $most vertices")
+      if made >= most then throw tooMany(longest, most)
       append(positions, (p(a) + p(b)) * 0.5f)
       append(normals, unit(n(a) + n(b)))
       uvs += (uvs(2 * a) + uvs(2 * b)) * 0.5f

@@ -1,6 +1,6 @@
 package candela.report
 
-import candela.measure.{CurvePoint, Metric}
+import candela.measure.{CurvePoint, Errors, Metric}
 
 import scalatags.Text.all.{p, stringFrag, Frag}
 
@@ -14,8 +14,7 @@ private[report] final class ErrorCharts(points: Vector[CurvePoint], isEstimated:
   def word(metric: String): String = if isEstimated then s"$metric, estimated" else metric
 
   def allCharts: Frag =
-    val metrics = Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae, Metric.Flip)
-      .filter(m => points.exists(_.errors(m).exists(_ > 0)))
+    val metrics = ErrorCharts.All.filter(m => points.exists(p => m.of(p.errors).exists(_ > 0)))
     val charts =
       for m <- metrics; axis <- Vector("seconds", "samples")
       yield
@@ -25,9 +24,9 @@ private[report] final class ErrorCharts(points: Vector[CurvePoint], isEstimated:
       p("No error to plot: zero error, or neither a reference nor a second sample.")
     else Page.charts(charts)
 
-  private def chart(metric: Metric, axis: String, frame: ChartFrame): Svg.Node =
+  private def chart(metric: ErrorCharts.Shown, axis: String, frame: ChartFrame): Svg.Node =
     val marks = points.flatMap: point =>
-      point.errors(metric).map: e =>
+      metric.of(point.errors).map: e =>
         val x = if axis == "seconds" then point.seconds else point.samples.toDouble
         val moment = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
         val tip = s"$moment: ${Numbers.short(e)}"
@@ -35,5 +34,19 @@ private[report] final class ErrorCharts(points: Vector[CurvePoint], isEstimated:
     val label = if axis == "seconds" then "render time (s)" else "samples per pixel"
     val series = Series("this rendering", 0, isThin = false, marks)
     val title = s"${word(metric.title)} over $axis"
-    val guide = LogLogChart.guideOf(metric)
-    LogLogChart(title, label, metric.title, Vector(series), guide, frame = frame).svg
+    LogLogChart(title, label, metric.title, Vector(series), metric.guide, frame = frame).svg
+
+private object ErrorCharts:
+  /** What a chart shows of the errors; `guide` is the slope of independent samples. */
+  final case class Shown(
+      word: String,
+      title: String,
+      guide: Option[Double],
+      of: Errors => Option[Double]
+  )
+
+  private def plain(m: Metric) = Shown(m.word, m.title, LogLogChart.guideOf(m), _(m))
+
+  private val All =
+    Shown("error", "relative error (%)", Some(-0.5), e => Some(100 * Math.sqrt(e.relativeMse))) +:
+      Vector(Metric.Mse, Metric.Mae, Metric.Flip).map(plain)

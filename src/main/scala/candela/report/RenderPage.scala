@@ -43,7 +43,8 @@ object RenderPage:
 
   private def tiles(r: RenderReport, charts: ErrorCharts): Frag =
     val finalPoint = r.points.lastOption
-    val slope = LogLogFit.slope(r.points.map(p => (p.samples.toDouble, p.errors.relativeMse)))
+    val slope = LogLogFit.slope(r.points.map: p =>
+      (p.samples.toDouble, Math.sqrt(p.errors.relativeMse)))
     div(
       cls := "tiles",
       finalPoint.map(p => Page.tile(error(p), charts.word("relative error"))),

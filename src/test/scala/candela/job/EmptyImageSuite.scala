@@ -64,7 +64,7 @@ class EmptyImageSuite extends AnyFunSuite:
     )
     assert(checked.contains("scene.pbrt:8:7") && checked.contains(Foreseen), checked)
     val rendered = said(scene(Room + Sun), "render")
-    assert(rendered.contains("no light reaches the surfaces that the camera sees"), rendered)
+    assert(rendered.contains("no light comes from the surfaces that the camera sees"), rendered)
 
   test("a surface that no light reaches is told of after rendering"):
     val wall = "Translate 0 0 -2\nShape \"disk\" \"float radius\" 50\n"

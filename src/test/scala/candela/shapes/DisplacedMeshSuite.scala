@@ -71,6 +71,18 @@ final class DisplacedMeshSuite extends AnyFunSuite:
     )((_, _, _) => 0f)
     assert(mesh.indices.length > 30)
 
+  test("a tiny edge length is refused before triangles are split"):
+    val e = intercept[MeshError]:
+      DisplacedMesh.of(
+        Array(0f, 0f, 0f, 1f, 0f, 0f, 0f, 1f, 0f),
+        Array.empty,
+        uvs.take(6),
+        Array(0, 1, 2),
+        Transform.Identity,
+        longest = 1e-38f
+      )((_, _, _) => fail("a vertex was made"))
+    assert(e.getMessage.contains("makes more than"))
+
   private def plan(mesh: String, settings: RenderSettings = RenderSettings()): String =
     val text =
       s"""Film "rgb" "integer xresolution" 8 "integer yresolution" 8

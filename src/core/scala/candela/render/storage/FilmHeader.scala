@@ -83,7 +83,7 @@ final case class FilmHeader(
       Some("what its paths learn depends on their number; with --guiding auto --sampler " +
         "progressive it doesn't")
     else if !plan.sampler.isProgressive then
-      Some("its sampler's points depend on their number (scrambled Sobol' points don't)")
+      Some("its sampler's points depend on their number (those of --sampler progressive don't)")
     else if plan.differentialScale != footprint then
       Some("its textures, or its layers of gradients, depend on the number of samples")
     else None

@@ -19,13 +19,15 @@ object Summary:
     * @param standIns number of missing items replaced by placeholders
     * @param isLate   whether its time was over
     * @param noise    what is said of the error, if it was estimated
+    * @param shards   number of renderings that share the samples
     */
   def result(
       written: Vector[Path],
       r: Rendering,
       standIns: Int = 0,
       isLate: Boolean = false,
-      noise: String = ""
+      noise: String = "",
+      shards: Int = 1
   ): String =
     val told = if noise.isEmpty then "" else s", $noise"
     val missing = told + placeholders(standIns) + darkness(r)
@@ -37,7 +39,9 @@ object Summary:
       val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
       val size = s"${r.film.width}x${r.film.height}"
       val seconds = Figures.duration(r.seconds)
-      s"wrote $names  $size, ${r.samplesDone} spp${ofThisRun(r)}, $seconds, $rates$missing"
+      val own =
+        if shards == 1 then "" else s"${Figures.general(r.samplesDone.toDouble / shards)} of "
+      s"wrote $names  $size, $own${r.samplesDone} spp${ofThisRun(r)}, $seconds, $rates$missing"
     else
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
       val number =
@@ -124,7 +128,14 @@ object Summary:
       if options.verbose then
         terminal.err.println(phases(prepared, rendering, after))
         rendering.learned.foreach(o => terminal.err.println(Learning.summary(o)))
-      terminal.out.println(result(written, rendering, prepared.standIns, isLate, noise))
+      terminal.out.println(result(
+        written,
+        rendering,
+        prepared.standIns,
+        isLate,
+        noise,
+        options.film.shard.count
+      ))
       terminal.out.flush()
 
   private def phases(
