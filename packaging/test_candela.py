@@ -435,6 +435,9 @@ class Scenes(unittest.TestCase):
     @unittest.skipIf(os.name == "nt", "signals")
     def test_keyboard_interrupt_ends_the_program(self):
         scene = self.scene(SCENE.replace("24", "480").replace("16", "320"))
+        # Python has no handler where its parent ignores the signal, as shells do for background jobs
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
         timer = threading.Timer(4, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         started = time.monotonic()
