@@ -10,10 +10,8 @@ import candela.settings.{BuildControl, RenderSettings}
 import candela.testing.TempFolder
 
 import java.nio.file.Files
-import java.util.concurrent.{CountDownLatch, TimeUnit}
 
 import org.scalatest.funsuite.AnyFunSuite
-import org.scalatest.tagobjects.Slow
 
 class PreviewCommandSuite extends AnyFunSuite:
 
@@ -67,20 +65,3 @@ class PreviewCommandSuite extends AnyFunSuite:
       assert(Main.run(words, captured.terminal, Sick) == 0)
       val where = "the first at pixel (3, 0), sample 2 [E1105]"
       assert(captured.err.endsWith(s"samples discarded: NaN or infinite, $where\n"), captured.err)
-
-  test("a preview whose time is over before its first sample says so", Slow):
-    TempFolder.use: folder =>
-      val ended = CountDownLatch(1)
-      object Slow extends SceneLoader:
-        private val plan = TinyPlan(): (where, _) =>
-          // The minute ends this test alone, if a preview waits for its samples
-          if where.x > 0 then ended.await(1, TimeUnit.MINUTES): Unit
-          Rgb.White
-        def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
-          Prepared(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
-      val captured = Captured()
-      val words = Seq("preview", "s.pbrt", "--outfile", s"$folder/a.png", "--nthreads", "1")
-      try assert(Main.run(words, captured.terminal, Slow) == 0)
-      finally ended.countDown()
-      val told = s"out of time: wrote $folder/a.png with less than 1 of 5 samples per pixel\n"
-      assert(captured.out == told)
