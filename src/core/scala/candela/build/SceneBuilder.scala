@@ -324,7 +324,7 @@ object SceneBuilder:
         world.scene.environments.nonEmpty,
       first
     )
-    val groups = world.scene.lightGroups.filter(_ => world.method.dividesLight).map(_.names)
+    val groups = world.scene.lightGroups.filter(_ => world.method.dividesLight)
     LayerPlan(image.layers, surface, names, groups)
 
   private def described(layers: Vector[ImageLayer], bands: Option[SpectralBands]): String =

@@ -1,12 +1,11 @@
 package candela.io
 
-import java.io.{BufferedInputStream, FilterInputStream, InputStream, IOException, OutputStream}
+import java.io.{BufferedInputStream, FilterInputStream, InputStream, IOException}
 import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.attribute.{BasicFileAttributes, FileTime}
 import java.nio.file.{Files, InvalidPathException, Path, StandardOpenOption}
-import java.security.MessageDigest
 import java.util.concurrent.TimeUnit.NANOSECONDS
 
 import scala.util.{Try, Using}
@@ -70,8 +69,12 @@ final class InputFile private[candela] (
   def stream(): InputStream =
     val plain = Files.newInputStream(readable)
     // The rest of a pipe may never come
-    val raw = if isRegular then Digesting(plain, note) else plain
+    val raw = if isRegular then Digesting(plain, Sha256.Bytes(), note) else plain
     BufferedInputStream(Gated(raw, gate))
+
+  /** As `stream`, for those that note a digest of what they read from it. */
+  private[candela] def undigested(): InputStream =
+    BufferedInputStream(Gated(Files.newInputStream(readable), gate))
 
   /** Its first bytes, to look at in passing: they are not counted, since they are read again. */
   def beginning(most: Int): Array[Byte] =
@@ -92,7 +95,7 @@ final class InputFile private[candela] (
     note(made)
     made
 
-  /** Its content is what has this digest. */
+  /** What is read of its content is what has this digest. */
   private[candela] def note(digest: String): Unit = reads.note(path, digest)
 
   /** Changes when the file changes; None if the system has no such stamp, or if the file has
@@ -209,32 +212,6 @@ private[candela] object FileStamp:
       FileStamp((all.get("size") +: times :+ all.get("dev") :+ all.get("ino")).mkString(" "))
     Option.when(System.currentTimeMillis - time("ctime").toMillis >= rest)(stamp)
   .toOption.flatten
-
-/** Digests the whole file, also what its reader leaves.
-  *
-  * @param note receives the digest when the stream is closed
-  */
-private final class Digesting(in: InputStream, note: String => Unit) extends InputStream:
-  private val sum = MessageDigest.getInstance("SHA-256")
-  private val single = new Array[Byte](1)
-  private var isOpen = true
-
-  override def read(): Int = if read(single, 0, 1) < 0 then -1 else single(0) & 0xff
-
-  override def read(into: Array[Byte], from: Int, length: Int): Int =
-    val n = in.read(into, from, length)
-    if n > 0 then sum.update(into, from, n)
-    n
-
-  override def available(): Int = in.available()
-
-  override def close(): Unit =
-    if isOpen then
-      isOpen = false
-      try
-        transferTo(OutputStream.nullOutputStream): Unit
-        note(Sha256.hex(sum.digest))
-      finally in.close()
 
 /** Counts the bytes read. */
 private final class Gated(in: InputStream, gate: Long => Unit) extends FilterInputStream(in):

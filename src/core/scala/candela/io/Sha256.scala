@@ -35,6 +35,18 @@ object Sha256:
         count = in.read(buffer)
     hex(sum.digest)
 
+  /** Of texts that end each with a line break. */
+  def ofLines(texts: Iterator[String]): String =
+    val sum = start()
+    for text <- texts do sum.update(s"$text\n".getBytes(UTF_8))
+    hex(sum.digest)
+
+  /** Of bytes that come one after the other. */
+  private[candela] final class Bytes extends ContentDigest:
+    private val sum = start()
+    def add(bytes: Array[Byte], from: Int, length: Int): Unit = sum.update(bytes, from, length)
+    def result(): String = hex(sum.digest)
+
   /** Of many numbers: the digest of those of pieces of one size, which threads share. */
   def ofNumbers(parts: Seq[Numbers], parallel: Parallel): Array[Byte] =
     val pieces = parts.toVector.flatMap: p =>

@@ -35,7 +35,7 @@ object FilmHeaders:
       relative(film.toAbsolutePath.getParent, here).toString,
       SettingsCodec.identity(settings),
       files.map(_.toString),
-      digests(prepared.description),
+      digests(prepared.description) ++ names(plan),
       size(plan),
       plan.sampler.samplesPerPixel,
       done = 0,
@@ -66,7 +66,7 @@ object FilmHeaders:
       (if plan.sharesSamples then "splatted" else "one pixel each")
 
   /** SHA-256 of the scene's files, as they were read, by their names relative to the scene's
-    * folder, and of what is in no file.
+    * folder, and of what is in no file. Those of scene files are of what they say.
     */
   private def digests(scene: SceneDescription): Vector[(String, String)] =
     val files = SceneFiles.of(scene).map(_.toAbsolutePath.normalize)
@@ -75,6 +75,14 @@ object FilmHeaders:
       folder.fold(file)(relative(_, file)).toString ->
         scene.folder.reads.digest(file).getOrElse(digest(file))
     filed ++ scene.unfiled
+
+  /** SHA-256 of names that line numbers are part of, if layers or light groups depend on them:
+    * comments, which have no part in the digest of a file, change these.
+    */
+  private def names(plan: RenderPlan): Option[(String, String)] =
+    val names = plan.layers.iterator.flatMap: l =>
+      l.names.objects.iterator ++ l.names.materials ++ l.division.iterator.flatMap(_.describe)
+    Option.when(names.nonEmpty)("names with line numbers" -> Sha256.ofLines(names))
 
   private def digest(file: Path): String =
     for why <- InputFile.obstacle(file) do

@@ -4,7 +4,6 @@ import candela.base.JavaHeap
 import candela.diagnostics.{Refusal, SceneError}
 import candela.build.SceneBuilder
 import candela.image.Image
-import candela.io.Sha256
 import candela.render.{RenderControl, Renderer, RenderFailure, Rendering, RenderPlan, ThreadPool}
 import candela.scenefile.{Excerpts, SceneDescription}
 import candela.settings.{BuildControl, ReadSettings, RenderSettings}
@@ -48,8 +47,9 @@ object Render:
       reading: ReadSettings,
       control: BuildControl
   ): SceneDescription =
-    val read = SceneFormat.of(name).readText(name, text, control.limits.folder(name), reading)
-    read.copy(unfiled = Vector(s"$name, a text" -> Sha256.of(text)))
+    val format = SceneFormat.of(name)
+    val read = format.readText(name, text, control.limits.folder(name), reading)
+    read.copy(unfiled = Vector(s"$name, a text" -> format.digest(text)))
 
   /** Builds the objects that render the scene, each the simplest that does, and chooses the method.
     *

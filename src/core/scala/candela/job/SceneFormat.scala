@@ -3,8 +3,8 @@ package candela.job
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.{FileName, SceneFolder}
 import candela.build.DialectChoice
-import candela.mitsuba.MitsubaScene
-import candela.scenefile.{Defines, Parser, SceneDescription}
+import candela.mitsuba.{MitsubaScene, XmlFile}
+import candela.scenefile.{Defines, Parser, SceneDescription, TokenDigest}
 import candela.settings.{ReadSettings, Sensors}
 
 import java.nio.file.{Files, Path}
@@ -47,6 +47,9 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
       within: SceneFolder,
       reading: ReadSettings
   ): SceneDescription
+
+  /** SHA-256 of what a text of this format says. */
+  def digest(text: String): String
 
   /** The image that a scene names, if that can be told before it is read.
     *
@@ -122,6 +125,8 @@ object SceneFormat:
         throw SceneError(Problem.general(Code.OptionMisfit, message, Some(help)))
 
     def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
+    def digest(text: String): String = TokenDigest.of(text)
+
       if !Files.isRegularFile(file) then None // it can be read once
       else
         Parser.film(
@@ -169,3 +174,5 @@ object SceneFormat:
 
     def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
       Some(None)
+    def digest(text: String): String = XmlFile.ofText("", text).digest
+

@@ -7,3 +7,7 @@ package candela.lights
   */
 final class LightGroups(val names: Vector[String], of: Array[Int], val ofMedia: Int):
   def apply(light: Int): Int = of(light)
+
+  /** All of it, in words. */
+  def describe: Iterator[String] =
+    names.iterator ++ Iterator(of.mkString(" "), ofMedia.toString)

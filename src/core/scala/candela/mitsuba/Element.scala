@@ -1,8 +1,10 @@
 package candela.mitsuba
 
 import candela.diagnostics.{Code, Problem, Refusal, SceneError, SourcePos}
-import candela.io.{InputFile, IoReason}
-import java.io.{BufferedInputStream, InputStream, InputStreamReader, IOException, Reader}
+import candela.io.{InputFile, IoReason, Sha256}
+import java.io.{
+  BufferedInputStream, ByteArrayInputStream, InputStream, InputStreamReader, IOException, Reader
+}
 import java.nio.charset.{CharacterCodingException, Charset}
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
 import javax.xml.stream.{Location, XMLInputFactory, XMLStreamException, XMLStreamReader}
@@ -26,6 +28,13 @@ final case class Element(
 ):
   def apply(attribute: String): Option[String] = attributes.get(attribute)
 
+  /** SHA-256 of what it says: comments, space and the order of attributes have no part in it. */
+  def digest: String = Sha256.ofLines(said)
+
+  private def said: Iterator[String] =
+    val named = attributes.toVector.sorted.iterator.map((name, value) => s"$name=$value")
+    Iterator(s"<$tag") ++ named ++ children.iterator.flatMap(_.said) ++ Iterator(">")
+
 /** Reads XML files. Document types, and thereby entities, are refused. */
 object XmlFile:
 
@@ -34,7 +43,13 @@ object XmlFile:
     * @param includedFrom the element that includes the file
     */
   def read(file: InputFile, includedFrom: Option[SourcePos]): Element =
-    read(file.toString, file.stream(), includedFrom)
+    val root = read(file.toString, file.undigested(), includedFrom)
+    if file.isRegular then file.note(root.digest)
+    root
+
+  /** The root element of a text. */
+  def ofText(name: String, text: String): Element =
+    read(name, ByteArrayInputStream(text.getBytes(UTF_8)), None)
 
   /** @param open its bytes */
   def read(name: String, open: => InputStream, includedFrom: Option[SourcePos]): Element =

@@ -2,8 +2,6 @@ package candela.mitsuba
 
 import candela.diagnostics.{Code, Limit, Problem, SceneError, SourcePos, Suggest}
 import candela.io.{InputFile, SceneFolder}
-import java.io.ByteArrayInputStream
-import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
 
 import scala.collection.mutable
@@ -46,9 +44,7 @@ final class Expansion(
 
   def result(): Expanded =
     val elements = text match
-      case Some(content) =>
-        def bytes = ByteArrayInputStream(content.getBytes(UTF_8))
-        contents(XmlFile.read(file.toString, bytes, None), Nil)
+      case Some(content) => contents(XmlFile.ofText(file.toString, content), Nil)
       case None =>
         val main = folder.scene(file)
         contents(XmlFile.read(main, None), List(main))

@@ -6,6 +6,7 @@ import candela.color.ColorBasis
 import candela.film.*
 import candela.image.Image
 import candela.sampling.Sampler
+import candela.lights.LightGroups
 import candela.scene.SurfaceNames
 
 /** A scene prepared for rendering: only the objects that it needs, each the simplest exact
@@ -84,7 +85,7 @@ final case class RenderPlan(
     copy(
       method = chosen,
       sharesSamples = sharesSamples && chosen.canShareSamples,
-      layers = layers.map(l => if chosen.dividesLight then l else l.copy(groups = None)),
+      layers = layers.map(l => if chosen.dividesLight then l else l.copy(division = None)),
       facts = facts.map {
         case ("guiding", _) if chosen.blurs => "guiding" -> s"none: ${Passes.Unguided}"
         case other => other
@@ -139,14 +140,17 @@ final case class ErrorFile(reference: String, file: String)
 /** The AOVs of an image, and the visible surface that they are computed from.
   *
   * @param names  legend of the identifiers
-  * @param groups names of the light groups, if the samples' light is divided
+  * @param division the light groups, if the samples' light is divided
   */
 final case class LayerPlan(
     layers: Vector[ImageLayer],
     surface: VisibleSurface,
     names: SurfaceNames = SurfaceNames.Empty,
-    groups: Option[Vector[String]] = None
+    division: Option[LightGroups] = None
 ):
+  /** Names of the light groups. */
+  def groups: Option[Vector[String]] = division.map(_.names)
+
   def channels(layer: ImageLayer): Vector[String] = layer.channelsOf(groups.getOrElse(Vector.empty))
 
   /** Legends of the layers in the image. */

@@ -32,7 +32,7 @@ object Parser:
   ): SceneDescription =
     val folder = within.getOrElse(SceneFolder.of(file))
     val opened = folder.scene(file)
-    Refusal.placed(start(file))(Source.read(opened).map(defines.in)) match
+    Refusal.placed(start(file))(Source.read(opened, Content.Tokens).map(defines.in)) match
       case Right(source) => read(source, folder, Some(opened), dialect, keepGoing, world, defines)
       case Left(reason) =>
         throw SceneError(Problem.general(
@@ -50,7 +50,7 @@ object Parser:
       defines: Defines = Defines.Nothing
   ): Option[Declaration] =
     val opened = within.scene(file)
-    Source.read(opened).toOption.map(defines.in).flatMap: source =>
+    Source.read(opened, Content.Nothing).toOption.map(defines.in).flatMap: source =>
       val run = ParserRun(
         source,
         within,

@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.io.{ForeignFile, InputFile, IoReason}
+import candela.io.{Digesting, ForeignFile, InputFile, IoReason}
 import java.io.{ByteArrayInputStream, FilterInputStream, InputStream, IOException}
 import java.nio.ByteBuffer
 import java.nio.charset.{CharacterCodingException, StandardCharsets}
@@ -103,10 +103,13 @@ object Source:
   def fromText(name: String, text: String): Source =
     Source(name, text.getBytes(StandardCharsets.UTF_8))
 
-  /** Opens a file, decompressing gzip; or returns why it can't. */
-  def read(file: InputFile): Either[String, Source] =
+  /** Opens a file, decompressing gzip; or returns why it can't.
+    *
+    * @param noted of what the digest is noted
+    */
+  def read(file: InputFile, noted: Content = Content.Bytes): Either[String, Source] =
     try
-      Input.open(file).flatMap: input =>
+      Input.open(file, noted).flatMap: input =>
         val source = new Source(file.toString, input.maxRemaining.min(Window - 1L).toInt + 1, input)
         if source.begins(0xff, 0xfe) || source.begins(0xfe, 0xff) then
           source.close()
@@ -116,7 +119,7 @@ object Source:
 
   /** Opens a file that another one includes. */
   def readNamed(file: InputFile): Either[String, Source] =
-    read(file).flatMap: source =>
+    read(file, Content.Tokens).flatMap: source =>
       source.foreign(file.path) match
         case None => Right(source)
         case Some(foreign) =>
@@ -129,6 +132,16 @@ object Source:
   private val MaxTokenBytes = 1 << 20
 
   private val MaxWhole = 1 << 30
+
+/** What a digest of a file is of. */
+enum Content:
+  case Bytes
+
+  /** As [[TokenDigest]] finds them in a scene file. */
+  case Tokens
+
+  /** There is none, so that what is not read now need not be. */
+  case Nothing
 
 /** Input stream of a [[Source]].
   *
@@ -149,10 +162,10 @@ private object Input:
     Input(stream, () => stream.available, () => Right(of(bytes)))
 
   /** Opens a file, decompressing gzip; or returns why it can't. */
-  def open(file: InputFile): Either[String, Input] =
+  def open(file: InputFile, noted: Content): Either[String, Input] =
     try
       if file.isPipe then ofPipe(file) // which can be read only once
-      else Right(opened(file))
+      else Right(opened(file, noted))
     catch
       case e: IOException => Left(IoReason(e))
 
@@ -165,8 +178,12 @@ private object Input:
 
   private val MaxPipeBytes = 1L << 30
 
-  private def opened(file: InputFile): Input =
-    val raw = file.stream()
+  private def opened(file: InputFile, noted: Content): Input =
+    def again() = open(file, noted)
+    def digested(in: InputStream) =
+      if noted == Content.Tokens && file.isRegular then Digesting(in, TokenDigest(), file.note)
+      else in
+    val raw = if noted == Content.Bytes then file.stream() else file.undigested()
     try
       val size = file.size
       raw.mark(2)
@@ -174,10 +191,10 @@ private object Input:
       raw.reset()
       if isPacked then
         val unpacked = Unpacked(raw, size, file.unpacks)
-        Input(unpacked, () => unpacked.maxRemaining, () => open(file))
+        Input(digested(unpacked), () => unpacked.maxRemaining, again)
       else
         val plain = Counted(raw)
-        Input(plain, () => size - plain.count, () => open(file))
+        Input(digested(plain), () => size - plain.count, again)
     catch
       case e: IOException =>
         raw.close()

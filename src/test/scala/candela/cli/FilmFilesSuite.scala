@@ -206,6 +206,52 @@ class FilmFilesSuite extends AnyFunSuite:
           why.startsWith(s"error: the scene of `${f("a.film")}` has changed: `part.pbrt` differs")
         )
 
+  test("comments, blanks and line breaks that are added to a scene's files change nothing"):
+    withScene(): f =>
+      f.render("--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+      f.rewrite("s.pbrt")("# a comment\n\n" + _.replace("[ ", "[").replace(" ]", " # there\n]"))
+      f.rewrite("part.pbrt")(_.replace("\" ", "\"\t\n") + "# the end")
+      f.run(Vector("resume", f("a.film"), "--spp", "5"))
+      f.rewrite("part.pbrt")(_.replace("3", "4"))
+      val why = f.fail(Vector("resume", f("a.film"), "--spp", "6"))
+      assert(why.contains("has changed: `part.pbrt` differs"), why)
+
+  test("of an XML file, comments, blanks and the order of attributes change nothing"):
+    val text = """<scene version="3.0.0"><default name="r" value="0.5"/>
+                 |<include filename="part.xml"/>
+                 |<sensor type="perspective"><film type="hdrfilm">
+                 |<integer name="width" value="8"/><integer name="height" value="8"/></film>
+                 |</sensor><emitter type="constant"/></scene>""".stripMargin
+    TempFolder.use: folder =>
+      val scene = Files.writeString(folder.resolve("s.xml"), text)
+      val part = """<scene version="3.0.0"><shape type="sphere"/></scene>"""
+      val _ = Files.writeString(folder.resolve("part.xml"), part)
+      val f = Folder(folder, scene)
+      f.render("--spp", "2", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+      f.rewrite("s.xml"):
+        _.replace(
+          "><",
+          "> <!-- here -->\n\t<"
+        ).replace("name=\"r\" value=\"0.5\"", "value='0.5' name='r'")
+      f.rewrite("part.xml")(_.replace(" type", "\n type"))
+      f.run(Vector("resume", f("a.film"), "--spp", "3"))
+      f.rewrite("part.xml")(_.replace("sphere", "disk"))
+      val why = f.fail(Vector("resume", f("a.film"), "--spp", "4"))
+      assert(why.contains("has changed: `part.xml` differs"), why)
+
+  test("where names with line numbers are saved, another line is another rendering"):
+    for option <- Vector("--aov CryptoObject", "--aov CryptoMaterial", "--light-groups statement")
+    do
+      withScene(): f =>
+        val words = option.split(" ").toVector ++
+          Vector("--spp", "2", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+        f.render(words*)
+        f.rewrite("s.pbrt")(_ + "# at the end, it moves nothing")
+        f.run(Vector("resume", f("a.film"), "--spp", "3"))
+        f.rewrite("s.pbrt")("# a line\n" + _)
+        val why = f.fail(Vector("resume", f("a.film"), "--spp", "4"))
+        assert(why.contains("has changed: `names with line numbers` differs"), why)
+
   test("a damaged film is replaced by its previous copy; without one it is refused"):
     withScene(): f =>
       f.render("--spp", "3", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
@@ -310,6 +356,11 @@ private object FilmFilesSuite:
     def captured(words: Seq[String]): (Int, Captured) =
       val captured = Captured()
       (Main.run(words, captured.terminal.out, captured.terminal.err), captured)
+
+    /** Changes the text of a file. */
+    def rewrite(name: String)(change: String => String): Unit =
+      val file = folder.resolve(name)
+      Files.writeString(file, change(Files.readString(file))): Unit
 
     /** Output and messages of a command that must succeed. */
     def run(words: Seq[String]): String =
