@@ -129,7 +129,8 @@ private[scenefile] final class ParserRun(
     catch
       case e: SceneError =>
         e.problems.foreach(doubts.add)
-        skipToDirective(in)
+        // A misspelt directive is told, too, but a misspelt argument not again as a directive
+        if !in.startsName || !in.startsLine then skipToDirective(in)
 
   private def skipToDirective(in: Tokenizer): Unit =
     val isThere = in.current == Token.Word && Directives.all.contains(in.text)

@@ -96,9 +96,17 @@ final class Tokenizer(
     while searching do
       try
         advance()
-        val isName = kind == Token.Word && source.bytes(start) >= 'A' && source.bytes(start) <= 'Z'
-        searching = kind != Token.End && !isName
+        searching = kind != Token.End && !startsName
       catch case _: SceneError => ()
+
+  /** Whether the current token is a bare word that starts with a capital. */
+  def startsName: Boolean =
+    kind == Token.Word && source.bytes(start) >= 'A' && source.bytes(start) <= 'Z'
+
+  /** Whether only blanks are before the current token in its line, as far as is known. */
+  def startsLine: Boolean =
+    tokenLine == line && lineStart >= 0 &&
+      (lineStart.toInt until start).forall(i => source.bytes(i) <= ' ')
 
   /** Whether the current token is a number. */
   def isNumber: Boolean = kind == Token.Word && number.scan(start) == cursor

@@ -19,6 +19,30 @@ class ParserErrorsSuite extends AnyFunSuite:
     val many = errors("WorldBegin" + " Shape 3" * 1100)
     assert(many.size == 1001 && many.last == "parsing stopped after 1000 errors")
 
+  test("what follows a mistake in a list, or in its number of values, is still checked"):
+    for
+      statement <- Vector(
+        "Material \"diffuse\" \"rgb reflectance\" [1 1]",
+        "Shape \"a\" \"point3 P\" [ 1 2 ]",
+        "Shape \"a\" \"texture t\" [ \"a\" \"b\" ]",
+        "Shape \"a\" \"float x\"",
+        "Shape \"a\" \"float x\" [ 1",
+        "Shape \"a\" \"flot x\" 1",
+        "Texture \"a\" \"color\"",
+        "Translate 1 2",
+        "Scal 1 2",
+        "MakeNamedMaterial \"a\" \"float x\" 1",
+        "Tranlate"
+      )
+    do
+      val both =
+        errors(s"WorldBegin\n$statement\n  AttributBegin # begins\nShape \"a\"\nAttributeEnd")
+      assert(both.size == 2 && both(1).contains("`AttributBegin`"), s"$statement: $both")
+
+  test("a misspelt argument is told once"):
+    for statement <- Vector("Translate 1 2 X", "Camera Perspective", "Shape \"a\" \"float x\" X") do
+      assert(errors(s"WorldBegin\n$statement\n").size == 1, statement)
+
   test("a transform of a number that no Float holds is an error"):
     val rows = Seq.fill(15)("0").mkString(" ")
     for text <- Seq("Translate 1e400 0 0", "Scale 1e300 1 1", s"Transform [ -1e400 $rows ]") do
