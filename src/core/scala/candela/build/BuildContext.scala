@@ -44,6 +44,10 @@ private[build] final class BuildContext(
   def in(resources: Resources): BuildContext =
     new BuildContext(description, origin, resources, problems)
 
+  /** The same scene, for what is checked and never rendered. */
+  def aside(findings: Findings): BuildContext =
+    new BuildContext(description, origin, resources.unread, findings)
+
   private val emissions = IdentityHashMap[Declaration, Option[AreaLightPlan]]()
 
   private val alike = Alike[Option[AreaLightPlan]](problems)

@@ -122,13 +122,7 @@ private[build] object MaterialTable:
           last = (s, ref)
           number((Finish(ref, s.oneSided), media.seen(border)))
       place += 1
-    for (name, d) <- named do
-      context.resources.materials.define(
-        name,
-        d.at,
-        Materials.parts(d),
-        other => Materials.build(context.in(other).site(d))
-      )
+    define(context)
     val families = MaterialFamilies(worn.size)
     def maker(
         context: BuildContext,
@@ -150,6 +144,16 @@ private[build] object MaterialTable:
       ofShape,
       split(_)._1
     )
+
+  /** Makes the named materials known. */
+  def define(context: BuildContext): Unit =
+    for (name, d) <- context.description.namedMaterials do
+      context.resources.materials.define(
+        name,
+        d.at,
+        Materials.parts(d),
+        other => Materials.build(context.in(other).site(d))
+      )
 
   private def isWornAlike(a: ShapeDescription, b: ShapeDescription): Boolean =
     a.oneSided == b.oneSided && a.insideMedium == b.insideMedium &&

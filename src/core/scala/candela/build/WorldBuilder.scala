@@ -87,6 +87,7 @@ private[build] final class WorldBuilder(
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
     val materials =
       clock.during(CostKind.Materials)(MaterialTable.of(context, integrator, media, shapes))
+    UnusedMaterials.check(context, shapes)(defineTextures)
 
     var lightCount = 0
     var place = 0

@@ -103,6 +103,7 @@ final case class TextureDescription(
   * @param dialectReason why it is that dialect, for the user
   * @param isFollowed whether the file has another world, another image, after this one
   * @param folder the folder of the scene file, through which its files are opened
+  * @param idleMaterials materials that are written in place, and that no shape has
   * @param unfiled SHA-256 of its parts that are in no file, by name
   */
 final case class SceneDescription(
@@ -135,7 +136,8 @@ final case class SceneDescription(
     dialectReason: String = "",
     isFollowed: Boolean = false,
     folder: SceneFolder = SceneFolder.Nowhere,
-    unfiled: Vector[(String, String)] = Vector.empty
+    unfiled: Vector[(String, String)] = Vector.empty,
+    idleMaterials: Vector[Declaration] = Vector.empty
 ):
   /** Whether the camera sees no area lights and no sky. */
   def hidesEmitters: Boolean =

@@ -33,6 +33,8 @@ final class SceneWriter(
   private val mediaBeforeCamera = mutable.HashSet.empty[String]
   private var unknownSystems = 0
   private val objectNames = mutable.HashMap.empty[String, String]
+  private val idle = IdleMaterials()
+  private val mixtures = Mixtures()
   private var inObject = Option.empty[(String, mutable.ArrayBuffer[ShapeDescription])]
   private var result = SceneDescription(Dialect.V4, folder = folder)
 
@@ -45,18 +47,9 @@ final class SceneWriter(
   var worldBegin = Option.empty[SourcePos]
   var worldEnd = Option.empty[SourcePos]
 
-  private val mixed = Vector.newBuilder[(Declaration, Param)]
-
-  /** Notes the materials of a mixture that are not defined yet. */
-  private def noteMixture(d: Declaration): Declaration =
-    if d.name == "mix" then
-      for p <- d.params if SceneWriter.MixedNames(p.name) && p.strings.size == 1 do
-        if !names.isTaken("material", p.strings.head) then mixed += (d -> p)
-    d
-
   /** Warnings about definitions whose place among other statements matters. */
   def displacedDefinitions(dialect: Dialect): Vector[Problem] =
-    lateDefinitions(dialect) ++ earlyDefinitions(dialect)
+    mixtures.ofLaterMaterials(dialect, result.namedMaterials) ++ earlyDefinitions(dialect)
 
   /** Media with a place that are defined before the camera. */
   private def earlyDefinitions(dialect: Dialect): Vector[Problem] =
@@ -72,26 +65,6 @@ final class SceneWriter(
         "`Camera`",
       Some("move its MakeNamedMedium after WorldBegin to place it in the world")
     )
-
-  /** Mixtures of materials that are defined after them. */
-  private def lateDefinitions(dialect: Dialect): Vector[Problem] =
-    val definitions = result.namedMaterials.map((name, material) => name -> material.at).toMap
-    val definitionPositions = result.namedMaterials.map((_, material) => material.at).toSet
-    def isNamed(d: Declaration) = definitionPositions(d.at)
-    for
-      (mixture, reference) <- mixed.result()
-      // pbrt-v2 looks for the parts of a `Material` when a shape has it
-      if dialect == Dialect.V3 || dialect == Dialect.V2 && isNamed(mixture)
-      later <- definitions.get(reference.strings.head)
-    yield
-      val name = reference.strings.head
-      Problem.warning(
-        Code.DefinedLater,
-        reference.valuesAt,
-        s"material `$name` is defined only later, at $later; pbrt mixes a grey \"matte\" instead " +
-          "and prints an error",
-        Some(s"move its MakeNamedMaterial before this statement")
-      )
 
   /** Whether the scene is v4's. */
   def inV4: Boolean = isV4()
@@ -112,7 +85,8 @@ final class SceneWriter(
       objects = VectorMap.from(objects),
       instances = instances.result(),
       media = media.values.toVector,
-      warnings = warnings
+      warnings = warnings,
+      idleMaterials = result.idleMaterials ++ idle.all
     )
     if dialect == Dialect.V4 then RenderingOrigin.placing(mediaBeforeCamera, scene) else scene
 
@@ -202,6 +176,7 @@ final class SceneWriter(
     val changed = f(description(result.dialect, Vector.empty))
     for collection <- Vector(textures, lights, shapes, instances) do collection.clear()
     for collection <- Vector(texturesByName, objects, media, objectNames) do collection.clear()
+    idle.clear()
     val begun = worldBegin
     startFrom(changed)
     worldBegin = begun
@@ -233,6 +208,7 @@ final class SceneWriter(
       state.insideMedium,
       state.outsideMedium
     )
+    idle.use(state.material)
     inObject match
       case Some((_, group)) => group += described
       case None => shapes += described
@@ -246,13 +222,18 @@ final class SceneWriter(
     val described = LightDescription(declare("Volume", from), state.transform)
     result = result.copy(volumes = result.volumes :+ described)
 
+  private def noted(material: Declaration): Declaration =
+    mixtures.note(material, names.isTaken("material", _))
+    material
+
   /** An empty name ends the area light. */
   def areaLight(from: Named): Unit =
     val light = Option.when(from.name.nonEmpty)(declare("AreaLightSource", from, "light"))
     changeState(_.copy(areaLight = light))
 
   def material(from: Named): Unit =
-    val material = MaterialRef.Inline(noteMixture(declare("Material", from, "material")))
+    val material = MaterialRef.Inline(noted(declare("Material", from, "material")))
+    idle.add(material)
     changeState(_.copy(material = material))
 
   def namedMaterial(name: String, at: SourcePos): Unit =
@@ -260,7 +241,7 @@ final class SceneWriter(
     changeState(_.copy(material = MaterialRef.Named(unique, at)))
 
   def makeNamedMaterial(from: Named): Unit =
-    val material = noteMixture(declareByType("Material", from, "material"))
+    val material = noted(declareByType("Material", from, "material"))
     val scope = state.scope
     val current = scope.materials.getOrElse(from.name, from.name)
     val unique =
@@ -393,7 +374,6 @@ object SceneWriter:
 
   /** Far more than there are parameters; each statement takes as long as there are defaults. */
   private val MaxDefaults = 1000
-  private val MixedNames = Set("namedmaterial1", "namedmaterial2")
   private val Examples = Map("Material" -> "diffuse", "Medium" -> "homogeneous")
 
 /** A quoted name with its position, and the parameters after it. */

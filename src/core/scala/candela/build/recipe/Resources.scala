@@ -65,7 +65,13 @@ final class Resources private (
   def in(other: ColorBasis): Resources =
     new Resources(other, pool, seed, shared, plainBasis, named)
 
-  export shared.*
+  /** Those of what is checked and never rendered: nothing is named yet, and pixels of images are
+    * not read.
+    */
+  def unread: Resources =
+    new Resources(basis, pool, seed, shared.unread, plainBasis, NamedMaterials.Statements())
+
+  export shared.{unread as _, *}
 
   /** Whether this is the basis that is built first. */
   def isPlain: Boolean = basis eq plainBasis

@@ -48,6 +48,12 @@ final class SharedResources(
     isReadable: Boolean = true,
     pool: Parallel = Parallel.Alone
 ):
+  /** Those of what is checked and never rendered. */
+  private[recipe] def unread: SharedResources =
+    SharedResources(
+      basis, mayBeSpectral, settings, rules, origin, allowance, textures, isReadable = false
+    )
+
   /** The spectra read so far. */
   val census = ColorCensus(basis, pool)
 

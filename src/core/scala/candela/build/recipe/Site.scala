@@ -140,6 +140,14 @@ final class Findings(
       help: => Option[String] = None
   ): Unit = if !lost(kind) then missing(code, at, message, standIn, help)
 
+  /** Warns of what is wrong in what is not rendered. */
+  def warnOf(unrendered: Findings): Unit =
+    for
+      p <- unrendered.all.toVector
+      at <- p.at
+      if synchronized(!told((Severity.Error, p.at, p.message)))
+    do warn(p.code, at, p.message, p.help)
+
   def result: Vector[Problem] = Excerpts.fill(all.toVector)
   def hasErrors: Boolean = errors > 0
 

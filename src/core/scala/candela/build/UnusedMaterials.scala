@@ -1,0 +1,40 @@
+package candela.build
+
+import candela.build.materials.Materials
+import candela.build.recipe.Findings
+import candela.scenefile.{Declaration, MaterialRef, SceneDescription, ShapeDescription}
+
+/** Checks materials that nothing rendered has. pbrt-v4 makes them, too, and refuses what is wrong
+  * with them, as Mitsuba does; older pbrts go on.
+  */
+private[build] object UnusedMaterials:
+
+  /** @param shapes   that are rendered
+    * @param textures defines textures
+    */
+  def check(context: BuildContext, shapes: Vector[ShapeDescription])(
+      textures: BuildContext => Unit
+  ): Unit =
+    val scene = context.description
+    val (named, inPlace) = (unusedNames(scene, shapes), scene.idleMaterials ++ ofObjects(scene))
+    if named.nonEmpty || inPlace.nonEmpty then
+      val isFatal = context.isV4
+      val findings = if isFatal then context.problems else Findings(lost = scene.failedKinds)
+      val aside = context.aside(findings)
+      aside.resources.defineLater(() => textures(aside))
+      MaterialTable.define(aside)
+      for (name, d) <- named do
+        aside.resources.materials(name, d.at, aside.resources, findings): Unit
+      for d <- inPlace do Materials.build(aside.site(d)): Unit
+      if !isFatal then context.problems.warnOf(findings)
+
+  private def unusedNames(scene: SceneDescription, shapes: Vector[ShapeDescription]) =
+    val used = shapes.iterator.map(_.material).collect { case MaterialRef.Named(name, _) => name }
+    val names = if scene.namedMaterials.isEmpty then Set.empty else used.toSet
+    scene.namedMaterials.filterNot((name, _) => names(name))
+
+  /** Of objects without instances. */
+  private def ofObjects(scene: SceneDescription): Vector[Declaration] =
+    val placed = if scene.objects.isEmpty then Set.empty else scene.instances.ofEach.map(_._1).toSet
+    val materials = scene.objects.view.filterKeys(!placed(_)).values.flatMap(_.map(_.material))
+    materials.toVector.distinct.collect { case MaterialRef.Inline(d) => d }
