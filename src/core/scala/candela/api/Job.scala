@@ -5,7 +5,10 @@ import candela.image.{Image, Oidn}
 import candela.job.{
   Denoising, EmptyImage, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared, Render
 }
-import candela.render.{RenderControl as CoreControl, RenderFailure, Rendering, StoppingRule}
+import candela.render.{
+  Cancellation as CoreCancellation, RenderControl as CoreControl, RenderFailure, Rendering,
+  StoppingRule
+}
 
 import java.nio.file.Path
 import java.util.concurrent.CancellationException
@@ -22,7 +25,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   private val plan = prepared.plan
   private val display = settings.of.output.display
   private val files = ImageFile(prepared.settings, scene.name, prepared)
-  @volatile private var isClosed = false
+  private val closing = CoreCancellation()
 
   /** Width of the image or crop window, in pixels. */
   def width: Int = plan.crop.width
@@ -57,7 +60,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     render(threads, RenderListeners.onProgress(progressed))
 
   /** Renders, and returns when the image is complete, a goal is reached, or the rendering is
-    * cancelled. The image does not depend on the threads.
+    * cancelled, as closing the job does. The image does not depend on the threads.
     *
     * @throws SceneException if the film file belongs to another rendering, or can't be read
     * @throws RenderException if a sample fails
@@ -80,10 +83,14 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     val state = if isClosed then "closed" else ""
     Shown("Job", scene.name, s"${width}x$height", Shown.perPixel(samplesPerPixel), state)
 
-  /** Ends its threads. */
+  /** Ends its threads. What it renders ends as if it were cancelled: each rendering returns its
+    * image so far within a second.
+    */
   def close(): Unit =
-    isClosed = true
+    closing.request()
     prepared.close()
+
+  private def isClosed = closing.isRequested
 
   private def keeping(
       file: Path,
@@ -106,7 +113,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     val goal = recorder.map(Goal(asked, plan.samplesPerPixel, _))
     val followed = Followed(control.listener, r => image(r, r.image(plan.development), None))
     val checkpoints = keeper.map(_.checkpointer(() => goal.exists(_.isReached)))
-    val stop = control.cancellation.of
+    val stop = CoreCancellation(control.cancellation.of, closing)
     val rule = goal.getOrElse(StoppingRule.Never)
     val how =
       CoreControl(control.threads, stop, followed, checkpointer = checkpoints, rule = rule)

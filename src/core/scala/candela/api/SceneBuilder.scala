@@ -43,23 +43,28 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   // The image, before the world
 
-  /** The camera, at the origin of the current transform, looking along z. */
+  // Of another scene, each replaces the statement; `change` keeps its other parameters
+
+  /** The camera, at the origin of the current transform, looking along z. In a scene that is
+    * edited, without a transform, it is where that scene's camera is.
+    */
   def camera(kind: String, parameters: Parameters): SceneBuilder =
-    named("Camera", kind, parameters)
+    setting(SceneSetting.Camera, "Camera", kind, parameters)
 
   /** The film: size and contents of the image. */
-  def film(kind: String, parameters: Parameters): SceneBuilder = named("Film", kind, parameters)
+  def film(kind: String, parameters: Parameters): SceneBuilder =
+    setting(SceneSetting.Film, "Film", kind, parameters)
 
   def sampler(kind: String, parameters: Parameters): SceneBuilder =
-    named("Sampler", kind, parameters)
+    setting(SceneSetting.Sampler, "Sampler", kind, parameters)
 
   /** The reconstruction filter. */
   def filter(kind: String, parameters: Parameters): SceneBuilder =
-    named("PixelFilter", kind, parameters)
+    setting(SceneSetting.Filter, "PixelFilter", kind, parameters)
 
   /** The integrator. */
   def integrator(kind: String, parameters: Parameters): SceneBuilder =
-    named("Integrator", kind, parameters)
+    setting(SceneSetting.Integrator, "Integrator", kind, parameters)
 
   /** An `Option` of pbrt-v4: one parameter. */
   def option(parameter: Parameters): SceneBuilder =
@@ -285,6 +290,19 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   private def words(directive: String, texts: String*): SceneBuilder =
     run(GivenStatement(directive, place, texts = texts.toVector))
+
+  private def setting(
+      which: SceneSetting,
+      directive: String,
+      kind: String,
+      parameters: Parameters
+  ): SceneBuilder =
+    val at = place
+    for
+      scene <- base.flatMap(_.description)
+      warning <- SceneEdits.dropped(which, parameters.at(at), at, scene)
+    do runner.report(warning)
+    named(directive, kind, parameters)
 
   private def named(directive: String, name: String, parameters: Parameters): SceneBuilder =
     val at = place

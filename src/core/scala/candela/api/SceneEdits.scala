@@ -33,6 +33,28 @@ private[api] object SceneEdits:
       case SceneSetting.Filter => scene.copy(filter = changed(scene.filter))
       case SceneSetting.Integrator => scene.copy(integrator = changed(scene.integrator))
 
+  /** What a scene's statement no longer says once a new one replaces it. */
+  def dropped(
+      setting: SceneSetting,
+      params: Vector[Param],
+      at: SourcePos,
+      scene: SceneDescription
+  ): Option[Found] =
+    val old = setting match
+      case SceneSetting.Camera => scene.camera
+      case SceneSetting.Film => scene.film
+      case SceneSetting.Sampler => scene.sampler
+      case SceneSetting.Filter => scene.filter
+      case SceneSetting.Integrator => scene.integrator
+    val names = old.toVector.flatMap(_.params.map(_.name)).filterNot(params.map(_.name).contains)
+    Option.when(names.nonEmpty):
+      val what = setting.toString.toLowerCase
+      val verb = if names.size == 1 then "has its default" else "have their defaults"
+      val message =
+        s"the new $what replaces the scene's: ${names.map(n => s"`$n`").mkString(", ")} $verb"
+      val help = s"change(SceneSetting.$setting, …) keeps what it doesn't name"
+      Found.warning(Code.IdleParameter, at, message, Some(help))
+
   /** @throws SceneError if there is no such material */
   def material(name: String, params: Vector[Param]): Edit = scene =>
     val names = scene.namedMaterials.map(_._1)

@@ -39,11 +39,14 @@ final case class Outlook(
     samples: Option[SampleRange] = None
 )
 
-/** Requests a rendering to stop soon and return the partial image. Thread-safe. */
-final class Cancellation:
+/** Requests a rendering to stop soon and return the partial image. Thread-safe.
+  *
+  * @param others whose requests are requests of this one
+  */
+final class Cancellation(others: Cancellation*):
   @volatile private var requested = false
   def request(): Unit = requested = true
-  def isRequested: Boolean = requested
+  def isRequested: Boolean = requested || others.exists(_.isRequested)
 
 /** NaN or infinite camera samples, discarded from the image.
   *

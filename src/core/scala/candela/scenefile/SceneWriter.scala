@@ -125,9 +125,12 @@ final class SceneWriter(
     val d = Some(declare(directive, from))
     result = directive match
       case "Camera" =>
-        coordinateSystems("camera") = GraphicsState.inverse(state.transform)
         if result.camera.isEmpty then mediaBeforeCamera ++= media.keys
-        result.copy(camera = d, worldToCamera = state.transform, cameraMedium = state.outsideMedium)
+        // That of an edited scene stays where it is, unless a transform is given
+        if !isBased || (state.transform ne GraphicsState.Identity) then
+          placeCamera()
+          result = result.copy(cameraMedium = state.outsideMedium)
+        result.copy(camera = d)
       case "Film" => result.copy(film = d)
       case "Sampler" => result.copy(sampler = d)
       case "PixelFilter" => result.copy(filter = d)

@@ -46,6 +46,9 @@ final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] 
         failedKinds ++= NameKind.definedBy(statement.directive)
         e.problems.foreach(problems.add)
 
+  /** Adds what else is wrong. */
+  def report(problem: Problem): Unit = problems.add(problem)
+
   /** Changes what the scene has so far.
     *
     * @param at where the program does so

@@ -79,6 +79,19 @@ class LibrarySuite extends AnyFunSuite:
     assert(asked > 0 && System.nanoTime - asked < 60_000_000_000L)
     assert(!result.isComplete && result.samplesPerPixel >= 1 && result.image.mean("R") > 0)
 
+  test("closing a job ends its rendering, which returns its image so far"):
+    val stop = Cancellation()
+    val job = LibraryScenes.built().scene().prepare(endless, 2)
+    val listener = new RenderListener:
+      override def progressed(progress: Progress): Unit =
+        if progress.samples > 1000 then job.close()
+        // Where closing does nothing, this ends the test
+        if progress.samples > 10_000_000 then stop.cancel()
+    val control = RenderControl().withThreads(2).withListener(listener).withCancellation(stop)
+    val result = job.render(control)
+    assert(!stop.isCancelled && !result.isComplete && result.image.mean("R") > 0)
+    assert(intercept[IllegalStateException](job.render(1)).getMessage.contains("closed"))
+
   test("an interrupted thread stops rendering"):
     @volatile var thrown = Option.empty[Throwable]
     @volatile var runs = false

@@ -146,6 +146,29 @@ class SceneBuilderSuite extends AnyFunSuite:
     val empty = start.edit().removeLights().removeShapes().scene()
     assert(image(empty).forall(_ == 0f))
 
+  test("a new camera without a transform is where the scene's is"):
+    val start = Candela.parse(LibraryScenes.text())
+    val wide = Parameters().number("fov", 70)
+    val there = start.edit().camera("perspective", wide).scene()
+    val text = LibraryScenes.text().replace("\"float fov\" 40", "\"float fov\" 70")
+    assert(there.problems.isEmpty && image(there) == image(Candela.parse(text)))
+    val moved = start.edit().lookAt(0, 2, -7, 0, 0, 0, 0, 1, 0).camera("perspective", wide).scene()
+    val movedText = text.replace("LookAt 0 1 -6", "LookAt 0 2 -7")
+    assert(moved.problems.isEmpty && image(moved) == image(Candela.parse(movedText)))
+    val atOrigin = start.edit().identity().camera("perspective", wide).scene()
+    assert(image(atOrigin) == image(Candela.parse(text.replace("LookAt 0 1 -6  0 0 0  0 1 0", ""))))
+
+  test("a new setting says which values of the scene's it drops"):
+    val start = Candela.parse(LibraryScenes.text())
+    val edited = start.edit()
+      .film("rgb", Parameters().integer("xresolution", 12))
+      .camera("orthographic", Parameters())
+      .sampler("independent", Parameters().integer("pixelsamples", 2)).scene()
+    val told = texts(edited.problems)
+    assert(told.size == 2 && told(0).contains("`yresolution` has its default"), told)
+    assert(told(1).contains("the new camera replaces the scene's: `fov`"), told)
+    assert(edited.problems.get(0).help.get.contains("change(SceneSetting.Film, …)"))
+
   test("a scene made in code has all its problems"):
     val scene = Candela.build()
       .film("rgbb", Parameters())
