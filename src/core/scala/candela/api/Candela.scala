@@ -3,7 +3,7 @@ package candela.api
 import candela.base.Version
 import candela.io.SceneFolder
 import candela.accel.tracing.Hierarchies
-import candela.job.{Render, SceneName}
+import candela.job.{Render, SceneFormat, SceneName}
 
 import java.nio.file.Path
 
@@ -31,15 +31,18 @@ object Candela:
       Render.withinLimits:
         Render.read(SceneName.existing(file.toString), how.of, how.control)
 
-  /** Reads a scene of pbrt's format from a text; file names in it are relative to the current
-    * folder.
+  /** Reads a scene from a text, of pbrt's format or Mitsuba's XML; file names in it are relative to
+    * the current folder.
     */
-  def parse(text: String): Scene = parse(text, Path.of("scene.pbrt"), ReadSettings())
+  def parse(text: String): Scene =
+    val suffix = SceneFormat.of(Path.of("scene"), text).suffixes.head
+    parse(text, Path.of(s"scene.$suffix"), ReadSettings())
 
   /** Reads a scene from a text.
     *
     * @param name name of the text in messages; the file need not exist. Its suffix determines the
-    *             format (`.xml`: Mitsuba); file names in the text are relative to its folder
+    *             format (`.xml`: Mitsuba), unless the text is XML; file names in the text are
+    *             relative to its folder
     */
   def parse(text: String, name: Path, how: ReadSettings): Scene =
     Scenes.read(name.toString, how):

@@ -38,8 +38,8 @@ object Render:
 
   /** Parses a text.
     *
-    * @param name of the text in messages; its suffix tells the format, and its folder is that of
-    *             file names
+    * @param name of the text in messages; its suffix tells the format, unless the text is XML, and
+    *             its folder is that of file names
     */
   def readText(
       name: Path,
@@ -47,7 +47,7 @@ object Render:
       reading: ReadSettings,
       control: BuildControl
   ): SceneDescription =
-    val format = SceneFormat.of(name)
+    val format = SceneFormat.of(name, text)
     val read = format.readText(name, text, control.limits.folder(name), reading)
     read.copy(unfiled = Vector(s"$name, a text" -> format.digest(text)))
 

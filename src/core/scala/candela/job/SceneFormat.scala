@@ -73,6 +73,13 @@ object SceneFormat:
   /** The format to read a file as: by any other name, it is pbrt's. */
   def of(file: Path): SceneFormat = named(file).getOrElse(Pbrt)
 
+  /** The format of a text: XML can be nothing but Mitsuba's.
+    *
+    * @param name tells it otherwise
+    */
+  def of(name: Path, text: String): SceneFormat =
+    if text.stripPrefix("\uFEFF").stripLeading.startsWith("<") then Mitsuba else of(name)
+
   /** `pbrt (.pbrt) or Mitsuba (.xml)` */
   def inWords: String =
     val each = all.map(f => s"${f.name} (${f.suffixes.map("." + _).mkString(", ")})")
@@ -118,6 +125,8 @@ object SceneFormat:
         Parser.readableText(name.toString, text, within, dialect, reading.keepGoing, defines)
       DialectChoice.of(read, dialect)
 
+    def digest(text: String): String = TokenDigest.of(text)
+
     private def checkSensors(file: Path, reading: ReadSettings): Unit =
       if reading.sensors.nonEmpty then
         val help = "--sensor chooses among those of Mitsuba's XML files"
@@ -125,8 +134,6 @@ object SceneFormat:
         throw SceneError(Problem.general(Code.OptionMisfit, message, Some(help)))
 
     def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
-    def digest(text: String): String = TokenDigest.of(text)
-
       if !Files.isRegularFile(file) then None // it can be read once
       else
         Parser.film(
@@ -172,7 +179,7 @@ object SceneFormat:
     ): SceneDescription =
       MitsubaScene.readable(name, reading.defines, reading.keepGoing, Some(within), Some(text))
 
-    def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
-      Some(None)
     def digest(text: String): String = XmlFile.ofText("", text).digest
 
+    def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
+      Some(None)

@@ -92,6 +92,23 @@ class LibrarySuite extends AnyFunSuite:
     assert(!stop.isCancelled && !result.isComplete && result.image.mean("R") > 0)
     assert(intercept[IllegalStateException](job.render(1)).getMessage.contains("closed"))
 
+  test("a text of XML is Mitsuba's, whatever it is called"):
+    val text =
+      """<scene version="3.0.0"><sensor type="perspective"><film type="hdrfilm">
+        |<integer name="width" value="4"/><integer name="height" value="3"/></film></sensor>
+        |<emitter type="constant"/></scene>""".stripMargin
+    for
+      before <- Vector("", "\n ", "\uFEFF", "<?xml version=\"1.0\"?>\n")
+      scene <- Vector(
+        Candela.parse(before + text),
+        Candela.parse(before + text, Path.of("a.pbrt"), ReadSettings())
+      )
+    do
+      assert(!scene.hasErrors, scene.problems)
+      assert(rendered(scene).image.mean("G") == 1)
+    val wrong = Candela.parse(text.replace("constant", "constan")).problems.get(0)
+    assert(wrong.file.get == "scene.xml")
+
   test("an interrupted thread stops rendering"):
     @volatile var thrown = Option.empty[Throwable]
     @volatile var runs = false
