@@ -182,6 +182,21 @@ class InMemory(unittest.TestCase):
         self.assertEqual(keys, ["red", "ball.radius", "sky.radiance", "width"])
         self.assertIn("did you mean `diffuse`?", str(caught.exception))
 
+    def test_wrong_types_and_wrong_values_of_a_dict_are_told_at_once(self):
+        scene = mitsuba()
+        scene["red"]["type"] = "difuse"
+        scene["red"]["reflectance"]["value"] = [2, "x"]
+        scene["ball"]["radius"] = -1
+        scene["sensor"]["film"]["width"] = "wide"
+        scene["thing"] = {"type": "zzz"}
+        scene["other"] = {"type": "sphere", "bsdf": {"type": "ref", "id": "thing"}}
+        scene["sky"]["scale"] = {"type": "rgb"}
+        with self.assertRaises(candela.SceneError) as caught:
+            candela.load_dict(scene)
+        keys = {p.key for p in caught.exception.problems}
+        self.assertLessEqual({"red", "red.reflectance", "thing", "sensor.film.width"}, keys)
+        self.assertNotIn("other.bsdf", keys)
+
     def test_what_the_renderer_finds_in_a_dict_has_a_key_and_no_line(self):
         warned, wrong = mitsuba(), mitsuba()
         warned["red"]["reflectanc"] = 0.5
@@ -369,6 +384,25 @@ class Scenes(unittest.TestCase):
         self.assertIn("albedo", image)
         with self.assertRaisesRegex(KeyError, "the layers are rgb"):
             image["nothing"]
+        for wrong, right in (("albdo", "albedo"), ("dept", "depth"), ("Alph", "alpha")):
+            if right in image:
+                with self.assertRaisesRegex(KeyError, f"did you mean '{right}'"):
+                    image[wrong]
+
+    def test_layers_have_the_names_of_the_option(self):
+        words = """albedo position gradient normal shadingnormal uv variance relativevariance depth
+            samples motion emission background direct indirect lights denoisingalbedo
+            denoisingnormal cryptoobject cryptomaterial alpha""".split()
+        image = candela.render(self.scene(), spp=2, aov=words)
+        sizes = {"depth": 0, "samples": 0, "alpha": 0, "uv": 2, "gradient": 2, "motion": 2}
+        sizes.update(cryptoobject=12, cryptomaterial=12)
+        for word in words:
+            size = sizes.get(word, 3)
+            shape = (16, 24, size) if size else (16, 24)
+            self.assertIn(word, image)
+            self.assertEqual(image[word].shape, shape, word)
+        np.testing.assert_array_equal(image["uv"][..., 1], image["v"])
+        np.testing.assert_array_equal(image["CryptoObject01"], image["cryptoobject"][..., 4:8])
 
     def test_the_same_pixels_are_in_an_image_file(self):
         pfm = self.folder / "x.pfm"

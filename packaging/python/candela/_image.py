@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ast
+import difflib
 import json
 import os
+import re
 import struct
 import tempfile
 import zipfile
@@ -67,18 +69,29 @@ class Image:
         return next(iter(self.layers.values()))
 
     def __getitem__(self, name: str) -> Any:
-        """A layer by its name, in upper or lower case; ``depth`` is ``Z``, as in EXR files."""
+        """A layer by its name, in upper or lower case, or by the name that ``aov`` gives it:
+        ``depth`` is ``Z``, as in EXR files. What files have as several layers is one array, with
+        their channels one after the other: ``uv`` is ``u`` and ``v``.
+        """
         if not isinstance(name, str):
             raise TypeError("an image has layers by name; image.rgb[y, x] is a pixel")
-        wanted = _ALIASES.get(name.lower(), name.lower())
-        for layer, values in self.layers.items():
-            if layer.lower() == wanted:
-                return values
-        raise KeyError(f"{name}: the layers are {', '.join(self.layers)}")
+        names = self._named(name)
+        if not names:
+            known = {*self.layers, *(word for word in _WORDS if self._named(word))}
+            near = difflib.get_close_matches(name.lower(), [word.lower() for word in known], 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            raise KeyError(f"{name}: the layers are {', '.join(self.layers)}{hint}")
+        return self.layers[names[0]] if len(names) == 1 else _joined(self, names)
 
     def __contains__(self, name: str) -> bool:
-        wanted = _ALIASES.get(name.lower(), name.lower())
-        return any(layer.lower() == wanted for layer in self.layers)
+        return bool(self._named(name))
+
+    def _named(self, name: str) -> List[str]:
+        """The layers that a name stands for."""
+        word = name.lower()
+        exact = [layer for layer in self.layers if layer.lower() == word]
+        pattern = re.compile(_WORDS.get(word, "(?!)"))
+        return exact or [layer for layer in self.layers if pattern.fullmatch(layer)]
 
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> Any:
         values = np.asarray(self.rgb)
@@ -111,7 +124,31 @@ class Image:
         return f"<candela.Image {self.width}x{self.height}: {', '.join(self.layers)}>"
 
 
-_ALIASES = {"depth": "z", "normal": "n", "shadingnormal": "ns", "position": "p"}
+# Layers by the names that the option gives them, where those of files are others
+_WORDS = {
+    "depth": "Z",
+    "normal": "N",
+    "shadingnormal": "Ns",
+    "position": "P",
+    "uv": "[uv]",
+    "gradient": "dzd[xy]",
+    "lights": "Combined_.*",
+    "cryptoobject": r"CryptoObject\d+",
+    "cryptomaterial": r"CryptoMaterial\d+",
+}
+
+
+def _joined(image: Image, names: List[str]) -> Any:
+    """An array of the channels of several layers, one after the other."""
+    if np is not None:
+        return np.dstack([image.layers[name] for name in names])
+    planes: List["array[float]"] = []
+    for name in names:
+        flat, count = _flat(image.layers[name]), len(image.channels[name])
+        planes += [flat[i::count] for i in range(count)]
+    values = array("f", (x for pixel in zip(*planes) for x in pixel))
+    shape = [image.height, image.width, len(planes)]
+    return memoryview(values).cast("B").cast("f", shape=shape)
 
 
 def load(path: PathLike) -> Image:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 from xml.etree.ElementTree import Element, ParseError
 
 from . import _xml
-from ._errors import Problem, SceneError, UsageError
+from ._errors import CandelaError, Problem, SceneError, UsageError
 
 if TYPE_CHECKING:
     from ._image import Image
@@ -98,10 +98,29 @@ def load_dict(scene: Dict[str, Any]) -> Scene:
     >>> scene.parameters()["ball.bsdf.reflectance"] = [0.8, 0.2, 0.1]
     >>> scene.render(spp=64)
 
-    Raises ``SceneError`` with all faults of the dict; those that the renderer finds come with
-    ``render`` and ``check``. A problem's ``key`` names its place, such as ``ball.bsdf``.
+    Raises ``SceneError`` if the dict has faults, with what the renderer finds in the rest of it;
+    what it finds in a dict without faults comes with ``render`` and ``check``. A problem's ``key``
+    names its place, such as ``ball.bsdf``.
     """
-    return Scene("scene.xml", None, _xml.of_dict(scene))
+    tree, faults = _xml.of_dict(scene)
+    made = Scene("scene.xml", None, tree)
+    if faults:
+        raise _xml.error_of_faults(faults + _others(made, faults))
+    return made
+
+
+def _others(scene: Scene, faults: List[Problem]) -> List[Problem]:
+    """The renderer's errors that don't come of the faults, which others may refer to."""
+    try:
+        found = scene.check()
+    except CandelaError:  # the faults are to be told, whatever else is wrong
+        return []
+    keys = {fault.key for fault in faults}
+    return [
+        p
+        for p in found
+        if p.severity == "error" and p.key and p.key not in keys and p.number != "E0403"
+    ]
 
 
 def load_string(text: str, folder: Optional[PathLike] = None) -> Scene:

@@ -17,11 +17,11 @@ from ._transform import Transform, rows
 Keys = List[str]  # of the elements that begin in each line of a text, from line 1
 
 
-def of_dict(scene: Dict[str, Any]) -> ET.Element:
-    """The tree of a dict as Mitsuba's ``load_dict`` takes it."""
+def of_dict(scene: Dict[str, Any]) -> Tuple[ET.Element, List[Problem]]:
+    """The tree of a dict as Mitsuba's ``load_dict`` takes it, without what is wrong with it."""
     faults: List[Problem] = []
     if not isinstance(scene, dict) or scene.get("type") != "scene":
-        raise _error([_fault("", "expected a dict with 'type': 'scene'")])
+        raise error_of_faults([_fault("", "expected a dict with 'type': 'scene'")])
     root = ET.Element("scene", version="3.0.0")
     for name, value in scene.items():
         if name == "type":
@@ -34,9 +34,7 @@ def of_dict(scene: Dict[str, Any]) -> ET.Element:
         del element.attrib["name"]
         element.attrib.setdefault("id", name)
         root.append(element)
-    if faults:
-        raise _error(faults)
-    return root
+    return root, faults
 
 
 _OBJECTS = set(ELEMENTS.values())
@@ -97,7 +95,10 @@ def _object(
         near = difflib.get_close_matches(str(kind), [*ELEMENTS, "rgb", "spectrum", "ref"], 1)
         message = "a dict needs a 'type'" if kind is None else f"unknown type `{kind}`"
         faults.append(_fault(key, message, "E0401", f"did you mean `{near[0]}`?" if near else None))
-        return None
+        element = ELEMENTS.get(near[0]) if near else None
+        if element is None:
+            return None
+        kind = near[0]  # so that what is wrong within it is told, too
     tree = ET.Element(element, type=str(kind), name=name)
     if isinstance(value.get("id"), str):
         tree.set("id", value["id"])
@@ -152,7 +153,7 @@ def _fault(key: str, message: str, number: str = "E0304", help: Optional[str] = 
     return Problem("error", message, text, number=number, key=key or None)
 
 
-def _error(faults: List[Problem]) -> SceneError:
+def error_of_faults(faults: List[Problem]) -> SceneError:
     return SceneError("\n".join(f.text for f in faults), tuple(faults))
 
 
@@ -246,7 +247,7 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         faults: List[Problem] = []
         new = _element(old.get("name", ""), _like(old, value), key, faults)
         if faults or new is None:
-            raise _error(faults)
+            raise error_of_faults(faults)
         new.tail = old.tail
         parent[list(parent).index(old)] = new
         self._changed()
