@@ -139,7 +139,8 @@ final class Views(session: Session, media: Media, image: String):
       Param.string("filename", in.at, s"$image.exr"),
       Param.bool("savefp16", in.at, isHalf),
       Param.bool("sampleborder", in.atOf("sample_border"), samplesBorder)
-    ) ++ bounds ++ alpha
+    ) ++ bounds ++ alpha ++ in.number("exposure").filter(_ != 0).map: stops =>
+      Param.float("exposure", in.atOf("exposure"), stops.toFloat)
     (width, height, session.declare("Film", "rgb", in.at, params))
 
   private def filterOf(in: Properties): Declaration =
@@ -202,7 +203,7 @@ private[mitsuba] object Views:
 
   /** Parameters of tone mapping, with values that change nothing. */
   private val ToneDefaults =
-    Seq("gamma" -> -1.0, "exposure" -> 0.0, "key" -> 0.18, "burn" -> 0.0)
+    Seq("gamma" -> -1.0, "key" -> 0.18, "burn" -> 0.0)
   private val Linear = "the image has linear values"
 
   /** Mitsuba's x points left, pbrt's right. */

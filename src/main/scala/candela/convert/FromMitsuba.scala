@@ -45,7 +45,8 @@ object FromMitsuba:
         withoutParams(
           withoutParams(opaque, "the layers of Mitsuba's \"aov\" are not written", "aovs"),
           "",
-          "sampleborder"
+          "sampleborder",
+          "exposure"
         )
       else if d.category == "Integrator" then
         integrator(withoutParams(d, "area lights and sky are visible", "hideemitters"))

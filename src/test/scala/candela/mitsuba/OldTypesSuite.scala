@@ -1,6 +1,9 @@
 package candela.mitsuba
 
+import candela.build.SceneBuilder
 import candela.color.Rgb
+import candela.image.{DisplayTransform, Exposure}
+import candela.settings.{OutputSettings, RenderSettings}
 
 /** Types and parameters of Mitsuba 0.6, by its manual. */
 class OldTypesSuite extends OldScenes:
@@ -146,7 +149,6 @@ class OldTypesSuite extends OldScenes:
     ) + box)
     assert(told == Vector(
       "`tonemapMethod` of film \"hdrfilm\" is not supported; the image has linear values",
-      "`exposure` of film \"hdrfilm\" is not supported; the image has linear values",
       "`label[1,2]` of film \"hdrfilm\" is not supported; nothing is written in its place"
     ))
     using("<sensor type=\"perspective\"><film type=\"mfilm\"/></sensor>", "0.6.0"): scene =>
@@ -154,6 +156,18 @@ class OldTypesSuite extends OldScenes:
       assert(
         scene.warnings.exists(_.message == "film \"mfilm\" is not supported; using \"hdrfilm\"")
       )
+
+  test("the exposure of a film is told with the option that shows it, unless that is given"):
+    val film = "<float name=\"exposure\" value=\"1.5\"/>"
+    using(sensor(more = fov, film = film) + box, "0.6.0"): scene =>
+      def told(stops: Float) =
+        val output = OutputSettings(display = DisplayTransform(exposure = Exposure.Stops(stops)))
+        SceneBuilder.build(scene, RenderSettings(output = output))._2
+      assert(scene.warnings.isEmpty && told(1.5f).isEmpty)
+      val Vector(warning) = told(0f): @unchecked
+      assert(warning.message == "`exposure` is not supported; the image has linear values")
+      assert(warning.help.exists(_.startsWith("--exposure 1.5 shows it")))
+    assert(warnings(sensor(more = fov, film = film.replace("1.5", "0")) + box).isEmpty)
 
   test("names of versions before 0.4 are read"):
     val old =

@@ -6,6 +6,7 @@ import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
 import candela.scenefile.Dialect
 import candela.film.{Development, SampleLimit, SpectralBands}
+import candela.image.Exposure
 
 object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
   private val scale =
@@ -39,7 +40,23 @@ object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image"):
     "layers of the first surface, each a name and a quantity: `a:depth` is the channel `a.T`",
     onlyMitsuba
   )
+  private val exposure =
+    float("exposure", "scale of the light in pictures", onlyMitsuba, unit = "stops")(0f)
+
+  /** Files have linear light; what pictures show is asked of options. */
+  private def warnOfExposure()(using site: Site): Unit =
+    val stops = exposure()
+    if site.resources.settings.output.display.exposure != Exposure.Stops(stops) then
+      for p <- site.declaration.param("exposure") do
+        site.problems.warn(
+          Code.Unsupported,
+          p.at,
+          "`exposure` is not supported; the image has linear values",
+          Some(s"--exposure ${DefaultText.number(stops)} shows it in pictures, such as .png files")
+        )
+
   override protected def make()(using Site): FilmSettings =
+    warnOfExposure()
     val layers = Option.when(alpha())(Layer.Alpha) ++
       named().flatMap: text =>
         val (name, word) = (text.take(text.lastIndexOf(':')), text.drop(text.lastIndexOf(':') + 1))
