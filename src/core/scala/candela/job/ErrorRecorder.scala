@@ -48,6 +48,13 @@ class ErrorRecorder(
       if reference.isEmpty then estimate.map(_.at(samples)) else points.lastOption.map(_.errors)
     errors.map(e => Math.sqrt(e.relativeMse)).filter(_.isFinite)
 
+  /** The estimated relative MSE, as `errorAt` has it, with its interval. */
+  def relativeMse(samples: Double): Option[Interval] =
+    for
+      error <- errorAt(samples)
+      limits <- interval(samples)
+    yield limits.copy(estimate = error * error)
+
   /** The estimated relative MSE after so many samples per pixel, with its 95 % interval. */
   def interval(samples: Double): Option[Interval] =
     estimate.map(_.interval(samples))

@@ -4,7 +4,8 @@ import candela.base.Version
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.WholeFile
 import candela.render.RenderPlan
-import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmLock, FilmWriter}
+import candela.measure.Interval
+import candela.render.storage.{Checkpoints, FilmError, FilmFile, FilmHeader, FilmLock, FilmWriter}
 
 import java.io.IOException
 import java.nio.file.{Files, Path}
@@ -31,15 +32,32 @@ final class FilmKeeper private (
   /** Samples that every pixel has already. */
   def samplesDone: Int = start.fold(0)(_.header.done)
 
-  /** @param isEnough whether the rendering ended because its goal was reached */
-  def checkpointer(isEnough: () => Boolean): Checkpoints =
+  /** @param isEnough whether the rendering ended because its goal was reached
+    * @param error    relative MSE of the image with so many samples per pixel, if it is known
+    */
+  def checkpointer(
+      isEnough: () => Boolean,
+      error: Int => Option[Interval] = _ => None
+  ): Checkpoints =
     def of(done: Int) =
       val isEarly = mayEndEarly && isEnough()
       val planned = if isEarly then Math.min(done, header.samples) else header.samples
-      header.copy(done = done, samples = planned)
+      val noise = error(done).orElse(savedError(done))
+      header.copy(
+        done = done,
+        samples = planned,
+        // A film without images may be one of several parts: their sum has no error
+        error = noise.filter(_ => header.outfiles.nonEmpty)
+          .map(i => FilmError(i.estimate, i.low, i.high))
+      )
     // A damaged file must not replace its previous copy.
     val writer = FilmWriter(path, isGood = start.forall(_.damage.isEmpty))
     Checkpoints(writer, of, start, how.every, why => how.warn(FilmKeeper.unwritable(path, why)))
+
+  /** The relative MSE of the saved image, if it has so many samples per pixel. */
+  def savedError(samples: Int): Option[Interval] =
+    start.map(_.header).filter(_.done == samples).flatMap(_.error)
+      .map(e => Interval(e.estimate, e.low, e.high))
 
 object FilmKeeper:
 

@@ -252,6 +252,16 @@ class FilmFilesSuite extends AnyFunSuite:
         val why = f.fail(Vector("resume", f("a.film"), "--spp", "4"))
         assert(why.contains("has changed: `names with line numbers` differs"), why)
 
+  test("a complete film that is run again has the error that it had"):
+    withScene(): f =>
+      val words = Vector("--spp", "16", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+      def error(said: String) = "error [^\n]* %( \\([^)]*\\))?".r.findFirstIn(said)
+      val first = error(f.render(words*))
+      assert(first.nonEmpty)
+      for _ <- 1 to 2 do
+        assert(error(f.render(words*)) == first)
+        assert(error(f.run(Vector("resume", f("a.film")))) == first)
+
   test("a damaged film is replaced by its previous copy; without one it is refused"):
     withScene(): f =>
       f.render("--spp", "3", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))

@@ -17,6 +17,7 @@ import candela.render.{RenderPlan, RenderState}
   * @param done     samples that every pixel has, of those of the shards
   * @param footprint size of a sample's footprint, in pixels; 0: not used
   * @param shards   numbers of the parts, of `count`
+  * @param error    of the image so far, if it is known
   */
 final case class FilmHeader(
     version: String,
@@ -30,7 +31,8 @@ final case class FilmHeader(
     done: Int,
     footprint: Float,
     shards: Set[Int],
-    count: Int
+    count: Int,
+    error: Option[FilmError] = None
 ):
   def isWhole: Boolean = shards.size == count
   def isComplete: Boolean = done >= samples
@@ -40,7 +42,8 @@ final case class FilmHeader(
     copy(
       shards = parts.flatMap(_.shards).toSet,
       count = parts.headOption.fold(count)(_.count),
-      done = parts.map(_.done).minOption.getOrElse(0)
+      done = parts.map(_.done).minOption.getOrElse(0),
+      error = None
     )
 
   /** A merger of all shards is a film of the whole if each is complete: then `resume` may go on.
@@ -99,6 +102,18 @@ final case class FilmHeader(
     to.int(count)
     to.int(shards.size)
     shards.toVector.sorted.foreach(to.int)
+    to.text(error.fold("")(_.words))
+
+/** The estimated relative MSE of an image, with its 95 % interval; limits that are NaN are unknown.
+  */
+final case class FilmError(estimate: Double, low: Double, high: Double):
+  private[storage] def words: String = s"$estimate $low $high"
+
+object FilmError:
+  private[storage] def of(words: String): FilmError =
+    val numbers = words.split(' ').flatMap(_.toDoubleOption)
+    require(numbers.length == 3, s"its error is `$words`")
+    FilmError(numbers(0), numbers(1), numbers(2))
 
 object FilmHeader:
   /** Samples per pixel of films of one rendering, averaged over all shards: missing ones have none.
@@ -135,6 +150,7 @@ object FilmHeader:
     val (words, outfiles, files) = (texts(), texts(), texts())
     val (samples, done, footprint, count) = (from.int(), from.int(), from.float(), from.int())
     val shards = Vector.fill(from.count(bytes = 4))(from.int()).toSet
+    val error = Some(from.text()).filter(_.nonEmpty).map(FilmError.of)
     val digests = files.grouped(2).map(pair => (pair(0), pair(1))).toVector
     require(samples > 0 && done >= 0, s"it has $done of $samples samples per pixel")
     require(
@@ -143,5 +159,5 @@ object FilmHeader:
     )
     FilmHeader(
       version, scene, folder, words, outfiles, digests, size, samples, done, footprint, shards,
-      count
+      count, error
     )

@@ -42,7 +42,8 @@ private[cli] final class SceneRun(
 
   def run(): ExitCode = terminal.interrupts.during(cancellation):
     val progress = ProgressLine(terminal.err, terminal.isInteractive, terminal.isReadByProgram)
-    val checkpoints = keeping.map(_.checkpointer(() => goal.exists(_.isReached)))
+    val checkpoints = keeping.map:
+      _.checkpointer(() => goal.exists(_.isReached), n => recorder.flatMap(_.relativeMse(n)))
     val watching = Option.when(options.isWatched)(watched())
     try
       val rendering = rendered(progress, checkpoints, watching)
@@ -130,11 +131,14 @@ private[cli] final class SceneRun(
     val after = Vector(develops -> developSeconds, "write" -> writeSeconds)
     val noise =
       for r <- recorder if !isPreview
-      yield Summary.noise(
-        rendering.samplesDone,
-        r.errorAt(rendering.samplesDone),
-        r.interval(rendering.samplesDone)
-      )
+      yield
+        val samples = rendering.samplesDone
+        r.errorAt(samples) match
+          case None =>
+            // A film that is complete already, of which nothing is measured anew
+            val saved = keeping.flatMap(_.savedError(samples))
+            Summary.noise(samples, saved.map(i => Math.sqrt(i.estimate)), saved)
+          case known => Summary.noise(samples, known, r.interval(samples))
     Summary.print(options, terminal, files, prepared, rendering, after, isLate, noise.getOrElse(""))
     writer.warnIfEmpty(rendering, image)
     // A preview has neither goals nor options of its own to reach them
