@@ -29,8 +29,16 @@ object EmptyImage:
         else "`candela preview` shows the surfaces in view"
       warning(Code.EmptyView, plan, why, help)
 
-  /** Of a rendered image. */
-  def problem(prepared: Prepared, rendering: Rendering, image: Image): Option[Problem] =
+  /** Of a rendered image.
+    *
+    * @param isForeseen whether its user knows why it has no light
+    */
+  def problem(
+      prepared: Prepared,
+      rendering: Rendering,
+      image: Image,
+      isForeseen: Boolean = false
+  ): Option[Problem] =
     val plan = prepared.plan
     val isPreview = prepared.settings.preview
     val colors = Colors(image)
@@ -39,14 +47,14 @@ object EmptyImage:
       else if colors.isMostly(colors.broken) then
         Some(s"${share(colors.broken, colors)} of the pixels are NaN" -> developed(rendering))
       else if colors.black == colors.pixels then
-        Some("the image is black" -> s": ${whyBlack(plan)}")
+        Option.unless(isForeseen)("the image is black" -> s": ${whyBlack(plan)}")
       else if colors.isMostly(colors.negative) then
         val what = s"${share(colors.negative, colors)} of the pixels have negative values"
         Some(what -> developed(rendering))
       // The headlight of a preview shades a wall so
       else if colors.isUniform && plan.sight.isDefined && (!isPreview || sameness(plan).nonEmpty)
       then
-        Some("all pixels have the same colour" -> sameness(plan))
+        Option.unless(isForeseen)("all pixels have the same colour" -> sameness(plan))
       else None
     told.map: (what, why) =>
       val preview = if isPreview then "" else "`candela preview` shows the surfaces in view, and "

@@ -46,15 +46,14 @@ class EmptyImageSuite extends AnyFunSuite:
   private val Foreseen = Code.EmptyView.word
   private val Afterwards = Code.EmptyImage.word
 
-  test("a camera that looks away is told by check, before rendering, and of the image"):
+  test("a camera that looks away is told by check, and once by render"):
     val text = scene(Sphere + Sun, look = "0 0 -5  0 0 -9")
     val checked = said(text, "check")
     assert(checked.contains(Foreseen) && checked.contains("looks past all surfaces"), checked)
     assert(checked.contains("scene.pbrt:2:8"), checked)
     val rendered = said(text, "render")
     assert(rendered.contains(Foreseen), rendered)
-    assert(rendered.contains("the image is black: the camera looks past all surfaces"), rendered)
-    assert(rendered.contains("candela preview") && rendered.contains("--pixelmaterial"), rendered)
+    assert(!rendered.contains(Afterwards), "one cause is told once")
 
   test("a camera in a closed surface is told of, with the distance and the statement"):
     val checked = said(scene(Room + Sun), "check")
@@ -64,7 +63,7 @@ class EmptyImageSuite extends AnyFunSuite:
     )
     assert(checked.contains("scene.pbrt:8:7") && checked.contains(Foreseen), checked)
     val rendered = said(scene(Room + Sun), "render")
-    assert(rendered.contains("no light comes from the surfaces that the camera sees"), rendered)
+    assert(rendered.contains(Foreseen) && !rendered.contains(Afterwards), rendered)
 
   test("a surface that no light reaches is told of after rendering"):
     val wall = "Translate 0 0 -2\nShape \"disk\" \"float radius\" 50\n"

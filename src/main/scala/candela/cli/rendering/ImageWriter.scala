@@ -1,5 +1,6 @@
 package candela.cli.rendering
 
+import candela.diagnostics.Code
 import candela.cli.files.{OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
@@ -39,7 +40,8 @@ private[cli] final class ImageWriter(
 
   /** Warns of an image that shows nothing. */
   def warnIfEmpty(rendering: Rendering, image: Image): Unit =
-    val problem = EmptyImage.problem(prepared, rendering, image)
+    val isForeseen = prepared.warnings.exists(_.code == Code.EmptyView)
+    val problem = EmptyImage.problem(prepared, rendering, image, isForeseen)
     report.warnings(Excerpts.fill(problem.toVector), all = true)
 
   /** An image without samples must not replace another one. */
