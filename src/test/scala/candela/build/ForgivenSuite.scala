@@ -121,7 +121,7 @@ final class ForgivenSuite extends AnyFunSuite:
 
   test("fields of view beyond 0 and 180 degrees are rendered"):
     def camera(fov: Int) = s"\"perspective\" \"float fov\" $fov"
-    val message = "`fov` must be between 0 and 180 degrees"
+    val message = "`fov` should be between 0 and 180 degrees"
     val window = "\"float screenwindow\" [-2 2 -1.5 1.5]"
     for d <- Seq(Dialect.V3, Dialect.V4) do
       for (fov, mean) <- Seq(0 -> 0.3f, 180 -> 1f, -40 -> 0.9646f, 200 -> 0.9998f) do

@@ -48,6 +48,11 @@ final class SensorsSuite extends AnyFunSuite:
       assert(name(Some(0), 4, 6) == "s-0.exr" && name(Some(1), 4, 6) == "s-1.exr")
       assert(name(Some(0), 4) == "s.exr")
 
+  test("a scene without a sensor is an error, as for Mitsuba's own program"):
+    TempFolder.use: folder =>
+      val (code, captured) = Captured.run(s"${scene(folder)}", "--outfile", s"$folder/v.exr")
+      assert(code == 1 && captured.err.contains("the scene has no sensor"), captured.err)
+
   test("sensors that are not there, and several for one image, are errors"):
     TempFolder.use: folder =>
       val file = scene(folder, 4, 6)

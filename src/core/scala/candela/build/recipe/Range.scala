@@ -63,22 +63,22 @@ final case class Range(
         s"within ±${DefaultText.number(Range.Largest)}"
       else s"$text$measure"
     val found = if odd.isNaN then "NaN" else DefaultText.number(odd)
-    val message = s"`${p.name}` must be $words, found $found"
+    def message(verb: String) = s"`${p.name}` $verb be $words, found $found"
     def nearest(x: Float): Float =
       if holds(x) then x
       else if outside == Outside.Limited then Math.max(least, Math.min(most, x))
       else Math.max(-Range.Largest, Math.min(Range.Largest, x))
     if !java.lang.Float.isFinite(odd) || outside == Outside.Refused then
-      site.problems.error(Code.ParameterValue, p.valuesAt, message)
+      site.problems.error(Code.ParameterValue, p.valuesAt, message("must"))
       // Lest what needs the parameter say that it is missing
       Option.unless(isOne)(p.mapped(x => if holds(x) then x else 0f))
     else
-      val instead =
-        if nearest(odd) == odd then "it"
-        else if isOne then DefaultText.number(nearest(odd))
-        else "the nearest"
-      val code = if nearest(odd) == odd then Code.ParameterValue else Code.CorrectedValue
-      site.problems.warn(code, p.valuesAt, s"$message; using $instead")
+      if nearest(odd) == odd then
+        val used = s"${message("should")}, which is used"
+        site.problems.warn(Code.ParameterValue, p.valuesAt, used)
+      else
+        val instead = if isOne then DefaultText.number(nearest(odd)) else "the nearest that is"
+        site.problems.warn(Code.CorrectedValue, p.valuesAt, s"${message("must")}; using $instead")
       Some(p.mapped(nearest))
 
 /** What becomes of numbers outside a range. */

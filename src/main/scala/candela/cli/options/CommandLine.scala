@@ -59,7 +59,8 @@ object CommandLine:
     val first = args.headOption.getOrElse("")
     val named = commandOf(first)
     def mistyped(word: String) =
-      val near = Suggest.nearest(word, Command.values.map(_.word) ++ Vector("help", "version"))
+      val known = Command.values.map(_.word) ++ Vector("help", "version")
+      val near = Synonyms.get(word).orElse(Suggest.nearest(word, known))
       near.map(n => noCommand(s"`$word` is not a command; did you mean `$n`?"))
     if args.exists(HelpWords) then Some(told(named))
     else if args.exists(VersionWords) || (first == "version" && args.size == 1) then
@@ -78,6 +79,23 @@ object CommandLine:
   /** Whether a word is neither an option nor a file. */
   private def isWord(word: String): Boolean =
     word.nonEmpty && word.forall(c => c >= 'a' && c <= 'z') && !Files.exists(Path.of(word))
+
+  /** Commands by the words that other programs have for them. */
+  private val Synonyms = Map(
+    "diff" -> "compare",
+    "difference" -> "compare",
+    "validate" -> "check",
+    "lint" -> "check",
+    "continue" -> "resume",
+    "combine" -> "merge",
+    "join" -> "merge",
+    "show" -> "view",
+    "display" -> "view",
+    "open" -> "view",
+    "benchmark" -> "bench",
+    "tonemap" -> "image",
+    "documentation" -> "describe"
+  )
 
   private val HelpWords = Set("--help", "-help", "-h", "-?")
   private val VersionWords = Set("--version", "-version", "-V")

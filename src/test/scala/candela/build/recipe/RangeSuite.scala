@@ -45,8 +45,12 @@ final class RangeSuite extends AnyFunSuite:
     val warning = "Warning: `x` must be from 0 to 1, found 2; using "
     assert(held(range, 2f) == (None, Vector(error)))
     assert(held(range.limited, 2f) == (Some(Seq(1f)), Vector(warning + "1")))
-    assert(held(range.limited, .5f, 2f) == (Some(Seq(.5f, 1f)), Vector(warning + "the nearest")))
-    assert(held(range.used, 2f) == (Some(Seq(2f)), Vector(warning + "it")))
+    assert(held(range.limited, .5f, 2f) == (
+      Some(Seq(.5f, 1f)),
+      Vector(warning + "the nearest that is")
+    ))
+    val used = "Warning: `x` should be from 0 to 1, found 2, which is used"
+    assert(held(range.used, 2f) == (Some(Seq(2f)), Vector(used)))
     assert(held(range.told, 2f) == (Some(Seq(2f)), Vector()))
 
   test("what is larger than 1e30 is limited, and infinity is an error, wherever numbers are used"):

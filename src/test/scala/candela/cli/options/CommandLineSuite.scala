@@ -135,6 +135,7 @@ class CommandLineSuite extends AnyFunSuite:
       "--spark can't be combined with --write-partial-images",
     "merge a.film" -> "`candela merge` needs --outfile FILE[,FILE]",
     "rneder a.pbrt" -> "`rneder` is not a command; did you mean `render`?",
+    "diff a.exr b.exr" -> "`diff` is not a command; did you mean `compare`?",
     "hlep" -> "`hlep` is not a command; did you mean `help`?",
     "help rendr" -> "`rendr` is not a command; did you mean `render`?",
     "help nothing" -> "`nothing` is not a command",
