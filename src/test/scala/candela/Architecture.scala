@@ -313,6 +313,17 @@ object Architecture:
       if FunctionWords.contains(name)
     yield s"${source.path}:${i + 1}: `$name` does not say what it counts"
 
+  private val declaration = raw"\b(?:val|var|def)\s+([a-z]\w*)".r
+
+  /** What is declared is named for what it is: `hit`, not `found`. */
+  def declarations(sources: Vector[SourceText]): Vector[String] =
+    for
+      source <- sources
+      (line, i) <- source.code.zipWithIndex
+      name <- declaration.findAllMatchIn(line).map(_.group(1))
+      if FunctionWords.contains(name) && !FunctionWords.terms(name)
+    yield s"${source.path}:${i + 1}: `$name` does not say what it is"
+
   /** A file fits in the mind, a line on the screen. */
   def sizes(sources: Vector[SourceText]): Vector[String] =
     sources.flatMap: source =>

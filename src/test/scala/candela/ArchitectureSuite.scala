@@ -50,7 +50,7 @@ class ArchitectureSuite extends AnyFunSuite:
     holds(Architecture.names(main))
 
   test("no constant that is a number has a function word as its name"):
-    holds(Architecture.constants(main ++ cluster))
+    holds(Architecture.constants(main ++ cluster) ++ Architecture.declarations(main ++ cluster))
 
   test("what a mutable class overwrites is typed as mutable"):
     holds(Architecture.scratch(main))
@@ -150,6 +150,15 @@ class ArchitectureSuite extends AnyFunSuite:
     assert(constants("  final val Patience = -.5") == wrong("Patience"))
     for line <- Vector("val MaxDepth = 3", "val Most = Depth(3)", "val most = 3", "// val Few = 3")
     do assert(constants(line).isEmpty, line)
+
+  test("a declaration whose name is a function word is found, usual terms are not"):
+    def declarations(line: String) = Architecture.declarations(planted("film/A.scala", "", line))
+    def wrong(name: String) = Vector(s"film/A.scala:2: `$name` does not say what it is")
+    assert(declarations("  val found = 3") == wrong("found"))
+    assert(declarations("  private inline def most: Int = 3") == wrong("most"))
+    assert(declarations("  @volatile var made = 0") == wrong("made"))
+    for line <- Vector("val mean = 3", "def of(x: Int) = 3", "hit(found)", "// val found = 3")
+    do assert(declarations(line).isEmpty, line)
 
   test("a use by full name is found"):
     val source = planted("scenefile/A.scala", "val s: candela.shapes.Shape = x // candela.render")

@@ -1,6 +1,8 @@
 package candela
 
-/** Words that say nothing of a quantity: a constant needs a name that says what it counts. */
+/** Words that say nothing of a thing: a constant needs a name that says what it counts, any other
+  * declaration one that says what it is.
+  */
 object FunctionWords:
   private val words: Set[String] =
     """all any around ask asked asks as at away back be been before begin behind best between
@@ -16,5 +18,13 @@ object FunctionWords:
       this those told too tried try tries under until up upon use used usual very want
       wants was way were what when where which while who whole why will with within
       without worn worth yet""".split("\\s+").toSet
+
+  /** Those that are a usual name of a thing, or half of a usual pair: `mean`, `Spectrum.of`, the
+    * `next` of an iterator, received and `sent`, the `parts` of an EXR file, the `leaves` of a tree,
+    * `from` and `to`.
+    */
+  val terms: Set[String] =
+    """all at by first from get in last leaves left long mean near next none of open out
+      part parts sent set take this up""".split("\\s+").toSet
 
   def contains(name: String): Boolean = words(name.toLowerCase)

@@ -138,7 +138,7 @@ object Instances:
       loop(from, until)(i => kinds(i) = kind(placements(i)._2, shared).toByte)
     val indices = IntBuffer()
     loop(placements.length)(i => if kinds(i) == NoRow then indices += i)
-    val withoutRow = indices.take()
+    val withoutRow = indices.drain()
     val staticCount = placements.length - withoutRow.length
     val objectOf = new Array[Int](placements.length)
     val motions = new Array[Motion](withoutRow.length)
@@ -170,11 +170,11 @@ object Instances:
             case at: MotionRow if kinds(i) == SharedRow => rowOf(k) = at.row
             case _ =>
               motion.write(0f, work, 0)
-              rows.put(rowOf(k), work)
+              rows.store(rowOf(k), work)
     // Most scenes have the rows of their instances in order
     val numbers = if rowOf.indices.forall(k => rowOf(k) == k) then null else rowOf
     val moving = motions.count(_.moves)
-    new Instances(objects, objectOf, rows.all, numbers, motions, moving, open, close)
+    new Instances(objects, objectOf, rows.numbers, numbers, motions, moving, open, close)
 
   private inline val OwnRow = 0
   private inline val SharedRow = 1

@@ -34,12 +34,13 @@ object Cryptomatte:
   /** Names of the layer's identifiers that occur in the image, and how they were found. */
   def metadata(name: String, legend: Seq[String], image: Image): Vector[(String, String)] =
     val ids = channels(name).filter(c => c.endsWith("R") || c.endsWith("B"))
-    val found = ids.map(image.channelNames.indexOf).flatMap: channel =>
+    val pixelIds = ids.map(image.channelNames.indexOf).flatMap: channel =>
       (0 until image.width * image.height).iterator.map(i =>
         image.data(i * image.channels + channel)
       )
-    val used = found.map(floatToRawIntBits).toSet
-    val entries = legend.distinct.map(n => n -> floatToRawIntBits(id(n))).filter(e => used(e._2))
+    val usedBits = pixelIds.map(floatToRawIntBits).toSet
+    val entries =
+      legend.distinct.map(n => n -> floatToRawIntBits(id(n))).filter(e => usedBits(e._2))
     val manifest =
       entries.map((n, bits) => "\"" + escaped(n) + "\":\"" + "%08x".format(bits) + "\"")
     val key = "cryptomatte/" + "%08x".format(floatToRawIntBits(id(name))).take(7)
@@ -84,7 +85,8 @@ object Cryptomatte:
   /** Identifiers by falling coverage, each with its coverage. */
   private[aov] final class Ranked(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] =
-      val found = Vector.tabulate(Slots)(i => (pixel(2 * i), pixel(2 * i + 1))).filter(_._1 != 0.0)
-      val ranked = found.sortBy((id, weight) => (-weight, id)).take(Ranks)
+      val entries =
+        Vector.tabulate(Slots)(i => (pixel(2 * i), pixel(2 * i + 1))).filter(_._1 != 0.0)
+      val ranked = entries.sortBy((id, weight) => (-weight, id)).take(Ranks)
       val values = ranked.flatMap((id, weight) => Vector(id, weight / pixel.weight))
       values.padTo(2 * Ranks, 0.0).toArray

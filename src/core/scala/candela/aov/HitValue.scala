@@ -48,5 +48,5 @@ object HitValue:
 
   private[aov] object ColorsAndCoverage extends Statistic(Light):
     def apply(pixel: PixelTally): Array[Double] =
-      val means = pixel.over(pixel.weight)
+      val means = pixel.dividedBy(pixel.weight)
       Array.tabulate(4)(i => if i < 3 then means(i) * pixel.scale else means(i))

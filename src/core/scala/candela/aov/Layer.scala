@@ -59,7 +59,12 @@ enum Layer(
         "shading normal",
         Direction(vector(_.shadingNormal))
       )
-  case Uv extends Layer("uv", Vector("u", "v"), "surface parameters", Mean(numbers(_.at.u, _.at.v)))
+  case Uv extends Layer(
+        "uv",
+        Vector("u", "v"),
+        "surface parameters",
+        Mean(numbers(_.point.u, _.point.v))
+      )
   case Variance
       extends Layer(
         "variance",
@@ -220,11 +225,11 @@ private[aov] object Tally:
     def apply(seen: VisibleSurface): Float
 
   def numbers(of: Number*): Tally = new Tally(of.length):
-    private val all = of.toArray
+    private val quantities = of.toArray
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
       var i = 0
-      while i < all.length do
-        sums.add(at + i, weight * all(i)(seen))
+      while i < quantities.length do
+        sums.add(at + i, weight * quantities(i)(seen))
         i += 1
 
   /** A tally that counts samples without a surface, too. */
@@ -312,11 +317,11 @@ private[aov] final class PixelTally(
     val q = sums(at + squares)
     val ofMean = s * s
     val ofSquares = n * q
-    val lost = Math.fma(n, q, -ofSquares) - Math.fma(s, s, -ofMean)
+    val rounding = Math.fma(n, q, -ofSquares) - Math.fma(s, s, -ofMean)
     val below = n * sums.remainder(at + squares) - 2 * s * sums.remainder(at + x)
-    Math.max(0.0, ofSquares - ofMean + (lost + below))
+    Math.max(0.0, ofSquares - ofMean + (rounding + below))
 
-  def over(weight: Double): Array[Double] =
+  def dividedBy(weight: Double): Array[Double] =
     Array.tabulate(size)(i => if weight != 0 then this(i) / weight else 0.0)
 
 /** Evaluates an AOV from the samples of a pixel.
@@ -329,19 +334,19 @@ private[aov] abstract class Statistic(val tally: Tally):
 private[aov] object Statistic:
   /** Average over samples that hit a surface. */
   final class Mean(tally: Tally) extends Statistic(tally):
-    def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.hitWeight)
+    def apply(pixel: PixelTally): Array[Double] = pixel.dividedBy(pixel.hitWeight)
 
   /** Average over all samples; misses count as 0. */
   final class MeanOfAll(tally: Tally) extends Statistic(tally):
-    def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.weight)
+    def apply(pixel: PixelTally): Array[Double] = pixel.dividedBy(pixel.weight)
 
   /** The same, in image values. */
   final class ScaledMeanOfAll(tally: Tally) extends Statistic(tally):
-    def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.weight).map(_ * pixel.scale)
+    def apply(pixel: PixelTally): Array[Double] = pixel.dividedBy(pixel.weight).map(_ * pixel.scale)
 
   /** Absolute value of the average. */
   final class Magnitude(tally: Tally) extends Statistic(tally):
-    def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.hitWeight).map(Math.abs)
+    def apply(pixel: PixelTally): Array[Double] = pixel.dividedBy(pixel.hitWeight).map(Math.abs)
 
   /** Normalised average. */
   final class Direction(tally: Tally) extends Statistic(tally):

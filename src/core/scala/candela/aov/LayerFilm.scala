@@ -35,20 +35,21 @@ final class LayerFilm(
   /** Adds a sample to its pixel. */
   def add(x: Int, y: Int, light: Rgb, weight: Float, seen: VisibleSurface): Unit =
     miss(x, y, weight)
-    val at = first(x, y)
+    val offset = first(x, y)
     val w = weight.toDouble
-    if seen.isThere then sums.add(at + 2, w)
+    if seen.isThere then sums.add(offset + 2, w)
     var i = 0
     while i < tallies.length do
       val tally = tallies(i)
-      if seen.isThere || !tally.needsSurface then tally.add(sums, at + offsets(i), w, light, seen)
+      if seen.isThere || !tally.needsSurface then
+        tally.add(sums, offset + offsets(i), w, light, seen)
       i += 1
 
   /** Adds a sample blocked by the camera. */
   def miss(x: Int, y: Int, weight: Float): Unit =
-    val at = first(x, y)
-    sums.add(at, 1)
-    sums.add(at + 1, weight)
+    val offset = first(x, y)
+    sums.add(offset, 1)
+    sums.add(offset + 1, weight)
 
   private def first(x: Int, y: Int): Int = stride * ((y - y0) * width + (x - x0))
 
@@ -58,18 +59,18 @@ final class LayerFilm(
   def load(from: CheckedInput): Unit =
     if !tallies.exists(_.joins) then sums.load(from)
     else
-      val more = ExactSums(sums.size)
-      more.load(from)
+      val added = ExactSums(sums.size)
+      added.load(from)
       loop(width * height): pixel =>
-        loop(tallies.length)(i => tallies(i).join(sums, stride * pixel + offsets(i), more))
-      sums.add(more)
+        loop(tallies.length)(i => tallies(i).join(sums, stride * pixel + offsets(i), added))
+      sums.add(added)
 
   /** Appends the AOV channels to the image.
     *
     * @param development how the image was made
     * @param splats      of light paths, if any: light scattered more than once
     */
-  def behind(image: Image, development: Development, splats: Option[SplatFilm] = None): Image =
+  def appendTo(image: Image, development: Development, splats: Option[SplatFilm] = None): Image =
     require(image.width == width && image.height == height)
     val names =
       image.channelNames ++ layers.flatMap(_.channelsOf(groups.getOrElse(Vector.empty)))
@@ -86,18 +87,18 @@ final class LayerFilm(
         layer.to(space) match
           case Some(matrix) => own => (matrix * own.toVector).toArray.map(_.toFloat)
           case None => _.map(_.toFloat)
-    val all = layers.indices.map: i =>
+    val outputs = layers.indices.map: i =>
       (statistics(i), splatted(layers(i), splats, development.scale), convert(layers(i)))
     loop(width * height): pixel =>
       val from = image.channels * pixel
       var to = names.size * pixel
       System.arraycopy(image.data, from, data, to, image.channels)
       to += image.channels
-      for (statistic, brought, converted) <- all do
-        val own = statistic(tallyOf(statistic, stride * pixel, development.scale))
+      for (statistic, brought, converted) <- outputs do
+        val raw = statistic(tallyOf(statistic, stride * pixel, development.scale))
         loop(brought.length): k =>
-          loop(3)(c => own(3 * k + c) += brought(k)(3 * pixel + c))
-        val values = converted(own)
+          loop(3)(c => raw(3 * k + c) += brought(k)(3 * pixel + c))
+        val values = converted(raw)
         System.arraycopy(values, 0, data, to, values.length)
         to += values.length
     Image(width, height, names, data, colorSpace = space)
@@ -108,21 +109,23 @@ final class LayerFilm(
       splats: Option[SplatFilm],
       scale: Float
   ): Array[Array[Float]] =
-    def part(add: (SplatFilm, Array[Float]) => Unit): Array[Float] =
+    def splatData(add: (SplatFilm, Array[Float]) => Unit): Array[Float] =
       val data = new Array[Float](3 * width * height)
       splats.foreach(add(_, data))
       data
     (layer, groups) match
       case (Layer.Indirect, Some(_)) if splats.isDefined =>
-        Array(part((film, data) => film.addTo(data, scale)))
+        Array(splatData((film, data) => film.addTo(data, scale)))
       case (Layer.Lights, Some(names)) if splats.isDefined =>
-        Array.tabulate(names.size)(group => part((film, data) => film.addTo(data, scale, group)))
+        Array.tabulate(names.size)(group =>
+          splatData((film, data) => film.addTo(data, scale, group))
+        )
       case _ => Array.empty
 
   private def tallyOf(statistic: Statistic, pixel: Int, scale: Float): PixelTally =
     val tally = statistic.tally
-    val at = pixel + offsets(tallies.indexOf(tally))
-    PixelTally(sums, at, tally.size, sums(pixel), sums(pixel + 1), sums(pixel + 2), scale)
+    val offset = pixel + offsets(tallies.indexOf(tally))
+    PixelTally(sums, offset, tally.size, sums(pixel), sums(pixel + 1), sums(pixel + 2), scale)
 
 object LayerFilm:
   /** Numbers of a pixel, while they are accumulated or in the image, whichever are more. */

@@ -51,13 +51,13 @@ final class LightParts(val groups: LightGroups):
 
   /** Becomes those of another sample, whose colours are in a basis. */
   def convert(from: LightParts, basis: ColorBasis): Unit =
-    var part = 0
-    while 3 * part < sums.length do
-      val color = basis.toSrgb(from(part))
-      sums(3 * part) = color.r
-      sums(3 * part + 1) = color.g
-      sums(3 * part + 2) = color.b
-      part += 1
+    var index = 0
+    while 3 * index < sums.length do
+      val color = basis.toSrgb(from(index))
+      sums(3 * index) = color.r
+      sums(3 * index + 1) = color.g
+      sums(3 * index + 2) = color.b
+      index += 1
 
   def scale(factor: Float): Unit = scale(0, sums.length, factor)
 
@@ -72,14 +72,14 @@ final class LightParts(val groups: LightGroups):
     * @param weight of the sample, which the limit includes
     * @return the light of all parts
     */
-  def limit(most: SampleLimit, weight: Float): Rgb =
-    val rest = this(Emission) + this(Background) + this(Direct)
+  def limit(sampleLimit: SampleLimit, weight: Float): Rgb =
+    val unlimited = this(Emission) + this(Background) + this(Direct)
     val indirect = this(Indirect)
-    val factor = most.scale(indirect * weight)
-    val limited = rest + indirect * factor
-    val whole = (rest + indirect).largest
+    val factor = sampleLimit.scale(indirect * weight)
+    val limited = unlimited + indirect * factor
+    val largest = (unlimited + indirect).largest
     scale(3 * Indirect, 3 * Indirect + 3, factor)
-    if whole > 0f then scale(3 * Groups, sums.length, limited.largest / whole)
+    if largest > 0f then scale(3 * Groups, sums.length, limited.largest / largest)
     limited
 
 object LightParts:

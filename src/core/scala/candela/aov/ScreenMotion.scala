@@ -15,7 +15,7 @@ final class ScreenMotion private (
     val shutter: Shutter
 ):
   private val map = new Array[Double](Motion.Work)
-  private val place = FilmPlace()
+  private val filmPoint = FilmPlace()
 
   def copy(): ScreenMotion = new ScreenMotion(camera, toCamera, shutter)
 
@@ -26,22 +26,23 @@ final class ScreenMotion private (
     * @param closing the point when it closes
     */
   def of(opening: Vec3, closing: Vec3): Vec3 =
-    if !see(opening, shutter.open) then Vec3.Zero
+    if !project(opening, shutter.open) then Vec3.Zero
     else
-      val (x, y) = (place.x, place.y)
-      if see(closing, shutter.close) then Vec3(place.x - x, place.y - y, 0f) else Vec3.Zero
+      val (x, y) = (filmPoint.x, filmPoint.y)
+      if project(closing, shutter.close) then Vec3(filmPoint.x - x, filmPoint.y - y, 0f)
+      else Vec3.Zero
 
   /** Through the middle of the lens. */
-  private def see(p: Vec3, time: Float): Boolean =
+  private def project(p: Vec3, time: Float): Boolean =
     toCamera.write(time, map, 0)
     def row(i: Int) = (map(i) * p.x + map(i + 1) * p.y + map(i + 2) * p.z + map(i + 3)).toFloat
-    camera.see(Vec3(row(0), row(4), row(8)), 0.5f, 0.5f, place)
+    camera.project(Vec3(row(0), row(4), row(8)), 0.5f, 0.5f, filmPoint)
 
 object ScreenMotion:
   /** None if the camera can't map points to the film. */
   def of(camera: Camera, shutter: Shutter): Option[ScreenMotion] =
-    val made = camera match
+    val projection = camera match
       case moving: MovingCamera =>
         new ScreenMotion(moving.camera, InverseMotion(moving.toWorld), shutter)
       case still => new ScreenMotion(still, Still(Transform.Identity), shutter)
-    Option.when(made.camera.isTraceable)(made)
+    Option.when(projection.camera.isTraceable)(projection)

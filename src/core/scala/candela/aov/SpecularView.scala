@@ -15,14 +15,14 @@ import candela.scene.Scene
 private[aov] final class SpecularView(scene: Scene):
   private val ray = Ray()
   private val hit = Hit()
-  private var found = false
+  private var hasSurface = false
   private var color = Rgb.Black
   private val normal = MutableVec3()
 
-  val at: ShadingPoint = scene.newPoint()
+  val point: ShadingPoint = scene.newPoint()
 
   /** False if the path escaped from the scene, or ended in specular surfaces. */
-  def isHit: Boolean = found
+  def isHit: Boolean = hasSurface
 
   /** Albedo of that surface, times the weight of the path. */
   def albedo: Rgb = color
@@ -34,7 +34,7 @@ private[aov] final class SpecularView(scene: Scene):
   def follow(from: Ray, start: ShadingPoint, startWo: Vec3, first: Bsdf, sample: Int): Unit =
     ray.time = from.time
     ray.differential.isKnown = false
-    found = false
+    hasSurface = false
     color = Rgb.White
     var (place, wo, bsdf) = (start, startWo, first)
     var depth = 0
@@ -47,16 +47,16 @@ private[aov] final class SpecularView(scene: Scene):
       if color.isBlack || depth > SpecularView.MaxDepth then goesOn = false
       else
         ray.set(place.offsetOrigin(wi), wi, Float.PositiveInfinity)
-        goesOn = scene.closestBehindInterfaces(ray, hit, at)
+        goesOn = scene.closestBehindInterfaces(ray, hit, point)
         if goesOn then
-          place = at
+          place = point
           wo = -wi
-          bsdf = scene.bsdf(at)
+          bsdf = scene.bsdf(point)
           if !bsdf.isSpecular then
             goesOn = false
-            found = true
-            color = color * DirectionalAlbedo(bsdf, at.frame.toLocal(wo))
-            normal.set(at.frame.n.facing(wo))
+            hasSurface = true
+            color = color * DirectionalAlbedo(bsdf, point.frame.toLocal(wo))
+            normal.set(point.frame.n.facing(wo))
 
 private object SpecularView:
   private val MaxDepth = 8

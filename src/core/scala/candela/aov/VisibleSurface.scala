@@ -42,14 +42,14 @@ final class VisibleSurface(
   private var isReflectionKnown = false
 
   /** The light of the camera ray, if the integrator divides it. */
-  var parts: LightParts | Null = null
+  var lightParts: LightParts | Null = null
 
   /** What the sample counts, before its filter weight. */
   var weight: Float = 1f
 
   /** The intersection, in world space. */
   val hit: Hit = Hit()
-  val at: ShadingPoint = scene.newPoint(always = true)
+  val point: ShadingPoint = scene.newPoint(always = true)
 
   def copy(): VisibleSurface =
     VisibleSurface(scene, output, basis, names, motionOnFilm, hidesEmitters, skyCovers, firstHit)
@@ -58,17 +58,17 @@ final class VisibleSurface(
     *
     * @param sample number of the pixel's sample
     */
-  def look(from: Ray, sample: Int = 0): Unit =
+  def trace(from: Ray, sample: Int = 0): Unit =
     this.sample = sample
-    if ownFirst != null then ownFirst.look(from)
+    if ownFirst != null then ownFirst.trace(from)
     ray.set(from.origin, from.direction, Float.PositiveInfinity)
     ray.time = from.time
     ray.differential.copy(from.differential)
-    isHit = scene.closestBehindInterfaces(ray, hit, at)
-    while isHit && hidesEmitters && at.areaLight >= 0 do
-      scene.passThrough(ray, at)
-      isHit = scene.closestBehindInterfaces(ray, hit, at)
-    if isHit then record(from, scene.bsdf(at))
+    isHit = scene.closestBehindInterfaces(ray, hit, point)
+    while isHit && hidesEmitters && point.areaLight >= 0 do
+      scene.passThrough(ray, point)
+      isHit = scene.closestBehindInterfaces(ray, hit, point)
+    if isHit then record(from, scene.bsdf(point))
 
   /** Records the hit in `at`. */
   private[aov] def record(from: Ray, scattering: Bsdf): Unit =
@@ -76,7 +76,7 @@ final class VisibleSurface(
     isReflectionKnown = false
     bsdf = scattering
     wo.set(-from.dx, -from.dy, -from.dz)
-    distance = (at.p - from.origin).length
+    distance = (point.p - from.origin).length
     output.write(from.time, map, 0)
 
   /** False if the ray missed; all other properties are then stale. */
@@ -88,15 +88,15 @@ final class VisibleSurface(
   /** What the ray meets first; exists if a layer asks for it. */
   def first: FirstHit = ownFirst.nn
 
-  def p: Vec3 = vector(at.p) + Vec3(map(3).toFloat, map(7).toFloat, map(11).toFloat)
+  def p: Vec3 = vector(point.p) + Vec3(map(3).toFloat, map(7).toFloat, map(11).toFloat)
 
   /** Unit normals facing the ray origin. */
-  def n: Vec3 = normal(at.geometricNormal.facing(wo))
-  def shadingNormal: Vec3 = normal(at.frame.n.facing(wo))
+  def n: Vec3 = normal(point.geometricNormal.facing(wo))
+  def shadingNormal: Vec3 = normal(point.frame.n.facing(wo))
 
   /** Change of z to the next sample to the right, and below. */
-  def dzdx: Float = if at.wantsPartials then vector(at.dpdx).z else 0f
-  def dzdy: Float = if at.wantsPartials then vector(at.dpdy).z else 0f
+  def dzdx: Float = if point.wantsPartials then vector(point.dpdx).z else 0f
+  def dzdy: Float = if point.wantsPartials then vector(point.dpdy).z else 0f
 
   /** Distance from the ray origin, in scene units. */
   def depth: Float = distance
@@ -105,26 +105,26 @@ final class VisibleSurface(
   def albedo: Rgb =
     val scattering = bsdf
     if scattering == null then Rgb.Black
-    else basis.toSrgb(DirectionalAlbedo(scattering, at.frame.toLocal(wo)))
+    else basis.toSrgb(DirectionalAlbedo(scattering, point.frame.toLocal(wo)))
 
   /** A part of the light. Undivided light is what the first surface emits. */
   def light(part: Int): Rgb =
-    val divided = parts
+    val divided = lightParts
     if divided != null then divided(part)
     else if isThere && part == LightParts.Emission then emitted
     else Rgb.Black
 
   /** Radiance emitted towards the camera, in linear sRGB. */
   private def emitted: Rgb =
-    if at.areaLight < 0 then Rgb.Black
-    else basis.toSrgb(scene.surfaceLight(at).radiance(at, wo))
+    if point.areaLight < 0 then Rgb.Black
+    else basis.toSrgb(scene.surfaceLight(point).radiance(point, wo))
 
   /** Motion on the film while the shutter is open, in pixels. */
   def motion: Vec3 =
     val projection = moved
     if projection == null || hit.primitive < 0 then Vec3.Zero
     else
-      val spare = reflection.at
+      val spare = reflection.point
       scene.surfaceAt(ray, hit, projection.shutter.open, spare)
       val opening = spare.p.toVec3
       scene.surfaceAt(ray, hit, projection.shutter.close, spare)
@@ -133,7 +133,7 @@ final class VisibleSurface(
   /** Identifiers of [[Cryptomatte]]; 0: unknown. */
   def objectId: Float =
     if hit.primitive < 0 then 0f else names.objectId(scene.objectIndex(hit))
-  def materialId: Float = names.materialId(at.material)
+  def materialId: Float = names.materialId(point.material)
 
   /** The albedo of the first surface that is not specular, times the weight of the path there; the
     * environment counts as white.
@@ -159,7 +159,7 @@ final class VisibleSurface(
     if !isReflectionKnown then
       isReflectionKnown = true
       val scattering = bsdf
-      if scattering != null then reflection.follow(ray, at, wo, scattering, sample)
+      if scattering != null then reflection.follow(ray, point, wo, scattering, sample)
 
   private def vector(v: Vec3): Vec3 = Vec3(
     (map(0) * v.x + map(1) * v.y + map(2) * v.z).toFloat,

@@ -29,7 +29,7 @@ object Candela:
   def read(file: Path, how: ReadSettings): Scene =
     Scenes.read(file.toString, how):
       Render.withinLimits:
-        Render.read(SceneName.existing(file.toString), how.of, how.control)
+        Render.read(SceneName.existing(file.toString), how.core, how.control)
 
   /** Reads a scene from a text, of pbrt's format or Mitsuba's XML; file names in it are relative to
     * the current folder.
@@ -46,7 +46,7 @@ object Candela:
     */
   def parse(text: String, name: Path, how: ReadSettings): Scene =
     Scenes.read(name.toString, how):
-      Render.withinLimits(Render.readText(name, text, how.of, how.control))
+      Render.withinLimits(Render.readText(name, text, how.core, how.control))
 
   /** Builds a scene in code; file names in it are relative to the current folder. */
   def build(): SceneBuilder = build(Path.of(""))

@@ -13,7 +13,7 @@ private[api] final class IdleStatements:
   private var open = List(Vector.empty[GivenStatement])
 
   /** Those of closed blocks. */
-  private var lost = Vector.empty[GivenStatement]
+  private var closed = Vector.empty[GivenStatement]
 
   def note(s: GivenStatement): Unit =
     for kind <- Kind.values if kind.uses(s.directive) do
@@ -23,21 +23,21 @@ private[api] final class IdleStatements:
     s.directive match
       case "AttributeBegin" | "ObjectBegin" => open = Vector.empty :: open
       case "AttributeEnd" | "ObjectEnd" if open.tail.nonEmpty =>
-        lost ++= open.head
+        closed ++= open.head
         open = open.tail
       case "WorldBegin" =>
         // The transform is the identity again
         val (transforms, others) = open.head.partition(s => Kind.Place.statements(s.directive))
-        lost ++= transforms
+        closed ++= transforms
         open = others :: open.tail
       case _ => ()
 
   /** @param isEdit whether another scene is edited, whose statements stay as they are */
   def warnings(isEdit: Boolean): Vector[CoreProblem] =
-    for s <- (lost ++ open.flatten).sortBy(_.at.line) yield
+    for s <- (closed ++ open.flatten).sortBy(_.pos.line) yield
       val kind = Kind.values.find(_.statements.contains(s.directive)).get
       val help = if isEdit then kind.inEdit else kind.inScene
-      CoreProblem.warning(Code.WrongPlace, s.at, s"${s.directive} has no effect here", Some(help))
+      CoreProblem.warning(Code.WrongPlace, s.pos, s"${s.directive} has no effect here", Some(help))
 
 private object IdleStatements:
   private val Shapes = Set("Shape")

@@ -23,7 +23,7 @@ import scala.collection.mutable.ArrayBuffer
 final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: Prepared)
     extends AutoCloseable:
   private val plan = prepared.plan
-  private val display = settings.of.output.display
+  private val display = settings.core.output.display
   private val files = ImageFile(prepared.settings, scene.name, prepared)
   private val closing = CoreCancellation()
 
@@ -41,9 +41,9 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
 
   /** Describes the scene and its rendering: integrator, lights, triangles, … */
   def features: JMap[String, String] =
-    val all = LinkedHashMap[String, String]()
-    for (what, value) <- plan.features do all.put(what, value): Unit
-    java.util.Collections.unmodifiableMap(all)
+    val entries = LinkedHashMap[String, String]()
+    for (what, value) <- plan.features do entries.put(what, value): Unit
+    java.util.Collections.unmodifiableMap(entries)
 
   /** Renders with one thread per processor. */
   def render(): RenderResult = render(RenderControl())
@@ -99,26 +99,26 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   ): FilmKeeper =
     val path = file.toAbsolutePath
     val header = FilmHeaders.of(prepared.settings, scene.name, prepared, path)
-    val how = FilmKeeper.How(control.every.map(_.toNanos * 1e-9), problems += _)
-    FilmKeeper.of(path, header, plan, how)(FilmKeeper.locked(path))
+    val filmOptions = FilmKeeper.How(control.every.map(_.toNanos * 1e-9), problems += _)
+    FilmKeeper.of(path, header, plan, filmOptions)(FilmKeeper.locked(path))
 
   private def rendered(
       control: RenderControl,
       keeper: Option[FilmKeeper],
       problems: ArrayBuffer[candela.diagnostics.Problem]
   ): RenderResult =
-    val asked = settings.of.goal
+    val target = settings.core.goal
     val recorder =
-      Option.when(control.estimates || asked.isGiven)(ErrorRecorder(plan.development, None))
-    val goal = recorder.map(Goal(asked, plan.samplesPerPixel, _))
+      Option.when(control.estimates || target.isGiven)(ErrorRecorder(plan.development, None))
+    val goal = recorder.map(Goal(target, plan.samplesPerPixel, _))
     val followed = Followed(control.listener, r => image(r, r.image(plan.development), None))
     val checkpoints = keeper.map(_.checkpointer(() => goal.exists(_.isReached)))
-    val stop = CoreCancellation(control.cancellation.of, closing)
+    val stop = CoreCancellation(control.cancellation.core, closing)
     val rule = goal.getOrElse(StoppingRule.Never)
-    val how =
+    val coreControl =
       CoreControl(control.threads, stop, followed, checkpointer = checkpoints, rule = rule)
     val rendering =
-      try Render.render(prepared, how)
+      try Render.render(prepared, coreControl)
       catch
         case e: RenderFailure =>
           throw RenderException(e.x, e.y, e.sample, Option(e.getCause).getOrElse(e))
@@ -127,7 +127,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
           Thread.currentThread.interrupt()
           throw CancellationException("the rendering thread was interrupted")
     val denoising =
-      Option.when(settings.of.output.denoise)(Denoising(Oidn.load(), control.threads))
+      Option.when(settings.core.output.denoise)(Denoising(Oidn.load(), control.threads))
     val developed = Render.develop(prepared, rendering, denoising)
     RenderResult(
       rendering,

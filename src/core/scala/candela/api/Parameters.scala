@@ -102,10 +102,10 @@ final class Parameters private (private val makers: Vector[SourcePos => Param]):
 
   /** As `Parameters(rgb reflectance, float roughness)`. */
   override def toString: String =
-    val names = at(SourcePos.Nowhere).map(p => s"${p.paramType.spelling} ${p.name}")
+    val names = located(SourcePos.Nowhere).map(p => s"${p.paramType.spelling} ${p.name}")
     Shown("Parameters", names*)
 
-  private[api] def at(place: SourcePos): Vector[Param] = makers.map(_(place))
+  private[api] def located(place: SourcePos): Vector[Param] = makers.map(_(place))
 
 object Parameters:
   /** None. */

@@ -14,46 +14,46 @@ enum Severity extends java.lang.Enum[Severity]:
   case Error
 
 /** An error or warning about a scene or a setting. Immutable. */
-final class Problem private[api] (found: candela.diagnostics.Problem):
-  private def at: Option[SourcePos] = found.at
+final class Problem private[api] (core: candela.diagnostics.Problem):
+  private def pos: Option[SourcePos] = core.pos
 
-  def severity: Severity = found.severity match
+  def severity: Severity = core.severity match
     case candela.diagnostics.Severity.Warning => Severity.Warning
     case candela.diagnostics.Severity.Error => Severity.Error
 
   /** Identifies meaning and cure, such as `E0201`; `candela explain` prints both. */
-  def number: String = found.code.word
+  def number: String = core.code.word
 
   /** The message, on one line. */
-  def message: String = found.message
+  def message: String = core.message
 
   /** The cure, if one is known. */
-  def help: Optional[String] = found.help.toJava
+  def help: Optional[String] = core.help.toJava
 
   /** The file, as it was named; in a scene built in code, the source file of the call. */
-  def file: Optional[String] = at.map(_.file).toJava
+  def file: Optional[String] = pos.map(_.file).toJava
 
   /** Line in the file, from 1; 0 if there is no file. */
-  def line: Int = at.fold(0)(_.line)
+  def line: Int = pos.fold(0)(_.line)
 
   /** Column in the line, from 1; 0 if there is no file; 1 in a scene built in code. */
-  def column: Int = at.fold(0)(_.column)
+  def column: Int = pos.fold(0)(_.column)
 
   /** The text of the line, if it is known. */
-  def excerpt: Optional[String] = found.excerpt.toJava
+  def excerpt: Optional[String] = core.excerpt.toJava
 
   /** On one line: `scene.pbrt:3:7: error: unknown material "matt"; did you mean "matte"?` */
   override def toString: String =
-    val place = at.fold("")(p => s"$p: ")
-    s"$place${severity.toString.toLowerCase}: $message${found.help.fold("")(h => s"; $h")}"
+    val prefix = pos.fold("")(p => s"$p: ")
+    s"$prefix${severity.toString.toLowerCase}: $message${core.help.fold("")(h => s"; $h")}"
 
 /** A scene that can't be rendered, or an invalid setting. Its message is that of the first error,
   * with its number, and says how many others there are. [[Candela.read]] and [[Scene.check]] return
   * problems instead of throwing them.
   */
 final class SceneException private[api] (
-    private[api] val found: Vector[candela.diagnostics.Problem]
-) extends RuntimeException(Problems.summary(found)):
+    private[api] val coreProblems: Vector[candela.diagnostics.Problem]
+) extends RuntimeException(Problems.summary(coreProblems)):
 
   /** All of them, errors and warnings, in the order of the scene; at least one. */
-  def problems: java.util.List[Problem] = Problems.ofCore(found)
+  def problems: java.util.List[Problem] = Problems.ofCore(coreProblems)

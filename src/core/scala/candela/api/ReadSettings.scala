@@ -13,10 +13,10 @@ import java.time.Duration
   * acceleration structures.
   */
 final class ReadSettings private (
-    private[api] val of: CoreSettings,
+    private[api] val core: CoreSettings,
     private[api] val control: BuildControl
 ):
-  private def controlled(other: BuildControl): ReadSettings = new ReadSettings(of, other)
+  private def controlled(other: BuildControl): ReadSettings = new ReadSettings(core, other)
 
   /** Sets the pbrt version, `v2`, `v3` or `v4`, instead of detecting it. */
   def withDialect(name: String): ReadSettings =
@@ -27,14 +27,14 @@ final class ReadSettings private (
         s"unknown dialect `$name`",
         Some(s"expected ${form.expected}")
       )
-    new ReadSettings(of.copy(dialect = Some(dialect)), control)
+    new ReadSettings(core.copy(dialect = Some(dialect)), control)
 
   /** Sets the parameter `$name` of a Mitsuba scene. */
   def withDefine(name: String, value: String): ReadSettings =
-    new ReadSettings(of.copy(defines = of.defines + (name -> value)), control)
+    new ReadSettings(core.copy(defines = core.defines + (name -> value)), control)
 
   /** Replaces missing textures, meshes and the like by placeholders, with warnings. */
-  def withPlaceholders: ReadSettings = new ReadSettings(of.copy(keepGoing = true), control)
+  def withPlaceholders: ReadSettings = new ReadSettings(core.copy(keepGoing = true), control)
 
   /** For untrusted scenes: they can read only files of their own folder, and have limits of size,
     * depth and count.
@@ -52,15 +52,15 @@ final class ReadSettings private (
 
   /** As `ReadSettings(dialect v3, sandbox)`: what is not the default. */
   override def toString: String =
-    val defines = of.defines.toVector.sorted.map((name, value) => s"$name=$value")
-    val rest = Vector(
-      of.dialect.map(d => s"dialect ${d.toString.toLowerCase}"),
-      Option.when(of.keepGoing)("placeholders"),
+    val defines = core.defines.toVector.sorted.map((name, value) => s"$name=$value")
+    val flags = Vector(
+      core.dialect.map(d => s"dialect ${d.toString.toLowerCase}"),
+      Option.when(core.keepGoing)("placeholders"),
       Option.when(control.limits.sandbox)("sandbox"),
       control.limits.endsAt.map(_ => "time limit"),
       control.world.map(n => s"world $n")
     )
-    Shown("ReadSettings", (defines ++ rest.flatten)*)
+    Shown("ReadSettings", (defines ++ flags.flatten)*)
 
 object ReadSettings:
   /** The default settings. */

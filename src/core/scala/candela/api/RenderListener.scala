@@ -42,7 +42,7 @@ final class Progress private[api] (of: CoreProgress):
   def planned: Long = of.total
 
   /** Completed fraction, in [0, 1]: of the samples, or of the time if a goal ends the rendering. */
-  def part: Double = of.part
+  def part: Double = of.fraction
   def elapsed: Duration = Times.of(of.seconds)
 
   /** Estimated time left. */
@@ -94,6 +94,6 @@ private[api] final class Followed(
     this.live = Some(live)
     to.started(LiveRendering(live, () => develop(live.rendering)))
   override def progressed(progress: CoreProgress): Unit = to.progressed(Progress(progress))
-  override def looks: Looks = if to.wantsPasses then Looks.Doublings else Looks.Never
+  override def frequency: Looks = if to.wantsPasses then Looks.Doublings else Looks.Never
   override def passed(pass: CorePass, film: Film): Unit =
     for l <- live do to.passed(Pass(pass, () => develop(l.rendering)))

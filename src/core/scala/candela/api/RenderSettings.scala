@@ -15,8 +15,8 @@ import scala.jdk.CollectionConverters.*
 /** What to render. Immutable: each method returns a new value. Scene, settings and number of
   * samples determine every bit of the image.
   */
-final class RenderSettings private (private[api] val of: CoreSettings):
-  private def change(f: CoreSettings => CoreSettings): RenderSettings = RenderSettings(f(of))
+final class RenderSettings private (private[api] val core: CoreSettings):
+  private def change(f: CoreSettings => CoreSettings): RenderSettings = RenderSettings(f(core))
   private def end(f: RenderGoal => RenderGoal): RenderSettings =
     change(s => s.copy(goal = f(s.goal)))
 
@@ -46,8 +46,8 @@ final class RenderSettings private (private[api] val of: CoreSettings):
         val help = Suggest.help(name, Layer.values.map(_.word).toVector)
         Problems.fail(Code.UnknownEntry, s"unknown layer `$name`", help)
     change: s =>
-      val all = s.adding(added)
-      all.copy(layers = all.layers.distinct)
+      val extended = s.adding(added)
+      extended.copy(layers = extended.layers.distinct)
 
   /** Adds a layer for each light group: `statement` makes a group of each statement, `type` of each
     * type of light; `key=point_12+spot_14,sky=infinite` names custom groups.
@@ -63,21 +63,21 @@ final class RenderSettings private (private[api] val of: CoreSettings):
   /** Sets a command-line option by its name, without `--`: `withOption("fireflies", "reweight")`.
     * Available are the options of `candela render` that affect the image and its files.
     */
-  def withOption(name: String, value: String): RenderSettings = put(name, Some(value))
+  def withOption(name: String, value: String): RenderSettings = setOption(name, Some(value))
 
   /** An option without a value: `withOption("preview")`. */
-  def withOption(name: String): RenderSettings = put(name, None)
+  def withOption(name: String): RenderSettings = setOption(name, None)
 
-  private def put(name: String, value: Option[String]): RenderSettings =
-    val known = SettingsTable.named(name).getOrElse:
+  private def setOption(name: String, value: Option[String]): RenderSettings =
+    val setting = SettingsTable.named(name).getOrElse:
       val help = Suggest.help(name, SettingsTable.all.map(_.name))
       Problems.fail(Code.UnknownEntry, s"unknown setting `$name`", help)
-    if known.takesValue != value.isDefined then
-      val found = if value.isDefined then "found one" else "found none"
-      val wanted = if known.takesValue then "a value" else "no value"
-      Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $found")
+    if setting.takesValue != value.isDefined then
+      val actual = if value.isDefined then "found one" else "found none"
+      val wanted = if setting.takesValue then "a value" else "no value"
+      Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $actual")
     val text = value.getOrElse("")
-    known.change(text) match
+    setting.change(text) match
       case Some(changed) => change(changed)
       case None => Problems.fail(Code.OptionValue, s"wrong value of `$name`: `$text`")
 
@@ -86,13 +86,13 @@ final class RenderSettings private (private[api] val of: CoreSettings):
     else Problems.fail(Code.OptionValue, s"$what must be above 0, found $value")
 
   /** The settings that are not the default, as words of a command line. */
-  def words: JList[String] = java.util.List.copyOf(SettingsCodec.words(of).asJava)
+  def words: JList[String] = java.util.List.copyOf(SettingsCodec.words(core).asJava)
 
   override def equals(other: Any): Boolean = other match
-    case that: RenderSettings => of == that.of
+    case that: RenderSettings => core == that.core
     case _ => false
-  override def hashCode: Int = of.hashCode
-  override def toString: String = SettingsCodec.words(of).mkString("RenderSettings(", " ", ")")
+  override def hashCode: Int = core.hashCode
+  override def toString: String = SettingsCodec.words(core).mkString("RenderSettings(", " ", ")")
 
 object RenderSettings:
   /** The scene's own settings. */
@@ -104,4 +104,4 @@ object RenderSettings:
   /** The scene's own settings, for Java and Kotlin. */
   def create(): RenderSettings = apply()
 
-  private def apply(of: CoreSettings): RenderSettings = new RenderSettings(of)
+  private def apply(core: CoreSettings): RenderSettings = new RenderSettings(core)

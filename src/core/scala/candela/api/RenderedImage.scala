@@ -45,29 +45,29 @@ final class RenderedImage private[api] (
     * @throws SceneException if there is no such channel
     */
   def channel(name: String): Array[Float] =
-    val at = index(name)
-    Array.tabulate(width * height)(pixel => image.data(pixel * image.channels + at))
+    val channelIndex = index(name)
+    Array.tabulate(width * height)(pixel => image.data(pixel * image.channels + channelIndex))
 
   /** Mean of a channel's values.
     *
     * @throws SceneException if there is no such channel
     */
   def mean(name: String): Double =
-    val at = index(name)
+    val channelIndex = index(name)
     val count = width * height
     var sum = 0.0
     var pixel = 0
     while pixel < count do
-      sum += image.data(pixel * image.channels + at)
+      sum += image.data(pixel * image.channels + channelIndex)
       pixel += 1
     sum / count
 
   private def index(name: String): Int =
-    val at = image.channelNames.indexOf(name)
-    if at < 0 then
-      val all = image.channelNames.mkString(", ")
-      Problems.fail(Code.ImageEdit, s"the image has no channel `$name`", Some(s"it has $all"))
-    at
+    val channelIndex = image.channelNames.indexOf(name)
+    if channelIndex < 0 then
+      val available = image.channelNames.mkString(", ")
+      Problems.fail(Code.ImageEdit, s"the image has no channel `$name`", Some(s"it has $available"))
+    channelIndex
 
   /** Writes a file in the format of its name: `.exr` with all channels, `.pfm` with the colours,
     * `.png`, `.jpg`, `.qoi` or `.tga` as shown on a screen. If it fails, an existing file stays.
@@ -81,7 +81,7 @@ final class RenderedImage private[api] (
     Shown("RenderedImage", s"${width}x$height" +: image.channelNames*)
 
   /** The bytes of a PNG file. */
-  def png: Array[Byte] = Problems.thrown(ImageFiles.png(Denoising.shown(image), display))
+  def png: Array[Byte] = Problems.thrown(ImageFiles.png(Denoising.displayed(image), display))
 
 private[api] object RenderedImages:
   /** The image of a rendering, whose files have its metadata. */

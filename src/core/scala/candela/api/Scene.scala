@@ -15,20 +15,20 @@ import scala.jdk.CollectionConverters.*
 final class Scene private[api] (
     val name: String,
     private[api] val description: Option[SceneDescription],
-    private val found: Vector[candela.diagnostics.Problem],
-    private[api] val how: ReadSettings,
+    private val readProblems: Vector[candela.diagnostics.Problem],
+    private[api] val reading: ReadSettings,
     private val isBuilt: Boolean = false
 ):
-  private lazy val known: Vector[candela.diagnostics.Problem] =
-    if isBuilt then checked(RenderSettings()) else found
+  private lazy val coreProblems: Vector[candela.diagnostics.Problem] =
+    if isBuilt then checked(RenderSettings()) else readProblems
 
   /** Errors and warnings: of a file or a text, those of reading it, and [[check]] returns all; of a
     * scene built or edited in code, all.
     */
-  def problems: JList[Problem] = Problems.ofCore(known)
+  def problems: JList[Problem] = Problems.ofCore(coreProblems)
 
   /** Whether errors prevent rendering, as far as [[problems]] has them. */
-  def hasErrors: Boolean = known.exists(_.severity == Grade.Error)
+  def hasErrors: Boolean = coreProblems.exists(_.severity == Grade.Error)
 
   /** The shapes, each in a few words, for edits by their indices; those of objects, which instances
     * place, are not among them.
@@ -39,10 +39,10 @@ final class Scene private[api] (
         case MaterialRef.Default => ""
         case MaterialRef.Named(name, _) => s"material $name"
         case MaterialRef.Inline(m) => s"material of type ${m.name}"
-      Vector(s"${s.shape.name} of ${s.shape.at}", material) ++ s.areaLight.map(_ => "area light")
+      Vector(s"${s.shape.name} of ${s.shape.pos}", material) ++ s.areaLight.map(_ => "area light")
 
   /** The lights but area lights, each in a few words, for edits by their indices. */
-  def lights: JList[String] = listed(_.lights)(l => Vector(s"${l.light.name} of ${l.light.at}"))
+  def lights: JList[String] = listed(_.lights)(l => Vector(s"${l.light.name} of ${l.light.pos}"))
 
   private def listed[A](all: SceneDescription => Vector[A])(words: A => Vector[String]) =
     val texts = description.fold(Vector.empty)(all).map(words(_).filter(_.nonEmpty).mkString(", "))
@@ -80,7 +80,7 @@ final class Scene private[api] (
       val ready = Problems.thrown(prepared(settings, threads, isRendered = false))
       ready.close()
       ready.warnings
-    catch case e: SceneException => e.found
+    catch case e: SceneException => e.coreProblems
 
   /** Starts an edited copy of this scene. */
   def edit(): SceneBuilder =
@@ -92,26 +92,26 @@ final class Scene private[api] (
     Shown("Scene", description.fold(Vector(name, "unreadable"))(Shown.contents(name, _))*)
 
   /** @throws SceneError if there is nothing */
-  private def readable: SceneDescription = description.getOrElse(throw SceneException(found))
+  private def readable: SceneDescription = description.getOrElse(throw SceneException(readProblems))
 
   private def prepared(settings: RenderSettings, threads: Int, isRendered: Boolean): Prepared =
-    val known = description.getOrElse(throw SceneError(found))
-    val all = settings.of.copy(reading = how.of)
-    val control = how.control.copy(threads = threads, isRendered = isRendered)
+    val parsed = description.getOrElse(throw SceneError(readProblems))
+    val coreSettings = settings.core.copy(reading = reading.core)
+    val control = reading.control.copy(threads = threads, isRendered = isRendered)
     // Lest an image be lost after all the time that it takes
-    if all.output.denoise then Oidn.load(): Unit
-    Render.withinLimits(Render.build(known, all, control))
+    if coreSettings.output.denoise then Oidn.load(): Unit
+    Render.withinLimits(Render.build(parsed, coreSettings, control))
 
 private[api] object Scenes:
 
   /** What `body` reads. */
-  def read(name: String, how: ReadSettings)(body: => SceneDescription): Scene =
-    try of(name, body, how)
-    catch case e: SceneError => Scene(name, None, e.problems, how)
+  def read(name: String, reading: ReadSettings)(body: => SceneDescription): Scene =
+    try of(name, body, reading)
+    catch case e: SceneError => Scene(name, None, e.problems, reading)
 
-  def of(name: String, description: SceneDescription, how: ReadSettings): Scene =
-    Scene(name, Some(description), description.errors ++ description.warnings, how)
+  def of(name: String, description: SceneDescription, reading: ReadSettings): Scene =
+    Scene(name, Some(description), description.errors ++ description.warnings, reading)
 
   /** A scene built in code. */
-  def built(name: String, description: SceneDescription, how: ReadSettings): Scene =
-    Scene(name, Some(description), Vector.empty, how, isBuilt = true)
+  def built(name: String, description: SceneDescription, reading: ReadSettings): Scene =
+    Scene(name, Some(description), Vector.empty, reading, isBuilt = true)

@@ -68,10 +68,10 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   /** An `Option` of pbrt-v4: one parameter. */
   def option(parameter: Parameters): SceneBuilder =
-    for p <- parameter.at(place) do
+    for p <- parameter.located(position) do
       run(GivenStatement(
         "Option",
-        p.at,
+        p.pos,
         texts = Vector(p.name),
         params = Vector(p)
       ))
@@ -172,9 +172,9 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
       kind: String,
       parameters: Parameters
   ): SceneBuilder =
-    val at = place
+    val pos = position
     val texts = Vector(name, values.toString.toLowerCase, kind)
-    run(GivenStatement("Texture", at, texts = texts, params = parameters.at(at)))
+    run(GivenStatement("Texture", pos, texts = texts, params = parameters.located(pos)))
 
   /** Names a medium, for [[mediumInterface]]. */
   def nameMedium(name: String, kind: String, parameters: Parameters): SceneBuilder =
@@ -266,18 +266,18 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   /** The scene so far. The builder remains usable. */
   def scene(): Scene =
-    val made = runner.result
-    val whole = made.copy(
+    val description = runner.result
+    val completed = description.copy(
       folder = folder,
-      unfiled = made.unfiled :+ ("statements" -> sum.digest),
-      warnings = made.warnings ++ idle.warnings(isEdit = base.nonEmpty)
+      unfiled = description.unfiled :+ ("statements" -> sum.digest),
+      warnings = description.warnings ++ idle.warnings(isEdit = base.nonEmpty)
     )
-    Scenes.built(shownName, whole, base.fold(ReadSettings())(_.how))
+    Scenes.built(shownName, completed, base.fold(ReadSettings())(_.reading))
 
   /** As `SceneBuilder(scene: 3 shapes, 1 light)`. */
   override def toString: String =
-    val made = runner.result
-    Shown("SceneBuilder", Shown.contents(shownName, made)*)
+    val description = runner.result
+    Shown("SceneBuilder", Shown.contents(shownName, description)*)
 
   private def run(statement: GivenStatement): SceneBuilder =
     sum.add(statement)
@@ -286,10 +286,10 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
     this
 
   private def plain(directive: String, numbers: Double*): SceneBuilder =
-    run(GivenStatement(directive, place, numbers = numbers.toVector))
+    run(GivenStatement(directive, position, numbers = numbers.toVector))
 
   private def words(directive: String, texts: String*): SceneBuilder =
-    run(GivenStatement(directive, place, texts = texts.toVector))
+    run(GivenStatement(directive, position, texts = texts.toVector))
 
   private def setting(
       which: SceneSetting,
@@ -297,16 +297,16 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
       kind: String,
       parameters: Parameters
   ): SceneBuilder =
-    val at = place
+    val at = position
     for
       scene <- base.flatMap(_.description)
-      warning <- SceneEdits.dropped(which, parameters.at(at), at, scene)
+      warning <- SceneEdits.dropped(which, parameters.located(at), at, scene)
     do runner.report(warning)
     named(directive, kind, parameters)
 
   private def named(directive: String, name: String, parameters: Parameters): SceneBuilder =
-    val at = place
-    run(GivenStatement(directive, at, texts = Vector(name), params = parameters.at(at)))
+    val pos = position
+    run(GivenStatement(directive, pos, texts = Vector(name), params = parameters.located(pos)))
 
   private def typed(
       directive: String,
@@ -314,27 +314,27 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
       kind: String,
       parameters: Parameters
   ): SceneBuilder =
-    val at = place
-    val params = Param.string("type", at, kind) +: parameters.at(at)
-    run(GivenStatement(directive, at, texts = Vector(name), params = params))
+    val pos = position
+    val params = Param.string("type", pos, kind) +: parameters.located(pos)
+    run(GivenStatement(directive, pos, texts = Vector(name), params = params))
 
   private def edited(what: String, name: String, parameters: Parameters)(
       f: Vector[Param] => SceneEdits.Edit
   ): SceneBuilder =
-    val at = place
-    val params = parameters.at(at)
-    sum.add(GivenStatement(what, at, texts = Vector(name), params = params))
-    runner.change(at)(f(runner.checked(params)))
+    val pos = position
+    val params = parameters.located(pos)
+    sum.add(GivenStatement(what, pos, texts = Vector(name), params = params))
+    runner.change(pos)(f(runner.checked(params)))
     this
 
-  private def place: SourcePos = CallPlace.here
+  private def position: SourcePos = CallPlace.caller
 
 private object CallPlace:
   private val walker = StackWalker.getInstance()
-  private val own = Set("candela.api.SceneBuilder", "candela.api.CallPlace$")
+  private val ownClasses = Set("candela.api.SceneBuilder", "candela.api.CallPlace$")
 
   /** The line that calls the builder. */
-  def here: SourcePos =
-    val frame = walker.walk(_.dropWhile(f => own(f.getClassName)).findFirst())
+  def caller: SourcePos =
+    val frame = walker.walk(_.dropWhile(f => ownClasses(f.getClassName)).findFirst())
     frame.map(f => SourcePos(String.valueOf(f.getFileName), Math.max(1, f.getLineNumber), 1))
       .orElse(SourcePos("code", 1, 1))

@@ -18,14 +18,14 @@ private[api] object SceneEdits:
   def setting(setting: SceneSetting, params: Vector[Param]): Edit = scene =>
     def changed(old: Option[Declaration]): Option[Declaration] =
       if old.isEmpty then
-        val what = setting.toString.toLowerCase
+        val settingName = setting.toString.toLowerCase
         fail(
           Code.Undefined,
           params,
-          s"the scene has no $what to change",
-          Some(s"call $what(…) to give it one")
+          s"the scene has no $settingName to change",
+          Some(s"call $settingName(…) to give it one")
         )
-      old.map(put(_, params))
+      old.map(withParams(_, params))
     setting match
       case SceneSetting.Camera => scene.copy(camera = changed(scene.camera))
       case SceneSetting.Film => scene.copy(film = changed(scene.film))
@@ -61,7 +61,7 @@ private[api] object SceneEdits:
     if !names.contains(name) then
       fail(Code.Undefined, params, s"unknown material `$name`", Suggest.help(name, names))
     scene.copy(namedMaterials = scene.namedMaterials.map: (other, made) =>
-      other -> (if other == name then put(made, params) else made))
+      other -> (if other == name then withParams(made, params) else made))
 
   /** Gives one shape a changed copy of its material.
     *
@@ -72,35 +72,37 @@ private[api] object SceneEdits:
       val named = old.material.declared(scene.namedMaterials.toMap).getOrElse:
         val help = "give shapes one by material(…) before them"
         fail(Code.Undefined, params, s"shape $shape has no material to change", Some(help))
-      old.copy(material = MaterialRef.Inline(put(named, params)))
+      old.copy(material = MaterialRef.Inline(withParams(named, params)))
     shapeAt(shape, params, scene)(changed)
 
   /** @throws SceneError if there is no such shape */
   def shape(shape: Int, params: Vector[Param]): Edit = scene =>
-    shapeAt(shape, params, scene)(old => old.copy(shape = put(old.shape, params)))
+    shapeAt(shape, params, scene)(old => old.copy(shape = withParams(old.shape, params)))
 
   /** @throws SceneError if there is no such shape, or it emits no light */
   def areaLightOf(shape: Int, params: Vector[Param]): Edit = scene =>
     shapeAt(shape, params, scene): old =>
       if old.areaLight.isEmpty then
         fail(Code.Undefined, params, s"shape $shape has no area light to change", None)
-      old.copy(areaLight = old.areaLight.map(put(_, params)))
+      old.copy(areaLight = old.areaLight.map(withParams(_, params)))
 
   /** @throws SceneError if there is no such light */
   def light(light: Int, params: Vector[Param]): Edit = scene =>
-    val old = at("light", scene.lights, light, params)
-    scene.copy(lights = scene.lights.updated(light, old.copy(light = put(old.light, params))))
+    val previous = element("light", scene.lights, light, params)
+    scene.copy(lights =
+      scene.lights.updated(light, previous.copy(light = withParams(previous.light, params)))
+    )
 
   private def shapeAt(shape: Int, params: Vector[Param], scene: SceneDescription)(
       change: ShapeDescription => ShapeDescription
   ): SceneDescription =
-    val old = at("shape", scene.shapes, shape, params)
-    scene.copy(shapes = scene.shapes.updated(shape, change(old)))
+    val previous = element("shape", scene.shapes, shape, params)
+    scene.copy(shapes = scene.shapes.updated(shape, change(previous)))
 
-  private def at[A](what: String, all: Vector[A], index: Int, params: Vector[Param]): A =
+  private def element[A](what: String, all: Vector[A], index: Int, params: Vector[Param]): A =
     all.lift(index).getOrElse:
-      val those = if all.isEmpty then "it has none" else s"they are 0 to ${all.size - 1}"
-      fail(Code.Undefined, params, s"the scene has no $what $index", Some(those))
+      val available = if all.isEmpty then "it has none" else s"they are 0 to ${all.size - 1}"
+      fail(Code.Undefined, params, s"the scene has no $what $index", Some(available))
 
   /** @throws SceneError if there is no such texture */
   def texture(name: String, params: Vector[Param]): Edit = scene =>
@@ -108,9 +110,9 @@ private[api] object SceneEdits:
     if !names.contains(name) then
       fail(Code.Undefined, params, s"unknown texture `$name`", Suggest.help(name, names))
     scene.copy(textures = scene.textures.map: t =>
-      if t.name == name then t.copy(texture = put(t.texture, params)) else t)
+      if t.name == name then t.copy(texture = withParams(t.texture, params)) else t)
 
-  private def put(to: Declaration, params: Vector[Param]): Declaration =
+  private def withParams(to: Declaration, params: Vector[Param]): Declaration =
     to.copy(params = to.params.filterNot(old => params.exists(_.name == old.name)) ++ params)
 
   private def fail(
@@ -119,8 +121,8 @@ private[api] object SceneEdits:
       message: String,
       help: Option[String]
   ): Nothing =
-    val at = params.headOption.fold(SourcePos.Nowhere)(_.at)
-    throw SceneError(Found.error(code, at, message, help))
+    val pos = params.headOption.fold(SourcePos.Nowhere)(_.pos)
+    throw SceneError(Found.error(code, pos, message, help))
 
 /** SHA-256 of statements. Mutable. */
 private[api] final class StatementSum:
@@ -145,8 +147,8 @@ private[api] final class StatementSum:
 
   /** Of all so far. */
   def digest: String =
-    val now = sum.clone().asInstanceOf[MessageDigest]
-    HexFormat.of.formatHex(now.digest)
+    val snapshot = sum.clone().asInstanceOf[MessageDigest]
+    HexFormat.of.formatHex(snapshot.digest)
 
   private def floats(all: Array[Float]): Unit =
     count(all.length)

@@ -5,7 +5,7 @@ import java.util.Locale
 /** Sizes in memory, for people. */
 object ByteCount:
   /** `950 bytes`, `1.2 kB`, `38 MB`, `4.5 GB`: two digits or more. */
-  def show(bytes: Long): String =
+  def format(bytes: Long): String =
     if bytes < 1000 then s"$bytes bytes"
     else
       val power = Math.min(3, (Math.log10(bytes.toDouble) / 3 + 1e-9).toInt)

@@ -35,21 +35,21 @@ abstract class NumberBuffer[A](newArray: Int => A):
     val full = other.size >>> NumberBuffer.Bits
     pieces ++= other.pieces.take(full)
     size = full << NumberBuffer.Bits
-    val rest = other.size - size
-    if rest > 0 then
-      System.arraycopy(other.pieces(full), 0, pieceOf(size), 0, rest)
+    val remaining = other.size - size
+    if remaining > 0 then
+      System.arraycopy(other.pieces(full), 0, pieceOf(size), 0, remaining)
       size = other.size
 
   /** Empties the buffer, but keeps its memory. */
   def clear(): Unit = size = 0
 
   /** Returns the numbers and empties the buffer. */
-  def take(): A =
-    val all = newArray(size)
-    copyTo(all, 0)
+  def drain(): A =
+    val result = newArray(size)
+    copyTo(result, 0)
     pieces.takeInPlace(1)
     size = 0
-    all
+    result
 
 object NumberBuffer:
   private[candela] inline val Bits = 12
@@ -64,19 +64,19 @@ final class FloatBuffer extends NumberBuffer[Array[Float]](new Array[Float](_)):
   private var last = Array.emptyFloatArray
 
   def +=(x: Float): Unit =
-    val at = size & NumberBuffer.OffsetMask
-    if at == 0 then last = pieceOf(size)
-    last(at) = x
+    val offset = size & NumberBuffer.OffsetMask
+    if offset == 0 then last = pieceOf(size)
+    last(offset) = x
     size += 1
 
   def ++=(some: Array[Float]): Unit =
-    var from = 0
-    while from < some.length do
-      val at = size & NumberBuffer.OffsetMask
+    var start = 0
+    while start < some.length do
+      val offset = size & NumberBuffer.OffsetMask
       last = pieceOf(size)
-      val count = Math.min(some.length - from, NumberBuffer.Piece - at)
-      System.arraycopy(some, from, last, at, count)
-      from += count
+      val count = Math.min(some.length - start, NumberBuffer.Piece - offset)
+      System.arraycopy(some, start, last, offset, count)
+      start += count
       size += count
 
   def apply(i: Int): Float = pieceOf(i)(i & NumberBuffer.OffsetMask)
@@ -86,20 +86,20 @@ final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
   private var last = Array.emptyIntArray
 
   def +=(x: Int): Unit =
-    val at = size & NumberBuffer.OffsetMask
-    if at == 0 then last = pieceOf(size)
-    last(at) = x
+    val offset = size & NumberBuffer.OffsetMask
+    if offset == 0 then last = pieceOf(size)
+    last(offset) = x
     size += 1
 
   /** Adds a number so many times. */
   def add(x: Int, count: Int): Unit =
     val end = size + count
     while size < end do
-      val at = size & NumberBuffer.OffsetMask
+      val offset = size & NumberBuffer.OffsetMask
       last = pieceOf(size)
-      val until = Math.min(at + end - size, NumberBuffer.Piece)
-      java.util.Arrays.fill(last, at, until, x)
-      size += until - at
+      val pieceEnd = Math.min(offset + end - size, NumberBuffer.Piece)
+      java.util.Arrays.fill(last, offset, pieceEnd, x)
+      size += pieceEnd - offset
 
   /** The same numbers, to which others can be added, while none is changed: see [[share]]. */
   def continued: IntBuffer =
@@ -119,17 +119,17 @@ final class RestBuffer:
 
   /** Notes the rest of the number at index `i`. */
   def note(i: Int, exact: Double, rounded: Float): Unit =
-    val rest = (exact - rounded).toFloat
-    if rest != 0f && java.lang.Float.isFinite(rest) then
+    val residual = (exact - rounded).toFloat
+    if residual != 0f && java.lang.Float.isFinite(residual) then
       while rests.length <= i do rests += 0f
-      rests(i) = rest
+      rests(i) = residual
 
   /** The rests of `count` numbers, or nothing if there are none; empties the buffer. */
-  def take(count: Int): Array[Float] =
+  def drain(count: Int): Array[Float] =
     if rests.length == 0 then Array.emptyFloatArray
     else
       while rests.length < count do rests += 0f
-      rests.take()
+      rests.drain()
 
 object RestBuffer:
   /** Rounding errors of smaller numbers are ignored: Floats are 0.0001 apart here. */
@@ -143,4 +143,4 @@ object RestBuffer:
     loop(count): i =>
       val x = exact(i)
       if isCoarse(x.toFloat) then buffer.note(i, x, x.toFloat)
-    buffer.take(count)
+    buffer.drain(count)

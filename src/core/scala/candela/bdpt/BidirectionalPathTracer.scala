@@ -49,7 +49,7 @@ final class BidirectionalPathTracer(
   )
   private val path = Subpath(carriesLight = false, compresses, rouletteAfter)
   private val vertex = PathVertex(scene)
-  private val at = vertex.at
+  private val point = vertex.point
   private val connection = LightConnection(scene)
   private val hit = Hit()
   private val shadowRay = Ray()
@@ -58,7 +58,7 @@ final class BidirectionalPathTracer(
 
   // Contributions to a sample below this share of what it has found so far are minor
   private var minor = 0f
-  private var found = Rgb.Black
+  private var estimate = Rgb.Black
   private val dice = RandomStream()
 
   // Vertex at which the current direction of the camera subpath was sampled
@@ -73,7 +73,7 @@ final class BidirectionalPathTracer(
   private def ofMedia(media: PathMedia | Null): Long =
     if media == null then 0L else media.raysTraced
 
-  override def lastMaterial: Int = at.material
+  override def lastMaterial: Int = point.material
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     radiance(ray, sampler, sampler, sampler, MinorShare)
@@ -102,8 +102,8 @@ final class BidirectionalPathTracer(
   ): Rgb =
     minor = minorShare
     shadowRay.time = ray.time
-    camera.begin(ray.time)
-    connection.begin(ray.time)
+    camera.startSample(ray.time)
+    connection.startPath(ray.time)
     val hero =
       if sceneMedia != null && sceneMedia.isChromatic then (light.next1D() * 3f).toInt else 0
     // What leads away from the camera matters most: it has the same dimensions in all samples
@@ -114,17 +114,17 @@ final class BidirectionalPathTracer(
     val media = ownMedia
     if media == null || sceneMedia == null then fromCamera(ray, joins, onward)
     else
-      media.begin(hero, sceneMedia.camera, ray.time, onward)
+      media.startPath(hero, sceneMedia.camera, ray.time, onward)
       fromCamera(ray, joins, onward) + media.glow
 
   private def fromCamera(ray: Ray, joins: Sampler, onward: Sampler): Rgb =
     val eye = ray.origin
-    found = Rgb.Black
+    estimate = Rgb.Black
     path.throughput = Rgb.White
     path.isSpecularSoFar = true
     path.isAlone = false
-    path.weights.near = 0.0
-    path.weights.far = 0.0
+    path.weights.dVCM = 0.0
+    path.weights.dVC = 0.0
     var edges = 0
     var alive = true
     while alive do
@@ -134,7 +134,7 @@ final class BidirectionalPathTracer(
       val collision = collide(ray, emits = edges <= maxDepth, onward)
       if isAbsorbed then alive = false
       else if collision < 0f && !isHit then
-        found += carried * LightTransport.environment(
+        estimate += carried * LightTransport.environment(
           scene,
           ray,
           (i, source) =>
@@ -147,18 +147,18 @@ final class BidirectionalPathTracer(
               hitWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
         )
         alive = false
-      else if !meet(ray, collision) then edges -= 1
+      else if !placeVertex(ray, collision) then edges -= 1
       else
         val wo = vertex.wo
         val cosine = vertex.cosine(wo)
         val distance =
-          if sceneMedia == null then ray.tMax.toDouble else (at.p - lastP).length.toDouble
+          if sceneMedia == null then ray.tMax.toDouble else (point.p - lastP).length.toDouble
         if edges > 1 then path.weights.arrive(distance, cosine)
         else
-          val density = camera.density(eye, at.p)
-          path.weights.near = if density > 0f then mis(1.0 / (density.toDouble * cosine)) else 0.0
-        if at.areaLight >= 0 && cosine > 0f then
-          found += carried * emitted(edges, wo, distance)
+          val density = camera.density(eye, point.p)
+          path.weights.dVCM = if density > 0f then mis(1.0 / (density.toDouble * cosine)) else 0.0
+        if point.areaLight >= 0 && cosine > 0f then
+          estimate += carried * emitted(edges, wo, distance)
         alive = edges <= maxDepth && cosine > 0f
         if alive then
           vertex.edges = edges
@@ -166,14 +166,14 @@ final class BidirectionalPathTracer(
             vertex.evaluate(regularizes && !path.isSpecularSoFar)
             if scene.isDispersive then path.disperse(vertex)
           if !vertex.bsdf.isSpecular then
-            found += carried * direct(joins)
-            found += carried * connected(joins)
+            estimate += carried * direct(joins)
+            estimate += carried * connected(joins)
           alive = edges <= maxDepth && path.scatter(vertex, ray, onward)
-          lastP.set(at.p)
+          lastP.set(point.p)
           lastN.set(vertex.lightNormal)
           val media = ownMedia
           if media != null then media.medium = media.towards(vertex, ray.direction)
-    found
+    estimate
 
   /** Throughput of the camera subpath. */
   private def carried: Rgb =
@@ -196,7 +196,7 @@ final class BidirectionalPathTracer(
   /** Puts the vertex at the collision or on the surface that was hit; false if that is an
     * interface, which the ray passes.
     */
-  private def meet(ray: Ray, collision: Float): Boolean =
+  private def placeVertex(ray: Ray, collision: Float): Boolean =
     val media = ownMedia
     if media != null && collision >= 0f then media.scatter(vertex, ray, collision)
     else vertex.hit(ray, hit)
@@ -213,28 +213,28 @@ final class BidirectionalPathTracer(
     */
   private def hitWeight(sampled: Double, emitted: Double): Float =
     val w = path.weights
-    (1 / (1 + mis(sampled) * w.near + mis(emitted) * w.far)).toFloat
+    (1 / (1 + mis(sampled) * w.dVCM + mis(emitted) * w.dVC)).toFloat
 
   /** Emission of the surface hit. */
   private def emitted(edges: Int, wo: Vec3, distance: Double): Rgb =
-    val source = scene.surfaceLight(at)
-    val radiance = source.radiance(at, wo)
+    val source = scene.surfaceLight(point)
+    val radiance = source.radiance(point, wo)
     if radiance.isBlack || edges == 1 then radiance
     else if source.isShownOnly then if path.isSpecularSoFar then radiance else Rgb.Black
     else
-      val index = at.areaLight
+      val index = point.areaLight
       val perArea = vertex.cosine(wo) / (distance * distance)
       val p = lastP
       val chosen = scene.selection.probability(p, lastN, index)
-      val sampled = chosen.toDouble * source.pdf(p, at) * perArea
-      val emitted = source.emissionPdf(scene.ball, at.p, at.geometricNormal, wo)
+      val sampled = chosen.toDouble * source.pdf(p, point) * perArea
+      val emitted = source.emissionPdf(scene.ball, point.p, point.geometricNormal, wo)
       radiance * hitWeight(sampled, lightPaths.chance(index).toDouble * emitted)
 
   /** Connects the camera vertex to a sampled light. */
   private def direct(sampler: Sampler): Rgb =
     val choice = sampler.next1D(matters = connection.isRandom)
     sampler.next2D()
-    val p = at.p
+    val p = point.p
     if !connection.choose(
         p,
         vertex.lightNormal,
@@ -250,7 +250,7 @@ final class BidirectionalPathTracer(
       val passed =
         if f.isBlack then Rgb.Black
         else if media != null then media.fromLight(vertex, sample)
-        else if connection.isBlocked(at) then Rgb.Black
+        else if connection.isBlocked(point) then Rgb.Black
         else Rgb.White
       if passed.isBlack then Rgb.Black
       else
@@ -260,8 +260,8 @@ final class BidirectionalPathTracer(
             (connection.probability.toDouble * connection.spread(p))
         val byBsdf =
           if connection.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / connection.pdf)
-        val others = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
-        val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + others))
+        val misRatios = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
+        val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + misRatios))
         f * sample.radiance.toRgb * weight.toFloat * passed
 
   /** Factor of a contribution, before its shadow ray is traced: Russian roulette ends most of the
@@ -269,60 +269,60 @@ final class BidirectionalPathTracer(
     *
     * Source: Veach 1997, §10.3.3, roulette for shadow rays, with a threshold for each sample.
     */
-  private def connectionRoulette(contribution: Float, least: Float): Float =
-    if !(contribution < least) then 1f
-    else if dice.next() * least < contribution then least / contribution
+  private def connectionRoulette(contribution: Float, threshold: Float): Float =
+    if !(contribution < threshold) then 1f
+    else if dice.next() * threshold < contribution then threshold / contribution
     else 0f
 
   /** Connects the camera vertex to all light vertices. */
   private def connected(joins: Sampler): Rgb =
     if minor > 0f then dice.seed(joins.next1D(), vertex.edges.toFloat)
     val carries = carried.largest
-    connected(if carries > 0f then minor * found.largest / carries else 0f)
+    connected(if carries > 0f then minor * estimate.largest / carries else 0f)
 
-  private def connected(least: Float): Rgb =
+  private def connected(threshold: Float): Rgb =
     var sum = Rgb.Black
     var i = 0
     while i < lightPaths.count do
       val lit = lightPaths(i)
-      if lit.edges + vertex.edges <= maxDepth then sum += connected(lit, least)
+      if lit.edges + vertex.edges <= maxDepth then sum += connected(lit, threshold)
       i += 1
     sum
 
-  private def connected(lit: PathVertex, least: Float): Rgb =
-    val d = lit.at.p - at.p
+  private def connected(lit: PathVertex, threshold: Float): Rgb =
+    val d = lit.point.p - point.p
     val distance2 = d.lengthSquared
     val wi = d * (1f / sqrt(distance2))
-    val back = -wi
+    val reversed = -wi
     if !(distance2 > 0f) then Rgb.Black
     else
       val onward = vertex.pdf(wi)
       // A camera path could not continue this way
       val f = if onward > 0f then vertex.received(wi) else Rgb.Black
-      val g = if !f.isBlack && lit.isReachable(back) then lit.sent(back) else Rgb.Black
+      val g = if !f.isBlack && lit.isReachable(reversed) then lit.sent(reversed) else Rgb.Black
       if g.isBlack then Rgb.Black
       else
-        val here = vertex.cosine(wi)
-        val there = lit.cosine(back)
-        val toLit = onward.toDouble * there / distance2
-        val toHere = lit.pdf(back).toDouble * here / distance2
-        val others = path.weights.sum(toHere, vertex.reversePdf(wi).toDouble) +
-          lit.weights.sum(toLit, lit.reversePdf(back).toDouble)
-        val cosines = vertex.shadingCosine(wi) * lit.sentCosine(back)
+        val vertexCosine = vertex.cosine(wi)
+        val litCosine = lit.cosine(reversed)
+        val toLit = onward.toDouble * litCosine / distance2
+        val toHere = lit.pdf(reversed).toDouble * vertexCosine / distance2
+        val misRatios = path.weights.sum(toHere, vertex.reversePdf(wi).toDouble) +
+          lit.weights.sum(toLit, lit.reversePdf(reversed).toDouble)
+        val cosines = vertex.shadingCosine(wi) * lit.sentCosine(reversed)
         // If both subpaths carry their hero alone, each stands for all three wavelengths
         val shares = if lit.isAlone && path.isAlone then 1f / 3f else 1f
-        val weight = (cosines / (distance2 * (1 + others))).toFloat * shares
+        val weight = (cosines / (distance2 * (1 + misRatios))).toFloat * shares
         val contribution = f * g * lit.throughput * weight
-        val light = contribution * connectionRoulette(contribution.largest, least)
+        val light = contribution * connectionRoulette(contribution.largest, threshold)
         val media = ownMedia
         if light.isBlack then light
-        else if media != null then light * media.between(vertex, lit, wi)
-        else if isHidden(lit.at, wi, there) then Rgb.Black
+        else if media != null then light * media.betweenVertices(vertex, lit, wi)
+        else if isHidden(lit.point, wi, litCosine) then Rgb.Black
         else light
 
   /** Whether `other`, in the direction `wi`, is occluded from the camera vertex. */
   private def isHidden(other: ShadingPoint, wi: Vec3, cosine: Float): Boolean =
-    val origin = at.offsetOrigin(wi)
+    val origin = point.offsetOrigin(wi)
     val end = other.offsetOrigin(-wi)
     shadowRay.set(origin, end - origin, LightConnection.shadowEnd(cosine))
     rays += 1

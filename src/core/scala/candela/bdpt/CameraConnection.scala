@@ -24,7 +24,7 @@ private[candela] final class CameraConnection(
     observer: SplatObserver | Null = null
 ):
   private val camera: Camera | Null = if imageCamera.isTraceable then imageCamera else null
-  private val place = FilmPlace()
+  private val filmPoint = FilmPlace()
   private val shadowRay = Ray()
   private val shadowHit = Hit()
 
@@ -36,9 +36,9 @@ private[candela] final class CameraConnection(
     if sensor == null then 0f else sensor.density(eye, p)
 
   /** Starts a new sample. */
-  def begin(time: Float): Unit =
+  def startSample(time: Float): Unit =
     shadowRay.time = time
-    splats.begin()
+    splats.countSample()
 
   /** Connects all vertices.
     *
@@ -60,27 +60,28 @@ private[candela] final class CameraConnection(
       var i = 0
       while i < paths.count do
         val lit = paths(i)
-        if sensor.see(lit.at.p, lensU, lensV, place) then
-          val toCamera = place.direction
+        if sensor.project(lit.point.p, lensU, lensV, filmPoint) then
+          val toCamera = filmPoint.direction
           val f = if lit.isReachable(toCamera) then lit.sent(toCamera) else Rgb.Black
           if !f.isBlack then
-            val density = place.density / perSample
+            val density = filmPoint.density / perSample
             val arriving = density * lit.cosine(toCamera)
-            val others =
+            val misRatios =
               if !isWeighted then 0.0
               else lit.weights.sum(arriving.toDouble, lit.reversePdf(toCamera).toDouble)
-            val weight = (density * lit.sentCosine(toCamera) / (1 + others)).toFloat
-            val found = lit.throughput * f * weight
-            val within = media
-            if !found.isBlack then
+            val weight = (density * lit.sentCosine(toCamera) / (1 + misRatios)).toFloat
+            val contribution = lit.throughput * f * weight
+            val pathMedia = media
+            if !contribution.isBlack then
               val light =
-                if within != null then found * within.toCamera(lit, toCamera, place.eye)
-                else if isClear(lit.at, toCamera, place.eye) then found
+                if pathMedia != null then
+                  contribution * pathMedia.toCamera(lit, toCamera, filmPoint.eye)
+                else if isClear(lit.point, toCamera, filmPoint.eye) then contribution
                 else Rgb.Black
               if !light.isBlack then
-                splats.add(place.x, place.y, light, paths.group)
-                val told = observer
-                if told != null then told.see(place.x, place.y, light, others)
+                splats.add(filmPoint.x, filmPoint.y, light, paths.group)
+                val sink = observer
+                if sink != null then sink.observe(filmPoint.x, filmPoint.y, light, misRatios)
         i += 1
 
   private def isClear(from: ShadingPoint, towards: Vec3, end: Vec3): Boolean =
@@ -92,6 +93,6 @@ private[candela] final class CameraConnection(
 /** Is told of light that light paths bring to the camera. */
 private[candela] trait SplatObserver:
   /** @param light  weighted
-    * @param others as in the weight 1 / (1 + others)
+    * @param misRatios as in the weight 1 / (1 + others)
     */
-  def see(x: Float, y: Float, light: Rgb, others: Double): Unit
+  def observe(x: Float, y: Float, light: Rgb, misRatios: Double): Unit

@@ -63,14 +63,15 @@ private[candela] final class LightPaths(
         ray.time = time
         ray.differential.isKnown = false
         ray.set(start.origin, start.direction, Float.PositiveInfinity)
-        val within = media
-        if within != null then within.begin(hero, within.around(light, ray), time, sampler)
+        val pathMedia = media
+        if pathMedia != null then
+          pathMedia.startPath(hero, pathMedia.mediumAt(light, ray), time, sampler)
         walk(light, sampler)
 
   private def walk(light: Int, sampler: Sampler): Unit =
     path.isSpecularSoFar = true
     path.isAlone = startsAlone
-    val within = media
+    val pathMedia = media
     var edges = 0
     var alive = true
     var isByCasters = casters != null && scene.lights(light).isCausticSource
@@ -79,55 +80,56 @@ private[candela] final class LightPaths(
       raysTraced += 1
       val isHit = scene.closest(ray, hit)
       var collision = -1f
-      if within != null then
-        collision = within.follow(ray, path.throughput, emits = false, sampler)
+      if pathMedia != null then
+        collision = pathMedia.follow(ray, path.throughput, emits = false, sampler)
         path.throughput = Rgb.White
-      alive = collision >= 0f || (isHit && (within == null || !within.isAbsorbed))
+      alive = collision >= 0f || (isHit && (pathMedia == null || !pathMedia.isAbsorbed))
       if alive then
         edges += 1
         val vertex = next()
-        if within != null && collision >= 0f then within.scatter(vertex, ray, collision)
+        if pathMedia != null && collision >= 0f then pathMedia.scatter(vertex, ray, collision)
         else vertex.hit(ray, hit)
-        if !vertex.isInMedium && scene.isPassed(ray, hit, vertex.at) then
+        if !vertex.isInMedium && scene.isPassed(ray, hit, vertex.point) then
           if !countsPassed then edges -= 1
           else alive = edges < maxEdges
-          if within == null then vertex.passThrough(ray) else within.passThrough(vertex, ray)
+          if pathMedia == null then vertex.passThrough(ray) else pathMedia.passThrough(vertex, ray)
         else
           if !vertex.isInMedium then vertex.evaluate(regularizes && !path.isSpecularSoFar)
           if scene.isDispersive then path.disperse(vertex)
           vertex.edges = edges
           val cosine = vertex.cosine(vertex.wo)
           val distance =
-            if within == null then ray.tMax.toDouble else (vertex.at.p - lastP).length.toDouble
-          if edges == 1 then begin(light, vertex, cosine)
+            if pathMedia == null then ray.tMax.toDouble
+            else (vertex.point.p - lastP).length.toDouble
+          if edges == 1 then initWeights(light, vertex, cosine)
           else path.weights.arrive(distance, cosine)
           alive = cosine > 0f
-          if within != null then within.mark(vertex)
+          if pathMedia != null then pathMedia.mark(vertex)
           vertex.isCaustic = isByCasters && edges > 1
           isByCasters &&= casts(vertex, isFirst = edges == 1)
           if alive then
-            if !vertex.bsdf.isSpecular then keep(vertex, path, within)
+            if !vertex.bsdf.isSpecular then record(vertex, path, pathMedia)
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
-            lastP.set(vertex.at.p)
-            if within != null then within.medium = within.towards(vertex, ray.direction)
+            lastP.set(vertex.point.p)
+            if pathMedia != null then pathMedia.medium = pathMedia.towards(vertex, ray.direction)
 
   /** May the vertex, which the ray has met, be one of a path of [[CausticPaths]]? */
   private def casts(vertex: PathVertex, isFirst: Boolean): Boolean =
-    val all = casters
-    all != null && !vertex.isInMedium && scene.isCaster(vertex.at) &&
-    (!isFirst || all.density(ray, hit, vertex.at) > 0f)
+    val causticCasters = casters
+    causticCasters != null && !vertex.isInMedium && scene.isCaster(vertex.point) &&
+    (!isFirst || causticCasters.density(ray, hit, vertex.point) > 0f)
 
   /** Initial MIS weights at the first surface: next-event estimation samples this light from there,
     * too, with a position-dependent pdf.
     */
-  private def begin(light: Int, vertex: PathVertex, cosine: Float): Unit =
+  private def initWeights(light: Int, vertex: PathVertex, cosine: Float): Unit =
     val source = scene.lights(light)
-    val at = vertex.at
-    val sampled = scene.selection.probability(at.p, vertex.lightNormal, light).toDouble *
-      source.connectionPdf(at.p, start)
+    val point = vertex.point
+    val sampled = scene.selection.probability(point.p, vertex.lightNormal, light).toDouble *
+      source.connectionPdf(point.p, start)
     val emitted = chance(light).toDouble * start.pdf * cosine
-    path.weights.near = PartialWeights.mis(sampled / emitted)
-    path.weights.far =
+    path.weights.dVCM = PartialWeights.mis(sampled / emitted)
+    path.weights.dVC =
       if source.isDelta then 0.0
       else PartialWeights.mis((if start.isInfinite then 1f else start.cosine) / emitted)
 
@@ -137,37 +139,38 @@ private[candela] abstract class LightVertices(scene: Scene):
 
   /** Index of the light where the path begins. */
   protected final var emitter = -1
-  private var kept = Array.fill(LightVertices.InitialSize)(PathVertex(scene))
-  private var used = 0
+  private var vertices = Array.fill(LightVertices.InitialSize)(PathVertex(scene))
+  private var recorded = 0
 
   def raysTraced: Long
 
   /** Number of recorded vertices. */
-  final def count: Int = used
+  final def count: Int = recorded
 
   /** The group of its light; 0: it is not told. */
   final def group: Int =
-    val all = groups
-    if all == null || emitter < 0 then 0 else all(emitter)
+    val lightGroups = groups
+    if lightGroups == null || emitter < 0 then 0 else lightGroups(emitter)
 
   /** Vertex `i`. Its throughput is power, not yet divided by solid angle. */
-  final def apply(i: Int): PathVertex = kept(i)
+  final def apply(i: Int): PathVertex = vertices(i)
 
-  protected final def clear(): Unit = used = 0
+  protected final def clear(): Unit = recorded = 0
 
-  /** The vertex to be recorded next, by [[keep]]. */
+  /** The vertex to be recorded next, by [[record]]. */
   protected final def next(): PathVertex =
-    if used == kept.length then kept = kept ++ Array.fill(kept.length)(PathVertex(scene))
-    kept(used)
+    if recorded == vertices.length then
+      vertices = vertices ++ Array.fill(vertices.length)(PathVertex(scene))
+    vertices(recorded)
 
   /** Records it, at the end of the path so far. */
-  protected final def keep(vertex: PathVertex, path: Subpath, within: PathMedia | Null): Unit =
+  protected final def record(vertex: PathVertex, path: Subpath, pathMedia: PathMedia | Null): Unit =
     vertex.throughput =
-      if within == null then path.throughput else path.throughput * within.throughput
+      if pathMedia == null then path.throughput else path.throughput * pathMedia.throughput
     vertex.isSpecularSoFar = path.isSpecularSoFar
     vertex.isAlone = path.isAlone
     vertex.weights.set(path.weights)
-    used += 1
+    recorded += 1
 
 private[candela] object LightVertices:
   /** Initial vertex capacity; grows on demand. */

@@ -40,10 +40,10 @@ final class LightTracer(
   override def raysTraced: Long = super.raysTraced + paths.raysTraced + camera.raysTraced
 
   def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
-    camera.begin(cameraRay.time)
+    camera.startSample(cameraRay.time)
     paths.trace(cameraRay.time, sampler)
     camera.connect(paths, isWeighted = false, sampler)
-    begin(cameraRay, sampler)
+    startPath(cameraRay, sampler)
     // As connections to the camera, which interfaces block
     if intersect() then addEmission()
     else if showsSky then addEnvironment()

@@ -42,7 +42,7 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
     *
     * @param hero of the colours
     */
-  def begin(hero: Int, start: Int, time: Float, sampler: Sampler): Unit =
+  def startPath(hero: Int, start: Int, time: Float, sampler: Sampler): Unit =
     work.start(hero)
     work.random.seed(sampler.next1D(), sampler.next1D())
     visibility.start(time)
@@ -51,12 +51,12 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
   /** Index of the medium at the origin of a light's ray: as declared around a light without a
     * surface, as in pbrt; otherwise as the borders tell, first of all the light's own surface.
     */
-  def around(light: Int, ray: Ray): Int =
+  def mediumAt(light: Int, ray: Ray): Int =
     val declared = media.lights(light)
     if declared >= 0 then declared
     else
-      val before = if scene.lights(light).asSurface == null then Unknown else beyondOwn(ray)
-      if before == Unknown then around(ray) else before
+      val adjacent = if scene.lights(light).asSurface == null then Unknown else beyondOwn(ray)
+      if adjacent == Unknown then mediumAt(ray) else adjacent
 
   /** What the surface that the ray has left says of the medium before it. */
   private def beyondOwn(ray: Ray): Int =
@@ -71,7 +71,7 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
   /** Index of the medium at the ray's origin: that on the near side of the first border of media in
     * its direction, or else that beyond all borders.
     */
-  private def around(ray: Ray): Int = firstBorder(ray, beyondAll)
+  private def mediumAt(ray: Ray): Int = firstBorder(ray, beyondAll)
 
   /** Is the camera in another medium than the first border says that its ray meets? Then light
     * paths, which come through borders, find another image than those that begin in the camera.
@@ -81,7 +81,7 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
   private def firstBorder(ray: Ray, otherwise: Int): Int =
     ahead.time = ray.time
     ahead.set(ray.origin, ray.direction, Float.PositiveInfinity)
-    var found = otherwise
+    var result = otherwise
     var goesOn = true
     while goesOn do
       rays += 1
@@ -91,10 +91,10 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
         val direction = ahead.direction
         // Only a border tells its sides apart
         if media.beyond(border, direction, Unknown) != Unknown then
-          found = media.beyond(border, -direction, -1)
+          result = media.beyond(border, -direction, -1)
           goesOn = false
         else ahead.set(border.offsetOrigin(direction), direction, Float.PositiveInfinity)
-    found
+    result
 
   /** Goes along `ray` to a collision before its end.
     *
@@ -119,30 +119,30 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
 
   /** Index of the medium towards `w` from the vertex. */
   def towards(vertex: PathVertex, w: Vec3): Int =
-    if vertex.isInMedium then vertex.medium else media.beyond(vertex.at, w, vertex.medium)
+    if vertex.isInMedium then vertex.medium else media.beyond(vertex.point, w, vertex.medium)
 
   /** Passes the interface that the vertex lies on. */
   def passThrough(vertex: PathVertex, ray: Ray): Unit =
-    medium = media.beyond(vertex.at, ray.direction, medium)
+    medium = media.beyond(vertex.point, ray.direction, medium)
     vertex.passThrough(ray)
 
   /** What media leave of a light's sample, over the density of sampling by colours. */
   def fromLight(vertex: PathVertex, sample: LightSample): Rgb =
     val wi = sample.wi
-    if visibility.reaches(vertex.at.offsetOrigin(wi), sample, towards(vertex, wi)) then
+    if visibility.reaches(vertex.point.offsetOrigin(wi), sample, towards(vertex, wi)) then
       shadow(weights.ur, weights.ug, weights.ub)
     else Rgb.Black
 
   /** Likewise, of light between the vertices of the two subpaths. */
-  def between(vertex: PathVertex, other: PathVertex, wi: Vec3): Rgb =
-    val (origin, end) = (vertex.at.offsetOrigin(wi), other.at.offsetOrigin(-wi))
+  def betweenVertices(vertex: PathVertex, other: PathVertex, wi: Vec3): Rgb =
+    val (origin, end) = (vertex.point.offsetOrigin(wi), other.point.offsetOrigin(-wi))
     if visibility.reaches(origin, end, towards(vertex, wi)) then
       shadow(weights.ur * other.ur, weights.ug * other.ug, weights.ub * other.ub)
     else Rgb.Black
 
   /** Likewise, of light from a vertex of the light subpath to the camera. */
   def toCamera(vertex: PathVertex, wi: Vec3, eye: Vec3): Rgb =
-    if visibility.reaches(vertex.at.offsetOrigin(wi), eye, towards(vertex, wi)) then
+    if visibility.reaches(vertex.point.offsetOrigin(wi), eye, towards(vertex, wi)) then
       shadow(vertex.ur, vertex.ug, vertex.ub)
     else Rgb.Black
 
@@ -160,9 +160,9 @@ private[candela] object PathMedia:
     val (ahead, hit, border) = (Ray(), Hit(), ShadingPoint())
     val direction = Vec3.Z
     ahead.set(media.eye, direction, Float.PositiveInfinity)
-    var found = media.camera
+    var result = media.camera
     while scene.closest(ahead, hit) do
       scene.surface(ahead, hit, border)
-      found = media.beyond(border, direction, found)
+      result = media.beyond(border, direction, result)
       ahead.set(border.offsetOrigin(direction), direction, Float.PositiveInfinity)
-    found
+    result

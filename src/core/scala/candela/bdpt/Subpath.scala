@@ -39,17 +39,18 @@ private[candela] final class Subpath(
   def scatter(vertex: PathVertex, ray: Ray, sampler: Sampler): Boolean =
     vertex.draw(sampler)
     val bounce = vertex.bounce
-    val wi = vertex.at.frame.toWorld(bounce.wi)
+    val wi = vertex.point.frame.toWorld(bounce.wi)
     if bounce.weight.isBlack || !(bounce.isSpecular || vertex.isOpen(wi)) then false
     else
       // Refraction scales radiance, but not power (Veach 1997, §5.2)
-      val kept =
+      val powerWeight =
         if carriesLight && !bounce.isSpecular && !vertex.bsdf.isReciprocal then
           vertex.sent(wi) * (Math.abs(bounce.wi.z) / bounce.pdf)
         else if compresses then bounce.weight * square(bounce.eta)
         else bounce.weight
       throughput = throughput *
-        (if carriesLight && !vertex.isInMedium then kept * correction(vertex, wi, bounce.wi.z)
+        (if carriesLight && !vertex.isInMedium then
+           powerWeight * correction(vertex, wi, bounce.wi.z)
          else bounce.weight)
       if !bounce.isSpecular then isSpecularSoFar = false
       val cosine = vertex.cosine(wi)
@@ -57,8 +58,8 @@ private[candela] final class Subpath(
       else
         val pdf = if evaluates then vertex.localPdf(bounce.wi) else bounce.pdf
         weights.scatter(cosine, pdf, vertex.bsdf.pdf(bounce.wi, vertex.localWo))
-      vertex.leave(ray): Unit
-      cosine > 0f && !throughput.isBlack && survives(vertex.edges, kept.largest, sampler)
+      vertex.spawnRay(ray): Unit
+      cosine > 0f && !throughput.isBlack && survives(vertex.edges, powerWeight.largest, sampler)
 
   /** Shading normal correction, as in [[PathVertex.sentCosine]]. */
   private def correction(vertex: PathVertex, wi: Vec3, z: Float): Float =
@@ -122,25 +123,25 @@ private[candela] final class PathVertex(scene: Scene) extends SurfaceVertex(scen
   * subpath are accumulated on the way; the last factor, known only once the other end is, is left
   * out.
   *
-  * Source: Georgiev, "Implementing Vertex Connection and Merging", Saarland University 2012: `near`
-  * is its d^VCM, `far` its d^VC.
+  * Source: Georgiev, "Implementing Vertex Connection and Merging", Saarland University 2012: `dVCM`
+  * is its d^VCM, `dVC` its d^VC.
   */
 private[candela] final class PartialWeights:
   /** Ratio for the strategy that cuts the last edge. */
-  var near: Double = 0.0
+  var dVCM: Double = 0.0
 
   /** Sum for the strategies that cut earlier edges. */
-  var far: Double = 0.0
+  var dVC: Double = 0.0
 
   def set(other: PartialWeights): Unit =
-    near = other.near
-    far = other.far
+    dVCM = other.dVCM
+    dVC = other.dVC
 
   /** Converts to area measure on a hit at `distance` under this cosine. */
   def arrive(distance: Double, cosine: Float): Unit =
     val perArea = 1 / PartialWeights.mis(cosine.toDouble)
-    near *= PartialWeights.mis(distance * distance) * perArea
-    far *= perArea
+    dVCM *= PartialWeights.mis(distance * distance) * perArea
+    dVC *= perArea
 
   /** Updates for non-specular scattering.
     *
@@ -149,13 +150,13 @@ private[candela] final class PartialWeights:
     * @param reverse pdf of the reverse direction
     */
   def scatter(cosine: Float, pdf: Float, reverse: Float): Unit =
-    far = PartialWeights.mis(cosine.toDouble / pdf) * (far * PartialWeights.mis(reverse) + near)
-    near = PartialWeights.mis(1.0 / pdf)
+    dVC = PartialWeights.mis(cosine.toDouble / pdf) * (dVC * PartialWeights.mis(reverse) + dVCM)
+    dVCM = PartialWeights.mis(1.0 / pdf)
 
   /** Updates for specular scattering: no connection is possible here. */
   def scatterSpecular(cosine: Float): Unit =
-    near = 0.0
-    far *= PartialWeights.mis(cosine)
+    dVCM = 0.0
+    dVC *= PartialWeights.mis(cosine)
 
   /** Sum over all strategies that cut this subpath.
     *
@@ -163,7 +164,7 @@ private[candela] final class PartialWeights:
     * @param reverse pdf of the last but one vertex when sampled from there
     */
   def sum(pdf: Double, reverse: Double): Double =
-    PartialWeights.mis(pdf) * (near + far * PartialWeights.mis(reverse))
+    PartialWeights.mis(pdf) * (dVCM + dVC * PartialWeights.mis(reverse))
 
 private[candela] object PartialWeights:
   /** A ratio of pdfs, squared by the power heuristic. */

@@ -26,7 +26,7 @@ abstract class Bsdf:
 
   /** As [[sample]], written to `out`. */
   def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
-    out.take(sample(wo, choice, u1, u2))
+    out.copyFrom(sample(wo, choice, u1, u2))
 
   /** Samples perfectly specular directions only, for Whitted's recursion. */
   def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
@@ -43,14 +43,14 @@ abstract class Bsdf:
   def flags: BsdfFlags
 
   /** Whether all scattering is perfectly specular, so that light sampling can't contribute. */
-  final def isSpecular: Boolean = !flags.has(BsdfFlags.Diffuse | BsdfFlags.Glossy)
-  final def isTransmissive: Boolean = flags.has(BsdfFlags.Transmissive)
-  final def isDiffuse: Boolean = flags.has(BsdfFlags.Diffuse)
-  final def isReciprocal: Boolean = !flags.has(BsdfFlags.OneWay)
-  final def isDispersive: Boolean = flags.has(BsdfFlags.Dispersive)
-  final def choosesLobes: Boolean = flags.has(BsdfFlags.Choosing)
-  final def isPane: Boolean = flags.has(BsdfFlags.Pane)
-  final def isNarrow: Boolean = flags.has(BsdfFlags.Narrow)
+  final def isSpecular: Boolean = !flags.hasAny(BsdfFlags.Diffuse | BsdfFlags.Glossy)
+  final def isTransmissive: Boolean = flags.hasAny(BsdfFlags.Transmissive)
+  final def isDiffuse: Boolean = flags.hasAny(BsdfFlags.Diffuse)
+  final def isReciprocal: Boolean = !flags.hasAny(BsdfFlags.OneWay)
+  final def isDispersive: Boolean = flags.hasAny(BsdfFlags.Dispersive)
+  final def choosesLobes: Boolean = flags.hasAny(BsdfFlags.Choosing)
+  final def isPane: Boolean = flags.hasAny(BsdfFlags.Pane)
+  final def isNarrow: Boolean = flags.hasAny(BsdfFlags.Narrow)
 
   /** Transmittance of a thin dielectric for light that keeps its direction. */
   def straight(@unused wo: Vec3): Rgb = Rgb.Black
@@ -135,7 +135,7 @@ final class Bounce:
   /** Sets the absorbed sample. */
   def absorb(): Unit = set(Vec3.Z, Rgb.Black, 0f, isSpecular = false)
 
-  def take(s: BsdfSample): Unit = set(s.wi, s.weight, s.pdf, s.isSpecular, s.eta)
+  def copyFrom(s: BsdfSample): Unit = set(s.wi, s.weight, s.pdf, s.isSpecular, s.eta)
 
   def toSample: BsdfSample = BsdfSample(wi.toVec3, weight, pdf, isSpecular, eta)
 
@@ -144,6 +144,6 @@ abstract class LeanBsdf extends Bsdf:
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit
 
   final def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    val out = Bounce()
-    draw(wo, choice, u1, u2, out)
-    out.toSample
+    val bounce = Bounce()
+    draw(wo, choice, u1, u2, bounce)
+    bounce.toSample

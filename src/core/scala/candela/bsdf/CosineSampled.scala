@@ -10,14 +10,14 @@ abstract class CosineSampled extends LeanBsdf:
   protected def value(wo: Vec3, wi: Vec3): Rgb
 
   final def f(wo: Vec3, wi: Vec3): Rgb =
-    if Hemisphere.same(wo, wi) then value(wo, wi) else Rgb.Black
+    if Hemisphere.isSameSide(wo, wi) then value(wo, wi) else Rgb.Black
 
   final def pdf(wo: Vec3, wi: Vec3): Float =
-    if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
+    if Hemisphere.isSameSide(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
 
   final override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val wi = Hemisphere.cosineSample(wo, u1, u2)
-    if !Hemisphere.same(wo, wi) then out.absorb()
+    if !Hemisphere.isSameSide(wo, wi) then out.absorb()
     else out.set(wi, value(wo, wi) * Pi, Hemisphere.cosinePdf(wi), isSpecular = false)
 
   final def flags: BsdfFlags = BsdfFlags.Diffuse

@@ -13,7 +13,7 @@ final class DiffuseEquivalent(inner: Material, transmits: Boolean) extends Wrapp
   def bsdf(at: ShadingPoint): Bsdf =
     DiffuseEquivalent.Lobe(inner.bsdf(at), DiffuseEquivalent.hash(at.p), transmits)
   override val isConstant: Boolean = false
-  override def flags: MaterialFlags = inner.flags.only(MaterialFlags.Dispersive)
+  override def flags: MaterialFlags = inner.flags.mask(MaterialFlags.Dispersive)
 
 object DiffuseEquivalent:
   private def bits(f: Float) = java.lang.Float.floatToRawIntBits(f) & 0xffffffffL
@@ -50,4 +50,4 @@ object DiffuseEquivalent:
       else BsdfSample(wi, weight, pdf(wo, wi), isSpecular = false)
 
     def flags: BsdfFlags =
-      BsdfFlags.Diffuse | BsdfFlags.OneWay | inner.flags.only(BsdfFlags.Dispersive)
+      BsdfFlags.Diffuse | BsdfFlags.OneWay | inner.flags.mask(BsdfFlags.Dispersive)

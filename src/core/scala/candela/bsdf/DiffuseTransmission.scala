@@ -29,19 +29,19 @@ final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends Le
     side * Hemisphere.cosinePdf(wi)
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
-    val near = Hemisphere.cosineSample(wo, u1, u2)
-    if total == 0f || !Hemisphere.same(wo, near) then out.absorb()
+    val reflected = Hemisphere.cosineSample(wo, u1, u2)
+    if total == 0f || !Hemisphere.isSameSide(wo, reflected) then out.absorb()
     else if choice < reflects then
-      val density = reflects * Hemisphere.cosinePdf(near)
-      out.set(near, reflectance * (1f / reflects), density, isSpecular = false)
+      val density = reflects * Hemisphere.cosinePdf(reflected)
+      out.set(reflected, reflectance * (1f / reflects), density, isSpecular = false)
     else
-      val far = Hemisphere.flipped(near)
-      val density = transmits * Hemisphere.cosinePdf(far)
-      out.set(far, transmittance * (1f / transmits), density, isSpecular = false)
+      val transmitted = Hemisphere.flipped(reflected)
+      val density = transmits * Hemisphere.cosinePdf(transmitted)
+      out.set(transmitted, transmittance * (1f / transmits), density, isSpecular = false)
 
   val flags: BsdfFlags =
-    val own = BsdfFlags.Diffuse | BsdfFlags.Choosing
-    if transmittance.isBlack then own else own | BsdfFlags.Transmissive
+    val common = BsdfFlags.Diffuse | BsdfFlags.Choosing
+    if transmittance.isBlack then common else common | BsdfFlags.Transmissive
 
 /** [[DiffuseTransmission]]; textures times `scale` are clamped to [0, 1]. */
 final class DiffuseTransmissionMaterial(

@@ -21,22 +21,22 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
     val p = at.p.toVec3
     val u = at.u
     val v = at.v
-    val here = height(at)
+    val baseHeight = height(at)
     // Half a sample spacing: finer detail would alias.
     val du = step(at.dudx, at.dudy)
     at.p = p + at.tangentU * du
     at.u = u + du
-    val slopeU = (height(at) - here) / du
+    val slopeU = (height(at) - baseHeight) / du
     val dv = step(at.dvdx, at.dvdy)
     at.p = p + at.tangentV * dv
     at.u = u
     at.v = v + dv
-    val slopeV = (height(at) - here) / dv
+    val slopeV = (height(at) - baseHeight) / dv
     at.p = p
     at.v = v
-    val up = at.frame.n * at.bumpSide
-    val dpdu = at.tangentU + up * slopeU + at.bendU * here
-    val dpdv = at.tangentV + up * slopeV + at.bendV * here
+    val bumpNormal = at.frame.n * at.bumpSide
+    val dpdu = at.tangentU + bumpNormal * slopeU + at.bendU * baseHeight
+    val dpdv = at.tangentV + bumpNormal * slopeV + at.bendV * baseHeight
     val n = dpdu cross dpdv
     if n.lengthSquared > 0f then
       at.frame.set(Frame.along(n.normalized.facing(at.geometricNormal), dpdu))
@@ -69,14 +69,14 @@ final class SlopeBumpMaterial(inner: Material, height: FloatTexture, step: Float
     inner.bsdf(at)
 
   private def differences(at: ShadingPoint): Slopes =
-    val here = height(at)
+    val baseHeight = height(at)
     val u = at.u
     val v = at.v
     at.u = u + step
-    val byU = (height(at) - here) / step
+    val byU = (height(at) - baseHeight) / step
     at.u = u
     at.v = v + step
-    val byV = (height(at) - here) / step
+    val byV = (height(at) - baseHeight) / step
     at.v = v
     Slopes(byU, byV)
 
@@ -93,12 +93,12 @@ final class NormalMapMaterial(
     faces: Boolean = true
 ) extends DisplacedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
-    val place = mapping(at)
-    val c = map.bilinear(place.s, 1f - place.t)
+    val texCoord = mapping(at)
+    val c = map.bilinear(texCoord.s, 1f - texCoord.t)
     val frame = Frame.along(at.frame.n, at.tangentU)
     val n = frame.toWorld(Vec3(2f * c.r - 1f, 2f * c.g - 1f, 2f * c.b - 1f))
     if n.lengthSquared > 0f then
       val unit = n.normalized
-      val there = if faces then unit.facing(at.geometricNormal) else unit
-      at.frame.set(Frame.along(there, at.tangentU))
+      val shadingNormal = if faces then unit.facing(at.geometricNormal) else unit
+      at.frame.set(Frame.along(shadingNormal, at.tangentU))
     inner.bsdf(at)

@@ -8,11 +8,11 @@ package candela.bsdf
   */
 final class BsdfFlags private (private val bits: Int) extends AnyVal:
   def |(other: BsdfFlags): BsdfFlags = new BsdfFlags(bits | other.bits)
-  def only(these: BsdfFlags): BsdfFlags = new BsdfFlags(bits & these.bits)
-  def without(these: BsdfFlags): BsdfFlags = new BsdfFlags(bits & ~these.bits)
+  def mask(flags: BsdfFlags): BsdfFlags = new BsdfFlags(bits & flags.bits)
+  def minus(flags: BsdfFlags): BsdfFlags = new BsdfFlags(bits & ~flags.bits)
 
   /** Any of these? */
-  def has(these: BsdfFlags): Boolean = (bits & these.bits) != 0
+  def hasAny(flags: BsdfFlags): Boolean = (bits & flags.bits) != 0
 
 object BsdfFlags:
   /** A part of the light is scattered evenly, by a diffuse lobe. */
@@ -53,9 +53,9 @@ object BsdfFlags:
 /** Properties of a [[Material]] that must be known before its BSDFs are evaluated. */
 final class MaterialFlags private (private val bits: Int) extends AnyVal:
   def |(other: MaterialFlags): MaterialFlags = new MaterialFlags(bits | other.bits)
-  def only(these: MaterialFlags): MaterialFlags = new MaterialFlags(bits & these.bits)
-  def without(these: MaterialFlags): MaterialFlags = new MaterialFlags(bits & ~these.bits)
-  def has(these: MaterialFlags): Boolean = (bits & these.bits) != 0
+  def mask(flags: MaterialFlags): MaterialFlags = new MaterialFlags(bits & flags.bits)
+  def minus(flags: MaterialFlags): MaterialFlags = new MaterialFlags(bits & ~flags.bits)
+  def hasAny(flags: MaterialFlags): Boolean = (bits & flags.bits) != 0
 
 object MaterialFlags:
   def Plain: MaterialFlags = new MaterialFlags(0)

@@ -9,29 +9,32 @@ import candela.math.*
   */
 final class FramedMaterial(inner: Material) extends DisplacedMaterial(inner):
   override def isDirected: Boolean = true
-  override def flags: MaterialFlags = inner.flags.without(MaterialFlags.OwnFrame)
+  override def flags: MaterialFlags = inner.flags.minus(MaterialFlags.OwnFrame)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val outer = at.frame.toFrame
     val scattered = inner.bsdf(at)
-    val own = at.frame.toFrame
+    val perturbed = at.frame.toFrame
     at.frame.set(outer)
-    Framed(scattered, Frame(outer.toLocal(own.s), outer.toLocal(own.t), outer.toLocal(own.n)))
+    Framed(
+      scattered,
+      Frame(outer.toLocal(perturbed.s), outer.toLocal(perturbed.t), outer.toLocal(perturbed.n))
+    )
 
 object FramedMaterial:
   /** Where `inner` perturbs normals as Mitsuba does. */
   def of(inner: Material): Material =
-    if inner.flags.has(MaterialFlags.OwnFrame) then FramedMaterial(inner) else inner
+    if inner.flags.hasAny(MaterialFlags.OwnFrame) then FramedMaterial(inner) else inner
 
 /** `inner` in a frame of its own. */
 final class Framed(inner: Bsdf, frame: Frame) extends LeanBsdf:
 
   /** The cosine is to be that to the normal of `inner`. */
   def f(wo: Vec3, wi: Vec3): Rgb =
-    val there = frame.toLocal(wi)
+    val innerWi = frame.toLocal(wi)
     val cosine = Math.abs(wi.z)
     if cosine < Hemisphere.Horizon then Rgb.Black
-    else inner.f(frame.toLocal(wo), there) * (Math.abs(there.z) / cosine)
+    else inner.f(frame.toLocal(wo), innerWi) * (Math.abs(innerWi.z) / cosine)
 
   def pdf(wo: Vec3, wi: Vec3): Float = inner.pdf(frame.toLocal(wo), frame.toLocal(wi))
 

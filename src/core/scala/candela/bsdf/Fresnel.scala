@@ -180,7 +180,7 @@ final class TabulatedReflectance(count: Int, curve: Float => Rgb) extends Reflec
     val x = clamp(Math.abs(cosTheta), 0f, 1f) * last.toFloat
     val cell = Math.min(x.toInt, last - 1)
     val t = x - cell.toFloat
-    Rgb(between(cell, 0, t), between(cell, 1, t), between(cell, 2, t))
+    Rgb(interpolate(cell, 0, t), interpolate(cell, 1, t), interpolate(cell, 2, t))
 
-  private def between(cell: Int, channel: Int, t: Float): Float =
+  private def interpolate(cell: Int, channel: Int, t: Float): Float =
     lerp(t, values(3 * cell + channel), values(3 * cell + 3 + channel))

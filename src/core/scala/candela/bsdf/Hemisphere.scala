@@ -12,7 +12,7 @@ private[bsdf] object Hemisphere:
   inline val Horizon = 1e-10f
 
   /** Whether both directions are in the same hemisphere, and neither is grazing. */
-  inline def same(a: Vec3, b: Vec3): Boolean = a.z * b.z > Horizon * Horizon
+  inline def isSameSide(a: Vec3, b: Vec3): Boolean = a.z * b.z > Horizon * Horizon
 
   /** Whether either direction is grazing. */
   inline def isLevel(a: Vec3, b: Vec3): Boolean = Math.abs(a.z * b.z) <= Horizon * Horizon

@@ -15,14 +15,14 @@ final class Lambert(albedo: Rgb) extends LeanBsdf:
   private val value = albedo * InvPi
   private val absorbs = albedo.isBlack
 
-  def f(wo: Vec3, wi: Vec3): Rgb = if Hemisphere.same(wo, wi) then value else Rgb.Black
+  def f(wo: Vec3, wi: Vec3): Rgb = if Hemisphere.isSameSide(wo, wi) then value else Rgb.Black
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if !absorbs && Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
+    if !absorbs && Hemisphere.isSameSide(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val wi = Hemisphere.cosineSample(wo, u1, u2)
-    if absorbs || !Hemisphere.same(wo, wi) then out.absorb()
+    if absorbs || !Hemisphere.isSameSide(wo, wi) then out.absorb()
     else out.set(wi, albedo, Hemisphere.cosinePdf(wi), isSpecular = false)
 
   override def diffuseReflectance(@unused wo: Vec3): Rgb = albedo

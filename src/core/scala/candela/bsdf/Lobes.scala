@@ -14,7 +14,7 @@ import candela.math.*
 final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
 
   /** The lobes and their sampling probabilities. */
-  def parts: Seq[(Bsdf, Float)] = lobes.toSeq.zip(probabilities)
+  def components: Seq[(Bsdf, Float)] = lobes.toSeq.zip(probabilities)
 
   def f(wo: Vec3, wi: Vec3): Rgb =
     var sum = lobes(0).f(wo, wi)
@@ -35,12 +35,12 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     // The last lobe also covers the rounding error of the sum.
     var i = 0
-    var rest = choice
-    while i < lobes.length - 1 && rest >= probabilities(i) do
-      rest -= probabilities(i)
+    var remaining = choice
+    while i < lobes.length - 1 && remaining >= probabilities(i) do
+      remaining -= probabilities(i)
       i += 1
     val p = probabilities(i)
-    val s = lobes(i).sample(wo, clamp(rest / p, 0f, OneMinusEpsilon), u1, u2)
+    val s = lobes(i).sample(wo, clamp(remaining / p, 0f, OneMinusEpsilon), u1, u2)
     if s.pdf == 0f then BsdfSample.Absorbed
     else if s.isSpecular then
       BsdfSample(s.wi, s.weight * (1f / p), s.pdf * p, isSpecular = true, s.eta)
@@ -58,29 +58,29 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
     if specular <= 0f then BsdfSample.Absorbed
     else
       // As `sample`, restricted to the specular lobes
-      var rest = choice * specular
+      var remaining = choice * specular
       var chosen = -1
       var i = 0
       while i < lobes.length do
-        if lobes(i).isSpecular && (chosen < 0 || rest >= 0f) then
+        if lobes(i).isSpecular && (chosen < 0 || remaining >= 0f) then
           chosen = i
-          rest -= probabilities(i)
+          remaining -= probabilities(i)
         i += 1
       val p = probabilities(chosen) / specular
-      val within = clamp(1f + rest / probabilities(chosen), 0f, OneMinusEpsilon)
-      val s = lobes(chosen).sample(wo, within, 0.5f, 0.5f)
+      val remapped = clamp(1f + remaining / probabilities(chosen), 0f, OneMinusEpsilon)
+      val s = lobes(chosen).sample(wo, remapped, 0.5f, 0.5f)
       BsdfSample(s.wi, s.weight * (1f / p), s.pdf * p, s.isSpecular, s.eta)
 
   val flags: BsdfFlags =
-    var all = BsdfFlags.Choosing
+    var combined = BsdfFlags.Choosing
     var transmissive = 0
     var i = 0
     while i < lobes.length do
-      all = all | lobes(i).flags
+      combined = combined | lobes(i).flags
       if lobes(i).isTransmissive then transmissive += 1
       i += 1
     // Light may be compressed by one of two lobes that transmit it, and not by the other
-    if transmissive < 2 then all else all | BsdfFlags.OneWay
+    if transmissive < 2 then combined else combined | BsdfFlags.OneWay
 
   override def straight(wo: Vec3): Rgb =
     var sum = Rgb.Black
@@ -116,7 +116,7 @@ object Lobes:
     /** Adds the lobes of `bsdf`, times `scale`. */
     def addScaled(bsdf: Bsdf, scale: Rgb): Builder = bsdf match
       case several: Lobes =>
-        for (lobe, share) <- several.parts do add(scaled(lobe, scale), share * scale.max)
+        for (lobe, share) <- several.components do add(scaled(lobe, scale), share * scale.max)
         this
       case one => add(scaled(one, scale), scale.max)
 

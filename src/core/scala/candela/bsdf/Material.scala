@@ -16,18 +16,18 @@ abstract class Material extends Varying:
   /** What must be known of it beforehand. */
   def flags: MaterialFlags = MaterialFlags.Plain
 
-  final def isDispersive: Boolean = flags.has(MaterialFlags.Dispersive)
-  final def isPane: Boolean = flags.has(MaterialFlags.Pane)
-  final def isSubsurface: Boolean = flags.has(MaterialFlags.Subsurface)
-  final def isInterface: Boolean = flags.has(MaterialFlags.Interface)
-  final def isCaster: Boolean = flags.has(MaterialFlags.Caster)
+  final def isDispersive: Boolean = flags.hasAny(MaterialFlags.Dispersive)
+  final def isPane: Boolean = flags.hasAny(MaterialFlags.Pane)
+  final def isSubsurface: Boolean = flags.hasAny(MaterialFlags.Subsurface)
+  final def isInterface: Boolean = flags.hasAny(MaterialFlags.Interface)
+  final def isCaster: Boolean = flags.hasAny(MaterialFlags.Caster)
 
   /** This material with its BSDF made once if it is constant, when it is first asked for. */
   def folded: Material =
     if isConstant && !isSubsurface && !isInterface then FoldedMaterial(this) else this
 
   /** This material where rays meet it: what [[folded]] leaves to be made is made. */
-  def met: Material = this
+  def resolved: Material = this
 
   /** This material where it is seen from above, black from behind. */
   def oneSided: Material = if isInterface then this else OneSidedMaterial(this).folded
@@ -56,15 +56,16 @@ final class ConstantMaterial(
 
 /** A constant material whose BSDF is made when it is first asked for. */
 private final class FoldedMaterial(inner: Material) extends Material:
-  private lazy val made = ConstantMaterial(inner.bsdf(ShadingPoint()), isAnisotropic, isDirected)
-  def bsdf(at: ShadingPoint): Bsdf = made.bsdf(at)
+  private lazy val constant =
+    ConstantMaterial(inner.bsdf(ShadingPoint()), isAnisotropic, isDirected)
+  def bsdf(at: ShadingPoint): Bsdf = constant.bsdf(at)
   override def isConstant: Boolean = true
   override def isAnisotropic: Boolean = inner.isAnisotropic
   override def isDirected: Boolean = inner.isDirected
   override def folded: Material = this
-  override def met: Material = made
+  override def resolved: Material = constant
   override def flags: MaterialFlags =
-    inner.flags.only(MaterialFlags.Dispersive | MaterialFlags.Pane | MaterialFlags.Caster)
+    inner.flags.mask(MaterialFlags.Dispersive | MaterialFlags.Pane | MaterialFlags.Caster)
 
 /** A material made of another one, of which all holds but for what a subclass changes. */
 abstract class WrappedMaterial(inner: Material) extends Material, Textured(inner):
@@ -78,7 +79,7 @@ abstract class JoinedMaterial(first: Material, second: Material, by: Varying*)
     extends Material,
       Textured((Vector(first, second) ++ by)*):
   // Asked once: blends of blends have many parts
-  private val joined = (first.flags | second.flags).only(JoinedMaterial.Shared)
+  private val joined = (first.flags | second.flags).mask(JoinedMaterial.Shared)
   override def flags: MaterialFlags = joined
 
 private object JoinedMaterial:

@@ -7,7 +7,7 @@ import candela.math.*
 /** A surface that is black from behind, as Mitsuba's are. */
 private[bsdf] final class OneSidedMaterial(inner: Material) extends WrappedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf = OneSided(inner.bsdf(at))
-  override def flags: MaterialFlags = inner.flags.without(MaterialFlags.Pane)
+  override def flags: MaterialFlags = inner.flags.minus(MaterialFlags.Pane)
 
 /** Scatters only between directions above the surface. */
 final class OneSided(inner: Bsdf) extends LeanBsdf:
@@ -25,6 +25,6 @@ final class OneSided(inner: Bsdf) extends LeanBsdf:
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     if wo.z > 0f then inner.sampleSpecular(wo, choice) else BsdfSample.Absorbed
 
-  def flags: BsdfFlags = inner.flags.without(BsdfFlags.Transmissive | BsdfFlags.Pane)
+  def flags: BsdfFlags = inner.flags.minus(BsdfFlags.Transmissive | BsdfFlags.Pane)
   override def diffuseReflectance(wo: Vec3): Rgb = inner.diffuseReflectance(wo)
   override def regularized: Bsdf = OneSided(inner.regularized)

@@ -20,7 +20,7 @@ final class OrenNayar(albedo: Rgb, sigma: Float) extends LeanBsdf:
   private val b = 0.45f * variance / (variance + 0.09f)
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if Hemisphere.same(wo, wi) then albedo * (InvPi * shape(wo, wi)) else Rgb.Black
+    if Hemisphere.isSameSide(wo, wi) then albedo * (InvPi * shape(wo, wi)) else Rgb.Black
 
   /** The value relative to a Lambertian surface. */
   private def shape(wo: Vec3, wi: Vec3): Float =
@@ -31,11 +31,11 @@ final class OrenNayar(albedo: Rgb, sigma: Float) extends LeanBsdf:
     if projected <= 0f then a else a + b * projected / (if cosI > cosO then cosI else cosO)
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
+    if Hemisphere.isSameSide(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val wi = Hemisphere.cosineSample(wo, u1, u2)
-    if !Hemisphere.same(wo, wi) then out.absorb()
+    if !Hemisphere.isSameSide(wo, wi) then out.absorb()
     else out.set(wi, albedo * shape(wo, wi), Hemisphere.cosinePdf(wi), isSpecular = false)
 
   def flags: BsdfFlags = BsdfFlags.Diffuse

@@ -29,11 +29,11 @@ final class RoughDiffuse(albedo: Rgb, sigma: Float) extends CosineSampled:
     val share = 2f * beta * InvPi
     val lean = if cosPhi > 0f then sinAlpha else sinAlpha - share * share * share
     val grazing = square(4f * InvPi * InvPi * alpha * beta)
-    val once = direct + cosPhi * 0.45f * opposite * lean * sinBeta / steep +
+    val singleBounce = direct + cosPhi * 0.45f * opposite * lean * sinBeta / steep +
       (1f - Math.abs(cosPhi)) * 0.125f * opposite * grazing * (sinAlpha + sinBeta) / (level + steep)
-    val again = twice * (1f - cosPhi * share * share)
+    val doubleBounce = twice * (1f - cosPhi * share * share)
     // The fit may be below 0 where both are grazing
-    albedo.map(c => c * Math.max(0f, once + c * again) * InvPi)
+    albedo.map(c => c * Math.max(0f, singleBounce + c * doubleBounce) * InvPi)
 
 /** [[RoughDiffuse]], or its approximation.
   *

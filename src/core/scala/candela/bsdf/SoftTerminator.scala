@@ -34,7 +34,7 @@ final class SoftTerminatorMaterial(
 
   /** Light samples of Mitsuba don't pass a pane whose normals are perturbed. */
   override def flags: MaterialFlags =
-    inner.flags.without(MaterialFlags.Pane) | MaterialFlags.OwnFrame
+    inner.flags.minus(MaterialFlags.Pane) | MaterialFlags.OwnFrame
 
   /** By the side of the surface that `wo` is on. */
   override def oneSided: Material =
@@ -77,53 +77,54 @@ final class SoftTerminator(
       2f / (1f + sqrt(1f + alpha2 * tan2))
 
   /** `w` for `inner`, whose tangent is not turned together with its normal, and back. */
-  private def within(w: Vec3, away: Boolean): Vec3 =
-    if away && isDirected then Vec3(-w.x, -w.y, w.z) else w
+  private def toInner(w: Vec3, isTurned: Boolean): Vec3 =
+    if isTurned && isDirected then Vec3(-w.x, -w.y, w.z) else w
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if !isAway(wo) then facing(wo, wi, away = false)
+    if !isAway(wo) then facing(wo, wi, isTurned = false)
     else if !turns then Rgb.Black
     else
       // The cosine is to be that to the turned normal
-      val there = turned(wi)
+      val turnedWi = turned(wi)
       val cosine = Math.abs(wi.z)
       if cosine < Hemisphere.Horizon then Rgb.Black
-      else facing(turned(wo), there, away = true) * (Math.abs(there.z) / cosine)
+      else facing(turned(wo), turnedWi, isTurned = true) * (Math.abs(turnedWi.z) / cosine)
 
-  private def facing(wo: Vec3, wi: Vec3, away: Boolean): Rgb =
-    val part = passed(wi)
-    if part == 0f then Rgb.Black else inner.f(within(wo, away), within(wi, away)) * part
+  private def facing(wo: Vec3, wi: Vec3, isTurned: Boolean): Rgb =
+    val shadowing = passed(wi)
+    if shadowing == 0f then Rgb.Black
+    else inner.f(toInner(wo, isTurned), toInner(wi, isTurned)) * shadowing
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if !isAway(wo) then facingPdf(wo, wi, away = false)
+    if !isAway(wo) then facingPdf(wo, wi, isTurned = false)
     else if !turns then 0f
-    else facingPdf(turned(wo), turned(wi), away = true)
+    else facingPdf(turned(wo), turned(wi), isTurned = true)
 
-  private def facingPdf(wo: Vec3, wi: Vec3, away: Boolean): Float =
-    if passed(wi) == 0f then 0f else inner.pdf(within(wo, away), within(wi, away))
+  private def facingPdf(wo: Vec3, wi: Vec3, isTurned: Boolean): Float =
+    if passed(wi) == 0f then 0f else inner.pdf(toInner(wo, isTurned), toInner(wi, isTurned))
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
-    val away = isAway(wo)
-    inner.draw(within(if away then turned(wo) else wo, away), choice, u1, u2, out)
-    val wi = within(out.wi.toVec3, away)
-    val part = passed(wi)
-    if part == 0f || away && !turns then out.absorb()
+    val isTurned = isAway(wo)
+    inner.draw(toInner(if isTurned then turned(wo) else wo, isTurned), choice, u1, u2, out)
+    val wi = toInner(out.wi.toVec3, isTurned)
+    val shadowing = passed(wi)
+    if shadowing == 0f || isTurned && !turns then out.absorb()
     else
-      val there = if away then turned(wi) else wi
-      out.set(there, out.weight * part, out.pdf, out.isSpecular, out.eta)
+      val outerWi = if isTurned then turned(wi) else wi
+      out.set(outerWi, out.weight * shadowing, out.pdf, out.isSpecular, out.eta)
 
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
-    val away = isAway(wo)
-    val s = inner.sampleSpecular(within(if away then turned(wo) else wo, away), choice)
-    val wi = within(s.wi, away)
-    val part = passed(wi)
-    if part == 0f || away && !turns then BsdfSample.Absorbed
+    val isTurned = isAway(wo)
+    val s = inner.sampleSpecular(toInner(if isTurned then turned(wo) else wo, isTurned), choice)
+    val wi = toInner(s.wi, isTurned)
+    val shadowing = passed(wi)
+    if shadowing == 0f || isTurned && !turns then BsdfSample.Absorbed
     else
-      val there = if away then turned(wi) else wi
-      BsdfSample(there, s.weight * part, s.pdf, s.isSpecular, s.eta)
+      val outerWi = if isTurned then turned(wi) else wi
+      BsdfSample(outerWi, s.weight * shadowing, s.pdf, s.isSpecular, s.eta)
 
   val flags: BsdfFlags =
-    val changed = inner.flags.without(BsdfFlags.Pane) | BsdfFlags.OneWay
+    val changed = inner.flags.minus(BsdfFlags.Pane) | BsdfFlags.OneWay
     // Through the perturbed surface, where its normals are turned
     if base.z < 1f then changed | BsdfFlags.Transmissive else changed
 

@@ -9,26 +9,26 @@ final class TwoSidedMaterial(front: Material, back: Material) extends JoinedMate
   def bsdf(at: ShadingPoint): Bsdf =
     val facing = front.bsdf(at)
     TwoSided(facing, if back eq front then facing else back.bsdf(at))
-  override def flags: MaterialFlags = super.flags.without(MaterialFlags.Pane)
+  override def flags: MaterialFlags = super.flags.minus(MaterialFlags.Pane)
 
 /** Reflects by `front` above the surface and by `back`, mirrored, below it. */
 final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if !Hemisphere.same(wo, wi) then Rgb.Black
+    if !Hemisphere.isSameSide(wo, wi) then Rgb.Black
     else if wo.z > 0f then front.f(wo, wi)
     else back.f(Hemisphere.flipped(wo), Hemisphere.flipped(wi))
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if !Hemisphere.same(wo, wi) then 0f
+    if !Hemisphere.isSameSide(wo, wi) then 0f
     else if wo.z > 0f then front.pdf(wo, wi)
     else back.pdf(Hemisphere.flipped(wo), Hemisphere.flipped(wi))
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val side = if wo.z > 0f then front else back
     side.draw(Hemisphere.above(wo), choice, u1, u2, out)
-    val up = out.wi.toVec3
-    if up.z > 0f then
-      val wi = Hemisphere.seenFrom(wo, up)
+    val upper = out.wi.toVec3
+    if upper.z > 0f then
+      val wi = Hemisphere.seenFrom(wo, upper)
       out.set(wi, out.weight, out.pdf, out.isSpecular, out.eta)
     else out.absorb()
 
@@ -37,7 +37,7 @@ final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
     BsdfSample(Hemisphere.seenFrom(wo, s.wi), s.weight, s.pdf, s.isSpecular, s.eta)
 
   val flags: BsdfFlags =
-    (front.flags | back.flags).without(BsdfFlags.Transmissive | BsdfFlags.Pane)
+    (front.flags | back.flags).minus(BsdfFlags.Transmissive | BsdfFlags.Pane)
   override def diffuseReflectance(wo: Vec3): Rgb =
     (if wo.z > 0f then front else back).diffuseReflectance(Hemisphere.above(wo))
   override def regularized: Bsdf =

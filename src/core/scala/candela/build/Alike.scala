@@ -21,18 +21,18 @@ private[build] final class Alike[T](problems: Findings):
       through: T => Option[Array[Float] => Option[T]] = (_: T) => None
   )(make: => T): T =
     def fresh =
-      val before = problems.reported
-      val made = make
-      val isKept = problems.reported == before && (serves(made) || through(made).isDefined)
-      last = Option.when(isKept)(statement -> made)
-      made
+      val reports = problems.reported
+      val value = make
+      val isKept = problems.reported == reports && (serves(value) || through(value).isDefined)
+      last = Option.when(isKept)(statement -> value)
+      value
     last match
-      case Some((earlier, made)) if serves(made) =>
-        if earlier.isAlike(statement) then made else fresh
-      case Some((earlier, made)) if earlier.isAlikeBut("P", statement) =>
+      case Some((earlier, value)) if serves(value) =>
+        if earlier.isAlike(statement) then value else fresh
+      case Some((earlier, value)) if earlier.isAlikeBut("P", statement) =>
         val varied =
           for
-            through <- through(made)
+            through <- through(value)
             points <- statement.param("P")
             other <- through(points.floats)
           yield other

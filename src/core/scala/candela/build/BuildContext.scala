@@ -36,9 +36,9 @@ private[build] final class BuildContext(
     * @param textures defines them
     */
   def in(basis: ColorBasis)(textures: BuildContext => Unit): BuildContext =
-    val other = in(resources.in(basis))
-    other.resources.defineLater(() => textures(other))
-    other
+    val context = in(resources.in(basis))
+    context.resources.defineLater(() => textures(context))
+    context
 
   /** The same scene with other resources. */
   def in(resources: Resources): BuildContext =
@@ -65,11 +65,11 @@ private[build] final class BuildContext(
     * @param what subject of the warning
     */
   def stillSite(d: Declaration, toWorld: AnimatedTransform, what: String): Site =
-    if toWorld.isAnimated then problems.warn(Code.NotAnimated, d.at, Motions.notAnimated(what))
+    if toWorld.isAnimated then problems.warn(Code.NotAnimated, d.pos, Motions.notAnimated(what))
     site(d, toWorld.start)
 
   /** Builds the statement, or `default` if the statement is missing or invalid. */
-  def made[A](statement: Option[Declaration], recipes: Recipes[A], default: String): A =
+  def build[A](statement: Option[Declaration], recipes: Recipes[A], default: String): A =
     statement
       .flatMap(d => recipes.build(site(d)))
       .getOrElse(recipes.build(site(unwritten(recipes.category, default))).get)
@@ -79,7 +79,7 @@ private[build] final class BuildContext(
     Declaration(category, name, Vector.empty, start, SceneFolder.Nowhere)
 
   /** Where a statement is; of one that the file does not contain, where that begins. */
-  def placeOf(statement: Option[Declaration]): SourcePos = statement.fold(start)(_.at)
+  def placeOf(statement: Option[Declaration]): SourcePos = statement.fold(start)(_.pos)
 
   private def start: SourcePos = BuildContext.start(description)
 
@@ -100,12 +100,12 @@ private[build] object BuildContext:
     if isBlind then
       problems.warn(
         Code.Transform,
-        whole.camera.fold(start(whole))(_.at),
+        whole.camera.fold(start(whole))(_.pos),
         "the camera's transform is singular; the image shows the background only, as in pbrt-v4"
       )
     val origin = RenderOrigin.of(description)
     val mode = ColorPlan.mode(settings.colorMode, description)
-    val effective = settings.over(optionStatements(description, basis, problems))
+    val effective = settings.overriding(optionStatements(description, basis, problems))
     val resources = new Resources(
       basis,
       pool,
@@ -113,13 +113,13 @@ private[build] object BuildContext:
       mayBeSpectral = mode != ColorMode.Rgb,
       effective.copy(unfiltered = effective.unfiltered || !rules.filters),
       rules = Option.when(description.dialect == Dialect.Mitsuba)(rules),
-      origin = origin.at,
+      origin = origin.position,
       description.folder.allowance,
       TextureStore.of(description, control.textures, pool, control.cache),
       control.cache,
       isReadable = description.errors.isEmpty
     )
-    new BuildContext(origin.around(description), origin, resources, problems)
+    new BuildContext(origin.recentre(description), origin, resources, problems)
 
   /** What the scene's `Option` statements set. */
   private def optionStatements(

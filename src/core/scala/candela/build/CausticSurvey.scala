@@ -39,17 +39,17 @@ private[build] final class CausticSurvey(
 private[build] object CausticSurvey:
   private val MaxListed = 3
 
-  /** @param worn   material of each shape
+  /** @param shapeMaterials   material of each shape
     * @param lights of the scene
     */
   def apply(
       context: BuildContext,
       materials: MaterialTable,
-      worn: Iterator[Int],
+      shapeMaterials: Iterator[Int],
       lights: Vector[SampledLight]
   ): CausticSurvey =
     val shapes = new Array[Int](materials.materials.length)
-    worn.foreach(shapes(_) += 1)
+    shapeMaterials.foreach(shapes(_) += 1)
     val names = materials.names
     new CausticSurvey(
       names.indices.toVector

@@ -64,9 +64,10 @@ private[build] object ColorPlan:
       case ColorMode.Auto =>
         val basis = context.resources.plainBasis
         val error = ColorError.bound(census.lights, census.surfaces, basis, Bounces)
-        val shown = String.format(Locale.ROOT, "%.1f", error * 100)
-        if error < Tolerance then ColorPlan(Vector.empty, s"three numbers: off by $shown % at most")
-        else spectral(s"three numbers may be off by $shown %")
+        val percent = String.format(Locale.ROOT, "%.1f", error * 100)
+        if error < Tolerance then
+          ColorPlan(Vector.empty, s"three numbers: off by $percent % at most")
+        else spectral(s"three numbers may be off by $percent %")
 
   /** Error of a channel above which rendering is spectral. */
   private val Tolerance = 0.005

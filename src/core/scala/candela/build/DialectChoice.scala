@@ -23,8 +23,8 @@ object DialectChoice:
     else
       val clues = scene.clues ++
         (if scene.dialect == Dialect.V4 then Vector.empty else parameters(scene))
-      val old = Vector(Dialect.V3, Dialect.V2).maxBy(d => clues.map(_.weight(d)).sum)
-      val chosen = if scene.dialect == Dialect.V4 then Dialect.V4 else old
+      val likeliest = Vector(Dialect.V3, Dialect.V2).maxBy(d => clues.map(_.weight(d)).sum)
+      val chosen = if scene.dialect == Dialect.V4 then Dialect.V4 else likeliest
       scene.copy(
         dialect = chosen,
         dialectReason = reason(clues, chosen),
@@ -33,46 +33,49 @@ object DialectChoice:
 
   /** What speaks for the choice, strongest first. */
   private def reason(clues: Vector[DialectClue], chosen: Dialect): String =
-    val others = Dialect.ofPbrt.filter(_ != chosen)
-    def lead(c: DialectClue) = c.weight(chosen) - others.map(c.weight).min
+    val alternatives = Dialect.ofPbrt.filter(_ != chosen)
+    def lead(c: DialectClue) = c.weight(chosen) - alternatives.map(c.weight).min
     val telling = clues.filter(lead(_) > 0).sortBy(c => -lead(c)).take(4)
     if telling.isEmpty then "the file has no clues"
-    else "for " + telling.map(shown).mkString(", ")
+    else "for " + telling.map(describe).mkString(", ")
 
-  private def shown(c: DialectClue): String =
-    c.what + c.at.fold("")(at => s" (line ${at.line})")
+  private def describe(c: DialectClue): String =
+    c.what + c.pos.fold("")(at => s" (line ${at.line})")
 
   private def contradiction(clues: Vector[DialectClue], chosen: Dialect): Option[Problem] =
     val contrary = clues.filter: c =>
-      c.weight(chosen) == 0 && Dialect.ofPbrt.exists(c.weight(_) >= Contrary) && c.at.nonEmpty
+      c.weight(chosen) == 0 && Dialect.ofPbrt.exists(c.weight(_) >= Contrary) && c.pos.nonEmpty
     contrary.headOption.map: first =>
-      val all = contrary.map: c =>
+      val contradictions = contrary.map: c =>
         val owners = Dialect.ofPbrt.toSet.filter(c.weight(_) > 0)
-        s"${shown(c)} is of ${Dialects.list(owners)}"
+        s"${describe(c)} is of ${Dialects.list(owners)}"
       val name = Dialects.name(chosen)
       // Of two that fit as well, the newer one
-      val other = Dialect.ofPbrt.reverse.maxBy(d => contrary.map(_.weight(d)).sum)
+      val alternative = Dialect.ofPbrt.reverse.maxBy(d => contrary.map(_.weight(d)).sum)
       Problem.warning(
         Code.MixedDialects,
-        first.at.get,
-        s"the scene is read as $name (${reason(clues, chosen)}), but ${all.mkString(", ")}",
-        Some(s"`--dialect ${Dialects.name(other)}` reads it as ${Dialects.name(other)}, " +
-          s"`--dialect $name` without this warning")
+        first.pos.get,
+        s"the scene is read as $name (${reason(clues, chosen)}), but " +
+          contradictions.mkString(", "),
+        Some(
+          s"`--dialect ${Dialects.name(alternative)}` reads it as ${Dialects.name(alternative)}, " +
+            s"`--dialect $name` without this warning"
+        )
       )
 
   /** Parameters that only one of v2 and v3 has, each counted once. */
   private def parameters(scene: SceneDescription): Vector[DialectClue] =
-    val seen = mutable.HashSet.empty[(String, String, ParamType, String)]
-    val found = Vector.newBuilder[DialectClue]
+    val keys = mutable.HashSet.empty[(String, String, ParamType, String)]
+    val clues = Vector.newBuilder[DialectClue]
     def add(category: String, d: Declaration): Unit =
       for p <- d.params do
-        if seen.add((category, d.name, p.paramType, p.name)) then
+        if keys.add((category, d.name, p.paramType, p.name)) then
           val recipes = Language.categories.find(_.name == category).get.recipes
           val (inV2, inV3) = (fits(recipes, d, p, Dialect.V2), fits(recipes, d, p, Dialect.V3))
           if inV2 != inV3 then
-            val what = s"\"${p.paramType.spelling} ${p.name}\" of \"${d.name}\""
+            val description = s"\"${p.paramType.spelling} ${p.name}\" of \"${d.name}\""
             val (v2, v3) = if inV2 then (PerParameter, 0) else (0, PerParameter)
-            found += DialectClue(what, Some(p.at), v2, v3, 0)
+            clues += DialectClue(description, Some(p.pos), v2, v3, 0)
     def addMaterial(m: MaterialRef): Unit = m match
       case MaterialRef.Inline(d) => add("Material", d)
       case _ => ()
@@ -84,13 +87,13 @@ object DialectChoice:
       add("Shape", s.shape)
       addMaterial(s.material)
       for l <- s.areaLight do add("AreaLightSource", l)
-    capped(found.result())
+    capped(clues.result())
 
   /** Many files repeat what one exporter writes. */
   private def capped(clues: Vector[DialectClue]): Vector[DialectClue] =
-    val most = MostOfParameters / PerParameter
+    val limit = MostOfParameters / PerParameter
     val (v2, v3) = clues.partition(_.v2 > 0)
-    v2.take(most) ++ v3.take(most)
+    v2.take(limit) ++ v3.take(limit)
 
   private def settings(scene: SceneDescription): Vector[(String, Option[Declaration])] =
     Vector(

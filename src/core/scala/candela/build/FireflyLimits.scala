@@ -18,28 +18,28 @@ private[build] final class FireflyLimits(context: BuildContext, fireflies: Firef
         case None if method.seesLightPaths || method.pilot.exists(_.connects) =>
           context.problems.warn(
             Code.OptionMisfit,
-            place,
+            position,
             "--fireflies reweight leaves light paths that reach the camera as they are"
           )
         case None => ()
     case Fireflies.Clamped(_) if method.dividesLight => ()
     case Fireflies.Clamped(_) =>
-      val why = method.withoutOutliers.filter(_ => !method.takesCameraSamples)
-      refuse(why.getOrElse(
+      val reason = method.withoutOutliers.filter(_ => !method.takesCameraSamples)
+      refuse(reason.getOrElse(
         "this integrator does not separate indirect light; \"path\" and \"volpath\" do"
       ))
 
   private def refuse(why: String): Unit =
-    context.problems.error(Code.OptionMisfit, place, s"--fireflies ${fireflies.word}: $why")
+    context.problems.error(Code.OptionMisfit, position, s"--fireflies ${fireflies.word}: $why")
 
-  private def place =
+  private def position =
     val description = context.description
     context.placeOf(description.integrator.orElse(description.renderer))
 
 private[build] object FireflyLimits:
   /** What `--explain` says, if anything is done. */
   def feature(settings: RenderSettings): Option[(String, String)] =
-    val what = settings.fireflies match
+    val effect = settings.fireflies match
       case _ if settings.preview => None
       case Fireflies.Kept => None
       case Fireflies.Reweighted =>
@@ -47,4 +47,4 @@ private[build] object FireflyLimits:
           "of brightness; the image is biased")
       case Fireflies.Clamped(most) =>
         Some(s"indirect light of samples is limited to $most; the image is biased")
-    what.map("fireflies" -> _)
+    effect.map("fireflies" -> _)

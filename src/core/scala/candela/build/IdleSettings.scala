@@ -38,15 +38,15 @@ private[build] final class IdleSettings(context: BuildContext, settings: RenderS
       "no mesh is displaced"
 
   private def idle(option: String, isSo: Boolean)(why: => String): Unit =
-    if isSo then context.problems.warn(Code.IdleOption, place, s"--$option has no effect: $why")
+    if isSo then context.problems.warn(Code.IdleOption, position, s"--$option has no effect: $why")
 
   private def integrator: String =
     val described = context.description.renderer.filter(_.name == "metropolis")
       .orElse(context.description.integrator)
     s"\"${described.fold(context.defaults.integrator)(_.name)}\""
 
-  private def place: Option[SourcePos] =
-    context.description.renderer.orElse(context.description.integrator).map(_.at)
+  private def position: Option[SourcePos] =
+    context.description.renderer.orElse(context.description.integrator).map(_.pos)
 
 private[build] object IdleSettings:
   /** Why light paths don't look for caustics. */

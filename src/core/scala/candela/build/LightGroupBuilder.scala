@@ -24,16 +24,16 @@ object LightGroupBuilder:
     val named = names(statements)
     val lights = statements.map(d => Light(d.name, named(d))) ++
       Option.when(glows)(Light(Media, Media))
-    val found = lights.map(groupOf(grouping, lights))
-    val all = found.distinct
-    if all.size > MaxGroups then
+    val groupNames = lights.map(groupOf(grouping, lights))
+    val distinctNames = groupNames.distinct
+    if distinctNames.size > MaxGroups then
       throw error(
         Code.OptionMisfit,
-        s"the scene has ${all.size} light groups, more than $MaxGroups",
+        s"the scene has ${distinctNames.size} light groups, more than $MaxGroups",
         Some("--light-groups type merges those of equal types; NAME=LIGHT+LIGHT,… names them")
       )
-    val indices = found.map(all.indexOf).toArray
-    LightGroups(all, indices.take(statements.size), if glows then indices.last else -1)
+    val indices = groupNames.map(distinctNames.indexOf).toArray
+    LightGroups(distinctNames, indices.take(statements.size), if glows then indices.last else -1)
 
   private final case class Light(kind: String, name: String)
 
@@ -42,12 +42,12 @@ object LightGroupBuilder:
       case LightGrouping.Statements => _.name
       case LightGrouping.Types => _.kind
       case LightGrouping.Named(groups) =>
-        val known = all.flatMap(l => Vector(l.kind, l.name)).distinct
-        for (_, members) <- groups; member <- members if !known.contains(member) do
+        val names = all.flatMap(l => Vector(l.kind, l.name)).distinct
+        for (_, members) <- groups; member <- members if !names.contains(member) do
           throw error(
             Code.UnknownEntry,
             s"--light-groups: no light `$member`",
-            Suggest.help(member, known)
+            Suggest.help(member, names)
           )
         light =>
           groups
@@ -60,13 +60,13 @@ object LightGroupBuilder:
 
   /** The shortest names that tell all statements apart. */
   private def names(statements: Vector[Declaration]): Declaration => String =
-    val places = statements.distinctBy(d => (d.name, d.at))
+    val declarations = statements.distinctBy(d => (d.name, d.pos))
     val ways = Vector[Declaration => String](
-      d => s"${d.name}_${d.at.line}",
-      d => s"${d.name}_${d.at.line}_${d.at.column}",
-      d => s"${d.name}_${file(d)}_${d.at.line}_${d.at.column}"
+      d => s"${d.name}_${d.pos.line}",
+      d => s"${d.name}_${d.pos.line}_${d.pos.column}",
+      d => s"${d.name}_${file(d)}_${d.pos.line}_${d.pos.column}"
     )
-    ways.find(way => places.map(way).distinct.size == places.size).getOrElse(ways.last)
+    ways.find(way => declarations.map(way).distinct.size == declarations.size).getOrElse(ways.last)
 
   /** Relative to the scene's folder, as far as channel names allow. */
   private def file(d: Declaration): String =

@@ -19,43 +19,44 @@ private[build] final class MaterialFamilies(count: Int):
   private val ofMaterial = new Array[Family | Null](count)
 
   /** Builds materials by index in the plain basis, and finds their families. */
-  def found(context: BuildContext): (Int, Declaration) => Material =
+  def plainBuilder(context: BuildContext): (Int, Declaration) => Material =
     val latest = mutable.HashMap.empty[String, Family]
     val byKind = mutable.HashMap.empty[Int, Family]
-    val known = this.known(context)
+    val familyBuilder = this.familyBuilder(context)
     // Most are of the family of the one before; others take turns
     def familyOf(d: Declaration): Option[Family] = latest.get(d.name).flatMap: last =>
-      if last.has(d) then Some(last) else byKind.get(last.kindOf(d)).filter(_.has(d))
+      if last.contains(d) then Some(last) else byKind.get(last.kindOf(d)).filter(_.contains(d))
     (index, d) =>
       familyOf(d) match
         case Some(family) =>
-          context.resources.allowance.checkTime(Some(d.at))
+          context.resources.allowance.checkTime(Some(d.pos))
           ofMaterial(index) = family
           latest(d.name) = family
-          known(index, d)
+          familyBuilder(index, d)
         case None =>
-          val before = context.problems.reported
-          val made = Materials.build(context.site(d))
-          if context.problems.reported == before then
-            for case recipe: TintedRecipe <- Materials.all.find(d.name, context.site(d).dialect) do
+          val reports = context.problems.reported
+          val material = Materials.build(context.site(d))
+          if context.problems.reported == reports then
+            for case recipe: TintedRecipe <- Materials.all.lookUp(d.name, context.site(d).dialect)
+            do
               val family = Family(recipe, d)
               latest(d.name) = family
               byKind(family.kindOf(d)) = family
-          made
+          material
 
   /** As above, in any basis, once the families are known. */
-  def known(context: BuildContext): (Int, Declaration) => Material =
+  def familyBuilder(context: BuildContext): (Int, Declaration) => Material =
     val makers = mutable.HashMap.empty[Family, Declaration => Material]
     (index, d) =>
       val family = ofMaterial(index)
       if family == null then Materials.build(context.site(d))
-      else makers.getOrElseUpdate(family, family.in(context))(d)
+      else makers.getOrElseUpdate(family, family.makerIn(context))(d)
 
 private[build] object MaterialFamilies:
   private final class Family(recipe: TintedRecipe, first: Declaration):
-    def has(d: Declaration): Boolean = recipe.isAlike(first, d)
+    def contains(d: Declaration): Boolean = recipe.isAlike(first, d)
     def kindOf(d: Declaration): Int = recipe.kindOf(d)
 
-    def in(context: BuildContext): Declaration => Material =
-      val make = recipe.family(context.site(first))
-      d => make(context.site(d))
+    def makerIn(context: BuildContext): Declaration => Material =
+      val build = recipe.family(context.site(first))
+      d => build(context.site(d))

@@ -42,10 +42,10 @@ private[build] final class MaterialTable private (
     *
     * @param context made anew with each set of materials
     */
-  def in(bases: Int, isDispersive: Boolean, integrator: IntegratorPlan)(
+  def inBasis(bases: Int, isDispersive: Boolean, integrator: IntegratorPlan)(
       context: () => BuildContext
   ): SceneMaterials =
-    ofScene.in(isDispersive, Math.max(MaterialTable.MostKept / bases, 1)): () =>
+    ofScene.inBasis(isDispersive, Math.max(MaterialTable.MostKept / bases, 1)): () =>
       maker(context(), integrator)
 
   /** Whether any material disperses light in this colour basis of a scene that may. */
@@ -54,11 +54,11 @@ private[build] final class MaterialTable private (
       materials.indices.map(maker(context, integrator)).exists(_.isDispersive)
 
   /** Of the shape at a place among all. */
-  def materialOf(place: Int): Int = ofShape(place)
+  def materialOf(shapeIndex: Int): Int = ofShape(shapeIndex)
 
-  /** @param place of the shape among all */
-  def dress(shape: ShapeDescription, place: Int): DressedShape =
-    DressedShape(shape, ownPart(shape), ofShape(place))
+  /** @param shapeIndex of the shape among all */
+  def dress(shape: ShapeDescription, shapeIndex: Int): DressedShape =
+    DressedShape(shape, ownPart(shape), ofShape(shapeIndex))
 
   def needsTangents: Boolean = materials.exists(_.isAnisotropic)
 
@@ -87,60 +87,61 @@ private[build] object MaterialTable:
     def split(s: ShapeDescription) = shapeMaterials.split(s.shape, s.material)
 
     // Each has its material looked up once: there may be millions
-    val worn = mutable.ArrayBuffer.empty[(Finish, MediumBorder)]
+    val assignments = mutable.ArrayBuffer.empty[(Finish, MediumBorder)]
     // The first index of each, and others of those that have several
     val firsts = java.util.HashMap[MaterialRef, Int]()
-    val others = mutable.HashMap.empty[(Finish, MediumBorder), Int]
+    val extraIndices = mutable.HashMap.empty[(Finish, MediumBorder), Int]
     // Materials with several indices, one for each pair of media and side
     val sharing = mutable.HashSet.empty[MaterialRef]
-    def number(wear: (Finish, MediumBorder)): Int =
+    def number(assignment: (Finish, MediumBorder)): Int =
       def added =
-        worn += wear
-        worn.size - 1
-      val ref = wear._1.ref
+        assignments += assignment
+        assignments.size - 1
+      val ref = assignment._1.ref
       val first = firsts.getOrDefault(ref, -1)
       if first < 0 then
-        firsts.put(ref, worn.size): Unit
+        firsts.put(ref, assignments.size): Unit
         added
-      else if worn(first) == wear then first
+      else if assignments(first) == assignment then first
       else
         sharing += ref
-        others.getOrElseUpdate(wear, added)
+        extraIndices.getOrElseUpdate(assignment, added)
     val ofShape = new Array[Int](shapes.size)
     var touchesMedia = false
-    var place = 0
+    var shapeIndex = 0
     var last: (ShapeDescription, MaterialRef) | Null = null
     for s <- shapes do
       val ref = split(s)._2
       // Most shapes wear what the one before does: its statement is not compared part by part
-      val before = last
-      ofShape(place) =
-        if before != null && (before._2 eq ref) && isWornAlike(before._1, s) then ofShape(place - 1)
+      val previous = last
+      ofShape(shapeIndex) =
+        if previous != null && (previous._2 eq ref) && isWornAlike(previous._1, s) then
+          ofShape(shapeIndex - 1)
         else
           val border = media.border(s)
           touchesMedia |= border.inside >= 0 || border.outside >= 0
           last = (s, ref)
-          number((Finish(ref, s.oneSided), media.seen(border)))
-      place += 1
+          number((Finish(ref, s.oneSided), media.supported(border)))
+      shapeIndex += 1
     define(context)
-    val families = MaterialFamilies(worn.size)
+    val families = MaterialFamilies(assignments.size)
     def maker(
         context: BuildContext,
         integrator: IntegratorPlan,
         inPlace: (Int, Declaration) => Material
     ): Int => Material =
-      val made = mutable.HashMap.empty[MaterialRef, Material]
+      val cache = mutable.HashMap.empty[MaterialRef, Material]
       index =>
-        val finish = worn(index)._1
-        def make = finished(context, integrator, finish.ref, inPlace(index, _))
-        finish.of(if sharing.isEmpty || !sharing(finish.ref) then make
-        else made.getOrElseUpdate(finish.ref, make))
+        val finish = assignments(index)._1
+        def create = finished(context, integrator, finish.ref, inPlace(index, _))
+        finish.of(if sharing.isEmpty || !sharing(finish.ref) then create
+        else cache.getOrElseUpdate(finish.ref, create))
     new MaterialTable(
-      worn.indices.map(maker(context, integrator, families.found(context))).toArray,
-      worn.map(_._2).toArray,
+      assignments.indices.map(maker(context, integrator, families.plainBuilder(context))).toArray,
+      assignments.map(_._2).toArray,
       touchesMedia,
-      worn.map((finish, _) => name(finish.ref)).toVector,
-      (context, integrator) => maker(context, integrator, families.known(context)),
+      assignments.map((finish, _) => name(finish.ref)).toVector,
+      (context, integrator) => maker(context, integrator, families.familyBuilder(context)),
       ofShape,
       split(_)._1
     )
@@ -150,8 +151,8 @@ private[build] object MaterialTable:
     for (name, d) <- context.description.namedMaterials do
       context.resources.materials.define(
         name,
-        d.at,
-        Materials.parts(d),
+        d.pos,
+        Materials.nestedNames(d),
         other => Materials.build(context.in(other).site(d))
       )
 
@@ -161,8 +162,8 @@ private[build] object MaterialTable:
 
   /** A material and whether it is black from behind. */
   private final case class Finish(ref: MaterialRef, isOneSided: Boolean):
-    def of(made: Material): Material =
-      if isOneSided then made.oneSided else made
+    def of(material: Material): Material =
+      if isOneSided then material.oneSided else material
 
   private def name(ref: MaterialRef): String = ref match
     case MaterialRef.Default => "default"

@@ -20,12 +20,12 @@ private[build] final class MediaBuilder(
   private def site(d: Declaration, toWorld: AnimatedTransform): Site =
     context.stillSite(d, toWorld, "a medium")
 
-  private val made: Vector[(String, Option[Medium])] =
+  private val namedMedia: Vector[(String, Option[Medium])] =
     description.media.map(m => m.name -> Media.all.build(site(m.medium, m.mediumToWorld)).flatten)
-  private val media: Array[Medium] = made.flatMap(_._2).toArray
+  private val media: Array[Medium] = namedMedia.flatMap(_._2).toArray
   private val indexOf: Map[String, Int] =
-    val indices = made.scanLeft(0)((i, named) => if named._2.isEmpty then i else i + 1)
-    made.lazyZip(indices).map((named, i) => named._1 -> named._2.fold(-1)(_ => i)).toMap
+    val indices = namedMedia.scanLeft(0)((i, named) => if named._2.isEmpty then i else i + 1)
+    namedMedia.lazyZip(indices).map((named, i) => named._1 -> named._2.fold(-1)(_ => i)).toMap
 
   private val regions: Array[Region] =
     description.volumes
@@ -49,15 +49,15 @@ private[build] final class MediaBuilder(
 
   /** Index of the camera's medium; −1: none. */
   private val camera: Int =
-    val at = context.placeOf(description.camera)
-    index(description.cameraMedium, at)
+    val pos = context.placeOf(description.camera)
+    index(description.cameraMedium, pos)
 
   /** The media on both sides of a shape. */
   def border(s: ShapeDescription): MediumBorder =
-    MediumBorder(index(s.insideMedium, s.shape.at), index(s.outsideMedium, s.shape.at))
+    MediumBorder(index(s.insideMedium, s.shape.pos), index(s.outsideMedium, s.shape.pos))
 
   /** The interface, if the integrator supports media. */
-  def seen(border: MediumBorder): MediumBorder =
+  def supported(border: MediumBorder): MediumBorder =
     if plan.throughMedia.isDefined then border else MediumBorder(-1, -1)
 
   private def index(name: String, at: candela.diagnostics.SourcePos): Int =
@@ -87,10 +87,10 @@ private[build] final class MediaBuilder(
     warnOfBlindness(isUsed)
     if plan.entersMedia(scene, isUsed) then
       val eye = description.worldToCamera.start.inverse.point(Vec3.Zero)
-      val around = pointLike.map(l => index(l.medium, l.light.at)).toArray
-      val lights = Array.fill(scene.lights.length - around.length)(-1) ++ around
-      val all = SceneMedia(media, materials.borders, camera, lights, eye, reach)
-      (Surroundings.Media(all), all.describe)
+      val lightMedia = pointLike.map(l => index(l.medium, l.light.pos)).toArray
+      val lights = Array.fill(scene.lights.length - lightMedia.length)(-1) ++ lightMedia
+      val sceneMedia = SceneMedia(media, materials.borders, camera, lights, eye, reach)
+      (Surroundings.Media(sceneMedia), sceneMedia.describe)
     else if regions.nonEmpty && plan.throughVolumes.isDefined then
       val volumes = Regions(regions)
       val method = volumeMethod.copy(stepSize = stepSize(volumes))
@@ -100,24 +100,24 @@ private[build] final class MediaBuilder(
 
   /** The step size that is asked for, if a ray can have so many. */
   private def stepSize(volumes: Regions): Float =
-    val asked = volumeMethod.stepSize
-    val least = volumes.extent / Regions.MostAcross
-    if asked >= least || !least.isFinite then asked
+    val requested = volumeMethod.stepSize
+    val minimum = volumes.extent / Regions.MostAcross
+    if requested >= minimum || !minimum.isFinite then requested
     else
       problems.warn(
         Code.CorrectedValue,
-        description.volumeIntegrator.map(_.at),
-        s"`stepsize` of $asked needs more than ${Regions.MostAcross} steps through the volumes; " +
-          s"using $least"
+        description.volumeIntegrator.map(_.pos),
+        s"`stepsize` of $requested needs more than ${Regions.MostAcross} steps through the " +
+          s"volumes; using $minimum"
       )
-      least
+      minimum
 
   private def warnOfBlindness(isUsed: Boolean): Unit =
     val blind =
       (isUsed && plan.throughMedia.isEmpty) || (regions.nonEmpty && plan.throughVolumes.isEmpty)
     if blind then
-      val places = description.media.map(_.medium.at) ++ description.volumes.map(_.light.at)
-      for at <- description.integrator.map(_.at).orElse(places.headOption) do
+      val positions = description.media.map(_.medium.pos) ++ description.volumes.map(_.light.pos)
+      for at <- description.integrator.map(_.pos).orElse(positions.headOption) do
         problems.warn(
           Code.IntegratorLacks,
           at,

@@ -10,13 +10,13 @@ import candela.render.{Cost, CostKind, Costs}
   * @param film of the rendering, if there will be one
   */
 private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: BuildContext):
-  private var known = Vector.empty[Cost]
+  private var sceneCosts = Vector.empty[Cost]
 
   /** What the scene takes, with the seconds until now. */
   def costs: Vector[Cost] =
     val clock = context.resources.clock
     val timed = CostKind.values.toVector.map(k => Cost(k, 0, clock.seconds(k)))
-    (Costs(known) ++ timed).all.filter(c => c.bytes > 0 || c.seconds > 0)
+    (Costs(sceneCosts) ++ timed).all.filter(c => c.bytes > 0 || c.seconds > 0)
 
   /** Estimates what the scene takes.
     *
@@ -24,21 +24,25 @@ private[build] final class MemoryCheck(heap: Long, film: Option[Cost], context: 
     */
   def estimate(uses: ObjectUses): Unit =
     val size = SceneSize(context.description, uses, context.resources.textures)
-    known = size.costs
-    val all = known ++ film
+    sceneCosts = size.costs
+    val estimates = sceneCosts ++ film
     // What building the largest hierarchy takes is gone before that hierarchy is there
-    val others = all.filter(_.kind != CostKind.Hierarchies)
-    def least(costs: Vector[Cost]) = (costs.map(_.bytes).sum * MemoryCheck.CertainShare).toLong
-    if Math.max(least(all), least(others) + size.building) > heap && !context.problems.hasErrors
+    val withoutHierarchies = estimates.filter(_.kind != CostKind.Hierarchies)
+    def lowerBound(costs: Vector[Cost]) = (costs.map(_.bytes).sum * MemoryCheck.CertainShare).toLong
+    if Math.max(
+        lowerBound(estimates),
+        lowerBound(withoutHierarchies) + size.building
+      ) > heap && !context.problems.hasErrors
     then
-      val building = others :+ Cost(CostKind.Hierarchies, size.building)
-      val most = Costs(Vector(all, building).maxBy(_.map(_.bytes).sum))
-      throw SceneError(most.problem(heap, Some(most.bytes)))
+      val building = withoutHierarchies :+ Cost(CostKind.Hierarchies, size.building)
+      val peak = Costs(Vector(estimates, building).maxBy(_.map(_.bytes).sum))
+      throw SceneError(peak.problem(heap, Some(peak.bytes)))
 
   /** Builds the scene; says what takes the memory if there is not enough. */
   def during[A](build: => A): A =
     try build
-    catch case _: OutOfMemoryError => throw SceneError(Costs(known ++ film).problem(heap, None))
+    catch
+      case _: OutOfMemoryError => throw SceneError(Costs(sceneCosts ++ film).problem(heap, None))
 
 private object MemoryCheck:
   /** A scene takes at least this share of the estimate. */

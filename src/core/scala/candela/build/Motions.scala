@@ -17,24 +17,25 @@ private[build] final class Motions(description: SceneDescription, origin: Positi
     */
   def of(t: AnimatedTransform): Motion =
     if isV2 && t.isAnimated && !origin.isOrigin then
-      val own = AnimatedTransform(origin.fromOrigin * t.start, origin.fromOrigin * t.end)
-      RecentredMotion(within(own), Position.Origin, origin)
-    else within(t)
+      val inWorld = AnimatedTransform(origin.fromOrigin * t.start, origin.fromOrigin * t.end)
+      RecentredMotion(inObject(inWorld), Position.Origin, origin)
+    else inObject(t)
 
   /** Motion of a shape in an object. */
-  def within(t: AnimatedTransform): Motion =
+  def inObject(t: AnimatedTransform): Motion =
     if !t.isAnimated then Still(t.start)
-    else if isV2 then InverseMotion(between(t.start.inverse, t.end.inverse))
-    else between(t.start, t.end)
+    else if isV2 then InverseMotion(interpolate(t.start.inverse, t.end.inverse))
+    else interpolate(t.start, t.end)
 
   /** Motion of the camera, if animated. */
   val camera: Option[Motion] =
     val AnimatedTransform(start, end) = description.worldToCamera
-    Option.when(Motions.moves(description.worldToCamera))(between(start.inverse, end.inverse))
+    Option.when(Motions.moves(description.worldToCamera))(interpolate(start.inverse, end.inverse))
 
   /** Motion of an instance. pbrt-v4 takes its translation relative to where it renders from. */
   def ofInstance(t: AnimatedTransform): Motion =
-    if t.isAnimated && description.dialect.base == Dialect.V4 then between(t.start, t.end, v4Origin)
+    if t.isAnimated && description.dialect.base == Dialect.V4 then
+      interpolate(t.start, t.end, v4Origin)
     else of(t)
 
   /** Warns of a motion that pbrt-v3 and v4 interpolate otherwise: they take the mirroring for a
@@ -52,7 +53,7 @@ private[build] final class Motions(description: SceneDescription, origin: Positi
 
   private lazy val v4Origin: Vec3 = RenderingOrigin.of(description)
 
-  private def between(start: Transform, end: Transform, origin: Vec3 = Vec3.Zero): Motion =
+  private def interpolate(start: Transform, end: Transform, origin: Vec3 = Vec3.Zero): Motion =
     val (startTime, endTime) = description.transformTimes
     Interpolation(start, end, startTime, endTime, shortest = !isV2, origin)
 

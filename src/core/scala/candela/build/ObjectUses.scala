@@ -39,25 +39,25 @@ private[build] final class ObjectUses(
     problems: Findings
 ):
   private val motions = Motions(description, origin)
-  private val own = Vector.newBuilder[ShapeDescription]
+  private val worldShapes = Vector.newBuilder[ShapeDescription]
   private val objects = ArrayBuffer.empty[PlacedObject]
 
   // Those of most scenes are taken as they are: there may be millions
   private val isStill = !description.shapes.exists(_.objectToWorld.isAnimated)
-  if isStill then own ++= description.shapes
+  if isStill then worldShapes ++= description.shapes
   for s <- description.shapes if !isStill do
     if Motions.moves(s.objectToWorld) then
-      motions.warnOfMirror(s.objectToWorld, s.shape.at, problems)
+      motions.warnOfMirror(s.objectToWorld, s.shape.pos, problems)
       val dark = withoutLight(s, "animated shapes can't be area lights; emission is ignored")
       objects += placed(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)).view)
     else
       if s.objectToWorld.isAnimated then
         problems.warn(
           Code.NotAnimated,
-          s.shape.at,
+          s.shape.pos,
           Motions.notAnimated("a shape under a perspective transform")
         )
-      own += s
+      worldShapes += s
 
   for (name, uses) <- description.instances.ofEach do
     description.objects.get(name) match
@@ -66,21 +66,21 @@ private[build] final class ObjectUses(
           problems.unnamed(
             Code.Undefined,
             NameKind.Object,
-            use.at,
+            use.pos,
             s"object `$name` is not defined",
             StandIns.LeftOut,
             Suggest.help(name, description.objects.keys)
           )
       case Some(shapes) =>
-        place(name, shapes.map(ofObject), uses)
+        addInstances(name, shapes.map(ofObject), uses)
 
   /** Shapes of the world, including copied objects. */
-  val world: Vector[ShapeDescription] = own.result()
+  val world: Vector[ShapeDescription] = worldShapes.result()
 
   /** Objects with several or animated instances. */
   def shared: Vector[PlacedObject] = objects.toVector
 
-  private def place(
+  private def addInstances(
       name: String,
       shapes: Vector[ShapeDescription],
       uses: InstanceList
@@ -93,23 +93,24 @@ private[build] final class ObjectUses(
       if u.instanceToWorld.isAnimated || shapes.exists(s => Motions.moves(s.objectToWorld)) then
         problems.warn(
           Code.NotAnimated,
-          u.at,
+          u.pos,
           Motions.notAnimated("a shape under a perspective transform")
         )
-      own ++= shapes.map(copied(_, u))
+      worldShapes ++= shapes.map(copied(_, u))
     val (moving, still) = shapes.partition(s => Motions.moves(s.objectToWorld))
-    for s <- moving do motions.warnOfMirror(s.objectToWorld, s.shape.at, problems)
+    for s <- moving do motions.warnOfMirror(s.objectToWorld, s.shape.pos, problems)
     if plain < uses.length then
       for u <- affine if u.instanceToWorld.isAnimated do
-        motions.warnOfMirror(u.instanceToWorld, u.at, problems)
+        motions.warnOfMirror(u.instanceToWorld, u.pos, problems)
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated
-    val places = affine.motions(motions.ofInstance)
-    if isAlone then own ++= affine.flatMap(u => still.map(copied(_, u)))
-    else if still.nonEmpty && places.nonEmpty then objects += placed(still, places, name, plain)
-    if places.nonEmpty then
+    val instanceMotions = affine.motions(motions.ofInstance)
+    if isAlone then worldShapes ++= affine.flatMap(u => still.map(copied(_, u)))
+    else if still.nonEmpty && instanceMotions.nonEmpty then
+      objects += placed(still, instanceMotions, name, plain)
+    if instanceMotions.nonEmpty then
       for s <- moving do
-        val within = motions.within(s.objectToWorld)
-        objects += placed(Vector(atOrigin(s)), places.map(MotionProduct(_, within)))
+        val shapeMotion = motions.inObject(s.objectToWorld)
+        objects += placed(Vector(atOrigin(s)), instanceMotions.map(MotionProduct(_, shapeMotion)))
 
   /** An object whose shapes are far from its origin is built around another. */
   private def placed(
@@ -122,9 +123,9 @@ private[build] final class ObjectUses(
     if middle.isOrigin then PlacedObject(shapes, places, name, plain)
     else
       def moved(s: ShapeDescription) =
-        s.copy(objectToWorld = GraphicsState.still(middle.toOrigin * s.objectToWorld.start))
-      val there = places.map(RecentredMotion(_, middle, Position.Origin))
-      PlacedObject(shapes.map(moved), there, name)
+        s.copy(objectToWorld = GraphicsState.constant(middle.toOrigin * s.objectToWorld.start))
+      val recentred = places.map(RecentredMotion(_, middle, Position.Origin))
+      PlacedObject(shapes.map(moved), recentred, name)
 
   private def ofObject(s: ShapeDescription): ShapeDescription =
     if description.dialect.base == Dialect.V4 then
@@ -135,14 +136,14 @@ private[build] final class ObjectUses(
       for light <- s.areaLight do
         problems.warn(
           Code.AsInPbrt,
-          light.at,
+          light.pos,
           "area lights of an object are seen, but light nothing, as in pbrt",
           Some("place the light outside of the object")
         )
       s.copy(inObject = true)
 
   private def withoutLight(s: ShapeDescription, message: String): ShapeDescription =
-    for light <- s.areaLight do problems.warn(Code.AsInPbrt, light.at, message)
+    for light <- s.areaLight do problems.warn(Code.AsInPbrt, light.pos, message)
     s.copy(areaLight = None)
 
   private def atOrigin(s: ShapeDescription): ShapeDescription =
@@ -151,4 +152,4 @@ private[build] final class ObjectUses(
   private def copied(s: ShapeDescription, use: InstanceDescription): ShapeDescription =
     val toWorld = use.instanceToWorld.start * s.objectToWorld.start
     val instance = Some(use.instanceToWorld.start).filterNot(_.isFlat)
-    s.copy(objectToWorld = GraphicsState.still(toWorld), copied = instance)
+    s.copy(objectToWorld = GraphicsState.constant(toWorld), copied = instance)

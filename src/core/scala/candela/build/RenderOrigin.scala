@@ -10,21 +10,21 @@ import candela.scenefile.{AnimatedTransform, GraphicsState, SceneDescription}
   * are Doubles until then. The point depends on the scene alone, and hardly on the camera's place
   * in it: frames of a sequence, parts and resumed renderings share it.
   *
-  * @param why in words; empty for the world's own origin
+  * @param reason in words; empty for the world's own origin
   */
-private[build] final class RenderOrigin(val at: Position, val why: String = ""):
+private[build] final class RenderOrigin(val position: Position, val reason: String = ""):
 
   def describe: Option[String] =
-    Option.when(!at.isOrigin):
-      val place = Seq(at.x, at.y, at.z).map(RenderOrigin.plain).mkString(" ")
-      s"$place, because $why"
+    Option.when(!position.isOrigin):
+      val point = Seq(position.x, position.y, position.z).map(RenderOrigin.plain).mkString(" ")
+      s"$point, because $reason"
 
   /** The scene, with transforms to and from a world around this point. Objects keep theirs. */
-  def around(d: SceneDescription): SceneDescription =
-    if at.isOrigin then d
+  def recentre(d: SceneDescription): SceneDescription =
+    if position.isOrigin then d
     else
       d.copy(
-        worldToCamera = mapped(d.worldToCamera)(_ * at.fromOrigin),
+        worldToCamera = mapped(d.worldToCamera)(_ * position.fromOrigin),
         textures = d.textures.map(t => t.copy(textureToWorld = moved(t.textureToWorld))),
         lights = d.lights.map(l => l.copy(lightToWorld = moved(l.lightToWorld))),
         shapes = d.shapes.map(s => s.copy(objectToWorld = moved(s.objectToWorld))),
@@ -33,10 +33,10 @@ private[build] final class RenderOrigin(val at: Position, val why: String = ""):
         volumes = d.volumes.map(v => v.copy(lightToWorld = moved(v.lightToWorld)))
       )
 
-  private def moved(t: AnimatedTransform): AnimatedTransform = mapped(t)(at.toOrigin * _)
+  private def moved(t: AnimatedTransform): AnimatedTransform = mapped(t)(position.toOrigin * _)
 
   private def mapped(t: AnimatedTransform)(f: candela.math.Transform => candela.math.Transform) =
-    if t.start eq t.end then GraphicsState.still(f(t.start))
+    if t.start eq t.end then GraphicsState.constant(f(t.start))
     else AnimatedTransform(f(t.start), f(t.end))
 
 private[build] object RenderOrigin:
@@ -58,27 +58,31 @@ private[build] object RenderOrigin:
       // Before anything is measured: almost all scenes end here
       if !isFar(eye) then World
       else
-        val seen = SceneSurvey(d).extents()
-        around(if d.camera.exists(_.name == "orthographic") then nearest(d, seen) else eye, seen)
+        val extents = SceneSurvey(d).extents()
+        originNear(
+          if d.camera.exists(_.name == "orthographic") then nearest(d, extents) else eye,
+          extents
+        )
 
   /** The point of an object, by the same rule, or its own origin.
     *
     * @param looks whether to look into files
     */
   def ofObject(shapes: Vector[candela.scenefile.ShapeDescription], looks: Boolean): Position =
-    val found = shapes.flatMap(SceneSurvey.extent(_, looks))
-    val middle = median(found.map(_.middle))
-    if found.isEmpty || !isFar(middle) then Position.Origin else around(middle, found).at
+    val extents = shapes.flatMap(SceneSurvey.extent(_, looks))
+    val middle = median(extents.map(_.middle))
+    if extents.isEmpty || !isFar(middle) then Position.Origin
+    else originNear(middle, extents).position
 
   private def isFar(p: Position) = p.reach >= NearDistance && p.reach < 1e15
 
-  private def around(eye: Position, seen: Vector[Extent]): RenderOrigin =
-    val sizes = seen.map(e => Math.max(e.size, e.middle.distance(eye)))
+  private def originNear(eye: Position, extents: Vector[Extent]): RenderOrigin =
+    val sizes = extents.map(e => Math.max(e.size, e.middle.distance(eye)))
     val size = if sizes.isEmpty then 0.0 else sizes.sorted.apply((sizes.size - 1) / 4)
     if !(eye.reach >= Times * size) then World
     else
-      val near = seen.lazyZip(sizes).filter((_, s) => eye.reach >= Times * s).map((e, _) => e)
-      val point = if near.isEmpty then eye else median(near.toVector.map(_.middle))
+      val nearby = extents.lazyZip(sizes).filter((_, s) => eye.reach >= Times * s).map((e, _) => e)
+      val point = if nearby.isEmpty then eye else median(nearby.toVector.map(_.middle))
       val step = Math.ulp(eye.reach.toFloat).toDouble
       val rounding = if step >= 0.1 then f"$step%.2g" else f"$step%.1g"
       RenderOrigin(
@@ -99,8 +103,8 @@ private[build] object RenderOrigin:
     Position(middle(_.x), middle(_.y), middle(_.z))
 
   /** The eye of an orthographic camera, moved along its axis to what it sees. */
-  private def nearest(d: SceneDescription, seen: Vector[Extent]): Position =
-    val target = d.worldToCamera.start.position(median(seen.map(_.middle)))
+  private def nearest(d: SceneDescription, extents: Vector[Extent]): Position =
+    val target = d.worldToCamera.start.position(median(extents.map(_.middle)))
     d.worldToCamera.start.inverse.position(Position(0, 0, target.z))
 
   private def plain(x: Double): String =

@@ -42,7 +42,8 @@ object SceneBuilder:
   ): (RenderPlan, Vector[Problem]) =
     val context = BuildContext(description, settings, control, pool)
     val image = ImageSetup.of(context, settings)
-    val taken = control.samples.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
+    val samplesOverride =
+      control.samples.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
     def integratorIn(context: BuildContext) =
       if settings.preview then Preview.integrator(context) else integratorPlan(context)
     val integrator = integratorIn(context)
@@ -65,9 +66,9 @@ object SceneBuilder:
         Some("give the film a crop window, or render parts of it with --cropwindow")
       )
     checkLimits(context, image, crop, sampling)
-    val perPixel = taken.getOrElse(sampling.sampler.samplesPerPixel)
+    val perPixel = samplesOverride.getOrElse(sampling.sampler.samplesPerPixel)
     val film = Option.when(control.isRendered):
-      FilmSize.least(crop.pixels, perPixel, image.layers, image.film.development.bands)
+      FilmSize.lowerBound(crop.pixels, perPixel, image.layers, image.film.development.bands)
     val memory = MemoryCheck(heap, film, context)
     val samples = crop.pixels * perPixel
     Hierarchies.expect(samples, pool, context.resources.warmUps)
@@ -91,11 +92,12 @@ object SceneBuilder:
       FireflyLimits(context, settings.fireflies).check(world.method)
       IdleSettings(context, settings).check(world)
     context.problems.stopAtErrors()
-    val made = plan(context, settings, taken, image, crop, integrator, sampling, camera, world)
-    checkSize(context, made)
+    val renderPlan =
+      plan(context, settings, samplesOverride, image, crop, integrator, sampling, camera, world)
+    checkSize(context, renderPlan)
     for why <- control.cache.save() do
       context.problems.warn(Code.Unwritable, None, s"$why; the scene cache gets no more files")
-    (made, context.problems.result)
+    (renderPlan, context.problems.result)
 
   private def footprint(context: BuildContext, sampling: SamplingSetup): Float =
     val isUnfiltered = context.resources.settings.unfiltered
@@ -107,12 +109,13 @@ object SceneBuilder:
     val bands = plan.bands.orElse(plan.development.bands).fold(0)(_.channels.size)
     val layers = plan.layers.fold(0L)(asked => LayerFilm.size(asked.layers, asked.groups))
     if plan.crop.pixels * (layers + 2 * bands) > Int.MaxValue - 8 then
-      val what = Vector("layers" -> layers, "bands" -> bands.toLong).maxBy(_._2)._1
+      val largest = Vector("layers" -> layers, "bands" -> bands.toLong).maxBy(_._2)._1
       context.problems.error(
         Code.TooLarge,
         context.placeOf(context.description.film),
-        s"can't render ${plan.crop.width}×${plan.crop.height} pixels with all their $what at once",
-        Some(s"ask for fewer $what, or render parts of the image with --cropwindow")
+        s"can't render ${plan.crop.width}×${plan.crop.height} pixels with all their $largest " +
+          "at once",
+        Some(s"ask for fewer $largest, or render parts of the image with --cropwindow")
       )
       context.problems.stopAtErrors()
 
@@ -128,11 +131,11 @@ object SceneBuilder:
   ): Unit =
     val (allowance, scene) = (context.resources.allowance, context.description)
     val pixels = crop.pixels * (1L + image.layers.size)
-    allowance.check(Limit.Pixels, pixels, scene.film.map(_.at)):
+    allowance.check(Limit.Pixels, pixels, scene.film.map(_.pos)):
       val layers = if image.layers.isEmpty then "" else s" in ${1 + image.layers.size} layers"
       s"an image of ${crop.width}×${crop.height} pixels$layers"
     val samples = sampling.sampler.samplesPerPixel
-    allowance.check(Limit.Samples, samples, scene.sampler.map(_.at)):
+    allowance.check(Limit.Samples, samples, scene.sampler.map(_.pos)):
       s"$samples samples per pixel"
     for
       d <- Vector(scene.integrator, scene.renderer, scene.volumeIntegrator).flatten
@@ -145,7 +148,7 @@ object SceneBuilder:
   private def integratorPlan(context: BuildContext): IntegratorPlan =
     val description = context.description
     val default = context.defaults.integrator
-    val named = context.made(description.integrator, Integrators.all, default)
+    val named = context.build(description.integrator, Integrators.all, default)
     val renderer = description.renderer.flatMap(d => Renderers.all.build(context.site(d)))
     renderer.flatten.getOrElse(named)
 
@@ -157,7 +160,7 @@ object SceneBuilder:
   ): Unit =
     val description = context.description
     if method.seesLightPaths && !camera.camera.isTraceable then
-      for at <- description.camera.map(_.at) do
+      for at <- description.camera.map(_.pos) do
         context.problems.warn(
           Code.IntegratorLacks,
           at,
@@ -165,7 +168,7 @@ object SceneBuilder:
             "missing"
         )
     if !method.takesCameraSamples && image.layers.nonEmpty then
-      for at <- description.integrator.orElse(description.renderer).map(_.at) do
+      for at <- description.integrator.orElse(description.renderer).map(_.pos) do
         context.problems.warn(
           Code.IntegratorLacks,
           at,
@@ -182,8 +185,8 @@ object SceneBuilder:
         )
 
   private def dialect(scene: SceneDescription): String =
-    val why = if scene.dialectReason.isEmpty then "" else s", ${scene.dialectReason}"
-    scene.dialect.toString.toLowerCase + why
+    val reason = if scene.dialectReason.isEmpty then "" else s", ${scene.dialectReason}"
+    scene.dialect.toString.toLowerCase + reason
 
   private def dimsLight(settings: RenderSettings): Boolean = settings.fireflies match
     case Fireflies.Clamped(_) => !settings.preview
@@ -192,7 +195,7 @@ object SceneBuilder:
   private def plan(
       context: BuildContext,
       settings: RenderSettings,
-      taken: Option[Int],
+      samplesOverride: Option[Int],
       image: ImageSetup,
       crop: PixelBounds,
       integrator: IntegratorPlan,
@@ -207,16 +210,16 @@ object SceneBuilder:
     val film = if world.color.isSpectral then image.film.spectral(exposure) else image.film
     val bands = film.development.bands
       .filter(_ => world.color.isSpectral && method.hasWavelengths)
-      .map(_.over(world.color.bases))
+      .map(_.withBases(world.color.bases))
     // AOVs belong to the pixel of the camera sample
     val shares =
       image.layers.isEmpty && bands.isEmpty && method.canShareSamples && !effective.centers &&
         FilterReach.isUseful(image.filter)
     val usesSampler = method.takesCameraSamples
-    val samples = taken.getOrElse(sampling.sampler.samplesPerPixel)
+    val samples = samplesOverride.getOrElse(sampling.sampler.samplesPerPixel)
     if usesSampler && !settings.preview then
       for remark <- sampling.remarks do
-        context.problems.warn(Code.AsInPbrt, context.description.sampler.map(_.at), remark)
+        context.problems.warn(Code.AsInPbrt, context.description.sampler.map(_.pos), remark)
     val moves = camera.motion.isDefined || world.moves
     RenderPlan(
       width = image.width,
@@ -251,7 +254,7 @@ object SceneBuilder:
       weighsFirst = context.isV4,
       layers = Option.when(image.layers.nonEmpty && usesSampler):
         val space =
-          if film.layersInWorld then Still(context.origin.at.fromOrigin) else camera.fromWorld
+          if film.layersInWorld then Still(context.origin.position.fromOrigin) else camera.fromWorld
         layerPlan(context, image, camera, world, space, hidesSky(context, settings, image))
       ,
       sharesSamples = shares,
@@ -263,7 +266,7 @@ object SceneBuilder:
       lights = world.scene.lights.length,
       built = world.costs,
       sampleWindow = image.sampleWindow,
-      samples = taken,
+      samples = samplesOverride,
       sight = Some(world.sight),
       hidesSky = hidesSky(context, settings, image)
     )
@@ -283,11 +286,11 @@ object SceneBuilder:
       samples: Int,
       pixels: Long
   ): Option[(String, String)] =
-    val why = if settings.choices.byGoal then s"; ${Choices.Why}" else ""
+    val reason = if settings.choices.byGoal then s"; ${Choices.Why}" else ""
     Option.when(context.resources.settings.learning.isDefined):
       "guiding" -> (method.guide match
         case Some(_) if method.pilot.exists(_.blurs) => s"none: ${Passes.Unguided}"
-        case Some(learning) => Guide(learning, samples, pixels).describe + why
+        case Some(learning) => Guide(learning, samples, pixels).describe + reason
         case None => "none: only path tracing without pbrt-v2's volumes is guided")
 
   /** What is said of caustics before the pilot, if they are looked for. */
@@ -304,14 +307,14 @@ object SceneBuilder:
       space: Motion,
       hidesSky: Boolean
   ): LayerPlan =
-    def wants(some: Layer*) = some.exists(image.layers.contains)
+    def hasAny(some: Layer*) = some.exists(image.layers.contains)
     val names =
-      if wants(Layer.CryptoObject, Layer.CryptoMaterial) then world.surfaceNames
+      if hasAny(Layer.CryptoObject, Layer.CryptoMaterial) then world.surfaceNames
       else SurfaceNames.Empty
     val motion =
-      if wants(Layer.Motion) then ScreenMotion.of(camera.camera, camera.shutter) else None
+      if hasAny(Layer.Motion) then ScreenMotion.of(camera.camera, camera.shutter) else None
     val first = Option.when(image.layers.exists(_.isInstanceOf[NamedLayer])):
-      FirstHit(world.scene, context.origin.at, context.resources.basis)
+      FirstHit(world.scene, context.origin.position, context.resources.basis)
     val scene = context.description
     val surface = VisibleSurface(
       world.scene,
@@ -328,11 +331,11 @@ object SceneBuilder:
     LayerPlan(image.layers, surface, names, groups)
 
   private def described(layers: Vector[ImageLayer], bands: Option[SpectralBands]): String =
-    val all = layers.map(_.word) ++ bands.map(b => s"bands of wavelengths, ${b.describe}")
-    if all.isEmpty then "none" else all.mkString(", ")
+    val descriptions = layers.map(_.word) ++ bands.map(b => s"bands of wavelengths, ${b.describe}")
+    if descriptions.isEmpty then "none" else descriptions.mkString(", ")
 
   private def moving(camera: CameraSetup, world: World): String =
     val movers = Seq("camera" -> camera.motion.isDefined, "shapes" -> world.moves)
-    val what = movers.filter(_._2).map(_._1).mkString(" and ")
+    val names = movers.filter(_._2).map(_._1).mkString(" and ")
     val shutter = camera.shutter
-    if what.isEmpty then "none" else s"$what, from ${shutter.open} to ${shutter.close}"
+    if names.isEmpty then "none" else s"$names, from ${shutter.open} to ${shutter.close}"

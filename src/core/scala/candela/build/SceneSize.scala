@@ -22,17 +22,17 @@ private[build] final class SceneSize(
   private val worlds =
     (uses.world +: uses.shared.map(_.shapes)).map(SurfaceCount.of(_, description.dialect.base))
   private val surfaces = worlds.foldLeft(SurfaceCount())(_ + _)
-  private val places = uses.shared.map(_.places.size.toLong).sum
+  private val instances = uses.shared.map(_.places.size.toLong).sum
 
   def costs: Vector[Cost] =
     val corners = if surfaces.triangles > 0 then OtherCorners else 0L
     val hierarchies = surfaces.triangles * TriangleNode +
-      (surfaces.others + places) * (OtherNode + corners)
+      (surfaces.nonTriangles + instances) * (OtherNode + corners)
     Vector(
       Cost(CostKind.Statements, statements),
       Cost(CostKind.Triangles, worlds.map(_.meshBytes).sum),
       Cost(CostKind.Shapes, shapes),
-      Cost(CostKind.Instances, places * Instance),
+      Cost(CostKind.Instances, instances * Instance),
       Cost(CostKind.Hierarchies, hierarchies),
       Cost(CostKind.Textures, textures.bytes, isMost = textures.tiles.nonEmpty),
       Cost(CostKind.Materials, materials * Material),
@@ -41,11 +41,12 @@ private[build] final class SceneSize(
     ).filter(_.bytes > 0)
 
   /** Bytes that building the largest hierarchy takes beside, at least. */
-  def building: Long = worlds.map(w => w.triangles + w.others).maxOption.getOrElse(0L) * Building
+  def building: Long =
+    worlds.map(w => w.triangles + w.nonTriangles).maxOption.getOrElse(0L) * Building
 
   private def shapes: Long =
-    val others = surfaces.solids - surfaces.spheres
-    surfaces.spheres * Sphere + others * Solid + surfaces.segments * Segment +
+    val otherSolids = surfaces.solids - surfaces.spheres
+    surfaces.spheres * Sphere + otherSolids * Solid + surfaces.segments * Segment +
       surfaces.patches * Patch
 
   /** Bytes of the shapes' statements, and the number of those that emit. */
@@ -67,12 +68,12 @@ private[build] final class SceneSize(
 
   private def materials: Long =
     // Shapes of one statement share it, most of them one after another
-    val worn = java.util.IdentityHashMap[MaterialRef, Unit]()
+    val distinctMaterials = java.util.IdentityHashMap[MaterialRef, Unit]()
     var last: MaterialRef | Null = null
     for s <- description.shapes if s.material ne last do
       last = s.material
-      worn.put(s.material, ())
-    description.namedMaterials.size + worn.size
+      distinctMaterials.put(s.material, ())
+    description.namedMaterials.size + distinctMaterials.size
 
   private def lights: Long =
     val shapes =
@@ -157,7 +158,7 @@ private[build] final case class SurfaceCount(
     spheres: Long = 0
 ):
   /** Primitives other than triangles. */
-  def others: Long = solids + segments + patches
+  def nonTriangles: Long = solids + segments + patches
 
   def +(more: SurfaceCount): SurfaceCount =
     SurfaceCount(
@@ -174,13 +175,13 @@ private[build] object SurfaceCount:
   def of(shapes: Vector[ShapeDescription], dialect: Dialect): SurfaceCount =
     var spheres = 0L
     var segments = 0L
-    var others = SurfaceCount()
+    var sum = SurfaceCount()
     for s <- shapes do
       s.shape.name match
         case "sphere" => spheres += 1
         case "curve" => segments += segmentsOf(s.shape)
-        case _ => others += of(s, dialect)
-    others + SurfaceCount(solids = spheres, spheres = spheres, segments = segments)
+        case _ => sum += of(s, dialect)
+    sum + SurfaceCount(solids = spheres, spheres = spheres, segments = segments)
 
   private def of(shape: ShapeDescription, dialect: Dialect): SurfaceCount =
     val d = shape.shape

@@ -25,8 +25,8 @@ private[build] final class SceneSurvey(d: SceneDescription):
     if solid.nonEmpty then solid
     else
       d.lights.filterNot(_.light.name == "infinite").flatMap: l =>
-        val from = l.light.param("from").filter(_.floats.length == 3).map(_.position(0))
-        around(Vector(from.getOrElse(Position.Origin)), l.lightToWorld.start)
+        val position = l.light.param("from").filter(_.floats.length == 3).map(_.position(0))
+        extentOf(Vector(position.getOrElse(Position.Origin)), l.lightToWorld.start)
 
 private[build] object SceneSurvey:
   /** An estimate uses this many vertices of a mesh, shapes of an object, and instances. */
@@ -40,7 +40,7 @@ private[build] object SceneSurvey:
       looks: Boolean,
       outer: Transform = Transform.Identity
   ): Option[Extent] =
-    around(points(s.shape, looks), outer * s.objectToWorld.start)
+    extentOf(points(s.shape, looks), outer * s.objectToWorld.start)
 
   private def points(d: Declaration, looks: Boolean): Vector[Position] =
     def number(name: String, default: Double) =
@@ -61,7 +61,9 @@ private[build] object SceneSurvey:
     Position(p.number(i) / w, p.number(i + 1) / w, p.number(i + 2) / w)
 
   private def vertices(folder: SceneFolder, name: String): Vector[Position] =
-    folder.glance(name).flatMap(file => Try(PlyFile.begin(file, MaxVertices)).toOption).fold(
+    folder.glance(name).flatMap(file =>
+      Try(PlyFile.firstPositions(file, MaxVertices)).toOption
+    ).fold(
       Vector.empty
     )(p => Vector.tabulate(p.length / 3)(i => Position(p(3 * i), p(3 * i + 1), p(3 * i + 2))))
 
@@ -75,13 +77,14 @@ private[build] object SceneSurvey:
       d.param(name).filter(_.floats.length == 3).fold(Position(default, default, default))(
         _.position(0)
       )
-    around(Vector(corner("p0", 0), corner("p1", 1)), toWorld)
+    extentOf(Vector(corner("p0", 0), corner("p1", 1)), toWorld)
 
   /** Of the points, where a map takes them. */
-  private def around(points: Vector[Position], toWorld: Transform): Option[Extent] =
-    val there = points.map(toWorld.position).filter(p => java.lang.Double.isFinite(p.x + p.y + p.z))
-    Option.when(there.nonEmpty):
-      def range(of: Position => Double) = (there.map(of).min, there.map(of).max)
+  private def extentOf(points: Vector[Position], toWorld: Transform): Option[Extent] =
+    val mapped =
+      points.map(toWorld.position).filter(p => java.lang.Double.isFinite(p.x + p.y + p.z))
+    Option.when(mapped.nonEmpty):
+      def range(of: Position => Double) = (mapped.map(of).min, mapped.map(of).max)
       val (xs, ys, zs) = (range(_.x), range(_.y), range(_.z))
       val (low, high) = (Position(xs._1, ys._1, zs._1), Position(xs._2, ys._2, zs._2))
       val middle =

@@ -44,8 +44,8 @@ private[build] final case class ImageSetup(
       Math.min(p.x1, width),
       Math.min(p.y1, height)
     )
-    def edge(part: Float, size: Int) =
-      candela.math.clamp(Math.ceil((size * part).toDouble).toInt, 0, size)
+    def edge(fraction: Float, size: Int) =
+      candela.math.clamp(Math.ceil((size * fraction).toDouble).toInt, 0, size)
     def byParts(x0: Float, x1: Float, y0: Float, y1: Float) =
       PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
     val c = film.crop
@@ -72,10 +72,10 @@ private[build] final case class ImageSetup(
           settings.region.pixels match
             case Some(p) => s"pixels ${p.x0},${p.x1},${p.y0},${p.y1} are outside $width×$height"
             case None =>
-              val asked = settings.region match
+              val cropWindow = settings.region match
                 case RenderRegion.Window(x0, x1, y0, y1) => Seq(x0, x1, y0, y1)
                 case _ => c.toSeq
-              s"the crop window ${asked.mkString(" ")}, with `pixelbounds`, has no pixel of " +
+              s"the crop window ${cropWindow.mkString(" ")}, with `pixelbounds`, has no pixel of " +
                 s"$width×$height"
         )
       )
@@ -83,18 +83,18 @@ private[build] final case class ImageSetup(
 
 private[build] object ImageSetup:
   def of(context: BuildContext, settings: RenderSettings): ImageSetup =
-    val film = context.made(context.description.film, Films.all, context.defaults.film)
-    val filter = context.made(context.description.filter, Filters.all, context.defaults.filter)
+    val film = context.build(context.description.film, Films.all, context.defaults.film)
+    val filter = context.build(context.description.filter, Filters.all, context.defaults.filter)
     val layers =
       if settings.preview then Vector.empty else (film.layers ++ settings.layers).distinct
-    val part =
+    val divisor =
       if settings.preview then Preview.reduction(film.width, film.height)
       else if settings.quick then 4
       else 1
     ImageSetup(
       film,
-      Math.max(1, film.width / part),
-      Math.max(1, film.height / part),
+      Math.max(1, film.width / divisor),
+      Math.max(1, film.height / divisor),
       filter,
       layers
     )
@@ -130,21 +130,21 @@ private[build] object SamplingSetup:
     val effective = context.resources.settings
     val request = SamplerRequest(samples, effective.seed)
     val default = context.defaults.sampler
-    val asked = context.made(context.description.sampler, Samplers.all, default)(request)
-    val chosen = asked.points(settings.choices.points)
-    val points = if asked.count <= chosen.most then chosen else SamplerPlan.Best
-    val sampler = points.sampler(asked.count, asked.seed, image.width, image.height)
+    val plan = context.build(context.description.sampler, Samplers.all, default)(request)
+    val chosen = plan.points(settings.choices.points)
+    val points = if plan.count <= chosen.maxSamples then chosen else SamplerPlan.Best
+    val sampler = points.sampler(plan.count, plan.seed, image.width, image.height)
     val replaced = Option.when(points != chosen):
-      s"\"${chosen.word}\" has at most ${chosen.most} samples per pixel, not ${asked.count}; " +
-        s"using ${points.meaning}"
+      s"\"${chosen.word}\" has at most ${chosen.maxSamples} samples per pixel, " +
+        s"not ${plan.count}; using ${points.meaning}"
     // pbrt rounds a scene's own number, too
     val rounded = Option.when(settings.samples.exists(_ != sampler.samplesPerPixel)):
       s"\"${points.word}\" takes ${sampler.samplesPerPixel} samples per pixel, the next power " +
-        s"of two, not ${asked.count}"
+        s"of two, not ${plan.count}"
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     SamplingSetup(
       sampler,
-      if points == chosen then asked.describe(settings.choices.points) else points.meaning,
+      if points == chosen then plan.describe(settings.choices.points) else points.meaning,
       samples,
       if effective.centers then 1f
       else if footprint.isDefined then footprint.get
@@ -177,16 +177,16 @@ private[build] object CameraSetup:
     val fromWorld = description.worldToCamera
     for c <- description.camera do
       if fromWorld.start.isFlat then
-        context.problems.error(Code.Transform, c.at, "the camera's transform is singular")
+        context.problems.error(Code.Transform, c.pos, "the camera's transform is singular")
       else if fromWorld.isAnimated && !Motions.moves(fromWorld) then
-        context.problems.warn(Code.NotAnimated, c.at, Motions.notAnimated("this camera"))
-    val plan = context.made(description.camera, Cameras.all, "perspective")
+        context.problems.warn(Code.NotAnimated, c.pos, Motions.notAnimated("this camera"))
+    val plan = context.build(description.camera, Cameras.all, "perspective")
     val toWorld = fromWorld.start.inverse
-    val motions = Motions(description, context.origin.at)
+    val motions = Motions(description, context.origin.position)
     val motion = motions.camera
     for c <- description.camera if motion.nonEmpty do
-      motions.warnOfMirror(fromWorld, c.at, context.problems)
+      motions.warnOfMirror(fromWorld, c.pos, context.problems)
     val camera = motion match
-      case Some(moving) => MovingCamera(plan.make(Transform.Identity, image.frame), moving)
-      case None => plan.make(toWorld, image.frame)
+      case Some(moving) => MovingCamera(plan.create(Transform.Identity, image.frame), moving)
+      case None => plan.create(toWorld, image.frame)
     CameraSetup(camera, plan.shutter, motion, toWorld)

@@ -12,9 +12,9 @@ private[build] object StatementName:
   /** Files are named relative to the scene's folder, so that the name does not depend on where it
     * is, or is rendered from.
     */
-  def apply(d: Declaration): String = s"${d.name} ${file(d)}:${d.at.line}:${d.at.column}"
+  def apply(d: Declaration): String = s"${d.name} ${file(d)}:${d.pos.line}:${d.pos.column}"
 
   def file(d: Declaration): String =
-    val file = Path.of(d.at.file)
-    val within = Try(d.folder.relativize(file)).getOrElse(file.getFileName)
-    within.toString.replace('\\', '/')
+    val file = Path.of(d.pos.file)
+    val relative = Try(d.folder.relativize(file)).getOrElse(file.getFileName)
+    relative.toString.replace('\\', '/')

@@ -75,27 +75,27 @@ private[build] final class SurfaceBuilder(
     lights += { (context, soup) =>
       context.emission(statement).toVector.flatMap: plan =>
         for light <- make(plan, soup) yield
-          val seen = light match
+          val wrapped = light match
             case s: SurfaceLight if isShownOnly => ShownLight(s)
             case other => other
-          SampledLight(seen, plan.samples * triangles, statement)
+          SampledLight(wrapped, plan.samples * triangles, statement)
     }
     lightCount += count
 
   def add(dressed: DressedShape): Unit =
-    context.resources.allowance.checkTime(Some(dressed.declared.at))
+    context.resources.allowance.checkTime(Some(dressed.declared.pos))
     val written = dressed.shape.objectToWorld.start
-    val (declared, toWorld) = FarPoints.near(dressed.declared, written) match
+    val (declared, toWorld) = FarPoints.recentred(dressed.declared, written) match
       case Some((near, origin)) => (near, written * origin.fromOrigin)
       case None => (dressed.declared, written)
-    val here = context.site(declared, toWorld)
-    for plan <- alike(declared, isPlaced, throughOthers)(Shapes.all.build(here).flatten) do
+    val site = context.site(declared, toWorld)
+    for plan <- alike(declared, isPlaced, throughOthers)(Shapes.all.build(site).flatten) do
       val emitter = dressed.shape.areaLight.filter(context.emission(_).isDefined)
-        .filter(_ => !isUnlit(dressed.material, here))
-      val before = soup.triangleCount + solids.count
-      Placement(dressed, here, plan, emitter, toWorld).place(plan.geometry)
-      val made = soup.triangleCount + solids.count - before
-      context.resources.allowance.countShapes(made, Some(declared.at))
+        .filter(_ => !isUnlit(dressed.material, site))
+      val countBefore = soup.triangleCount + solids.count
+      Placement(dressed, site, plan, emitter, toWorld).insert(plan.geometry)
+      val added = soup.triangleCount + solids.count - countBefore
+      context.resources.allowance.countShapes(added, Some(declared.pos))
 
   private val alike = Alike[Option[ShapePlan]](context.problems)
 
@@ -115,11 +115,11 @@ private[build] final class SurfaceBuilder(
             plan.map(_.copy(geometry = ShapeGeometry.Curves(strand, curves)))
       case _ => None
 
-  private def isUnlit(material: Int, here: Site): Boolean =
-    val is = !context.rules.glows && materials.materials(material).isInterface
-    if is then
-      here.warn(Code.DarkLight, "a shape of material \"interface\" gives no light, as in pbrt-v4")
-    is
+  private def isUnlit(material: Int, site: Site): Boolean =
+    val isDark = !context.rules.glows && materials.materials(material).isInterface
+    if isDark then
+      site.warn(Code.DarkLight, "a shape of material \"interface\" gives no light, as in pbrt-v4")
+    isDark
 
   def result(): LitSurfaces =
     val triangles = soup.result(materials.needsTangents, context.resources.hasRelief)
@@ -133,17 +133,17 @@ private[build] final class SurfaceBuilder(
 
   /** Of the meshes, then of each solid. */
   private def statements: Vector[Declaration] =
-    val all = Vector.newBuilder[Declaration].addAll(meshStatements)
+    val builder = Vector.newBuilder[Declaration].addAll(meshStatements)
     var first = 0
     for i <- solidStatements.indices do
-      loop(endsOfStatements(i) - first)(_ => all += solidStatements(i))
+      loop(endsOfStatements(i) - first)(_ => builder += solidStatements(i))
       first = endsOfStatements(i)
-    all.result()
+    builder.result()
 
   /** A shape being placed in the world. */
   private final class Placement(
       dressed: DressedShape,
-      here: Site,
+      site: Site,
       plan: ShapePlan,
       emitter: Option[Declaration],
       toWorld: Transform
@@ -161,7 +161,7 @@ private[build] final class SurfaceBuilder(
     /** In Mitsuba's scenes, samples of an emitter lie on the side that rays see. */
     private val isConsistent = context.rules.facesEmitters
 
-    def place(geometry: ShapeGeometry): Unit = geometry match
+    def insert(geometry: ShapeGeometry): Unit = geometry match
       case mesh: ShapeGeometry.Triangles if context.isV2 && emitter.isDefined =>
         for (sides, isTurned) <- UvSides.of(mesh) do addMesh(sides, isTurned)
       case mesh: ShapeGeometry.Triangles => addMesh(mesh, isTurned = false)
@@ -177,14 +177,14 @@ private[build] final class SurfaceBuilder(
       case ShapeGeometry.Curves(strand, curves) =>
         if emitter.isDefined then
           val name = dressed.shape.shape.name
-          here.warn(
+          site.warn(
             Code.DarkLight,
             s"a \"$name\" can't be an area light, as in pbrt; emission is ignored"
           )
         note(solids.addCurves(curves, strand.form, toWorld, isReversed, dressed.material))
-      case ShapeGeometry.Several(parts) => parts.foreach(place)
+      case ShapeGeometry.Several(parts) => parts.foreach(insert)
       case ShapeGeometry.Around(origin, parts) =>
-        Placement(dressed, here, plan, emitter, toWorld * origin.fromOrigin).place(parts)
+        Placement(dressed, site, plan, emitter, toWorld * origin.fromOrigin).insert(parts)
 
     /** pbrt-v3 and v4 flip the normals of reflected quadrics, v2 those of all disks. */
     private def isInverted: Boolean =
@@ -218,20 +218,20 @@ private[build] final class SurfaceBuilder(
     private def hasArea(shape: Shape): Boolean =
       val isFinite = java.lang.Float.isFinite(shape.area)
       if !isFinite then
-        here.warn(
+        site.warn(
           Code.DarkLight,
           "the area of this area light is too large for a number; it is ignored"
         )
       else if shape.area <= 0f then
-        here.warn(Code.DarkLight, "this area light has no area; it is ignored")
+        site.warn(Code.DarkLight, "this area light has no area; it is ignored")
       isFinite && shape.area > 0f
 
     /** @param isTurned do rays see the other sides? */
     private def addMesh(mesh: ShapeGeometry.Triangles, isTurned: Boolean): Unit =
       val count = mesh.indices.length / 3
-      val most = SurfaceBuilder.MostTriangles
-      if soup.triangleCount.toLong + count > most then
-        here.error(Code.TooLarge, s"more than $most triangles in the world or in one object")
+      val limit = SurfaceBuilder.MostTriangles
+      if soup.triangleCount.toLong + count > limit then
+        site.error(Code.TooLarge, s"more than $limit triangles in the world or in one object")
       else
         val light = emitter.fold(-1)(_ => lightCount)
         val flipNormals = !context.isV2
@@ -258,13 +258,18 @@ private[build] final class SurfaceBuilder(
         meshMasks.add(mask)
         meshVeils.add(veil)
         meshStatements += dressed.declared
-        val shown = dressed.shape.inObject
+        val isShownOnly = dressed.shape.inObject
         for emitter <- emitter do
           if isPaired then
-            addLights(corners.size, emitter, shown, 2)(MeshLights.ofRectangles(first, corners).of)
+            addLights(
+              corners.size,
+              emitter,
+              isShownOnly,
+              2
+            )(MeshLights.ofRectangles(first, corners).of)
           else
-            addLights(count, emitter, shown)(
-              MeshLights.ofTriangles(holes, first, count, contrary, here).of
+            addLights(count, emitter, isShownOnly)(
+              MeshLights.ofTriangles(holes, first, count, contrary, site).of
             )
 
     /** pbrt-v3 turns a reversed mesh with normals over for rays only, pbrt-v2 a mirrored one. */

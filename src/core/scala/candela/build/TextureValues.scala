@@ -24,13 +24,13 @@ object TextureValues:
       t <- description.textures.lastOption if !context.problems.hasErrors
       texture <- named(t.name, t.valueType, context)
     yield
-      val at = ShadingPoint()
+      val point = ShadingPoint()
       val basis = context.resources.basis
       (u, v, p) =>
-        at.u = u
-        at.v = v
-        at.p = p
-        val value = texture(at)
+        point.u = u
+        point.v = v
+        point.p = p
+        val value = texture(point)
         if t.valueType == "float" then value else basis.toSrgb(value)
 
   private def named(name: String, kind: String, context: BuildContext): Option[RgbTexture] =

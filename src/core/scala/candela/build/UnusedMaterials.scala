@@ -24,7 +24,7 @@ private[build] object UnusedMaterials:
       aside.resources.defineLater(() => textures(aside))
       MaterialTable.define(aside)
       for (name, d) <- named do
-        aside.resources.materials(name, d.at, aside.resources, findings): Unit
+        aside.resources.materials(name, d.pos, aside.resources, findings): Unit
       for d <- inPlace do Materials.build(aside.site(d)): Unit
       if !isFatal then context.problems.warnOf(findings)
 

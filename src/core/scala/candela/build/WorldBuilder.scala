@@ -75,14 +75,14 @@ private[build] final class WorldBuilder(
 
   /** @param footprints evaluated only if a texture or a material needs ray differentials */
   def build(footprints: => Footprints): World =
-    val uses = ObjectUses(description, context.origin.at, problems)
+    val uses = ObjectUses(description, context.origin.position, problems)
     memory.estimate(uses)
     memory.during(build(uses, footprints))
 
   private def build(uses: ObjectUses, footprints: => Footprints): World =
     clock.during(CostKind.Textures)(defineTextures(context))
     for l <- description.lights.headOption do
-      context.resources.allowance.countShapes(description.lights.size, Some(l.light.at))
+      context.resources.allowance.countShapes(description.lights.size, Some(l.light.pos))
     val media = MediaBuilder(context, integrator)
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
     val materials =
@@ -90,12 +90,12 @@ private[build] final class WorldBuilder(
     UnusedMaterials.check(context, shapes)(defineTextures)
 
     var lightCount = 0
-    var place = 0
+    var shapeIndex = 0
     def collected(shapes: Vector[ShapeDescription]) =
       val builder = SurfaceBuilder(context, materials, integrator, lightCount)
       for s <- shapes do
-        builder.add(materials.dress(s, place))
-        place += 1
+        builder.add(materials.dress(s, shapeIndex))
+        shapeIndex += 1
       lightCount = builder.endOfLights
       builder
     val (world, objects) = clock.during(CostKind.Triangles):
@@ -117,16 +117,16 @@ private[build] final class WorldBuilder(
       (shining, areaLights(context) ++ shining.map(_._2))
     val placed = clock.during(CostKind.Hierarchies):
       structure(lit.surfaces, litObjects.map(_.surfaces), uses.shared, hierarchies)
-    val all = lights.map(_.light).toArray
+    val allLights = lights.map(_.light).toArray
     val pool = context.resources.pool
     val selection = clock.during(CostKind.Lights):
-      LightSelection.of(all, integrator.lights, placed.accelerator.bounds, pool)
+      LightSelection.of(allLights, integrator.lights, placed.accelerator.bounds, pool)
     val scene = Scene(
       placed.surfaces,
       placed.instanced,
       placed.accelerator,
       materials.ofScene,
-      all,
+      allLights,
       selection,
       sidesByGeometry = !context.isV4,
       Option.when(context.resources.footprintUses.nonEmpty)(footprints),
@@ -138,24 +138,29 @@ private[build] final class WorldBuilder(
       warnOfShadows(s)
     val reach = 2f * placed.accelerator.bounds.radius
     val samples = lights.map(_.samples).toArray
-    def around(media: MediaBuilder, scene: Scene) =
+    def surroundingsOf(media: MediaBuilder, scene: Scene) =
       media.surroundings(scene, shining.map(_._1), materials, reach)
-    val (surroundings, inMedia) = around(media, scene)
+    val (surroundings, inMedia) = surroundingsOf(media, scene)
     val plain = integrator.methodIn(surroundings, scene, samples)
-    val found = ColorPlan.of(context, mode, sensor)
-    val color = if context.resources.settings.oneColorSet then found.ofOneSet else found
+    val colorPlan = ColorPlan.of(context, mode, sensor)
+    val color = if context.resources.settings.oneColorSet then colorPlan.ofOneSet else colorPlan
     if color.isSpectral then context.resources.census.sayOfSpectral()
     def inBasis(basis: ColorBasis) = context.in(basis)(defineTextures)
     val disperses = color.bases.headOption.map(inBasis).exists: first =>
       materials.disperses(first, integratorIn(first))
     def recolored(basis: ColorBasis): RenderMethod =
-      val other = inBasis(basis)
-      val otherLights = areaLights(other) ++
-        shining.flatMap((l, _) => light(l, lightPlan(l, other), skies))
-      val plan = integratorIn(other)
-      val otherMaterials = materials.in(color.bases.size, disperses, plan)(() => inBasis(basis))
+      val basisContext = inBasis(basis)
+      val otherLights = areaLights(basisContext) ++
+        shining.flatMap((l, _) => light(l, lightPlan(l, basisContext), skies))
+      val plan = integratorIn(basisContext)
+      val otherMaterials =
+        materials.inBasis(color.bases.size, disperses, plan)(() => inBasis(basis))
       val otherScene = scene.recolored(otherMaterials, otherLights.map(_.light).toArray)
-      plan.methodIn(around(MediaBuilder(other, plan), otherScene)._1, otherScene, samples)
+      plan.methodIn(
+        surroundingsOf(MediaBuilder(basisContext, plan), otherScene)._1,
+        otherScene,
+        samples
+      )
     val method =
       if !color.isSpectral then plain
       else
@@ -176,25 +181,25 @@ private[build] final class WorldBuilder(
         "subsurface" -> materials.describeSubsurface(integrator),
         "ray differentials" -> context.resources.footprintsInWords,
         "media" -> inMedia,
-        "lights" -> (if all.isEmpty then "none" else selection.describe)
+        "lights" -> (if allLights.isEmpty then "none" else selection.describe)
       ) ++ scene.lightGroups.map(g => "light groups" -> g.names.mkString(", ")),
       placed.instanced.instances.moving > 0,
       memory.costs,
-      Sight(scene, objectPlaces(lit, uses.shared), description.camera.map(_.at)),
+      Sight(scene, objectPlaces(lit, uses.shared), description.camera.map(_.pos)),
       () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id),
       () =>
-        val worn = shapes.indices.iterator.map(materials.materialOf)
-        CausticSurvey(context, materials, worn, lights)
+        val shapeMaterials = shapes.indices.iterator.map(materials.materialOf)
+        CausticSurvey(context, materials, shapeMaterials, lights)
     )
 
   /** The first one finds all problems of lights and media, in the order of the statements; the
     * others are made in parallel.
     */
   private def ofEach(bases: Vector[ColorBasis])(make: ColorBasis => RenderMethod) =
-    val made = new Array[RenderMethod](bases.size)
-    made(0) = make(bases(0))
-    context.resources.pool.each(bases.size - 1)(i => made(i + 1) = make(bases(i + 1)))
-    made.toVector
+    val methods = new Array[RenderMethod](bases.size)
+    methods(0) = make(bases(0))
+    context.resources.pool.forEach(bases.size - 1)(i => methods(i + 1) = make(bases(i + 1)))
+    methods.toVector
 
   private def defineTextures(context: BuildContext): Unit =
     for t <- description.textures do
@@ -208,14 +213,14 @@ private[build] final class WorldBuilder(
 
   /** Likewise, of their statements. */
   private def objectPlaces(world: LitSurfaces, objects: Vector[PlacedObject]) =
-    lazy val all =
-      world.statements.map(_.at) ++ stillFirst(objects)((o, _) => o.shapes.head.shape.at)
-    (i: Int) => all.lift(i)
+    lazy val positions =
+      world.statements.map(_.pos) ++ stillFirst(objects)((o, _) => o.shapes.head.shape.pos)
+    (i: Int) => positions.lift(i)
 
   private def stillFirst[A](objects: Vector[PlacedObject])(of: (PlacedObject, Int) => A) =
-    val places = objects.flatMap: o =>
+    val instances = objects.flatMap: o =>
       o.places.zipWithIndex.map((motion, i) => (motion.moves, of(o, i)))
-    val (moving, still) = places.partition(_._1)
+    val (moving, still) = instances.partition(_._1)
     (still ++ moving).map(_._2)
 
   private def lightPlan(l: LightDescription, context: BuildContext): Option[LightPlan] =
@@ -243,7 +248,7 @@ private[build] final class WorldBuilder(
   ): Option[SampledLight] =
     for
       plan <- plan if !l.lightToWorld.start.isFlat
-      light <- plan.make(l.lightToWorld.start, skies)
+      light <- plan.create(l.lightToWorld.start, skies)
     yield SampledLight(light, plan.samples, l.light)
 
   private def structure(
@@ -253,12 +258,13 @@ private[build] final class WorldBuilder(
       plan: AcceleratorPlan
   ) =
     def accelerate(primitives: Primitives): Accelerator = plan(primitives, samples)
-    val places = placesOf(uses)
+    val placements = placesOf(uses)
     for i <- description.instances.headOption do
-      context.resources.allowance.countShapes(places.size, Some(i.at))
+      context.resources.allowance.countShapes(placements.size, Some(i.pos))
     val accelerators = objects.map(o => accelerate(o.primitives()))
     val pool = context.resources.pool
-    val instances = Instances.of(accelerators.toArray, places, shutter.open, shutter.close, pool)
+    val instances =
+      Instances.of(accelerators.toArray, placements, shutter.open, shutter.close, pool)
     Structure(world, Instanced(objects.toArray, instances), accelerate(world.primitives(instances)))
 
   /** The number of the object and the motion of each instance, made when asked for. */
@@ -275,7 +281,7 @@ private[build] final class WorldBuilder(
     val whose = if context.rules.dialect == Dialect.Mitsuba then "Mitsuba" else "pbrt"
     problems.warn(
       Code.IntegratorLacks,
-      surface.at,
+      surface.pos,
       s"\"$name\" blocks light samples at this surface, though paths pass through it: it casts " +
         s"a shadow, as in $whose",
       Some("\"volpath\" does not block them")
@@ -284,12 +290,12 @@ private[build] final class WorldBuilder(
   private def warnOfDarkness(scene: Scene, mediaGlow: Boolean): Unit =
     if scene.lights.isEmpty && !mediaGlow && integrator.isLit && !problems.hasErrors then
       val message = "the scene has no light; its image will be black"
-      problems.warn(Code.DarkScene, description.camera.map(_.at), message)
+      problems.warn(Code.DarkScene, description.camera.map(_.pos), message)
     if !integrator.samplesLights && scene.lights.exists(_.isDelta) then
       for i <- description.integrator do
         problems.warn(
           Code.IntegratorLacks,
-          i.at,
+          i.pos,
           s"\"${i.name}\" does not sample lights: those that no ray hits, such as point lights, " +
             "do not shine, as in pbrt",
           Some("use \"volpath\"")

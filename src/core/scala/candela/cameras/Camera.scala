@@ -52,7 +52,7 @@ abstract class Camera:
     */
   def weighs: Boolean = false
 
-  /** Whether the camera can map scene points to the film: [[see]] and [[density]] are then
+  /** Whether the camera can map scene points to the film: [[project]] and [[density]] are then
     * implemented.
     */
   def isTraceable: Boolean = false
@@ -60,7 +60,7 @@ abstract class Camera:
   /** Finds the film position from which a ray through (`lensU`, `lensV`) arrives at `p`; false if
     * there is none.
     */
-  def see(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean = false
+  def project(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean = false
 
   /** [[FilmPlace.density]] at `p` of a ray that started at `eye`. */
   def density(eye: Vec3, p: Vec3): Float = 0f
@@ -88,21 +88,21 @@ abstract class Camera:
     val alongX =
       if across || reaches(x - step, y, lensU, lensV, scratch) then
         val share = if across then scale / step else -scale / step
-        neighbours.xOrigin = between(ray.origin, scratch.origin, share)
-        neighbours.xDirection = between(ray.direction, scratch.direction, share)
+        neighbours.xOrigin = interpolate(ray.origin, scratch.origin, share)
+        neighbours.xDirection = interpolate(ray.direction, scratch.direction, share)
         true
       else false
     val down = reaches(x, y + step, lensU, lensV, scratch)
     val alongY =
       if down || reaches(x, y - step, lensU, lensV, scratch) then
         val share = if down then scale / step else -scale / step
-        neighbours.yOrigin = between(ray.origin, scratch.origin, share)
-        neighbours.yDirection = between(ray.direction, scratch.direction, share)
+        neighbours.yOrigin = interpolate(ray.origin, scratch.origin, share)
+        neighbours.yDirection = interpolate(ray.direction, scratch.direction, share)
         true
       else false
     neighbours.isKnown = alongX && alongY
 
-  private def between(a: Vec3, b: Vec3, share: Float): Vec3 = a + (b - a) * share
+  private def interpolate(a: Vec3, b: Vec3, share: Float): Vec3 = a + (b - a) * share
 
   /** Generates a ray; false if the lens system blocks it. */
   private def reaches(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Boolean =

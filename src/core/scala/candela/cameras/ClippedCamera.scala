@@ -22,8 +22,8 @@ final class ClippedCamera(camera: Camera, cameraToWorld: Transform, near: Float,
     val depth = toCamera.vector(d).z
     ray.set(ray.origin + d * (near / depth), d, (far - near) / depth)
 
-  override def see(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean =
+  override def project(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean =
     val depth = toCamera.point(p).z
-    depth >= near && depth <= far && camera.see(p, lensU, lensV, out)
+    depth >= near && depth <= far && camera.project(p, lensU, lensV, out)
 
   override def density(eye: Vec3, p: Vec3): Float = camera.density(eye, p)

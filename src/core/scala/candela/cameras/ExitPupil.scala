@@ -57,26 +57,30 @@ object ExitPupil:
     val round = lens.withRoundStop
     val reach = 1.5 * round.rearAperture
     val margin = 2 * Math.sqrt(2.0) * 2 * reach / 1024
-    val half = diagonal / 2
+    val halfDiagonal = diagonal / 2
     var area = Region(-reach, reach, reach)
     var isDark = false
     val bounds = new Array[Double](4 * Rings)
     for ring <- 0 until Rings do
-      val radii = Vector(ring.toDouble, ring + 0.5, ring + 1.0).map(_ / Rings * half)
-      val found = if isDark then None else search(round, radii, area)
-      found match
+      val radii = Vector(ring.toDouble, ring + 0.5, ring + 1.0).map(_ / Rings * halfDiagonal)
+      val pupil = if isDark then None else search(round, radii, area)
+      pupil match
         case Some(r) =>
-          put(bounds, ring, r.x0 - margin, r.x1 + margin, r.top + margin)
-          val around = Math.max((r.x1 - r.x0) / 2, 2 * half / Rings)
+          store(bounds, ring, r.x0 - margin, r.x1 + margin, r.top + margin)
+          val padding = Math.max((r.x1 - r.x0) / 2, 2 * halfDiagonal / Rings)
           area = Region(
-            Math.max(-reach, r.x0 - around),
-            Math.min(reach, r.x1 + around),
-            Math.min(reach, r.top + around)
+            Math.max(-reach, r.x0 - padding),
+            Math.min(reach, r.x1 + padding),
+            Math.min(reach, r.top + padding)
           )
         case None =>
           isDark = true // and so are all rings further out
-          put(bounds, ring, 1.0, -1.0, 0.0)
-    ExitPupil(bounds, half, () => sampled(round, half / Rings, bounds, reach, margin))
+          store(bounds, ring, 1.0, -1.0, 0.0)
+    ExitPupil(
+      bounds,
+      halfDiagonal,
+      () => sampled(round, halfDiagonal / Rings, bounds, reach, margin)
+    )
 
   /** The area that pbrt-v3 finds for the innermost ring, by which it divides.
     *
@@ -113,18 +117,18 @@ object ExitPupil:
 
   /** The radical inverse in base 3. */
   private def inverse3(i: Int): Double =
-    var rest = i
+    var remaining = i
     var digits = 0L
     var scale = 1L
-    while rest > 0 do
-      digits = digits * 3 + rest % 3
+    while remaining > 0 do
+      digits = digits * 3 + remaining % 3
       scale *= 3
-      rest /= 3
+      remaining /= 3
     digits.toDouble / scale.toDouble
 
   private def square(x: Double): Double = x * x
 
-  private def put(to: Array[Double], ring: Int, x0: Double, x1: Double, top: Double): Unit =
+  private def store(to: Array[Double], ring: Int, x0: Double, x1: Double, top: Double): Unit =
     to(4 * ring) = x0
     to(4 * ring + 1) = x1
     to(4 * ring + 2) = -top
@@ -154,20 +158,20 @@ object ExitPupil:
 
   private def search(lens: LensSystem, radii: Vector[Double], area: Region): Option[Region] =
     var region = area
-    var found = Option.empty[Region]
+    var pupil = Option.empty[Region]
     var zooms = 0
     while zooms < MaxZooms do
       val cell = (region.x1 - region.x0) / CellsAcross
-      val seen = radii.flatMap(scan(lens, _, region))
-      found = Option.when(seen.nonEmpty):
-        Region(seen.map(_.x0).min, seen.map(_.x1).max, seen.map(_.top).max)
-      found match
+      val extents = radii.flatMap(scan(lens, _, region))
+      pupil = Option.when(extents.nonEmpty):
+        Region(extents.map(_.x0).min, extents.map(_.x1).max, extents.map(_.top).max)
+      pupil match
         case Some(r)
             if r.x1 - r.x0 < MinCells * cell || r.top < MinCells / 2 * region.top / CellsUp =>
           region = Region(r.x0 - cell, r.x1 + cell, r.top + region.top / CellsUp)
           zooms += 1
         case _ => zooms = MaxZooms
-    found
+    pupil
 
   /** Bounds of all rays from `radius` that pass. */
   private def scan(lens: LensSystem, radius: Double, region: Region): Option[Region] =

@@ -23,8 +23,8 @@ final case class ThickLens(
     * Gauss's 1/z' − 1/z = 1/f, with distances from the principal planes, and both planes moved.
     */
   def shift(distance: Double): Option[Double] =
-    val between = scenePlane - filmPlane
-    val apart = distance - between
+    val planeDistance = scenePlane - filmPlane
+    val apart = distance - planeDistance
     val c = apart * (apart - 4 * focalLength)
     Option.when(apart > 4 * focalLength)((distance - scenePlane - filmPlane - Math.sqrt(c)) / 2)
 

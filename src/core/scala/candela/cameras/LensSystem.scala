@@ -26,8 +26,8 @@ final class LensSystem(val surfaces: Vector[LensSurface], val stop: Option[StopS
   private val radius = surfaces.map(_.radius).toArray
   private val limit = surfaces.map(s => s.aperture * s.aperture).toArray
   private val vertex = surfaces.map(_.thickness).scanRight(0.0)(_ + _).init.toArray
-  private val behind = surfaces.map(s => if s.eta == 0.0 then 1.0 else s.eta).toArray
-  private val before = 1.0 +: behind.init
+  private val rearEta = surfaces.map(s => if s.eta == 0.0 then 1.0 else s.eta).toArray
+  private val frontEta = 1.0 +: rearEta.init
   private val shape: StopShape | Null = stop.orNull
 
   /** Vertices of the front surface and of the rear surface, next to the film. */
@@ -58,7 +58,7 @@ final class LensSystem(val surfaces: Vector[LensSurface], val stop: Option[StopS
     var weight = 1.0
     var i = count - 1
     while i >= 0 && weight > 0.0 do
-      weight *= pass(i, ray, behind(i), before(i))
+      weight *= pass(i, ray, rearEta(i), frontEta(i))
       i -= 1
     weight
 
@@ -68,14 +68,14 @@ final class LensSystem(val surfaces: Vector[LensSurface], val stop: Option[StopS
     var passes = true
     var i = 0
     while i < count && passes do
-      passes = pass(i, ray, before(i), behind(i)) > 0.0
+      passes = pass(i, ray, frontEta(i), rearEta(i)) > 0.0
       i += 1
     passes
 
   /** Moves the ray to surface `i` and refracts it there. */
   private def pass(i: Int, ray: Array[Double], from: Double, to: Double): Double =
     if radius(i) == 0.0 then throughStop(i, ray)
-    else if meets(i, ray) && refracts(i, ray, from / to) then 1.0
+    else if intersect(i, ray) && refracts(i, ray, from / to) then 1.0
     else 0.0
 
   private def throughStop(i: Int, ray: Array[Double]): Double =
@@ -92,7 +92,7 @@ final class LensSystem(val surfaces: Vector[LensSurface], val stop: Option[StopS
       else if x * x + y * y <= limit(i) then 1.0
       else 0.0
 
-  private def meets(i: Int, ray: Array[Double]): Boolean =
+  private def intersect(i: Int, ray: Array[Double]): Boolean =
     val r = radius(i)
     val center = vertex(i) - r
     val oz = ray(2) - center

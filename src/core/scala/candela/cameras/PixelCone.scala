@@ -26,7 +26,7 @@ final class PixelCone(
   /** Sets `at.dpdx` and `at.dpdy`. Written in scalars: the JIT does not keep the vectors of so long
     * an expression off the heap.
     */
-  def meet(at: ShadingPoint): Unit =
+  def approximateFootprint(at: ShadingPoint): Unit =
     val p = at.p
     val x = p.x - eye.x
     val y = p.y - eye.y
@@ -34,7 +34,7 @@ final class PixelCone(
     val distance = sqrt(x * x + y * y + z * z)
     val isApart = distance > 0f
     val inverse = if isApart then 1f / distance else 0f
-    // The basis of Frame.around the unit vector from the eye
+    // The basis of Frame.fromZ the unit vector from the eye
     val nx = x * inverse
     val ny = y * inverse
     val nz = if isApart then z * inverse else 1f
@@ -57,10 +57,10 @@ final class PixelCone(
     inline def meeting(ox: Float, oy: Float, dx: Float, dy: Float, dz: Float, out: MutableVec3) =
       val above = distance * normalZ - (ox * normalX + oy * normalY)
       val t = above / (dx * normalX + dy * normalY + dz * normalZ)
-      val meets = java.lang.Float.isFinite(t)
-      val u = if meets then ox + dx * t else 0f
-      val v = if meets then oy + dy * t else 0f
-      val w = if meets then dz * t - distance else 0f
+      val isHit = java.lang.Float.isFinite(t)
+      val u = if isHit then ox + dx * t else 0f
+      val v = if isHit then oy + dy * t else 0f
+      val w = if isHit then dz * t - distance else 0f
       out.set(
         (sx * u + tx * v + nx * w) * scale,
         (sy * u + ty * v + ny * w) * scale,
@@ -76,10 +76,10 @@ object PixelCone:
   def of(camera: Camera, eye: Vec3, width: Int, height: Int, scale: Float): PixelCone =
     val ray = Ray()
     val scratch = Ray()
-    val found = (0 until Probes).flatMap: i =>
-      val part = i.toFloat / (Probes - 1)
-      val x = part * width
-      val y = part * height
+    val differentials = (0 until Probes).flatMap: i =>
+      val fraction = i.toFloat / (Probes - 1)
+      val x = fraction * width
+      val y = fraction * height
       camera.generate(x, y, 0.5f, 0.5f, ray)
       val isRay = !camera.weighs || ray.weight > 0f
       if isRay then camera.differential(x, y, 0.5f, 0.5f, 1f, ray, scratch)
@@ -91,5 +91,5 @@ object PixelCone:
           (d.xDirection - ray.direction).length,
           (d.yDirection - ray.direction).length
         )
-    def least(k: Int) = found.map(_(k)).minOption.getOrElse(0f)
-    PixelCone(eye, least(0), least(1), least(2), least(3), scale)
+    def smallest(k: Int) = differentials.map(_(k)).minOption.getOrElse(0f)
+    PixelCone(eye, smallest(0), smallest(1), smallest(2), smallest(3), scale)

@@ -51,7 +51,7 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
   /** Pdf at `c` of rays from `eye`, per area perpendicular to the ray; both in camera space. */
   protected def densityInside(eye: Vec3, c: Vec3): Float
 
-  final override def see(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean =
+  final override def project(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean =
     val c = toCamera.point(p)
     if !(c.z > 0f) then false
     else

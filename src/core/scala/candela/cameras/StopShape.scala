@@ -77,7 +77,7 @@ object StopShapes:
       crossings % 2
 
   private def sampled(value: (Double, Double) => Double): StopShape =
-    def at(i: Int) = -1 + 2 * (i + 0.5) / Size
+    def coordinate(i: Int) = -1 + 2 * (i + 0.5) / Size
     val texels = Array.tabulate(Size * Size): i =>
-      Math.max(0.0, value(at(i % Size), -at(i / Size))).toFloat
+      Math.max(0.0, value(coordinate(i % Size), -coordinate(i / Size))).toFloat
     StopShape.asBrightAsDisc(Size, Size, texels)

@@ -44,8 +44,9 @@ private final class CameraPairs(view: View, seed: Int):
     CameraPairs.start(view, sampler, k)
     sampler.next2D()
     val weight = rays.next(pixelX(pixel) + sampler.x, pixelY(pixel) + sampler.y, sampler)
-    val found = if weight == 0f then 0f else integrator.radiance(rays.ray, sampler).average * weight
-    if found.isFinite then found else 0f
+    val brightness =
+      if weight == 0f then 0f else integrator.radiance(rays.ray, sampler).average * weight
+    if brightness.isFinite then brightness else 0f
 
 private object CameraPairs:
   /** Pairs that are followed by one thread. */
@@ -58,16 +59,16 @@ private object CameraPairs:
   def followed(view: View, seed: Int, pool: Parallel, from: Int, until: Int)(
       integrators: () => (Integrator, Integrator)
   ): PilotBlocks =
-    val all = PilotBlocks(view)
+    val total = PilotBlocks(view)
     pool
       .map((until - from) / OfPart): i =>
-        val part = PilotBlocks(view)
+        val blocks = PilotBlocks(view)
         val start = from + i * OfPart
         val (first, second) = integrators()
-        CameraPairs(view, seed).follow(start, start + OfPart, first, second, part)
-        part
-      .foreach(all.add)
-    all
+        CameraPairs(view, seed).follow(start, start + OfPart, first, second, blocks)
+        blocks
+      .foreach(total.add)
+    total
 
   /** Starts the path `k` of a pilot. */
   def start(view: View, sampler: Sampler, k: Int): Unit =

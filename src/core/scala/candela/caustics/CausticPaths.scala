@@ -45,7 +45,7 @@ private[candela] final class CausticPaths(
   def raysTraced: Long = rays
 
   /** Where the path begins, among all places of casters, from 0 to 1. */
-  def place: Double = point.place
+  def casterPosition: Double = point.areaFraction
 
   /** Traces a new path, replacing the last. */
   def trace(time: Float, sampler: Sampler): Unit =
@@ -73,45 +73,45 @@ private[candela] final class CausticPaths(
       else LightConnection.end(sample)
     ray.differential.isKnown = false
     ray.set(origin, (point.p - origin).normalized, Float.PositiveInfinity)
-    val within = media
-    if within != null then
+    val pathMedia = media
+    if pathMedia != null then
       val hero = (sampler.next1D() * 3f).toInt
-      within.begin(hero, within.around(connection.index, ray), ray.time, sampler)
-    travel(vertex, sampler) && !vertex.isInMedium && casters.isMet(point, hit, vertex.at)
+      pathMedia.startPath(hero, pathMedia.mediumAt(connection.index, ray), ray.time, sampler)
+    travel(vertex, sampler) && !vertex.isInMedium && casters.isMet(point, hit, vertex.point)
 
   /** Traces the ray to where it is scattered next; false if it is nowhere. */
   private def travel(vertex: PathVertex, sampler: Sampler): Boolean =
-    val within = media
+    val pathMedia = media
     var isOpen = true
     var isHit = false
     while isOpen do
       rays += 1
       isHit = scene.closest(ray, hit)
       var collision = -1f
-      if within != null then
-        collision = within.follow(ray, path.throughput, emits = false, sampler)
+      if pathMedia != null then
+        collision = pathMedia.follow(ray, path.throughput, emits = false, sampler)
         path.throughput = Rgb.White
-        isHit &&= !within.isAbsorbed
-      if within != null && collision >= 0f then
-        within.scatter(vertex, ray, collision)
-        isHit = !within.isAbsorbed
+        isHit &&= !pathMedia.isAbsorbed
+      if pathMedia != null && collision >= 0f then
+        pathMedia.scatter(vertex, ray, collision)
+        isHit = !pathMedia.isAbsorbed
         isOpen = false
       else
         if isHit then vertex.hit(ray, hit)
-        isOpen = isHit && scene.isPassed(ray, hit, vertex.at)
+        isOpen = isHit && scene.isPassed(ray, hit, vertex.point)
         if isOpen then
-          if within == null then vertex.passThrough(ray) else within.passThrough(vertex, ray)
+          if pathMedia == null then vertex.passThrough(ray) else pathMedia.passThrough(vertex, ray)
     isHit
 
   private def follow(first: PathVertex, isDelta: Boolean, sampler: Sampler): Unit =
     path.isSpecularSoFar = true
     path.isAlone = false
     path.throughput = Rgb.White
-    val within = media
+    val pathMedia = media
     var last = first
-    if within != null then within.mark(first)
+    if pathMedia != null then pathMedia.mark(first)
     val cosine = first.cosine(first.wo)
-    val perArea = casters.density(ray, hit, first.at)
+    val perArea = casters.density(ray, hit, first.point)
     evaluate(first, edges = 1)
     val pdf = perArea.toDouble * connection.pdf
     var alive = cosine > 0f && pdf > 0.0
@@ -119,14 +119,14 @@ private[candela] final class CausticPaths(
       path.throughput = path.throughput * connection.sample.radiance.toRgb * (cosine / pdf).toFloat
       // Light sampling from here chooses the emitter by another normal
       val chosen =
-        scene.selection.probability(first.at.p, first.lightNormal, connection.index)
-      path.weights.near = PartialWeights.mis(chosen.toDouble / connection.probability / perArea)
-      path.weights.far = if isDelta then 0.0 else PartialWeights.mis(1.0 / pdf)
+        scene.selection.probability(first.point.p, first.lightNormal, connection.index)
+      path.weights.dVCM = PartialWeights.mis(chosen.toDouble / connection.probability / perArea)
+      path.weights.dVC = if isDelta then 0.0 else PartialWeights.mis(1.0 / pdf)
       alive = scatter(first, sampler) && (findsAll || !(isDelta && first.bounce.isSpecular))
     var edges = 1
     while alive do
       edges += 1
-      if within != null then within.medium = within.towards(last, ray.direction)
+      if pathMedia != null then pathMedia.medium = pathMedia.towards(last, ray.direction)
       val vertex = next()
       alive = travel(vertex, sampler)
       if alive then
@@ -135,9 +135,9 @@ private[candela] final class CausticPaths(
         path.weights.arrive(1.0, slant)
         alive = slant > 0f
         if alive then
-          if within != null then within.mark(vertex)
+          if pathMedia != null then pathMedia.mark(vertex)
           if isRecorded(vertex) then
-            keep(vertex, path, within)
+            record(vertex, path, pathMedia)
           alive = edges < maxEdges && goesOn(vertex) && scatter(vertex, sampler)
           last = vertex
 
@@ -145,7 +145,7 @@ private[candela] final class CausticPaths(
     if onlyToFirst then PhotonLight.receives(scene, vertex) else !vertex.bsdf.isSpecular
 
   private def goesOn(vertex: PathVertex): Boolean =
-    !onlyToFirst || !vertex.isInMedium && scene.isCaster(vertex.at)
+    !onlyToFirst || !vertex.isInMedium && scene.isCaster(vertex.point)
 
   private def evaluate(vertex: PathVertex, edges: Int): Unit =
     if !vertex.isInMedium then vertex.evaluate()
@@ -157,11 +157,11 @@ private[candela] final class CausticPaths(
     */
   private def scatter(vertex: PathVertex, sampler: Sampler): Boolean =
     val goesOn = path.scatter(vertex, ray, sampler)
-    path.weights.near = 0.0
+    path.weights.dVCM = 0.0
     goesOn && !(beneath && isEntered(vertex))
 
   private def isEntered(vertex: PathVertex): Boolean =
-    !vertex.isInMedium && scene.isSubsurface(vertex.at.material) &&
+    !vertex.isInMedium && scene.isSubsurface(vertex.point.material) &&
       vertex.crosses(vertex.bounce.wi)
 
 private object CausticPaths:

@@ -19,30 +19,31 @@ import candela.scene.{Casters, PathReport, Scene}
   */
 private final class CausticPhotons(scene: Scene, light: CausticLight, bringsAll: Boolean, seed: Int)
     extends PhotonTracer(seed):
-  private val within = light.within(scene)
-  private val paths = light.photonPaths(scene, within)
-  private val others: LightPaths | Null =
-    if bringsAll then CausticPhotons.others(scene, light, within) else null
+  private val pathMedia = light.pathMedia(scene)
+  private val paths = light.photonPaths(scene, pathMedia)
+  private val mediumPaths: LightPaths | Null =
+    if bringsAll then CausticPhotons.mediumPaths(scene, light, pathMedia) else null
 
-  def raysTraced: Long = paths.raysTraced + (if within == null then 0L else within.raysTraced) +
-    (if others == null then 0L else others.raysTraced)
+  def raysTraced: Long =
+    paths.raysTraced + (if pathMedia == null then 0L else pathMedia.raysTraced) +
+      (if mediumPaths == null then 0L else mediumPaths.raysTraced)
 
   protected def trace(time: Float, sampler: Sampler, photons: Photons): Unit =
     paths.trace(time, sampler)
     loop(paths.count): k =>
       val vertex = paths(k)
       add(vertex, if vertex.isInMedium then vertex.medium else PhotonMap.Surface, 1f, photons)
-    val more = others
-    if more != null && sampler.next1D() < CausticPhotons.OfOthers then
-      more.trace(time, sampler, hero = (sampler.next1D() * 3f).toInt)
-      loop(more.count): k =>
-        val vertex = more(k)
+    val extra = mediumPaths
+    if extra != null && sampler.next1D() < CausticPhotons.OfOthers then
+      extra.trace(time, sampler, hero = (sampler.next1D() * 3f).toInt)
+      loop(extra.count): k =>
+        val vertex = extra(k)
         if vertex.isInMedium && !vertex.isCaustic then
           add(vertex, vertex.medium, 1f / CausticPhotons.OfOthers, photons)
 
   private def add(vertex: PathVertex, place: Int, times: Float, photons: Photons): Unit =
     val edges = if vertex.isAlone then -vertex.edges else vertex.edges
-    photons.add(vertex.at.p, vertex.wo, vertex.throughput * times, edges, place)
+    photons.add(vertex.point.p, vertex.wo, vertex.throughput * times, edges, place)
 
 private[candela] object CausticPhotons:
   /** Paths of other light for each that begins at a caster: it is less uneven, and each leaves
@@ -51,14 +52,14 @@ private[candela] object CausticPhotons:
   inline val OfOthers = 0.25f
 
   /** Paths of all light in media. */
-  def others(scene: Scene, light: CausticLight, within: PathMedia | Null): LightPaths =
+  def mediumPaths(scene: Scene, light: CausticLight, pathMedia: PathMedia | Null): LightPaths =
     LightPaths(
       scene,
       light.maxDepth,
       LightTransport.RouletteAfter,
       light.compresses,
       weighsAll = false,
-      media = within,
+      media = pathMedia,
       casters = light.casters
     )
 
@@ -72,7 +73,7 @@ private final class MappedPhotons(
   var map: PhotonMap = PhotonMap(Array.empty, paths = 1, radius = 1f) // none yet
   private val passed = PassedPhotons()
 
-  protected def around(vertex: SurfaceVertex, most: Int, isAlone: Boolean): Rgb =
+  protected def gather(vertex: SurfaceVertex, most: Int, isAlone: Boolean): Rgb =
     // The edge to the vertex is none of a caster
     map.gather(vertex, Float.PositiveInfinity, most + 1, isAlone)
 
@@ -84,20 +85,20 @@ private final class MappedPhotons(
   ): Unit =
     val tree = if isSeen then map.inMedia else map.fewInMedia
     val photons = tree.data
-    tree.find(segment.ray, segment.medium, most, passed)
+    tree.query(segment.ray, segment.medium, most, passed)
     var i = 0
     while i < passed.count && segment.goTo(passed.t(i)) do
-      val at = passed.at(i)
+      val photon = passed.offset(i)
       // As at surfaces
-      val share = if isAlone && photons(at + PhotonMap.EdgesOffset) < 0f then 1f / 3f else 1f
+      val share = if isAlone && photons(photon + PhotonMap.EdgesOffset) < 0f then 1f / 3f else 1f
       val factor = tree.perArea * share
       segment.add(
-        photons(at + 3),
-        photons(at + 4),
-        photons(at + 5),
-        photons(at + 6) * factor,
-        photons(at + 7) * factor,
-        photons(at + 8) * factor
+        photons(photon + 3),
+        photons(photon + 4),
+        photons(photon + 5),
+        photons(photon + 6) * factor,
+        photons(photon + 7) * factor,
+        photons(photon + 8) * factor
       )
       i += 1
 
@@ -108,7 +109,7 @@ private final class CausticGatherer(
     paths: Integrator
 ) extends PassIntegrator:
 
-  def begin(pass: Int, isStopped: () => Boolean): Boolean =
+  def startPass(pass: Int, isStopped: () => Boolean): Boolean =
     val prepared = passes(pass, source, isStopped)
     for map <- prepared do photons.map = map
     prepared.isDefined
@@ -140,7 +141,7 @@ final class CausticPasses(
 ) extends PhotonMaps(radius, asked = paths, view):
 
   def integrator(report: Option[PathReport]): PassIntegrator =
-    val over = report.fold(scene)(scene.reported)
-    val photons = MappedPhotons(over, light.casters, light.maxDepth, bringsAll)
-    val source = CausticPhotons(over, light, bringsAll, seed)
-    CausticGatherer(source, this, photons, tracer(over, photons))
+    val reporting = report.fold(scene)(scene.reported)
+    val photons = MappedPhotons(reporting, light.casters, light.maxDepth, bringsAll)
+    val source = CausticPhotons(reporting, light, bringsAll, seed)
+    CausticGatherer(source, this, photons, tracer(reporting, photons))

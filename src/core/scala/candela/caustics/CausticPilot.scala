@@ -39,26 +39,27 @@ private[candela] final class CausticPilot(
     else
       val learnt = traced(light, 0, LearningPaths, Seed, isLearning = true)
       if learnt.splats == 0 then PilotResult.none("no light path reaches the camera")
-      else look(light.casters.aimed(learnt.learning.aim))
+      else evaluate(light.casters.aimed(learnt.learning.aim))
 
-  private def look(aimed: Casters): PilotResult =
-    val found = look(aimed, 0, 1)
-    val first = expected(found, aimed)
+  private def evaluate(aimed: Casters): PilotResult =
+    val findings = probe(aimed, 0, 1)
+    val first = expected(findings, aimed)
     if light.findsAll || !first.pays then first
     else
-      found.add(look(aimed, 1, Rounds))
-      expected(found, aimed)
+      findings.add(probe(aimed, 1, Rounds))
+      expected(findings, aimed)
 
   /** What light paths and the camera's paths of some rounds find. */
-  private def look(aimed: Casters, from: Int, until: Int): Found =
-    val by = light.copy(casters = aimed)
-    val found =
-      traced(by, from * LookingPaths, until * LookingPaths, Seed + 1, isLearning = false)
+  private def probe(aimed: Casters, from: Int, until: Int): Found =
+    val aimedLight = light.copy(casters = aimed)
+    val findings =
+      traced(aimedLight, from * LookingPaths, until * LookingPaths, Seed + 1, isLearning = false)
     val weights = CausticWeights(scene, aimed, view.camera, 1f)
-    found.pairs.add(CameraPairs.followed(view, Seed + 2, pool, from * Pairs, until * Pairs): () =>
-      val paths = tracer(weights)
-      (paths, paths))
-    found
+    findings.pairs.add(CameraPairs.followed(view, Seed + 2, pool, from * Pairs, until * Pairs):
+      () =>
+        val paths = tracer(weights)
+        (paths, paths))
+    findings
 
   /** What the light paths `from` to `until` find. */
   private def traced(
@@ -68,15 +69,15 @@ private[candela] final class CausticPilot(
       seed: Int,
       isLearning: Boolean
   ): Found =
-    val each = LightPathsOfPart
-    val found = Found()
+    val batchSize = LightPathsOfPart
+    val findings = Found()
     pool
-      .map((until - from) / each): i =>
-        val part = Found()
-        part.trace(by, from + i * each, from + (i + 1) * each, seed, isLearning)
-        part
-      .foreach(found.add)
-    found
+      .map((until - from) / batchSize): i =>
+        val partial = Found()
+        partial.trace(by, from + i * batchSize, from + (i + 1) * batchSize, seed, isLearning)
+        partial
+      .foreach(findings.add)
+    findings
 
   /** What some of the paths found. Mutable. */
   private final class Found:
@@ -97,24 +98,24 @@ private[candela] final class CausticPilot(
       lightPaths += other.lightPaths
 
     def variances: PilotBlocks.Variances =
-      val all = PilotBlocks(view)
-      all.add(splatted)
-      all.add(pairs)
-      all.variances(lightPaths, usual)
+      val blocks = PilotBlocks(view)
+      blocks.add(splatted)
+      blocks.add(pairs)
+      blocks.variances(lightPaths, imageSamples)
 
     def trace(by: CausticLight, from: Int, until: Int, seed: Int, isLearning: Boolean): Unit =
-      val within = by.within(scene)
-      val paths = by.paths(scene, within)
+      val pathMedia = by.pathMedia(scene)
+      val paths = by.paths(scene, pathMedia)
       val observer = Observer(this, if isLearning then Some(paths) else None)
-      val camera = CameraConnection(scene, view.camera, Splats.Discarded, within, observer)
+      val camera = CameraConnection(scene, view.camera, Splats.Discarded, pathMedia, observer)
       val sampler = IndependentSampler(1, seed)
       loop(from, until): k =>
         CameraPairs.start(view, sampler, k)
         val time = view.shutter.fold(0f)(_.at(sampler.next1D()))
-        camera.begin(time)
+        camera.startSample(time)
         paths.trace(time, sampler)
         camera.connect(paths, isWeighted = true, sampler)
-      val inMedia = if within == null then 0L else within.raysTraced
+      val inMedia = if pathMedia == null then 0L else pathMedia.raysTraced
       lightRays += paths.raysTraced + camera.raysTraced + inMedia
       lightPaths += until - from
 
@@ -122,34 +123,37 @@ private[candela] final class CausticPilot(
     *
     * @param learns from these paths where they begin, if at all
     */
-  private final class Observer(found: Found, learns: Option[CausticPaths]) extends SplatObserver:
-    def see(x: Float, y: Float, light: Rgb, others: Double): Unit =
+  private final class Observer(findings: Found, learns: Option[CausticPaths]) extends SplatObserver:
+    def observe(x: Float, y: Float, light: Rgb, misRatios: Double): Unit =
       val weighted = light.average.toDouble
-      if weighted > 0.0 && weighted < Float.PositiveInfinity && found.splatted.contains(x, y) then
-        found.splats += 1
-        if learns.isDefined then for p <- learns do found.learning.add(p.place, weighted)
+      if weighted > 0.0 && weighted < Float.PositiveInfinity && findings.splatted.contains(x, y)
+      then
+        findings.splats += 1
+        if learns.isDefined then
+          for p <- learns do findings.learning.add(p.casterPosition, weighted)
         else
           // The weight is 1 / (1 + others); q/p of the light path
           val ratio =
-            Math.min(if others > 0.0 then 1.0 / Math.sqrt(others) else MostRatio, MostRatio)
-          found.splatted.addSplat(x, y, weighted, weighted * (1.0 + others), ratio)
+            Math.min(if misRatios > 0.0 then 1.0 / Math.sqrt(misRatios) else MostRatio, MostRatio)
+          findings.splatted.addSplat(x, y, weighted, weighted * (1.0 + misRatios), ratio)
 
   /** Samples of an image for which light paths shall pay. In media they seem to bring more than
     * they can, by light that is found once in a million samples. Elsewhere that light is most of
     * the gain where they pay, too.
     */
-  private val usual =
+  private val imageSamples =
     if light.media.isDefined then PilotBlocks.UsualSamples else PilotBlocks.EndlessSamples
 
-  private def expected(found: Found, aimed: Casters): PilotResult =
-    val cost = found.lightRays.toDouble / Math.max(1, found.lightPaths) / found.pairs.raysPerPath
-    val variances = found.variances
+  private def expected(findings: Found, aimed: Casters): PilotResult =
+    val cost =
+      findings.lightRays.toDouble / Math.max(1, findings.lightPaths) / findings.pairs.raysPerPath
+    val variances = findings.variances
     import variances.*
     // Rounded down, as the ring of docs/CAUSTICS.md asks
     val perSample = amount(Math.sqrt(byLight / (byPaths * cost)))
-    val left = (byPaths + byLight / perSample) * (1.0 + cost * perSample)
+    val work = (byPaths + byLight / perSample) * (1.0 + cost * perSample)
     val choice = LightPathChoice(aimed, perSample.toFloat)
-    PilotResult.of(choice, without = byPaths + without, left, mustPay = !light.findsAll)
+    PilotResult.of(choice, baseline = byPaths + excess, work, mustPay = !light.findsAll)
 
 private[candela] object CausticPilot:
   inline val LearningPaths = 16384

@@ -28,7 +28,7 @@ final case class CausticLight(
     beneath: Boolean,
     media: Option[SceneMedia]
 ):
-  private[candela] def within(scene: Scene): PathMedia | Null =
+  private[candela] def pathMedia(scene: Scene): PathMedia | Null =
     media.map(PathMedia(scene, _)).orNull
 
   /** May photons bring all that media scatter? They leave out what media emit in the colours of the
@@ -42,7 +42,7 @@ final case class CausticLight(
     * through borders, and the camera's find different images.
     */
   private[candela] def isCameraWhereItSays(scene: Scene, view: View): Boolean =
-    val through = within(scene)
+    val through = pathMedia(scene)
     through == null || {
       val pairs = CameraPairs(view, CausticPilot.Seed + 2)
       val rays = CameraRays(view.camera, view.shutter, 0f)
@@ -53,12 +53,12 @@ final case class CausticLight(
         weight == 0f || !through.contradicts(rays.ray)
     }
 
-  private[candela] def photonPaths(scene: Scene, within: PathMedia | Null): CausticPaths =
+  private[candela] def photonPaths(scene: Scene, pathMedia: PathMedia | Null): CausticPaths =
     val onlyToFirst = true
-    CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, within, onlyToFirst)
+    CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, pathMedia, onlyToFirst)
 
-  private[candela] def paths(scene: Scene, within: PathMedia | Null): CausticPaths =
-    CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, within)
+  private[candela] def paths(scene: Scene, pathMedia: PathMedia | Null): CausticPaths =
+    CausticPaths(scene, casters, maxDepth, compresses, findsAll, beneath, pathMedia)
 
   /** May photons begin at all emitters? In fog without end, those from infinity would begin closer
     * than where light samples do.
@@ -88,27 +88,27 @@ final class CausticTracer(
     light: CausticLight,
     perSample: Float
 ) extends Integrator:
-  private val within = light.within(scene)
-  private val paths = light.paths(scene, within)
-  private val camera = CameraConnection(scene, view.camera, view.splats, within)
+  private val pathMedia = light.pathMedia(scene)
+  private val paths = light.paths(scene, pathMedia)
+  private val camera = CameraConnection(scene, view.camera, view.splats, pathMedia)
 
   def raysTraced: Long = tracer.raysTraced + paths.raysTraced + camera.raysTraced +
-    (if within == null then 0L else within.raysTraced)
+    (if pathMedia == null then 0L else pathMedia.raysTraced)
 
   override def lastMaterial: Int = tracer.lastMaterial
   override def lightParts: LightParts | Null = tracer.lightParts
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     val time = ray.time
-    val found = tracer.radiance(ray, sampler)
-    camera.begin(time)
+    val estimate = tracer.radiance(ray, sampler)
+    camera.startSample(time)
     sampler.skipTo(BidirectionalPaths.LightRequests)
-    var left = perSample
-    while isNext(left, sampler) do
+    var remaining = perSample
+    while isNext(remaining, sampler) do
       paths.trace(time, sampler)
       camera.connect(paths, isWeighted = true, sampler, perSample)
-      left -= 1f
-    found
+      remaining -= 1f
+    estimate
 
   /** Is another path traced, of as many as are left on average? */
   private def isNext(left: Float, sampler: Sampler): Boolean =

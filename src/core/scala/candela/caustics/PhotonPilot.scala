@@ -22,20 +22,20 @@ private[candela] final class PhotonPilot(
   import PhotonPilot.*
 
   def run(): PilotResult =
-    if light.isCameraWhereItSays(scene, view) then look()
+    if light.isCameraWhereItSays(scene, view) then evaluate()
     else PilotResult.none(CausticPilot.CameraElsewhere)
 
-  private def look(): PilotResult =
-    val places = SeenPlaces(scene, view, light, pool, CameraPaths)
-    if places.isEmpty then PilotResult.none(s"the camera sees no $receivers that receives photons")
+  private def evaluate(): PilotResult =
+    val visible = SeenPlaces(scene, view, light, pool, CameraPaths)
+    if visible.isEmpty then PilotResult.none(s"the camera sees no $receivers that receives photons")
     else
-      val learning = places.learn()
+      val learning = visible.learn()
       if learning.isEmpty then PilotResult.none("no photons arrive where the camera sees them")
       else
-        val all = mayBringAll && places.othersOfPath() > LeastOthers
-        val radius = Pixels * places.footprint
+        val bringsAll = mayBringAll && visible.othersOfPath() > LeastOthers
+        val radius = Pixels * visible.footprint
         val choice =
-          PhotonChoice(light.casters.aimed(learning.aim), radius, all, brought(all))
+          PhotonChoice(light.casters.aimed(learning.aim), radius, bringsAll, brought(bringsAll))
         trial match
           case None => PilotResult(Some(choice), 0.0, pays = true, choice.toString)
           case Some(paths) => PhotonTrial(scene, view, light, choice, pool, paths).run()

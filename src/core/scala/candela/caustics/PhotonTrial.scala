@@ -30,18 +30,18 @@ private final class PhotonTrial(
       (paths, paths)
     val mapped = withPhotons
     val mean = mapped.meanOfAll
-    var without, left = 0.0
+    var plainVariance, mappedVariance = 0.0
     plain.foreach: i =>
       val n = plain.samples(i)
-      val here = mapped.mean(i)
-      val missing = Math.max(0.0, here - plain.mean(i))
-      val weight = n / (square(here) + square(PilotBlocks.Floor * mean))
-      without += weight * Math.max(plain.variance(i), n * square(missing))
-      left += weight * mapped.variance(i)
+      val mappedMean = mapped.mean(i)
+      val missing = Math.max(0.0, mappedMean - plain.mean(i))
+      val weight = n / (square(mappedMean) + square(PilotBlocks.Floor * mean))
+      plainVariance += weight * Math.max(plain.variance(i), n * square(missing))
+      mappedVariance += weight * mapped.variance(i)
     val cost = TimeOfRay * mapped.rays / plain.rays
     // As many samples as pixels, as other pilots reckon
     val unit = view.pixels / (2 * Pairs)
-    PilotResult.of(choice, unit * without, unit * left * cost)
+    PilotResult.of(choice, unit * plainVariance, unit * mappedVariance * cost)
 
   /** As many light paths as samples, as in the rendering. The samples of a pair have maps of their
     * own: those of one map have the same noise.
@@ -60,9 +60,9 @@ private final class PhotonTrial(
       paths = Pairs
     )
     def integrator(pass: Int): Integrator =
-      val made = passes.integrator(None)
-      made.begin(pass, GivenUp.Never): Unit
-      made
+      val gatherer = passes.integrator(None)
+      gatherer.startPass(pass, GivenUp.Never): Unit
+      gatherer
     followed(() => (integrator(0), integrator(1)))
 
   private def followed(integrators: () => (Integrator, Integrator)): PilotBlocks =

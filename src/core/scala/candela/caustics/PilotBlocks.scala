@@ -9,9 +9,9 @@ import candela.film.View
   * Source: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: his R₂.
   */
 private[candela] final class SpreadPlaces(view: View):
-  def x(k: Int): Double = at(k, 0.7548776662466927, view.width)
-  def y(k: Int): Double = at(k, 0.5698402909980532, view.height)
-  private def at(k: Int, step: Double, size: Int): Double = ((k + 1) * step) % 1.0 * size
+  def x(k: Int): Double = coordinate(k, 0.7548776662466927, view.width)
+  def y(k: Int): Double = coordinate(k, 0.5698402909980532, view.height)
+  private def coordinate(k: Int, step: Double, size: Int): Double = ((k + 1) * step) % 1.0 * size
 
 /** Blocks of the image, and the moments of what was found there. Mutable. */
 private final class PilotBlocks(view: View):
@@ -24,10 +24,10 @@ private final class PilotBlocks(view: View):
   private val sum, spread, splat = new Array[Double](count)
 
   /** Second moments of light paths. */
-  private val own = new Array[Double](count)
+  private val lightMoments = new Array[Double](count)
 
   // Of each block, by the magnitude of what a path from the camera finds
-  private val whole, more = new Array[Double](count * Magnitudes)
+  private val lightByMagnitude, excessByMagnitude = new Array[Double](count * Magnitudes)
 
   /** Rays of all pairs. */
   var rays = 0L
@@ -51,9 +51,9 @@ private final class PilotBlocks(view: View):
   def add(other: PilotBlocks): Unit =
     rays += other.rays
     loop(count)(i => pairs(i) += other.pairs(i))
-    for (mine, their) <- all.zip(other.all) do loop(mine.length)(i => mine(i) += their(i))
+    for (mine, their) <- tables.zip(other.tables) do loop(mine.length)(i => mine(i) += their(i))
 
-  private def all = Vector(sum, spread, splat, own, whole, more)
+  private def tables = Vector(sum, spread, splat, lightMoments, lightByMagnitude, excessByMagnitude)
 
   /** Calls `use` with each block that has pairs. */
   def foreach(use: Int => Unit): Unit = loop(count)(i => if pairs(i) > 0 then use(i))
@@ -79,12 +79,12 @@ private final class PilotBlocks(view: View):
   def addSplat(x: Float, y: Float, light: Double, unweighted: Double, ratio: Double): Unit =
     val i = block(x, y)
     splat(i) += light
-    own(i) += square(light)
+    lightMoments(i) += square(light)
     val magnitude = Math.getExponent(unweighted * ratio) - Dimmest
-    val at = i * Magnitudes + Math.max(0, Math.min(magnitude, Magnitudes - 1))
-    whole(at) += unweighted
+    val bin = i * Magnitudes + Math.max(0, Math.min(magnitude, Magnitudes - 1))
+    lightByMagnitude(bin) += unweighted
     // Second moment of paths from the camera alone, less that of these beside light paths
-    more(at) += (square(unweighted) - square(unweighted - light)) * ratio
+    excessByMagnitude(bin) += (square(unweighted) - square(unweighted - light)) * ratio
 
   /** Relative variances of a sample, summed over blocks: of paths from the camera beside light
     * paths, and others.
@@ -97,26 +97,26 @@ private final class PilotBlocks(view: View):
     * @param usual      samples of a pixel
     */
   def variances(lightPaths: Int, usual: Double): Variances =
-    var byPaths, without, byLight = 0.0
-    each(lightPaths): (i, mean, unit, pixels, scale) =>
+    var byPaths, excess, byLight = 0.0
+    eachBlock(lightPaths): (i, mean, unit, pixels, scale) =>
       if pairs(i) > 0 then byPaths += unit * pixels * spread(i) / pairs(i)
       val specks = Math.getExponent(usual * mean) - Dimmest
-      var seldom, rest, light = 0.0
+      var rare, frequent, light = 0.0
       loop(Magnitudes): k =>
-        val at = i * Magnitudes + k
+        val bin = i * Magnitudes + k
         if k >= specks then
-          seldom += more(at)
-          light += whole(at)
-        else rest += more(at)
+          rare += excessByMagnitude(bin)
+          light += lightByMagnitude(bin)
+        else frequent += excessByMagnitude(bin)
       val missing = usual * square(scale * light) / pixels
-      without += unit * (scale * rest + Math.min(scale * seldom, missing))
-      byLight += unit * scale * own(i)
-    Variances(byPaths, without, byLight)
+      excess += unit * (scale * frequent + Math.min(scale * rare, missing))
+      byLight += unit * scale * lightMoments(i)
+    Variances(byPaths, excess, byLight)
 
   /** Calls `use` with each block, its mean, the weight of its variance, its size in pixels, and
     * what a light path stands for.
     */
-  private def each(lightPaths: Int)(use: (Int, Double, Double, Double, Double) => Unit): Unit =
+  private def eachBlock(lightPaths: Int)(use: (Int, Double, Double, Double, Double) => Unit): Unit =
     val scale = view.pixels.toDouble / lightPaths
     val pixels = Array.tabulate(count): i =>
       val (w, h) = (view.width - (i % columns) * size, view.height - (i / columns) * size)
@@ -133,10 +133,10 @@ private object PilotBlocks:
   /** Relative variances.
     *
     * @param byPaths of paths from the camera beside light paths
-    * @param without what they have more without these
+    * @param excess  what they have more without these
     * @param byLight of light paths, one for a sample
     */
-  final case class Variances(byPaths: Double, without: Double, byLight: Double)
+  final case class Variances(byPaths: Double, excess: Double, byLight: Double)
 
   /** Along the longer side. */
   inline val Across = 12.0

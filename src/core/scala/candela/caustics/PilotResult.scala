@@ -34,16 +34,16 @@ private[candela] object PilotResult:
   /** Nothing can be done. */
   def none(why: String): PilotResult = PilotResult(None, Double.PositiveInfinity, pays = false, why)
 
-  /** @param without,left variance times rays, without it and with it
+  /** @param baseline,expectedWork variance times rays, without it and with it
     * @param mustPay     is it done only if it pays?
     */
   def of(
       choice: CausticChoice,
-      without: Double,
-      left: Double,
+      baseline: Double,
+      expectedWork: Double,
       mustPay: Boolean = true
   ): PilotResult =
-    val gain = if left > 0.0 then without / left else 1.0
+    val gain = if expectedWork > 0.0 then baseline / expectedWork else 1.0
     val times = if gain > 10.0 then "more than 10" else f"$gain%.2f"
-    val why = s"the pilot expects $times times the efficiency, with $choice"
-    PilotResult(Some(choice), left, !mustPay || gain > LeastGain, why)
+    val reason = s"the pilot expects $times times the efficiency, with $choice"
+    PilotResult(Some(choice), expectedWork, !mustPay || gain > LeastGain, reason)

@@ -26,63 +26,64 @@ private[candela] final class SeenPlaces(
     looks: Int
 ):
   import SeenPlaces.*
-  private val parts = pool.map(Tasks)(i => Look(i * looks / Tasks, (i + 1) * looks / Tasks))
-  private val places = parts.flatMap(_.found)
+  private val walks = pool.map(Tasks)(i => Look(i * looks / Tasks, (i + 1) * looks / Tasks))
+  private val points = walks.flatMap(_.positions)
 
   /** The median size of pixels there; 0: there is none. */
   val footprint: Float =
-    val sorted = parts.flatMap(_.sizes).sorted
+    val sorted = walks.flatMap(_.sizes).sorted
     if sorted.isEmpty then 0f else sorted(sorted.length / 2)
 
   // As far apart as the places are, on average
   private val cell = (2.0 * footprint * Math.sqrt(view.pixels / looks)).toFloat
-  private val seen = java.util.HashSet[Long]()
+  private val cellKeys = java.util.HashSet[Long]()
   if !isEmpty then
-    for p <- places; k <- 0 until 8 do
-      def near(x: Float, bit: Int) = x + (if (k >> bit & 1) == 0 then -0.5f else 0.5f) * cell
-      seen.add(key(Vec3(near(p.x, 0), near(p.y, 1), near(p.z, 2)))): Unit
+    for p <- points; k <- 0 until 8 do
+      def shifted(x: Float, bit: Int) = x + (if (k >> bit & 1) == 0 then -0.5f else 0.5f) * cell
+      cellKeys.add(key(Vec3(shifted(p.x, 0), shifted(p.y, 1), shifted(p.z, 2)))): Unit
 
   def isEmpty: Boolean = !(footprint > 0f)
 
   /** Is the place near one of these? */
-  def contains(p: Vec3): Boolean = seen.contains(key(p))
+  def contains(p: Vec3): Boolean = cellKeys.contains(key(p))
 
   /** Learns where light begins its way that arrives there. */
   def learn(): CasterLearning =
     val learning = CasterLearning()
-    val each = CausticPilot.LearningPaths / Tasks
-    pool.map(Tasks)(i => learn(i * each, (i + 1) * each)).foreach(learning.addAll)
+    val batchSize = CausticPilot.LearningPaths / Tasks
+    pool.map(Tasks)(i => learn(i * batchSize, (i + 1) * batchSize)).foreach(learning.addAll)
     learning
 
   /** How many photons of other light than [[CausticPaths]] bring a path leaves here, in media. */
   def othersOfPath(): Double =
-    val each = OtherPaths / Tasks
-    val counts = pool.map(Tasks): part =>
-      val within = light.within(scene)
-      val paths = CausticPhotons.others(scene, light, within)
+    val batchSize = OtherPaths / Tasks
+    val counts = pool.map(Tasks): batch =>
+      val pathMedia = light.pathMedia(scene)
+      val paths = CausticPhotons.mediumPaths(scene, light, pathMedia)
       val sampler = IndependentSampler(1, CausticPilot.Seed + 3)
-      var found = 0
-      for k <- part * each until (part + 1) * each do
+      var photonCount = 0
+      for k <- batch * batchSize until (batch + 1) * batchSize do
         sampler.start(k, 0, 0)
         val time = view.shutter.fold(0f)(_.at(sampler.next1D()))
         paths.trace(time, sampler, hero = (sampler.next1D() * 3f).toInt)
         for i <- 0 until paths.count do
           val vertex = paths(i)
-          if vertex.isInMedium && !vertex.isCaustic && contains(vertex.at.p) then found += 1
-      found
+          if vertex.isInMedium && !vertex.isCaustic && contains(vertex.point.p) then
+            photonCount += 1
+      photonCount
     counts.sum.toDouble / OtherPaths
 
   private def learn(from: Int, until: Int): CasterLearning =
     val learning = CasterLearning()
-    val paths = light.photonPaths(scene, light.within(scene))
+    val paths = light.photonPaths(scene, light.pathMedia(scene))
     val sampler = IndependentSampler(1, CausticPilot.Seed + 1)
     for k <- from until until do
       sampler.start(k, 0, 0)
       paths.trace(view.shutter.fold(0f)(_.at(sampler.next1D())), sampler)
       for i <- 0 until paths.count do
         val power = paths(i).throughput.average.toDouble
-        if power < Float.PositiveInfinity && contains(paths(i).at.p) then
-          learning.add(paths.place, power)
+        if power < Float.PositiveInfinity && contains(paths(i).point.p) then
+          learning.add(paths.casterPosition, power)
     learning
 
   private def key(p: Vec3): Long =
@@ -91,10 +92,10 @@ private[candela] final class SeenPlaces(
 
   /** Follows some of the paths. */
   private final class Look(from: Int, until: Int) extends SurfaceWalk(scene):
-    val found = ArrayBuffer[Vec3]()
+    val positions = ArrayBuffer[Vec3]()
     val sizes = ArrayBuffer[Float]()
     private val sampler = IndependentSampler(1, CausticPilot.Seed)
-    private val around = light.media.map(MediumAround(_))
+    private val mediumTracker = light.media.map(MediumAround(_))
     private val cameraRays = CameraRays(view.camera, view.shutter, 0f)
     private val beside = CameraRays(view.camera, view.shutter, 0f)
     private val spread = SpreadPlaces(view)
@@ -111,39 +112,39 @@ private[candela] final class SeenPlaces(
     def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
       // Walking moves the ray
       val (eye, direction) = (cameraRay.origin, cameraRay.direction.normalized)
-      def see(p: Vec3): Unit =
+      def record(p: Vec3): Unit =
         sizes += size(eye, direction, (p - eye).length)
-        found += p
-      begin(cameraRay, sampler)
-      for medium <- around do medium.begin(sampler)
+        positions += p
+      startPath(cameraRay, sampler)
+      for medium <- mediumTracker do medium.startPath(sampler)
       while goesOn do
         val isHit = intersect()
-        val t = around.fold(-1f)(_.follow(ray, sampler))
-        if around.exists(_.isDark) then end()
+        val t = mediumTracker.fold(-1f)(_.follow(ray, sampler))
+        if mediumTracker.exists(_.isDark) then end()
         else if t >= 0f then
-          if path.depth < light.maxDepth then see(ray.at(t))
+          if path.depth < light.maxDepth then record(ray.at(t))
           end()
         else if !isHit then end()
         else
           if isPassed then passThrough()
           else if path.depth == light.maxDepth then end()
-          else scatter(see)
-          for medium <- around do medium.leave(vertex.at, ray, path.isAlone)
+          else scatter(record)
+          for medium <- mediumTracker do medium.leaveSurface(vertex.point, ray, path.isAlone)
       L.toRgb
 
     private def scatter(see: Vec3 => Unit): Unit =
       evaluate()
       if PhotonLight.receives(scene, vertex) then
-        see(vertex.at.p.toVec3)
+        see(vertex.point.p.toVec3)
         end()
       else
         scatter(sampler)
-        leave()
+        leaveVertex()
 
     /** Of a pixel, so far away. */
     private def size(eye: Vec3, direction: Vec3, distance: Float): Float =
-      val other = beside.ray.origin + beside.ray.direction.normalized * distance
-      (eye + direction * distance - other).length
+      val neighbour = beside.ray.origin + beside.ray.direction.normalized * distance
+      (eye + direction * distance - neighbour).length
 
 /** The medium around a path. Mutable.
   *
@@ -154,7 +155,7 @@ private final class MediumAround(media: SceneMedia):
   private var medium = -1
 
   /** A path begins at the camera. */
-  def begin(sampler: Sampler): Unit =
+  def startPath(sampler: Sampler): Unit =
     work.start(hero = if media.isChromatic then (sampler.next1D() * 3f).toInt else 0)
     work.random.seed(sampler.next1D(), sampler.next1D())
     medium = media.camera
@@ -168,7 +169,7 @@ private final class MediumAround(media: SceneMedia):
   def isDark: Boolean = work.weights.isDead
 
   /** The ray has left the surface, alone: with the hero wavelength only. */
-  def leave(at: ShadingPoint, ray: Ray, isAlone: Boolean): Unit =
+  def leaveSurface(at: ShadingPoint, ray: Ray, isAlone: Boolean): Unit =
     if isAlone && !work.weights.isAlone then work.weights.keepHero()
     medium = media.beyond(at, ray.direction, medium)
 

@@ -26,23 +26,25 @@ final class CameraSensor(curves: Vector[Spectrum]):
   def toRgb(kelvin: Float, space: ColorSpace = ColorSpace.Srgb): Array[Float] =
     (space.rgbOfXyz * toXyz(kelvin, space.illuminant)).toFloats
 
-  private def toXyz(kelvin: Float, shown: Spectrum): Matrix3 =
+  private def toXyz(kelvin: Float, illuminant: Spectrum): Matrix3 =
     val light = Daylight.spectrum(kelvin)
     val observers = Colorimetry.observers
     val whiteY = CameraSensor.integral(nm => light(nm) * observers(1)(nm))
     val whiteG = CameraSensor.integral(nm => light(nm) * curves(1)(nm))
-    val seen = CameraSensor.chart.map(projected(_, light, curves))
+    val measured = CameraSensor.chart.map(projected(_, light, curves))
     val wanted = CameraSensor.chart.map: patch =>
-      projected(patch, shown, observers).map(_ * whiteY / whiteG)
+      projected(patch, illuminant, observers).map(_ * whiteY / whiteG)
     // Linear least squares, by the normal equations
     def products(a: Vector[Vector[Double]], b: Vector[Vector[Double]]) =
       Matrix3.tabulate((r, c) => a.lazyZip(b).map((x, y) => x(r) * y(c)).sum)
-    (products(seen, seen).inverse * products(seen, wanted)).transposed
+    (products(measured, measured).inverse * products(measured, wanted)).transposed
 
   /** Three responses to reflected light, over the second response to the unfiltered light. */
   private def projected(reflectance: Spectrum, light: Spectrum, responses: Vector[Spectrum]) =
-    val all = CameraSensor.integral(nm => light(nm) * responses(1)(nm))
-    responses.map(r => CameraSensor.integral(nm => reflectance(nm) * light(nm) * r(nm)) / all)
+    val normalization = CameraSensor.integral(nm => light(nm) * responses(1)(nm))
+    responses.map(r =>
+      CameraSensor.integral(nm => reflectance(nm) * light(nm) * r(nm)) / normalization
+    )
 
 object CameraSensor:
   /** Names as in pbrt-v4. */
@@ -92,14 +94,14 @@ object WhiteBalance:
     * `kelvin` to its white: nine numbers in row order.
     */
   def ofDaylight(kelvin: Float, space: ColorSpace = ColorSpace.Srgb): Array[Float] =
-    val from = chromaticity(Daylight.correlated(kelvin))
-    val ofXyz = adaptation(from, space.primaries.white)
+    val sourceWhite = chromaticity(Daylight.correlated(kelvin))
+    val ofXyz = adaptation(sourceWhite, space.primaries.white)
     (space.rgbOfXyz * ofXyz * Colorimetry.xyzOfRgb).toFloats
 
   /** Matrix on X, Y and Z that maps one white, by chromaticity, to another. */
   private[color] def adaptation(from: (Double, Double), to: (Double, Double)): Matrix3 =
-    val (seen, wanted) = (response(from), response(to))
-    val scale = Matrix3.tabulate((r, c) => if r == c then wanted(r) / seen(r) else 0.0)
+    val (source, wanted) = (response(from), response(to))
+    val scale = Matrix3.tabulate((r, c) => if r == c then wanted(r) / source(r) else 0.0)
     ToResponse.inverse * scale * ToResponse
 
   /** Chromaticity of daylight; below 4000 K, where daylight is undefined, of a black body. */

@@ -10,19 +10,19 @@ final class ColoredSpectrum(val values: Array[Double], val components: Rgb):
 
   /** The values, relative to the largest. */
   def shape: Array[Double] =
-    val most = values.max
-    values.map(_ / most)
+    val largest = values.max
+    values.map(_ / largest)
 
 object ColoredSpectrum:
-  /** The sum of all differences, or of some that are no less than `most` together. */
+  /** The sum of all differences, or of some that are no less than `limit` together. */
   def distance(
       a: Array[Double],
       b: Array[Double],
-      most: Double = Double.PositiveInfinity
+      limit: Double = Double.PositiveInfinity
   ): Double =
     var sum = 0.0
     var i = 0
-    while i < a.length && sum < most do
+    while i < a.length && sum < limit do
       sum += Math.abs(a(i) - b(i))
       i += 1
     sum
@@ -54,15 +54,15 @@ object ColorError:
       basis: ColorBasis,
       depth: Int
   ): Double =
-    val all = if surfaces.isEmpty then Seq(Grey) else surfaces
-    val mean = mixed(all.map(_ -> 1.0 / all.size)*)
-    val around =
+    val colors = if surfaces.isEmpty then Seq(Grey) else surfaces
+    val mean = mixed(colors.map(_ -> 1.0 / colors.size)*)
+    val cavities =
       for
-        b <- all
+        b <- colors
         m = mixed(b -> Prevailing, mean -> (1 - Prevailing))
         first <- Seq(0, 1) if first < depth
       yield gathered(m, first, depth)
-    val errors = for light <- lights; a <- all; m <- around yield error(light, a, m, basis)
+    val errors = for light <- lights; a <- colors; m <- cavities yield error(light, a, m, basis)
     Margin * errors.maxOption.getOrElse(0.0)
 
   /** Share of the one colour that prevails around a surface. */
@@ -70,9 +70,9 @@ object ColorError:
 
   private val Margin = 1.2
 
-  private def mixed(parts: (ColoredSpectrum, Double)*): ColoredSpectrum =
-    val values = wavelengths.indices.map(w => parts.map((s, share) => s.values(w) * share).sum)
-    val components = parts.map((s, share) => s.components * share.toFloat).reduce(_ + _)
+  private def mixed(weighted: (ColoredSpectrum, Double)*): ColoredSpectrum =
+    val values = wavelengths.indices.map(w => weighted.map((s, share) => s.values(w) * share).sum)
+    val components = weighted.map((s, share) => s.components * share.toFloat).reduce(_ + _)
     ColoredSpectrum(values.toArray, components)
 
   private val Grey = ColoredSpectrum(wavelengths.map(_ => 0.5), Rgb.gray(0.5f))
@@ -87,12 +87,12 @@ object ColorError:
   private def error(
       light: ColoredSpectrum,
       a: ColoredSpectrum,
-      around: ColoredSpectrum,
+      cavity: ColoredSpectrum,
       basis: ColorBasis
   ): Double =
     val spectrum = Array.tabulate(light.values.length): w =>
-      light.values(w) * a.values(w) * around.values(w)
-    difference(spectrum, basis.toSrgb(light.components * a.components * around.components))
+      light.values(w) * a.values(w) * cavity.values(w)
+    difference(spectrum, basis.toSrgb(light.components * a.components * cavity.components))
 
   /** Σ b^k for k from `first` to `depth` − 1. */
   private def series(b: Double, first: Int, depth: Int): Double =
@@ -102,12 +102,12 @@ object ColorError:
 
   /** Largest relative difference of a channel. */
   def difference(spectrum: Array[Double], color: Rgb): Double =
-    val exact = seen(spectrum)
-    val least = Floor * exact.map(Math.abs).max
-    if !(least > 0) then 0.0
+    val exact = srgb(spectrum)
+    val minMagnitude = Floor * exact.map(Math.abs).max
+    if !(minMagnitude > 0) then 0.0
     else
       Seq(color.r, color.g, color.b).zip(exact)
-        .map((c, e) => Math.abs(c - e) / Math.max(Math.abs(e), least)).max
+        .map((c, e) => Math.abs(c - e) / Math.max(Math.abs(e), minMagnitude)).max
 
   /** Largest error of a channel, relative to the brightest one, if the spectra of lights, and of
     * surfaces in white light, are known at the wavelengths of `bases` only: narrow lines need many.
@@ -119,30 +119,30 @@ object ColorError:
   ): Double =
     val errors =
       for s <- lights ++ surfaces yield
-        val known = light(s.values)
-        val sum = bases.map(b => b.toSrgb(b.ofReflectance(known(_).toFloat))).reduce(_ + _)
-        val exact = seen(s.values)
-        val off =
+        val spectrum = light(s.values)
+        val sum = bases.map(b => b.toSrgb(b.ofReflectance(spectrum(_).toFloat))).reduce(_ + _)
+        val exact = srgb(s.values)
+        val deviation =
           sum * (1f / bases.size) - Rgb(exact(0).toFloat, exact(1).toFloat, exact(2).toFloat)
-        off.largest / exact.map(Math.abs).max
+        deviation.largest / exact.map(Math.abs).max
     errors.maxOption.getOrElse(0.0)
 
   /** Light at a wavelength in nm, from its values relative to D65. */
   def light(relative: Array[Double]): Float => Double =
     // Linear between the values of the light itself, as tables are
-    val all = wavelengths.lazyZip(relative).map((nm, v) => v * Colorimetry.D65(nm))
+    val values = wavelengths.lazyZip(relative).map((nm, v) => v * Colorimetry.D65(nm))
     nm =>
       val x = (nm - wavelengths.head) / (wavelengths(1) - wavelengths(0))
-      val i = Math.max(0, Math.min(x.toInt, all.length - 2))
-      all(i) + (x - i) * (all(i + 1) - all(i))
+      val i = Math.max(0, Math.min(x.toInt, values.length - 2))
+      values(i) + (x - i) * (values(i + 1) - values(i))
 
   /** Luminance of a spectrum of light relative to D65. */
   def luminance(spectrum: Array[Double]): Double =
-    val c = seen(spectrum)
+    val c = srgb(spectrum)
     0.2126 * c(0) + 0.7152 * c(1) + 0.0722 * c(2)
 
   /** Linear sRGB of a spectrum of light relative to D65. */
-  def seen(spectrum: Array[Double]): Array[Double] =
+  def srgb(spectrum: Array[Double]): Array[Double] =
     val sums = new Array[Double](3)
     loop(spectrum.length): w =>
       loop(3)(c => sums(c) += Colorimetry.shares(3 * w + c) * spectrum(w))

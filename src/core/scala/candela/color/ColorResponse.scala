@@ -32,15 +32,15 @@ final class ColorResponse(detectors: Vector[Detector]):
       for k <- 0 until Nodes do
         val j = if (Nodes - 1 - i) % 2 == 0 then Nodes - 1 - k else k
         // Half the maximum reflectance, as in pbrt-v4
-        val half = Array(0.5, 0.5, 0.5)
-        half((largest + 1) % 3) *= i.toDouble / (Nodes - 1)
-        half((largest + 2) % 3) *= j.toDouble / (Nodes - 1)
-        walk.go(half.map(Math.max(_, Darkest)))
+        val reflectance = Array(0.5, 0.5, 0.5)
+        reflectance((largest + 1) % 3) *= i.toDouble / (Nodes - 1)
+        reflectance((largest + 2) % 3) *= j.toDouble / (Nodes - 1)
+        walk.moveTo(reflectance.map(Math.max(_, Darkest)))
         for (detector, d) <- detectors.zipWithIndex do
-          val all = detector.nm.indices.map(w => detector.weights(w) * walk(detector.nm(w)))
-          table(place(largest, i, j) + d) = 2 * all.sum
+          val products = detector.nm.indices.map(w => detector.weights(w) * walk(detector.nm(w)))
+          table(index(largest, i, j) + d) = 2 * products.sum
 
-  private def place(largest: Int, i: Int, j: Int): Int = ((largest * Nodes + i) * Nodes + j) * count
+  private def index(largest: Int, i: Int, j: Int): Int = ((largest * Nodes + i) * Nodes + j) * count
 
   /** Writes the response to linear sRGB to `out` from `at` on. Light with negative components is
     * the difference of two non-negative lights.
@@ -52,29 +52,29 @@ final class ColorResponse(detectors: Vector[Detector]):
       add(Math.max(-r, 0f), Math.max(-g, 0f), Math.max(-b, 0f), -1f, out, at)
 
   private def add(r: Float, g: Float, b: Float, sign: Float, out: Array[Float], at: Int): Unit =
-    val most = Math.max(r, Math.max(g, b))
-    if most > 0f then
-      if r == most then add(0, most, g, b, sign, out, at)
-      else if g == most then add(1, most, b, r, sign, out, at)
-      else add(2, most, r, g, sign, out, at)
+    val maximum = Math.max(r, Math.max(g, b))
+    if maximum > 0f then
+      if r == maximum then add(0, maximum, g, b, sign, out, at)
+      else if g == maximum then add(1, maximum, b, r, sign, out, at)
+      else add(2, maximum, r, g, sign, out, at)
 
   private def add(
       largest: Int,
-      most: Float,
+      maximum: Float,
       after: Float,
       before: Float,
       sign: Float,
       out: Array[Float],
       at: Int
   ): Unit =
-    val x = after / most * (Nodes - 1)
-    val y = before / most * (Nodes - 1)
+    val x = after / maximum * (Nodes - 1)
+    val y = before / maximum * (Nodes - 1)
     val i = Math.min(x.toInt, Nodes - 2)
     val j = Math.min(y.toInt, Nodes - 2)
     val (right, up) = (x - i, y - j)
-    val low = place(largest, i, j)
-    val high = place(largest, i + 1, j)
-    val scale = sign * most
+    val low = index(largest, i, j)
+    val high = index(largest, i + 1, j)
+    val scale = sign * maximum
     loop(count): d =>
       val atLow = table(low + d) * (1f - up) + table(low + count + d) * up
       val atHigh = table(high + d) * (1f - up) + table(high + count + d) * up

@@ -93,7 +93,7 @@ final class ColorSpace private (
     else
       val s = Upsampling.unbounded(c, this)
       var x, y, z = 0.0
-      for row <- seen do
+      for row <- illuminantXyz do
         val v = s(row(0).toFloat)
         x += v * row(1)
         y += v * row(2)
@@ -116,17 +116,17 @@ final class ColorSpace private (
     else Colorimetry.rgb(spectrum, Colorimetry.White.D65)
 
   /** X, Y and Z by wavelength (in nm, first) of the illuminant, over the Y of white. */
-  private[color] lazy val seen: Array[Array[Double]] =
+  private[color] lazy val illuminantXyz: Array[Array[Double]] =
     val nms = Colorimetry.wavelengths
     val y = Colorimetry.observers(1)
-    val all = nms.map(nm => (5.0 * y(nm)) * illuminant(nm)).sum
+    val whiteY = nms.map(nm => (5.0 * y(nm)) * illuminant(nm)).sum
     nms.map: nm =>
-      val share = 5 * illuminant(nm) / all
+      val share = 5 * illuminant(nm) / whiteY
       Array(nm.toDouble) ++ Colorimetry.observers.map(_(nm) * share)
 
   /** Red, green and blue of each wavelength under the illuminant, one after another. */
   private[color] lazy val responses: Array[Double] =
-    seen.flatMap(row => rgbOfXyz * Vector(row(1), row(2), row(3)))
+    illuminantXyz.flatMap(row => rgbOfXyz * Vector(row(1), row(2), row(3)))
 
   override def toString: String = name
 

@@ -72,7 +72,7 @@ object Colorimetry:
   /** The spectrum, evaluated once at each wavelength of smooth colours: for those that many are
     * made of.
     */
-  def kept(spectrum: Float => Float): Float => Float =
+  def memoized(spectrum: Float => Float): Float => Float =
     lazy val values = wavelengths.map(spectrum)
     nm =>
       val i = ((nm - wavelengths(0)) * 0.2f).toInt

@@ -26,7 +26,7 @@ private[color] object FitStarts:
   /** The name of the resource. */
   val Resource = "/candela/spectra/starts.bin"
 
-  private lazy val all: Array[Short] =
+  private lazy val table: Array[Short] =
     Using.resource(getClass.getResourceAsStream(Resource)): stream =>
       val bytes = ByteBuffer.wrap(stream.readAllBytes())
       val read = new Array[Short](bytes.remaining / 2)
@@ -36,9 +36,9 @@ private[color] object FitStarts:
   /** Sets `c` to coefficients near those of a reflectance with components in [0, 1]; false if the
     * space has no table.
     */
-  def place(space: ColorSpace, target: Array[Double], c: Array[Double]): Boolean =
+  def initialize(space: ColorSpace, target: Array[Double], c: Array[Double]): Boolean =
     val index = ColorSpace.all.indexOf(space)
-    if index >= 0 then interpolate(all, index * NumbersPerSpace, target, c)
+    if index >= 0 then interpolate(table, index * NumbersPerSpace, target, c)
     index >= 0
 
   private def interpolate(
@@ -65,15 +65,15 @@ private[color] object FitStarts:
       val weight =
         (1 - di + (2 * di - 1) * (x - i)) * (1 - dj + (2 * dj - 1) * (y - j)) *
           (1 - dk + (2 * dk - 1) * tz)
-      val at = first + place(largest, j + dj, i + di, k + dk)
-      c(0) += weight * values(at) / Scale
-      c(1) += weight * values(at + 1) / Scale
-      c(2) += weight * values(at + 2) / Scale
+      val start = first + offset(largest, j + dj, i + di, k + dk)
+      c(0) += weight * values(start) / Scale
+      c(1) += weight * values(start + 1) / Scale
+      c(2) += weight * values(start + 2) / Scale
 
   private def share(c: Double, largest: Double): Double =
     Math.max(0.0, Math.min(1.0, c / largest)) * (Size - 1)
 
-  private def place(largest: Int, j: Int, i: Int, k: Int): Int =
+  private def offset(largest: Int, j: Int, i: Int, k: Int): Int =
     3 * (((largest * Size + j) * Size + i) * Size + k)
 
   /** Values of the largest component. */
@@ -83,25 +83,27 @@ private[color] object FitStarts:
     MinComponent + (MaxComponent - MinComponent) * t * t * (3 - 2 * t)
 
   /** The resource's bytes, by the fit alone. */
-  def made: Array[Byte] =
+  def resourceBytes: Array[Byte] =
     val bytes = ByteBuffer.allocate(2 * NumbersPerSpace * ColorSpace.all.size)
-    val _ = bytes.asShortBuffer.put(ColorSpace.all.flatMap(made(_)).toArray)
+    val _ = bytes.asShortBuffer.put(ColorSpace.all.flatMap(fitted(_)).toArray)
     bytes.array
 
   /** Colours that no spectrum of the space has are those where the way from grey ends. */
-  private def made(space: ColorSpace): Array[Short] =
+  private def fitted(space: ColorSpace): Array[Short] =
     val values = new Array[Short](NumbersPerSpace)
     for largest <- 0 until 3; j <- 0 until Size; i <- 0 until Size do
       val middle = Size / 2
-      def go(levels: Range): Unit =
+      def fitLevels(levels: Range): Unit =
         val walk = Upsampling.Walk(space)
         for k <- levels do
           val target = Array.fill(3)(Level(k))
           target((largest + 1) % 3) *= i.toDouble / (Size - 1)
           target((largest + 2) % 3) *= j.toDouble / (Size - 1)
-          walk.go(target.map(c => Math.max(c, Upsampling.MinComponent)))
-          val found = walk.coefficients
-          loop(3)(n => values(place(largest, j, i, k) + n) = Math.round(found(n) * Scale).toShort)
-      go(middle until Size)
-      go(middle - 1 to 0 by -1)
+          walk.moveTo(target.map(c => Math.max(c, Upsampling.MinComponent)))
+          val coefficients = walk.coefficients
+          loop(3)(n =>
+            values(offset(largest, j, i, k) + n) = Math.round(coefficients(n) * Scale).toShort
+          )
+      fitLevels(middle until Size)
+      fitLevels(middle - 1 to 0 by -1)
     values

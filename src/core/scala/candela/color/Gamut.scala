@@ -9,13 +9,13 @@ object Gamut:
     *
     * Source: Hall, "Illumination and Color in Computer Generated Imagery", Springer 1989, ch. 5.
     */
-  def within(c: Rgb): Rgb =
-    val least = Math.min(c.r, Math.min(c.g, c.b))
+  def desaturate(c: Rgb): Rgb =
+    val minimum = Math.min(c.r, Math.min(c.g, c.b))
     val y = c.luminance
-    if !(least < 0f) then c
+    if !(minimum < 0f) then c
     else if y == Float.PositiveInfinity then c.map(Math.max(_, 0f))
     else
       if !(y > 0f) then Rgb.Black
       else
-        val share = y / (y - least)
+        val share = y / (y - minimum)
         c.map(v => Math.max(0f, y + (v - y) * share))

@@ -17,27 +17,27 @@ private[color] object GamutEdge:
 
   /** Moves the coefficients of a spectrum, that of a near colour, to where the fit ends. */
   def settle(c: Array[Double], target: Array[Double], space: ColorSpace): Unit =
-    val white = Array.tabulate(3)(k => space.seen.map(_(k + 1)).sum)
+    val white = Array.tabulate(3)(k => space.illuminantXyz.map(_(k + 1)).sum)
     val xyz = space.xyzOfRgb * target.toVector
     val wanted = Array.tabulate(3)(k => lightness(xyz(k) / white(k)))
-    val seen = new Array[Double](3)
+    val current = new Array[Double](3)
     val columns = Array.fill(3)(new Array[Double](3))
-    var left = Iterations
-    while left > 0 do
-      left -= 1
+    var remaining = Iterations
+    while remaining > 0 do
+      remaining -= 1
       // CIELAB is linear in the three lightnesses: the step is the same
-      slopes(c, space.seen, seen, columns)
-      val off = Array.tabulate(3): k =>
-        val share = seen(k) / white(k)
+      slopes(c, space.illuminantXyz, current, columns)
+      val residual = Array.tabulate(3): k =>
+        val share = current(k) / white(k)
         (lightness(share) - wanted(k)) * white(k) / lightnessSlope(share)
-      Upsampling.solve(columns, off) match
-        case None => left = 0
+      Upsampling.solve(columns, residual) match
+        case None => remaining = 0
         case Some(step) =>
-          val before = c.clone()
+          val previous = c.clone()
           loop(3)(i => c(i) -= step(i))
-          val most = Math.max(c(0), Math.max(c(1), c(2)))
-          if most > Largest then loop(3)(i => c(i) *= Largest / most)
-          if (0 until 3).forall(i => Math.abs(c(i) - before(i)) < Settled) then left = 0
+          val maximum = Math.max(c(0), Math.max(c(1), c(2)))
+          if maximum > Largest then loop(3)(i => c(i) *= Largest / maximum)
+          if (0 until 3).forall(i => Math.abs(c(i) - previous(i)) < Settled) then remaining = 0
 
   private val Iterations = 60
   private val Settled = 1e-4
@@ -46,10 +46,10 @@ private[color] object GamutEdge:
   private def slopes(
       c: Array[Double],
       rows: Array[Array[Double]],
-      seen: Array[Double],
+      xyz: Array[Double],
       columns: Array[Array[Double]]
   ): Unit =
-    java.util.Arrays.fill(seen, 0.0)
+    java.util.Arrays.fill(xyz, 0.0)
     loop(3)(i => java.util.Arrays.fill(columns(i), 0.0))
     loop(rows.length): i =>
       val row = rows(i)
@@ -59,7 +59,7 @@ private[color] object GamutEdge:
       val slope = 0.5 * root * root * root
       loop(3): k =>
         val d = row(k + 1) * slope
-        seen(k) += row(k + 1) * (0.5 + 0.5 * t * root)
+        xyz(k) += row(k + 1) * (0.5 + 0.5 * t * root)
         columns(0)(k) += d * x * x
         columns(1)(k) += d * x
         columns(2)(k) += d

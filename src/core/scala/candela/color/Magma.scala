@@ -14,10 +14,10 @@ object Magma:
 
   /** Channel `c` of the colour of `value`, sRGB-encoded; values outside [0, 1] are clamped. */
   def apply(value: Double, c: Int): Float =
-    val place = Math.min(1.0, Math.max(0.0, value)) * (Colors.size - 1)
-    val before = Math.min(place.toInt, Colors.size - 2)
-    val low = channel(Colors(before), c)
-    val high = channel(Colors(before + 1), c)
-    (low + (high - low) * (place - before)).toFloat
+    val position = Math.min(1.0, Math.max(0.0, value)) * (Colors.size - 1)
+    val index = Math.min(position.toInt, Colors.size - 2)
+    val low = channel(Colors(index), c)
+    val high = channel(Colors(index + 1), c)
+    (low + (high - low) * (position - index)).toFloat
 
   private def channel(color: Int, c: Int): Float = (color >> (16 - 8 * c) & 0xff) / 255f

@@ -12,7 +12,7 @@ object NamedSpectra:
   /** Place of a spectrum: a file and a column after that of wavelengths. */
   private final class Place(val file: String, val column: Int = 1)
 
-  private val places: Vector[(String, Place)] =
+  private val locations: Vector[(String, Place)] =
     val metals = Vector("Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2")
       .flatMap(m => Vector(s"metal-$m-eta", s"metal-$m-k"))
     val glasses = Vector("BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11").map(g => s"glass-$g")
@@ -24,7 +24,7 @@ object NamedSpectra:
       Vector("A", "D50", "D65").map(name => s"stdillum-$name" -> Place(name)) ++ fluorescent ++
       Vector("illum-acesD60" -> Place("acesD60")) ++ sensors
 
-  val names: Vector[String] = places.map(_._1)
+  val names: Vector[String] = locations.map(_._1)
 
   /** The names, with long families in short. */
   def inWords: String =
@@ -32,16 +32,16 @@ object NamedSpectra:
       names.filterNot(n => byName(n).file == "fluorescent" || byName(n).file.startsWith("camera"))
     short.sorted.mkString("", ", ", ", stdillum-F1 to -F12, sensors' curves such as canon_eos_5d_r")
 
-  private val byName = places.toMap
+  private val byName = locations.toMap
 
   /** Those read so far: each set of wavelengths asks anew. */
   private val read = ConcurrentHashMap[String, Spectrum]()
 
   /** The tabulated function, constant outside its range. */
-  def apply(name: String): Option[Spectrum] = byName.get(name).map: place =>
+  def apply(name: String): Option[Spectrum] = byName.get(name).map: location =>
     read.computeIfAbsent(
       name,
       _ =>
-        val rows = Colorimetry.table(place.file)
-        Spectrum(rows.map(_(0)), rows.map(_(place.column)))
+        val rows = Colorimetry.table(location.file)
+        Spectrum(rows.map(_(0)), rows.map(_(location.column)))
     )

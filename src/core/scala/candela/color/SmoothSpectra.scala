@@ -13,8 +13,8 @@ final class SmoothSpectra:
 
   /** The spectrum of one colour, fitted exactly: for the colours of a scene file. */
   def exact(color: Rgb): Float => Float =
-    val known = fitted.get(color)
-    if known != null then known
+    val cached = fitted.get(color)
+    if cached != null then cached
     else
       // Threads that meet here fit the same
       val fresh = SmoothSpectra.spectrum(color)
@@ -37,7 +37,7 @@ object SmoothSpectra:
     val fit = SpectrumFit()
     val target =
       Array(color.r, color.g, color.b).map(c => clamp(c, MinComponent, MaxComponent).toDouble)
-    if !(FitStarts.place(ColorSpace.Srgb, target, fit.c) && fit.reach(target)) then
+    if !(FitStarts.initialize(ColorSpace.Srgb, target, fit.c) && fit.reach(target)) then
       fit.restart()
       for step <- 1 to Steps do
         fit.to(target.map(c => 0.5 + (c - 0.5) * step / Steps))
@@ -65,13 +65,13 @@ final class SpectrumTable:
   private val columns = AtomicReferenceArray[Array[Float]](3 * Size * Size)
 
   private def column(largest: Int, j: Int, i: Int): Array[Float] =
-    val place = (largest * Size + j) * Size + i
-    val made = columns.getAcquire(place)
-    if made != null then made
+    val index = (largest * Size + j) * Size + i
+    val cached = columns.getAcquire(index)
+    if cached != null then cached
     else
       // Threads that meet here fit the same
       val fresh = fit(largest, j, i)
-      columns.setRelease(place, fresh)
+      columns.setRelease(index, fresh)
       fresh
 
   /** The spectrum of a colour with components in [0, 1], at three wavelengths in nm. */
@@ -125,7 +125,7 @@ object SpectrumTable:
   private def fit(largest: Int, j: Int, i: Int): Array[Float] =
     val column = new Array[Float](3 * Size)
     val fit = SpectrumFit()
-    def go(levels: Range): Unit =
+    def fitLevels(levels: Range): Unit =
       fit.restart()
       for k <- levels do
         val z = Levels(k).toDouble
@@ -134,6 +134,6 @@ object SpectrumTable:
         c((largest + 2) % 3) = z * share(j)
         fit.to(c)
         for n <- 0 until 3 do column(3 * k + n) = fit.c(n).toFloat
-    go(Size / 2 until Size)
-    go(Size / 2 - 1 to 0 by -1)
+    fitLevels(Size / 2 until Size)
+    fitLevels(Size / 2 - 1 to 0 by -1)
     column

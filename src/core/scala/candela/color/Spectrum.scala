@@ -19,8 +19,8 @@ final class Spectrum(
     else if nm <= lambda(0) then (if beyond && nm < lambda(0) then 0f else values(0))
     else if nm >= lambda(n - 1) then (if beyond && nm > lambda(n - 1) then 0f else values(n - 1))
     else
-      val found = java.util.Arrays.binarySearch(lambda, nm)
-      val i = if found >= 0 then found else -found - 2
+      val position = java.util.Arrays.binarySearch(lambda, nm)
+      val i = if position >= 0 then position else -position - 2
       lerp((nm - lambda(i)) / (lambda(i + 1) - lambda(i)), values(i), values(i + 1))
 
   /** Whether its values at multiples of 5 nm determine it. */

@@ -11,7 +11,7 @@ private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.sh
 
   /** The coefficients. */
   val c: Array[Double] = Array(0.0, 0.0, 0.0)
-  private val off = Array(0.0, 0.0, 0.0)
+  private val residual = Array(0.0, 0.0, 0.0)
   private val jacobian = new Array[Double](9)
   private val count = responses.length / 3
 
@@ -21,11 +21,11 @@ private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.sh
     * steps.
     */
   def to(target: Array[Double]): Unit =
-    var left = Iterations
-    while left > 0 do
-      left -= 1
+    var remaining = Iterations
+    while remaining > 0 do
+      remaining -= 1
       evaluate(target)
-      if distance < 1e-5 then left = 0
+      if distance < 1e-5 then remaining = 0
       else step(Longest)
 
   /** Moves to a colour from that of a near one, until the coefficients have no error but rounding:
@@ -35,15 +35,16 @@ private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.sh
 
   /** As above, with an error of at most `tolerance` in all channels together. */
   def reach(target: Array[Double], tolerance: Double): Boolean =
-    var left = MostSteps
+    var remaining = MostSteps
     evaluate(target)
-    while left > 0 && !(distance < tolerance) do
-      left -= 1
+    while remaining > 0 && !(distance < tolerance) do
+      remaining -= 1
       step(LongestReach)
       evaluate(target)
     distance < tolerance
 
-  private def distance: Double = Math.abs(off(0)) + Math.abs(off(1)) + Math.abs(off(2))
+  private def distance: Double =
+    Math.abs(residual(0)) + Math.abs(residual(1)) + Math.abs(residual(2))
 
   /** Sums stay in variables: stores to arrays take most of the time where C1 compiles. */
   private def evaluate(target: Array[Double]): Unit =
@@ -80,9 +81,9 @@ private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.sh
       m7 += d2 * x
       m8 += d2
       w += 1
-    off(0) = off0
-    off(1) = off1
-    off(2) = off2
+    residual(0) = off0
+    residual(1) = off1
+    residual(2) = off2
     val m = jacobian
     m(0) = m0
     m(1) = m1
@@ -103,14 +104,14 @@ private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.sh
     val det = m(0) * a + m(1) * b + m(2) * d
     if Math.abs(det) > 1e-30 then
       val s0 =
-        (off(0) * a + off(1) * (m(2) * m(7) - m(1) * m(8)) +
-          off(2) * (m(1) * m(5) - m(2) * m(4))) / det
+        (residual(0) * a + residual(1) * (m(2) * m(7) - m(1) * m(8)) +
+          residual(2) * (m(1) * m(5) - m(2) * m(4))) / det
       val s1 =
-        (off(0) * b + off(1) * (m(0) * m(8) - m(2) * m(6)) +
-          off(2) * (m(2) * m(3) - m(0) * m(5))) / det
+        (residual(0) * b + residual(1) * (m(0) * m(8) - m(2) * m(6)) +
+          residual(2) * (m(2) * m(3) - m(0) * m(5))) / det
       val s2 =
-        (off(0) * d + off(1) * (m(1) * m(6) - m(0) * m(7)) +
-          off(2) * (m(0) * m(4) - m(1) * m(3))) / det
+        (residual(0) * d + residual(1) * (m(1) * m(6) - m(0) * m(7)) +
+          residual(2) * (m(0) * m(4) - m(1) * m(3))) / det
       val largest = Math.max(Math.abs(s0), Math.max(Math.abs(s1), Math.abs(s2)))
       val scale = if largest > longest then longest / largest else 1.0
       c(0) = clamp(c(0) - scale * s0)

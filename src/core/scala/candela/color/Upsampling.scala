@@ -45,26 +45,26 @@ object Upsampling:
     if fits.size > MostFits then fits.clear()
     fits.computeIfAbsent(
       (color.map(clamp(_, 0f, 1f)), space),
-      (c, _) => near(c, space).getOrElse(far(c, space))
+      (c, _) => fromTable(c, space).getOrElse(fromGrey(c, space))
     )
 
   private def doubles(c: Rgb) = Array(c.r.toDouble, c.g.toDouble, c.b.toDouble)
 
   /** From the table, where that leads to the colour, and no bound of another space's fit. */
-  private[color] def near(c: Rgb, space: ColorSpace): Option[Fit] =
+  private[color] def fromTable(c: Rgb, space: ColorSpace): Option[Fit] =
     val fit = SpectrumFit(space.responses)
     val target = doubles(c.map(inRange))
     val isThere =
-      (space.isSrgb || c == c.map(inRange)) && FitStarts.place(space, target, fit.c) &&
+      (space.isSrgb || c == c.map(inRange)) && FitStarts.initialize(space, target, fit.c) &&
         fit.reach(target)
     Option.when(isThere && (space.isSrgb || fit.c.max < GamutEdge.Largest - 1e-6)):
       Fit(fit.c, isExact = true)
 
   /** From grey. */
-  private[color] def far(c: Rgb, space: ColorSpace): Fit =
+  private[color] def fromGrey(c: Rgb, space: ColorSpace): Fit =
     val walk = Walk(space)
     val target = doubles(c.map(inRange))
-    walk.go(target)
+    walk.moveTo(target)
     val settled = walk.coefficients
     if !space.isSrgb then GamutEdge.settle(settled, doubles(c), space)
     val isExact = walk.isAt(target) && settled.max < GamutEdge.Largest - 1e-6
@@ -87,36 +87,37 @@ object Upsampling:
     private val fit = SpectrumFit(space.responses)
     private val c = fit.c
     def coefficients: Array[Double] = c.clone()
-    private var here = Array(0.5, 0.5, 0.5)
+    private var current = Array(0.5, 0.5, 0.5)
 
     def apply(nm: Float): Float = logistic(c, nm)
 
     /** Whether the last walk ended at its goal. */
-    def isAt(target: Array[Double]): Boolean = here eq target
+    def isAt(target: Array[Double]): Boolean = current eq target
 
     /** Moves to a reflectance with components in [0.001, 0.999]; towards one that no such spectrum
       * has, as far as the straight way there goes.
       */
-    def go(target: Array[Double]): Unit =
-      val from = here
-      def at(share: Double) = target.lazyZip(from).map((to, from) => from + (to - from) * share)
-      val way = target.lazyZip(from).map((a, b) => Math.abs(a - b)).max
-      val steps = Math.ceil(way * Steps / 0.5).toInt
+    def moveTo(target: Array[Double]): Unit =
+      val start = current
+      def interpolated(share: Double) =
+        target.lazyZip(start).map((to, from) => from + (to - from) * share)
+      val distance = target.lazyZip(start).map((a, b) => Math.abs(a - b)).max
+      val steps = Math.ceil(distance * Steps / 0.5).toInt
       var step = 0
-      while step < steps && near(at((step + 1).toDouble / steps)) do step += 1
-      if step == steps then here = target
+      while step < steps && advance(interpolated((step + 1).toDouble / steps)) do step += 1
+      if step == steps then current = target
       else
         var (low, high) = (step.toDouble / steps, (step + 1).toDouble / steps)
         for _ <- 1 to Halvings do
           val middle = (low + high) / 2
-          if near(at(middle)) then low = middle else high = middle
-        here = at(low)
+          if advance(interpolated(middle)) then low = middle else high = middle
+        current = interpolated(low)
 
     /** Newton's method, which converges for nearby colours; if not, nothing changes. */
-    private def near(aim: Array[Double]): Boolean =
-      val before = c.clone()
+    private def advance(aim: Array[Double]): Boolean =
+      val saved = c.clone()
       val isThere = fit.reach(aim)
-      if !isThere then System.arraycopy(before, 0, c, 0, 3)
+      if !isThere then System.arraycopy(saved, 0, c, 0, 3)
       isThere
 
   /** From 0 to 1 over the wavelengths of a spectrum. */
@@ -134,18 +135,18 @@ object Upsampling:
   /** Halvings of the last step of a walk. */
   private val Halvings = 6
 
-  /** The three factors of the columns whose sum is `off`, if there are such. */
+  /** The three factors of the columns whose sum is `residual`, if there are such. */
   private[color] def solve(
       columns: Array[Array[Double]],
-      off: Array[Double]
+      residual: Array[Double]
   ): Option[Array[Double]] =
     def det(a: Array[Double], b: Array[Double], d: Array[Double]): Double =
       a(0) * (b(1) * d(2) - b(2) * d(1)) - b(0) * (a(1) * d(2) - a(2) * d(1)) +
         d(0) * (a(1) * b(2) - a(2) * b(1))
-    val all = det(columns(0), columns(1), columns(2))
-    Option.when(Math.abs(all) > 1e-18):
+    val determinant = det(columns(0), columns(1), columns(2))
+    Option.when(Math.abs(determinant) > 1e-18):
       Array(
-        det(off, columns(1), columns(2)) / all,
-        det(columns(0), off, columns(2)) / all,
-        det(columns(0), columns(1), off) / all
+        det(residual, columns(1), columns(2)) / determinant,
+        det(columns(0), residual, columns(2)) / determinant,
+        det(columns(0), columns(1), residual) / determinant
       )

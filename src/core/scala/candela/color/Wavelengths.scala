@@ -19,7 +19,7 @@ final class Wavelengths private (
     rows: Array[Float],
     smooth: SmoothSpectra
 ) extends ColorBasis:
-  private val daylight = each(Colorimetry.D65(_))
+  private val daylight = evaluate(Colorimetry.D65(_))
 
   override def isSpectral: Boolean = true
 
@@ -30,18 +30,18 @@ final class Wavelengths private (
 
   /** Smooth spectra; those of greys are constant, and of brighter colours unbounded. */
   def fromSrgb(c: Rgb): Rgb =
-    if isGrey(c) then c else if c.max > 1f then unbounded(c) else each(smooth.exact(c))
+    if isGrey(c) then c else if c.max > 1f then unbounded(c) else evaluate(smooth.exact(c))
 
   def unbounded(c: Rgb): Rgb =
     val scale = 2f * c.max
-    if isGrey(c) || !(scale > 0f) then c else each(smooth.exact(c * (1f / scale))) * scale
+    if isGrey(c) || !(scale > 0f) then c else evaluate(smooth.exact(c * (1f / scale))) * scale
 
   def lookUp: Rgb => Rgb =
     val table = smooth.table
     c =>
-      val most = c.max
-      if isGrey(c) || !(most > 0f) then c
-      else if most <= 1f then table.at(c.r, c.g, c.b, nm(0), nm(1), nm(2))
+      val maximum = c.max
+      if isGrey(c) || !(maximum > 0f) then c
+      else if maximum <= 1f then table.at(c.r, c.g, c.b, nm(0), nm(1), nm(2))
       else bright(table, c)
 
   override def lookUpLight: Rgb => Rgb =
@@ -58,7 +58,7 @@ final class Wavelengths private (
   /** Daylight (D65), filtered by a smooth spectrum. */
   def ofLight(c: Rgb): Rgb = unbounded(c) * daylight
 
-  def ofReflectance(s: Float => Float): Rgb = each(s)
+  def ofReflectance(s: Float => Float): Rgb = evaluate(s)
 
   def reflectance(c: Rgb): Float => Float =
     wavelength => if wavelength == nm(0) then c.r else if wavelength == nm(1) then c.g else c.b
@@ -66,9 +66,9 @@ final class Wavelengths private (
   /** Scaled to the luminance of `color`. */
   def ofLight(s: Float => Float, color: Rgb): Rgb =
     val luminance = Wavelengths.luminance(s)
-    if luminance > 0f then each(s) * (color.luminance / luminance) else Rgb.Black
+    if luminance > 0f then evaluate(s) * (color.luminance / luminance) else Rgb.Black
 
-  private def each(s: Float => Float): Rgb = Rgb(s(nm(0)), s(nm(1)), s(nm(2)))
+  private def evaluate(s: Float => Float): Rgb = Rgb(s(nm(0)), s(nm(1)), s(nm(2)))
 
 object Wavelengths:
   private inline val FirstNm = 360
@@ -109,9 +109,9 @@ object Wavelengths:
       uniform: Double = Uniform
   ): Vector[Wavelengths] =
     val centres = Array.tabulate(LastNm - FirstNm)(FirstNm + _ + 0.5f)
-    def seen(light: Float => Double) = Array.tabulate(3): c =>
+    def detected(light: Float => Double) = Array.tabulate(3): c =>
       centres.map(nm => Math.abs(detector(nm)(c)) * light(nm)).sum
-    val bright = seen(light).lazyZip(seen(Colorimetry.D65(_))).map(_ / _)
+    val bright = detected(light).lazyZip(detected(Colorimetry.D65(_))).map(_ / _)
     val shares = bright.map(b => 1 / Math.max(b, Dim * bright.max))
     val strength = centres.map: nm =>
       detector(nm).lazyZip(shares).map((r, share) => Math.abs(r) * share).sum * light(nm)
@@ -123,15 +123,15 @@ object Wavelengths:
     val below = density.scanLeft(0.0)(_ + _)
 
     /** The wavelength below which lies the share `u` of the sensitivity, and its density per nm. */
-    def at(u: Double): (Float, Double) =
+    def sample(u: Double): (Float, Double) =
       val target = u * below.last
-      val found = java.util.Arrays.binarySearch(below, target)
-      val i = Math.min(if found >= 0 then found else -found - 2, density.length - 1)
+      val position = java.util.Arrays.binarySearch(below, target)
+      val i = Math.min(if position >= 0 then position else -position - 2, density.length - 1)
       ((FirstNm + i + (target - below(i)) / density(i)).toFloat, density(i) / below.last)
 
     val sets = Vector.tabulate(count): k =>
       val u = (k + 0.5) / count
-      Vector.tabulate(3)(i => at((u + i / 3.0) % 1.0))
+      Vector.tabulate(3)(i => sample((u + i / 3.0) % 1.0))
     def response(nm: Float, pdf: Double) =
       detector(nm).map(_ / (3 * pdf * Colorimetry.luminanceOfD65))
     // What the finite set makes of the light, corrected to what an integral would make of it
@@ -139,11 +139,11 @@ object Wavelengths:
       (FirstNm to LastNm).map(nm =>
         detector(nm.toFloat)(c) * light(nm.toFloat) / Colorimetry.luminanceOfD65
       ).sum
-    val found = Array.tabulate(3): c =>
+    val approximate = Array.tabulate(3): c =>
       sets.flatten.map((nm, pdf) => response(nm, pdf)(c) * light(nm)).sum / count
     for set <- sets yield
       val columns = set.map(response(_, _))
       val rows = Array.tabulate(9): i =>
-        (columns(i % 3)(i / 3) * exact(i / 3) / found(i / 3)).toFloat
+        (columns(i % 3)(i / 3) * exact(i / 3) / approximate(i / 3)).toFloat
       val widths = set.map((_, pdf) => (1 / (3 * pdf)).toFloat)
       new Wavelengths(set.map(_._1).toArray, widths.toArray, rows, smooth)

@@ -14,8 +14,8 @@ final class Lending[A <: AnyRef](make: => A):
 
   /** Lends a piece, as the last one left it, as long as the body runs. */
   def lend[B](body: A => B): B =
-    val known = free.pollFirst()
-    val piece = if known == null then make else known
+    val pooled = free.pollFirst()
+    val piece = if pooled == null then make else pooled
     try body(piece)
     finally free.addFirst(piece)
 

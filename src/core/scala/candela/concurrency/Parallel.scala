@@ -13,12 +13,12 @@ abstract class Parallel:
   /** Runs `task` for each of 0 until `count`, in any order; returns when all are done. Rethrows
     * what a task throws.
     */
-  def each(count: Int)(task: Int => Unit): Unit
+  def forEach(count: Int)(task: Int => Unit): Unit
 
   /** What `task` gives for each of 0 until `count`, in that order. */
   final def map[A](count: Int)(task: Int => A): IndexedSeq[A] =
     val results = java.util.concurrent.atomic.AtomicReferenceArray[A](count)
-    each(count)(i => results.set(i, task(i)))
+    forEach(count)(i => results.set(i, task(i)))
     IndexedSeq.tabulate(count)(results.get)
 
   /** Whether tasks aside are run. */
@@ -37,14 +37,14 @@ abstract class Parallel:
       if threads == 1 then 1
       else Math.max(1, Math.min(Parallel.Pieces * threads, count / Parallel.SmallestRange))
     def start(i: Int) = (count.toLong * i / pieces).toInt
-    each(pieces)(i => task(start(i), start(i + 1)))
+    forEach(pieces)(i => task(start(i), start(i + 1)))
 
 object Parallel:
 
   /** Runs tasks sequentially in the caller's thread, and none aside. */
   val Alone: Parallel = new Parallel:
     def threads: Int = 1
-    def each(count: Int)(task: Int => Unit): Unit = loop(count)(task(_))
+    def forEach(count: Int)(task: Int => Unit): Unit = loop(count)(task(_))
     def worksAside: Boolean = false
     def aside(name: String)(task: => Unit): Unit = ()
 

@@ -7,12 +7,12 @@ import java.util.concurrent.atomic.AtomicLong
 import scala.util.control.ControlThrowable
 
 /** Ends the work on a scene that asks for what it may not have, whatever is caught on the way.
-  * [[Refusal.told]] makes an error of it.
+  * [[Refusal.asError]] makes an error of it.
   */
 final class Refusal(val problem: Problem) extends ControlThrowable:
 
   private def placed(at: SourcePos): Refusal =
-    if problem.at.nonEmpty then this else new Refusal(problem.copy(at = Some(at)))
+    if problem.pos.nonEmpty then this else new Refusal(problem.copy(pos = Some(at)))
 
 object Refusal:
   def apply(code: Code, at: Option[SourcePos], message: String, help: String): Refusal =
@@ -27,7 +27,7 @@ object Refusal:
     *
     * @param shown adds the excerpt
     */
-  def told[A](shown: Vector[Problem] => Vector[Problem])(body: => A): A =
+  def asError[A](shown: Vector[Problem] => Vector[Problem])(body: => A): A =
     try body
     catch case r: Refusal => throw SceneError(shown(Vector(r.problem)))
 
@@ -51,7 +51,7 @@ final class Allowance(limits: Map[Limit, Long] = Map.empty, endsAt: Option[Long]
   private val bytes, shapes = AtomicLong()
 
   /** The limit, if there is one and it is below `other`. */
-  def most(limit: Limit, other: Int): Int = limits.get(limit).fold(other)(_.min(other).toInt)
+  def capped(limit: Limit, other: Int): Int = limits.get(limit).fold(other)(_.min(other).toInt)
 
   /** @param what the amount is of, for the message
     * @throws Refusal if that is more than allowed
@@ -75,13 +75,13 @@ final class Allowance(limits: Map[Limit, Long] = Map.empty, endsAt: Option[Long]
   def countBytes(count: Long, file: Path, at: Option[SourcePos]): Unit =
     checkTime(at)
     if limits.contains(Limit.Bytes) then
-      val all = bytes.addAndGet(count)
-      check(Limit.Bytes, all, at)(s"with `${file.getFileName}`, $all bytes are read")
+      val total = bytes.addAndGet(count)
+      check(Limit.Bytes, total, at)(s"with `${file.getFileName}`, $total bytes are read")
 
   /** Counts triangles, other shapes, instances and lights: what fills the memory. */
   def countShapes(count: Long, at: Option[SourcePos]): Unit =
-    val all = shapes.addAndGet(count)
-    check(Limit.Triangles, all, at)(s"there are $all triangles and other shapes")
+    val total = shapes.addAndGet(count)
+    check(Limit.Triangles, total, at)(s"there are $total triangles and other shapes")
 
   /** Forgets what has been read: it is read once more. */
   def readAgain(): Unit =
@@ -93,7 +93,7 @@ final class Allowance(limits: Map[Limit, Long] = Map.empty, endsAt: Option[Long]
     */
   def checkTime(at: => Option[SourcePos]): Unit =
     for end <- endsAt if System.nanoTime - end >= 0 do
-      throw new Refusal(Allowance.outOfTime(limits.getOrElse(Limit.Time, 0)).copy(at = at))
+      throw new Refusal(Allowance.outOfTime(limits.getOrElse(Limit.Time, 0)).copy(pos = at))
 
 object Allowance:
   /** @param limit in milliseconds */

@@ -14,7 +14,7 @@ final case class SourcePos(
   override def toString: String = s"$file:$line:$column"
 
   /** None if it is nowhere. */
-  private[candela] def known: Option[SourcePos] = Option.when(this != SourcePos.Nowhere)(this)
+  private[candela] def toOption: Option[SourcePos] = Option.when(this != SourcePos.Nowhere)(this)
 
   /** Lines and columns, from the main file inwards. */
   private[candela] def path: List[(Int, Int)] =
@@ -29,17 +29,17 @@ enum Severity:
 
 /** A problem with the user's input.
   *
-  * @param code what it is: its number, which [[ProblemGuide]] explains
+  * @param code    what it is: its number, which [[ProblemGuide]] explains
   * @param message expected and found, on one line
-  * @param help the cure, e.g. what to write instead
-  * @param excerpt text of the line at `at`, without its line end
+  * @param help    the cure, e.g. what to write instead
+  * @param excerpt text of the line at `pos`, without its line end
   * @param standIn the placeholder for a missing item: already in use if a warning; if an error,
   *   used under --keep-going
   */
 final case class Problem(
     code: Code,
     severity: Severity,
-    at: Option[SourcePos],
+    pos: Option[SourcePos],
     message: String,
     help: Option[String] = None,
     excerpt: Option[String] = None,
@@ -52,26 +52,26 @@ object Problem:
 
   /** Problems in the order in which the scene is read; those without a position come last. */
   def byPlace(problems: Vector[Problem]): Vector[Problem] =
-    val (placed, others) = problems.partition(_.at.nonEmpty)
-    placed.sortBy(_.at.map(_.path)) ++ others
+    val (placed, others) = problems.partition(_.pos.nonEmpty)
+    placed.sortBy(_.pos.map(_.path)) ++ others
 
   def error(code: Code, at: SourcePos, message: String, help: Option[String] = None): Problem =
-    Problem(code, Severity.Error, at.known, line(message), help.map(line))
+    Problem(code, Severity.Error, at.toOption, line(message), help.map(line))
 
   /** An error at a place, if it has one. */
   def error(code: Code, at: Option[SourcePos], message: String, help: Option[String]): Problem =
     at.fold(general(code, message, help))(error(code, _, message, help))
 
   def warning(code: Code, at: SourcePos, message: String, help: Option[String] = None): Problem =
-    Problem(code, Severity.Warning, at.known, line(message), help.map(line))
+    Problem(code, Severity.Warning, at.toOption, line(message), help.map(line))
 
   /** `text` as a single printable line, whatever names it contains: no control characters, and at
     * most a few terminal lines long.
     */
   private def line(text: String): String =
-    val shown = Visible.line(text)
-    if shown.length <= Longest then shown
-    else s"${shown.take(Longest - 100)} … ${shown.takeRight(90)}"
+    val visible = Visible.line(text)
+    if visible.length <= Longest then visible
+    else s"${visible.take(Longest - 100)} … ${visible.takeRight(90)}"
 
   private inline val Longest = 500
 
@@ -90,7 +90,7 @@ object Problem:
   ): Problem =
     val (severity, text) =
       if keepGoing then (Severity.Warning, s"$message; $standIn") else (Severity.Error, message)
-    Problem(code, severity, at.known, line(text), help.map(line), standIn = Some(standIn))
+    Problem(code, severity, at.toOption, line(text), help.map(line), standIn = Some(standIn))
 
   /** An error without a position in a scene file, e.g. an output folder that can't be written. */
   def general(code: Code, message: String, help: Option[String] = None): Problem =

@@ -35,8 +35,8 @@ object ProblemGuide:
   def all: Vector[ProblemEntry] = Code.values.toVector.map(of)
 
   private lazy val byCode: Map[Code, ProblemEntry] =
-    val in = getClass.getResourceAsStream("/candela/problems/problems.md")
-    val text = Using.resource(in)(i => String(i.readAllBytes(), UTF_8))
+    val input = getClass.getResourceAsStream("/candela/problems/problems.md")
+    val text = Using.resource(input)(i => String(i.readAllBytes(), UTF_8))
     text.split("(?m)^# ").toVector.map(_.trim).filter(_.nonEmpty).map(entry).map(e => e.code -> e)
       .toMap
 

@@ -12,17 +12,17 @@ object Suggest:
     */
   def nearest(name: String, known: Iterable[String]): Option[String] =
     val lower = name.toLowerCase
-    var best = Option.empty[String]
-    var least = Int.MaxValue
+    var closest = Option.empty[String]
+    var bestDistance = Int.MaxValue
     for k <- known.iterator.take(MostKnown) do
-      val most = math.min(least, math.max(1, math.max(name.length, k.length) / 3))
+      val limit = math.min(bestDistance, math.max(1, math.max(name.length, k.length) / 3))
       // The distance is at least the difference in length, so most names need no table.
-      if math.abs(k.length - name.length) <= most then
-        val d = distance(lower, k.toLowerCase, most)
-        if d <= most && (d < least || best.exists(_ > k)) then
-          best = Some(k)
-          least = d
-    best
+      if math.abs(k.length - name.length) <= limit then
+        val d = distance(lower, k.toLowerCase, limit)
+        if d <= limit && (d < bestDistance || closest.exists(_ > k)) then
+          closest = Some(k)
+          bestDistance = d
+    closest
 
   /** Help text: the nearest name, else all known names. */
   def help(name: String, known: Iterable[String]): Option[String] =
@@ -73,15 +73,15 @@ object Suggest:
   def distance(a: String, b: String, most: Int = Int.MaxValue - 1): Int =
     var older, last, row = new Array[Int](b.length + 1)
     loop(b.length + 1)(j => row(j) = j)
-    var least = 0
+    var rowMin = 0
     var i = 1
-    while i <= a.length && least <= most do
+    while i <= a.length && rowMin <= most do
       val free = older
       older = last
       last = row
       row = free
       row(0) = i
-      least = i
+      rowMin = i
       var j = 1
       while j <= b.length do
         val replace = last(j - 1) + (if a(i - 1) == b(j - 1) then 0 else 1)
@@ -89,7 +89,7 @@ object Suggest:
         val swapped = i > 1 && j > 1 && a(i - 1) == b(j - 2) && a(i - 2) == b(j - 1)
         if swapped then d = math.min(d, older(j - 2) + 1)
         row(j) = d
-        if d < least then least = d
+        if d < rowMin then rowMin = d
         j += 1
       i += 1
     if i > a.length then row(b.length) else most + 1

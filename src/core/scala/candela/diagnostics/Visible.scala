@@ -6,22 +6,22 @@ package candela.diagnostics
 object Visible:
 
   /** `text` as one line. Tabs stay. */
-  def line(text: String): String = shown(text, keepsLines = false)
+  def line(text: String): String = escaped(text, keepsLines = false)
 
   /** Line ends and tabs stay. */
-  def text(text: String): String = shown(text, keepsLines = true)
+  def text(text: String): String = escaped(text, keepsLines = true)
 
-  private def shown(text: String, keepsLines: Boolean): String =
+  private def escaped(text: String, keepsLines: Boolean): String =
     if text.forall(c => c >= ' ' && c < Delete) then text
     else
-      val all = StringBuilder(text.length + 16)
+      val result = StringBuilder(text.length + 16)
       text.codePoints.forEach: c =>
-        if c == '\t' || (c == '\n' && keepsLines) then all += c.toChar: Unit
-        else if c < ' ' then all += (Pictures + c).toChar: Unit
-        else if c == Delete then all += DeletePicture: Unit
-        else if isSeen(c) then all ++= Character.toString(c): Unit
-        else all ++= f"<U+$c%04X>": Unit
-      all.toString
+        if c == '\t' || (c == '\n' && keepsLines) then result += c.toChar: Unit
+        else if c < ' ' then result += (Pictures + c).toChar: Unit
+        else if c == Delete then result += DeletePicture: Unit
+        else if isSeen(c) then result ++= Character.toString(c): Unit
+        else result ++= f"<U+$c%04X>": Unit
+      result.toString
 
   private def isSeen(c: Int): Boolean = Character.getType(c).toByte match
     case Character.FORMAT => Joiners(c) // others are marks of direction and the like

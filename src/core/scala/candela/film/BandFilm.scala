@@ -30,7 +30,7 @@ final class BandFilm(bands: SpectralBands, x0: Int, y0: Int, x1: Int, y1: Int):
     add(first, basis, 2, light.b, weight)
 
   private def add(first: Int, basis: Wavelengths, i: Int, light: Float, weight: Float): Unit =
-    val band = bands.at(basis.nm(i))
+    val band = bands.bandOf(basis.nm(i))
     if band >= 0 then
       val share = basis.weight(i).toDouble * weight
       sums.add(first + 2 * band, share * light)
@@ -40,17 +40,17 @@ final class BandFilm(bands: SpectralBands, x0: Int, y0: Int, x1: Int, y1: Int):
     *
     * @param splats of light paths, if any
     */
-  def behind(image: Image, splats: Option[SplatFilm]): Image =
+  def appendTo(image: Image, splats: Option[SplatFilm]): Image =
     require(image.width == width && image.height == height)
     val channels = image.channels + count
     val data = new Array[Float](channels * width * height)
     loop(width * height): pixel =>
       System.arraycopy(image.data, image.channels * pixel, data, channels * pixel, image.channels)
       loop(count): band =>
-        val at = 2 * (count * pixel + band)
-        val weight = sums(at + 1)
+        val offset = 2 * (count * pixel + band)
+        val weight = sums(offset + 1)
         if weight != 0 then
-          val mean = sums(at) / weight
+          val mean = sums(offset) / weight
           data(channels * pixel + image.channels + band) = (mean * Wavelengths.Radiance).toFloat
     splats.foreach(_.addBandsTo(data, channels, Wavelengths.Radiance))
     Image(width, height, image.channelNames ++ bands.channels, data)

@@ -52,29 +52,29 @@ private final class LevelBlock(bounds: PixelBounds):
   def memory: Long = sums.map(s => if s == null then 0L else s.memory).sum
 
   def level(i: Int): ExactSums =
-    val known = sums(i)
-    if known != null then known
+    val cached = sums(i)
+    if cached != null then cached
     else
-      val made = ExactSums(size)
-      sums(i) = made
-      made
+      val created = ExactSums(size)
+      sums(i) = created
+      created
 
   def addTo(level: Int, film: PixelBounds, to: Array[Double]): Boolean =
-    val own = sums(level)
-    if own == null then false
+    val levelSums = sums(level)
+    if levelSums == null then false
     else
       loop(bounds.height): y =>
-        val at = 3 * ((bounds.y0 + y - film.y0) * film.width + bounds.x0 - film.x0)
-        own.addTo(to, at, 3 * y * bounds.width, 3 * bounds.width)
+        val offset = 3 * ((bounds.y0 + y - film.y0) * film.width + bounds.x0 - film.x0)
+        levelSums.addTo(to, offset, 3 * y * bounds.width, 3 * bounds.width)
       true
 
   def save(to: CheckedOutput): Unit =
     to.int(sums.count(_ != null))
     loop(sums.length): i =>
-      val own = sums(i)
-      if own != null then
+      val levelSums = sums(i)
+      if levelSums != null then
         to.int(i)
-        own.save(to)
+        levelSums.save(to)
 
   def load(from: CheckedInput): Unit =
     loop(from.count(bytes = 4))(_ => level(from.int()).load(from))
@@ -88,7 +88,7 @@ final class LevelPass private[film] (blocks: Vector[LevelBlock]):
   private var r, g, b = 0f
 
   /** Selects the tile. */
-  def begin(tile: Int): Unit = block = blocks(tile)
+  def selectTile(tile: Int): Unit = block = blocks(tile)
 
   /** Selects the sample that [[add]] adds. */
   def sample(r: Float, g: Float, b: Float): Unit =

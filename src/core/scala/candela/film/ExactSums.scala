@@ -18,7 +18,7 @@ import java.math.BigDecimal
 final class ExactSums(val size: Int):
   private val high = new Array[Double](size)
   private val lows = new Array[Array[Double] | Null]((size + ExactSums.Run - 1) / ExactSums.Run)
-  @volatile private var rest = Map.empty[Int, BigDecimal]
+  @volatile private var tails = Map.empty[Int, BigDecimal]
 
   private def low(at: Int): Double =
     val run = lows(at / ExactSums.Run)
@@ -32,12 +32,12 @@ final class ExactSums(val size: Int):
     if run != null then run else makeLows(at / ExactSums.Run)
 
   private def makeLows(run: Int): Array[Double] = lows.synchronized:
-    val known = lows(run)
-    if known != null then known
+    val cached = lows(run)
+    if cached != null then cached
     else
-      val made = new Array[Double](Math.min(ExactSums.Run, size - run * ExactSums.Run))
-      lows(run) = made
-      made
+      val created = new Array[Double](Math.min(ExactSums.Run, size - run * ExactSums.Run))
+      lows(run) = created
+      created
 
   def add(at: Int, value: Double): Unit =
     val h = high(at)
@@ -61,31 +61,31 @@ final class ExactSums(val size: Int):
       high(at) = h + sum
       val moved = ExactSums.error(h, sum, high(at))
       run(inRun) = moved + error
-      val left = ExactSums.error(moved, error, run(inRun))
-      if left != 0.0 then addRest(at, BigDecimal(left))
+      val residual = ExactSums.error(moved, error, run(inRun))
+      if residual != 0.0 then addRest(at, BigDecimal(residual))
 
   private def addRest(at: Int, value: BigDecimal): Unit = lows.synchronized:
-    rest = rest.updated(at, rest.get(at).fold(value)(_.add(value)))
+    tails = tails.updated(at, tails.get(at).fold(value)(_.add(value)))
 
   /** The sum, rounded once. */
   def apply(at: Int): Double =
-    if rest.isEmpty || !rest.contains(at) then high(at) + low(at) else exact(at).doubleValue
+    if tails.isEmpty || !tails.contains(at) then high(at) + low(at) else exact(at).doubleValue
 
   /** Adds the sums from `from` on to `to` at `at`, each rounded once. */
   def addTo(to: Array[Double], at: Int, from: Int, count: Int): Unit =
-    if rest.isEmpty then loop(count)(i => to(at + i) += high(from + i) + low(from + i))
+    if tails.isEmpty then loop(count)(i => to(at + i) += high(from + i) + low(from + i))
     else loop(count)(i => to(at + i) += this(from + i))
 
   /** The difference of the sum and its rounded value, rounded. */
   def remainder(at: Int): Double =
-    if rest.isEmpty || !rest.contains(at) then
+    if tails.isEmpty || !tails.contains(at) then
       ExactSums.error(high(at), low(at), high(at) + low(at))
     else
-      val all = exact(at)
-      all.subtract(BigDecimal(all.doubleValue)).doubleValue
+      val total = exact(at)
+      total.subtract(BigDecimal(total.doubleValue)).doubleValue
 
   private def exact(at: Int): BigDecimal =
-    BigDecimal(high(at)).add(BigDecimal(low(at))).add(rest.getOrElse(at, BigDecimal.ZERO))
+    BigDecimal(high(at)).add(BigDecimal(low(at))).add(tails.getOrElse(at, BigDecimal.ZERO))
 
   /** Adds all sums of `other`, or subtracts them. */
   def add(other: ExactSums, isNegative: Boolean = false): Unit =
@@ -94,7 +94,7 @@ final class ExactSums(val size: Int):
     loop(size): i =>
       add(i, sign * other.high(i))
       add(i, sign * other.low(i))
-    for (i, value) <- other.rest do addRest(i, if isNegative then value.negate else value)
+    for (i, value) <- other.tails do addRest(i, if isNegative then value.negate else value)
 
   /** Bytes in use, but for the third parts. */
   def memory: Long =
@@ -106,11 +106,11 @@ final class ExactSums(val size: Int):
   def save(to: CheckedOutput): Unit =
     loop(size)(i => to.double(this(i) + 0.0)) // no negative zeros
     loop(size)(i => to.double(remainder(i) + 0.0))
-    val left = Vector.newBuilder[(Int, BigDecimal)]
-    for i <- rest.keys do
+    val residuals = Vector.newBuilder[(Int, BigDecimal)]
+    for i <- tails.keys do
       val value = exact(i).subtract(BigDecimal(this(i))).subtract(BigDecimal(remainder(i)))
-      if value.signum != 0 then left += i -> value
-    val sorted = left.result().sortBy(_._1)
+      if value.signum != 0 then residuals += i -> value
+    val sorted = residuals.result().sortBy(_._1)
     to.int(sorted.size)
     for (i, value) <- sorted do
       to.int(i)
@@ -121,9 +121,9 @@ final class ExactSums(val size: Int):
     loop(size)(i => add(i, from.double()))
     loop(size)(i => add(i, from.double()))
     loop(from.count(bytes = 8)): _ =>
-      val at = from.int()
-      require(at >= 0 && at < size, s"there is no sum $at")
-      addRest(at, ExactSums.left(from.text()))
+      val index = from.int()
+      require(index >= 0 && index < size, s"there is no sum $index")
+      addRest(index, ExactSums.parse(from.text()))
 
 object ExactSums:
   /** So many sums get their second parts together: a power of two. */
@@ -133,7 +133,7 @@ object ExactSums:
   private val MostDigits = 1100
 
   /** What two Doubles leave of a sum; of other numbers, sums may fill the memory. */
-  private def left(text: String): BigDecimal =
+  private def parse(text: String): BigDecimal =
     require(text.length <= 2 * MostDigits, s"a number of ${text.length} digits")
     val value = BigDecimal(text)
     require(Math.abs(value.scale) <= MostDigits, s"a number of ${value.scale} decimal places")

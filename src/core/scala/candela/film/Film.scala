@@ -14,7 +14,7 @@ import java.util.Arrays
   *
   * @param splats accumulates light path splats, if any
   * @param shares if defined, accumulates the samples instead, each contributing to several pixels
-  * @param bands  also accumulates light by wavelength, if wanted; [[copy]] and [[since]] do not
+  * @param bands  also accumulates light by wavelength, if wanted; not for [[copy]], [[deltaSince]]
   * @param levels also accumulates light by brightness, to leave out fireflies; likewise
   * @param volume what a sample adds to the weights of all pixels
   */
@@ -41,28 +41,28 @@ final class Film(
 
   /** Adds a finite sample to its pixel. */
   def add(x: Int, y: Int, r: Float, g: Float, b: Float, weight: Float): Unit =
-    val at = 4 * ((y - y0) * width + (x - x0))
+    val offset = 4 * ((y - y0) * width + (x - x0))
     // The products of two Floats are exact, too
-    sums.add(at, weight.toDouble * r)
-    sums.add(at + 1, weight.toDouble * g)
-    sums.add(at + 2, weight.toDouble * b)
-    sums.add(at + 3, weight.toDouble)
+    sums.add(offset, weight.toDouble * r)
+    sums.add(offset + 1, weight.toDouble * g)
+    sums.add(offset + 2, weight.toDouble * b)
+    sums.add(offset + 3, weight.toDouble)
 
-  /** A copy of the current state, for [[since]]. */
+  /** A copy of the current state, for [[deltaSince]]. */
   def copy(): Film =
     val film = Film(x0, y0, x1, y1, splats.map(_.copy()), shares.map(_.copy()))
     film.sums.add(sums)
     film
 
   /** The delta: samples added since `earlier` was copied. */
-  def since(earlier: Film): Film =
+  def deltaSince(earlier: Film): Film =
     val added = Film(
       x0,
       y0,
       x1,
       y1,
-      splats.zip(earlier.splats).map(_.since(_)),
-      shares.zip(earlier.shares).map(_.since(_))
+      splats.zip(earlier.splats).map(_.deltaSince(_)),
+      shares.zip(earlier.shares).map(_.deltaSince(_))
     )
     added.sums.add(sums)
     added.sums.add(earlier.sums, isNegative = true)
@@ -102,7 +102,7 @@ final class Film(
     val cleaned = if isWhole then None else levels.map(withoutFireflies)
     val data = image.data
     val weightOf = weights.orNull
-    pool.each((height + Film.Rows - 1) / Film.Rows): part =>
+    pool.forEach((height + Film.Rows - 1) / Film.Rows): part =>
       val row = new Array[Double](4 * width)
       for y <- part * Film.Rows until Math.min(height, (part + 1) * Film.Rows) do
         GivenUp.check(isStopped)
@@ -125,17 +125,17 @@ final class Film(
   /** The share of the light that [[toImage]] leaves out with fireflies. */
   def leftOut: Double =
     def sum(image: Image) = image.data.map(_.toDouble).sum
-    val whole = sum(toImage(1f, isWhole = true))
-    if levels.isEmpty || whole == 0 then 0 else 1 - sum(toImage(1f)) / whole
+    val total = sum(toImage(1f, isWhole = true))
+    if levels.isEmpty || total == 0 then 0 else 1 - sum(toImage(1f)) / total
 
   private def withoutFireflies(levels: BrightnessLevels): Array[Double] =
-    val all = new Array[Double](4 * width * height)
+    val result = new Array[Double](4 * width * height)
     val row = new Array[Double](4 * width)
     loop(height): y =>
       read(y, row)
-      System.arraycopy(row, 0, all, 4 * width * y, 4 * width)
-    FireflyWeights(levels, PixelBounds(x0, y0, x1, y1), volume)(all)
-    all
+      System.arraycopy(row, 0, result, 4 * width * y, 4 * width)
+    FireflyWeights(levels, PixelBounds(x0, y0, x1, y1), volume)(result)
+    result
 
   private def read(y: Int, row: Array[Double]): Unit =
     shares match

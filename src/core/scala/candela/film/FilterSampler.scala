@@ -55,7 +55,7 @@ private object FilterSampler:
     private val cellsPerPixel = cells / (2f * radius)
 
     def sample(u: Float): Float =
-      val cell = find(u)
+      val cell = search(u)
       val low = cdf(cell)
       val high = cdf(cell + 1)
       val v = if high > low then (u - low) / (high - low) else 0f
@@ -67,14 +67,14 @@ private object FilterSampler:
       Math.min(radius, (cell + t) * cellWidth - radius)
 
     def weight(d: Float, value: Float): Float =
-      val at = (d + radius) * cellsPerPixel
-      val cell = Math.min(at.toInt, cells - 1)
-      val t = at - cell
+      val position = (d + radius) * cellsPerPixel
+      val cell = Math.min(position.toInt, cells - 1)
+      val t = position - cell
       val density = (1f - t) * heights(cell) + t * heights(cell + 1)
       if density > 0f then value / (density * integral) else 0f
 
     /** Binary search: the last cell that begins at or before `u` in the CDF. */
-    private def find(u: Float): Int =
+    private def search(u: Float): Int =
       var low = 0
       var high = cells
       while high - low > 1 do
@@ -123,12 +123,12 @@ final class FilterTable(radius: Float, filter: Float => Float):
 
   /** Filter value `d` pixels from the pixel centre; 0 outside the radius. */
   def apply(d: Float): Float =
-    val at = (d + radius) * perPixel
-    if !(at >= 0f && at <= cells) then 0f
+    val position = (d + radius) * perPixel
+    if !(position >= 0f && position <= cells) then 0f
     else
-      val cell = Math.min(at.toInt, cells - 1)
+      val cell = Math.min(position.toInt, cells - 1)
       val low = values(cell)
-      low + (at - cell) * (values(cell + 1) - low)
+      low + (position - cell) * (values(cell + 1) - low)
 
 private[film] object FilterTable:
   private val CellsPerPixel = 64

@@ -24,8 +24,8 @@ abstract class Filter(val radiusX: Float, val radiusY: Float):
     */
   final def correlation: Double =
     def along(radius: Float, value: Float => Float) =
-      val whole = Filter.along(radius, value)
-      whole * whole / Filter.along(radius, d => value(d) * value(d))
+      val area = Filter.along(radius, value)
+      area * area / Filter.along(radius, d => value(d) * value(d))
     along(radiusX, x) * along(radiusY, y)
 
 private object Filter:

@@ -29,29 +29,29 @@ private[film] final class FireflyWeights(
     * @param sums of each pixel, row by row: weighted red, green, blue, sum of weights
     */
   def apply(sums: Array[Double]): Unit =
-    val least = MinBrightness * typical(sums)
-    val kept = new Array[Double](pixels) // brightness of the trusted light so far
-    val around, near = new Array[Double](pixels)
-    var before = Level(-1)
+    val floor = MinBrightness * typical(sums)
+    val trusted = new Array[Double](pixels) // brightness of the trusted light so far
+    val surroundings, neighbours = new Array[Double](pixels)
+    var previous = Level(-1)
     var level = Level(0)
     loop(BrightnessLevels.Count): i =>
       val after = Level(i + 1)
       if level.isThere then
-        loop(pixels)(p => near(p) = before.counts(p) + level.counts(p) + after.counts(p))
-        box.sum(near)
-        System.arraycopy(kept, 0, around, 0, pixels)
-        box.sum(around)
+        loop(pixels)(p => neighbours(p) = previous.counts(p) + level.counts(p) + after.counts(p))
+        box.sum(neighbours)
+        System.arraycopy(trusted, 0, surroundings, 0, pixels)
+        box.sum(surroundings)
         loop(pixels): p =>
           val weight = sums(4 * p + 3)
           if level.counts(p) != 0 && weight != 0 then
-            val little = Little * (around(p) / box.size(p) + least)
+            val little = Little * (surroundings(p) / box.size(p) + floor)
             val effect = BrightnessLevels.brightness(i) * volume / Math.abs(weight)
-            val found = Math.max((near(p) - Alone) / TrustedNeighbours, little / effect)
-            val trust = Math.max(0.0, Math.min(1.0, found))
+            val support = Math.max((neighbours(p) - Alone) / TrustedNeighbours, little / effect)
+            val trust = Math.max(0.0, Math.min(1.0, support))
             if trust < 1 then
               loop(3)(c => sums(4 * p + c) -= (1 - trust) * level.light(3 * p + c))
-            kept(p) += trust * brightest(level.light, 3 * p) / weight
-      before = level
+            trusted(p) += trust * brightest(level.light, 3 * p) / weight
+      previous = level
       level = after
 
   /** Geometric mean of the brightness of all pixels that have any; fireflies matter little. */
@@ -72,8 +72,8 @@ private[film] final class FireflyWeights(
       i >= 0 && i < BrightnessLevels.Count && levels.read(i, bounds, light)
     val counts: Array[Double] = new Array[Double](pixels)
     if isThere then
-      val one = BrightnessLevels.brightness(i) * volume
-      loop(pixels)(p => counts(p) = brightest(light, 3 * p) / one)
+      val perSample = BrightnessLevels.brightness(i) * volume
+      loop(pixels)(p => counts(p) = brightest(light, 3 * p) / perSample)
 
 private[film] object FireflyWeights:
   /** Samples around that one sample counts for at most: filters with negative lobes count it for
@@ -102,16 +102,16 @@ private final class Box3(width: Int, height: Int):
   def sum(values: Array[Double]): Unit =
     loop(height): y =>
       loop(width): x =>
-        val at = y * width + x
-        val left = if x > 0 then values(at - 1) else 0.0
-        val right = if x + 1 < width then values(at + 1) else 0.0
-        rows(at) = left + values(at) + right
+        val pixel = y * width + x
+        val left = if x > 0 then values(pixel - 1) else 0.0
+        val right = if x + 1 < width then values(pixel + 1) else 0.0
+        rows(pixel) = left + values(pixel) + right
     loop(height): y =>
       loop(width): x =>
-        val at = y * width + x
-        val above = if y > 0 then rows(at - width) else 0.0
-        val below = if y + 1 < height then rows(at + width) else 0.0
-        values(at) = above + rows(at) + below
+        val pixel = y * width + x
+        val above = if y > 0 then rows(pixel - width) else 0.0
+        val below = if y + 1 < height then rows(pixel + width) else 0.0
+        values(pixel) = above + rows(pixel) + below
 
   /** Number of pixels around one. */
   def size(pixel: Int): Int = reach(pixel % width, width) * reach(pixel / width, height)

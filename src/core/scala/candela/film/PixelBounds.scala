@@ -7,7 +7,7 @@ final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
   def pixels: Long = width.toLong * height
 
   /** Those of these pixels that are in `other`, too. */
-  def within(other: PixelBounds): PixelBounds =
+  def intersection(other: PixelBounds): PixelBounds =
     PixelBounds(
       Math.max(x0, other.x0),
       Math.max(y0, other.y0),

@@ -38,8 +38,8 @@ final class SampleShares private (
     */
   def read(y: Int, row: Array[Double]): Unit =
     Arrays.fill(row, 0.0)
-    val found = Arrays.binarySearch(cuts, y)
-    val strip = if found >= 0 then found else -found - 2
+    val index = Arrays.binarySearch(cuts, y)
+    val strip = if index >= 0 then index else -index - 2
     if strip >= 0 && strip < strips.length then strips(strip).foreach(_.addTo(row, y, x0))
 
   /** Rows at which blocks begin or end. Between two of them are the rows of a strip. */
@@ -57,8 +57,8 @@ final class SampleShares private (
   def copy(): SampleShares = new SampleShares(x0, y0, x1, y1, blocks.map(_.copy()))
 
   /** The delta since `earlier` was copied. */
-  def since(earlier: SampleShares): SampleShares =
-    val added = blocks.zip(earlier.blocks).map((now, before) => now.since(before))
+  def deltaSince(earlier: SampleShares): SampleShares =
+    val added = blocks.zip(earlier.blocks).map((now, before) => now.deltaSince(before))
     new SampleShares(x0, y0, x1, y1, added)
 
   /** How many sums a tile has. */
@@ -123,7 +123,7 @@ private final class SharedBlock(
     block.sums.add(sums)
     block
 
-  def since(earlier: SharedBlock): SharedBlock =
+  def deltaSince(earlier: SharedBlock): SharedBlock =
     val block = copy()
     block.sums.add(earlier.sums, isNegative = true)
     block
@@ -140,7 +140,7 @@ final class SharedPass private[film] (blocks: Vector[SharedBlock], levels: Level
   private val columns = new Array[Float](2 * blocks.map(_.reach.beyondX).max + 2)
 
   /** Selects the tile, and what its samples count. */
-  def begin(tile: Int, sampleWeight: Float = 1f): Unit =
+  def selectTile(tile: Int, sampleWeight: Float = 1f): Unit =
     block = blocks(tile)
     this.sampleWeight = sampleWeight
 
@@ -162,16 +162,16 @@ final class SharedPass private[film] (blocks: Vector[SharedBlock], levels: Level
     while py <= end do
       val inRow = sampleWeight * reach.y(y - 0.5f - py)
       var px = first
-      var at = 4 * ((py - block.y0) * block.width + first - block.x0)
+      var offset = 4 * ((py - block.y0) * block.width + first - block.x0)
       while px <= last do
         val weight = (inRow * columns(px - first)).toDouble
-        sums(at) += weight * r
-        sums(at + 1) += weight * g
-        sums(at + 2) += weight * b
-        sums(at + 3) += weight
-        if levels != null then levels.add(at / 4, weight)
+        sums(offset) += weight * r
+        sums(offset + 1) += weight * g
+        sums(offset + 2) += weight * b
+        sums(offset + 3) += weight
+        if levels != null then levels.add(offset / 4, weight)
         px += 1
-        at += 4
+        offset += 4
       py += 1
 
   /** Gives up a sample of the tile's pixels in its midst; `resume` goes on with it. */
@@ -209,8 +209,8 @@ object FilterReach:
     * few samples count.
     */
   def isUseful(filter: Filter): Boolean =
-    val most = Math.max(beyond(filter.radiusX), beyond(filter.radiusY))
-    most >= 1 && most <= MaxPixels && filter.correlation >= MinArea
+    val extent = Math.max(beyond(filter.radiusX), beyond(filter.radiusY))
+    extent >= 1 && extent <= MaxPixels && filter.correlation >= MinArea
 
   /** Reach of a filter beyond its pixel. */
   private val MaxPixels = 8

@@ -31,16 +31,16 @@ final class SpectralBands(
     s"S0.${String.format(Locale.ROOT, "%.3f", middle).replace('.', ',')}nm"
 
   /** The band of a wavelength in nm; −1: none. */
-  def at(nm: Float): Int =
+  def bandOf(nm: Float): Int =
     if nm < from || nm >= to then -1
     else Math.min(((nm - from) / (to - from) * count).toInt, count - 1)
 
   /** The same, in a rendering whose paths have these wavelengths. */
-  def over(bases: Vector[Wavelengths]): SpectralBands = SpectralBands(count, from, to, bases)
+  def withBases(bases: Vector[Wavelengths]): SpectralBands = SpectralBands(count, from, to, bases)
 
   private lazy val widths =
     val sums = new Array[Double](count)
-    for basis <- bases; i <- 0 to 2; band = at(basis.nm(i)) if band >= 0 do
+    for basis <- bases; i <- 0 to 2; band = bandOf(basis.nm(i)) if band >= 0 do
       sums(band) += basis.weight(i)
     sums.map(_ / bases.size)
 
@@ -58,15 +58,15 @@ final class SpectralBands(
     *
     * @param colors incident light in linear sRGB
     */
-  def behind(image: Image, colors: Image): Image =
+  def appendTo(image: Image, colors: Image): Image =
     require(image.width == colors.width && image.height == colors.height)
     val width = image.channels + count
     val data = new Array[Float](width * image.width * image.height)
     loop(image.width * image.height): pixel =>
       System.arraycopy(image.data, image.channels * pixel, data, width * pixel, image.channels)
-      val at = 3 * pixel
+      val offset = 3 * pixel
       val c = colors.data
-      response(c(at), c(at + 1), c(at + 2), data, width * pixel + image.channels)
+      response(c(offset), c(offset + 1), c(offset + 2), data, width * pixel + image.channels)
     val names = image.channelNames ++ channels
     Image(image.width, image.height, names, data, colorSpace = image.colorSpace)
 

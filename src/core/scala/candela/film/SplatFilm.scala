@@ -36,7 +36,7 @@ final class SplatFilm(
   import SplatFilm.*
   private val width = x1 - x0
   private val height = y1 - y0
-  private val most = limits.toArray
+  private val clamps = limits.toArray
   private val spectrum: SpectralBands | Null = bands.orNull
   private val volume = filter.integral
 
@@ -54,21 +54,21 @@ final class SplatFilm(
   private def columns = Math.ceil(2.0 * filter.radiusX).toInt + 1
   private val samples = LongAdder()
 
-  def begin(): Unit = samples.increment()
+  def countSample(): Unit = samples.increment()
 
   /** Number of samples. */
   def sampleCount: Long = samples.sum
 
   def add(x: Float, y: Float, light: Rgb, group: Int): Unit =
-    val seen = basis.toSrgb(light)
-    if seen.isFinite && !seen.isBlack then
-      val limited = within(seen)
+    val color = basis.toSrgb(light)
+    if color.isFinite && !color.isBlack then
+      val limited = clamped(color)
       val channel = if groups == 1 then 0 else 3 * group
       spread(x, y)((pixel, weight) => addTo(channels * pixel + channel, limited * weight))
 
-  private def within(light: Rgb): Rgb =
+  private def clamped(light: Rgb): Rgb =
     var limited = light
-    loop(most.length)(i => limited = limited * most(i).scale(limited))
+    loop(clamps.length)(i => limited = limited * clamps(i).scale(limited))
     limited
 
   def addToBands(x: Float, y: Float, basis: Wavelengths, light: Rgb): Unit =
@@ -80,14 +80,15 @@ final class SplatFilm(
         light.b * basis.weight(2)
       )
       val first = 3 * groups
-      val (r, g, b) = (among.at(basis.nm(0)), among.at(basis.nm(1)), among.at(basis.nm(2)))
+      val (r, g, b) =
+        (among.bandOf(basis.nm(0)), among.bandOf(basis.nm(1)), among.bandOf(basis.nm(2)))
       spread(x, y): (pixel, weight) =>
-        val at = channels * pixel + first
+        val offset = channels * pixel + first
         val shared = shares * weight
         if shared.max < Largest then
-          if r >= 0 then addTo(at + r, shared.r)
-          if g >= 0 then addTo(at + g, shared.g)
-          if b >= 0 then addTo(at + b, shared.b)
+          if r >= 0 then addTo(offset + r, shared.r)
+          if g >= 0 then addTo(offset + g, shared.g)
+          if b >= 0 then addTo(offset + b, shared.b)
 
   /** Calls `to` with each pixel that the filter reaches from a place, and its weight. */
   private inline def spread(x: Float, y: Float)(inline to: (Int, Float) => Unit): Unit =
@@ -121,10 +122,10 @@ final class SplatFilm(
   private def addTo(at: Int, value: Float): Unit =
     if Math.abs(value) < Bright then addFine(at, value.toDouble)
     else
-      val whole = Math.rint(value * Coarse)
-      coarse(at) += whole.toLong
+      val rounded = Math.rint(value * Coarse)
+      coarse(at) += rounded.toLong
       // Exact, as both have the precision of a Float
-      addFine(at, value - whole / Coarse)
+      addFine(at, value - rounded / Coarse)
 
   /** @param value below [[Bright]], so that two don't overflow */
   private def addFine(at: Int, value: Double): Unit =
@@ -150,21 +151,21 @@ final class SplatFilm(
           pixel += 1
 
   /** Likewise, for each number. */
-  private inline def each(inline f: Int => Unit): Unit =
+  private inline def eachNumber(inline f: Int => Unit): Unit =
     eachPixel(pixel => loop(channels)(channel => f(channels * pixel + channel)))
 
   def copy(): SplatFilm =
     val film = SplatFilm(x0, y0, x1, y1, filter, pixels, basis, limits, groups, bands)
-    each: i =>
+    eachNumber: i =>
       film.coarse(i) = coarseOf(i)
       film.fine(i) = fineOf(i)
     film.samples.add(samples.sum)
     film
 
   /** The delta since `earlier` was copied. */
-  def since(earlier: SplatFilm): SplatFilm =
+  def deltaSince(earlier: SplatFilm): SplatFilm =
     val film = copy()
-    film.each: i =>
+    film.eachNumber: i =>
       film.coarse(i) -= earlier.coarse(i)
       film.fine(i) -= earlier.fine(i)
     film.samples.add(-earlier.samples.sum)
@@ -172,14 +173,14 @@ final class SplatFilm(
 
   def save(to: CheckedOutput): Unit =
     to.long(samples.sum)
-    each: i =>
+    eachNumber: i =>
       to.long(coarseOf(i))
       to.long(fineOf(i))
 
   /** Adds what was saved. */
   def load(from: CheckedInput): Unit =
     samples.add(from.long())
-    each: i =>
+    eachNumber: i =>
       coarse(i) += from.long()
       fine(i) += from.long()
 

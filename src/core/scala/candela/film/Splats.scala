@@ -7,7 +7,7 @@ import candela.color.{Rgb, Wavelengths}
 abstract class Splats:
 
   /** Counts a sample: splats are averaged over the number of samples. */
-  def begin(): Unit
+  def countSample(): Unit
 
   /** @param x     in pixels from the left edge of the full image, `y` from its top; may be outside
     * @param group of the light, if its groups are told apart
@@ -23,7 +23,7 @@ abstract class Splats:
 object Splats:
   /** Discards splats: for tracing a single sample, whose splats would land in other pixels. */
   object Discarded extends Splats:
-    def begin(): Unit = ()
+    def countSample(): Unit = ()
     def add(x: Float, y: Float, light: Rgb, group: Int): Unit = ()
     def addToBands(x: Float, y: Float, basis: Wavelengths, light: Rgb): Unit = ()
 

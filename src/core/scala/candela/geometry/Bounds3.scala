@@ -34,9 +34,9 @@ final case class Bounds3(min: Vec3, max: Vec3):
 
   /** Bounds of what a map makes of the corners. Without collections: there may be millions. */
   inline def mapped(inline map: Vec3 => Vec3): Bounds3 =
-    var all = Bounds3.Empty
-    loop(8)(i => all = all.union(map(corner(i))))
-    all
+    var bounds = Bounds3.Empty
+    loop(8)(i => bounds = bounds.union(map(corner(i))))
+    bounds
 
   /** Largest absolute coordinates. */
   def reach: Vec3 = Vec3(
@@ -63,4 +63,5 @@ final case class Ball(center: Vec3, radius: Float):
   val area: Float = Pi * radius * radius
 
 object Ball:
-  def around(box: Bounds3): Ball = Ball(if box.isEmpty then Vec3.Zero else box.center, box.radius)
+  def enclosing(box: Bounds3): Ball =
+    Ball(if box.isEmpty then Vec3.Zero else box.center, box.radius)

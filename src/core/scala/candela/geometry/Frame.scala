@@ -19,7 +19,7 @@ object Frame:
     *
     * Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
     */
-  def around(n: Vec3): Frame =
+  def fromZ(n: Vec3): Frame =
     val (s, t) = (MutableVec3(), MutableVec3())
     basis(n, s, t)
     Frame(s.toVec3, t.toVec3, n)
@@ -39,10 +39,10 @@ object Frame:
     if length2 > 1e-12f * along.lengthSquared && length2 > 0f then
       // Orthogonalised twice: if the vector is almost parallel to n, the first difference is mostly
       // rounding (Parlett, "The Symmetric Eigenvalue Problem", §6.9: twice is enough)
-      val once = s.normalized
-      val unit = (once - n * (once dot n)).normalized
+      val approximate = s.normalized
+      val unit = (approximate - n * (approximate dot n)).normalized
       Frame(unit, n cross unit, n)
-    else around(n)
+    else fromZ(n)
 
 /** Storage for a [[Frame]] in a record that a worker reuses; initially the axes. */
 final class MutableFrame:
@@ -62,15 +62,15 @@ final class MutableFrame:
     ownT.set(f.t)
     ownN.set(f.n)
 
-  /** Sets the basis to [[Frame.around]] its current normal. */
+  /** Sets the basis to [[Frame.fromZ]] its current normal. */
   def alignToNormal(): Unit =
     Frame.basis(ownN, ownS, ownT)
 
   def toLocal(v: Vec3): Vec3 = Vec3(v dot ownS, v dot ownT, v dot ownN)
   def toWorld(v: Vec3): Vec3 =
-    val out = MutableVec3()
-    toWorld(v, out)
-    out.toVec3
+    val world = MutableVec3()
+    toWorld(v, world)
+    world.toVec3
 
   /** As above, written to `out`: a vector returned by a method that the JIT does not inline is
     * allocated.

@@ -63,13 +63,13 @@ final class Ray:
   /** Weight of a camera ray; set only by cameras that weight their rays. */
   var weight = 1f
 
-  private var within: Option[Ray] = None
+  private var nestedRay: Option[Ray] = None
   private var matrices: Array[Double] = Array.empty
 
   /** A ray for traversing an instance, in its object space; created on first use. */
   def nested: Ray =
-    if within.isEmpty then within = Some(Ray())
-    within.get
+    if nestedRay.isEmpty then nestedRay = Some(Ray())
+    nestedRay.get
 
   /** Scratch memory for a transform at the ray's time; created on first use. */
   def space: Array[Double] =

@@ -33,15 +33,15 @@ final class RayDifferential:
     *
     * @return false, leaving both unset, if the offset rays miss the plane
     */
-  def meet(at: ShadingPoint): Boolean =
+  def computeFootprint(at: ShadingPoint): Boolean =
     val n = at.geometricNormal
     val tx = ((at.p - xOrigin) dot n) / (xDirection dot n)
     val ty = ((at.p - yOrigin) dot n) / (yDirection dot n)
-    val meets = isKnown && java.lang.Float.isFinite(tx) && java.lang.Float.isFinite(ty)
-    if meets then
+    val isHit = isKnown && java.lang.Float.isFinite(tx) && java.lang.Float.isFinite(ty)
+    if isHit then
       at.dpdx = xOrigin + xDirection * tx - at.p
       at.dpdy = yOrigin + yDirection * ty - at.p
-    meets
+    isHit
 
   /** Reflects the offset rays, which hit the plane at `at`.
     *
@@ -51,13 +51,13 @@ final class RayDifferential:
   def reflect(at: ShadingPoint, wo: Vec3, wi: Vec3): Unit =
     val n = at.frame.n
     val cosine = wo dot n
-    def direction(old: Vec3, dn: Vec3): Vec3 =
-      val dwo = -old - wo
+    def direction(previous: Vec3, dn: Vec3): Vec3 =
+      val dwo = -previous - wo
       val dCosine = (dwo dot n) + (wo dot dn)
       wi - dwo + (dn * cosine + n * dCosine) * 2f
     xDirection = direction(xDirection, dndx(at))
     yDirection = direction(yDirection, dndy(at))
-    leave(at)
+    setOrigins(at)
 
   /** Refracts the offset rays at a smooth interface.
     *
@@ -71,16 +71,16 @@ final class RayDifferential:
     val ratio = 1f / eta
     // Snell's law is wi = −ratio·wo + mu·n; its derivative by the product rule
     val mu = ratio * cosine - inside
-    def direction(old: Vec3, dn: Vec3): Vec3 =
-      val dwo = -old - wo
+    def direction(previous: Vec3, dn: Vec3): Vec3 =
+      val dwo = -previous - wo
       val dCosine = (dwo dot n) + (wo dot dn)
       val dMu = (ratio - ratio * ratio * cosine / inside) * dCosine
       wi - dwo * ratio + dn * mu + n * dMu
     xDirection = direction(xDirection, dndx(at) * side)
     yDirection = direction(yDirection, dndy(at) * side)
-    leave(at)
+    setOrigins(at)
 
-  private def leave(at: ShadingPoint): Unit =
+  private def setOrigins(at: ShadingPoint): Unit =
     xOrigin = at.p + at.dpdx
     yOrigin = at.p + at.dpdy
     isKnown = isSane(xOrigin) && isSane(yOrigin) && isSane(xDirection) && isSane(yDirection)

@@ -100,20 +100,20 @@ final class ShadingPoint(val wantsPartials: Boolean = false, always: Boolean = f
     val (x, y) = (Vec3(dpdx.x, dpdx.y, dpdx.z), Vec3(dpdy.x, dpdy.y, dpdy.z))
     val (ux, vx, uy, vy) = (dudx, dvdx, dudy, dvdy)
     clearFootprint()
-    val found = value(this)
+    val result = value(this)
     dpdx = x
     dpdy = y
     dudx = ux
     dvdx = vx
     dudy = uy
     dvdy = vy
-    found
+    result
 
   /** Begins a hit.
     *
     * @param followed may what is behind the surface need its footprint?
     */
-  def begin(followed: Boolean): Unit =
+  def startHit(followed: Boolean): Unit =
     hasPartials = wantsPartials
     keepsPartials = always || followed
 
@@ -191,9 +191,9 @@ object ShadingPoint:
     val d = Math.abs(n.x) * pError.x + Math.abs(n.y) * pError.y + Math.abs(n.z) * pError.z
     val side = if (direction dot n) < 0f then -d else d
     Vec3(
-      away(p.x, n.x * side),
-      away(p.y, n.y * side),
-      away(p.z, n.z * side)
+      offsetAway(p.x, n.x * side),
+      offsetAway(p.y, n.y * side),
+      offsetAway(p.z, n.z * side)
     )
 
   /** At grazing incidence a footprint may be arbitrarily large, and even NaN. */
@@ -203,7 +203,7 @@ object ShadingPoint:
   /** `x` + `by`, and one Float further. By the bits, as no branch could be predicted: the signs of
     * both numbers tell whether the next Float is one up or one down.
     */
-  private def away(x: Float, by: Float): Float =
+  private def offsetAway(x: Float, by: Float): Float =
     val moved = x + by
     val bits = java.lang.Float.floatToRawIntBits(moved)
     val step = (java.lang.Float.floatToRawIntBits(by) ^ bits) >> 31 | 1

@@ -33,8 +33,8 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
     * all count the same.
     */
   def weight: Float =
-    val now = current
-    if settings.weighs && now.field.guides && now.part == 1f then progress.weight else 1f
+    val active = current
+    if settings.weighs && active.field.guides && active.fraction == 1f then progress.weight else 1f
 
   /** For a worker. */
   def newTally(): GuideTally = synchronized:
@@ -44,11 +44,11 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
 
   /** What will be learnt. */
   def describe: String =
-    val until =
+    val schedule =
       if samples == Int.MaxValue then "learnt until it brings no more"
       else s"learnt in the first ${Math.max(1, lastPass)} of $samples samples"
-    if !settings.adapts then s"everywhere, $until"
-    else if isLongEnough then s"where it pays, $until; ends sooner if it does not"
+    if !settings.adapts then s"everywhere, $schedule"
+    else if isLongEnough then s"where it pays, $schedule; ends sooner if it does not"
     else "none: the rendering is too short to learn"
 
   /** Seconds that workers were busy with learning alone. */
@@ -61,10 +61,10 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
       samples = current.begun,
       regions = field.shares.count(_ < 1f),
       allRegions = field.regions,
-      lobes = field.used.zip(field.shares).collect { case (n, share) if share < 1f => n }.sum,
+      lobes = field.lobeCounts.zip(field.shares).collect { case (n, share) if share < 1f => n }.sum,
       bounces = tallies.map(_.bounces).sum,
       guided = tallies.map(_.guided).sum,
-      left = progress.left,
+      varianceRatio = progress.varianceRatio,
       weight = weight,
       gaveUp = progress.gaveUp
     )
@@ -75,63 +75,63 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
     * @param isLeft whether to give up what is learnt there: it is learnt again, from the same paths
     * @return false if it was given up
     */
-  def begin(
+  def beginSample(
       sample: Int,
       moves: () => Unit = () => (),
       isLeft: () => Boolean = () => false
   ): Boolean =
     if isOver(current, sample) then
-      val all = synchronized:
-        val was = current
-        if learning == null && isOver(was, sample) then
-          learning = GuideLearning(growth(was, sample))
+      val task = synchronized:
+        val ending = current
+        if learning == null && isOver(ending, sample) then
+          learning = GuideLearning(growth(ending, sample))
         learning
       // Else others have just ended the pass
-      if all != null && all.help(moves, isLeft) then
+      if task != null && task.help(moves, isLeft) then
         synchronized:
-          if isOver(current, sample) then take(all.growth, sample)
+          if isOver(current, sample) then adopt(task.growth, sample)
     !isOver(current, sample)
 
   private def isOver(pass: Pass, sample: Int): Boolean =
     pass.records != null && sample >= next(pass.begun)
 
   /** Events per path that found light, in a pass that ends. */
-  private def perPath(was: Pass, sample: Int, events: Int): Double =
-    val rate = was.records.nn.rate
-    events / (pixels.toDouble * (sample - was.begun) * was.part * rate)
+  private def perPath(ending: Pass, sample: Int, events: Int): Double =
+    val rate = ending.records.nn.rate
+    events / (pixels.toDouble * (sample - ending.begun) * ending.fraction * rate)
 
-  private def growth(was: Pass, sample: Int): GuideGrowth =
-    val events = was.records.nn.sorted()
-    val lit = perPath(was, sample, events.firsts)
-    val records = was.records.nn
-    val all = records.counts.map(_.toFloat)
+  private def growth(ending: Pass, sample: Int): GuideGrowth =
+    val events = ending.records.nn.sorted()
+    val lit = perPath(ending, sample, events.firsts)
+    val records = ending.records.nn
+    val counts = records.counts.map(_.toFloat)
     val share = Math.min(1.0, lit)
-    val made =
-      GuideGrowth(was.field, events, settings, share, all, records.costs, records.pathCost)
+    val result =
+      GuideGrowth(ending.field, events, settings, share, counts, records.costs, records.pathCost)
     if settings.adapts && !progress.isCertain then
-      val next = after(was, made.judged(), sample)
-      if next.gaveUp then made.giveUp()
-      else if !next.isCertain then made.fitRoughly()
-    made
+      val next = after(ending, result.judged(), sample)
+      if next.gaveUp then result.giveUp()
+      else if !next.isCertain then result.fitRoughly()
+    result
 
   /** What is known when a pass ends. */
-  private def after(was: Pass, verdict: GuideVerdict, sample: Int): GuideProgress =
+  private def after(ending: Pass, verdict: GuideVerdict, sample: Int): GuideProgress =
     val next =
-      if was.field.guides then progress.after(verdict) else progress.copy(cost = verdict.cost)
+      if ending.field.guides then progress.after(verdict) else progress.copy(cost = verdict.cost)
     next.copy(gaveUp = settings.adapts && next.givesUp(isLast = !recordsFrom(sample)))
 
-  private def take(growth: GuideGrowth, sample: Int): Unit =
-    val was = current
-    val found = perPath(was, sample, growth.events.count)
-    val isSettled = settings.learnsOn && settings.adapts && was.field.guides &&
+  private def adopt(growth: GuideGrowth, sample: Int): Unit =
+    val ending = current
+    val eventRate = perPath(ending, sample, growth.events.count)
+    val isSettled = settings.learnsOn && settings.adapts && ending.field.guides &&
       sample >= SettledSamples && progress.isSettledBy(growth.verdict)
-    progress = after(was, growth.verdict, sample)
+    progress = after(ending, growth.verdict, sample)
     current =
-      if progress.gaveUp then Pass(GuideField.Start, sample, part = 0f, null)
-      else newPass(growth.result(), sample, found, growth.lit, learnsMore = !isSettled)
+      if progress.gaveUp then Pass(GuideField.Start, sample, fraction = 0f, null)
+      else newPass(growth.result(), sample, eventRate, growth.lit, learnsMore = !isSettled)
     for l <- Option(learning) do learnt += l.seconds
     learning = null
-    was.records.nn.release()
+    ending.records.nn.release()
     if current.records == null then memory.forget()
 
   /** The sample before which the last pass ends. */
@@ -143,42 +143,43 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
   /** Does the pass that begins with this sample record, unless all is learnt? */
   private def recordsFrom(begun: Int): Boolean = isLongEnough && goesOn(next(begun))
 
-  /** @param found events per sample that found light
+  /** @param eventRate events per sample that found light
     * @param lit   part of all paths that has such events
     */
   private def newPass(
       field: GuideField,
       begun: Int,
-      found: Double,
+      eventRate: Double,
       lit: Double,
       learnsMore: Boolean = true
   ): Pass =
     val end = next(begun)
     val learns = learnsMore && recordsFrom(begun)
     val paths = pixels.toDouble * (end - begun)
-    val part =
+    val fraction =
       if !learns && !field.guides then 0f
       else if !learns || !settings.adapts || progress.isCertain then 1f
       else
         val isTried = field.guides && goesOn(next(end))
         val trial =
-          if progress.pays then Promising
+          if progress.isWorthwhile then Promising
           else if isTried then TrialPaths
           else LearningPaths
         Math.min(1.0, trial / (paths * Math.max(lit, 1e-3))).toFloat
-    val rate = Math.min(1.0, settings.records / (paths * part * Math.max(found, 1e-3))).toFloat
-    Pass(field, begun, part, if learns then GuideRecords(rate, field.regions, memory) else null)
+    val rate =
+      Math.min(1.0, settings.records / (paths * fraction * Math.max(eventRate, 1e-3))).toFloat
+    Pass(field, begun, fraction, if learns then GuideRecords(rate, field.regions, memory) else null)
 
   /** Writes what was learnt; no path may be on its way. */
   def save(to: CheckedOutput): Unit =
-    val now = current
-    val records = now.records
-    to.int(now.begun)
-    now.field.save(to)
+    val active = current
+    val records = active.records
+    to.int(active.begun)
+    active.field.save(to)
     progress.save(to)
     to.long(tallies.map(_.bounces).sum)
     to.long(tallies.map(_.guided).sum)
-    to.float(now.part)
+    to.float(active.fraction)
     to.float(if records == null then 0f else records.rate)
     if records != null then records.save(to)
 
@@ -190,33 +191,33 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
     val tally = newTally()
     tally.bounces = from.long()
     tally.guided = from.long()
-    val part = from.float()
+    val fraction = from.float()
     val rate = from.float()
     val records = if rate == 0f then null else GuideRecords(rate, field.regions, memory)
     if records != null then records.load(from)
-    current = Pass(field, begun, part, records)
+    current = Pass(field, begun, fraction, records)
 
 object Guide:
   /** A pass of training.
     *
-    * @param begun   its first sample
-    * @param part    of the paths that use the field, and record
-    * @param records null: nothing more is learnt
+    * @param begun    its first sample
+    * @param fraction of the paths that use the field, and record
+    * @param records  null: nothing more is learnt
     */
   final class Pass private[guiding] (
       val field: GuideField,
       val begun: Int,
-      private[guiding] val part: Float,
+      private[guiding] val fraction: Float,
       private[guiding] val records: GuideRecords | Null
   ):
     /** Does the path use the field whose camera ray this is? Chosen at random. */
     def includes(origin: Vec3, direction: Vec3): Boolean =
-      part == 1f || part > 0f && chance(origin, direction) < part
+      fraction == 1f || fraction > 0f && chance(origin, direction) < fraction
 
     /** Does the path record, if it uses the field? */
     def learnsFrom(origin: Vec3, direction: Vec3): Boolean =
       val to = records
-      to != null && (to.rate == 1f || chance(origin, direction) < part * to.rate)
+      to != null && (to.rate == 1f || chance(origin, direction) < fraction * to.rate)
 
     /** Where a worker records; null: nothing more is learnt. */
     def newPart(): GuideRecords.Part | Null =

@@ -45,7 +45,7 @@ final class GuideField private[guiding] (
   def regions: Int = shares.length
 
   /** Of each region, the lobes that are not too light to be used; none without light. */
-  private[guiding] val used: Array[Int] =
+  private[guiding] val lobeCounts: Array[Int] =
     Array.tabulate(regions): region =>
       (0 until Lobes).count(k => lobes((region * Lobes + k) * Size + Factor) > 0f)
 
@@ -58,7 +58,7 @@ final class GuideField private[guiding] (
   private[guiding] def region(side: Int, p: Array[Float], at: Int): Int = tree.region(side, p, at)
 
   /** Was light found there? */
-  def isFitted(region: Int): Boolean = used(region) > 0
+  def isFitted(region: Int): Boolean = lobeCounts(region) > 0
 
   private[guiding] def save(to: CheckedOutput): Unit =
     for all <- Vector(axis, below) do

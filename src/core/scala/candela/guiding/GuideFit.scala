@@ -23,7 +23,7 @@ private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit
 
   // Of each event and nearness, the direction from the centre
   private val directions = new Array[Float](most * Nears * 3)
-  private val parts, factors = new Array[Float](Lobes)
+  private val densities, factors = new Array[Float](Lobes)
 
   // Of each lobe, the distances that it tries
   private val begins, ends = new Array[Int](Lobes)
@@ -37,7 +37,7 @@ private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit
     choose(of, centre)
     chooseNears()
     val lobes = if start == null then seeds() else start
-    val before = Array.tabulate(Lobes)(k => lobes(k * Size + Weight))
+    val oldWeights = Array.tabulate(Lobes)(k => lobes(k * Size + Weight))
     val rounds = if start == null then FirstRounds else Rounds
     loop(rounds): round =>
       // Distances are chosen anew in the last round, those of new lobes in each
@@ -46,7 +46,9 @@ private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit
       loop(Lobes): k =>
         maximise(lobes, k)
         lobes(k * Size + Weight) =
-          (masses(k) / count).toFloat + (if start == null then Uniform else OldWeight) * before(k)
+          (masses(k) / count).toFloat + (if start == null then Uniform else OldWeight) * oldWeights(
+            k
+          )
       normalise(lobes)
     finished(lobes)
 
@@ -54,21 +56,21 @@ private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit
   private def choose(of: Array[Int], centre: Array[Float]): Unit =
     import GuideRecords.*
     val brightest = Brightest * meanLight(events, of)
-    var all = 0.0
-    loop(of.length)(j => all += Math.min(events(of(j) + Light), brightest))
-    val step = all / Math.min(most, of.length)
+    var total = 0.0
+    loop(of.length)(j => total += Math.min(events(of(j) + Light), brightest))
+    val step = total / Math.min(most, of.length)
     var sum = 0.0
     count = 0
     loop(of.length): j =>
-      val at = of(j)
-      sum += Math.min(events(at + Light), brightest)
+      val event = of(j)
+      sum += Math.min(events(event + Light), brightest)
       while count < most && sum > (count + 0.5) * step do
-        px(count) = events(at) - centre(0)
-        py(count) = events(at + 1) - centre(1)
-        pz(count) = events(at + 2) - centre(2)
-        wx(count) = events(at + Wi)
-        wy(count) = events(at + Wi + 1)
-        wz(count) = events(at + Wi + 2)
+        px(count) = events(event) - centre(0)
+        py(count) = events(event + 1) - centre(1)
+        pz(count) = events(event + 2) - centre(2)
+        wx(count) = events(event + Wi)
+        wy(count) = events(event + Wi + 1)
+        wz(count) = events(event + Wi + 2)
         count += 1
 
   /** Points may be infinitely far, and from 38 to 0.8 times as far as the region's events are from
@@ -93,11 +95,13 @@ private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit
   /** Which distances the lobes try: all, or the one next to their own. */
   private def chooseTried(lobes: Array[Float], all: Boolean): Unit =
     loop(Lobes): k =>
-      val near = lobes(k * Size + Nearness)
-      var own = 0
-      loop(Nears)(g => if Math.abs(nears(g) - near) < Math.abs(nears(own) - near) then own = g)
-      begins(k) = if all then 0 else own
-      ends(k) = if all then Nears else own + 1
+      val nearness = lobes(k * Size + Nearness)
+      var nearest = 0
+      loop(Nears)(g =>
+        if Math.abs(nears(g) - nearness) < Math.abs(nears(nearest) - nearness) then nearest = g
+      )
+      begins(k) = if all then 0 else nearest
+      ends(k) = if all then Nears else nearest + 1
 
   /** Divides each event among the lobes. */
   private def expect(lobes: Array[Float]): Unit =
@@ -106,73 +110,73 @@ private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit
     java.util.Arrays.fill(sums, 0f)
     java.util.Arrays.fill(masses, 0.0)
     loop(count): j =>
-      var all = 0f
+      var total = 0f
       loop(Lobes): k =>
-        val at = k * Size
-        val near = lobes(at + Nearness)
-        val x = lobes(at) - px(j) * near
-        val y = lobes(at + 1) - py(j) * near
-        val z = lobes(at + 2) - pz(j) * near
+        val lobe = k * Size
+        val nearness = lobes(lobe + Nearness)
+        val x = lobes(lobe) - px(j) * nearness
+        val y = lobes(lobe + 1) - py(j) * nearness
+        val z = lobes(lobe + 2) - pz(j) * nearness
         val cos = (x * wx(j) + y * wy(j) + z * wz(j)) / sqrt(x * x + y * y + z * z)
-        parts(k) = factors(k) * Lobe.exp(Math.min(0f, lobes(at + Kappa) * (cos - 1f)))
-        all += parts(k)
-      if all > 1e-20f then
+        densities(k) = factors(k) * Lobe.exp(Math.min(0f, lobes(lobe + Kappa) * (cos - 1f)))
+        total += densities(k)
+      if total > 1e-20f then
         loop(Lobes): k =>
-          val part = parts(k) / all
-          if part > Negligible then
-            masses(k) += part
-            add(j, k, part)
+          val responsibility = densities(k) / total
+          if responsibility > Negligible then
+            masses(k) += responsibility
+            add(j, k, responsibility)
 
   /** Adds the event to the lobe. */
-  private def add(j: Int, k: Int, part: Float): Unit =
+  private def add(j: Int, k: Int, responsibility: Float): Unit =
     val from = (j * Nears + begins(k)) * 3
     val to = (k * Nears + begins(k)) * 3
     val end = (ends(k) - begins(k)) * 3
     var i = 0
     while i < end do
-      sums(to + i) += directions(from + i) * part
+      sums(to + i) += directions(from + i) * responsibility
       i += 1
 
   private def length(k: Int, g: Int): Double =
-    val at = (k * Nears + g) * 3
-    val x = sums(at).toDouble
-    val y = sums(at + 1).toDouble
-    val z = sums(at + 2).toDouble
+    val offset = (k * Nears + g) * 3
+    val x = sums(offset).toDouble
+    val y = sums(offset + 1).toDouble
+    val z = sums(offset + 2).toDouble
     Math.sqrt(x * x + y * y + z * z)
 
   /** Sets a lobe from its events. */
   private def maximise(lobes: Array[Float], k: Int): Unit =
     if masses(k) > 1e-6 then
-      var best = 0
-      loop(Nears)(g => if length(k, g) > length(k, best) then best = g)
-      val from = (k * Nears + best) * 3
-      val at = k * Size
+      var longest = 0
+      loop(Nears)(g => if length(k, g) > length(k, longest) then longest = g)
+      val offset = (k * Nears + longest) * 3
+      val lobe = k * Size
       // With few events, a lobe is wider than they are
-      val mean = Math.min(length(k, best) / (masses(k) + Widening), 0.9999)
-      loop(3)(a => lobes(at + a) = (sums(from + a) / length(k, best)).toFloat)
-      lobes(at + Nearness) = nears(best)
-      lobes(at + Kappa) = Math.max(0.1, mean * (3 - mean * mean) / (1 - mean * mean)).toFloat
+      val mean = Math.min(length(k, longest) / (masses(k) + Widening), 0.9999)
+      loop(3)(a => lobes(lobe + a) = (sums(offset + a) / length(k, longest)).toFloat)
+      lobes(lobe + Nearness) = nears(longest)
+      lobes(lobe + Kappa) = Math.max(0.1, mean * (3 - mean * mean) / (1 - mean * mean)).toFloat
 
   private def normalise(lobes: Array[Float]): Unit =
-    var all = 0f
-    loop(Lobes)(k => all += lobes(k * Size + Weight))
-    loop(Lobes)(k => lobes(k * Size + Weight) /= all)
+    var total = 0f
+    loop(Lobes)(k => total += lobes(k * Size + Weight))
+    loop(Lobes)(k => lobes(k * Size + Weight) /= total)
 
   /** The lobes in the order of their weights; light ones are left out of densities and samples. */
   private def finished(lobes: Array[Float]): Array[Float] =
     val order = (0 until Lobes).sortBy(k => -lobes(k * Size + Weight))
     def weight(k: Int) = lobes(k * Size + Weight)
-    val kept = order.filter(k => k == order(0) || weight(k) >= Lightest)
-    val all = kept.map(weight).sum
+    val retained = order.filter(k => k == order(0) || weight(k) >= Lightest)
+    val total = retained.map(weight).sum
     val result = new Array[Float](lobes.length)
     var end = 0f
     for (k, i) <- order.zipWithIndex do
-      val at = i * Size
-      System.arraycopy(lobes, k * Size, result, at, Size)
-      val part = if i < kept.length then weight(k) / all else 0f
-      end += part
-      result(at + Factor) = part * Lobe.factor(lobes(k * Size + Kappa))
-      result(at + End) = end
+      val target = i * Size
+      System.arraycopy(lobes, k * Size, result, target, Size)
+      val fraction = if i < retained.length then weight(k) / total else 0f
+      end += fraction
+      result(target + Factor) = fraction * Lobe.factor(lobes(k * Size + Kappa))
+      result(target + End) = end
     result
 
   /** Wide lobes around directions of events that are far from each other. */
@@ -180,9 +184,9 @@ private[guiding] final class GuideFit(events: Array[Float], most: Int = GuideFit
     val lobes = new Array[Float](Lobes * Size)
     val far = Array.fill(count)(2f)
     loop(Lobes): k =>
-      var all = 0.0
-      loop(count)(j => all += far(j))
-      val u = SampleHash.toUnit(SampleHash.mix(k + 1)) * all
+      var total = 0.0
+      loop(count)(j => total += far(j))
+      val u = SampleHash.toUnit(SampleHash.mix(k + 1)) * total
       var sum = far(0).toDouble
       var j = 0
       while j < count - 1 && sum <= u do
@@ -235,17 +239,17 @@ private[guiding] object GuideFit:
 
   /** The lobes of a region as seen from another centre. */
   def moved(field: GuideField, region: Int, centre: Array[Float]): Array[Float] =
-    val from = region * Lobes * Size
-    val lobes = java.util.Arrays.copyOfRange(field.lobes, from, from + Lobes * Size)
+    val offset = region * Lobes * Size
+    val lobes = java.util.Arrays.copyOfRange(field.lobes, offset, offset + Lobes * Size)
     loop(Lobes): k =>
-      val at = k * Size
-      val near = lobes(at + Nearness)
+      val lobe = k * Size
+      val nearness = lobes(lobe + Nearness)
       var square = 0.0
       loop(3): a =>
-        val x = lobes(at + a) + (field.centres(3 * region + a) - centre(a)) * near
-        lobes(at + a) = x
+        val x = lobes(lobe + a) + (field.centres(3 * region + a) - centre(a)) * nearness
+        lobes(lobe + a) = x
         square += x * x
       val s = (1.0 / Math.max(Math.sqrt(square), 1e-12)).toFloat
-      loop(3)(a => lobes(at + a) *= s)
-      lobes(at + Nearness) = near * s
+      loop(3)(a => lobes(lobe + a) *= s)
+      lobes(lobe + Nearness) = nearness * s
     lobes

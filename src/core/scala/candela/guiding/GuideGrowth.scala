@@ -9,8 +9,8 @@ import scala.collection.mutable.ArrayBuffer
   *
   * @param events of the pass
   * @param lit    part of all paths that has events
-  * @param all    of each region of the old field, events that would have been recorded if all found
-  *               light
+  * @param counts of each region of the old field, events that would have been recorded if all
+  *               found light
   * @param costs  likewise, rays that an event brings about
   * @param cost   rays of a path
   */
@@ -19,7 +19,7 @@ private[guiding] final class GuideGrowth(
     val events: GuideEvents,
     settings: GuideSettings,
     val lit: Double,
-    all: Array[Float],
+    counts: Array[Float],
     costs: Array[Float],
     cost: Double
 ):
@@ -66,8 +66,8 @@ private[guiding] final class GuideGrowth(
       loop(3)(a => centres += leaf.centre(a))
       loop(Lobes * GuideField.Size)(i => lobes += leaf.lobes(i))
     GuideField(
-      axis.take(), split.take(), below.take(), shares.take(), centres.take(), lobes.take(),
-      splittingFactors.take(), measurements.take()
+      axis.drain(), split.drain(), below.drain(), shares.drain(), centres.drain(), lobes.drain(),
+      splittingFactors.drain(), measurements.drain()
     )
 
   /** What the paths of the pass tell of guiding, when all regions have grown. */
@@ -81,12 +81,12 @@ private[guiding] final class GuideGrowth(
 
   private def divideAll(): Unit =
     loop(Sides)(_ => newNode())
-    val of = Array.fill(old.regions)(IntBuffer())
+    val byRegion = Array.fill(old.regions)(IntBuffer())
     loop(events.count): i =>
-      val at = i * Size
-      val side = numbers(at + GuideRecords.Side).toInt
-      of(old.region(side, numbers, at)) += at
-    loop(Sides)(side => copy(side, side, of))
+      val event = i * Size
+      val side = numbers(event + GuideRecords.Side).toInt
+      byRegion(old.region(side, numbers, event)) += event
+    loop(Sides)(side => copy(side, side, byRegion))
 
   private def newNode(): Unit =
     axis += 0
@@ -98,8 +98,13 @@ private[guiding] final class GuideGrowth(
     val next = old.below(from)
     if next < 0 then
       val region = -1 - next
-      val here = of(region).take()
-      divide(region, here, to, found = Math.min(1f, here.length / Math.max(1f, all(region))))
+      val indices = of(region).drain()
+      divide(
+        region,
+        indices,
+        to,
+        found = Math.min(1f, indices.length / Math.max(1f, counts(region)))
+      )
     else
       val child = newChildren(to, old.axis(from), old.split(from))
       copy(next, child, of)
@@ -138,13 +143,13 @@ private[guiding] final class GuideGrowth(
   private def spread(of: Array[Int]): (Array[Double], Array[Double]) =
     val mean, variance = new Array[Double](3)
     loop(of.length): j =>
-      val at = of(j)
-      loop(3)(a => mean(a) += numbers(at + a))
+      val event = of(j)
+      loop(3)(a => mean(a) += numbers(event + a))
     loop(3)(a => mean(a) /= Math.max(1, of.length))
     loop(of.length): j =>
-      val at = of(j)
+      val event = of(j)
       loop(3): a =>
-        val d = numbers(at + a) - mean(a)
+        val d = numbers(event + a) - mean(a)
         variance(a) += d * d
     (mean, variance)
 

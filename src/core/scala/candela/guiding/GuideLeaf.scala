@@ -69,15 +69,15 @@ private[guiding] final class GuideLeaf(
     * before their first event does not depend on whether they find more.
     */
   private def expect(meanLight: Float): Unit =
-    var before, squares = 0.0
+    var earlierLight, squares = 0.0
     var count = 0
     loop(of.length): j =>
       val light = Math.min(events(of(j) + Light), BrightestEffort * meanLight)
       squares += light * light
       if events(of(j) + Total) > 0f then
-        before += events(of(j) + EarlierLight)
+        earlierLight += events(of(j) + EarlierLight)
         count += 1
-    measurement = meanLight * found + (before / Math.max(1, count)).toFloat
+    measurement = meanLight * found + (earlierLight / Math.max(1, count)).toFloat
     effort = Math.sqrt(squares / of.length * found / Math.max(1f, cost)).toFloat
 
   /** Compares paths as they are with those that would have sampled BSDFs alone, by the same paths.
@@ -95,11 +95,11 @@ private[guiding] final class GuideLeaf(
       loop(of.length): j =>
         val total = events(of(j) + Total).toDouble
         if total > 0.0 then
-          val without = events(of(j) + Unguided).toDouble
-          val most = Brightest * mean
-          val factor = most * most / Math.max(most * most, Math.max(total * total, without))
+          val bsdfMoment = events(of(j) + Unguided).toDouble
+          val limit = Brightest * mean
+          val factor = limit * limit / Math.max(limit * limit, Math.max(total * total, bsdfMoment))
           guided += total * total * factor
-          unguided += without * factor
+          unguided += bsdfMoment * factor
       // In units of the squared mean of all paths from here; those without light count, too
       guidedNoise = Math.max(0.0, guided / (mean * mean) - lit * paths)
       unguidedNoise = Math.max(0.0, unguided / (mean * mean) - lit * paths)
@@ -108,19 +108,19 @@ private[guiding] final class GuideLeaf(
     * What it has not learnt is tried. Less than a half has outliers: rare directions count more.
     */
   private def bestShare(meanLight: Float): Float =
-    val pays =
+    val isWorthwhile =
       !settings.adapts || !old.isFitted(region) ||
         moment(BsdfProbability, meanLight) < moment(1f, meanLight)
-    if pays then BsdfProbability else 1f
+    if isWorthwhile then BsdfProbability else 1f
 
   private def moment(share: Float, meanLight: Float): Double =
-    val most = Brightest * meanLight
+    val limit = Brightest * meanLight
     var sum = 0.0
     loop(of.length): j =>
-      val at = of(j)
-      val light = Math.min(events(at + Light), most)
-      val pdf = share * events(at + BsdfPdf) + (1f - share) * events(at + GuidePdf)
-      sum += light * light * events(at + Pdf) / pdf
+      val event = of(j)
+      val light = Math.min(events(event + Light), limit)
+      val pdf = share * events(event + BsdfPdf) + (1f - share) * events(event + GuidePdf)
+      sum += light * light * events(event + Pdf) / pdf
     sum
 
 private object GuideLeaf:

@@ -15,7 +15,7 @@ private[guiding] final class GuideLearning(prepare: => GuideGrowth):
   /** Made by the first worker; the others wait. */
   lazy val growth: GuideGrowth = prepare
   private val next = AtomicInteger()
-  private lazy val left = CountDownLatch(growth.regions)
+  private lazy val remaining = CountDownLatch(growth.regions)
 
   /** Fits regions until all are fitted.
     *
@@ -32,10 +32,10 @@ private[guiding] final class GuideLearning(prepare: => GuideGrowth):
       isMore = region < growth.regions
       if isMore then
         try growth.grow(region, fit)
-        finally left.countDown()
+        finally remaining.countDown()
         moves()
-    while !left.await(GuideLearning.Pause, MILLISECONDS) && !isLeft() do ()
-    left.getCount == 0
+    while !remaining.await(GuideLearning.Pause, MILLISECONDS) && !isLeft() do ()
+    remaining.getCount == 0
 
 private object GuideLearning:
   /** Between two looks at whether to give up. */

@@ -18,7 +18,7 @@ private[guiding] final class GuideMemory:
   val event = new Array[Float](GuideRecords.Size)
 
   /** An empty buffer, until it is given back. */
-  def take(): FloatBuffer = synchronized:
+  def acquire(): FloatBuffer = synchronized:
     if free.isEmpty then FloatBuffer() else free.remove(free.length - 1)
 
   def giveBack(buffer: FloatBuffer): Unit = synchronized:

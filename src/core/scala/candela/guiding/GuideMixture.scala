@@ -26,20 +26,20 @@ final class GuideMixture:
     val cx = field.centres(3 * region) - p.x
     val cy = field.centres(3 * region + 1) - p.y
     val cz = field.centres(3 * region + 2) - p.z
-    val from = field.lobes
-    count = field.used(region)
-    var at = region * Lobes * Size
+    val lobes = field.lobes
+    count = field.lobeCounts(region)
+    var lobe = region * Lobes * Size
     var k = 0
     while k < count do
-      val near = from(at + Nearness)
-      val x = from(at) + cx * near
-      val y = from(at + 1) + cy * near
-      val z = from(at + 2) + cz * near
+      val nearness = lobes(lobe + Nearness)
+      val x = lobes(lobe) + cx * nearness
+      val y = lobes(lobe + 1) + cy * nearness
+      val z = lobes(lobe + 2) + cz * nearness
       turn(k, x, y, z)
-      kappas(k) = from(at + Kappa)
-      ends(k) = from(at + End)
-      factors(k) = from(at + Factor)
-      at += Size
+      kappas(k) = lobes(lobe + Kappa)
+      ends(k) = lobes(lobe + End)
+      factors(k) = lobes(lobe + Factor)
+      lobe += Size
       k += 1
 
   /** Solid-angle density. */
@@ -57,13 +57,13 @@ final class GuideMixture:
   /** Samples a direction into `to`: `u` chooses the lobe and the angle to its axis. */
   def sample(u: Float, v: Float, to: MutableVec3): Unit =
     val k = chosen(u)
-    val part = within(u, k)
+    val fraction = stripPosition(u, k)
     val kappa = kappas(k)
-    val least = exp(-2f * kappa)
-    val inverse = Math.log(part + (1f - part) * least + Tiny).toFloat / kappa
+    val minimum = exp(-2f * kappa)
+    val inverse = Math.log(fraction + (1f - fraction) * minimum + Tiny).toFloat / kappa
     val cos = Math.max(-1f, Math.min(1f + inverse, 1f))
     val sin = sqrt(1f - cos * cos)
-    to.set(frame(k).toWorld(Warp.around(cos, sin, v)))
+    to.set(frame(k).toWorld(Warp.spherical(cos, sin, v)))
 
   /** Sets the axis of a lobe to this direction, of any length. */
   private def turn(k: Int, x: Float, y: Float, z: Float): Unit =
@@ -81,11 +81,11 @@ final class GuideMixture:
     k
 
   /** Where `u` lies in the strip of the lobe, from 0 to 1. */
-  private def within(u: Float, k: Int): Float =
-    val begin = if k == 0 then 0f else ends(k - 1)
-    Math.max(0f, Math.min((u - begin) / (ends(k) - begin), 1f))
+  private def stripPosition(u: Float, k: Int): Float =
+    val start = if k == 0 then 0f else ends(k - 1)
+    Math.max(0f, Math.min((u - start) / (ends(k) - start), 1f))
 
-  private def frame(k: Int): Frame = Frame.around(Vec3(xs(k), ys(k), zs(k)))
+  private def frame(k: Int): Frame = Frame.fromZ(Vec3(xs(k), ys(k), zs(k)))
 
 private[guiding] object Lobe:
   /** Keeps the logarithm finite. */
@@ -100,8 +100,8 @@ private[guiding] object Lobe:
     if !(x > -80f) then 0f
     else
       val t = x * 1.442695f
-      val whole = (t - 0.5f).toInt
-      val f = (t - whole) * 0.6931472f
+      val exponent = (t - 0.5f).toInt
+      val f = (t - exponent) * 0.6931472f
       val series = 1f + f * (1f + f * (0.5f + f * (0.16666667f + f * (0.041666668f +
         f * 0.008333334f))))
-      series * java.lang.Float.intBitsToFloat((whole + 127) << 23)
+      series * java.lang.Float.intBitsToFloat((exponent + 127) << 23)

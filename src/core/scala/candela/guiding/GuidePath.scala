@@ -26,32 +26,32 @@ final class GuidePath:
 
   // The last event of the branch that is followed, and all light when it was
   private var last = -1
-  private var known = 0f
+  private var counted = 0f
 
   def clear(): Unit =
     size = 0
     last = -1
-    known = 0f
+    counted = 0f
     firstLight = 0f
     firstCost = 1
 
   /** Where the branch is that is followed: behind this event; −1: none was recorded. */
-  def place: Int = last
+  def lastEvent: Int = last
 
   /** From here on another branch is followed.
     *
-    * @param found light so far, of all branches
+    * @param light light so far, of all branches
     */
-  def follow(place: Int, found: Float): Unit =
-    count(found)
-    last = place
+  def follow(event: Int, light: Float): Unit =
+    count(light)
+    last = event
 
   /** The branch has come to a scattering event, and traces a ray there. */
   def step(): Unit = if last < 0 then firstCost += 1 else costs(last) += 1
 
-  private def count(found: Float): Unit =
-    if last < 0 then firstLight += found - known else lights(last) += found - known
-    known = found
+  private def count(light: Float): Unit =
+    if last < 0 then firstLight += light - counted else lights(last) += light - counted
+    counted = light
 
   /** @param region     of the field that the path uses
     * @param side       of the surface ([[GuideField.side]])
@@ -103,21 +103,21 @@ final class GuidePath:
   /** Records the path, which found `light` in all. */
   def record(light: Float, to: GuideRecords.Part): Unit =
     count(light)
-    val before = firstLight
+    val earlierLight = firstLight
     val unguided = addUp()
     to.countPath(firstCost)
     var isFirst = true
     var i = 0
     while i < size do
       to.countRays(regions(i), costs(i))
-      val found = lights(i) / throughputs(i)
-      if found > 0f && found < Float.PositiveInfinity && light < Float.PositiveInfinity then
+      val radiance = lights(i) / throughputs(i)
+      if radiance > 0f && radiance < Float.PositiveInfinity && light < Float.PositiveInfinity then
         val event = events(i)
         val isFirstHere = isFirst && parents(i) < 0
         isFirst &&= !isFirstHere
-        event(GuideRecords.Light) = found
+        event(GuideRecords.Light) = radiance
         event(GuideRecords.Total) = if isFirstHere then light else 0f
-        event(GuideRecords.EarlierLight) = if isFirstHere then before else 0f
+        event(GuideRecords.EarlierLight) = if isFirstHere then earlierLight else 0f
         event(GuideRecords.Unguided) = if isFirstHere then unguided else 0f
         to.add(event)
       i += 1
@@ -131,24 +131,24 @@ final class GuidePath:
     *   points are worth more there the fewer decisions a path has made
     */
   private def addUp(): Float =
-    var later, sum = 0f
+    var laterLight, sum = 0f
     var i = size - 1
     while i >= 0 do
       // Where the BSDF would hardly sample what was guided, ratios overflow
-      val found = lights(i) * (lights(i) + 2f * laters(i))
-      if found > 0f then
+      val moment = lights(i) * (lights(i) + 2f * laters(i))
+      if moment > 0f then
         val isDirect = parents(i) < 0 && costs(i) == 1
-        sum += ratios(i) * found * (if isDirect then DirectNoise else 1f)
+        sum += ratios(i) * moment * (if isDirect then DirectNoise else 1f)
       lights(i) += laters(i)
       val parent = parents(i)
       if parent < 0 then
-        later += lights(i)
+        laterLight += lights(i)
         firstCost += costs(i)
       else
         laters(parent) += lights(i)
         costs(parent) += costs(i)
       i -= 1
-    Math.min(sum + firstLight * (firstLight + 2f * later), Float.MaxValue)
+    Math.min(sum + firstLight * (firstLight + 2f * laterLight), Float.MaxValue)
 
 object GuidePath:
   /** Later events are rare, find little, and are not recorded. */

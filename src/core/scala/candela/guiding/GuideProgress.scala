@@ -5,20 +5,20 @@ import candela.io.{CheckedInput, CheckedOutput}
 /** What the passes so far tell of guiding. Only passes of enough paths are evaluated.
   *
   * @param passes evaluated
-  * @param ratio  time to the same noise, in units of that of unguided paths: the geometric mean of
+  * @param ratio time to the same noise, in units of that of unguided paths: the geometric mean of
   *   the last evaluated pass and of all before. Guiding pays below 1
-  * @param left   what guiding left of the variance in the last evaluated pass
+  * @param varianceRatio what guiding left of the variance in the last evaluated pass
   * @param effort rays of a guided path in that pass, in units of `cost`, at least 1
   * @param gaveUp is nothing guided any more?
-  * @param cost   rays of a path that isn't guided
-  * @param plain  relative variance of a path that isn't guided, as estimated by the first pass that
+  * @param cost rays of a path that isn't guided
+  * @param plain relative variance of a path that isn't guided, as estimated by the first pass that
   *   paid
-  * @param noise  relative variance of a path in the last evaluated pass
+  * @param noise relative variance of a path in the last evaluated pass
   */
 private[guiding] final case class GuideProgress(
     passes: Int = 0,
     ratio: Option[Double] = None,
-    left: Option[Double] = None,
+    varianceRatio: Option[Double] = None,
     effort: Double = 1.0,
     gaveUp: Boolean = false,
     cost: Double = 1.0,
@@ -27,7 +27,7 @@ private[guiding] final case class GuideProgress(
 ):
   import GuideProgress.*
 
-  def pays: Boolean = ratio.exists(_ < 1.0)
+  def isWorthwhile: Boolean = ratio.exists(_ < 1.0)
 
   /** Two passes decide, or one that is clear. Until then few paths are guided: the first field is
     * coarse, and what few paths say of it is mostly too good.
@@ -35,19 +35,19 @@ private[guiding] final case class GuideProgress(
   def isDecided: Boolean = passes > 1 || ratio.exists(r => r < ClearGain || r >= ClearLoss)
 
   /** Are all paths guided? */
-  def isCertain: Boolean = pays && isDecided
+  def isCertain: Boolean = isWorthwhile && isDecided
 
   /** After another pass. */
   def after(verdict: GuideVerdict): GuideProgress =
     if verdict.paths < MinPaths then this
     else
-      val now = ratioOf(verdict)
+      val newRatio = ratioOf(verdict)
       copy(
         passes = passes + 1,
-        ratio = Some(ratio.fold(now)(before => Math.sqrt(before * now))),
-        left = Some(verdict.left),
+        ratio = Some(ratio.fold(newRatio)(oldRatio => Math.sqrt(oldRatio * newRatio))),
+        varianceRatio = Some(verdict.varianceRatio),
         effort = effortOf(verdict),
-        plain = plain.orElse(Option.when(now < 1.0)(verdict.unguidedNoise)),
+        plain = plain.orElse(Option.when(newRatio < 1.0)(verdict.unguidedNoise)),
         noise = verdict.noise
       )
 
@@ -57,13 +57,13 @@ private[guiding] final case class GuideProgress(
   private def effortOf(verdict: GuideVerdict) = Math.max(1.0, verdict.cost / cost)
 
   private def ratioOf(verdict: GuideVerdict) =
-    verdict.left * Math.max(TimeOfRay, effortOf(verdict) / Overstated)
+    verdict.varianceRatio * Math.max(TimeOfRay, effortOf(verdict) / Overstated)
 
   /** Has the field that was learnt from the pass before brought no more? What counts for equal time
     * is the variance of a path times its rays.
     */
   def isSettledBy(verdict: GuideVerdict): Boolean =
-    pays && ratioOf(verdict) < 1.0 && verdict.paths >= MinPaths &&
+    isWorthwhile && ratioOf(verdict) < 1.0 && verdict.paths >= MinPaths &&
       verdict.noise * effortOf(verdict) > Settled * noise * effort
 
   /** What a guided path counts beside those of the first passes: the inverse of its variance, a
@@ -81,7 +81,7 @@ private[guiding] final case class GuideProgress(
 
   def save(to: CheckedOutput): Unit =
     to.int(passes)
-    for known <- Vector(ratio, left, plain) do to.double(known.getOrElse(Unknown))
+    for value <- Vector(ratio, varianceRatio, plain) do to.double(value.getOrElse(Unknown))
     to.double(effort)
     to.int(if gaveUp then 1 else 0)
     to.double(cost)
@@ -119,12 +119,12 @@ private[guiding] object GuideProgress:
 
   def load(from: CheckedInput): GuideProgress =
     val passes = from.int()
-    def known() = Some(from.double()).filter(_ != Unknown)
-    val (ratio, left, plain) = (known(), known(), known())
+    def optional() = Some(from.double()).filter(_ != Unknown)
+    val (ratio, varianceRatio, plain) = (optional(), optional(), optional())
     GuideProgress(
       passes,
       ratio,
-      left,
+      varianceRatio,
       effort = from.double(),
       gaveUp = from.int() == 1,
       cost = from.double(),

@@ -17,105 +17,106 @@ private[guiding] final class GuideRecords(
     memory: GuideMemory = GuideMemory()
 ):
   import GuideRecords.*
-  private var parts = Vector.empty[Part]
+  private var buffers = Vector.empty[Part]
 
   /** For a worker. */
   def newPart(): Part = synchronized:
-    val part = Part(regions, memory.take())
-    parts :+= part
-    part
+    val buffer = Part(regions, memory.acquire())
+    buffers :+= buffer
+    buffer
 
   /** Of each region, its events: those without light, too. */
-  def counts: Array[Long] = Array.tabulate(regions)(region => parts.map(_.counts(region)).sum)
+  def counts: Array[Long] = Array.tabulate(regions)(region => buffers.map(_.counts(region)).sum)
 
   /** Of each region, the rays that an event there brings about on average. */
   def costs: Array[Float] =
     Array.tabulate(regions): region =>
-      val events = parts.map(_.counts(region)).sum
-      (parts.map(_.costs(region)).sum.toDouble / Math.max(1L, events)).toFloat
+      val events = buffers.map(_.counts(region)).sum
+      (buffers.map(_.costs(region)).sum.toDouble / Math.max(1L, events)).toFloat
 
   /** Rays of a path on average. */
-  def pathCost: Double = parts.map(_.allCosts).sum.toDouble / Math.max(1L, parts.map(_.paths).sum)
+  def pathCost: Double =
+    buffers.map(_.allCosts).sum.toDouble / Math.max(1L, buffers.map(_.paths).sum)
 
   /** Gives the memory back; no path may be on its way. */
   def release(): Unit =
-    for part <- parts do
-      memory.giveBack(part.data)
-      part.data = FloatBuffer()
-    parts = Vector.empty
+    for buffer <- buffers do
+      memory.giveBack(buffer.data)
+      buffer.data = FloatBuffer()
+    buffers = Vector.empty
 
   /** All events, in an order that depends on their numbers only. They are overwritten by the next
     * that the memory is asked for.
     */
   def sorted(): GuideEvents =
-    val count = parts.map(_.count).sum
-    val all = joined(count)
+    val count = buffers.map(_.count).sum
+    val numbers = joined(count)
     // The upper bits of the hash, then the place
     val keys = memory.keys(count)
-    loop(count)(i => keys(i) = (hash(all, i * Size) & ~PlaceMask) | i)
+    loop(count)(i => keys(i) = (hash(numbers, i * Size) & ~PlaceMask) | i)
     java.util.Arrays.sort(keys, 0, count)
     loop(count): i =>
       var j = i
       while j > 0 && (keys(j - 1) | PlaceMask) == (keys(j) | PlaceMask) &&
-        isLess(all, place(keys(j)), place(keys(j - 1)))
+        isLess(numbers, indexOf(keys(j)), indexOf(keys(j - 1)))
       do
         val key = keys(j)
         keys(j) = keys(j - 1)
         keys(j - 1) = key
         j -= 1
-    putInOrder(all, keys, count)
-    GuideEvents(all, count)
+    putInOrder(numbers, keys, count)
+    GuideEvents(numbers, count)
 
-  private def place(key: Long): Int = (key & PlaceMask).toInt
+  private def indexOf(key: Long): Int = (key & PlaceMask).toInt
 
   /** Puts each event where its key is: along the cycles of the permutation. */
-  private def putInOrder(all: Array[Float], keys: Array[Long], count: Int): Unit =
+  private def putInOrder(numbers: Array[Float], keys: Array[Long], count: Int): Unit =
     val first = memory.event
     def copy(from: Int, to: Int): Unit =
-      System.arraycopy(all, from * Size, all, to * Size, Size)
+      System.arraycopy(numbers, from * Size, numbers, to * Size, Size)
     loop(count): i =>
-      if place(keys(i)) != i then
-        System.arraycopy(all, i * Size, first, 0, Size)
+      if indexOf(keys(i)) != i then
+        System.arraycopy(numbers, i * Size, first, 0, Size)
         var to = i
-        var from = place(keys(to))
+        var from = indexOf(keys(to))
         while from != i do
           copy(from, to)
           keys(to) = to
           to = from
-          from = place(keys(to))
-        System.arraycopy(first, 0, all, to * Size, Size)
+          from = indexOf(keys(to))
+        System.arraycopy(first, 0, numbers, to * Size, Size)
         keys(to) = to
 
   private def joined(count: Int): Array[Float] =
-    val all = memory.numbers(Math.multiplyExact(Size, count))
-    var at = 0
-    for part <- parts do
-      part.data.copyTo(all, at)
-      at += part.data.length
-    all
+    val numbers = memory.numbers(Math.multiplyExact(Size, count))
+    var offset = 0
+    for buffer <- buffers do
+      buffer.data.copyTo(numbers, offset)
+      offset += buffer.data.length
+    numbers
 
   /** Writes what is recorded; no path may be on its way. */
   def save(to: CheckedOutput): Unit =
-    val all = sorted()
-    to.int(all.count * Size)
-    loop(all.count * Size)(i => to.float(all.numbers(i)))
+    val events = sorted()
+    to.int(events.count * Size)
+    loop(events.count * Size)(i => to.float(events.numbers(i)))
     counts.foreach(to.long(_))
-    loop(regions)(region => to.long(parts.map(_.costs(region)).sum))
-    to.long(parts.map(_.paths).sum)
-    to.long(parts.map(_.allCosts).sum)
+    loop(regions)(region => to.long(buffers.map(_.costs(region)).sum))
+    to.long(buffers.map(_.paths).sum)
+    to.long(buffers.map(_.allCosts).sum)
 
   def load(from: CheckedInput): Unit =
-    val part = newPart()
+    val buffer = newPart()
     val count = from.count(bytes = 4)
     require(count % Size == 0, s"it has $count numbers of events")
     loop(count): i =>
       val number = from.float()
       require(i % Size != Side || (number >= 0 && number < GuideField.Sides), s"side $number")
-      part.data += number
-    loop(regions)(i => part.counts(i) = from.long())
-    loop(regions)(i => part.costs(i) = from.long())
-    part.paths = from.long()
-    part.allCosts = from.long()
+      buffer.data += number
+    loop(regions)(i => buffer.counts(i) = from.long())
+    loop(regions)(i => buffer.costs(i) = from.long())
+    buffer.paths = from.long()
+    buffer.allCosts = from.long()
 
 /** Recorded events, sorted.
   *

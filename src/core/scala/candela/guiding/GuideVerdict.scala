@@ -21,4 +21,4 @@ private[guiding] final case class GuideVerdict(
   def unguidedNoise: Double = unguided / Math.max(1L, paths)
 
   /** What guiding leaves of the variance. */
-  def left: Double = if unguided > 0.0 then guided / unguided else 1.0
+  def varianceRatio: Double = if unguided > 0.0 then guided / unguided else 1.0

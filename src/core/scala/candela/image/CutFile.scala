@@ -12,11 +12,11 @@ private[image] object CutFile:
     * @param size  of the file
     */
   def remark(suffix: String, start: Array[Byte], end: Array[Byte], size: Long): Option[String] =
-    val in = ByteBuffer.wrap(start).order(ByteOrder.LITTLE_ENDIAN)
+    val buffer = ByteBuffer.wrap(start).order(ByteOrder.LITTLE_ENDIAN)
     val isCut = suffix match
       case "jpg" | "jpeg" => !hasEndOfImage(end)
-      case "bmp" => start.length >= BmpHeader && size < bmpSize(in)
-      case "tga" => start.length >= TgaHeader && size < tgaSize(in)
+      case "bmp" => start.length >= BmpHeader && size < bmpSize(buffer)
+      case "tga" => start.length >= TgaHeader && size < tgaSize(buffer)
       case _ => false
     Option.when(isCut)(Missing)
 
@@ -37,9 +37,9 @@ private[image] object CutFile:
 
   /** Whether packets of pixels end before the image does. */
   private def isShortTga(file: Array[Byte]): Boolean =
-    val in = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)
-    def byte(i: Int) = in.get(i) & 0xff
-    def short(i: Int) = in.getShort(i) & 0xffffL
+    val buffer = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)
+    def byte(i: Int) = buffer.get(i) & 0xff
+    def short(i: Int) = buffer.getShort(i) & 0xffffL
     val pixelBytes = (byte(16) + 7) / 8
     var remainingPixels = short(12) * short(14)
     var offset = TgaHeader + byte(0) + (if byte(1) == 1 then short(5) * ((byte(7) + 7) / 8) else 0L)

@@ -92,7 +92,7 @@ object DisplayTransform:
     if !isLight then image
     else
       val light = image.toRgb
-      if light.data.exists(_ < 0f) then light.mapped(Gamut.within)
+      if light.data.exists(_ < 0f) then light.mapped(Gamut.desaturate)
       else if image.colorSpace.isSrgb then image
       else light
 

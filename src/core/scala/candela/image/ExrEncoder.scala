@@ -44,7 +44,7 @@ private[image] object ExrEncoder:
     Natives.require("tinyexr")
     val rows = Math.max(1, pixelsOfStrip / image.width / Rows) * Rows
     val strips = new Array[Array[Byte]]((image.height + rows - 1) / rows)
-    pool.each(strips.length): i =>
+    pool.forEach(strips.length): i =>
       // Of the others' headers only their own pixels matter
       val texts = if i == 0 then metadata else Vector.empty
       strips(i) = encode(image, i * rows, Math.min(rows, image.height - i * rows), texts, isHalf)

@@ -257,18 +257,18 @@ private[image] object ExrHeader:
       )
 
   private def channelList(data: ByteBuffer): Vector[ExrChannel] =
-    val in = Reader(data)
+    val reader = Reader(data)
     val channels = mutable.ArrayBuffer.empty[ExrChannel]
-    var name = in.name()
+    var name = reader.name()
     while name.nonEmpty do
-      val pixelType = in.int()
+      val pixelType = reader.int()
       if pixelType < 0 || pixelType > 2 then
         throw ImageError(Code.DamagedImage, s"channel `$name` has an unknown type")
-      val _ = in.int() // the perceptual-linearity hint and padding
-      channels += ExrChannel(name, pixelType, in.int(), in.int())
+      val _ = reader.int() // the perceptual-linearity hint and padding
+      channels += ExrChannel(name, pixelType, reader.int(), reader.int())
       if channels.size > MaxChannels then
         throw ImageError(Code.DamagedImage, s"more than $MaxChannels channels")
-      name = in.name()
+      name = reader.name()
     if channels.isEmpty then throw ImageError(Code.DamagedImage, "it has no channels")
     val names = channels.map(_.name)
     if names.distinct.size != names.size then

@@ -26,7 +26,7 @@ object ImageFiles:
   /** The image as Floats. Images of 8 and 16 bits are in [0, 1] and marked as sRGB-encoded;
     * `linear` decodes them.
     */
-  def read(path: Path): Image = load(InputFile.asked(path)).toImage
+  def read(path: Path): Image = load(InputFile.named(path)).toImage
 
   /** The image as compact as in its file: 8 bits stay 8 bits.
     *
@@ -49,7 +49,7 @@ object ImageFiles:
     catch
       case e: ImageError => throw ImageError(e.code, s"$file: ${e.getMessage}")
       case _: OutOfMemoryError =>
-        val limit = ByteCount.show(JavaHeap.limit)
+        val limit = ByteCount.format(JavaHeap.limit)
         val message = s"$file: not enough memory for its pixels: Java's heap is limited to $limit"
         throw ImageError(Code.OutOfMemory, message)
 

@@ -33,7 +33,7 @@ private[image] final class OpenExr private (library: NativeLibrary):
     */
   def read(file: Array[Byte], part: ExrPart, reason: String): Image =
     try
-      Using.resource(Scratch.make()): scratch =>
+      Using.resource(Scratch.create()): scratch =>
         val copy = scratch.folder.resolve("copy.exr")
         WholeFile.write(copy, file)
         read(copy, part, reason)

@@ -147,14 +147,14 @@ private[image] object PngBands:
 /** The unpacked bytes of a PNG file's pixels. */
 private final class PngData(stream: InputStream) extends AutoCloseable:
   import PngData.*
-  private val in = DataInputStream(stream)
+  private val input = DataInputStream(stream)
   private val inflater = Inflater()
   private val sum = CRC32()
   private val packed = new Array[Byte](1 << 16)
   private val singleByte = new Array[Byte](1)
   private var remainingBytes = 0
   private var isInData = false
-  in.skipNBytes(PngBands.Beginning)
+  input.skipNBytes(PngBands.Beginning)
 
   def close(): Unit = inflater.end()
 
@@ -180,12 +180,12 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
     */
   def next(): Boolean =
     if isInData then endData()
-    remainingBytes = in.readInt()
-    var kind = in.readInt()
+    remainingBytes = input.readInt()
+    var kind = input.readInt()
     while PngChunks.isPlain(kind) do
-      in.skipNBytes((remainingBytes & 0xffffffffL) + Checksum)
-      remainingBytes = in.readInt()
-      kind = in.readInt()
+      input.skipNBytes((remainingBytes & 0xffffffffL) + Checksum)
+      remainingBytes = input.readInt()
+      kind = input.readInt()
     isInData = kind == Data && remainingBytes >= 0
     sum.reset()
     sum.update(DataName)
@@ -206,7 +206,7 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
 
   /** Reads on in the chunk; the number of bytes. */
   private def readChunk(): Int =
-    val count = in.read(packed, 0, Math.min(remainingBytes, packed.length))
+    val count = input.read(packed, 0, Math.min(remainingBytes, packed.length))
     if count < 0 then throw EOFException()
     remainingBytes -= count
     sum.update(packed, 0, count)
@@ -215,7 +215,7 @@ private final class PngData(stream: InputStream) extends AutoCloseable:
   /** Reads what is left of the chunk, and its checksum. */
   private def endData(): Unit =
     while remainingBytes > 0 do readChunk(): Unit
-    if in.readInt() != sum.getValue.toInt then
+    if input.readInt() != sum.getValue.toInt then
       throw DataFormatException("it has a chunk IDAT whose checksum is wrong")
 
 private object PngData:

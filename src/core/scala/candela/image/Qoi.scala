@@ -114,20 +114,20 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     val picture = Bitmap.of(image, options.display.copy(bits = 8))
     val (width, height) = (picture.getWidth, picture.getHeight)
-    val out = ByteArrayOutputStream()
+    val output = ByteArrayOutputStream()
     val header = ByteBuffer.allocate(HeaderSize).put(Mark).putInt(width).putInt(height)
-    out.writeBytes(header.put(3.toByte).put(0.toByte).array)
+    output.writeBytes(header.put(3.toByte).put(0.toByte).array)
     val bands = picture.getRaster.getNumBands
     val row = new Array[Int](width * bands)
-    val encoder = Encoder(out)
+    val encoder = Encoder(output)
     loop(height): y =>
       val _ = picture.getRaster.getPixels(0, y, width, 1, row)
       loop(width)(x =>
         encoder.add(row(x * bands), row(x * bands + bands / 2), row((x + 1) * bands - 1))
       )
     encoder.end()
-    out.writeBytes(End)
-    out.toByteArray
+    output.writeBytes(End)
+    output.toByteArray
 
   private final class Encoder(out: ByteArrayOutputStream):
     private val previous = Array(0, 0, 0, 255)

@@ -50,7 +50,7 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
 
   def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
     shadowRay.time = cameraRay.time
-    begin(cameraRay, sampler)
+    startPath(cameraRay, sampler)
     while goesOn do
       val isHit = intersect()
       marchThroughVolumes(sampler)
@@ -68,8 +68,8 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
 
   /** Of the hemisphere around the geometric normal. */
   private def openness(vertex: SurfaceVertex, sampler: Sampler): Float =
-    val point = vertex.at
-    val frame = Frame.around(point.geometricNormal.facing(vertex.wo))
+    val point = vertex.point
+    val frame = Frame.fromZ(point.geometricNormal.facing(vertex.wo))
     sampler.next2D()
     // One point of the sampler, and the others of a sequence that starts there
     var (u1, u2) = (sampler.x, sampler.y)

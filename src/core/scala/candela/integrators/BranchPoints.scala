@@ -25,18 +25,18 @@ private[integrators] final class BranchPoints:
   def draw(average: Float, chooses: Boolean, sampler: Sampler): Unit =
     strips = average
     count = Math.ceil(average).toInt
-    take(0, chooses, sampler)
+    drawPoint(0, chooses, sampler)
     if count > 1 then
       var branch = 1
       while branch < count do
         sampler.skipTo(beginning(branch))
-        take(branch, chooses, sampler)
+        drawPoint(branch, chooses, sampler)
         branch += 1
       sampler.goTo(positions(0))
     // Beyond the end of the last strip
     if count - 1 + xs(count - 1) >= average then count -= 1
 
-  private def take(branch: Int, chooses: Boolean, sampler: Sampler): Unit =
+  private def drawPoint(branch: Int, chooses: Boolean, sampler: Sampler): Unit =
     choices(branch) = sampler.next1D(matters = chooses)
     sampler.next2D()
     xs(branch) = sampler.x

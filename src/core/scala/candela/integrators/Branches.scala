@@ -7,7 +7,7 @@ import scala.collection.mutable.ArrayBuffer
   */
 private[integrators] final class Branches(newPath: () => PathState):
   import Branches.Branch
-  private val all = ArrayBuffer.empty[Branch]
+  private val branches = ArrayBuffer.empty[Branch]
   private var count = 0
 
   /** The path as it came to the vertex from which branches leave. */
@@ -15,16 +15,16 @@ private[integrators] final class Branches(newPath: () => PathState):
 
   /** A place for another. */
   def push(): Branch =
-    if count == all.length then all += Branch(newPath())
+    if count == branches.length then branches += Branch(newPath())
     count += 1
-    all(count - 1)
+    branches(count - 1)
 
   def isEmpty: Boolean = count == 0
 
   /** The last one, which waits no longer. */
   def pop(): Branch =
     count -= 1
-    all(count)
+    branches(count)
 
 private[integrators] object Branches:
   final class Branch(val path: PathState):

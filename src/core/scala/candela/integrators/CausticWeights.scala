@@ -28,7 +28,7 @@ final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSa
   /** The path has met a surface, and its BSDF is known. */
   def arrive(eye: Vec3, vertex: SurfaceVertex, path: PathHistory): Unit =
     val cosine = vertex.cosine(vertex.wo)
-    if path.depth == 1 then path.densityRatio = begun(eye, vertex.at.p, cosine)
+    if path.depth == 1 then path.densityRatio = begun(eye, vertex.point.p, cosine)
     else if path.densityRatio > 0.0 then
       path.densityRatio = if cosine > 0f then path.densityRatio / cosine else 0.0
 
@@ -36,7 +36,7 @@ final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSa
     *
     * @param ray how it came to the vertex
     */
-  def leave(vertex: SurfaceVertex, ray: Ray, hit: Hit, wi: Vec3, path: PathHistory): Unit =
+  def leaveVertex(vertex: SurfaceVertex, ray: Ray, hit: Hit, wi: Vec3, path: PathHistory): Unit =
     path.casterRatio = 0.0
     if path.densityRatio > 0.0 then
       val bounce = vertex.bounce
@@ -56,7 +56,7 @@ final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSa
 
   /** Density with which light paths begin where the ray has met the vertex, per area. */
   private def startDensity(vertex: SurfaceVertex, ray: Ray, hit: Hit): Float =
-    if scene.isCaster(vertex.at) then casters.density(ray, hit, vertex.at) else 0f
+    if scene.isCaster(vertex.point) then casters.density(ray, hit, vertex.point) else 0f
 
   /** The path is about to be scattered at `p` in a medium. */
   def arriveInMedium(eye: Vec3, p: Vec3, path: PathHistory): Unit =
@@ -111,7 +111,7 @@ final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSa
       val begins = startDensity(vertex, ray, hit)
       if begins == 0f then 1f
       else
-        val chosen = scene.selection.probability(vertex.at.p, Vec3.Zero, connection.index)
+        val chosen = scene.selection.probability(vertex.point.p, Vec3.Zero, connection.index)
         val lightDensity = begins * chosen.toDouble * perSample / connection.probability
         val ratio = path.densityRatio * vertex.reversePdf(connection.wi) * lightDensity
         weight(ofMet(connection, vertex.localPdf(localWi)), ratio)

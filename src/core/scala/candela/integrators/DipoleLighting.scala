@@ -33,28 +33,28 @@ final class DipoleLighting(
 
   override protected def gathered(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     val fromSurface = super.gathered(vertex, sampler)
-    val inside = scene.bssrdf(vertex.at)
+    val inside = scene.bssrdf(vertex.point)
     if inside == null then fromSurface else fromSurface + beneath(vertex, inside, sampler)
 
   /** Light that enters elsewhere and leaves at `exit`. */
   private def beneath(exit: SurfaceVertex, inside: Bssrdf, sampler: Sampler): Rgb =
-    val weight = probe.enter(exit.at, inside, time, sampler, entry.at)
+    val weight = probe.enter(exit.point, inside, time, sampler, entry.point)
     val choice = sampler.next1D(matters = connection.isRandom)
     sampler.next2D()
     if weight.isBlack then Rgb.Black
     else
-      val leaving = inside.leaving(exit.wo dot exit.at.frame.n)
+      val leaving = inside.leaving(exit.wo dot exit.point.frame.n)
       // Light arrives at the true surface
-      entry.at.frame.set(Frame.around(entry.at.geometricNormal))
-      entry.scatterBy(inside.entry, entry.at.frame.n)
+      entry.point.frame.set(Frame.fromZ(entry.point.geometricNormal))
+      entry.scatterBy(inside.entry, entry.point.frame.n)
       weight * irradiance(choice, sampler) * leaving
 
   /** Light of one source that enters at `entry`, over π. */
   private def irradiance(choice: Float, sampler: Sampler): Rgb =
-    val p = entry.at.p
+    val p = entry.point.p
     if connection.choose(
         p,
-        entry.at.frame.n,
+        entry.point.frame.n,
         choice
       ) && connection.samplePoint(p, sampler.x, sampler.y)
     then connection.scattered(entry, weight = _ => 1f)

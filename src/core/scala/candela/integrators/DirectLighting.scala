@@ -37,7 +37,7 @@ class DirectLighting(
     var sum = Rgb.Black
     if lightSamples.length == 0 then
       val choice = sampler.next1D(matters = connection.isRandom)
-      if connection.choose(vertex.at.p, vertex.lightNormal, choice) then
+      if connection.choose(vertex.point.p, vertex.lightNormal, choice) then
         sum = estimate(vertex, sampler)
     else
       var i = 0
@@ -54,7 +54,7 @@ class DirectLighting(
   private def estimate(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     sampler.next2D()
     val byLight =
-      if !connection.samplePoint(vertex.at.p, sampler.x, sampler.y) then Rgb.Black
+      if !connection.samplePoint(vertex.point.p, sampler.x, sampler.y) then Rgb.Black
       else
         connection.scattered(
           vertex,
@@ -67,13 +67,13 @@ class DirectLighting(
   private def byBsdf(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     vertex.draw(sampler)
     val bounce = vertex.bounce
-    val wi = vertex.at.frame.toWorld(bounce.wi)
+    val wi = vertex.point.frame.toWorld(bounce.wi)
     // The walk follows specular directions
     if bounce.isSpecular || bounce.weight.isBlack || !vertex.isOpen(wi) then Rgb.Black
     else
-      bsdfRay.set(vertex.at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+      bsdfRay.set(vertex.point.offsetOrigin(wi), wi, Float.PositiveInfinity)
       bsdfRays += 1
-      val p = vertex.at.p
+      val p = vertex.point.p
       val chosen = connection.probability
       if meetsSurface() then
         if emitter.areaLight != connection.index then Rgb.Black

@@ -23,7 +23,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   private var ownPart: GuideRecords.Part | Null = pass.newPart()
 
   /** Where the path records; null: nowhere. */
-  private var part = ownPart
+  private var buffer = ownPart
   private val mixture = GuideMixture()
   private val tally = guide.newTally()
 
@@ -59,12 +59,12 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   def branches: Int = Math.max(1, points.count)
 
   /** Keeps what is known of the branch. */
-  def keep(to: Mark): Unit =
+  def store(to: Mark): Unit =
     to.ratio = ratio
     to.chances = chances
     to.splits = splits
     to.measurement = measurement
-    to.place = path.place
+    to.lastEvent = path.lastEvent
 
   /** Keeps where the random numbers of a branch go on. */
   def keepPosition(branch: Int, to: Mark): Unit = to.position = points.position(branch)
@@ -75,14 +75,14 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     chances = from.chances
     splits = from.splits
     measurement = from.measurement
-    path.follow(from.place, found)
+    path.follow(from.lastEvent, found)
 
   /** Starts a path with a camera ray. */
-  def begin(ray: Ray): Unit =
+  def startPath(ray: Ray): Unit =
     if pass ne guide.pass then
       pass = guide.pass
       ownPart = pass.newPart()
-    part = if pass.learnsFrom(ray.origin, ray.direction) then ownPart else null
+    buffer = if pass.learnsFrom(ray.origin, ray.direction) then ownPart else null
     path.clear()
     ratio = 1f
     chances = 1f
@@ -94,17 +94,18 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     val field = pass.field
     leaveAlone()
     path.step()
-    isKept = (part != null || field.guides) && !vertex.bsdf.isSpecular
+    isKept = (buffer != null || field.guides) && !vertex.bsdf.isSpecular
     if isKept then
       side =
         if vertex.isInMedium then GuideField.Medium
         else
-          GuideField.side(if vertex.localWo.z < 0f then -vertex.at.frame.n else vertex.at.frame.n)
-      region = mixture.region(field, vertex.at.p, side)
+          GuideField.side(if vertex.localWo.z < 0f then -vertex.point.frame.n
+          else vertex.point.frame.n)
+      region = mixture.region(field, vertex.point.p, side)
       share = if ratio < LeastRatio then 1f else field.shares(region)
       isFitted = field.isFitted(region)
-      isKept = part != null || share < 1f
-      if isKept && isFitted then mixture.locate(field, region, vertex.at.p)
+      isKept = buffer != null || share < 1f
+      if isKept && isFitted then mixture.locate(field, region, vertex.point.p)
 
   /** The vertex is neither guided nor recorded. */
   def leaveAlone(): Unit =
@@ -126,7 +127,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
 
   /** The path is over, and found `light` in all. */
   def finish(light: Float): Unit =
-    val to = part
+    val to = buffer
     if to != null then path.record(light, to)
 
   /** Samples a direction: the vertex' bounce. One coordinate of the point also chooses between BSDF
@@ -159,7 +160,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     val byBsdf =
       if bounce.isSpecular || bounce.pdf == 0f then 0f else vertex.localPdf(bounce.wi)
     if byBsdf > 0f then
-      vertex.at.frame.toWorld(bounce.wi, wi)
+      vertex.point.frame.toWorld(bounce.wi, wi)
       bounce.scale(byBsdf)
     else if share < 1f then
       ratio *= share
@@ -169,7 +170,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   /** Likewise. */
   private def drawField(x: Float, y: Float): Float =
     mixture.sample(x, y, wi)
-    vertex.at.frame.toLocal(wi, localWi)
+    vertex.point.frame.toLocal(wi, localWi)
     val byBsdf = if crosses(localWi) then 0f else vertex.localPdf(localWi)
     if byBsdf == 0f then vertex.bounce.absorb()
     else
@@ -187,12 +188,12 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     val pdf = share * byBsdf + (1f - share) * byField
     bounce.set(bounce.wi, bounce.weight * (1f / pdf), pdf, isSpecular = false, bounce.eta)
     ratio *= pdf / byBsdf
-    val to = part
+    val to = buffer
     if to != null && !crosses(bounce.wi) then
       to.countEvent(region)
       path.add(
         region,
-        vertex.at.p,
+        vertex.point.p,
         side,
         wi,
         found,
@@ -260,7 +261,7 @@ private object Guidance:
   /** What is known of a branch that is followed later. Mutable. */
   final class Mark:
     var ratio, chances, splits, measurement = 0f
-    var place = -1
+    var lastEvent = -1
 
     /** Where its random numbers go on ([[Sampler.goTo]]). */
     var position = 0L

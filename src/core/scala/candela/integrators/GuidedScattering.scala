@@ -12,7 +12,7 @@ private final class GuidedScattering(guide: Guide, tracer: CameraPath, history: 
   private val guidance = Guidance(guide, tracer.vertex)
   private val branches = Branches(() => tracer.path.another())
 
-  export guidance.{arrive, begin, leaveAlone, pdf, roulette}
+  export guidance.{arrive, startPath, leaveAlone, pdf, roulette}
 
   /** Samples the next direction, and leaves in all branches but one, unless there is one only. */
   def scatter(sampler: Sampler): Unit =
@@ -35,7 +35,7 @@ private final class GuidedScattering(guide: Guide, tracer: CameraPath, history: 
     loop(guidance.branches): i =>
       restore(branches.origin)
       scatterOnce(i)
-      tracer.leave()
+      tracer.leaveVertex()
       if tracer.goesOn then
         val branch = branches.push()
         save(branch)
@@ -46,7 +46,7 @@ private final class GuidedScattering(guide: Guide, tracer: CameraPath, history: 
     branch.path.set(tracer.path)
     branch.history.set(history)
     branch.departure.set(tracer.ray)
-    guidance.keep(branch.mark)
+    guidance.store(branch.mark)
 
   /** Goes on with the path as it was; its radiance so far stays. */
   private def restore(branch: Branches.Branch): Unit =

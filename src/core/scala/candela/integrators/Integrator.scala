@@ -29,7 +29,7 @@ abstract class Integrator:
 /** Makes the integrators of a rendering, one for each worker. */
 abstract class WorkerIntegrators:
   /** @param report receives what the integrator does, if given */
-  def make(report: Option[PathReport]): Integrator
+  def create(report: Option[PathReport]): Integrator
 
   /** Whether they divide their light as the scene asks; see [[Integrator.lightParts]]. */
   def divideLight: Boolean
@@ -38,11 +38,11 @@ object WorkerIntegrators:
   /** Integrators that differ in their scratch memory alone. */
   def apply(scene: Scene)(integrator: Scene => Integrator): WorkerIntegrators =
     new WorkerIntegrators:
-      def make(report: Option[PathReport]): Integrator =
+      def create(report: Option[PathReport]): Integrator =
         integrator(report.fold(scene)(scene.reported))
 
       lazy val divideLight: Boolean =
-        scene.lightGroups.isDefined && make(None).lightParts != null
+        scene.lightGroups.isDefined && create(None).lightParts != null
 
 /** The passes of one rendering, shared by all workers: sample k of every pixel uses what pass k has
   * prepared. At most [[SharedPasses.MaxOpen]] passes are in use at a time.
@@ -61,7 +61,7 @@ object SharedPasses:
 /** Estimates radiance with what a pass has prepared. */
 trait PassIntegrator extends Integrator:
   /** Starts the samples with this index; false if stopped before it is prepared. */
-  def begin(pass: Int, isStopped: () => Boolean): Boolean
+  def startPass(pass: Int, isStopped: () => Boolean): Boolean
 
 /** The Markov chains of one rendering, shared by all workers. They write to the film's
   * [[candela.film.Splats]] only.
@@ -88,7 +88,7 @@ abstract class ChainWalker:
   /** Prepares, together with the other workers, what all chains need before they advance; false if
     * stopped on the way.
     */
-  def begin(isStopped: () => Boolean): Boolean
+  def prepare(isStopped: () => Boolean): Boolean
 
   /** Advances a chain by `paths` mutations, unless it is left on the way.
     *

@@ -38,7 +38,7 @@ final class LightConnection(
   def raysTraced: Long = rays
 
   /** A new camera path starts. */
-  def begin(time: Float): Unit = ray.time = time
+  def startPath(time: Float): Unit = ray.time = time
 
   /** Chooses one light for a point with normal `n`, as [[LightSelection]]; false if none can
     * contribute.
@@ -121,9 +121,9 @@ final class LightConnection(
     *               else 1
     */
   inline def scatters(vertex: SurfaceVertex, inline weight: Vec3 => Float): Boolean =
-    vertex.at.frame.toLocal(wi, localWi)
+    vertex.point.frame.toLocal(wi, localWi)
     val f = vertex.received(wi, localWi)
-    val arrives = !f.isBlack && !isBlocked(vertex.at)
+    val arrives = !f.isBlack && !isBlocked(vertex.point)
     if arrives then arrive(f, Math.abs(localWi.z) * (if isDelta then 1f else weight(localWi)) / pdf)
     arrives
 

@@ -10,7 +10,7 @@ import candela.media.{MediumWork, SceneMedia}
   * @param work `weights` are those of the path where the segment begins; `shadow` is overwritten
   */
 final class MediumSegment(media: SceneMedia, work: MediumWork):
-  private val rest = Ray()
+  private val stepRay = Ray()
   private var along = Ray()
   private var reached = 0f
 
@@ -23,7 +23,7 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
   /** The segment: up to `tMax`. */
   def ray: Ray = along
 
-  private[integrators] def begin(along: Ray, medium: Int): Unit =
+  private[integrators] def start(along: Ray, medium: Int): Unit =
     this.along = along
     this.medium = medium
     reached = 0f
@@ -36,9 +36,9 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
   def goTo(t: Float): Boolean =
     val step = t - reached
     if step > 0f then
-      rest.time = along.time
-      rest.set(along.at(reached), along.direction, step)
-      media.media(medium).attenuate(rest, work)
+      stepRay.time = along.time
+      stepRay.set(along.at(reached), along.direction, step)
+      media.media(medium).attenuate(stepRay, work)
       reached = t
     !work.shadow.isDead
 
@@ -59,7 +59,7 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
   def add(wx: Float, wy: Float, wz: Float, r: Float, g: Float, b: Float): Unit =
     val w = work.weights
     val s = work.shadow
-    if s.isLost then w.lose()
+    if s.isLost then w.discard()
     val density = (w.ur * s.lr + w.ug * s.lg + w.ub * s.lb) * (1f / 3f)
     if density > 0f then
       val toPath = -(wx * along.dx + wy * along.dy + wz * along.dz)

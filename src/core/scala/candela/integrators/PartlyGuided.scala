@@ -18,9 +18,9 @@ final class PartlyGuided(
     guided: (LightParts | Null) => Integrator,
     plain: (LightParts | Null) => Integrator
 ) extends Integrator:
-  private val parts = scene.lightGroups.map(LightParts(_)).orNull
-  private val itsGuided = guided(parts)
-  private val itsPlain = plain(parts)
+  private val dividedLight = scene.lightGroups.map(LightParts(_)).orNull
+  private val itsGuided = guided(dividedLight)
+  private val itsPlain = plain(dividedLight)
   private var last = itsPlain
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
@@ -29,4 +29,4 @@ final class PartlyGuided(
 
   def raysTraced: Long = itsGuided.raysTraced + itsPlain.raysTraced
   override def lastMaterial: Int = last.lastMaterial
-  override def lightParts: LightParts | Null = parts
+  override def lightParts: LightParts | Null = dividedLight

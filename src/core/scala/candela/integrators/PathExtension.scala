@@ -13,7 +13,7 @@ import scala.annotation.unused
   */
 class PathExtension:
   /** A path begins along the camera's ray. */
-  def begin(sampler: Sampler): Unit = ()
+  def startPath(sampler: Sampler): Unit = ()
 
   /** The ray was traced to the next surface. */
   def travel(sampler: Sampler): Unit = ()
@@ -72,7 +72,7 @@ class PathExtension:
     *
     * @param pdf of the phase function, for the direction
     */
-  def leave(): Unit = ()
+  def leaveVertex(): Unit = ()
   def leaveInMedium(pdf: Float): Unit = ()
 
   /** Russian roulette: factor of the throughput.

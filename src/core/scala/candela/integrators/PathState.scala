@@ -162,10 +162,10 @@ final class SurfacePath extends PathState:
 
   override def set(from: PathState): Unit =
     super.set(from)
-    val same = from.asInstanceOf[SurfacePath]
-    beta.set(same.throughput)
-    alone = same.alone
-    bsdfPdf = same.bsdfPdf
+    val source = from.asInstanceOf[SurfacePath]
+    beta.set(source.throughput)
+    alone = source.alone
+    bsdfPdf = source.bsdfPdf
 
 private object SurfacePath:
   inline val DensityOfLoss = -1f
@@ -202,6 +202,6 @@ final class VolumePath(val weights: PathWeights = PathWeights()) extends PathSta
 
   override def set(from: PathState): Unit =
     super.set(from)
-    val same = from.asInstanceOf[VolumePath]
-    weights.set(same.weights)
-    medium = same.medium
+    val source = from.asInstanceOf[VolumePath]
+    weights.set(source.weights)
+    medium = source.medium

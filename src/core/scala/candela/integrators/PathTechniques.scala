@@ -47,12 +47,12 @@ private final class PathTechniques(
   /** Does light sampling alone find light straight through the surface? */
   private var isBoundary = false
 
-  override def begin(sampler: Sampler): Unit =
+  override def startPath(sampler: Sampler): Unit =
     if parts != null then parts.clear()
     history.start()
     eye.set(tracer.ray.origin)
     if volumes != null then volumes.start(tracer.ray, sampler)
-    if guiding != null then guiding.begin(tracer.ray)
+    if guiding != null then guiding.startPath(tracer.ray)
 
   override def travel(sampler: Sampler): Unit =
     val march = volumes
@@ -66,7 +66,7 @@ private final class PathTechniques(
   override def crosses(medium: Int): Boolean =
     val ofRay = segment
     photons != null && ofRay != null && {
-      ofRay.begin(tracer.ray, medium)
+      ofRay.start(tracer.ray, medium)
       photons.scatter(ofRay, history)
       tracer.L.add(path.carried(ofRay.radiance.toRgb))
       if photons.bringsAll then
@@ -83,15 +83,15 @@ private final class PathTechniques(
   override def emissionFactor(index: Int, light: SurfaceLight): Float =
     if isLeftOut(index) || hidesEmission then 0f
     else if weights == null || light.isShownOnly || history.casterRatio == 0.0 then 1f
-    else weights.ofEmission(index, light.pdf(path.lastP, vertex.at), history)
+    else weights.ofEmission(index, light.pdf(path.lastP, vertex.point), history)
 
   /** Is what the path meets of the emitter left to photons? */
   private def isLeftOut(light: Int): Boolean =
-    photons != null && photons.brings(light, history)
+    photons != null && photons.covers(light, history)
 
   private def hidesEmission = options.hidesEmitters && path.depth == 0
 
-  override def isHidden: Boolean = hidesEmission && vertex.at.areaLight >= 0
+  override def isHidden: Boolean = hidesEmission && vertex.point.areaLight >= 0
 
   override def meetEnvironment(light: Int, Le: Rgb): Unit =
     if parts != null && !hidesEmission then
@@ -111,7 +111,7 @@ private final class PathTechniques(
       path.terminateSecondary()
     if weights != null then weights.arrive(eye, vertex, history)
     if guiding != null then if isGuided then guiding.arrive() else guiding.leaveAlone()
-    isBoundary = limits.seesThrough && scene.isSubsurface(vertex.at.material)
+    isBoundary = limits.seesThrough && scene.isSubsurface(vertex.point.material)
 
   override def arriveInMedium(p: Vec3, wo: Vec3, medium: Int): Unit =
     if guiding != null then
@@ -121,7 +121,7 @@ private final class PathTechniques(
     isBoundary = false
 
   override def samples: Boolean =
-    photons == null || !photons.brings(connection.index, vertex, tracer.ray, hit, history)
+    photons == null || !photons.covers(connection.index, vertex, tracer.ray, hit, history)
 
   override def directionPdf(localWi: Vec3, pdf: Float): Float =
     if isBoundary && vertex.crosses(localWi) then 0f
@@ -148,21 +148,21 @@ private final class PathTechniques(
     val inside = if probe == null || path.isBlack then null else vertex.beneath
     inside != null && probe != null && {
       if guiding != null then guiding.leaveAlone()
-      path.scale(probe.enter(vertex.at, inside, tracer.ray.time, sampler, vertex.at))
+      path.scale(probe.enter(vertex.point, inside, tracer.ray.time, sampler, vertex.point))
       if !path.isBlack then
-        vertex.scatterBy(inside.entry, vertex.at.frame.n)
+        vertex.scatterBy(inside.entry, vertex.point.frame.n)
         history.emerge()
         isBoundary = false
       !path.isBlack
     }
 
-  override def leave(): Unit =
+  override def leaveVertex(): Unit =
     val bounce = vertex.bounce
     history.anyNonSpecularBounces ||= !bounce.isSpecular
     if weights != null then
-      val wi = vertex.at.frame.toWorld(bounce.wi.toVec3)
-      weights.leave(vertex, tracer.ray, hit, wi, history)
-    if photons != null then photons.leave(vertex, tracer.ray, hit, history)
+      val wi = vertex.point.frame.toWorld(bounce.wi.toVec3)
+      weights.leaveVertex(vertex, tracer.ray, hit, wi, history)
+    if photons != null then photons.leaveVertex(vertex, tracer.ray, hit, history)
 
   override def leaveInMedium(pdf: Float): Unit =
     history.anyNonSpecularBounces = true
@@ -196,9 +196,9 @@ private object PathTechniques:
       volumes: VolumeMarch | Null = null,
       within: Option[(SceneMedia, MediumWork)] = None
   ): CameraPath => PathExtension =
-    val parts =
+    val lightParts =
       if sharedParts != null then sharedParts else scene.lightGroups.map(LightParts(_)).orNull
-    val isPlain = guide == null && parts == null && volumes == null && !options.extendsPaths &&
+    val isPlain = guide == null && lightParts == null && volumes == null && !options.extendsPaths &&
       !scene.isDispersive && !(limits.seesThrough && scene.hasSubsurface)
     if isPlain then _ => PathExtension()
-    else PathTechniques(_, scene, limits, options, guide, parts, volumes, within)
+    else PathTechniques(_, scene, limits, options, guide, lightParts, volumes, within)

@@ -37,23 +37,27 @@ abstract class CameraPath(
   /** [[L]], with what media have emitted. */
   def radianceSoFar: Rgb = L.toRgb
 
-  protected final def begin(cameraRay: Ray): Unit =
+  protected final def startPath(cameraRay: Ray): Unit =
     ray = cameraRay
     L.set(Rgb.Black)
     path.start()
     goesOn = true
 
   /** Leaves the vertex in its sampled direction, or ends. */
-  def leave(): Unit =
-    extension.leave()
+  def leaveVertex(): Unit =
+    extension.leaveVertex()
     val bounce = vertex.bounce
-    path.turn(vertex.at.p, vertex.lightNormal, pdf = if bounce.isSpecular then 0f else bounce.pdf)
+    path.turn(
+      vertex.point.p,
+      vertex.lightNormal,
+      pdf = if bounce.isSpecular then 0f else bounce.pdf
+    )
     path.etaScale *= square(bounce.eta)
-    val isOpen = vertex.leave(ray)
+    val isOpen = vertex.spawnRay(ray)
     goesOn = isOpen && !path.isBlack
 
   def raysTraced: Long = rays + extension.raysTraced
-  override def lastMaterial: Int = vertex.at.material
+  override def lastMaterial: Int = vertex.point.material
   override def lightParts: LightParts | Null = extension.lightParts
 
   /** Weight of light that the path meets against light sampling.
@@ -77,11 +81,11 @@ abstract class CameraPath(
 
   /** Weight of what the light at the vertex emits against light sampling. */
   protected final def surfaceWeight(light: SurfaceLight): Float =
-    val at = vertex.at
+    val point = vertex.point
     val misWeight =
       if light.isShownOnly && !path.specularBounce then 0f
-      else emissionWeight(at.areaLight, light.pdf(path.lastP, at))
-    misWeight * extension.emissionFactor(at.areaLight, light)
+      else emissionWeight(point.areaLight, light.pdf(path.lastP, point))
+    misWeight * extension.emissionFactor(point.areaLight, light)
 
 /** Path tracing over surfaces, with next-event estimation, multiple importance sampling and Russian
   * roulette. [[PathExtension]] has what only some scenes need.
@@ -105,9 +109,9 @@ final class PathTracer private (
   override def raysTraced: Long = super.raysTraced + lights.raysTraced
 
   def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
-    begin(cameraRay)
-    lights.begin(ray.time)
-    extension.begin(sampler)
+    startPath(cameraRay)
+    lights.startPath(ray.time)
+    extension.startPath(sampler)
     while goesOn || extension.nextBranch(sampler) do
       // Trace the ray to the next surface
       rays += 1
@@ -120,16 +124,16 @@ final class PathTracer private (
         goesOn = false
       else
         vertex.hit(ray, hit)
-        val at = vertex.at
+        val point = vertex.point
         // Add light that the surface emits
-        if at.areaLight >= 0 then
-          val light = scene.surfaceLight(at)
-          val Le = light.radiance(at, vertex.wo)
+        if point.areaLight >= 0 then
+          val light = scene.surfaceLight(point)
+          val Le = light.radiance(point, vertex.wo)
           if !Le.isBlack then
             val weight = surfaceWeight(light)
             L.addProduct(beta, Le, weight)
-            extension.meetSurface(at.areaLight, Le, weight)
-        if scene.isPassed(ray, hit, at) || extension.isHidden then skipIntersection()
+            extension.meetSurface(point.areaLight, Le, weight)
+        if scene.isPassed(ray, hit, point) || extension.isHidden then skipIntersection()
         else if hasHad(limits.maxDepth) then goesOn = false
         else
           surfacePath.depth += 1
@@ -141,8 +145,8 @@ final class PathTracer private (
             if hasLights && !vertex.bsdf.isSpecular then
               val u = sampler.next1D(matters = lights.isRandom)
               sampler.next2D()
-              if lights.choose(at.p, vertex.lightNormal, u) &&
-                lights.samplePoint(at.p, sampler.x, sampler.y) && extension.samples &&
+              if lights.choose(point.p, vertex.lightNormal, u) &&
+                lights.samplePoint(point.p, sampler.x, sampler.y) && extension.samples &&
                 lights.scatters(
                   vertex,
                   weight = wi =>
@@ -160,7 +164,7 @@ final class PathTracer private (
               beta.scale(vertex.bounce.weight)
             extension.emerges(sampler)
           do ()
-          leave()
+          leaveVertex()
           // End faint paths by Russian roulette
           if goesOn && surfacePath.depth > limits.rouletteAfter then
             val rrBeta = beta.largest * surfacePath.etaScale

@@ -30,12 +30,12 @@ abstract class PhotonLight(
     *
     * @param isAlone does the path carry its hero wavelength only?
     */
-  protected def around(vertex: SurfaceVertex, most: Int, isAlone: Boolean): Rgb
+  protected def gather(vertex: SurfaceVertex, most: Int, isAlone: Boolean): Rgb
 
   /** Adds light of photons around the segment that the medium scatters to its begin.
     *
     * @param most         scattering events that a photon may have, the last one included
-    * @param isAlone      as for [[around]]
+    * @param isAlone      as for [[gather]]
     * @param isSeen       does the camera see the segment, if by way of casters?
     */
   protected def along(
@@ -56,17 +56,17 @@ abstract class PhotonLight(
   /** What the vertex reflects towards the path. */
   private[integrators] final def reflected(vertex: SurfaceVertex, path: PathHistory): Rgb =
     val events = maxDepth - path.depth
-    if events > 0 && gathers(vertex, path) then around(vertex, events, path.isAlone) else Rgb.Black
+    if events > 0 && gathers(vertex, path) then gather(vertex, events, path.isAlone) else Rgb.Black
 
   private def gathers(vertex: SurfaceVertex, path: PathHistory): Boolean =
-    receives(scene, vertex) && (path.chain < Started || !scene.isCaster(vertex.at))
+    receives(scene, vertex) && (path.chain < Started || !scene.isCaster(vertex.point))
 
   /** Do they bring what the path meets at the emitter? */
-  private[integrators] final def brings(light: Int, path: PathHistory): Boolean =
+  private[integrators] final def covers(light: Int, path: PathHistory): Boolean =
     path.chain == MayBeginPhoton && isBrought(light)
 
   /** Do they bring what a light sample finds at the vertex, which the ray has met? */
-  private[integrators] final def brings(
+  private[integrators] final def covers(
       light: Int,
       vertex: SurfaceVertex,
       ray: Ray,
@@ -76,21 +76,21 @@ abstract class PhotonLight(
     path.chain >= Started && isBrought(light) && canBegin(vertex, ray, hit)
 
   private def canBegin(vertex: SurfaceVertex, ray: Ray, hit: Hit): Boolean =
-    scene.isCaster(vertex.at) && casters.density(ray, hit, vertex.at) > 0f
+    scene.isCaster(vertex.point) && casters.density(ray, hit, vertex.point) > 0f
 
   /** The path leaves the vertex, which `ray` has met, by `vertex.bounce`. */
-  private[integrators] final def leave(
+  private[integrators] final def leaveVertex(
       vertex: SurfaceVertex,
       ray: Ray,
       hit: Hit,
       path: PathHistory
   ): Unit =
-    val before = path.chain
+    val chain = path.chain
     path.chain =
       if gathers(vertex, path) then if vertex.bounce.isSpecular then NotGathered else Started
-      else if before < Started then before
+      else if chain < Started then chain
       else if canBegin(vertex, ray, hit) then MayBeginPhoton
-      else if scene.isCaster(vertex.at) then Started
+      else if scene.isCaster(vertex.point) then Started
       else NotGathered
 
 private[candela] object PhotonLight:
@@ -107,4 +107,4 @@ private[candela] object PhotonLight:
   def receives(scene: Scene, vertex: SurfaceVertex): Boolean =
     val bsdf = vertex.bsdf
     vertex.isInMedium || !bsdf.isSpecular && (bsdf.isDiffuse || !bsdf.isNarrow) &&
-    !scene.isSubsurface(vertex.at.material)
+    !scene.isSubsurface(vertex.point.material)

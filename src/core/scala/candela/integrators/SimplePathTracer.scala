@@ -32,7 +32,7 @@ final class SimplePathTracer(
   override def lightParts: LightParts | Null = extension.lightParts
 
   def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
-    begin(cameraRay, sampler)
+    startPath(cameraRay, sampler)
     while goesOn do
       val isHit = intersect()
       val isSampled = !path.specularBounce
@@ -51,7 +51,7 @@ final class SimplePathTracer(
             case Onward.Hemisphere =>
               scatterUniformly(vertex.bsdf.isTransmissive, sampler)
             case Onward.Sphere => scatterUniformly(bothSides = true, sampler)
-          leave()
+          leaveVertex()
           if !samplesLights then path.turn(path.lastP, path.lastN, pdf = 0f)
       else if isSampled then end()
       else addEnvironment()

@@ -23,19 +23,19 @@ final class SpectralIntegrator(
 ) extends Integrator:
   private var current = 0
   private var components = Rgb.Black
-  private val parts: LightParts | Null = integrators(0).lightParts match
+  private val dividedLight: LightParts | Null = integrators(0).lightParts match
     case null => null
     case some: LightParts => LightParts(some.groups)
 
-  override def lightParts: LightParts | Null = parts
+  override def lightParts: LightParts | Null = dividedLight
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     current = SpectralIntegrator.choose(sampler.next1D(), bases.length)
     for r <- report do r.components(bases(current))
     components = integrators(current).radiance(ray, sampler)
-    if parts != null then
+    if dividedLight != null then
       val source = integrators(current).lightParts
-      if source != null then parts.convert(source, bases(current))
+      if source != null then dividedLight.convert(source, bases(current))
     bases(current).toSrgb(components)
 
   override def lastWavelengths: Wavelengths = bases(current)
@@ -54,8 +54,8 @@ object SpectralIntegrator:
 /** Makes them of the integrators of each basis. */
 final class SpectralIntegrators(each: Vector[WorkerIntegrators], bases: Array[Wavelengths])
     extends WorkerIntegrators:
-  def make(report: Option[PathReport]): SpectralIntegrator =
-    SpectralIntegrator(each.map(_.make(report)).toArray, bases, report)
+  def create(report: Option[PathReport]): SpectralIntegrator =
+    SpectralIntegrator(each.map(_.create(report)).toArray, bases, report)
 
   def divideLight: Boolean = each.head.divideLight
 
@@ -84,10 +84,10 @@ object SpectralPasses:
     private var current = 0
     private var components = Rgb.Black
 
-    def begin(pass: Int, isStopped: () => Boolean): Boolean =
+    def startPass(pass: Int, isStopped: () => Boolean): Boolean =
       if pass >= SharedPasses.MaxOpen then shared.release(pass - SharedPasses.MaxOpen)
       current = shared.basis(pass)
-      integrators(current).begin(pass, isStopped)
+      integrators(current).startPass(pass, isStopped)
 
     def radiance(ray: Ray, sampler: Sampler): Rgb =
       components = integrators(current).radiance(ray, sampler)
@@ -101,7 +101,7 @@ object SpectralPasses:
 
 /** Splats of one basis. */
 final class ConvertedSplats(splats: Splats, basis: Wavelengths) extends Splats:
-  def begin(): Unit = splats.begin()
+  def countSample(): Unit = splats.countSample()
 
   def add(x: Float, y: Float, light: Rgb, group: Int): Unit =
     splats.add(x, y, basis.toSrgb(light), group)

@@ -29,7 +29,7 @@ abstract class SpecularWalk(
     if vertex.bsdf.isSpecular then Rgb.Black else direct(vertex, sampler)
 
   def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
-    begin(cameraRay, sampler)
+    startPath(cameraRay, sampler)
     while goesOn do
       val isHit = intersect()
       marchThroughVolumes(sampler)

@@ -42,8 +42,8 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
     sampler.next2D()
     // Half of the probe rays follow the normal, a quarter each tangent
     val axis = if choice < 0.5f then 2 else if choice < 0.75f then 0 else 1
-    val within = if axis == 2 then 2f * choice else 4f * choice - (2f + axis)
-    val channel = Math.min((3f * within).toInt, 2)
+    val remapped = if axis == 2 then 2f * choice else 4f * choice - (2f + axis)
+    val channel = Math.min((3f * remapped).toInt, 2)
     val radius = inside.sample(channel, sampler.x)
     val reach = inside.reach(channel)
     if !(radius >= 0f && radius < reach) then Rgb.Black
@@ -59,7 +59,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
         case 1 => (p + frame.n * x + frame.s * y - frame.t * halfLength, frame.t)
         case _ => (p + frame.s * x + frame.t * y - frame.n * halfLength, frame.n)
       ray.time = time
-      val count = walk(start, direction, 2f * halfLength, at.material, 3f * within - channel)
+      val count = walk(start, direction, 2f * halfLength, at.material, 3f * remapped - channel)
       if count == 0 then Rgb.Black
       else
         ray.set(chosenFrom, direction, chosenAt)

@@ -13,7 +13,7 @@ import candela.scene.Scene
   * Order of use: [[hit]], then [[evaluate]] (or [[scatterBy]]), then the rest.
   */
 class SurfaceVertex(scene: Scene):
-  final val at: ShadingPoint = scene.newPoint()
+  final val point: ShadingPoint = scene.newPoint()
   private val ownWo, ownLocalWo, departing, sided = MutableVec3()
 
   /** The direction that [[draw]] sampled. */
@@ -33,41 +33,41 @@ class SurfaceVertex(scene: Scene):
   final def lightNormal: MutableVec3 =
     if isInMedium || bsdf.isTransmissive then sided.set(Vec3.Zero)
     else
-      val n = at.frame.n
+      val n = point.frame.n
       val isFront =
         if !scene.sidesByGeometry then localWo.z > 0f
-        else ((wo dot at.geometricNormal) > 0f) == ((n dot at.geometricNormal) > 0f)
+        else ((wo dot point.geometricNormal) > 0f) == ((n dot point.geometricNormal) > 0f)
       if !isFront then sided.set(-n.x, -n.y, -n.z) else sided.set(n)
     sided
 
   /** Puts the vertex in a medium, whose phase function is `phase`. */
   final def scatterAt(p: Vec3, wo: Vec3, phase: Bsdf): Unit =
     isInMedium = true
-    at.p = p
-    at.pError = Vec3.Zero
+    point.p = p
+    point.pError = Vec3.Zero
     // The direction goes into the frame, into the sample and out again: its length would be cubed
     // at each event, and a rounding error grow to infinity within some twenty
     val unit = wo.normalized
-    at.geometricNormal = unit
-    at.areaLight = -1
-    at.frame.set(Frame.around(unit))
+    point.geometricNormal = unit
+    point.areaLight = -1
+    point.frame.set(Frame.fromZ(unit))
     scatterBy(phase, unit)
 
   /** Computes the surface geometry where `ray` hit it. */
   final def hit(ray: Ray, hit: Hit): Unit =
     isInMedium = false
-    scene.surface(ray, hit, at)
+    scene.surface(ray, hit, point)
     ownWo.set(-ray.dx, -ray.dy, -ray.dz)
 
   /** Only a border of media, without a BSDF? */
-  final def isInterface: Boolean = scene.isInterface(at)
+  final def isInterface: Boolean = scene.isInterface(point)
 
   /** Continues the ray in its direction, through an interface. */
-  final def passThrough(ray: Ray): Unit = scene.passThrough(ray, at)
+  final def passThrough(ray: Ray): Unit = scene.passThrough(ray, point)
 
   /** Evaluates the material, which may turn the frame. */
   final def evaluate(regularized: Boolean = false): Unit =
-    scatterBy(if regularized then scene.bsdf(at).regularized else scene.bsdf(at), wo)
+    scatterBy(if regularized then scene.bsdf(point).regularized else scene.bsdf(point), wo)
 
   /** Replaces the BSDF. */
   final def scatterBy(bsdf: Bsdf): Unit = scattering = bsdf
@@ -76,10 +76,10 @@ class SurfaceVertex(scene: Scene):
   final def scatterBy(bsdf: Bsdf, wo: Vec3): Unit =
     scattering = bsdf
     ownWo.set(wo)
-    at.frame.toLocal(wo, ownLocalWo)
+    point.frame.toLocal(wo, ownLocalWo)
 
   /** The BSDF for light from `wi` that a camera path receives. */
-  final def received(wi: Vec3): Rgb = received(wi, at.frame.toLocal(wi))
+  final def received(wi: Vec3): Rgb = received(wi, point.frame.toLocal(wi))
 
   /** Likewise, if the local direction is known. */
   final def received(wi: Vec3, localWi: Vec3): Rgb =
@@ -89,23 +89,23 @@ class SurfaceVertex(scene: Scene):
   final def sent(wi: Vec3): Rgb =
     if !isOpen(wi) then Rgb.Black
     else
-      val towards = at.frame.toLocal(wi)
+      val towards = point.frame.toLocal(wi)
       bsdf.f(towards, onSide(localWo, towards))
 
   /** Solid-angle density with which the path continues to `wi`. */
-  final def pdf(wi: Vec3): Float = localPdf(at.frame.toLocal(wi))
+  final def pdf(wi: Vec3): Float = localPdf(point.frame.toLocal(wi))
 
   /** Likewise, to a local direction. */
   final def localPdf(localWi: Vec3): Float = bsdf.pdf(localWo, localWi)
 
   /** Solid-angle density with which a path from `wi` would continue to `wo`. */
-  final def reversePdf(wi: Vec3): Float = bsdf.pdf(at.frame.toLocal(wi), localWo)
+  final def reversePdf(wi: Vec3): Float = bsdf.pdf(point.frame.toLocal(wi), localWo)
 
   /** |cos| of the angle to the geometric normal; 1 in a medium. */
-  final def cosine(w: Vec3): Float = if isInMedium then 1f else at.geometricNormal absDot w
+  final def cosine(w: Vec3): Float = if isInMedium then 1f else point.geometricNormal absDot w
 
   /** |cos| of the angle to the shading normal; 1 in a medium. */
-  final def shadingCosine(w: Vec3): Float = if isInMedium then 1f else at.frame.n absDot w
+  final def shadingCosine(w: Vec3): Float = if isInMedium then 1f else point.frame.n absDot w
 
   /** Does the local direction lie on the other side of the shading normal than `wo`? */
   final def crosses(localWi: Vec3): Boolean = localWi.z * ownLocalWo.z < 0f
@@ -117,7 +117,7 @@ class SurfaceVertex(scene: Scene):
   /** False if the BSDF only reflects, and the geometric normal separates `wi` from `wo`. */
   final def isOpen(wi: Vec3): Boolean =
     !scene.sidesByGeometry || bsdf.isTransmissive ||
-      ((wi dot at.geometricNormal) > 0f) == ((wo dot at.geometricNormal) > 0f)
+      ((wi dot point.geometricNormal) > 0f) == ((wo dot point.geometricNormal) > 0f)
 
   /** The local direction `w`, mirrored to the side of `other` where the geometric normal has
     * decided that this is a reflection.
@@ -144,29 +144,29 @@ class SurfaceVertex(scene: Scene):
     val wi =
       if bothSides then Warp.uniformSphere(sampler.x, sampler.y)
       else
-        val frame = Frame.around(at.geometricNormal.facing(wo))
+        val frame = Frame.fromZ(point.geometricNormal.facing(wo))
         frame.toWorld(Warp.uniformHemisphere(sampler.x, sampler.y))
-    val localWi = at.frame.toLocal(wi)
+    val localWi = point.frame.toLocal(wi)
     val pdf = if bothSides then 0.5f * InvTwoPi else InvTwoPi
     val weight = received(wi, localWi) * (Math.abs(localWi.z) / pdf)
     bounce.set(localWi, weight, pdf, isSpecular = false)
 
   /** How light travels beneath the surface, if `bounce` was refracted into it; null: straight. */
   final def beneath: Bssrdf | Null =
-    if ownLocalWo.z * bounce.wi.z < 0f then scene.bssrdf(at) else null
+    if ownLocalWo.z * bounce.wi.z < 0f then scene.bssrdf(point) else null
 
   /** Sets the ray on its way in the direction of `bounce`.
     *
     * @return false if the surface is in the way: the path ends
     */
-  final def leave(ray: Ray): Boolean = leave(ray, bounce.wi, bounce.isSpecular, bounce.eta)
+  final def spawnRay(ray: Ray): Boolean = spawnRay(ray, bounce.wi, bounce.isSpecular, bounce.eta)
 
   /** Likewise, to the local direction `localWi`. */
-  final def leave(ray: Ray, localWi: Vec3, isSpecular: Boolean, eta: Float): Boolean =
+  final def spawnRay(ray: Ray, localWi: Vec3, isSpecular: Boolean, eta: Float): Boolean =
     val wi = departing
-    at.frame.toWorld(localWi, wi)
-    ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-    scene.scattered(ray, at, wo, wi, isSpecular, eta)
+    point.frame.toWorld(localWi, wi)
+    ray.set(point.offsetOrigin(wi), wi, Float.PositiveInfinity)
+    scene.scattered(ray, point, wo, wi, isSpecular, eta)
     isSpecular || isOpen(wi)
 
 private object SurfaceVertex:

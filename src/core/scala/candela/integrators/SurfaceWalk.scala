@@ -12,7 +12,7 @@ import candela.scene.Scene
   *
   * At each vertex: [[intersect]] gets there; [[addEnvironment]] or [[addEmission]] adds what the
   * ray has met; [[evaluate]] prepares the vertex; [[sampleLight]] and [[connectBy]] add light of an
-  * emitter; [[scatter]] samples the next direction, and [[leave]] takes it.
+  * emitter; [[scatter]] samples the next direction, and [[leaveVertex]] takes it.
   *
   * @param volumes    pbrt-v2's volumes, if any: the camera ray gathers what they emit and scatter,
   *                   and they attenuate all other light
@@ -38,11 +38,11 @@ abstract class SurfaceWalk(
     super.raysTraced + connection.raysTraced + (if volumes == null then 0L else volumes.raysTraced)
 
   /** Starts a path along a camera ray, which the walk overwrites. */
-  protected final def begin(cameraRay: Ray, sampler: Sampler): Unit =
-    begin(cameraRay)
-    connection.begin(ray.time)
+  protected final def startPath(cameraRay: Ray, sampler: Sampler): Unit =
+    startPath(cameraRay)
+    connection.startPath(ray.time)
     if volumes != null then volumes.start(ray, sampler)
-    extension.begin(sampler)
+    extension.startPath(sampler)
 
   protected final def end(): Unit = goesOn = false
 
@@ -69,17 +69,17 @@ abstract class SurfaceWalk(
 
   /** Adds what the surface emits. */
   protected final def addEmission(): Unit =
-    val at = vertex.at
-    if at.areaLight >= 0 then
-      val light = scene.surfaceLight(at)
-      val Le = light.radiance(at, vertex.wo)
+    val point = vertex.point
+    if point.areaLight >= 0 then
+      val light = scene.surfaceLight(point)
+      val Le = light.radiance(point, vertex.wo)
       if !Le.isBlack then
         val weight = surfaceWeight(light)
         L.addProduct(surfacePath.beta, Le, weight)
-        extension.meetSurface(at.areaLight, Le, weight)
+        extension.meetSurface(point.areaLight, Le, weight)
 
   /** Does light pass here unscattered? */
-  protected final def isPassed: Boolean = scene.isPassed(ray, hit, vertex.at)
+  protected final def isPassed: Boolean = scene.isPassed(ray, hit, vertex.point)
 
   /** Continues through an interface. */
   protected final def passThrough(): Unit =
@@ -97,7 +97,7 @@ abstract class SurfaceWalk(
     scene.lights.length > 0 && !vertex.bsdf.isSpecular && {
       val u = sampler.next1D(matters = connection.isRandom)
       sampler.next2D()
-      val p = vertex.at.p
+      val p = vertex.point.p
       connection.choose(p, vertex.lightNormal, u) && connection.samplePoint(p, sampler.x, sampler.y)
     }
 
@@ -132,5 +132,5 @@ abstract class SurfaceWalk(
   protected final def leaveSpecularly(sampler: Sampler): Unit =
     val sample = vertex.bsdf.sampleSpecular(vertex.localWo, sampler.next1D())
     path.scale(sample.weight)
-    vertex.leave(ray, sample.wi, sample.isSpecular, sample.eta): Unit
+    vertex.spawnRay(ray, sample.wi, sample.isSpecular, sample.eta): Unit
     goesOn = !path.isBlack

@@ -30,7 +30,7 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
 
   /** Starts a new camera path. */
   def start(ray: Ray, sampler: Sampler): Unit =
-    connection.begin(ray.time)
+    connection.startPath(ray.time)
     random.seed(sampler.next1D(), sampler.next1D())
 
   /** Marches along the ray up to `ray.tMax`.
@@ -42,7 +42,7 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
     transmitted = Rgb.White
     if regions.clip(ray, work) then
       val unit = ray.direction.length
-      val start = work.overlap.begin
+      val start = work.overlap.start
       val end = work.overlap.end
       val wanted = Math.ceil(((end - start) * unit / stepSize).toDouble).toInt
       val count = clamp(wanted, 1, Regions.MostSteps)
@@ -67,7 +67,7 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
         if boost > 0f then
           val reaching = work.transmittance * boost
           val p = ray.at(t)
-          regions.at(p, work)
+          regions.evaluate(p, work)
           sumR += reaching.r * work.glowR
           sumG += reaching.g * work.glowG
           sumB += reaching.b * work.glowB

@@ -43,12 +43,12 @@ final class VolumePathTracer private (
   private def emitted: Rgb = Rgb(work.glowR, work.glowG, work.glowB)
 
   def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
-    begin(cameraRay)
+    startPath(cameraRay)
     work.start(hero = if media.isChromatic then (sampler.next1D() * 3f).toInt else 0)
     work.random.seed(sampler.next1D(), sampler.next1D())
     visibility.start(ray.time)
     volumePath.medium = media.camera
-    extension.begin(sampler)
+    extension.startPath(sampler)
     while goesOn || extension.nextBranch(sampler) do
       // Sample a scattering event before the next surface
       rays += 1
@@ -67,17 +67,17 @@ final class VolumePathTracer private (
         goesOn = false
       else
         vertex.hit(ray, hit)
-        val at = vertex.at
+        val point = vertex.point
         // Add light that the surface emits
-        if at.areaLight >= 0 then
-          val light = scene.surfaceLight(at)
-          val Le = light.radiance(at, vertex.wo)
+        if point.areaLight >= 0 then
+          val light = scene.surfaceLight(point)
+          val Le = light.radiance(point, vertex.wo)
           if !Le.isBlack then
             val weight = surfaceWeight(light)
             L.add(volumePath.carried(Le, weight))
-            extension.meetSurface(at.areaLight, Le, weight)
-        val isPane = crossesPanes && scene.isPane(at)
-        if scene.isPassed(ray, hit, at) || extension.isHidden then skipIntersection()
+            extension.meetSurface(point.areaLight, Le, weight)
+        val isPane = crossesPanes && scene.isPane(point)
+        if scene.isPassed(ray, hit, point) || extension.isHidden then skipIntersection()
         else if !isPane && hasHad(limits.maxDepth) then goesOn = false
         else
           volumePath.depth += 1
@@ -90,8 +90,8 @@ final class VolumePathTracer private (
             if isSampled || !isPane then
               val u = sampler.next1D(matters = lights.isRandom)
               sampler.next2D()
-              if isSampled && hasLights && lights.choose(at.p, vertex.lightNormal, u) &&
-                lights.samplePoint(at.p, sampler.x, sampler.y) && extension.samples
+              if isSampled && hasLights && lights.choose(point.p, vertex.lightNormal, u) &&
+                lights.samplePoint(point.p, sampler.x, sampler.y) && extension.samples
               then addDirect()
             extension.addCaustics()
             // Sample the BSDF for the next direction
@@ -105,7 +105,7 @@ final class VolumePathTracer private (
             volumePath.depth -= 1
             skipIntersection()
             goesOn = !volumePath.isBlack
-          else leave()
+          else leaveVertex()
           if volumePath.depth > limits.maxDepth then goesOn = false
           survive(sampler)
     radianceSoFar
@@ -141,7 +141,7 @@ final class VolumePathTracer private (
         if visibility.reaches(p, lights.sample, volumePath.medium) then
           val arriving = sampled(extension.directionPdf(Vec3.Z, f)) * f
           addSample(arriving)
-    if extension.scatters(sampler) then leave()
+    if extension.scatters(sampler) then leaveVertex()
     else
       sampler.next2D()
       // f/p is 1: phase functions are sampled exactly
@@ -150,15 +150,15 @@ final class VolumePathTracer private (
       extension.leaveInMedium(pdf)
       leaveInMedium(p, wi, pdf)
 
-  override def leave(): Unit =
+  override def leaveVertex(): Unit =
     if vertex.isInMedium then
       val bounce = vertex.bounce
       extension.leaveInMedium(vertex.localPdf(bounce.wi))
-      leaveInMedium(vertex.at.p, vertex.at.frame.toWorld(bounce.wi), bounce.pdf)
+      leaveInMedium(vertex.point.p, vertex.point.frame.toWorld(bounce.wi), bounce.pdf)
     else
-      super.leave()
+      super.leaveVertex()
       if !samplesLights then volumePath.weights.turn(0f)
-      volumePath.medium = media.beyond(vertex.at, ray.direction, volumePath.medium)
+      volumePath.medium = media.beyond(vertex.point, ray.direction, volumePath.medium)
 
   /** @param pdf solid-angle density of the direction */
   private def leaveInMedium(p: Vec3, wi: Vec3, pdf: Float): Unit =
@@ -170,7 +170,7 @@ final class VolumePathTracer private (
   /** Goes on behind the surface. */
   private def skipIntersection(): Unit =
     vertex.passThrough(ray)
-    volumePath.medium = media.beyond(vertex.at, ray.direction, volumePath.medium)
+    volumePath.medium = media.beyond(vertex.point, ray.direction, volumePath.medium)
 
   /** Ends faint paths by Russian roulette. */
   private def survive(sampler: Sampler): Unit =
@@ -182,11 +182,11 @@ final class VolumePathTracer private (
   /** Adds the light sample at a surface, if it is visible. */
   private def addDirect(): Unit =
     val wi = lights.wi
-    val localWi = vertex.at.frame.toLocal(wi)
+    val localWi = vertex.point.frame.toLocal(wi)
     val f = vertex.received(wi, localWi)
     if !f.isBlack then
-      val beyond = media.beyond(vertex.at, wi, volumePath.medium)
-      if visibility.reaches(vertex.at.offsetOrigin(wi), lights.sample, beyond) then
+      val beyond = media.beyond(vertex.point, wi, volumePath.medium)
+      if visibility.reaches(vertex.point.offsetOrigin(wi), lights.sample, beyond) then
         val arriving = sampled(extension.directionPdf(localWi, vertex.localPdf(localWi)))
         addSample(arriving * f * (Math.abs(localWi.z) * extension.sampleFactor(localWi)))
 

@@ -26,7 +26,7 @@ final class Whitted(
     while i < scene.lights.length do
       sampler.next2D()
       connection.choose(i)
-      if connection.samplePoint(vertex.at.p, sampler.x, sampler.y) then
+      if connection.samplePoint(vertex.point.p, sampler.x, sampler.y) then
         sum += connection.scattered(vertex, weight = _ => 1f)
       i += 1
     sum

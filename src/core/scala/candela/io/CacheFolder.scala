@@ -33,7 +33,7 @@ final class CacheFolder(val path: Path, maxBytes: Long):
   def file(key: String, suffix: String): Path = path.resolve(Sha256.of(key).take(Digits) + suffix)
 
   /** Notes that a file is used, so that it is not the least recently used. */
-  def use(file: Path): Unit =
+  def touch(file: Path): Unit =
     Try(Files.setLastModifiedTime(file, FileTime.from(Instant.now))): Unit
 
   /** Opens a file to read it.
@@ -132,7 +132,7 @@ object CacheFolder:
   val UsualSize: Long = 20_000_000_000L
 
   /** The user's, where the system has such a folder: as the launcher's archives. */
-  def usual(environment: Map[String, String] = sys.env): Option[Path] =
+  def userFolder(environment: Map[String, String] = sys.env): Option[Path] =
     def absolute(name: String) =
       environment.get(name).filter(_.nonEmpty).flatMap(p => Try(Path.of(p)).toOption)
         .filter(_.isAbsolute)

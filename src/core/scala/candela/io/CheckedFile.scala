@@ -23,10 +23,10 @@ object CheckedFile:
   /** Writes the whole file to an empty one. */
   def writeTo(channel: FileChannel, mark: String)(body: CheckedOutput => Unit): Unit =
     Buffers.lend: buffer =>
-      val out = CheckedOutput(channel, buffer)
-      out.text(mark)
-      body(out)
-      out.end()
+      val output = CheckedOutput(channel, buffer)
+      output.text(mark)
+      body(output)
+      output.end()
 
   /** Verifies the file, then reads it from its start.
     *
@@ -41,41 +41,41 @@ object CheckedFile:
   /** As `read`, of a body that makes something and does nothing else: the file is verified while it
     * is read, and what is made of a damaged one is dropped.
     */
-  def make[A](path: Path, mark: String)(body: CheckedInput => A): A =
-    make(FileChannel.open(path, StandardOpenOption.READ), mark)(body)
+  def readOnce[A](path: Path, mark: String)(body: CheckedInput => A): A =
+    readOnce(FileChannel.open(path, StandardOpenOption.READ), mark)(body)
 
-  /** As `make`, of an open file, which is closed. */
-  def make[A](file: => FileChannel, mark: String)(body: CheckedInput => A): A =
+  /** As `readOnce`, of an open file, which is closed. */
+  def readOnce[A](file: => FileChannel, mark: String)(body: CheckedInput => A): A =
     open(file, mark): (channel, in) =>
-      val made =
+      val result =
         try body(in)
         catch
           case NonFatal(e) =>
             verify(channel)
             throw e
       in.verify()
-      made
+      result
 
   private def open[A](file: => FileChannel, mark: String)(
       body: (FileChannel, CheckedInput) => A
   ): A =
     Using.resource(file): channel =>
       Buffers.lend: buffer =>
-        val in = CheckedInput(channel, buffer)
+        val input = CheckedInput(channel, buffer)
         val isMarked =
-          try in.text() == mark
+          try input.text() == mark
           catch case _: EOFException => false
         if !isMarked then throw IOException("its first bytes are wrong")
-        body(channel, in)
+        body(channel, input)
 
   private def verify(channel: FileChannel): Unit = Buffers.lend: buffer =>
     val end = channel.size - Trailer
     val sum = CRC32C()
-    var at = 0L
-    while at < end do
-      buffer.clear().limit(Math.min(buffer.capacity.toLong, end - at).toInt)
-      if channel.read(buffer, at) < 0 then throw EOFException()
-      at += buffer.position()
+    var position = 0L
+    while position < end do
+      buffer.clear().limit(Math.min(buffer.capacity.toLong, end - position).toInt)
+      if channel.read(buffer, position) < 0 then throw EOFException()
+      position += buffer.position()
       sum.update(buffer.flip())
     compare(channel, end, sum)
 
@@ -92,16 +92,16 @@ object CheckedFile:
     * @param ready the buffer, once there is at least one number's room or one number
     * @param move  those from a number on, so many
     */
-  private[candela] def each(count: Int, ready: => ByteBuffer)(
+  private[candela] def transfer(count: Int, ready: => ByteBuffer)(
       move: (ByteBuffer, Int, Int) => Any
   ): Unit =
     var i = 0
     while i < count do
       val buffer = ready
-      val some = Math.min(count - i, buffer.remaining / 4)
-      move(buffer, i, some): Unit
-      buffer.position(buffer.position() + 4 * some)
-      i += some
+      val batch = Math.min(count - i, buffer.remaining / 4)
+      move(buffer, i, batch): Unit
+      buffer.position(buffer.position() + 4 * batch)
+      i += batch
 
   private val Buffers = DirectBuffers(1 << 16)
 
@@ -126,12 +126,12 @@ final class CheckedOutput private[candela] (channel: FileChannel, buffer: ByteBu
   /** The count, and all. */
   def floats(values: Array[Float]): Unit =
     int(values.length)
-    CheckedFile.each(values.length, room(4))(_.asFloatBuffer.put(values, _, _))
+    CheckedFile.transfer(values.length, room(4))(_.asFloatBuffer.put(values, _, _))
 
   /** Likewise. */
   def ints(values: Array[Int]): Unit =
     int(values.length)
-    CheckedFile.each(values.length, room(4))(_.asIntBuffer.put(values, _, _))
+    CheckedFile.transfer(values.length, room(4))(_.asIntBuffer.put(values, _, _))
 
   private def room(bytes: Int): ByteBuffer =
     if buffer.remaining < bytes then flush()
@@ -153,13 +153,13 @@ final class CheckedOutput private[candela] (channel: FileChannel, buffer: ByteBu
 final class CheckedInput private[candela] (channel: FileChannel, buffer: ByteBuffer):
   buffer.flip() // nothing is read yet
   private val end = channel.size - CheckedFile.Trailer
-  private var left = end
+  private var unread = end
   private val sum = CRC32C()
 
-  def int(): Int = take(4).getInt
-  def long(): Long = take(8).getLong
-  def float(): Float = take(4).getFloat
-  def double(): Double = take(8).getDouble
+  def int(): Int = fetch(4).getInt
+  def long(): Long = fetch(8).getLong
+  def float(): Float = fetch(4).getFloat
+  def double(): Double = fetch(8).getDouble
 
   /** The number of values that follow.
     *
@@ -168,40 +168,40 @@ final class CheckedInput private[candela] (channel: FileChannel, buffer: ByteBuf
     */
   def count(bytes: Int): Int =
     val count = int()
-    if count < 0 || count.toLong * bytes > left + buffer.remaining then throw EOFException()
+    if count < 0 || count.toLong * bytes > unread + buffer.remaining then throw EOFException()
     count
 
   /** Numbers that were written together. */
   def floats(): Array[Float] =
     val values = new Array[Float](count(bytes = 4))
-    CheckedFile.each(values.length, take(4))(_.asFloatBuffer.get(values, _, _))
+    CheckedFile.transfer(values.length, fetch(4))(_.asFloatBuffer.get(values, _, _))
     values
 
   /** Likewise. */
   def ints(): Array[Int] =
     val values = new Array[Int](count(bytes = 4))
-    CheckedFile.each(values.length, take(4))(_.asIntBuffer.get(values, _, _))
+    CheckedFile.transfer(values.length, fetch(4))(_.asIntBuffer.get(values, _, _))
     values
 
-  def isAtEnd: Boolean = left <= 0 && !buffer.hasRemaining
+  def isAtEnd: Boolean = unread <= 0 && !buffer.hasRemaining
 
   def text(): String =
     val length = count(bytes = 1)
     val bytes = new Array[Byte](length)
-    for i <- bytes.indices do bytes(i) = take(1).get
+    for i <- bytes.indices do bytes(i) = fetch(1).get
     String(bytes, UTF_8)
 
   /** The buffer, which has so many bytes. */
-  private def take(bytes: Int): ByteBuffer =
+  private def fetch(bytes: Int): ByteBuffer =
     if buffer.remaining < bytes then
       buffer.compact().limit(Math.min(
         buffer.capacity.toLong,
-        buffer.position() + Math.max(0L, left)
+        buffer.position() + Math.max(0L, unread)
       ).toInt)
-      val before = buffer.position()
+      val start = buffer.position()
       while buffer.hasRemaining && channel.read(buffer) >= 0 do ()
-      left -= buffer.position() - before
-      sum.update(buffer.duplicate().flip().position(before))
+      unread -= buffer.position() - start
+      sum.update(buffer.duplicate().flip().position(start))
       buffer.flip()
       if buffer.remaining < bytes then throw EOFException()
     buffer
@@ -211,9 +211,9 @@ final class CheckedInput private[candela] (channel: FileChannel, buffer: ByteBuf
     * @throws IOException if the file is damaged
     */
   private[candela] def verify(): Unit =
-    while left > 0 do
-      val before = left
+    while unread > 0 do
+      val previous = unread
       buffer.position(buffer.limit())
-      take(1): Unit
-      if left == before then throw EOFException()
+      fetch(1): Unit
+      if unread == previous then throw EOFException()
     CheckedFile.compare(channel, end, sum)

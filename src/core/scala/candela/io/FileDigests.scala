@@ -21,26 +21,27 @@ final class FileDigests(files: Option[PartFiles], rest: Long = FileStamp.RestMil
     * @throws java.io.IOException if the file can't be read
     */
   def apply(file: InputFile)(make: => String): String =
-    val place = file.whole
-    val name = place.getFileName.toString
-    val table = folders.computeIfAbsent(place.getParent, f => Table(written(f), isTimed(f)))
-    val before = file.stamp(rest).filter(_ => table.isTimed)
-    val known = before.flatMap(table.find(name, _)).getOrElse:
-      val made = make
-      for stamp <- before if file.stamp(rest).contains(stamp) do table.put(name, stamp, made)
-      made
-    file.note(known)
-    known
+    val path = file.absolutePath
+    val name = path.getFileName.toString
+    val table = folders.computeIfAbsent(path.getParent, f => Table(written(f), isTimed(f)))
+    val initialStamp = file.stamp(rest).filter(_ => table.isTimed)
+    val digest = initialStamp.flatMap(table.lookup(name, _)).getOrElse:
+      val computed = make
+      for stamp <- initialStamp if file.stamp(rest).contains(stamp) do
+        table.record(name, stamp, computed)
+      computed
+    file.note(digest)
+    digest
 
   /** Writes what is new for later processes. */
   def save(): Unit =
     for store <- files do
       folders.forEach: (folder, table) =>
-        for rows <- table.taken() do
+        for rows <- table.drain() do
           // Another may have written some since
-          val all = written(folder) ++ rows
-          val there = all.filter((name, _) => isThere(folder, name))
-          store.write(TableForm, folder.toString, there, isNeeded = false)
+          val merged = written(folder) ++ rows
+          val existing = merged.filter((name, _) => isThere(folder, name))
+          store.write(TableForm, folder.toString, existing, isNeeded = false)
 
   private def written(folder: Path): Rows =
     files.flatMap(_.read(TableForm, folder.toString)).getOrElse(Map.empty)
@@ -61,21 +62,21 @@ object FileDigests:
   /** Stamp and digest of each file, by its name. */
   private[candela] type Rows = Map[String, (FileStamp, String)]
 
-  private final class Table(before: Rows, val isTimed: Boolean):
-    private val rows = ConcurrentHashMap[String, (FileStamp, String)](before.asJava)
+  private final class Table(initial: Rows, val isTimed: Boolean):
+    private val rows = ConcurrentHashMap[String, (FileStamp, String)](initial.asJava)
     private val fresh = ConcurrentHashMap.newKeySet[String]()
     @volatile private var isNew = false
 
-    def find(name: String, stamp: FileStamp): Option[String] =
+    def lookup(name: String, stamp: FileStamp): Option[String] =
       for (same, digest) <- Option(rows.get(name)) if same == stamp yield digest
 
-    def put(name: String, stamp: FileStamp, digest: String): Unit =
+    def record(name: String, stamp: FileStamp, digest: String): Unit =
       rows.put(name, (stamp, digest)): Unit
       fresh.add(name): Unit
       isNew = true
 
     /** Rows that this process has made, if any was made since they were taken last. */
-    def taken(): Option[Rows] = Option.when(isNew):
+    def drain(): Option[Rows] = Option.when(isNew):
       isNew = false
       fresh.asScala.iterator.map(n => n -> rows.get(n)).toMap
 

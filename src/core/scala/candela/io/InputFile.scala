@@ -10,18 +10,18 @@ import java.util.concurrent.TimeUnit.NANOSECONDS
 
 import scala.util.{Try, Using}
 
-/** A file that exists, to be read. What a scene names is opened by its [[SceneFolder]]; `asked` is
+/** A file that exists, to be read. What a scene names is opened by its [[SceneFolder]]; `named` is
   * for what users name.
   *
-  * @param path  as named, for messages
-  * @param place where it is opened
-  * @param gate  counts what is read
-  * @param isShown whether messages may quote it
-  * @param reads receives the digest of what is read
+  * @param path     as named, for messages
+  * @param location where it is opened
+  * @param gate     counts what is read
+  * @param isShown  whether messages may quote it
+  * @param reads    receives the digest of what is read
   */
 final class InputFile private[candela] (
     val path: Path,
-    private val place: Path,
+    private val location: Path,
     gate: Long => Unit,
     mayBePipe: Boolean,
     shown: => Boolean,
@@ -30,22 +30,22 @@ final class InputFile private[candela] (
   lazy val isShown: Boolean = shown
 
   /** A file that has an end: what the kernel makes as it is read might have none. */
-  def isRegular: Boolean = Files.isRegularFile(place) && obstacle.isEmpty
+  def isRegular: Boolean = Files.isRegularFile(location) && obstacle.isEmpty
 
   /** Why it is not to be opened, unless its user named it as a stream. */
-  private[candela] def obstacle: Option[String] = InputFile.obstacle(place)
-  def isFolder: Boolean = Files.isDirectory(place)
+  private[candela] def obstacle: Option[String] = InputFile.obstacle(location)
+  def isFolder: Boolean = Files.isDirectory(location)
 
   /** Whether it is a pipe that may be read, once. */
   def isPipe: Boolean =
-    mayBePipe && Files.exists(place) && InputFile.endless(place).nonEmpty && !isFolder
-  def size: Long = Files.size(place)
-  def isSame(other: InputFile): Boolean = place == other.place || identity == other.identity
+    mayBePipe && Files.exists(location) && InputFile.endless(location).nonEmpty && !isFolder
+  def size: Long = Files.size(location)
+  def isSame(other: InputFile): Boolean = location == other.location || identity == other.identity
 
   /** Which file it is, whatever its name; asked for once. */
   private lazy val identity: AnyRef =
     val key = attributes.fileKey
-    if key != null then key else place.toRealPath()
+    if key != null then key else location.toRealPath()
 
   /** Counts bytes that are unpacked from the file. */
   def unpacks(bytes: Long): Unit = gate(bytes)
@@ -53,9 +53,9 @@ final class InputFile private[candela] (
   /** All bytes. A file of 2 GB or more is an OutOfMemoryError. */
   def bytes(): Array[Byte] =
     gate(Files.size(readable))
-    val all = Files.readAllBytes(readable)
-    if isRegular then note(Sha256.of(ByteBuffer.wrap(all)))
-    all
+    val content = Files.readAllBytes(readable)
+    if isRegular then note(Sha256.of(ByteBuffer.wrap(content)))
+    content
 
   /** The file as Latin-1, in which no byte is wrong. */
   def text(): String = String(bytes(), ISO_8859_1)
@@ -91,9 +91,9 @@ final class InputFile private[candela] (
     * @throws IOException if it can't be read
     */
   def digest(): String =
-    val made = Sha256.ofAll(again())
-    note(made)
-    made
+    val sum = Sha256.ofAll(again())
+    note(sum)
+    sum
 
   /** What is read of its content is what has this digest. */
   private[candela] def note(digest: String): Unit = reads.note(path, digest)
@@ -102,23 +102,23 @@ final class InputFile private[candela] (
     * changed so recently that another change would go unnoticed.
     */
   private[candela] def stamp(rest: Long = FileStamp.RestMillis): Option[FileStamp] =
-    FileStamp.of(place, rest)
+    FileStamp.of(location, rest)
 
   /** Where it is, whatever the user's folder. */
-  private[candela] def whole: Path = place.toAbsolutePath.normalize
+  private[candela] def absolutePath: Path = location.toAbsolutePath.normalize
 
   /** Tells whether the file is surely as it is now. */
   def watch(): () => Boolean =
-    val isTimed = FileDigests.isTimed(whole.getParent)
-    val now = stamp().filter(_ => isTimed)
-    () => now.nonEmpty && stamp() == now
+    val isTimed = FileDigests.isTimed(absolutePath.getParent)
+    val current = stamp().filter(_ => isTimed)
+    () => current.nonEmpty && stamp() == current
 
   /** In memory as the system sees fit. Its whole size is counted. */
   def map(): ByteBuffer = Using.resource(channel()): channel =>
     if channel.size > Int.MaxValue then throw IOException("larger than 2 GB")
-    val all = channel.map(FileChannel.MapMode.READ_ONLY, 0, channel.size)
-    note(Sha256.of(all.duplicate))
-    all
+    val content = channel.map(FileChannel.MapMode.READ_ONLY, 0, channel.size)
+    note(Sha256.of(content.duplicate))
+    content
 
   /** For reading. Its whole size is counted. What is read is not digested: `digest` does that. */
   def channel(): FileChannel =
@@ -139,11 +139,11 @@ final class InputFile private[candela] (
   /** Pipes and devices might never end. */
   private def readable: Path =
     val hindrance =
-      if mayBePipe && !isFolder then InputFile.pointer(place) else obstacle
+      if mayBePipe && !isFolder then InputFile.pointer(location) else obstacle
     for why <- hindrance do throw IOException(why)
-    place
+    location
 
-  private def attributes = Files.readAttributes(place, classOf[BasicFileAttributes])
+  private def attributes = Files.readAttributes(location, classOf[BasicFileAttributes])
 
 object InputFile:
   private val Folder = "it is a folder"
@@ -181,7 +181,7 @@ object InputFile:
   private val KernelFolders = Vector("/proc", "/sys").map(Path.of(_))
 
   /** A file that the user has named. */
-  def asked(path: Path): InputFile = InputFile(path, path, _ => (), mayBePipe = true, shown = true)
+  def named(path: Path): InputFile = InputFile(path, path, _ => (), mayBePipe = true, shown = true)
 
   /** A file that was read before, by its name in messages. */
   def again(name: String): Option[InputFile] =
@@ -205,11 +205,13 @@ private[candela] object FileStamp:
 
   /** @param rest milliseconds since its last change, at least */
   def of(file: Path, rest: Long = RestMillis): Option[FileStamp] = Try:
-    val all = Files.readAttributes(file, "unix:size,lastModifiedTime,ctime,dev,ino")
-    def time(name: String) = all.get(name).asInstanceOf[FileTime]
+    val attributes = Files.readAttributes(file, "unix:size,lastModifiedTime,ctime,dev,ino")
+    def time(name: String) = attributes.get(name).asInstanceOf[FileTime]
     val times = Seq("lastModifiedTime", "ctime").map(time(_).to(NANOSECONDS))
     val stamp =
-      FileStamp((all.get("size") +: times :+ all.get("dev") :+ all.get("ino")).mkString(" "))
+      FileStamp((attributes.get("size") +: times :+ attributes.get("dev") :+ attributes.get(
+        "ino"
+      )).mkString(" "))
     Option.when(System.currentTimeMillis - time("ctime").toMillis >= rest)(stamp)
   .toOption.flatten
 

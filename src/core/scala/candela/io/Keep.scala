@@ -24,7 +24,7 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles], rest
   def isFiled: Boolean = files.nonEmpty
 
   /** Begins another scene. */
-  def begin(): Unit =
+  def startScene(): Unit =
     val latest = scenes.incrementAndGet()
     val _ = things.values.removeIf(k => k.isGone || k.last < latest - 1)
 
@@ -36,12 +36,12 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles], rest
     if !isKeeping then make
     else
       val name = key
-      find(shelf, name).getOrElse:
-        val made = make
-        put(shelf, name, made)
-        made
+      lookup(shelf, name).getOrElse:
+        val created = make
+        insert(shelf, name, created)
+        created
 
-  def find[A <: AnyRef](shelf: Shelf[A], key: String): Option[A] =
+  def lookup[A <: AnyRef](shelf: Shelf[A], key: String): Option[A] =
     remembered(shelf, key).orElse:
       for
         store <- files; form <- shelf.form
@@ -53,15 +53,15 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles], rest
   private def remembered[A <: AnyRef](shelf: Shelf[A], key: String): Option[A] =
     Option(things.get((shelf, key))).flatMap: kept =>
       kept.last = scenes.get
-      Option(kept.thing.get).map(_.asInstanceOf[A]) // what was put on this shelf
+      Option(kept.value.get).map(_.asInstanceOf[A]) // what was put on this shelf
 
-  private def remember[A <: AnyRef](shelf: Shelf[A], key: String, thing: A): Unit =
-    things.put((shelf, key), Kept(SoftReference(thing), scenes.get)): Unit
+  private def remember[A <: AnyRef](shelf: Shelf[A], key: String, value: A): Unit =
+    things.put((shelf, key), Kept(SoftReference(value), scenes.get)): Unit
 
-  def put[A <: AnyRef](shelf: Shelf[A], key: String, thing: A): Unit =
+  def insert[A <: AnyRef](shelf: Shelf[A], key: String, value: A): Unit =
     if isKeeping then
-      remember(shelf, key, thing)
-      for store <- files; form <- shelf.form do store.write(form, key, thing)
+      remember(shelf, key, value)
+      for store <- files; form <- shelf.form do store.write(form, key, value)
 
   /** Writes to files what is known of the scene's files.
     *
@@ -78,14 +78,14 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles], rest
   def ofFile[A <: AnyRef](shelf: Shelf[A], file: InputFile, way: String)(
       make: => A
   ): (A, Option[String]) =
-    val before = content(file)
-    before.flatMap(digest => find(shelf, s"$digest $way")) match
-      case Some(known) => (known, before)
+    val initialDigest = content(file)
+    initialDigest.flatMap(digest => lookup(shelf, s"$digest $way")) match
+      case Some(known) => (known, initialDigest)
       case None =>
-        val made = make
-        val same = before.filter(_ => content(file) == before)
-        for digest <- same do put(shelf, s"$digest $way", made)
-        (made, same)
+        val created = make
+        val stableDigest = initialDigest.filter(_ => content(file) == initialDigest)
+        for digest <- stableDigest do insert(shelf, s"$digest $way", created)
+        (created, stableDigest)
 
   /** None also of a file that can't be read, which its reader will say. */
   private def content(file: InputFile): Option[String] =
@@ -116,5 +116,5 @@ object Keep:
   final class Shelf[A <: AnyRef](val form: Option[PartForm[A]] = None)
 
   /** @param last the scene that used it last */
-  private final class Kept(val thing: SoftReference[AnyRef], @volatile var last: Int):
-    def isGone: Boolean = thing.get == null
+  private final class Kept(val value: SoftReference[AnyRef], @volatile var last: Int):
+    def isGone: Boolean = value.get == null

@@ -24,20 +24,20 @@ final class PartFiles(folder: CacheFolder):
 
   /** Why files can't be written, if that was not told before. */
   def trouble(): Option[String] = synchronized:
-    val now = obstacle.filterNot(_ => isTold)
-    if now.nonEmpty then isTold = true
-    now
+    val message = obstacle.filterNot(_ => isTold)
+    if message.nonEmpty then isTold = true
+    message
 
   /** The value in the file of this key; None if the file is missing or damaged. */
   def read[A](form: PartForm[A], key: String): Option[A] =
     val file = folder.file(mark(form, key), form.suffix)
     try
-      val found = CheckedFile.make(folder.open(file), mark(form, key)): in =>
-        val made = form.read(in)
+      val value = CheckedFile.readOnce(folder.open(file), mark(form, key)): in =>
+        val parsed = form.read(in)
         if !in.isAtEnd then throw IOException("it has surplus data")
-        made
-      folder.use(file)
-      Some(found)
+        parsed
+      folder.touch(file)
+      Some(value)
     catch case _: IOException => None
 
   /** Writes the file of a key, if the thing is large enough. After a failure nothing is written.

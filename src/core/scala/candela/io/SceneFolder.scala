@@ -25,7 +25,7 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
 
   /** The scene file itself, which the user has named: a pipe, too, unless it is confined. */
   def scene(file: Path): InputFile =
-    if !isConfined then guard.asked(file)
+    if !isConfined then guard.named(file)
     else
       guard.open(file, None).filter(_.isRegular).getOrElse:
         throw Refusal(
@@ -40,24 +40,24 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
     * @param at where the scene names it
     * @throws Refusal if the scene may not read it, whether it exists or not
     */
-  def find(
+  def locate(
       name: String,
       at: Option[SourcePos],
       folders: Seq[Path] = Vector(path)
-  ): Option[InputFile] = all(folders, name, at).find(_.isRegular)
+  ): Option[InputFile] = candidates(folders, name, at).find(_.isRegular)
 
   /** The file of this name in the first of several folders, regular or not. */
   def existing(folders: Seq[Path], name: String, at: Option[SourcePos]): Option[InputFile] =
-    all(folders, name, at).nextOption()
+    candidates(folders, name, at).nextOption()
 
-  private def all(folders: Seq[Path], name: String, at: Option[SourcePos]) =
+  private def candidates(folders: Seq[Path], name: String, at: Option[SourcePos]) =
     folders.iterator.flatMap(SceneFolder.resolved(_, name)).flatMap(guard.open(_, at))
 
-  /** As `find`, but without counting; files that the scene may not read are absent. */
+  /** As `locate`, but without counting; files that the scene may not read are absent. */
   def belonging(name: String): Option[Path] =
     SceneFolder.resolved(path, name).filter(guard.mayOpen).filter(Files.isRegularFile(_))
 
-  /** Message and help if `find` has no result.
+  /** Message and help if `locate` has no result.
     *
     * @param nothing message if no file has this name
     */
@@ -73,9 +73,9 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
 
   /** As `belonging`, for a look without counting. */
   def glance(name: String): Option[InputFile] =
-    belonging(name).flatMap(_ => find(name, None))
+    belonging(name).flatMap(_ => locate(name, None))
 
-  /** A similar name in the folder, after `find` has found nothing. */
+  /** A similar name in the folder, after `locate` has found nothing. */
   def suggestion(name: String): Option[String] =
     SceneFolder.resolved(path, name).flatMap(p => Suggest.file(p, guard.namesBeside(p)))
 
@@ -106,7 +106,7 @@ object SceneFolder:
     new SceneFolder(folder, FileGuard(folder, isConfined, allowance))
 
   /** A name like that of a missing file or folder, beside where it was looked for. */
-  def near(path: Path): Option[String] =
+  def suggestionFor(path: Path): Option[String] =
     Option(path.getFileName).flatMap(name => of(path).suggestion(name.toString))
 
   /** Of statements that name no files. */
@@ -132,21 +132,21 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
 
   /** The file, if it exists; a folder or a pipe, too. */
   def open(path: Path, at: Option[SourcePos]): Option[InputFile] =
-    val place = if isConfined then inside(path).getOrElse(throw outside(path, at)) else path
-    Option.when(Files.exists(place)):
-      if isConfined && !Files.isRegularFile(place) && !Files.isDirectory(place) then
+    val location = if isConfined then inside(path).getOrElse(throw outside(path, at)) else path
+    Option.when(Files.exists(location)):
+      if isConfined && !Files.isRegularFile(location) && !Files.isDirectory(location) then
         throw Refusal(
           Code.Sandboxed,
           at,
           s"expected a regular file, found a pipe or a device: `$path`",
           "--sandbox reads regular files only"
         )
-      allowance.countFile(place, at)
+      allowance.countFile(location, at)
       def gate(count: Long) = allowance.countBytes(count, path, at)
-      InputFile(path, place, gate, mayBePipe = false, shown = isInside(path), reads)
+      InputFile(path, location, gate, mayBePipe = false, shown = isInside(path), reads)
 
   /** A file that the user has named, of any kind. */
-  def asked(path: Path): InputFile =
+  def named(path: Path): InputFile =
     InputFile(
       path,
       path,
@@ -158,9 +158,9 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
 
   private def outside(path: Path, at: Option[SourcePos]): Refusal =
     val isLink = path.toAbsolutePath.normalize.startsWith(root.toAbsolutePath.normalize)
-    val what =
+    val description =
       if isLink then s"`$path`, a link that leads out of it or nowhere" else s"`$path`"
-    Refusal(Code.Sandboxed, at, s"expected a file in the scene's folder, found $what", Help)
+    Refusal(Code.Sandboxed, at, s"expected a file in the scene's folder, found $description", Help)
 
   private val Help = "--sandbox lets scenes read the files of their own folder only"
 
@@ -176,23 +176,24 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
       .fold(Vector.empty)(listed.computeIfAbsent(_, list(_).getOrElse(Vector.empty)))
 
   /** Remembered, as files may be opened as often as scenes include them. */
-  private val known = ConcurrentHashMap[Path, Boolean]()
-  private def isInside(path: Path) = known.computeIfAbsent(path, inside(_).nonEmpty)
+  private val insideCache = ConcurrentHashMap[Path, Boolean]()
+  private def isInside(path: Path) = insideCache.computeIfAbsent(path, inside(_).nonEmpty)
 
   /** The real path of a file that may not exist yet; None if it is outside of the folder. */
   private def inside(path: Path): Option[Path] =
     val absolute = path.toAbsolutePath
-    val parts = absolute.getNameCount
+    val nameCount = absolute.getNameCount
     val parents = Iterator.iterate(absolute)(_.getParent).takeWhile(_ != null)
     for
       root <- realRoot
-      there <- parents.find(Files.exists(_, LinkOption.NOFOLLOW_LINKS))
-      real <- Try(there.toRealPath()).toOption // not of links that lead nowhere
-      rest = parts - there.getNameCount
-      whole =
-        if rest == 0 then real else real.resolve(absolute.subpath(parts - rest, parts)).normalize
-      if whole.startsWith(root)
-    yield whole
+      ancestor <- parents.find(Files.exists(_, LinkOption.NOFOLLOW_LINKS))
+      real <- Try(ancestor.toRealPath()).toOption // not of links that lead nowhere
+      tailCount = nameCount - ancestor.getNameCount
+      target =
+        if tailCount == 0 then real
+        else real.resolve(absolute.subpath(nameCount - tailCount, nameCount)).normalize
+      if target.startsWith(root)
+    yield target
 
 private object FileGuard:
   private val MostNames = 10_000

@@ -32,7 +32,7 @@ object Scratch:
   private val Doubt = 3_600_000L
 
   /** @throws java.io.IOException if no folder can be made */
-  def make(): Scratch =
+  def create(): Scratch =
     val folder = Files.createTempDirectory(OwnPrefix)
     val lock = FileChannel.open(folder.resolve(LockName), CREATE_NEW, WRITE)
     val _ = Try(lock.tryLock())
@@ -62,6 +62,6 @@ object Scratch:
   /** Deletes links without following them. */
   private def delete(folder: Path, keepsLock: Boolean): Unit =
     val _ = Try:
-      val all = Using.resource(Files.walk(folder))(_.iterator.asScala.toVector)
+      val paths = Using.resource(Files.walk(folder))(_.iterator.asScala.toVector)
       def isKept(file: Path) = keepsLock && (file == folder || file == folder.resolve(LockName))
-      for file <- all.reverse if !isKept(file) do Files.deleteIfExists(file): Unit
+      for file <- paths.reverse if !isKept(file) do Files.deleteIfExists(file): Unit

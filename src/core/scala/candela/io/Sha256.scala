@@ -54,10 +54,10 @@ object Sha256:
         p.copy(from = i, until = Math.min(i + Piece, p.until))
       )
     val sums = parallel.map(pieces.size)(i => start().digest(pieces(i).bytes))
-    val all = start()
-    for p <- parts do all.update(ByteBuffer.allocate(4).putInt(p.until - p.from).flip())
-    sums.foreach(all.update)
-    all.digest()
+    val combined = start()
+    for p <- parts do combined.update(ByteBuffer.allocate(4).putInt(p.until - p.from).flip())
+    sums.foreach(combined.update)
+    combined.digest()
 
   def hex(digest: Array[Byte]): String = HexFormat.of.formatHex(digest)
 

@@ -14,8 +14,8 @@ import scala.annotation.tailrec
 import scala.util.Try
 
 /** A file that can't be written; the message names it. */
-final class WriteError(path: Path, val why: String)
-    extends IOException(s"can't write `$path`: $why")
+final class WriteError(path: Path, val reason: String)
+    extends IOException(s"can't write `$path`: $reason")
 
 /** Writes every file that the program makes: a file is complete or as it was before, even if the
   * program is killed or the disk is full.
@@ -48,7 +48,7 @@ object WholeFile:
     val next = NextFile.of(path, followsLinks)
     try
       next.write(body)
-      if isForced then next.commit() else next.place()
+      if isForced then next.commit() else next.replace()
     finally next.close()
 
   /** Why the file can't be written, as far as it can be told without writing. */
@@ -113,7 +113,7 @@ object WholeFile:
 
   /** The reason of a failure, without the file name. */
   def reason(e: IOException): String = e match
-    case w: WriteError => w.why
+    case w: WriteError => w.reason
     case _: AccessDeniedException => "no write permission"
     case _: NoSuchFileException => "no such folder"
     case f: FileSystemException if f.getReason != null => f.getReason
@@ -140,7 +140,7 @@ final class NextFile private (
   def commit(before: => Unit = ()): Unit = named:
     if target.nonEmpty then channel.force(true)
     before
-    place()
+    replace()
     for file <- target do
       // The folder's entry, where the system can force it to the device
       val _ = Try:
@@ -149,7 +149,7 @@ final class NextFile private (
         finally folder.close()
 
   /** Replaces the file. */
-  private[candela] def place(): Unit = named:
+  private[candela] def replace(): Unit = named:
     // Still locked: no other run takes it for a left one
     for file <- target do NextFile.move(temporary, file)
 

@@ -12,10 +12,10 @@ final class Denoising(denoiser: Oidn, threads: Int):
 
   /** The image with a layer of denoised colours behind the others. */
   def apply(image: Image): Image =
-    def found(layer: Layer) =
+    def guide(layer: Layer) =
       image.indicesOf(layer.channels).map(image.selected)
     val noisy = image.selected(image.colorChannels)
-    val (albedo, normal) = (found(Layer.DenoisingAlbedo), found(Layer.DenoisingNormal))
+    val (albedo, normal) = (guide(Layer.DenoisingAlbedo), guide(Layer.DenoisingNormal))
     val colors = denoiser.denoise(noisy, albedo, normal, threads)
     val names = image.channelNames ++ Channels
     val data = new Array[Float](names.size * image.width * image.height)
@@ -39,5 +39,5 @@ object Denoising:
   val Channels: Vector[String] = Vector("Denoised.R", "Denoised.G", "Denoised.B")
 
   /** What pictures show: the denoised colours, if there are any. */
-  def shown(image: Image): Image =
+  def displayed(image: Image): Image =
     image.indicesOf(Channels).fold(image)(image.selected)

@@ -15,7 +15,7 @@ object EmptyImage:
   def foreseen(plan: RenderPlan): Option[Problem] =
     for
       survey <- ViewSurvey.of(plan)
-      seen = survey.seen
+      seen = survey.firstSurfaces
       if plan.lights > 0 && seen.rays > 0
       why <-
         if seen.isNothing then Some(s"$Past, and no light is there")
@@ -42,21 +42,21 @@ object EmptyImage:
     val plan = prepared.plan
     val isPreview = prepared.settings.preview
     val colors = Colors(image)
-    val told =
+    val finding =
       if rendering.samplesDone == 0 || colors.pixels < MinPixels then None
       else if colors.isMostly(colors.broken) then
         Some(s"${share(colors.broken, colors)} of the pixels are NaN" -> developed(rendering))
       else if colors.black == colors.pixels then
         Option.unless(isForeseen)("the image is black" -> s": ${whyBlack(plan)}")
       else if colors.isMostly(colors.negative) then
-        val what = s"${share(colors.negative, colors)} of the pixels have negative values"
-        Some(what -> developed(rendering))
+        val message = s"${share(colors.negative, colors)} of the pixels have negative values"
+        Some(message -> developed(rendering))
       // The headlight of a preview shades a wall so
       else if colors.isUniform && plan.sight.isDefined && (!isPreview || sameness(plan).nonEmpty)
       then
         Option.unless(isForeseen)("all pixels have the same colour" -> sameness(plan))
       else None
-    told.map: (what, why) =>
+    finding.map: (what, why) =>
       val preview = if isPreview then "" else "`candela preview` shows the surfaces in view, and "
       val help = s"$preview--pixelmaterial x,y prints what a pixel shows"
       warning(Code.EmptyImage, plan, what + why, help)
@@ -68,18 +68,19 @@ object EmptyImage:
 
   /** At the nearest surface, or at the camera that sees none. */
   private def warning(code: Code, plan: RenderPlan, message: String, help: String): Problem =
-    val at = plan.sight.flatMap: sight =>
-      ViewSurvey(plan, sight).seen.statement.orElse(sight.camera)
+    val pos = plan.sight.flatMap: sight =>
+      ViewSurvey(plan, sight).firstSurfaces.statement.orElse(sight.camera)
     Excerpts.fill(Vector(Problem(
-      code, Severity.Warning, at.flatMap(_.known), message, Some(help)
+      code, Severity.Warning, pos.flatMap(_.toOption), message, Some(help)
     ))).head
 
   private def whyBlack(plan: RenderPlan): String =
     if plan.lights == 0 then "the scene has no light"
     else
-      ViewSurvey.of(plan).map(_.seen).filter(_.rays > 0).fold("no sample has light"): seen =>
-        if seen.isNothing then Past
-        else s"no light comes from the surfaces that the camera sees: ${nearest(seen)}"
+      ViewSurvey.of(plan).map(_.firstSurfaces).filter(_.rays > 0).fold("no sample has light"):
+        seen =>
+          if seen.isNothing then Past
+          else s"no light comes from the surfaces that the camera sees: ${nearest(seen)}"
 
   private def nearest(seen: FirstSurfaces): String =
     "the nearest is at distance %.3g".formatLocal(Locale.ROOT, seen.distance)
@@ -91,7 +92,7 @@ object EmptyImage:
     else "; the light is not: the film's sensor, white balance or scale makes them so"
 
   private def sameness(plan: RenderPlan): String =
-    ViewSurvey.of(plan).map(_.seen).filter(_.isNothing)
+    ViewSurvey.of(plan).map(_.firstSurfaces).filter(_.isNothing)
       .fold("")(_ => s": $Past")
 
   private def share(count: Int, of: Colors): String =

@@ -33,7 +33,7 @@ class ErrorRecorder(
     */
   def squares(samples: Double): Option[Array[Float]] = scatter.squares(samples)
 
-  override def looks: Looks = if reference.isEmpty then estimates else Looks.Doublings
+  override def frequency: Looks = if reference.isEmpty then estimates else Looks.Doublings
 
   override def begins(samples: Int, film: Film): Unit =
     if reference.isEmpty && samples > 0 then

@@ -32,7 +32,7 @@ object FilmHeaders:
     FilmHeader(
       Version.build,
       scene,
-      relative(film.toAbsolutePath.getParent, here).toString,
+      relative(film.toAbsolutePath.getParent, workingFolder).toString,
       SettingsCodec.identity(settings),
       files.map(_.toString),
       digests(prepared.description) ++ names(plan),
@@ -55,7 +55,7 @@ object FilmHeaders:
         val message = s"the film of `${header.scene}` has invalid settings: $why"
         throw SceneError(Problem.general(Code.OtherRendering, message))
 
-  private def here: Path = Path.of("").toAbsolutePath
+  private def workingFolder: Path = Path.of("").toAbsolutePath
 
   /** `to` relative to `from`, or as it is on another drive. */
   private def relative(from: Path, to: Path): Path = Try(from.relativize(to)).getOrElse(to)

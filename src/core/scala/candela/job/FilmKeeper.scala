@@ -72,13 +72,13 @@ object FilmKeeper:
     * @throws SceneError if the file is of another rendering
     */
   def of(path: Path, now: FilmHeader, plan: RenderPlan, how: How)(lock: => FilmLock): FilmKeeper =
-    val taken = lock
+    val heldLock = lock
     try
       val start = existing(path, now, how.warn)
-      FilmKeeper(path, now, start, now.obstacle(plan).isEmpty, Some(taken), how)
+      FilmKeeper(path, now, start, now.obstacle(plan).isEmpty, Some(heldLock), how)
     catch
       case e: Throwable =>
-        taken.close()
+        heldLock.close()
         throw e
 
   /** The film of a saved rendering that goes on, and whose file is locked already.
@@ -93,11 +93,11 @@ object FilmKeeper:
   /** @throws SceneError if another rendering writes this film file, or none can */
   def locked(path: Path): FilmLock =
     val lock =
-      try FilmLock.take(path)
+      try FilmLock.acquire(path)
       catch
         case e: IOException =>
-          val why = WholeFile.reason(e)
-          fail(Code.Unwritable, s"can't write `$path`: $why", "choose another file")
+          val reason = WholeFile.reason(e)
+          fail(Code.Unwritable, s"can't write `$path`: $reason", "choose another file")
     lock.getOrElse:
       fail(
         Code.FilmInUse,
@@ -168,7 +168,7 @@ object FilmKeeper:
       for difference <- now.difference(film.header) do
         fail(Code.OtherRendering, s"`$path` belongs to another rendering: $difference", Remove)
       if film.header.shards != now.shards then
-        fail(Code.OtherRendering, s"`$path` belongs to another shard: ${film.header.part}", Remove)
+        fail(Code.OtherRendering, s"`$path` belongs to another shard: ${film.header.label}", Remove)
       film
 
   private val Remove = "remove it, or name another file"

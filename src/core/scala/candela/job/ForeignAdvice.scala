@@ -15,19 +15,19 @@ private[job] object ForeignAdvice:
   /** The problem if a file of another kind was given as a scene. */
   def problem(file: Path): Option[Problem] =
     // A pipe can be read only once
-    Option.when(Files.isRegularFile(file))(Source.read(InputFile.asked(file)))
+    Option.when(Files.isRegularFile(file))(Source.read(InputFile.named(file)))
       .flatMap(_.toOption).flatMap(problem(file, _))
 
   private def problem(file: Path, source: Source): Option[Problem] =
     try
       source.foreign(file) match
         case Some(found) =>
-          val what = s"`$file` is ${found.what}, not a scene"
-          Some(Problem.general(Code.NoScene, what, advice(found.kind, file)))
+          val message = s"`$file` is ${found.what}, not a scene"
+          Some(Problem.general(Code.NoScene, message, advice(found.kind, file)))
         case None =>
           Option.when(SceneFormat.named(file).isEmpty && !mayBeOurs(source)):
-            val what = s"`$file` is not a scene: its first word is not a pbrt directive"
-            Problem.general(Code.NoScene, what, Some(Formats))
+            val message = s"`$file` is not a scene: its first word is not a pbrt directive"
+            Problem.general(Code.NoScene, message, Some(Formats))
     finally source.close()
 
   /** Whether a text begins with a directive, though a mistyped one; or has nothing to tell by. */

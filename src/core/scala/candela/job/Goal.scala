@@ -19,18 +19,18 @@ final class Goal(
     isWhole: Boolean = false
 ) extends StoppingRule:
   private var hasReached = false
-  private var seen, step, parts = 0
-  private var now, perSample = 0.0
+  private var samplesDone, step, passCount = 0
+  private var elapsed, perSample = 0.0
 
   /** Samples per pixel at which the latest estimate expects the error to be low enough. */
   private var end = Option.empty[Int]
   private var expected = Option.empty[SampleRange]
 
   override def isReached: Boolean = hasReached
-  def looks: Looks = if options.isGiven then Looks.Waves else recorder.looks
+  def frequency: Looks = if options.isGiven then Looks.Waves else recorder.frequency
 
   override def begins(samples: Int, film: Film): Unit =
-    seen = samples
+    samplesDone = samples
     step = 1
     recorder.begins(samples, film)
 
@@ -46,17 +46,17 @@ final class Goal(
     if pass.isWhole then
       recorder.passed(watched, film)
       val samples = options.error.flatMap(recorder.samplesUntil)
-      end = samples.map(s => Goal.whole(s.estimate))
+      end = samples.map(s => Goal.roundedUp(s.estimate))
       expected = samples.flatMap(Goal.range)
     if end.exists(_ <= pass.samples) || pass.isLast && isLow(pass.samples) then hasReached = true
-    val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - seen)
+    val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - samplesDone)
     // The first ones are slow: the JVM compiles meanwhile
-    perSample = measured * Goal.Warm(Math.min(parts, Goal.Warm.size - 1))
-    parts += 1
-    seen = pass.samples
+    perSample = measured * Goal.Warm(Math.min(passCount, Goal.Warm.size - 1))
+    passCount += 1
+    samplesDone = pass.samples
     step = pass.step
-    now = clock
-    if options.time.exists(t => !isWorthMore(t - now)) then hasReached = true
+    elapsed = clock
+    if options.time.exists(t => !isWorthMore(t - elapsed)) then hasReached = true
     if hasReached && !pass.isWhole then recorder.passed(watched.copy(isLast = true), film)
 
   /** Whether the error is low enough, though all samples are taken before the next look. */
@@ -65,23 +65,24 @@ final class Goal(
       options.error.exists(most => recorder.errorAt(samples).exists(_ <= most))
 
   /** Whether the shortest part that there is ends nearer to the time than now, and not late. */
-  private def isWorthMore(left: Double): Boolean =
-    left > step * perSample / 2 && step * perSample - left <= Goal.MaxLateSeconds
+  private def isWorthMore(remaining: Double): Boolean =
+    remaining > step * perSample / 2 && step * perSample - remaining <= Goal.MaxLateSeconds
 
   /** As many samples as the error needs, or end in time. */
   override def maxSamples: Int =
     val inTime = options.time.filter(_ => perSample > 0).fold(Int.MaxValue): t =>
-      val left = t - now
-      val fits = Math.min(left / perSample + 0.5, (left + Goal.MaxLateSeconds) / perSample)
+      val remaining = t - elapsed
+      val fits =
+        Math.min(remaining / perSample + 0.5, (remaining + Goal.MaxLateSeconds) / perSample)
       Math.max(1, Math.min(fits, Int.MaxValue)).toInt
-    end.fold(inTime)(samples => Math.min(inTime, Math.max(1, samples - seen)))
+    end.fold(inTime)(samples => Math.min(inTime, Math.max(1, samples - samplesDone)))
 
   /** At the time, if the rendering may end anywhere, or no sample ends any more; or else soon
     * after, if the samples take longer than expected.
     */
   override def isOver(seconds: Double, idleSeconds: Double): Boolean =
     val late = if step == 0 || idleSeconds > Goal.MaxIdleSeconds then 0 else Goal.MaxLateSeconds
-    val mayEnd = !isWhole || seen > 0
+    val mayEnd = !isWhole || samplesDone > 0
     if mayEnd && options.time.exists(_ + late <= seconds) then hasReached = true
     hasReached
 
@@ -116,10 +117,10 @@ object Goal:
   /** The samples with which a goal may be reached, if they are known. */
   private[candela] def range(samples: Interval): Option[SampleRange] =
     Option.when(samples.isKnown)(SampleRange(
-      whole(samples.estimate),
-      whole(samples.low),
-      whole(samples.high)
+      roundedUp(samples.estimate),
+      roundedUp(samples.low),
+      roundedUp(samples.high)
     ))
 
-  private[candela] def whole(samples: Double): Int =
+  private[candela] def roundedUp(samples: Double): Int =
     Math.max(MinSamples, Math.min(Math.ceil(samples), Int.MaxValue).toInt)

@@ -33,8 +33,8 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
       denoiser: Option[String] = None
   ): Unit =
     val alpha = ImageFile.alpha(plan, image)
-    val about = facts ++ more ++ taken(rendering) ++ ImageFile.bias(plan, rendering, denoiser)
-    val how = WriteOptions(
+    val about = facts ++ more ++ sampleFacts(rendering) ++ ImageFile.bias(plan, rendering, denoiser)
+    val writeOptions = WriteOptions(
       plan.development.isHalf,
       precisions,
       output.display,
@@ -45,7 +45,7 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
     val (written, last) = ImageFile.picture(path, image, alpha) match
       case Some(picture) => (picture, output.display.describe(picture))
       case None => (image, plan.layers.fold(Vector.empty)(_.metadata(image)))
-    ImageFiles.write(path, written, about ++ last, how)
+    ImageFiles.write(path, written, about ++ last, writeOptions)
 
   /** Writes a mean of renderings with its error, in the precision of its values.
     *
@@ -58,8 +58,8 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
       rendering: Rendering,
       more: Vector[(String, String)]
   ): Unit =
-    val how = WriteOptions(window = window, pool = prepared.pool)
-    ImageFiles.write(path, image, facts ++ taken(rendering) ++ more, how)
+    val writeOptions = WriteOptions(window = window, pool = prepared.pool)
+    ImageFiles.write(path, image, facts ++ sampleFacts(rendering) ++ more, writeOptions)
 
   /** What does not depend on the samples. */
   private def facts: Vector[(String, String)] =
@@ -76,7 +76,7 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
       plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata)
 
   /** Which samples the image has. */
-  private def taken(rendering: Rendering): Vector[(String, String)] =
+  private def sampleFacts(rendering: Rendering): Vector[(String, String)] =
     val time = Option.when(output.storeTime):
       "renderSeconds" -> ImageFile.hundredths(rendering.seconds)
     // Those of earlier runs took no part of the time
@@ -86,14 +86,14 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
 
   /** Channels whose layers have another precision than the image: whether it is half. */
   private def precisions: Map[String, Boolean] =
-    val all =
+    val channelPrecisions =
       for
         layers <- plan.layers.toVector
         own = layers.layers.filter(_.needsFloat).map(_ -> false)
         (layer, isHalf) <- own ++ output.precisions
         channel <- layers.channels(layer)
       yield channel -> isHalf
-    all.toMap
+    channelPrecisions.toMap
 
   private def isCropped: Boolean = plan.crop != PixelBounds(0, 0, plan.width, plan.height)
 
@@ -107,14 +107,14 @@ object ImageFile:
 
   /** The opacity of each pixel, if it is a layer. */
   private def alpha(plan: RenderPlan, image: Image): Option[Array[Float]] =
-    val at = image.channelNames.indexOf("A")
-    Option.when(at >= 0 && plan.layers.exists(_.layers.contains(Layer.Alpha))):
-      Array.tabulate(image.width * image.height)(i => image.data(i * image.channels + at))
+    val channel = image.channelNames.indexOf("A")
+    Option.when(channel >= 0 && plan.layers.exists(_.layers.contains(Layer.Alpha))):
+      Array.tabulate(image.width * image.height)(i => image.data(i * image.channels + channel))
 
   /** What a display format shows, its colours divided by alpha if it keeps that. */
   private def picture(path: Path, image: Image, alpha: Option[Array[Float]]): Option[Image] =
     for format <- OutputFormat.of(path) if format.contents == Contents.Display yield
-      val opaque = Denoising.shown(image)
+      val opaque = Denoising.displayed(image)
       alpha.filter(_ => format.keepsAlpha).fold(opaque)(ImageEdits.divided(opaque, _))
 
   /** What makes the image biased: what was done, and the channels that it biased. */
@@ -136,8 +136,8 @@ object ImageFile:
   def fireflies(plan: RenderPlan, rendering: Rendering): Option[String] = plan.fireflies match
     case Fireflies.Kept => None
     case Fireflies.Reweighted =>
-      val lost = hundredths(100 * rendering.film.leftOut)
-      Some(s"re-weighted (Zirr, Hanika, Dachsbacher 2018), $lost % of the light left out")
+      val lossPercent = hundredths(100 * rendering.film.leftOut)
+      Some(s"re-weighted (Zirr, Hanika, Dachsbacher 2018), $lossPercent % of the light left out")
     case Fireflies.Clamped(most) => Some(s"indirect light of samples limited to $most")
 
   private def hundredths(value: Double): String = "%.2f".formatLocal(Locale.ROOT, value)

@@ -45,13 +45,13 @@ final case class Prepared(
     * @param header of the whole
     */
   def shard(header: FilmHeader, to: Path, control: RenderControl): Rendering =
-    val part = control.shard
+    val assigned = control.shard
     val keeper = new Checkpointer:
       def restore(state: RenderState): Unit = ()
       def isDue: Boolean = false
       def save(state: RenderState): Unit =
-        Prepared.write(header.of(Set(part.index), part.count, state), state, to)
-      def lose(): Unit = ()
+        Prepared.write(header.of(Set(assigned.index), assigned.count, state), state, to)
+      def discard(): Unit = ()
       def finish(): Unit = ()
     Render.render(this, control.copy(checkpointer = Some(keeper)))
 

@@ -33,7 +33,7 @@ final class ReferenceFile(path: Path, of: RenderSettings, scene: String, perRun:
     */
   def start(prepared: Prepared): Option[ReferenceMean] =
     Option.when(Files.exists(path)):
-      def other(what: String) =
+      def mismatch(what: String) =
         val help = "name another file with --outfile, or remove it"
         SceneError(Problem.general(Code.OtherRendering, s"`$path` $what", Some(help)))
       val (stored, facts) =
@@ -41,17 +41,18 @@ final class ReferenceFile(path: Path, of: RenderSettings, scene: String, perRun:
         catch case e: ImageError => throw SceneError(Problem.general(e.code, e.getMessage))
       val runs = facts.get(Runs).flatMap(_.toIntOption)
       val mean = runs.flatMap(ReferenceMean.of(stored, _))
-      val found = mean.getOrElse(throw other("is an image, not a reference that can be continued"))
+      val existing =
+        mean.getOrElse(throw mismatch("is an image, not a reference that can be continued"))
       if !facts.get(Identity).contains(identity(prepared)) then
-        throw other("is a reference of another scene, other options or another version")
-      found
+        throw mismatch("is a reference of another scene, other options or another version")
+      existing
 
   /** Writes the file, whole or not at all.
     *
     * @param last the last run
     */
   def write(mean: ReferenceMean, prepared: Prepared, last: Rendering): Unit =
-    val own =
+    val errorFact =
       mean.relativeError.map("relativeError" -> "%.6g".formatLocal(java.util.Locale.ROOT, _))
     val seeds = s"${settings(0).seed} to ${settings(mean.runs - 1).seed}"
     val about = Vector(
@@ -60,9 +61,9 @@ final class ReferenceFile(path: Path, of: RenderSettings, scene: String, perRun:
       "seeds" -> seeds,
       Correlation -> correlation(prepared).toString,
       Identity -> identity(prepared)
-    ) ++ own
-    val whole = last.copy(samplesDone = mean.runs * perRun)
-    ImageFile(settings(0), scene, prepared).writeReference(path, mean.stored, whole, about)
+    ) ++ errorFact
+    val combined = last.copy(samplesDone = mean.runs * perRun)
+    ImageFile(settings(0), scene, prepared).writeReference(path, mean.stored, combined, about)
 
   /** Pixels that share samples are alike. */
   private def correlation(prepared: Prepared): Double =

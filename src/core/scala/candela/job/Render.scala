@@ -63,15 +63,17 @@ object Render:
     val pool = ThreadPool(control.threads, worksAside = control.isRendered)
     try
       val limited = control.limited
-      limited.cache.begin()
+      limited.cache.startScene()
       val ((plan, warnings), seconds) = timed:
         val (plan, warnings) = SceneBuilder.build(description, settings, limited, pool)
         (if control.isRendered then piloted(plan, control) else plan, warnings)
       // Placeholders show nothing, and were told of
       val hasAll = warnings.forall(_.standIn.isEmpty)
-      val all = description.warnings ++ warnings ++
+      val allWarnings = description.warnings ++ warnings ++
         (if hasAll then EmptyImage.foreseen(plan) else None)
-      Prepared(description, plan, all, buildSeconds = seconds, pool = pool, settings = settings)
+      Prepared(
+        description, plan, allWarnings, buildSeconds = seconds, pool = pool, settings = settings
+      )
     catch
       case e: Throwable =>
         pool.close()
@@ -99,7 +101,7 @@ object Render:
     denoising.fold(noisy)(_(noisy))
 
   /** Makes a [[SceneError]] of what a scene must not do. */
-  def withinLimits[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)
+  def withinLimits[A](body: => A): A = Refusal.asError(Excerpts.fill(_))(body)
 
   private def isOfMemory(e: Throwable): Boolean = e match
     case _: OutOfMemoryError => true

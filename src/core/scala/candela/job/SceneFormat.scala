@@ -82,8 +82,8 @@ object SceneFormat:
 
   /** `pbrt (.pbrt) or Mitsuba (.xml)` */
   def inWords: String =
-    val each = all.map(f => s"${f.name} (${f.suffixes.map("." + _).mkString(", ")})")
-    s"${each.init.mkString(", ")} or ${each.last}"
+    val labels = all.map(f => s"${f.name} (${f.suffixes.map("." + _).mkString(", ")})")
+    s"${labels.init.mkString(", ")} or ${labels.last}"
 
   private object Pbrt extends SceneFormat("pbrt", Vector("pbrt")):
     def hasDialects: Boolean = true

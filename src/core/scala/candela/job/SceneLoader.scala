@@ -48,9 +48,9 @@ object SceneLoader:
         reading: ReadSettings,
         control: BuildControl
     ): Option[ImageName] =
-      val within = control.limits.folder(file)
-      val folder = if within.isConfined then within.path else Path.of("")
-      SceneFormat.of(file).imageName(file, within, reading).map(ImageName(_, folder))
+      val sceneFolder = control.limits.folder(file)
+      val folder = if sceneFolder.isConfined then sceneFolder.path else Path.of("")
+      SceneFormat.of(file).imageName(file, sceneFolder, reading).map(ImageName(_, folder))
 
 /** Names of scene files. */
 object SceneName:
@@ -70,8 +70,8 @@ object SceneName:
       throw SceneError(Problem.general(Code.NoSuchScene, s"`$scene` is a folder", Some(help)))
     else if !Files.exists(file) then
       val folder = Option(file.toAbsolutePath.getParent)
-      val near = folder.flatMap(f => Suggest.nearest(file.getFileName.toString, scenesIn(f)))
-      val help = near.map(name => s"did you mean `${file.resolveSibling(name)}`?")
+      val nearest = folder.flatMap(f => Suggest.nearest(file.getFileName.toString, scenesIn(f)))
+      val help = nearest.map(name => s"did you mean `${file.resolveSibling(name)}`?")
       throw SceneError(Problem.general(Code.NoSuchScene, s"no such scene file: `$scene`", help))
     else file
 

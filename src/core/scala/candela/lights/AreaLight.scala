@@ -51,19 +51,19 @@ final class AreaLight(
   def power(scene: Ball): Float = watts
 
   def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
-    val place = out.surface
-    surface.sampleArea(u1, u2, place)
-    out.p = place.p
-    out.pError = place.pError
-    out.n = place.n
+    val point = out.surface
+    surface.sampleArea(u1, u2, point)
+    out.p = point.p
+    out.pError = point.pError
+    out.n = point.n
     // Each side takes one half of the sample range
     val isInside = twoSided && v1 < 0.5f
     val first = if !twoSided then v1 else if isInside then 2f * v1 else 2f * v1 - 1f
-    val up = if isInside then -place.n else place.n
-    out.direction = Frame.around(up).toWorld(Warp.cosineHemisphere(first, v2))
+    val normal = if isInside then -point.n else point.n
+    out.direction = Frame.fromZ(normal).toWorld(Warp.cosineHemisphere(first, v2))
     out.radiance = emitted
     out.isInfinite = false
-    out.pdf = place.pdf * sided(out.direction dot up)
+    out.pdf = point.pdf * sided(out.direction dot normal)
 
   def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
     val cosine = w dot n

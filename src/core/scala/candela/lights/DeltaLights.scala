@@ -64,14 +64,16 @@ abstract class ConeLight(frame: LightFrame, axis: Vec3, spread: Float)
     extends PositionedLight(frame.position):
   // An anisotropically scaled light space turns its cone into another shape in world space
   private val isCone = frame.keepsAngles
-  private val around = Frame.around(frame.toWorld(axis))
+  private val axisFrame = Frame.fromZ(frame.toWorld(axis))
 
   protected def direction(u1: Float, u2: Float): Vec3 =
-    if isCone then around.toWorld(Warp.uniformCone(u1, u2, spread)) else Warp.uniformSphere(u1, u2)
+    if isCone then axisFrame.toWorld(Warp.uniformCone(u1, u2, spread))
+    else Warp.uniformSphere(u1, u2)
 
   protected def directionPdf(w: Vec3): Float =
     if !isCone then Warp.UniformSpherePdf
-    else if (w dot around.n) >= 1f - spread - PositionedLight.Slack then Warp.uniformConePdf(spread)
+    else if (w dot axisFrame.n) >= 1f - spread - PositionedLight.Slack then
+      Warp.uniformConePdf(spread)
     else 0f
 
 /** An isotropic point light of intensity `all` (W·sr⁻¹). */

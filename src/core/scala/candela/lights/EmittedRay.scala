@@ -60,7 +60,7 @@ final class EmittedRay:
     */
   private[lights] def fromAfar(w: Vec3, ball: Ball, u1: Float, u2: Float): Unit =
     val disk = Warp.concentricDisk(u1, u2)
-    val across = Frame.around(w).toWorld(Vec3(disk.x, disk.y, -1f))
+    val across = Frame.fromZ(w).toWorld(Vec3(disk.x, disk.y, -1f))
     p = ball.center + across * ball.radius
     pError = Vec3.Zero
     n = Vec3.Zero

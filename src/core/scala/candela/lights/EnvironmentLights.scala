@@ -39,23 +39,23 @@ final class ImageEnvironment(
   def radiance(from: Vec3, d: Vec3): Rgb = image(frame.toLight(d))
 
   def pdf(from: Vec3, d: Vec3): Float =
-    val place = layout.toImage(frame.toLight(d))
-    val s = layout.stretch(place.y)
-    if s > 0f then distribution.pdf(place.x, place.y) / s else 0f
+    val uv = layout.toImage(frame.toLight(d))
+    val s = layout.stretch(uv.y)
+    if s > 0f then distribution.pdf(uv.x, uv.y) / s else 0f
 
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
-    val place = distribution.sample(u1, u2)
-    val s = layout.stretch(place.y)
-    out.wi = frame.toWorld(layout.toDirection(place.x, place.y))
-    out.defer(this, place)
-    out.pdf = if s > 0f then place.z / s else 0f
+    val uv = distribution.sample(u1, u2)
+    val s = layout.stretch(uv.y)
+    out.wi = frame.toWorld(layout.toDirection(uv.x, uv.y))
+    out.defer(this, uv)
+    out.pdf = if s > 0f then uv.z / s else 0f
     out.isInfinite = true
 
   /** Radiance of a sampled direction, from its place in the image. With constant pixels, the place
     * saves mapping the direction back.
     */
   private[lights] def radianceAt(place: Vec3, wi: Vec3): Rgb =
-    if image.smooth then image(frame.toLight(wi)) else image.at(place)
+    if image.smooth then image(frame.toLight(wi)) else image.colorAt(place)
 
 object ImageEnvironment:
   /** @param complete see [[distribution]] */
@@ -82,6 +82,6 @@ object ImageEnvironment:
       while i < bright.length && !(Math.max(0f, bright(i) - least) * shares(i / width) > 0f) do
         i += 1
       i < bright.length
-    val least = if !complete && above(mean) then mean else 0f
-    loop(bright.length)(i => bright(i) = Math.max(0f, bright(i) - least) * shares(i / width))
+    val floor = if !complete && above(mean) then mean else 0f
+    loop(bright.length)(i => bright(i) = Math.max(0f, bright(i) - floor) * shares(i / width))
     Distribution2D(bright, width, height)

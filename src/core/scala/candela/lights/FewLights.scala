@@ -18,8 +18,9 @@ final class FewLights(lights: Array[Light]) extends LightSelection:
 
   // In the order of their kinds
   private val finite: Array[(Int, LightBounds)] =
-    val all = for i <- lights.indices.toArray; b <- lights(i).bounds if b.power > 0f yield (i, b)
-    all.sortBy((_, b) => kind(b))
+    val indexed =
+      for i <- lights.indices.toArray; b <- lights(i).bounds if b.power > 0f yield (i, b)
+    indexed.sortBy((_, b) => kind(b))
   private val index = finite.map(_._1)
   private val count = finite.length
   private val round = finite.count((_, b) => kind(b) == Flat)
@@ -39,9 +40,9 @@ final class FewLights(lights: Array[Light]) extends LightSelection:
   def describe: String = s"${lights.length} lights, sampled by importance (few: no light BVH)"
 
   def choose(p: Vec3, n: Vec3, u: Float): Int =
-    val out = LightChoice()
-    choose(p, n, u, out)
-    out.light
+    val choice = LightChoice()
+    choose(p, n, u, choice)
+    choice.light
 
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
     val inInfinite = infinite.length * infiniteShare
@@ -55,31 +56,31 @@ final class FewLights(lights: Array[Light]) extends LightSelection:
         out.light = -1
         out.probability = 0f
       else
-        val k = find((u - inInfinite) / (1f - inInfinite) * total, weights)
+        val k = select((u - inInfinite) / (1f - inInfinite) * total, weights)
         out.light = index(k)
         out.probability = infiniteShare * (weights(k) / total)
 
   /** The light in whose part of the sums the goal is. */
-  private def find(goal: Float, weights: Array[Float]): Int =
+  private def select(goal: Float, weights: Array[Float]): Int =
     // Counts without a branch: none could be predicted
-    var found = 0
+    var selected = 0
     var k = count
     while k < 2 * count do
-      found += (if weights(k) <= goal then 1 else 0)
+      selected += (if weights(k) <= goal then 1 else 0)
       k += 1
     // Rounding may leave the goal beyond the sum
-    if found == count then found -= 1
-    while found > 0 && !(weights(found) > 0f) do found -= 1
-    found
+    if selected == count then selected -= 1
+    while selected > 0 && !(weights(selected) > 0f) do selected -= 1
+    selected
 
   def probability(p: Vec3, n: Vec3, light: Int): Float =
     if lights(light).bounds.isEmpty then (if lights(light).isSampled then infiniteShare else 0f)
     else if slots(light) < 0 then 0f
     else
-      var own = 0f
+      var lightWeight = 0f
       val slot = slots(light)
-      val total = sum(p, n)((k, w, _) => if k == slot then own = w)
-      if own > 0f then infiniteShare * (own / total) else 0f
+      val total = sum(p, n)((k, w, _) => if k == slot then lightWeight = w)
+      if lightWeight > 0f then infiniteShare * (lightWeight / total) else 0f
 
   /** Sets the importance of each light, and behind these their sums up to each; returns the sum of
     * all.
@@ -104,7 +105,7 @@ final class FewLights(lights: Array[Light]) extends LightSelection:
     var total = 0f
     var k = 0
     while k < round do
-      val w = near(k, x, y, z, nx, ny, nz, isOpen): (along, _, at) =>
+      val w = importance(k, x, y, z, nx, ny, nz, isOpen): (along, _, at) =>
         // 2h on the sides to which the light emits, else 0
         val height = along * data(at + 8) + Math.abs(along) * data(at + 9)
         sqrt(height * (height + 4 * data(at + 6)))
@@ -112,7 +113,7 @@ final class FewLights(lights: Array[Light]) extends LightSelection:
       each(k, w, total)
       k += 1
     while k < bounded do
-      val w = near(k, x, y, z, nx, ny, nz, isOpen)((_, d2, _) => sqrt(d2))
+      val w = importance(k, x, y, z, nx, ny, nz, isOpen)((_, d2, _) => sqrt(d2))
       total += w
       each(k, w, total)
       k += 1
@@ -126,7 +127,7 @@ final class FewLights(lights: Array[Light]) extends LightSelection:
   /** @param emitted cosine at the light times distance, from the distance to its plane and the
     *                square of that to its centre
     */
-  private inline def near(
+  private inline def importance(
       k: Int,
       px: Float,
       py: Float,
@@ -136,17 +137,17 @@ final class FewLights(lights: Array[Light]) extends LightSelection:
       nz: Float,
       isOpen: Boolean
   )(inline emitted: (Float, Float, Int) => Float): Float =
-    val at = Stride * k
-    val x = data(at) - px
-    val y = data(at + 1) - py
-    val z = data(at + 2) - pz
+    val offset = Stride * k
+    val x = data(offset) - px
+    val y = data(offset + 1) - py
+    val z = data(offset + 2) - pz
     val d2 = x * x + y * y + z * z
-    val along = -(x * data(at + 3) + y * data(at + 4) + z * data(at + 5))
+    val along = -(x * data(offset + 3) + y * data(offset + 4) + z * data(offset + 5))
     val received =
       if isOpen then sqrt(d2)
-      else LightNodes.inFront(x * nx + y * ny + z * nz + data(at + 6))
-    val inverse = 1f / (d2 + data(at + 10))
-    data(at + 7) * (emitted(along, d2, at) * inverse) * (received * inverse)
+      else LightNodes.inFront(x * nx + y * ny + z * nz + data(offset + 6))
+    val inverse = 1f / (d2 + data(offset + 10))
+    data(offset + 7) * (emitted(along, d2, offset) * inverse) * (received * inverse)
 
 object FewLights:
   private inline val Stride = 11

@@ -41,7 +41,7 @@ object IesFile:
 
     private def fail(message: String): Nothing = throw IesError(s"$name:${line + 1}: $message")
 
-    private def shown(word: String): String =
+    private def shortened(word: String): String =
       word.take(20)
 
     private def word(what: => String): String =
@@ -54,53 +54,54 @@ object IesFile:
       words.next()
 
     private def number(what: => String): Float =
-      val found = word(what)
-      Decimal.float(found).filter(java.lang.Float.isFinite(_))
-        .getOrElse(fail(s"expected $what, found `${shown(found)}`"))
+      val token = word(what)
+      Decimal.float(token).filter(java.lang.Float.isFinite(_))
+        .getOrElse(fail(s"expected $what, found `${shortened(token)}`"))
 
-    private def whole(what: String, least: Int, most: Int): Int =
+    private def integer(what: String, min: Int, max: Int): Int =
       val x = number(what)
-      if x != x.toInt || x < least || x > most then
-        fail(s"expected $what, a whole number from $least to $most, found $x")
+      if x != x.toInt || x < min || x > max then
+        fail(s"expected $what, a whole number from $min to $max, found $x")
       x.toInt
 
     private def numbers(count: Int, what: String): Array[Float] =
       Array.tabulate(count)(i => number(s"$what ${i + 1} of $count"))
 
     private def angles(count: Int, what: String): Array[Float] =
-      val all = new Array[Float](count)
+      val result = new Array[Float](count)
       for i <- 0 until count do
-        all(i) = number(s"$what ${i + 1} of $count")
-        if Math.abs(all(i)) > 360f then fail(s"expected an angle in degrees, found ${all(i)}")
-        if i > 0 && all(i) <= all(i - 1) then
-          fail(s"expected ascending angles, found ${all(i)} after ${all(i - 1)}")
-      all
+        result(i) = number(s"$what ${i + 1} of $count")
+        if Math.abs(result(i)) > 360f then fail(s"expected an angle in degrees, found ${result(i)}")
+        if i > 0 && result(i) <= result(i - 1) then
+          fail(s"expected ascending angles, found ${result(i)} after ${result(i - 1)}")
+      result
 
     def light: IesLight =
       val notes = Vector.newBuilder[String]
-      val what = lines(tilt).dropWhile(_ != '=').drop(1).trim
-      if what.toUpperCase(Locale.ROOT) != "NONE" then
-        notes += s"$name:${tilt + 1}: `TILT=${shown(what)}` is ignored: the lamp is not tilted"
-        if what.toUpperCase(Locale.ROOT) == "INCLUDE" then
+      val tiltValue = lines(tilt).dropWhile(_ != '=').drop(1).trim
+      if tiltValue.toUpperCase(Locale.ROOT) != "NONE" then
+        val value = shortened(tiltValue)
+        notes += s"$name:${tilt + 1}: `TILT=$value` is ignored: the lamp is not tilted"
+        if tiltValue.toUpperCase(Locale.ROOT) == "INCLUDE" then
           number("the lamp's geometry"): Unit
-          val count = whole("the number of tilts", 0, 10_000)
+          val count = integer("the number of tilts", 0, 10_000)
           numbers(2 * count, "tilt or multiplier"): Unit
       number("the number of lamps"): Unit
       number("the lumens of a lamp"): Unit
       val multiplier = number("the multiplier of candelas")
-      val rows = whole("the number of vertical angles", 1, 100_000)
-      val planes = whole("the number of horizontal angles", 1, 100_000)
+      val rows = integer("the number of vertical angles", 1, 100_000)
+      val planes = integer("the number of horizontal angles", 1, 100_000)
       if rows.toLong * planes > 50_000_000 then fail(s"$rows × $planes candelas are too many")
-      val kind = whole("the photometric type, 1 (C), 2 (B) or 3 (A)", 1, 3) match
+      val kind = integer("the photometric type, 1 (C), 2 (B) or 3 (A)", 1, 3) match
         case 1 => PhotometricType.C
         case 2 => PhotometricType.B
         case _ => PhotometricType.A
       numbers(4, "unit or size of the light"): Unit
       val ballast = number("the ballast factor")
       // Until 1991 another factor; since 1995 unused, since 2019 a kind of file
-      val other = number("the ballast-lamp factor")
+      val lampFactor = number("the ballast-lamp factor")
       number("the input watts"): Unit
-      val factor = multiplier * ballast * (if isOld then other else 1f)
+      val factor = multiplier * ballast * (if isOld then lampFactor else 1f)
       val vertical = angles(rows, "vertical angle")
       val horizontal = angles(planes, "horizontal angle")
       val candelas = new Array[Float](rows * planes)

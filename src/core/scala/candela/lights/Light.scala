@@ -129,7 +129,7 @@ final class LightSample:
   /** Scratch memory of [[PictureLight]]. */
   val ray = Ray()
   val hit = Hit()
-  val at = ShadingPoint()
+  val point = ShadingPoint()
 
 /** A light that is a surface in the scene. */
 abstract class SurfaceLight extends Light:

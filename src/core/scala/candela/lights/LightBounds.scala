@@ -51,18 +51,18 @@ object LightBounds:
   private def unionNarrow(a: Vec3, cosA: Float, b: Vec3, cosB: Float): (Vec3, Float) =
     val angleA = Math.acos(clamp(cosA, -1f, 1f).toDouble)
     val angleB = Math.acos(clamp(cosB, -1f, 1f).toDouble)
-    val between = Math.acos(clamp(a dot b, -1f, 1f).toDouble)
-    if Math.min(between + angleB, Math.PI) <= angleA then (a, cosA)
-    else if Math.min(between + angleA, Math.PI) <= angleB then (b, cosB)
+    val angle = Math.acos(clamp(a dot b, -1f, 1f).toDouble)
+    if Math.min(angle + angleB, Math.PI) <= angleA then (a, cosA)
+    else if Math.min(angle + angleA, Math.PI) <= angleB then (b, cosB)
     else
-      val half = (angleA + between + angleB) / 2
+      val halfAngle = (angleA + angle + angleB) / 2
       val turnAxis = a cross b
-      if half >= Math.PI || turnAxis.isZero then (Vec3.Z, -1f)
+      if halfAngle >= Math.PI || turnAxis.isZero then (Vec3.Z, -1f)
       else
         val turned = Transform
-          .rotate(Math.toDegrees(half - angleA), turnAxis.x, turnAxis.y, turnAxis.z)
+          .rotate(Math.toDegrees(halfAngle - angleA), turnAxis.x, turnAxis.y, turnAxis.z)
           .fold(a)(_.vector(a))
-        (turned.normalized, Math.cos(half).toFloat)
+        (turned.normalized, Math.cos(halfAngle).toFloat)
 
 /** [[LightBounds]] in a flat array, for light sampling. Immutable. */
 final class LightNodes(bounds: Array[LightBounds | Null], pool: Parallel = Parallel.Alone):
@@ -72,9 +72,9 @@ final class LightNodes(bounds: Array[LightBounds | Null], pool: Parallel = Paral
   pool.ranges(bounds.length): (from, until) =>
     loop(until - from): i =>
       val b = bounds(from + i)
-      if b != null then put(Stride * (from + i), b)
+      if b != null then write(Stride * (from + i), b)
 
-  private def put(at: Int, b: LightBounds): Unit =
+  private def write(at: Int, b: LightBounds): Unit =
     val center = b.box.center
     val radius2 = square(b.box.radius)
     data(at) = center.x
@@ -95,31 +95,31 @@ final class LightNodes(bounds: Array[LightBounds | Null], pool: Parallel = Paral
     * vector: a point that receives light from all directions). Zero only if they can't contribute.
     */
   def importance(node: Int, p: Vec3, n: Vec3): Float =
-    val at = Stride * node
-    val x = data(at) - p.x
-    val y = data(at + 1) - p.y
-    val z = data(at + 2) - p.z
+    val offset = Stride * node
+    val x = data(offset) - p.x
+    val y = data(offset + 1) - p.y
+    val z = data(offset + 2) - p.z
     val distance2 = x * x + y * y + z * z
     val isApart = distance2 > 0f
     val inverse = if isApart then 1f / sqrt(distance2) else 0f
     val wx = x * inverse
     val wy = y * inverse
     val wz = if isApart then z * inverse else 1f
-    val cosAxis0 = -(data(at + 3) * wx + data(at + 4) * wy + data(at + 5) * wz)
-    val cosAxis = if data(at + 12) != 0f then Math.abs(cosAxis0) else cosAxis0
+    val cosAxis0 = -(data(offset + 3) * wx + data(offset + 4) * wy + data(offset + 5) * wz)
+    val cosAxis = if data(offset + 12) != 0f then Math.abs(cosAxis0) else cosAxis0
     val sinAxis = safeSqrt(1f - square(cosAxis))
     // θb: half the angle subtended by the bounding sphere; all directions from inside
-    val radius2 = data(at + 8)
+    val radius2 = data(offset + 8)
     val cosBox = if distance2 < radius2 then -1f else safeSqrt(1f - radius2 / distance2)
     val sinBox = safeSqrt(1f - square(cosBox))
-    val sinNormals = data(at + 6)
-    val cosNormals = data(at + 7)
+    val sinNormals = data(offset + 6)
+    val cosNormals = data(offset + 7)
     val cosX = cosDifference(sinAxis, cosAxis, sinNormals, cosNormals)
     val sinX = sinDifference(sinAxis, cosAxis, sinNormals, cosNormals)
     val cosMin = cosDifference(sinX, cosX, sinBox, cosBox)
-    if cosMin <= data(at + 11) then 0f
+    if cosMin <= data(offset + 11) then 0f
     else
-      val emitted = data(at + 10) * cosMin / Math.max(distance2, data(at + 9))
+      val emitted = data(offset + 10) * cosMin / Math.max(distance2, data(offset + 9))
       if n.isZero then emitted
       else
         val cosSurface = wx * n.x + wy * n.y + wz * n.z

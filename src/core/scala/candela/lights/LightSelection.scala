@@ -63,8 +63,8 @@ final class LightTree(lights: Array[Light], pool: Parallel = Parallel.Alone)
 
   // What is needed for building alone takes more memory than the tree
   private val (nodes, children, trail) =
-    val made = LightTreeBuilder(lights, pool)
-    (LightNodes(made.bounds, pool), made.children, made.trail)
+    val builder = LightTreeBuilder(lights, pool)
+    (LightNodes(builder.bounds, pool), builder.children, builder.trail)
 
   private val hasFinite = children.nonEmpty
 
@@ -74,9 +74,9 @@ final class LightTree(lights: Array[Light], pool: Parallel = Parallel.Alone)
     1f / Math.max(1, infinite.length + (if hasFinite then 1 else 0))
 
   def choose(p: Vec3, n: Vec3, u: Float): Int =
-    val out = LightChoice()
-    choose(p, n, u, out)
-    out.light
+    val choice = LightChoice()
+    choose(p, n, u, choice)
+    choice.light
 
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
     out.probability = infiniteShare
@@ -153,7 +153,7 @@ object LightSelection:
     strategy match
       case LightStrategy.Importance => byImportance(lights, pool)
       case _ if lights.length == 1 => of(lights)
-      case LightStrategy.Power => FixedSelection.byPower(lights, Ball.around(scene))
+      case LightStrategy.Power => FixedSelection.byPower(lights, Ball.enclosing(scene))
       case LightStrategy.Uniform => FixedSelection.uniform(lights)
 
 /** Light sampling strategy.
@@ -190,8 +190,8 @@ object FixedSelection:
   /** @param scene bounding sphere of all surfaces, which lights at infinity illuminate */
   def byPower(lights: Array[Light], scene: Ball): FixedSelection =
     val powers = lights.map(l => if l.isSampled then Discrete.weight(l.power(scene)) else 0f)
-    val known = powers.filter(_ > 0f)
-    val mean = if known.isEmpty then 1f else known.sum / known.length
+    val positive = powers.filter(_ > 0f)
+    val mean = if positive.isEmpty then 1f else positive.sum / positive.length
     // The power that a portal admits is unknown
     val weights = lights.zip(powers).map: (light, power) =>
       if power == 0f && light.isSampled && light.bounds.isEmpty then mean else power

@@ -6,12 +6,12 @@ import scala.collection.mutable
 
 /** Builds a [[LightTree]]: bounds of its nodes, children, and the way to each light. */
 private[lights] final class LightTreeBuilder(lights: Array[Light], pool: Parallel):
-  private val known = new Array[Option[LightBounds]](lights.length)
+  private val allBounds = new Array[Option[LightBounds]](lights.length)
   pool.ranges(lights.length): (from, until) =>
-    loop(until - from)(i => known(from + i) = lights(from + i).bounds)
+    loop(until - from)(i => allBounds(from + i) = lights(from + i).bounds)
   private val finite: Array[Int] =
-    lights.indices.filter(i => known(i).exists(_.power > 0f)).toArray
-  private val own: Array[LightBounds] = finite.flatMap(known(_))
+    lights.indices.filter(i => allBounds(i).exists(_.power > 0f)).toArray
+  private val finiteBounds: Array[LightBounds] = finite.flatMap(allBounds(_))
 
   /** Bounds by node; children(i) is the second child (the first is i + 1), or ~light for a leaf.
     */
@@ -27,9 +27,9 @@ private[lights] final class LightTreeBuilder(lights: Array[Light], pool: Paralle
     // Of these sizes parts are built at the same time
     val size =
       if pool.threads == 1 then finite.length else LightTreeBuilder.partSize(finite.length, pool)
-    val parts = mutable.ArrayBuffer.empty[() => Unit]
-    divide(LightOrder(own), 0, finite.length, 0, 0L, 0, size, parts)
-    pool.each(parts.size)(i => parts(i)())
+    val tasks = mutable.ArrayBuffer.empty[() => Unit]
+    divide(LightOrder(finiteBounds), 0, finite.length, 0, 0L, 0, size, tasks)
+    pool.forEach(tasks.size)(i => tasks(i)())
     unite(0, finite.length, 0, size): Unit
 
   /** The second child of a node whose first has so many lights: a tree of n has 2n − 1 nodes. */
@@ -44,16 +44,16 @@ private[lights] final class LightTreeBuilder(lights: Array[Light], pool: Paralle
       bits: Long,
       depth: Int,
       size: Int,
-      parts: mutable.ArrayBuffer[() => Unit]
+      tasks: mutable.ArrayBuffer[() => Unit]
   ): Unit =
     if until - from <= size then
-      parts += (() => build(order, from, until, node, bits, depth): Unit)
+      tasks += (() => build(order, from, until, node, bits, depth): Unit)
     else
       val middle = order.split(from, until)
       val second = secondChild(node, middle - from)
       children(node) = second
-      divide(order, from, middle, node + 1, bits, depth + 1, size, parts)
-      divide(order, middle, until, second, bits | (1L << depth), depth + 1, size, parts)
+      divide(order, from, middle, node + 1, bits, depth + 1, size, tasks)
+      divide(order, middle, until, second, bits | (1L << depth), depth + 1, size, tasks)
 
   /** The bounds of the nodes that were divided. */
   private def unite(from: Int, until: Int, node: Int, size: Int): LightBounds =
@@ -73,20 +73,20 @@ private[lights] final class LightTreeBuilder(lights: Array[Light], pool: Paralle
       bits: Long,
       depth: Int
   ): LightBounds =
-    val all =
+    val nodeBounds =
       if until - from == 1 then
         val light = finite(order(from))
         children(node) = ~light
         trail(light) = bits
-        own(order(from))
+        finiteBounds(order(from))
       else
         val middle = order.split(from, until)
         val second = secondChild(node, middle - from)
         children(node) = second
         val a = build(order, from, middle, node + 1, bits, depth + 1)
         a.union(build(order, middle, until, second, bits | (1L << depth), depth + 1))
-    bounds(node) = all
-    all
+    bounds(node) = nodeBounds
+    nodeBounds
 
 private object LightTreeBuilder:
   /** Some for each thread, as they take different times; of thousands of lights. */

@@ -36,8 +36,8 @@ final class Photometry(
   /** Candelas in the unit direction `d`, in the space of a [[GoniometricLight]]. */
   def apply(d: Vec3): Float = kind match
     case PhotometricType.C =>
-      val around = Math.toDegrees(Math.atan2(d.z.toDouble, d.x.toDouble))
-      at(Photometry.arc(-d.y), folded(if around < 0 then around + 360 else around))
+      val azimuth = Math.toDegrees(Math.atan2(d.z.toDouble, d.x.toDouble))
+      intensity(Photometry.arc(-d.y), folded(if azimuth < 0 then azimuth + 360 else azimuth))
     case PhotometricType.A =>
       beside(90 - Photometry.arc(d.y), Math.toDegrees(Math.atan2(d.x.toDouble, d.z.toDouble)))
     case PhotometricType.B =>
@@ -49,14 +49,14 @@ final class Photometry(
       if angles.head >= 0f then Math.abs(angle) else angle
     val across = mirrored(h, horizontal)
     if horizontal.length > 1 && (across < first - Slack || across > last + Slack) then 0f
-    else at(mirrored(v, vertical), across)
+    else intensity(mirrored(v, vertical), across)
 
   /** The angle among the measured planes that has the same intensities. */
   private def folded(h: Double): Double =
     if horizontal.length == 1 then first
     else if first == 0f && last == 90f then
-      val half = h % 180
-      if half > 90 then 180 - half else half
+      val halfTurn = h % 180
+      if halfTurn > 90 then 180 - halfTurn else halfTurn
     else if first == 0f && last == 180f then if h > 180 then 360 - h else h
     else if first == 180f && last == 360f then if h < 180 then 360 - h else h
     else if first == 90f && last == 270f then
@@ -64,7 +64,7 @@ final class Photometry(
     else if h < first then h + 360
     else h
 
-  private def at(v: Double, h: Double): Float =
+  private def intensity(v: Double, h: Double): Float =
     if v < vertical.head - Slack || v > vertical.last + Slack then 0f
     else
       val below = Photometry.below(vertical, v)
@@ -90,13 +90,13 @@ final class Photometry(
     val isRound = kind == PhotometricType.C && horizontal.length == 1
     val height = Photometry.pixels(vertical, 180, 180, 720)
     val width = if isRound then 1 else Photometry.pixels(horizontal, 360, 180, 1440)
-    val made = Image.rgb(width, height)
+    val result = Image.rgb(width, height)
     loop(height): y =>
       loop(width): x =>
         val d = LatLongMap.toDirection((x + 0.5f) / width, (y + 0.5f) / height)
         val value = apply(Vec3(d.x, d.z, d.y))
-        loop(3)(c => made.data((y * width + x) * 3 + c) = value)
-    made
+        loop(3)(c => result.data((y * width + x) * 3 + c) = value)
+    result
 
 object Photometry:
   private def arc(x: Float): Double = Math.toDegrees(Math.acos(clamp(x, -1f, 1f).toDouble))

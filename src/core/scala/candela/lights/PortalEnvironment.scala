@@ -41,52 +41,52 @@ final class PortalEnvironment private (
   protected def total: Float = 0f
   override def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float = 0f
 
-  private def place(along: Float, z: Float): Float =
+  private def coordinate(along: Float, z: Float): Float =
     clamp(Math.atan2(along.toDouble, z.toDouble).toFloat * InvPi + 0.5f, 0f, 1f)
 
   /** Passes the rectangle (x0, y0, x1, y1) of the image that `from` sees through the portal to
     * `use`; `none` if the portal faces away.
     */
-  private inline def seen[A](from: Vec3, none: A)(
+  private inline def withRectangle[A](from: Vec3, none: A)(
       inline use: (Float, Float, Float, Float) => A
   ): A =
     val a = window.toLocal(corner - from)
     val b = window.toLocal(opposite - from)
     if !(a.z > 0f && b.z > 0f) then none
     else
-      val ax = place(a.x, a.z)
-      val ay = place(a.y, a.z)
-      val bx = place(b.x, b.z)
-      val by = place(b.y, b.z)
+      val ax = coordinate(a.x, a.z)
+      val ay = coordinate(a.y, a.z)
+      val bx = coordinate(b.x, b.z)
+      val by = coordinate(b.y, b.z)
       use(Math.min(ax, bx), Math.min(ay, by), Math.max(ax, bx), Math.max(ay, by))
 
   def radiance(from: Vec3, d: Vec3): Rgb =
     val w = window.toLocal(d)
     if w.z <= 0f then Rgb.Black
     else
-      val x = place(w.x, w.z)
-      val y = place(w.y, w.z)
-      seen(from, Rgb.Black): (x0, y0, x1, y1) =>
+      val x = coordinate(w.x, w.z)
+      val y = coordinate(w.y, w.z)
+      withRectangle(from, Rgb.Black): (x0, y0, x1, y1) =>
         if x < x0 || x > x1 || y < y0 || y > y1 then Rgb.Black else rectified(x, y)
 
   def pdf(from: Vec3, d: Vec3): Float =
     val w = window.toLocal(d)
     if w.z <= 0f then 0f
     else
-      val x = place(w.x, w.z)
-      val y = place(w.y, w.z)
-      seen(from, 0f): (x0, y0, x1, y1) =>
+      val x = coordinate(w.x, w.z)
+      val y = coordinate(w.y, w.z)
+      withRectangle(from, 0f): (x0, y0, x1, y1) =>
         distribution.pdf(x, y, x0, y0, x1, y1) * density(w)
 
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     out.pdf = 0f
     out.isInfinite = true
-    val at = seen(from, Vec3.Zero): (x0, y0, x1, y1) =>
+    val imageSample = withRectangle(from, Vec3.Zero): (x0, y0, x1, y1) =>
       distribution.sample(u1, u2, x0, y0, x1, y1)
-    if at.z > 0f then
-      out.wi = direction(window, at.x, at.y)
-      out.radiance = rectified(at.x, at.y)
-      out.pdf = at.z * density(window.toLocal(out.wi))
+    if imageSample.z > 0f then
+      out.wi = direction(window, imageSample.x, imageSample.y)
+      out.radiance = rectified(imageSample.x, imageSample.y)
+      out.pdf = imageSample.z * density(window.toLocal(out.wi))
 
 object PortalEnvironment:
 
@@ -103,7 +103,7 @@ object PortalEnvironment:
     val drawn = Image.rgb(width, height)
     loop(width * height): i =>
       val towards = direction(window, (i % width + 0.5f) / width, (i / width + 0.5f) / height)
-      val c = image.between(image.layout.toImage(frame.toLight(towards)))
+      val c = image.bilinear(image.layout.toImage(frame.toLight(towards)))
       drawn.data(3 * i) = Math.max(0f, c.r)
       drawn.data(3 * i + 1) = Math.max(0f, c.g)
       drawn.data(3 * i + 2) = Math.max(0f, c.b)

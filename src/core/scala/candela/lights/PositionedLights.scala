@@ -123,8 +123,8 @@ final class ProjectionLight(
     if d.z < ProjectionLight.MinCosine then Rgb.Black
     else
       val x = (d.x / (d.z * screen.halfWidth) + 1f) * 0.5f
-      val up = d.y / (d.z * screen.halfHeight)
-      val y = ((if upright then -up else up) + 1f) * 0.5f
+      val vertical = d.y / (d.z * screen.halfHeight)
+      val y = ((if upright then -vertical else vertical) + 1f) * 0.5f
       if x < 0f || x > 1f || y < 0f || y > 1f then Rgb.Black
       else
         val light = if picture == null then all else all * picture(x, y)
@@ -132,8 +132,8 @@ final class ProjectionLight(
 
   def bounds: Option[LightBounds] =
     val mean = slide.fold(1f)(_.meanOfMax)
-    val most = if onPlane then 1f / (screen.cosCorner * square(screen.cosCorner)) else 1f
-    val power = 4f * Pi * all.max * mean * most
+    val maxFactor = if onPlane then 1f / (screen.cosCorner * square(screen.cosCorner)) else 1f
+    val power = 4f * Pi * all.max * mean * maxFactor
     if !frame.keepsAngles then Some(LightBounds.everywhere(frame.position, power))
     else
       Some(

@@ -29,16 +29,16 @@ final class SkyModel(turbidity: Float, albedo: Rgb, elevation: Float):
       Array.tabulate(Terms): term =>
         var sum = 0.0
         loop(Points): k =>
-          def at(t: Int, a: Int) = sky(((t * 2 + a) * 3 + channel) * Points + k)(term)
-          def over(a: Int) = between(turbidity - 1, Levels)(at(_, a))
-          sum += weights(k) * (over(0) * (1 - ground) + over(1) * ground)
+          def coefficient(t: Int, a: Int) = sky(((t * 2 + a) * 3 + channel) * Points + k)(term)
+          def atAlbedo(a: Int) = interpolated(turbidity - 1, Levels)(coefficient(_, a))
+          sum += weights(k) * (atAlbedo(0) * (1 - ground) + atAlbedo(1) * ground)
         sum
 
   /** Irradiance by the sun on a plane that faces it. */
   val sunIrradiance: Rgb =
-    val place = ((Math.toDegrees(elevation) - FirstElevation) / ElevationStep).toFloat
-    def channel(c: Int) = between(turbidity - 1, Levels): t =>
-      between(place, Elevations)(e => sun(t * Elevations + e)(c))
+    val position = ((Math.toDegrees(elevation) - FirstElevation) / ElevationStep).toFloat
+    def channel(c: Int) = interpolated(turbidity - 1, Levels): t =>
+      interpolated(position, Elevations)(e => sun(t * Elevations + e)(c))
     Rgb(channel(0).toFloat, channel(1).toFloat, channel(2).toFloat)
 
   /** Radiance of the sky from above the horizon.
@@ -83,7 +83,7 @@ object SkyModel:
   private lazy val sun = table("sun")
 
   /** Linear interpolation in a table of `count` entries. */
-  private def between(x: Float, count: Int)(at: Int => Double): Double =
+  private def interpolated(x: Float, count: Int)(at: Int => Double): Double =
     val clamped = Math.max(0f, Math.min(x, count - 1f))
     val i = Math.min(clamped.toInt, count - 2)
     val t = clamped - i

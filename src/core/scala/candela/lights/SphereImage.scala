@@ -22,11 +22,11 @@ abstract class SphereImage(
   private val convert: (Rgb => Rgb) | Null = colors.orNull
 
   /** Colour in the unit direction `d` of light space. */
-  final def apply(d: Vec3): Rgb = at(layout.toImage(d))
+  final def apply(d: Vec3): Rgb = colorAt(layout.toImage(d))
 
   /** Colour at the image position (x, y, 0). */
-  final def at(place: Vec3): Rgb =
-    if smooth then between(place)
+  final def colorAt(place: Vec3): Rgb =
+    if smooth then bilinear(place)
     else
       val x = Math.min((place.x * width).toInt, width - 1)
       converted(pixel(x, Math.min((place.y * height).toInt, height - 1)))
@@ -36,8 +36,8 @@ abstract class SphereImage(
     if conversion == null then c else conversion(c) * factor
 
   /** Bilinear lookup, regardless of `smooth`. */
-  final def between(place: Vec3): Rgb =
-    converted(blended(place.x * width - 0.5f, place.y * height - 0.5f))
+  final def bilinear(uv: Vec3): Rgb =
+    converted(blended(uv.x * width - 0.5f, uv.y * height - 0.5f))
 
   /** Colour of a pixel of the image. */
   protected def pixel(x: Int, y: Int): Rgb
@@ -57,10 +57,10 @@ abstract class SphereImage(
 
   /** Mean brightness of lookups within each pixel, in row order. */
   final def brightness: Array[Float] =
-    val each = ofPixels((r, g, b) => (r + g + b) * (1f / 3f))
-    if !smooth then each
+    val means = ofPixels((r, g, b) => (r + g + b) * (1f / 3f))
+    if !smooth then means
     else
-      val blurred = new Array[Float](each.length)
+      val blurred = new Array[Float](means.length)
       loop(height): y =>
         loop(width): x =>
           val isInside = x > 0 && y > 0 && x < width - 1 && y < height - 1
@@ -68,20 +68,20 @@ abstract class SphereImage(
           loop(9): k =>
             val i = x + k % 3 - 1
             val j = y + k / 3 - 1
-            val at = if isInside then j * width + i else row(i, j) * width + column(i, j)
-            sum += SphereImage.Tent(k) * each(at)
+            val index = if isInside then j * width + i else row(i, j) * width + column(i, j)
+            sum += SphereImage.Tent(k) * means(index)
           blurred(y * width + x) = sum
       blurred
 
   /** Mean of the largest component over all directions. */
   final def meanOfMax: Float =
-    val most = ofPixels((r, g, b) => Math.max(r, Math.max(g, b)))
+    val maxima = ofPixels((r, g, b) => Math.max(r, Math.max(g, b)))
     var sum = 0.0
     var weights = 0.0
     loop(height): y =>
       val share = layout.stretch((y + 0.5f) / height)
       loop(width): x =>
-        sum += share * most(y * width + x)
+        sum += share * maxima(y * width + x)
         weights += share
     (sum / weights).toFloat
 
@@ -132,10 +132,10 @@ private final class MemorySphereImage(
     Bilinear(data, x, y)((i, j) => 3 * (row(i, j) * width + column(i, j)))
 
   def ofPixels(value: SphereImage.PixelValue): Array[Float] =
-    val made = new Array[Float](Math.multiplyExact(width, height))
-    loop(made.length): i =>
-      made(i) = value(data(3 * i), data(3 * i + 1), data(3 * i + 2))
-    made
+    val result = new Array[Float](Math.multiplyExact(width, height))
+    loop(result.length): i =>
+      result(i) = value(data(3 * i), data(3 * i + 1), data(3 * i + 2))
+    result
 
   def isLit: Boolean =
     (0 until height).exists: y =>

@@ -33,7 +33,7 @@ object LatLongMap extends SphereMap:
     Vec3(clamp((if phi < 0f then phi + TwoPi else phi) * InvTwoPi, 0f, 1f), theta * InvPi, 0f)
 
   def toDirection(x: Float, y: Float): Vec3 =
-    sinCos(y * Math.PI)((sine, cosine) => Warp.around(cosine.toFloat, sine.toFloat, x))
+    sinCos(y * Math.PI)((sine, cosine) => Warp.spherical(cosine.toFloat, sine.toFloat, x))
 
   def stretch(y: Float): Float = 2f * Pi * Pi * sin(y * Pi)
 
@@ -50,8 +50,8 @@ final class PolarLatLongMap(rows: Int) extends SphereMap:
   private val steps = Math.max(rows - 1, 1).toFloat
 
   def toImage(d: Vec3): Vec3 =
-    val place = LatLongMap.toImage(d)
-    Vec3(place.x, (place.y * steps + 0.5f) / rows, 0f)
+    val uv = LatLongMap.toImage(d)
+    Vec3(uv.x, (uv.y * steps + 0.5f) / rows, 0f)
 
   def toDirection(x: Float, y: Float): Vec3 = LatLongMap.toDirection(x, colatitude(y))
 
@@ -82,8 +82,8 @@ object EqualAreaMap extends SphereMap:
     // Position in the first octant, in [0, 1]
     val longer = if ax >= ay then ax else ay
     val shorter = if ax >= ay then ay else ax
-    val half = if longer == 0f then 0f else arcTangent(shorter / longer) * (2f * InvPi)
-    val phi = if ax >= ay then half else 1f - half
+    val angle = if longer == 0f then 0f else arcTangent(shorter / longer) * (2f * InvPi)
+    val phi = if ax >= ay then angle else 1f - angle
     val v0 = phi * r
     val u0 = r - v0
     val u = if d.z < 0f then 1f - v0 else u0

@@ -26,7 +26,7 @@ final class SunAndSky(
     convert: Rgb => Rgb,
     complete: Boolean
 ) extends EnvironmentLight:
-  private val around = Frame.around(toSun)
+  private val sunFrame = Frame.fromZ(toSun)
 
   /** 1 − cos of the sun's half-angle. */
   private val spread = 2f * square(Math.sin(halfSize / 2.0).toFloat)
@@ -71,18 +71,18 @@ final class SunAndSky(
   private def pdf(d: Vec3, isSun: Boolean): Float =
     if d.z < 0f then 0f
     else
-      val place = LatLongMap.toImage(d)
-      val s = LatLongMap.stretch(place.y)
-      val ofSky = if s > 0f then distribution.pdf(place.x, place.y) / s else 0f
+      val uv = LatLongMap.toImage(d)
+      val s = LatLongMap.stretch(uv.y)
+      val ofSky = if s > 0f then distribution.pdf(uv.x, uv.y) / s else 0f
       (1f - sunShare) * ofSky + (if isSun then sunShare * sunPdf else 0f)
 
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     val isSun = u1 < sunShare
     val d =
-      if isSun then around.toWorld(Warp.uniformCone(u1 / sunShare, u2, spread))
+      if isSun then sunFrame.toWorld(Warp.uniformCone(u1 / sunShare, u2, spread))
       else
-        val place = distribution.sample((u1 - sunShare) / (1f - sunShare), u2)
-        LatLongMap.toDirection(place.x, place.y)
+        val uv = distribution.sample((u1 - sunShare) / (1f - sunShare), u2)
+        LatLongMap.toDirection(uv.x, uv.y)
     val hits = isSun || hitsSun(d)
     out.wi = frame.toWorld(d)
     out.radiance = if d.z < 0f then Rgb.Black else convert(above(d, hits))
@@ -104,8 +104,8 @@ object SunAndSky:
       layout: SphereMap,
       parts: Int
   ): Image =
-    val made = Image.rgb(width, height)
-    val data = made.data
+    val result = Image.rgb(width, height)
+    val data = result.data
     loop(width * height): i =>
       loop(parts * parts): part =>
         val across = (part % parts + 0.5f) / parts
@@ -116,4 +116,4 @@ object SunAndSky:
           data(3 * i) += Math.max(0f, c.r)
           data(3 * i + 1) += Math.max(0f, c.g)
           data(3 * i + 2) += Math.max(0f, c.b)
-    made
+    result

@@ -21,12 +21,13 @@ final class TiledSphereImage(
   private val isScaled = colors.isEmpty && factor != Rgb.White
 
   protected def pixel(x: Int, y: Int): Rgb =
-    made(pixels.texel(pixels.index(x, y)))
+    texelColor(pixels.texel(pixels.index(x, y)))
 
-  private def made(c: Rgb): Rgb =
+  private def texelColor(c: Rgb): Rgb =
     val change = rebase
-    val own = if change == null then c else change(c)
-    if isScaled then Rgb(own.r * factor.r, own.g * factor.g, own.b * factor.b) else own
+    val rebased = if change == null then c else change(c)
+    if isScaled then Rgb(rebased.r * factor.r, rebased.g * factor.g, rebased.b * factor.b)
+    else rebased
 
   protected def blended(x: Float, y: Float): Rgb =
     val i = Math.floor(x).toInt
@@ -45,11 +46,11 @@ final class TiledSphereImage(
   private def wrapped(x: Int, y: Int): Rgb = pixel(column(x, y), row(x, y))
 
   def ofPixels(value: SphereImage.PixelValue): Array[Float] =
-    val all = new Array[Float](Math.multiplyExact(width, height))
+    val values = new Array[Float](Math.multiplyExact(width, height))
     val _ = everyPixel: (x, y, c) =>
-      all(y * width + x) = value(c.r, c.g, c.b)
+      values(y * width + x) = value(c.r, c.g, c.b)
       true
-    all
+    values
 
   def isLit: Boolean =
     !everyPixel((_, y, c) => !(c.max > 0f && layout.stretch((y + 0.5f) / height) > 0f))
@@ -61,17 +62,17 @@ final class TiledSphereImage(
     val texels = pixels.reader
     val (wide, high) = pixels.tile
     val (across, down) = ((width + wide - 1) / wide, (height + high - 1) / high)
-    var all = true
+    var allHold = true
     var tile = 0
-    while all && tile < across * down do
+    while allHold && tile < across * down do
       val (x0, y0) = (tile % across * wide, tile / across * high)
       var y = y0
-      while all && y < Math.min(height, y0 + high) do
+      while allHold && y < Math.min(height, y0 + high) do
         var x = x0
-        while all && x < Math.min(width, x0 + wide) do
+        while allHold && x < Math.min(width, x0 + wide) do
           val i = pixels.index(x, y)
-          all = holds(x, y, made(Rgb(texels(i, 0), texels(i, 1), texels(i, 2))))
+          allHold = holds(x, y, texelColor(Rgb(texels(i, 0), texels(i, 1), texels(i, 2))))
           x += 1
         y += 1
       tile += 1
-    all
+    allHold

@@ -26,7 +26,8 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler)
     if out.pdf > 0f then
       // The ray's closest hit is either the sampled point or occludes it
       out.ray.set(from, out.wi, Float.PositiveInfinity)
-      if surface.meets(out.ray, out.hit, out.at) then out.radiance.scale(factor(out.at))
+      if surface.intersectSurface(out.ray, out.hit, out.point) then
+        out.radiance.scale(factor(out.point))
       else out.pdf = 0f
 
   def pdf(from: Vec3, at: ShadingPoint): Float = even.pdf(from, at)
@@ -47,8 +48,8 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler)
       val work = out.sample
       val start = out.p + out.direction * (UnevenLight.RelativeOffset * sqrt(surface.area))
       work.ray.set(start, -out.direction, Float.PositiveInfinity)
-      if surface.meets(work.ray, work.hit, work.at) then
-        out.radiance = out.radiance * factor(work.at)
+      if surface.intersectSurface(work.ray, work.hit, work.point) then
+        out.radiance = out.radiance * factor(work.point)
       else out.pdf = 0f
 
   def bounds: Option[LightBounds] =
@@ -75,8 +76,8 @@ final class PictureLight(
     if light.isBlack then light else light * factor(at)
 
   protected def factor(at: ShadingPoint): Rgb =
-    val place = mapping(at)
-    picture(place.s, 1f - place.t)
+    val st = mapping(at)
+    picture(st.s, 1f - st.t)
 
   protected def strength: Float = picture.meanOfMax
 

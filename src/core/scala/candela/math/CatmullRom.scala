@@ -89,8 +89,8 @@ object CatmullRom:
     val target = u * integrals(integrals.length - 1)
     val i = piece(integrals, target)
     val width = nodes(i + 1) - nodes(i)
-    val within = (target - integrals(i)).toDouble / width
-    nodes(i) + width * cubic(nodes, values, i).whereAreaIs(within).toFloat
+    val area = (target - integrals(i)).toDouble / width
+    nodes(i) + width * cubic(nodes, values, i).whereAreaIs(area).toFloat
 
   /** Inverts increasing values: the position of `y`; clamped to the first or last node. */
   def invert(nodes: Array[Float], values: Array[Float], y: Float): Float =
@@ -112,10 +112,10 @@ object CatmullRom:
       var k = 0
       while k < 4 do
         if w(k) != 0f then
-          val from = (first + k) * width
+          val start = (first + k) * width
           var i = 0
           while i < width do
-            blended(i) += w(k) * table(from + i)
+            blended(i) += w(k) * table(start + i)
             i += 1
         k += 1
     blended

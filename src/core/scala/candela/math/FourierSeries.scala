@@ -6,14 +6,14 @@ object FourierSeries:
   /** The sum of `count` terms. Source of the recurrence: PBRT 3rd ed., §8.6.1. */
   def value(a: Array[Float], from: Int, count: Int, cosPhi: Float): Float =
     val twice = 2.0 * cosPhi
-    var before = cosPhi.toDouble // cos((k − 1)φ), of k = 0
+    var previous = cosPhi.toDouble // cos((k − 1)φ), of k = 0
     var current = 1.0
     var sum = 0.0
     var k = 0
     while k < count do
       sum += a(from + k) * current
-      val next = twice * current - before
-      before = current
+      val next = twice * current - previous
+      previous = current
       current = next
       k += 1
     sum.toFloat
@@ -24,11 +24,11 @@ object FourierSeries:
     */
   def sample(a: Array[Float], count: Int, u: Float): Float =
     // The series is symmetric about π
-    val half = if u < 0.5f then 2.0 * u else 2.0 - 2.0 * u
-    val target = half * a(0) * Math.PI
+    val folded = if u < 0.5f then 2.0 * u else 2.0 - 2.0 * u
+    val target = folded * a(0) * Math.PI
     var low = 0.0
     var high = Math.PI
-    var phi = half * Math.PI
+    var phi = folded * Math.PI
     var residual = Double.PositiveInfinity
     while Math.abs(residual) > Exact && high - low > Exact do
       if !(phi >= low && phi <= high) then phi = 0.5 * (low + high)

@@ -35,11 +35,11 @@ final class Interpolation(
   private val endPlace = Interpolation.of(end, origin)
 
   def write(time: Float, to: Array[Double], at: Int): Unit =
-    if !(time > startTime) then Motion.put(start, to, at)
-    else if time >= endTime then Motion.put(end, to, at)
-    else between((time.toDouble - startTime) / (endTime.toDouble - startTime), to, at)
+    if !(time > startTime) then Motion.writeRows(start, to, at)
+    else if time >= endTime then Motion.writeRows(end, to, at)
+    else interpolate((time.toDouble - startTime) / (endTime.toDouble - startTime), to, at)
 
-  private def between(t: Double, to: Array[Double], at: Int): Unit =
+  private def interpolate(t: Double, to: Array[Double], at: Int): Unit =
     val isNear = cosAngle > Interpolation.MaxCosine
     val wa = if isNear then 1 - t else Math.sin((1 - t) * angle) / sinAngle
     val wb = if isNear then t else Math.sin(t * angle) / sinAngle

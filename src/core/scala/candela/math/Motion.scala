@@ -24,7 +24,7 @@ object Motion:
   inline val Doubles = 24
   inline val Work = 72
 
-  private[math] def put(t: Transform, to: Array[Double], at: Int): Unit =
+  private[math] def writeRows(t: Transform, to: Array[Double], at: Int): Unit =
     var k = 0
     while k < 12 do
       to(at + k) = t.m(k)
@@ -33,7 +33,7 @@ object Motion:
 
 /** A static map. */
 final class Still(map: Transform) extends Motion:
-  def write(time: Float, to: Array[Double], at: Int): Unit = Motion.put(map, to, at)
+  def write(time: Float, to: Array[Double], at: Int): Unit = Motion.writeRows(map, to, at)
   override def moves: Boolean = false
 
 /** The inverse of another motion, which may differ from interpolating the inverses. */

@@ -22,7 +22,7 @@ final class MotionRows:
     i
 
   /** Sets the map `i` by the numbers of a [[Motion]]. */
-  def put(i: Int, numbers: Array[Double]): Unit =
+  def store(i: Int, numbers: Array[Double]): Unit =
     System.arraycopy(numbers, Doubles, chunks(chunk(i)), start(i), Doubles)
 
   /** Adds room for a map, and returns its number. */
@@ -44,7 +44,7 @@ final class MotionRows:
 
   /** All numbers so far: those of the inverse of map `i` are in `all(chunk(i))`, from [[start]] on.
     */
-  def all: Array[Array[Double]] = chunks
+  def numbers: Array[Array[Double]] = chunks
 
   /** The map `i`; its inverse has every bit. */
   def transform(i: Int): Transform =
@@ -89,9 +89,9 @@ object MotionRows:
     invert(rows, from, new Array[Double](Doubles), 0) <= LargestError
 
   private def isAffine(m: IArray[Double]): Boolean =
-    def is(i: Int, x: Double) =
+    def isExactly(i: Int, x: Double) =
       java.lang.Double.doubleToRawLongBits(m(i)) == java.lang.Double.doubleToRawLongBits(x)
-    is(12, 0) && is(13, 0) && is(14, 0) && is(15, 1)
+    isExactly(12, 0) && isExactly(13, 0) && isExactly(14, 0) && isExactly(15, 1)
 
   /** Writes the inverse of a map, three rows.
     *
@@ -129,12 +129,12 @@ object MotionRows:
       val x = to(at + c)
       val y = to(at + 4 + c)
       val z = to(at + 8 + c)
-      inline def rest(r: Int) =
+      inline def residual(r: Int) =
         val k = from + 4 * r
         (if r == c then 1.0 else 0.0) - (m(k) * x + m(k + 1) * y + m(k + 2) * z)
-      val rx = rest(0)
-      val ry = rest(1)
-      val rz = rest(2)
+      val rx = residual(0)
+      val ry = residual(1)
+      val rz = residual(2)
       loop(3): r =>
         val k = at + 4 * r
         to(k + c) += to(k) * rx + to(k + 1) * ry + to(k + 2) * rz
@@ -145,4 +145,4 @@ object MotionRows:
 final class MotionRow(val rows: MotionRows, val row: Int) extends Motion:
   override def moves: Boolean = false
   def write(time: Float, to: Array[Double], at: Int): Unit =
-    MotionRows.write(rows.all(MotionRows.chunk(row)), MotionRows.start(row), to, at)
+    MotionRows.write(rows.numbers(MotionRows.chunk(row)), MotionRows.start(row), to, at)

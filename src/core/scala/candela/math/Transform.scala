@@ -118,10 +118,10 @@ object Transform:
   /** The affine map of which 24 numbers are given from `at` on, as a [[Motion]] writes them. */
   def affine(numbers: Array[Double], at: Int): Transform =
     def rows(from: Int) =
-      val made = new Array[Double](16)
-      System.arraycopy(numbers, from, made, 0, 12)
-      made(15) = 1
-      IArray.unsafeFromArray(made)
+      val matrix = new Array[Double](16)
+      System.arraycopy(numbers, from, matrix, 0, 12)
+      matrix(15) = 1
+      IArray.unsafeFromArray(matrix)
     Transform(rows(at), rows(at + 12))
 
   /** Maps everything to one point: nothing that it places is visible. */
@@ -199,17 +199,17 @@ object Transform:
   // Loops over plain arrays: scenes have millions of transforms
 
   private def transposed(m: IArray[Double]): IArray[Double] =
-    val made = new Array[Double](16)
-    loop(16)(i => made(i) = m(i % 4 * 4 + i / 4))
-    IArray.unsafeFromArray(made)
+    val matrix = new Array[Double](16)
+    loop(16)(i => matrix(i) = m(i % 4 * 4 + i / 4))
+    IArray.unsafeFromArray(matrix)
 
   private def product(a: IArray[Double], b: IArray[Double]): IArray[Double] =
-    val made = new Array[Double](16)
+    val matrix = new Array[Double](16)
     loop(16): i =>
       val r = i & ~3
       val c = i & 3
-      made(i) = a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
-    IArray.unsafeFromArray(made)
+      matrix(i) = a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
+    IArray.unsafeFromArray(matrix)
 
   /** Gauss–Jordan elimination with row pivoting. Tracks a bound of each number's rounding error,
     * including the input's: a pivot within its bound may as well be zero, and the matrix is then

@@ -25,11 +25,11 @@ enum Renderings:
       correlation: Double
   )
 
-  private[measure] def all: Vector[TileSums] = this match
+  private[measure] def tileSums: Vector[TileSums] = this match
     case Seeds(images) => images
     case Known(image, variance, squares, _, _) => Vector(image, variance, squares)
 
-  private[measure] def first: TileSums = all.head
+  private[measure] def first: TileSums = tileSums.head
 
 object Renderings:
   /** @throws ImageError if they are too few, of several sizes or channels, or the same */
@@ -46,7 +46,7 @@ object Renderings:
     * @param freedom degrees of freedom of each
     * @param correlation sum of a pixel's correlations with all pixels, its own 1 included
     */
-  def known(
+  def withVariance(
       image: Image,
       variance: Image,
       freedom: Double,
@@ -92,15 +92,15 @@ final case class BiasRegion(
   * Student's problem", Biometrika 34, 1947.
   *
   * @param worst regions by their adjusted p-value, the least first: the least one of each size
-  * @param whole the whole image, by channel
+  * @param fullImage the whole image, by channel
   * @param tiles p-values of the smallest tiles, of all channels that have noise
-  * @param map   of each pixel and channel, the least adjusted p-value of the regions that have it,
+  * @param map of each pixel and channel, the least adjusted p-value of the regions that have it,
   *   of the size at which the programs differ most clearly
   * @param skipped tiles with NaN or infinite values
   */
 final class BiasTest private (
     val worst: Vector[BiasRegion],
-    val whole: Vector[BiasRegion],
+    val fullImage: Vector[BiasRegion],
     val tiles: Array[Double],
     val map: Image,
     val skipped: Int
@@ -154,10 +154,11 @@ object BiasTest:
     private val image = a.first
     private val (columns, rows) = (image.columns, image.rows)
     private val isSound = Array.tabulate(columns * rows): tile =>
-      (a.all ++ b.all).forall(_.isFinite(tile))
+      (a.tileSums ++ b.tileSums).forall(_.isFinite(tile))
     private val skipped = isSound.count(!_)
     private val rounding =
-      if (a.all.take(1) ++ b.all.take(1)).exists(_.isHalf) then HalfRounding else FloatRounding
+      if (a.tileSums.take(1) ++ b.tileSums.take(1)).exists(_.isHalf) then HalfRounding
+      else FloatRounding
     private val pixels = PrefixSums(columns, rows, tile => if isSound(tile) then area(tile) else 0)
 
     private def area(tile: Int): Double =
@@ -244,18 +245,18 @@ object BiasTest:
           y <- w.y0 / TileSums.Size to (w.y1 - 1) / TileSums.Size
           x <- w.x0 / TileSums.Size to (w.x1 - 1) / TileSums.Size
         do
-          val at = (y * columns + x) * image.channels.size + c
-          least(at) = Math.min(least(at), r.adjusted.toFloat)
+          val index = (y * columns + x) * image.channels.size + c
+          least(index) = Math.min(least(index), r.adjusted.toFloat)
 
     private def map(regions: Vector[BiasRegion]): Image =
       val count = image.channels.size
-      val least = Array.fill(columns * rows * count)(1f)
-      regions.foreach(mark(least, _))
+      val minima = Array.fill(columns * rows * count)(1f)
+      regions.foreach(mark(minima, _))
       val data = new Array[Float](image.width * image.height * count)
       loop(image.height): y =>
         loop(image.width): x =>
           val tile = y / TileSums.Size * columns + x / TileSums.Size
-          System.arraycopy(least, tile * count, data, (y * image.width + x) * count, count)
+          System.arraycopy(minima, tile * count, data, (y * image.width + x) * count, count)
       Image(image.width, image.height, image.channels, data)
 
   /** A mean, its variance, and the degrees of freedom of that.

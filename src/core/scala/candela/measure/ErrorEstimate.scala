@@ -43,8 +43,8 @@ final case class ErrorEstimate private (
     (1 - smooth + smooth / (doubled * doubled)) * samples / n
 
   def at(n: Double): Errors =
-    val now = factor * falloff(n)
-    Errors(absolute * now, relative * now, None, None, None, Vector.empty)
+    val scale = factor * falloff(n)
+    Errors(absolute * scale, relative * scale, None, None, None, Vector.empty)
 
   /** The relative MSE with its 95 % interval. V(N) is D(N) where all falls as 1 / n. Variances of
     * whole pixels fall at most as 1 / n² (Mitchell, "Consequences of Stratified Sampling in
@@ -61,12 +61,12 @@ final case class ErrorEstimate private (
 
   /** Samples per pixel with which the relative MSE is at most this, with the 95 % interval. */
   def samplesUntil(relativeMse: Double): Interval =
-    val now = interval(samples) * (1 / relativeMse)
+    val ratio = interval(samples) * (1 / relativeMse)
     var doubled = samples.toDouble
-    while now.estimate * falloff(2 * doubled) > 1 && doubled < Int.MaxValue do doubled *= 2
-    val end = doubled * Math.max(1, Math.min(2, now.estimate * falloff(doubled)))
-    val first = samples * Math.sqrt(Math.max(1, now.low))
-    Interval(end, Math.min(end, first), samples * Math.max(1, now.high))
+    while ratio.estimate * falloff(2 * doubled) > 1 && doubled < Int.MaxValue do doubled *= 2
+    val end = doubled * Math.max(1, Math.min(2, ratio.estimate * falloff(doubled)))
+    val first = samples * Math.sqrt(Math.max(1, ratio.low))
+    Interval(end, Math.min(end, first), samples * Math.max(1, ratio.high))
 
 object ErrorEstimate:
   // D(n/2) / D(n), where V(n) falls as 1 / n, and as 1 / n³

@@ -14,10 +14,10 @@ object ErrorLayer:
   val Channels: Vector[String] = Image.RgbNames.map(c => s"$Name.$c")
 
   /** Linear sRGB, and the layer if there is one. */
-  def kept(image: Image): Image = of(image).fold(image.toRgb)(behind(image.toRgb, _))
+  def extract(image: Image): Image = of(image).fold(image.toRgb)(append(image.toRgb, _))
 
   /** Three colours and their errors. */
-  def behind(colors: Image, errors: Image): Image =
+  def append(colors: Image, errors: Image): Image =
     val data = new Array[Float](2 * colors.data.length)
     loop(data.length): i =>
       val index = i / 6 * 3 + i % 3

@@ -32,9 +32,9 @@ object ErrorMap:
     * @throws ImageError if the metric has no map, or needs RGB
     */
   def apply(metric: Metric, pair: ImagePair): Image = metric match
-    case Metric.Mse => each(pair)((a, b) => (a.toDouble - b) * (a.toDouble - b))
-    case Metric.Mae => each(pair)((a, b) => Math.abs(a.toDouble - b))
-    case Metric.RelativeMse => each(pair)(Metrics.relativeSquare)
+    case Metric.Mse => perPixel(pair)((a, b) => (a.toDouble - b) * (a.toDouble - b))
+    case Metric.Mae => perPixel(pair)((a, b) => Math.abs(a.toDouble - b))
+    case Metric.RelativeMse => perPixel(pair)(Metrics.relativeSquare)
     case Metric.Rmse =>
       val squares = apply(Metric.Mse, pair)
       gray(pair, squares.data.map(v => Math.sqrt(v.toDouble).toFloat))
@@ -49,7 +49,7 @@ object ErrorMap:
     loop(map.data.length)(i => sum += map.data(i))
     sum / map.data.length
 
-  private def each(pair: ImagePair)(error: (Float, Float) => Double): Image =
+  private def perPixel(pair: ImagePair)(error: (Float, Float) => Double): Image =
     val count = pair.channels.size
     val data = new Array[Float](pair.width * pair.height)
     loop(pair.height): y =>

@@ -40,12 +40,12 @@ object Flip:
   private def colorDifference(a: Opponent, b: Opponent, ppd: Double): Array[Double] =
     val labA = a.filtered(ppd).lab
     val labB = b.filtered(ppd).lab
-    val most = Math.pow(Lab.distance(Lab.Green, Lab.Blue), ColorExponent)
-    val small = SmallPart * most
+    val maxDistance = Math.pow(Lab.distance(Lab.Green, Lab.Blue), ColorExponent)
+    val small = SmallPart * maxDistance
     Array.tabulate(labA.size): i =>
       val d = Math.pow(Lab.distance(labA(i), labB(i)), ColorExponent)
       if d < small then SmallRange / small * d
-      else SmallRange + (d - small) / (most - small) * (1 - SmallRange)
+      else SmallRange + (d - small) / (maxDistance - small) * (1 - SmallRange)
 
   private def featureDifference(a: Opponent, b: Opponent, ppd: Double): Array[Double] =
     val kernels = FeatureKernels(ppd)

@@ -77,15 +77,15 @@ object HalfScatter:
     val channels = now.image.channels
     loop(now.weights.length): pixel =>
       GivenUp.check(isStopped, pixel)
-      val before = half.weights(pixel).toDouble
-      val all = now.weights(pixel).toDouble
-      val after = all - before
-      if before * after > 0 then
+      val firstWeight = half.weights(pixel).toDouble
+      val total = now.weights(pixel).toDouble
+      val secondWeight = total - firstWeight
+      if firstWeight * secondWeight > 0 then
         loop(channels): c =>
           val i = pixel * channels + c
           // A − B is this over the share of B, as the image is the weighted mean of both
           val change = half.image.data(i).toDouble - now.image.data(i)
-          values(i) = (change * change * before / after).toFloat
+          values(i) = (change * change * firstWeight / secondWeight).toFloat
     values
 
   private def estimate(

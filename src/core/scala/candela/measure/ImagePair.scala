@@ -21,8 +21,8 @@ final case class PixelWindow(x0: Int, x1: Int, y0: Int, y1: Int):
     val row = (x1 - x0) * image.channels
     val data = new Array[Float](row * (y1 - y0))
     loop(y1 - y0): y =>
-      val from = ((y + y0) * image.width + x0) * image.channels
-      System.arraycopy(image.data, from, data, y * row, row)
+      val offset = ((y + y0) * image.width + x0) * image.channels
+      System.arraycopy(image.data, offset, data, y * row, row)
     Image(x1 - x0, y1 - y0, image.channelNames, data, image.encoding, image.colorSpace)
 
 /** An image and its reference, of equal size, in linear values, colours in sRGB. Both have
@@ -89,10 +89,10 @@ object ImagePair:
     else
       val missing = names.filterNot(linear.channelNames.contains)
       if missing.nonEmpty then
-        val has = linear.channelNames.mkString(", ")
+        val available = linear.channelNames.mkString(", ")
         throw ImageError(
           Code.DifferentImages,
-          s"unknown channel ${missing.mkString(", ")}; known: $has"
+          s"unknown channel ${missing.mkString(", ")}; known: $available"
         )
       val sources = names.map(linear.channelNames.indexOf).toArray
       val count = names.size

@@ -23,8 +23,8 @@ object LogLogFit:
       case 0 => Option.when(curve.head._1 == x)(curve.head._2)
       case i =>
         val ((x0, y0), (x1, y1)) = (curve(i - 1), curve(i))
-        val part = (Math.log(x) - Math.log(x0)) / (Math.log(x1) - Math.log(x0))
-        Some(Math.exp(Math.log(y0) + part * (Math.log(y1) - Math.log(y0))))
+        val fraction = (Math.log(x) - Math.log(x0)) / (Math.log(x1) - Math.log(x0))
+        Some(Math.exp(Math.log(y0) + fraction * (Math.log(y1) - Math.log(y0))))
 
   /** Abscissa where the curve first falls to `y`, interpolated linearly between neighbours. None if
     * it doesn't: no extrapolation. The first point if the curve starts below `y`, an upper bound.
@@ -36,5 +36,5 @@ object LogLogFit:
       case 0 => Some(curve.head._1)
       case i =>
         val ((x0, y0), (x1, y1)) = (curve(i - 1), curve(i))
-        val part = (Math.log(y0) - Math.log(y)) / (Math.log(y0) - Math.log(y1))
-        Some(Math.exp(Math.log(x0) + part * (Math.log(x1) - Math.log(x0))))
+        val fraction = (Math.log(y0) - Math.log(y)) / (Math.log(y0) - Math.log(y1))
+        Some(Math.exp(Math.log(x0) + fraction * (Math.log(x1) - Math.log(x0))))

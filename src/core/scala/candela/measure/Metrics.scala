@@ -98,8 +98,8 @@ object Metrics:
       squares(c) += difference * difference
       absolutes(c) += Math.abs(difference)
       relatives(c) += Metrics.relativeSquare(a, b)
-      val shown = encoded(a) - encoded(b)
-      encodedSquares += shown * shown
+      val encodedDifference = encoded(a) - encoded(b)
+      encodedSquares += encodedDifference * encodedDifference
       if Math.abs(difference) > largest.value then
         largest = LargestDifference(Math.abs(difference), x, y, pair.channels(c))
 

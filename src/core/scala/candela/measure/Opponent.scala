@@ -30,10 +30,10 @@ private[measure] object Opponent:
     val size = image.width * image.height
     val y, cx, cz = new Array[Float](size)
     loop(size): i =>
-      def shown(c: Int) =
+      def clamped(c: Int) =
         val value = image.data(3 * i + c)
         if java.lang.Float.isFinite(value) then Math.min(1.0, Math.max(0.0, value.toDouble)) else 0
-      val ratio = Xyz.ofRgb(shown(0), shown(1), shown(2))
+      val ratio = Xyz.ofRgb(clamped(0), clamped(1), clamped(2))
       y(i) = (116 * ratio.y - 16).toFloat
       cx(i) = (500 * (ratio.x - ratio.y)).toFloat
       cz(i) = (200 * (ratio.y - ratio.z)).toFloat
@@ -73,13 +73,13 @@ private[measure] object Lab:
 
   /** Clamps to the display gamut first. */
   def ofScreen(xyz: Xyz): Lab =
-    val shown = xyz.clampedToScreen
-    val l = 116 * curve(shown.y) - 16
+    val clamped = xyz.clampedToScreen
+    val l = 116 * curve(clamped.y) - 16
     val hunt = 0.01 * l
     Lab(
       l,
-      hunt * 500 * (curve(shown.x) - curve(shown.y)),
-      hunt * 200 * (curve(shown.y) - curve(shown.z))
+      hunt * 500 * (curve(clamped.x) - curve(clamped.y)),
+      hunt * 200 * (curve(clamped.y) - curve(clamped.z))
     )
 
   /** HyAB distance: Abasi, Tehran, Fairchild, "Distance metrics for very large color differences",
@@ -111,10 +111,10 @@ private[measure] final class ContrastSensitivity(pixelsPerDegree: Double):
     val kernels = gaussians.map((_, b) => kernel(b))
     val weights = gaussians.zip(kernels).map:
       case ((a, b), k) => a * Math.sqrt(Math.PI / b) * k.sum * k.sum
-    val parts = kernels.zip(weights).map: (k, weight) =>
+    val responses = kernels.zip(weights).map: (k, weight) =>
       val share = weight / weights.sum
       plane.convolved(k.map(_ / k.sum * share), k.map(_ / k.sum))
-    parts.reduce(_ + _)
+    responses.reduce(_ + _)
 
   private def kernel(b: Double): Array[Double] = Array.tabulate(2 * radius + 1): i =>
     val degrees = (i - radius) / pixelsPerDegree

@@ -22,21 +22,21 @@ final class ReferenceMean private (val runs: Int, val image: Image, val variance
     val n = runs + 1.0
     val mean, spread = new Array[Float](image.data.length)
     loop(mean.length): i =>
-      val before = image.data(i).toDouble
-      val step = next.data(i) - before
-      mean(i) = (before + step / n).toFloat
+      val oldMean = image.data(i).toDouble
+      val step = next.data(i) - oldMean
+      mean(i) = (oldMean + step / n).toFloat
       val squares = variance.fold(0.0)(_.data(i) * (runs * (runs - 1.0)))
       spread(i) = ((squares + step * (next.data(i) - mean(i))) / (n * (n - 1))).toFloat
-    ReferenceMean(runs + 1, like(mean), Some(like(spread)))
+    ReferenceMean(runs + 1, imageOf(mean), Some(imageOf(spread)))
 
-  private def like(data: Array[Float]) = Image(image.width, image.height, Image.RgbNames, data)
+  private def imageOf(data: Array[Float]) = Image(image.width, image.height, Image.RgbNames, data)
 
   /** Its relative error, as `--error` has it: the root of the expected relative MSE. */
   def relativeError: Option[Double] = variance.map: v =>
     Math.sqrt(LocalMeans(image, v.data).relativeMse)
 
   /** The image with its [[ErrorLayer]]. */
-  def stored: Image = variance.fold(image)(ErrorLayer.behind(image, _))
+  def stored: Image = variance.fold(image)(ErrorLayer.append(image, _))
 
 object ReferenceMean:
   def of(first: Image): ReferenceMean = ReferenceMean(1, first.toRgb, None)

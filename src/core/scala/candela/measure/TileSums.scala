@@ -63,13 +63,13 @@ object TileSums:
 
 /** Sums of rectangles of tiles. */
 private[measure] final class PrefixSums(columns: Int, rows: Int, value: Int => Double):
-  private val all = new Array[Double]((columns + 1) * (rows + 1))
+  private val prefix = new Array[Double]((columns + 1) * (rows + 1))
   loop(rows): y =>
     var row = 0.0
     loop(columns): x =>
       row += value(y * columns + x)
-      all((y + 1) * (columns + 1) + x + 1) = all(y * (columns + 1) + x + 1) + row
+      prefix((y + 1) * (columns + 1) + x + 1) = prefix(y * (columns + 1) + x + 1) + row
 
   def apply(x0: Int, x1: Int, y0: Int, y1: Int): Double =
-    def at(x: Int, y: Int) = all(y * (columns + 1) + x)
-    at(x1, y1) - at(x0, y1) - at(x1, y0) + at(x0, y0)
+    def prefixAt(x: Int, y: Int) = prefix(y * (columns + 1) + x)
+    prefixAt(x1, y1) - prefixAt(x0, y1) - prefixAt(x1, y0) + prefixAt(x0, y0)

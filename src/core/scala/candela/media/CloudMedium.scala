@@ -49,11 +49,11 @@ final class CloudMedium(
         val ax = octave * x
         val ay = octave * y
         val az = octave * z
-        val here = PerlinNoise(ax, ay, az)
+        val center = PerlinNoise(ax, ay, az)
         val scale = shift / CloudMedium.Step
-        x += scale * (PerlinNoise(ax + CloudMedium.Step, ay, az) - here)
-        y += scale * (PerlinNoise(ax, ay + CloudMedium.Step, az) - here)
-        z += scale * (PerlinNoise(ax, ay, az + CloudMedium.Step) - here)
+        x += scale * (PerlinNoise(ax + CloudMedium.Step, ay, az) - center)
+        y += scale * (PerlinNoise(ax, ay + CloudMedium.Step, az) - center)
+        z += scale * (PerlinNoise(ax, ay, az + CloudMedium.Step) - center)
         shift *= 0.5f
         octave *= 1.99f
         i += 1

@@ -57,9 +57,9 @@ final class ThermalColors(hottest: Float, color: Float => Rgb):
 
   private[media] def fill(kelvin: Float, scale: Float, out: MediumPoint): Unit =
     if kelvin > Coldest then
-      val at = Math.min((kelvin - Coldest) / step, Size - 1f)
-      val i = at.toInt
-      val w = at - i
+      val position = Math.min((kelvin - Coldest) / step, Size - 1f)
+      val i = position.toInt
+      val w = position - i
       out.glowR = scale * lerp(w, table(3 * i), table(3 * i + 3))
       out.glowG = scale * lerp(w, table(3 * i + 1), table(3 * i + 4))
       out.glowB = scale * lerp(w, table(3 * i + 2), table(3 * i + 5))

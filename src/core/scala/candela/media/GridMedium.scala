@@ -34,7 +34,7 @@ final class GridMedium(
 
 /** Three grids, one per colour. */
 final class ColorGrid(val r: SampledGrid, val g: SampledGrid, val b: SampledGrid):
-  private[media] def most(
+  private[media] def majorant(
       x0: Float,
       y0: Float,
       z0: Float,
@@ -42,9 +42,9 @@ final class ColorGrid(val r: SampledGrid, val g: SampledGrid, val b: SampledGrid
       y1: Float,
       z1: Float
   ): Float =
-    val mr = r.most(x0, y0, z0, x1, y1, z1)
-    val mg = g.most(x0, y0, z0, x1, y1, z1)
-    Math.max(Math.max(mr, mg), b.most(x0, y0, z0, x1, y1, z1))
+    val mr = r.majorant(x0, y0, z0, x1, y1, z1)
+    val mg = g.majorant(x0, y0, z0, x1, y1, z1)
+    Math.max(Math.max(mr, mg), b.majorant(x0, y0, z0, x1, y1, z1))
 
 /** A medium with grids of coefficients; a coefficient without a grid is constant in the box.
   *
@@ -100,5 +100,6 @@ object ColorGridMedium:
       factor: Float
   ): MajorantGrid =
     MajorantGrid.of(size.nx, size.ny, size.nz): (x0, y0, z0, x1, y1, z1) =>
-      def most(grid: Option[ColorGrid]) = grid.fold(constant)(_.most(x0, y0, z0, x1, y1, z1))
-      factor * (most(absorption) + most(scattering))
+      def majorant(grid: Option[ColorGrid]) =
+        grid.fold(constant)(_.majorant(x0, y0, z0, x1, y1, z1))
+      factor * (majorant(absorption) + majorant(scattering))

@@ -14,15 +14,15 @@ object MajorantGrid:
   private val Finest = 16
 
   /** A constant majorant. */
-  def constant(most: Float): MajorantGrid = MajorantGrid(1, 1, 1, Array(most))
+  def constant(majorant: Float): MajorantGrid = MajorantGrid(1, 1, 1, Array(majorant))
 
   /** Majorants at a resolution suited to this number of samples along each axis.
     *
-    * @param finest maximum number of cells along an axis
-    * @param most upper bound in a box of the unit cube: x0, y0, z0, x1, y1, z1
+    * @param finest   maximum number of cells along an axis
+    * @param majorant upper bound in a box of the unit cube: x0, y0, z0, x1, y1, z1
     */
   def of(nx: Int, ny: Int, nz: Int, finest: Int = Finest)(
-      most: (Float, Float, Float, Float, Float, Float) => Float
+      majorant: (Float, Float, Float, Float, Float, Float) => Float
   ): MajorantGrid =
     val cx = Math.min(nx, finest)
     val cy = Math.min(ny, finest)
@@ -32,7 +32,7 @@ object MajorantGrid:
       val x = i % cx
       val y = i / cx % cy
       val z = i / (cx * cy)
-      values(i) = most(
+      values(i) = majorant(
         x.toFloat / cx,
         y.toFloat / cy,
         z.toFloat / cz,
@@ -49,7 +49,7 @@ object MajorantGrid:
   */
 final class MajorantWalk:
   /** The current cell: the ray's entry and exit distances, and the majorant. */
-  var begin, end, most = 0f
+  var start, end, majorant = 0f
 
   /** The ray in the space of the unit cube. */
   var ox, oy, oz, dx, dy, dz = 0f
@@ -61,9 +61,9 @@ final class MajorantWalk:
   private var deltaX, deltaY, deltaZ = 0f
 
   /** Moves to the cell where the ray enters the unit cube; false if it does not enter before
-    * `until`.
+    * `tMax`.
     */
-  def enter(origin: Vec3, direction: Vec3, until: Float, bounds: MajorantGrid): Boolean =
+  def enter(origin: Vec3, direction: Vec3, tMax: Float, bounds: MajorantGrid): Boolean =
     grid = bounds
     ox = origin.x
     oy = origin.y
@@ -72,7 +72,7 @@ final class MajorantWalk:
     dy = direction.y
     dz = direction.z
     end = Math.max(0f, Math.max(near(ox, dx), Math.max(near(oy, dy), near(oz, dz))))
-    last = Math.min(until, Math.min(far(ox, dx), Math.min(far(oy, dy), far(oz, dz))))
+    last = Math.min(tMax, Math.min(far(ox, dx), Math.min(far(oy, dy), far(oz, dz))))
     if !(end < last) then false
     else
       ix = cell(ox + end * dx, grid.nx)
@@ -90,8 +90,8 @@ final class MajorantWalk:
   def next(): Boolean =
     if !(end < last) then false
     else
-      begin = end
-      most = grid(ix, iy, iz)
+      start = end
+      majorant = grid(ix, iy, iz)
       if nextX <= nextY && nextX <= nextZ then
         leaveAt(nextX)
         nextX += deltaX
@@ -109,7 +109,7 @@ final class MajorantWalk:
         if iz < 0 || iz == grid.nz then last = end
       true
 
-  private def leaveAt(t: Float): Unit = end = Math.max(begin, Math.min(last, t))
+  private def leaveAt(t: Float): Unit = end = Math.max(start, Math.min(last, t))
 
   private def near(o: Float, d: Float): Float =
     if d > 0f then -o / d

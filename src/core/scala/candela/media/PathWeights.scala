@@ -68,7 +68,7 @@ final class PathWeights:
   def isDead: Boolean = r == 0f && g == 0f && b == 0f
 
   /** Makes the path's light not a number: its sample is discarded, and counted. */
-  def lose(): Unit = scale(Float.NaN)
+  def discard(): Unit = scale(Float.NaN)
   def isLost: Boolean = r.isNaN
 
   def throughput: Rgb = Rgb(r, g, b)

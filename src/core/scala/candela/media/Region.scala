@@ -39,12 +39,12 @@ abstract class Region(toWorld: Transform, box: Bounds3, filling: Filling):
   final def clip(ray: Ray, from: Float, to: Float, overlap: Overlap): Boolean =
     val o = toVolume.point(ray.origin)
     val d = toVolume.vector(ray.direction)
-    overlap.begin = from
+    overlap.start = from
     overlap.end = to
     overlap.cut(o.x, d.x, box.min.x, box.max.x)
     overlap.cut(o.y, d.y, box.min.y, box.max.y)
     overlap.cut(o.z, d.z, box.min.z, box.max.z)
-    overlap.begin <= overlap.end
+    overlap.start <= overlap.end
 
 /** Coefficients of a [[Region]].
   *
@@ -54,7 +54,7 @@ final case class Filling(absorption: Rgb, scattering: Rgb, emitted: Rgb, phase: 
 
 /** An interval of a ray; mutable. */
 final class Overlap:
-  var begin, end = 0f
+  var start, end = 0f
 
   /** Clips to the slab between two planes perpendicular to an axis. */
   private[media] def cut(o: Float, d: Float, low: Float, high: Float): Unit =
@@ -63,7 +63,7 @@ final class Overlap:
     else
       val a = (low - o) / d
       val b = (high - o) / d
-      begin = Math.max(begin, Math.min(a, b))
+      start = Math.max(start, Math.min(a, b))
       end = Math.min(end, Math.max(a, b))
 
 /** Constant density in a box. */

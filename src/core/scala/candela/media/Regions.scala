@@ -19,17 +19,17 @@ final class Regions(all: Array[Region]):
     * region to its last exit from one.
     */
   def clip(ray: Ray, out: RegionWork): Boolean =
-    var begin = Float.PositiveInfinity
+    var start = Float.PositiveInfinity
     var end = Float.NegativeInfinity
     var i = 0
     while i < all.length do
       if all(i).clip(ray, 0f, ray.tMax, out.overlap) then
-        begin = Math.min(begin, out.overlap.begin)
+        start = Math.min(start, out.overlap.start)
         end = Math.max(end, out.overlap.end)
       i += 1
-    out.overlap.begin = begin
+    out.overlap.start = start
     out.overlap.end = end
-    begin < end
+    start < end
 
   /** Adds the optical depth of the ray between `from` and `to` to `out.depth…`: exact for uniform
     * regions, else by ray marching.
@@ -52,15 +52,15 @@ final class Regions(all: Array[Region]):
       val region = all(i)
       if region.clip(ray, from, to, out.overlap) then
         val length =
-          if region.isUniform then (out.overlap.end - out.overlap.begin) * unit
+          if region.isUniform then (out.overlap.end - out.overlap.start) * unit
           else
             var sum = 0f
-            val begin = out.overlap.begin * unit
+            val start = out.overlap.start * unit
             val end = out.overlap.end * unit
             // Shorter ones would not get on, far from the ray's origin
-            val least = Math.max(Math.ulp(end), (end - begin) / Regions.MostSteps)
-            val length = Math.max(step, least)
-            var t = begin + offset * length
+            val minLength = Math.max(Math.ulp(end), (end - start) / Regions.MostSteps)
+            val length = Math.max(step, minLength)
+            var t = start + offset * length
             while t < end do
               sum += region.densityAt(ray.at(t / unit))
               t += length
@@ -71,7 +71,7 @@ final class Regions(all: Array[Region]):
       i += 1
 
   /** Sets the coefficients at a point, and the density of each region. */
-  def at(p: Vec3, out: RegionWork): Unit =
+  def evaluate(p: Vec3, out: RegionWork): Unit =
     out.scatterR = 0f
     out.scatterG = 0f
     out.scatterB = 0f

@@ -11,10 +11,10 @@ final class SampledGrid(
     edge: GridEdge = GridEdge.Zero
 ) extends TrilinearGrid(nx, ny, nz, values, edge):
   /** Upper bounds of the values. */
-  lazy val majorants: MajorantGrid = MajorantGrid.of(nx, ny, nz)(most)
+  lazy val majorants: MajorantGrid = MajorantGrid.of(nx, ny, nz)(majorant)
 
   /** Upper bound of the values in a box; at least 0. */
-  def most(x0: Float, y0: Float, z0: Float, x1: Float, y1: Float, z1: Float): Float =
+  def majorant(x0: Float, y0: Float, z0: Float, x1: Float, y1: Float, z1: Float): Float =
     def first(p: Float, n: Int) = clamp(Math.floor(p * n - 0.5).toInt, 0, n - 1)
     def last(p: Float, n: Int) = clamp(Math.floor(p * n - 0.5).toInt + 1, 0, n - 1)
     var greatest = 0f

@@ -36,12 +36,12 @@ final class SceneMedia(
     * having come through `current`.
     */
   def beyond(at: ShadingPoint, w: Vec3, current: Int): Int =
-    val in = inside(at.material)
-    val out = outside(at.material)
-    if in == out then current else if (w dot at.geometricNormal) > 0f then out else in
+    val inner = inside(at.material)
+    val outer = outside(at.material)
+    if inner == outer then current else if (w dot at.geometricNormal) > 0f then outer else inner
 
   /** Summary for the render plan. */
   def describe: String =
-    val around = if camera >= 0 then ", one around the camera" else ""
+    val cameraText = if camera >= 0 then ", one around the camera" else ""
     if media.isEmpty then "none, but interfaces"
-    else s"${media.length} (${media.map(_.describe).mkString("; ")})$around"
+    else s"${media.length} (${media.map(_.describe).mkString("; ")})$cameraText"

@@ -27,7 +27,7 @@ final class SparseGrid(tree: VoxelTree, toIndex: Transform):
       // One voxel more on each side, for interpolation and the rounding of `apply`
       def first(axis: Vec3 => Float) = Math.floor(corners.map(axis).min - 0.01).toInt
       def last(axis: Vec3 => Float) = Math.floor(corners.map(axis).max + 0.01).toInt + 1
-      tree.most(first(_.x), first(_.y), first(_.z), last(_.x), last(_.y), last(_.z))
+      tree.majorant(first(_.x), first(_.y), first(_.z), last(_.x), last(_.y), last(_.z))
 
 object SparseGrid:
   /** Maximum number of majorants along an axis, as in pbrt-v4. */

@@ -7,9 +7,9 @@ import candela.math.*
 /** A heterogeneous medium within a box. Collisions are sampled with a majorant of the extinction;
   * the excess are null collisions (Woodcock tracking).
   *
-  * @param toUnit  world space to the unit cube, which the medium fills
-  * @param bounds  majorants of the density, per cell
-  * @param most    extinction coefficients at a density of 1, per scene unit
+  * @param toUnit     world space to the unit cube, which the medium fills
+  * @param bounds     majorants of the density, per cell
+  * @param extinction extinction coefficients at a density of 1, per scene unit
   *
   * Sources: Woodcock et al. 1965; Novák, Georgiev, Hanika, Jarosz, "Monte Carlo Methods for
   * Volumetric Light Transport Simulation", CGF 37(2), 2018, §4.4 (weighted tracking) and §5.1.4
@@ -18,7 +18,7 @@ import candela.math.*
 abstract class VaryingMedium(
     toUnit: Transform,
     private[media] val bounds: MajorantGrid,
-    private[media] val most: Rgb
+    private[media] val extinction: Rgb
 ) extends Medium:
 
   /** Coefficients at a point of the unit cube; those of `glow` only if the medium is emissive. */
@@ -32,9 +32,9 @@ abstract class VaryingMedium(
     var u = first
     track(ray, w, work)(
       sample =
-        val now = u
+        val current = u
         u = work.random.next()
-        now
+        current
       ,
       collide = (t, mr, mg, mb, mh, unit) =>
         if glows then addGlow(work, mr, mg, mb, unit)
@@ -76,27 +76,27 @@ abstract class VaryingMedium(
     val walk = work.walk
     val unit = ray.direction.length
     if !w.isLost && enter(ray, walk) then
-      var left = VaryingMedium.MostSteps
+      var stepsLeft = VaryingMedium.MostSteps
       var isStraight = true
       while isStraight && !w.isDead && !w.isLost && walk.next() do
-        val mr = most.r * walk.most * unit
-        val mg = most.g * walk.most * unit
-        val mb = most.b * walk.most * unit
+        val mr = extinction.r * walk.majorant * unit
+        val mg = extinction.g * walk.majorant * unit
+        val mb = extinction.b * walk.majorant * unit
         val mh = w.ofHero(mr, mg, mb)
-        var t = walk.begin
+        var t = walk.start
         while t < walk.end do
-          val rest = walk.end - t
+          val remaining = walk.end - t
           val step = if mh > 0f then -log(1f - sample) / mh else Float.PositiveInfinity
-          if !(step < rest) then
-            w.pass(mr * rest, mg * rest, mb * rest)
+          if !(step < remaining) then
+            w.pass(mr * remaining, mg * remaining, mb * remaining)
             t = walk.end
           else
             w.pass(mr * step, mg * step, mb * step)
             t += step
-            left -= 1
-            at(walk, t, work.point)
+            stepsLeft -= 1
+            evaluate(walk, t, work.point)
             if collide(t, mr, mg, mb, mh, unit) then
-              if left == 0 then w.lose()
+              if stepsLeft == 0 then w.discard()
               if w.isDead || w.isLost then t = walk.end
             else
               isStraight = false
@@ -105,7 +105,7 @@ abstract class VaryingMedium(
   private def enter(ray: Ray, walk: MajorantWalk): Boolean =
     walk.enter(toUnit.point(ray.origin), toUnit.vector(ray.direction), ray.tMax, bounds)
 
-  private def at(walk: MajorantWalk, t: Float, point: MediumPoint): Unit =
+  private def evaluate(walk: MajorantWalk, t: Float, point: MediumPoint): Unit =
     coefficients(walk.ox + t * walk.dx, walk.oy + t * walk.dy, walk.oz + t * walk.dz, point)
 
   private def scatter(w: PathWeights, p: MediumPoint): Unit =

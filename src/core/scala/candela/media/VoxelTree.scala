@@ -32,11 +32,19 @@ final class VoxelTree private (
     val k = fz.toInt - z0
     if (i & 7) < 7 && (j & 7) < 7 && (k & 7) < 7 then
       val leaf = leafAt(i, j, k)
-      val at = VoxelTree.inLeaf(i, j, k)
+      val voxel = VoxelTree.inLeaf(i, j, k)
       lerp(
         wx,
-        lerp(wy, lerp(wz, leaf(at), leaf(at + 1)), lerp(wz, leaf(at + 8), leaf(at + 9))),
-        lerp(wy, lerp(wz, leaf(at + 64), leaf(at + 65)), lerp(wz, leaf(at + 72), leaf(at + 73)))
+        lerp(
+          wy,
+          lerp(wz, leaf(voxel), leaf(voxel + 1)),
+          lerp(wz, leaf(voxel + 8), leaf(voxel + 9))
+        ),
+        lerp(
+          wy,
+          lerp(wz, leaf(voxel + 64), leaf(voxel + 65)),
+          lerp(wz, leaf(voxel + 72), leaf(voxel + 73))
+        )
       )
     else lerp(wx, plane(i, j, k, wy, wz), plane(i + 1, j, k, wy, wz))
 
@@ -60,7 +68,7 @@ final class VoxelTree private (
   private val outside = VoxelNode.constant(background)
 
   /** Upper bound of the values of these voxels, inclusive; at least 0. */
-  def most(fromX: Int, fromY: Int, fromZ: Int, toX: Int, toY: Int, toZ: Int): Float =
+  def majorant(fromX: Int, fromY: Int, fromZ: Int, toX: Int, toY: Int, toZ: Int): Float =
     // Relative to the first voxel, and cut to one leaf more on each side than there are
     def first(at: Int, start: Int) = Math.max(-8L, at.toLong - start).toInt
     def last(at: Int, start: Int, n: Int) = Math.min((n << 7) + 7L, at.toLong - start).toInt
@@ -85,26 +93,28 @@ final class VoxelTree private (
 
   /** The greatest value; at least 0. */
   def maximum: Float =
-    nodes.foldLeft(Math.max(0f, background))((most, node) => node.mosts.foldLeft(most)(Math.max))
+    nodes.foldLeft(Math.max(0f, background))((largest, node) =>
+      node.mosts.foldLeft(largest)(Math.max)
+    )
 
 /** 16³ leaves of 8³ values. */
 final class VoxelNode(val leaves: Array[Array[Float]]):
   /** The greatest value of each leaf; of leaves that are the same object, found once. */
   private[media] val mosts: Array[Float] =
-    val found = new Array[Float](leaves.length)
+    val maxima = new Array[Float](leaves.length)
     loop(leaves.length): i =>
       val isAsBefore = i > 0 && (leaves(i) eq leaves(i - 1))
-      found(i) = if isAsBefore then found(i - 1) else VoxelNode.greatest(leaves(i))
-    found
+      maxima(i) = if isAsBefore then maxima(i - 1) else VoxelNode.greatest(leaves(i))
+    maxima
 
 object VoxelNode:
   val LeafCount = 4096
   val LeafSize = 512
 
   private def greatest(leaf: Array[Float]): Float =
-    var most = leaf(0)
-    loop(leaf.length)(i => most = Math.max(most, leaf(i)))
-    most
+    var largest = leaf(0)
+    loop(leaf.length)(i => largest = Math.max(largest, leaf(i)))
+    largest
 
   def constant(value: Float): VoxelNode =
     val leaf = Array.fill(LeafSize)(value)
@@ -120,19 +130,19 @@ object VoxelTree:
   /** The tree of these nodes, at most one per place; None if they are too far apart. Places count
     * nodes, not voxels.
     */
-  def of(found: Iterable[(Int, Int, Int, VoxelNode)], background: Float): Option[VoxelTree] =
+  def of(entries: Iterable[(Int, Int, Int, VoxelNode)], background: Float): Option[VoxelTree] =
     def range(axis: ((Int, Int, Int, VoxelNode)) => Int) =
-      if found.isEmpty then (0, 1L)
+      if entries.isEmpty then (0, 1L)
       else
-        val places = found.map(axis)
-        (places.min, places.max.toLong - places.min + 1)
+        val coordinates = entries.map(axis)
+        (coordinates.min, coordinates.max.toLong - coordinates.min + 1)
     val ((x, nx), (y, ny), (z, nz)) = (range(_(0)), range(_(1)), range(_(2)))
     val fits =
       nx <= MostNodes && ny <= MostNodes && nx * ny <= MostNodes && nx * ny * nz <= MostNodes
     Option.when(fits):
       val empty = VoxelNode.constant(background)
       val nodes = Array.fill((nx * ny * nz).toInt)(empty)
-      for (a, b, c, node) <- found do
+      for (a, b, c, node) <- entries do
         nodes(((a - x) * ny.toInt + (b - y)) * nz.toInt + (c - z)) = node
       VoxelTree(
         x * NodeWidth,

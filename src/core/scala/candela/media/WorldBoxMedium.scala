@@ -11,7 +11,7 @@ import candela.sampling.PhaseFunction
   * @param toGrid this unit cube to that of the grid
   */
 final class WorldBoxMedium private (grid: VaryingMedium, toUnit: Transform, toGrid: Transform)
-    extends VaryingMedium(toUnit, WorldBoxMedium.bounds(grid.bounds, toGrid), grid.most):
+    extends VaryingMedium(toUnit, WorldBoxMedium.bounds(grid.bounds, toGrid), grid.extinction):
   val phase: PhaseFunction = grid.phase
   def isEmissive: Boolean = grid.isEmissive
   def isChromatic: Boolean = grid.isChromatic

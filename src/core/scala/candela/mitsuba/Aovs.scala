@@ -9,43 +9,43 @@ private final class Aovs(session: Session):
   def apply(p: Plugin, prefix: String = ""): Vector[String] =
     if p.name != "aov" then Vector.empty
     else
-      val in = Properties(p, session)
-      val within = in.named("integrator").zipWithIndex.map:
+      val properties = Properties(p, session)
+      val integrators = properties.named("integrator").zipWithIndex.map:
         case ((name, inner), i) =>
           (if name.isEmpty then s"${prefix}_arg_$i" else prefix + name, inner)
-      val listed = in.text("aovs", "").split("[, ]+").toVector.filter(_.nonEmpty)
-        .flatMap(checked(_, in)).map(prefix + _)
-      val inner = within.take(1).flatMap: (name, integrator) =>
+      val listed = properties.text("aovs", "").split("[, ]+").toVector.filter(_.nonEmpty)
+        .flatMap(checked(_, properties)).map(prefix + _)
+      val inner = integrators.take(1).flatMap: (name, integrator) =>
         s"$name:${Aovs.Colors}" +: apply(integrator, s"$name.")
-      val all = inner ++ listed
-      val channels = all.flatMap: layer =>
+      val layers = inner ++ listed
+      val channels = layers.flatMap: layer =>
         Aovs.components(Aovs.quantity(layer)).map(c => s"${Aovs.name(layer)}.$c")
       for repeated <- channels.diff(channels.distinct).headOption do
         session.error(
           Code.Redefined,
-          in.atOf("aovs"),
+          properties.posOf("aovs"),
           s"two layers have the channel `$repeated`",
           Some("each layer needs a name of its own")
         )
-      all.distinct
+      layers.distinct
 
   /** The layer, if it exists and can be written. */
-  private def checked(layer: String, in: Properties): Option[String] =
-    val at = in.atOf("aovs")
+  private def checked(layer: String, properties: Properties): Option[String] =
+    val pos = properties.posOf("aovs")
     val quantity = Aovs.quantity(layer)
     if layer.count(_ == ':') != 1 || quantity.isEmpty || layer.startsWith(":") then
-      session.error(Code.ParameterValue, at, s"a layer must be NAME:QUANTITY, found `$layer`")
+      session.error(Code.ParameterValue, pos, s"a layer must be NAME:QUANTITY, found `$layer`")
       None
     else if Aovs.Missing.contains(quantity) then
-      session.warn(Code.Unsupported, at, s"`$quantity` is not supported; `$layer` is not written")
+      session.warn(Code.Unsupported, pos, s"`$quantity` is not supported; `$layer` is not written")
       None
     else if !Aovs.components.contains(quantity) then
-      val known = Aovs.components.keySet - Aovs.Colors ++ Aovs.Missing
+      val quantities = Aovs.components.keySet - Aovs.Colors ++ Aovs.Missing
       session.error(
         Code.UnknownType,
-        at,
+        pos,
         s"unknown quantity `$quantity` of `aovs`",
-        Suggest.help(quantity, known)
+        Suggest.help(quantity, quantities)
       )
       None
     else Some(layer)

@@ -16,23 +16,23 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     case "roughdielectric" => dielectric(in, isRough = true)
     case "thindielectric" =>
       surface(in, "thindielectric", isOneSided = false)(
-        (Param.float("eta", in.at, Indices.relative(in, "bk7").toFloat) +: tints(in))*
+        (Param.float("eta", in.pos, Indices.relative(in, "bk7").toFloat) +: tints(in))*
       )
     case "conductor" => conductor(in, isRough = false)
     case "roughconductor" => conductor(in, isRough = true)
-    case "plastic" => plastic(in, Vector(nonlinear(in), Param.float("roughness", in.at, 0f)))
+    case "plastic" => plastic(in, Vector(nonlinear(in), Param.float("roughness", in.pos, 0f)))
     case "roughplastic" => plastic(in, nonlinear(in) +: roughness(in))
-    case "pplastic" => plastic(in, Param.bool("interreflection", in.at, false) +: roughness(in))
+    case "pplastic" => plastic(in, Param.bool("interreflection", in.pos, false) +: roughness(in))
     case "polarizer" | "circular" => filter(in, 0.5f)
     case "retarder" => filter(in, 1f)
     case "principled" | "principledthin" => principled(in, in.plugin.name == "principledthin")
     case "hair" => hair(in)
     case "null" => surface(in, "interface", isOneSided = false)()
     case "measured" =>
-      val file = in.text("filename").flatMap(session.file(_, in.atOf("filename"), "using grey"))
+      val file = in.text("filename").flatMap(session.file(_, in.posOf("filename"), "using grey"))
       file.fold(grey(in)): path =>
         surface(in, "measured", isOneSided = true)(
-          Param.string("filename", in.atOf("filename"), session.named(path))
+          Param.string("filename", in.posOf("filename"), session.named(path))
         )
     case _ =>
       Plugins.unsupported(in.plugin, "using a diffuse reflectance of 0.5", session)
@@ -40,7 +40,11 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       grey(in)
 
   def grey(in: Properties): Surface =
-    surface(in, "diffuse", isOneSided = true)(Textures.rgb("reflectance", Textures.Fallback, in.at))
+    surface(
+      in,
+      "diffuse",
+      isOneSided = true
+    )(Textures.rgb("reflectance", Textures.Fallback, in.pos))
 
   /** The same model as pbrt's. */
   private def hair(in: Properties): Surface =
@@ -48,23 +52,23 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     val pigments = Seq("eumelanin" -> 1.3, "pheomelanin" -> 0.2)
     val absorption =
       if !in.contains("sigma_a") then
-        pigments.map((name, default) => Param.float(name, in.at, in.number(name, default).toFloat))
+        pigments.map((name, default) => Param.float(name, in.pos, in.number(name, default).toFloat))
       else
         for (name, _) <- pigments if in.contains(name) do
           session.error(
             Code.MissingParameter,
-            in.atOf(name),
+            in.posOf(name),
             s"hair has `sigma_a` or `$name`, not both"
           )
         val shade = colors.shade(in, "sigma_a", Rgb.Black, Role.Unbounded)
-        Seq(textures.color("sigma_a", shade, in.atOf("sigma_a"), scale))
+        Seq(textures.color("sigma_a", shade, in.posOf("sigma_a"), scale))
     if scale != 1f && !in.contains("sigma_a") then
-      session.warn(Code.IdleParameter, in.atOf("scale"), "`scale` is for `sigma_a`; it is ignored")
+      session.warn(Code.IdleParameter, in.posOf("scale"), "`scale` is for `sigma_a`; it is ignored")
     def number(name: String, property: String, default: Double) =
-      Param.float(name, in.atOf(property), in.number(property, default).toFloat)
+      Param.float(name, in.posOf(property), in.number(property, default).toFloat)
     surface(in, "hair", isOneSided = false)(
       absorption ++ Seq(
-        Param.float("eta", in.at, Indices.relative(in, "amber").toFloat),
+        Param.float("eta", in.pos, Indices.relative(in, "amber").toFloat),
         number("beta_m", "longitudinal_roughness", 0.3),
         number("beta_n", "azimuthal_roughness", 0.3),
         number("alpha", "scale_tilt", 2)
@@ -78,11 +82,11 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
   def surface(in: Properties, name: String, isOneSided: Boolean)(
       params: Param*
   ): Surface =
-    Surface(session.declare("Material", name, in.at, params), isOneSided)
+    Surface(session.declare("Material", name, in.pos, params), isOneSided)
 
   def color(in: Properties, property: String, default: Float, name: String): Param =
     val shade = colors.shade(in, property, Rgb.gray(default), Role.Reflectance)
-    textures.color(name, shade, in.atOf(property))
+    textures.color(name, shade, in.posOf(property))
 
   /** Alpha as it is, in both directions. */
   def roughness(in: Properties): Vector[Param] =
@@ -97,8 +101,8 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       yield textures.number(s"${axis}roughness", in, name, 0.1)
     val roughnesses = if perAxis.nonEmpty then perAxis else isotropic(in)
     roughnesses ++ Vector(
-      Param.bool("remaproughness", in.at, false),
-      Param.string("distribution", in.atOf("distribution"), distribution)
+      Param.bool("remaproughness", in.pos, false),
+      Param.string("distribution", in.posOf("distribution"), distribution)
     )
 
   private def isotropic(in: Properties): Vector[Param] =
@@ -110,13 +114,13 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       (property, name) <- names.toVector
       shade <- colors.givenShade(in, property, Role.Reflectance)
       if !shade.constant.contains(Rgb.White)
-    yield textures.color(name, shade, in.atOf(property))
+    yield textures.color(name, shade, in.posOf(property))
 
   private def dielectric(in: Properties, isRough: Boolean): Surface =
     val eta = Indices.relative(in, "bk7").toFloat
     val rough = if isRough then roughness(in) else Vector.empty
     surface(in, "dielectric", isOneSided = false)(
-      (Param.float("eta", in.at, eta) +: (tints(in) ++ rough))*
+      (Param.float("eta", in.pos, eta) +: (tints(in) ++ rough))*
     )
 
   /** What does nothing to unpolarized light but to absorb it.
@@ -127,8 +131,8 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     val transmittance = colors.shade(in, "transmittance", Rgb.White, Role.Reflectance)
     in.ignore("theta", "delta", "polarizing", "left_handed")
     surface(in, "thindielectric", isOneSided = false)(
-      Param.float("eta", in.at, 1f),
-      textures.color("transmittance", transmittance, in.atOf("transmittance"), share)
+      Param.float("eta", in.pos, 1f),
+      textures.color("transmittance", transmittance, in.posOf("transmittance"), share)
     )
 
   private def tints(in: Properties): Vector[Param] = scales(
@@ -146,13 +150,13 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       if material == "none" && (in.plugin.isOld || !in.contains("eta")) then
         // A perfect mirror, of which roughness is a blur
         in.ignore("k")
-        Vector(Textures.rgb("eta", Rgb.Black, in.at), Textures.rgb("k", Rgb.White, in.at))
+        Vector(Textures.rgb("eta", Rgb.Black, in.pos), Textures.rgb("k", Rgb.White, in.pos))
       else
         val (eta, k) = if material == "none" then (Rgb.Black, Rgb.White)
         else
           Indices.metal(material, in)
         Vector("eta" -> eta, "k" -> k).map: (name, default) =>
-          textures.color(name, colors.shade(in, name, default, Role.Unbounded), in.atOf(name))
+          textures.color(name, colors.shade(in, name, default, Role.Unbounded), in.posOf(name))
     surface(in, "conductor", isOneSided = true)((params ++ tint ++ rough)*)
 
   /** A coat on a diffuse base. */
@@ -162,12 +166,12 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     surface(in, "roughplastic", isOneSided = true)(
       (Vector(
         color(in, "diffuse_reflectance", 0.5f, "reflectance"),
-        Param.float("eta", in.at, eta)
+        Param.float("eta", in.pos, eta)
       ) ++ scales(in, "specular_reflectance" -> "specular") ++ extra)*
     )
 
   private def nonlinear(in: Properties): Param =
-    Param.bool("nonlinear", in.at, in.flag("nonlinear", false))
+    Param.bool("nonlinear", in.pos, in.flag("nonlinear", false))
 
   /** Burley's BSDF, or that of a thin sheet. */
   private def principled(in: Properties, isThin: Boolean): Surface =
@@ -176,7 +180,7 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       else
         val index = in.number("eta").getOrElse:
           2 / (1 - Math.sqrt(0.08 * in.number("specular", 0.5))) - 1
-        Param.float("eta", in.at, index.toFloat)
+        Param.float("eta", in.pos, index.toFloat)
     val numbers = BasicSurfaces.Principled
       .filter((property, _, default) => in.contains(property) || default.isDefined)
       .map((property, name, default) => textures.number(name, in, property, default.getOrElse(0.0)))
@@ -187,7 +191,7 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     )
     surface(in, "principled", !isThin && !in.contains("spec_trans"))(
       (color(in, "base_color", 0.5f, "color") +: eta +:
-        Param.bool("thin", in.at, isThin) +: numbers)*
+        Param.bool("thin", in.pos, isThin) +: numbers)*
     )
 
 private object BasicSurfaces:

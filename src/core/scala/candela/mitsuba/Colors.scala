@@ -53,7 +53,7 @@ final class Colors(session: Session):
         case other =>
           session.error(
             Code.ParameterValue,
-            p.at,
+            p.pos,
             s"`$name` must be a colour or a texture, found ${other.description}"
           )
           None
@@ -62,7 +62,7 @@ final class Colors(session: Session):
     if p.kind != "texture" && p.kind != "spectrum" then
       session.error(
         Code.ParameterValue,
-        p.at,
+        p.pos,
         s"`$name` of ${in.plugin.description} must be a colour or a texture"
       )
       None
@@ -82,14 +82,14 @@ final class Colors(session: Session):
       case "blackbody" =>
         Some(session.translate(p): in =>
           in.ignore("wavelength_min", "wavelength_max")
-          blackbody(in.number("temperature", 5000).toFloat, in.at) *
+          blackbody(in.number("temperature", 5000).toFloat, in.pos) *
             in.number("scale", 1).toFloat)
       case "rawconstant" => Some(session.translate(p)(raw))
       case "scale" => scaled(p, role)
       case "wireframe" =>
         session.warn(
           Code.Unsupported,
-          p.at,
+          p.pos,
           s"${p.description} is not supported; using the colour of its interior"
         )
         Some(session.translate(p): in =>
@@ -106,10 +106,14 @@ final class Colors(session: Session):
 
   /** A constant times a factor; None around textures. */
   private def scaled(p: Plugin, role: Role): Option[Rgb] =
-    val in = Properties(p, session)
-    val inner = in.nested("texture") ++ in.nested("spectrum")
-    val value = inner.headOption.fold(givenShade(in, "value", role))(ofPlugin(_, role, in, "value"))
-    value.flatMap(_.constant).map(_ * fixed(in, "scale", Rgb.White, Role.Unbounded))
+    val properties = Properties(p, session)
+    val inner = properties.nested("texture") ++ properties.nested("spectrum")
+    val value = inner.headOption.fold(givenShade(
+      properties,
+      "value",
+      role
+    ))(ofPlugin(_, role, properties, "value"))
+    value.flatMap(_.constant).map(_ * fixed(properties, "scale", Rgb.White, Role.Unbounded))
 
   /** Of a constant volume. */
   def everywhere(v: Plugin, default: Rgb, role: Role): Rgb =
@@ -121,7 +125,7 @@ final class Colors(session: Session):
   private def raw(in: Properties): Rgb = in.property("value").map(_.value) match
     case Some(Value.Triple(x, y, z)) => Rgb(x.toFloat, y.toFloat, z.toFloat)
     case None =>
-      session.error(Code.MissingParameter, in.at, s"${in.plugin.description} must have a `value`")
+      session.error(Code.MissingParameter, in.pos, s"${in.plugin.description} must have a `value`")
       Rgb.White
     case _ => Rgb.gray(in.number("value", 1).toFloat)
 
@@ -136,26 +140,26 @@ final class Colors(session: Session):
       case Shade.Textured(t) =>
         session.warn(
           Code.CorrectedValue,
-          t.at,
+          t.pos,
           s"`$name` of ${in.plugin.description} must be constant here; using the default"
         )
         Shade.Constant(default)
 
   private def list(in: Properties, name: String): Vector[Double] =
-    in.text(name).fold(Vector.empty)(Values.numbers(_, in.atOf(name)))
+    in.text(name).fold(Vector.empty)(Values.numbers(_, in.posOf(name)))
 
   private def irregular(in: Properties): Spectrum =
     in.text("filename") match
-      case Some(name) => session.values.file(name, in.at)
+      case Some(name) => session.values.file(name, in.pos)
       case None =>
         val (lambda, values) = (list(in, "wavelengths"), list(in, "values"))
         if lambda.size != values.size then
           Values.fail(
             Code.SpectrumFile,
-            in.at,
+            in.pos,
             s"${lambda.size} wavelengths, but ${values.size} values"
           )
-        Values.spectrum(lambda.zip(values).flatMap((l, v) => Vector(l, v)), in.at)
+        Values.spectrum(lambda.zip(values).flatMap((l, v) => Vector(l, v)), in.pos)
 
   private def regular(in: Properties): Spectrum =
     val (from, to) = (in.number("wavelength_min", 360), in.number("wavelength_max", 830))
@@ -163,7 +167,7 @@ final class Colors(session: Session):
     val step = (to - from) / (values.size - 1).max(1)
     Values.spectrum(
       values.indices.flatMap(i => Vector(from + i * step, values(i))).toVector,
-      in.at
+      in.pos
     )
 
   private def measured(s: Spectrum, role: Role): Shade =

@@ -31,7 +31,7 @@ private[mitsuba] final class EarlierSurfaces(
         val property = if in.contains(name) then name else "alpha"
         textures.number(s"${axis}roughness", in, property, 0.1)
     basic.surface(in, "ward", isOneSided = true)(
-      ((Param.string("variant", in.atOf("variant"), variant) +: alphas) ++ glossed(in))*
+      ((Param.string("variant", in.posOf("variant"), variant) +: alphas) ++ glossed(in))*
     )
 
   private def glossed(in: Properties): Vector[Param] =
@@ -44,27 +44,27 @@ private[mitsuba] final class EarlierSurfaces(
       if total > 1f then
         session.warn(
           Code.CorrectedValue,
-          in.at,
+          in.pos,
           s"the reflectances of ${in.plugin.description} add up to $total; both are scaled by " +
             s"${0.99f / total}, as in Mitsuba 0.6"
         )
     val names = Vector("reflectance" -> "diffuse_reflectance", "specular" -> "specular_reflectance")
     names.zip(shades).map { case ((ours, theirs), shade) =>
-      textures.color(ours, shade, in.atOf(theirs))
-    } :+ Param.bool("conserveenergy", in.at, conserves)
+      textures.color(ours, shade, in.posOf(theirs))
+    } :+ Param.bool("conserveenergy", in.pos, conserves)
 
   private def roughDiffuse(in: Properties): Surface =
     basic.surface(in, "roughdiffuse", isOneSided = true)(
       basic.color(in, basic.reflectance(in), 0.5f, "reflectance"),
       textures.number("roughness", in, "alpha", 0.2),
-      Param.bool("fast", in.atOf("use_fast_approx"), in.flag("use_fast_approx", false))
+      Param.bool("fast", in.posOf("use_fast_approx"), in.flag("use_fast_approx", false))
     )
 
   private def diffuseTransmitter(in: Properties): Surface =
     val name = "diffuse_transmittance"
     val transmittance = if in.contains(name) then name else "transmittance"
     basic.surface(in, "diffusetransmission", isOneSided = false)(
-      Textures.rgb("reflectance", Rgb.Black, in.at),
+      Textures.rgb("reflectance", Rgb.Black, in.pos),
       basic.color(in, transmittance, 0.5f, "transmittance")
     )
 
@@ -77,16 +77,16 @@ private[mitsuba] final class EarlierSurfaces(
     val isTextured = shades.exists(_._2.exists(_.constant.isEmpty))
     val coefficients =
       if !isTextured then
-        val known = Presets.coefficients(in, colors)
-        val (a, s) = phase.reduced(known.sigmaA, known.sigmaS)
-        Vector(Textures.rgb("sigma_a", a, in.at), Textures.rgb("sigma_s", s, in.at))
+        val medium = Presets.coefficients(in, colors)
+        val (a, s) = phase.reduced(medium.sigmaA, medium.sigmaS)
+        Vector(Textures.rgb("sigma_a", a, in.pos), Textures.rgb("sigma_s", s, in.pos))
       else
         for (name, shade) <- shades
-        yield textures.color(name, shade.getOrElse(Shade.Constant(Rgb.Black)), in.atOf(name))
+        yield textures.color(name, shade.getOrElse(Shade.Constant(Rgb.Black)), in.posOf(name))
     val thickness = in.number("thickness", 1).toFloat
     basic.surface(in, "scatteringlayer", isOneSided = false)(
-      (coefficients ++ phase.params(in.at) :+
-        Param.float("thickness", in.atOf("thickness"), thickness))*
+      (coefficients ++ phase.params(in.pos) :+
+        Param.float("thickness", in.posOf("thickness"), thickness))*
     )
 
   /** A diffuse surface of the mean colour of the yarns, as far as the scene tells it. */
@@ -98,12 +98,12 @@ private[mitsuba] final class EarlierSurfaces(
       if yarns.isEmpty then Textures.Fallback else yarns.reduce(_ + _) * (1f / yarns.size)
     session.warn(
       Code.Unsupported,
-      in.at,
+      in.pos,
       s"${in.plugin.description} is not supported; using a diffuse reflectance of " +
         s"${color.r}, ${color.g}, ${color.b}"
     )
     in.ignore(names*)
-    basic.surface(in, "diffuse", isOneSided = true)(Textures.rgb("reflectance", color, in.at))
+    basic.surface(in, "diffuse", isOneSided = true)(Textures.rgb("reflectance", color, in.pos))
 
 private[mitsuba] object EarlierSurfaces:
   val types: Set[String] = Set("difftrans", "hk", "irawan", "phong", "roughdiffuse", "ward")

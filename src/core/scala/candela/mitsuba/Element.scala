@@ -14,7 +14,7 @@ import scala.util.Using
 
 /** An XML element.
   *
-  * @param at         position of its start tag
+  * @param pos        position of its start tag
   * @param formerName the attribute `name` of the file, if Mitsuba has renamed it
   * @param isOld      whether the file is one of Mitsuba 0.6
   */
@@ -22,7 +22,7 @@ final case class Element(
     tag: String,
     attributes: Map[String, String],
     children: Vector[Element],
-    at: SourcePos,
+    pos: SourcePos,
     formerName: Option[String] = None,
     isOld: Boolean = false
 ):
@@ -86,13 +86,13 @@ object XmlFile:
     * byte order mark or of the declaration, else UTF-8.
     */
   private def text(file: InputStream): Reader =
-    val in = BufferedInputStream(file)
-    in.mark(HeadSize)
-    val head = in.readNBytes(HeadSize)
-    in.reset()
+    val input = BufferedInputStream(file)
+    input.mark(HeadSize)
+    val head = input.readNBytes(HeadSize)
+    input.reset()
     val marks = head.take(3).map(_ & 0xff).toVector
     val isUtf16 = marks.startsWith(Vector(0xfe, 0xff)) || marks.startsWith(Vector(0xff, 0xfe))
-    if marks == Vector(0xef, 0xbb, 0xbf) then in.skipNBytes(3)
+    if marks == Vector(0xef, 0xbb, 0xbf) then input.skipNBytes(3)
     val charset =
       if isUtf16 then UTF_16
       else
@@ -101,7 +101,7 @@ object XmlFile:
         catch
           case _: IllegalArgumentException =>
             throw XMLStreamException(s"unknown encoding ${declared.mkString}")
-    InputStreamReader(in, charset.newDecoder)
+    InputStreamReader(input, charset.newDecoder)
 
   private val HeadSize = 200
   private val Encoding = """^(?:\u00EF\u00BB\u00BF)?<\?xml[^>]*encoding\s*=\s*["']([\w.:-]+)""".r

@@ -26,7 +26,7 @@ final class Emitters(
       case "area" => session.translate(p)(diffuse)
       case "directionalarea" =>
         val cause = "it radiates along the normals only, where no path from the camera meets it"
-        session.warn(Code.Unsupported, p.at, s"${p.description} is ignored: $cause")
+        session.warn(Code.Unsupported, p.pos, s"${p.description} is ignored: $cause")
         None
       case name if Plugins.unsupportedTypes("emitter").contains(name) =>
         Plugins.unsupported(p, "ignored", session)
@@ -34,7 +34,7 @@ final class Emitters(
       case _ =>
         session.error(
           Code.Nesting,
-          p.at,
+          p.pos,
           s"a shape can't contain an ${p.description}; expected \"area\""
         )
         None
@@ -42,9 +42,9 @@ final class Emitters(
   private def diffuse(in: Properties): Option[Declaration] =
     in.ignore("sampling_weight")
     val params = colors.shade(in, "radiance", Rgb.White, Role.Emission) match
-      case c: Shade.Constant => Some(colors.light("L", c, in.at))
+      case c: Shade.Constant => Some(colors.light("L", c, in.pos))
       case Shade.Textured(t) => spread(t)
-    params.map(session.declare("AreaLightSource", "diffuse", in.at, _))
+    params.map(session.declare("AreaLightSource", "diffuse", in.pos, _))
 
   /** The lights of an emitter of its own. */
   def apply(p: Plugin): Vector[LightDescription] =
@@ -63,21 +63,21 @@ final class Emitters(
     in.plugin.name match
       case "constant" =>
         val c = colors.uniform(in, "radiance", Rgb.White, Role.Emission)
-        Some(light(in, "infinite", Transform.Identity, mediumName)(colors.light("L", c, in.at)*))
+        Some(light(in, "infinite", Transform.Identity, mediumName)(colors.light("L", c, in.pos)*))
       case "envmap" => environment(in)
       case "sunsky" | "timed_sunsky" =>
         val toWorld = in.transform("to_world")
-        Some(LightDescription(skies(in, toWorld), GraphicsState.still(toWorld), ""))
+        Some(LightDescription(skies(in, toWorld), GraphicsState.constant(toWorld), ""))
       case "point" =>
         val c = colors.uniform(in, "intensity", Rgb.White, Role.Emission)
         val toWorld = in.triple("position").fold(in.transform("to_world")): (x, y, z) =>
           Transform.translate(x, y, z)
-        Some(light(in, "point", toWorld, mediumName)(colors.light("I", c, in.at)*))
+        Some(light(in, "point", toWorld, mediumName)(colors.light("I", c, in.pos)*))
       case "spot" => spot(in, mediumName)
       case "directional" => Some(directional(in))
       case "projector" => projector(in, mediumName)
       case "area" =>
-        session.warn(Code.Nesting, in.at, "an emitter \"area\" outside a shape emits nothing")
+        session.warn(Code.Nesting, in.pos, "an emitter \"area\" outside a shape emits nothing")
         in.ignore("radiance")
         None
       case _ =>
@@ -92,8 +92,8 @@ final class Emitters(
       medium: String,
       dialect: Option[Dialect] = None
   )(params: Param*): LightDescription =
-    val d = session.declare("LightSource", name, in.at, params, dialect)
-    LightDescription(d, GraphicsState.still(toWorld), medium)
+    val d = session.declare("LightSource", name, in.pos, params, dialect)
+    LightDescription(d, GraphicsState.constant(toWorld), medium)
 
   /** pbrt's poles are ±z, Mitsuba's ±y, and pbrt's azimuth begins at x, Mitsuba's at −z. */
   private def environment(in: Properties): Option[LightDescription] =
@@ -103,14 +103,14 @@ final class Emitters(
     val scale = in.number("scale", 1).toFloat
     for
       name <- in.text("filename").orElse:
-        session.error(Code.MissingParameter, in.at, "an envmap must have a `filename`")
+        session.error(Code.MissingParameter, in.pos, "an envmap must have a `filename`")
         None
-      path <- session.file(name, in.atOf("filename"), "skipped")
+      path <- session.file(name, in.posOf("filename"), "skipped")
     yield
       // v4's maps are equal-area, v3's are latitude and longitude, as Mitsuba's
       light(in, "infinite", in.transform("to_world") * axes, "", Some(Dialect.V3))(
-        Param.string("mapname", in.atOf("filename"), session.named(path)),
-        Textures.rgb("L", Rgb.gray(scale), in.at)
+        Param.string("mapname", in.posOf("filename"), session.named(path)),
+        Textures.rgb("L", Rgb.gray(scale), in.pos)
       )
 
   private def spot(in: Properties, mediumName: String): Option[LightDescription] =
@@ -118,9 +118,9 @@ final class Emitters(
     val cutoff = in.number("cutoff_angle", 20)
     val beam = in.number("beam_width", cutoff * 0.75)
     def lit(shade: Shade.Constant, slide: Seq[Param]) =
-      val params = colors.light("I", shade, in.at) ++ Vector(
-        Param.float("coneangle", in.at, cutoff.toFloat),
-        Param.float("conedeltaangle", in.at, (cutoff - beam).toFloat)
+      val params = colors.light("I", shade, in.pos) ++ Vector(
+        Param.float("coneangle", in.pos, cutoff.toFloat),
+        Param.float("conedeltaangle", in.pos, (cutoff - beam).toFloat)
       )
       Some(light(in, "spot", in.transform("to_world"), mediumName)((params ++ slide)*))
     colors.shade(in, "texture", Rgb.White, Role.Reflectance) match
@@ -130,15 +130,15 @@ final class Emitters(
         picture(t).flatMap((_, params) => lit(c, slides(params)))
 
   private def slides(params: Seq[Param]): Seq[Param] =
-    params.map(p => Param.string("mapname", p.at, p.strings.head))
+    params.map(p => Param.string("mapname", p.pos, p.strings.head))
 
   private def directional(in: Properties): LightDescription =
     val c = colors.uniform(in, "irradiance", Rgb.White, Role.Emission)
     val (x, y, z) = in.triple("direction").getOrElse((0.0, 0.0, 1.0))
     val endpoints = Seq("from" -> Array(0f, 0f, 0f), "to" -> Array(x.toFloat, y.toFloat, z.toFloat))
     light(in, "distant", in.transform("to_world"), "")(
-      (colors.light("L", c, in.at) ++
-        endpoints.map((name, p) => Param.floats(ParamType.Point3, name, in.at, p)))*
+      (colors.light("L", c, in.pos) ++
+        endpoints.map((name, p) => Param.floats(ParamType.Point3, name, in.pos, p)))*
     )
 
   /** Irradiance of the plane at distance 1, by an image or a colour; the intensity of pbrt-v3's
@@ -148,22 +148,22 @@ final class Emitters(
     val scale = Rgb.gray((in.number("scale", 1) * Math.PI).toFloat)
     def lit(params: Param*) =
       // The width's, as of a square; what shows the image knows its height
-      val fov = Param.float("fov", in.atOf("fov"), FieldOfView.shorter(in, 1).toFloat)
+      val fov = Param.float("fov", in.posOf("fov"), FieldOfView.shorter(in, 1).toFloat)
       val upright = in.transform("to_world") * Transform.scale(-1, -1, 1).get
       light(in, "projection", upright, mediumName, Some(Dialect.V3))((params :+ fov)*)
     colors.shade(in, "irradiance", Rgb.White, Role.Emission) match
       case Shade.Constant(c, _) =>
-        colors.warnOfNegative(c * scale, in.at)
-        Some(lit(Textures.rgb("I", c * scale, in.at)))
+        colors.warnOfNegative(c * scale, in.pos)
+        Some(lit(Textures.rgb("I", c * scale, in.pos)))
       case Shade.Textured(t) =>
         for axis <- in.text("fov_axis") if axis != "x" do
           session.warn(
             Code.CorrectedValue,
-            in.atOf("fov_axis"),
+            in.posOf("fov_axis"),
             "a projector with an image supports only the axis x; using x"
           )
         picture(t).map: (_, params) =>
-          lit((Textures.rgb("I", scale, in.at) +: slides(params))*)
+          lit((Textures.rgb("I", scale, in.pos) +: slides(params))*)
 
   /** A bitmap that emits, over u and v. */
   private def spread(p: Plugin): Option[Seq[Param]] =
@@ -174,13 +174,13 @@ final class Emitters(
         val wrap = in.word("wrap_mode", "repeat", "repeat", "mirror", "clamp")
         val mapping = textures.imageMapping(in)
         val uvMapping = Option.when(mapping != Textures.Upright):
-          Param.floats(ParamType.Float, "imageuv", in.atOf("to_uv"), mapping.toArray)
+          Param.floats(ParamType.Float, "imageuv", in.posOf("to_uv"), mapping.toArray)
         Seq(
-          Param.string("wrap", in.atOf("wrap_mode"), wrap),
+          Param.string("wrap", in.posOf("wrap_mode"), wrap),
           Param
             .string(
               "filter",
-              in.atOf("filter_type"),
+              in.posOf("filter_type"),
               if filter == "nearest" then "point" else filter
             )
         ) ++ uvMapping
@@ -195,7 +195,7 @@ final class Emitters(
       extra: Properties => Seq[Param] = plainParams
   ): Option[(String, Seq[Param])] =
     if p.name != "bitmap" then
-      session.warn(Code.Unsupported, p.at, s"${p.description} can't emit here; using nothing")
+      session.warn(Code.Unsupported, p.pos, s"${p.description} can't emit here; using nothing")
       None
     else
       session.translate(p): in =>
@@ -204,15 +204,15 @@ final class Emitters(
         if in.flag("raw", false) then
           session.warn(
             Code.CorrectedValue,
-            in.atOf("raw"),
+            in.posOf("raw"),
             "8-bit images of emitters are always decoded from sRGB"
           )
         for
           name <- in.text("filename")
-          path <- session.file(name, in.atOf("filename"), "skipped")
+          path <- session.file(name, in.posOf("filename"), "skipped")
         yield (
           name,
-          Param.string("filename", in.atOf("filename"), session.named(path)) +: extraParams
+          Param.string("filename", in.posOf("filename"), session.named(path)) +: extraParams
         )
 
   private def plainParams(in: Properties): Seq[Param] =

@@ -71,7 +71,7 @@ final class Expansion(
     if root.tag != "scene" then fail(Code.Nesting, root, s"expected <scene>, found <${root.tag}>")
     val oldNames = OldNames.of(root)
     root.children.flatMap: child =>
-      folder.allowance.checkTime(Some(child.at))
+      folder.allowance.checkTime(Some(child.pos))
       child.tag match
         case "default" =>
           val e = substituted(child)
@@ -85,7 +85,7 @@ final class Expansion(
           val name = required(e, "value")
           if !SceneFolder.isName(name) then
             fail(Code.NoSuchFile, e, s"`$name` is not a valid file name")
-          val added = folder.existing(foldersFrom(files), name, Some(e.at)).map(_.path)
+          val added = folder.existing(foldersFrom(files), name, Some(e.pos)).map(_.path)
           if files.sizeIs > 1 then pathsOfIncludes = added ++: pathsOfIncludes
           else paths = added ++: paths
           Vector.empty
@@ -101,11 +101,11 @@ final class Expansion(
     val name = required(e, "filename")
     if !SceneFolder.isName(name) then fail(Code.NoSuchFile, e, s"`$name` is not a valid file name")
     val searched = foldersFrom(files)
-    val file = folder.existing(searched, name, Some(e.at)).filter(_.isRegular).getOrElse:
+    val file = folder.existing(searched, name, Some(e.pos)).filter(_.isRegular).getOrElse:
       val (message, help) =
-        folder.absence(name, Some(e.at), s"no such file: `$name`", searched)
+        folder.absence(name, Some(e.pos), s"no such file: `$name`", searched)
       fail(Code.NoSuchFile, e, message, help)
-    folder.allowance.check(Limit.Depth, files.size, Some(e.at)):
+    folder.allowance.check(Limit.Depth, files.size, Some(e.pos)):
       s"includes are nested ${files.size} deep"
     if files.exists(_.isSame(file)) then fail(Code.IncludeCircle, e, s"`$name` includes itself")
     else if files.size > Expansion.MaxIncludes then
@@ -124,10 +124,10 @@ final class Expansion(
       s"can't include `$file`: it is not a scene: expected <scene> (the file is not shown: it " +
         "is outside the scene's folder)"
     )
-    if file.isShown then XmlFile.read(file, Some(include.at))
+    if file.isShown then XmlFile.read(file, Some(include.pos))
     else
       val root =
-        try XmlFile.read(file, Some(include.at))
+        try XmlFile.read(file, Some(include.pos))
         catch case _: SceneError => failed()
       if root.tag == "scene" then root else failed()
 
@@ -141,7 +141,7 @@ final class Expansion(
   private def substituted(e: Element): Element =
     val attributes =
       if !e.attributes.values.exists(_.contains('$')) then e.attributes
-      else e.attributes.map((name, text) => name -> substituted(text, e.at))
+      else e.attributes.map((name, text) => name -> substituted(text, e.pos))
     e.copy(attributes = attributes, children = e.children.map(substituted))
 
   private def substituted(text: String, at: SourcePos): String =
@@ -177,7 +177,7 @@ final class Expansion(
       message: String,
       help: Option[String] = None
   ): Nothing =
-    throw SceneError(Problem.error(code, e.at, message, help))
+    throw SceneError(Problem.error(code, e.pos, message, help))
 
 object Expansion:
   /** Films of Mitsuba 0.6 write `$sensor['toWorld']`, which is no parameter. */

@@ -12,7 +12,7 @@ private[mitsuba] object FieldOfView:
   def shorter(in: Properties, aspect: Double): Double =
     val axis = in.word("fov_axis", "x", "x", "y", "diagonal", "smaller", "larger")
     import in.session
-    val focal = in.property("focal_length").map(p => (p.value, p.at))
+    val focal = in.property("focal_length").map(p => (p.value, p.pos))
     val diagonal = Math.sqrt(1 + 1 / (aspect * aspect))
     def tan(degrees: Double) = Math.tan(Math.toRadians(degrees) / 2)
     // Half of the width at distance 1
@@ -21,7 +21,7 @@ private[mitsuba] object FieldOfView:
         if !(degrees > 0 && degrees < 180) then
           session.error(
             Code.ParameterValue,
-            in.atOf("fov"),
+            in.posOf("fov"),
             "`fov` must be between 0 and 180 degrees"
           )
         axis match

@@ -84,7 +84,7 @@ object Indices:
     metals.getOrElse(
       name.stripSuffix("_palik"), {
         val help = Suggest.help(name, metals.keys)
-        in.session.error(Code.UnknownType, in.atOf("material"), s"unknown metal `$name`", help)
+        in.session.error(Code.UnknownType, in.posOf("material"), s"unknown metal `$name`", help)
         metals("Cu")
       }
     )
@@ -98,7 +98,7 @@ object Indices:
             val help = Suggest.help(material, dielectrics.keys)
             in.session.error(
               Code.UnknownType,
-              in.atOf(name),
+              in.posOf(name),
               s"unknown dielectric `$material`",
               help
             )

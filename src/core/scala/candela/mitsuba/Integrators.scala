@@ -15,7 +15,7 @@ final class Integrators(session: Session, sampleCount: => Int):
     if roulette < 1 then
       session.warn(
         Code.IdleParameter,
-        in.atOf("rr_depth"),
+        in.posOf("rr_depth"),
         s"`rr_depth` must be at least 1, found $roulette; it is ignored"
       )
     in.ignore("emitter_samples", "bsdf_samples", "shading_samples", "block_size",
@@ -36,38 +36,38 @@ final class Integrators(session: Session, sampleCount: => Int):
         limited(in, "bdpt")
       case "mlt" | "pssmlt" | "erpt" => metropolis(in)
       case "ao" =>
-        val position = in.atOf("ray_length")
+        val position = in.posOf("ray_length")
         val distance = Param.float("maxdistance", position, in.number("ray_length", -1).toFloat)
-        session.declare("Integrator", "ambientocclusion", in.at, Seq(distance))
-      case "adaptive" | "irrcache" | "multichannel" => within(in)
+        session.declare("Integrator", "ambientocclusion", in.pos, Seq(distance))
+      case "adaptive" | "irrcache" | "multichannel" => innerIntegrator(in)
       case "ptracer" =>
         in.warnUnsupported("area lights are visible", "hide_emitters")
         limited(in, "lightpath")
       case "direct" => session.declare(
           "Integrator",
           "path",
-          in.at,
-          Param.int("maxdepth", in.at, 1) +: hiding(in)
+          in.pos,
+          Param.int("maxdepth", in.pos, 1) +: hiding(in)
         )
       case "aov" | "moment" | "stokes" =>
         in.ignore("aovs")
-        val within = in.nested("integrator")
-        for surplus <- within.drop(1) do
+        val integrators = in.nested("integrator")
+        for surplus <- integrators.drop(1) do
           session.warn(
             Code.Unsupported,
-            surplus.at,
+            surplus.pos,
             s"only the first integrator of ${p.description} is rendered; this one is ignored"
           )
-        within.headOption.fold(Integrators.default(session, in.at))(apply)
+        integrators.headOption.fold(Integrators.default(session, in.pos))(apply)
       case _ =>
         val fallback = "using \"path\""
         Plugins.unsupported(p, fallback, session)
         in.ignore(p.properties.map(_.name)*)
-        Integrators.default(session, in.at)
+        Integrators.default(session, in.pos)
 
   private def instead(in: Properties, what: String): Unit =
     val message = s"${in.plugin.description} is not supported; using $what"
-    session.warn(Code.Unsupported, in.at, message)
+    session.warn(Code.Unsupported, in.pos, message)
 
   /** pbrt's Metropolis light transport, which mutates random numbers. */
   private def metropolis(in: Properties): Declaration =
@@ -75,31 +75,31 @@ final class Integrators(session: Session, sampleCount: => Int):
       instead(in, "\"pssmlt\": paths are mutated by their random numbers")
     val large = in.number("p_large", 0.3)
     if !(large > 0 && large <= 1) then
-      session.error(Code.ParameterValue, in.atOf("p_large"), "`p_large` must be from 0 to 1")
+      session.error(Code.ParameterValue, in.posOf("p_large"), "`p_large` must be from 0 to 1")
     limited(
       in,
       "mlt",
-      Param.int("mutationsperpixel", in.at, sampleCount),
-      Param.float("largestepprobability", in.atOf("p_large"), large.toFloat),
+      Param.int("mutationsperpixel", in.pos, sampleCount),
+      Param.float("largestepprobability", in.posOf("p_large"), large.toFloat),
       Param.int(
         "bootstrapsamples",
-        in.atOf("luminance_samples"),
+        in.posOf("luminance_samples"),
         in.integer("luminance_samples", 100000)
       )
     )
 
   /** Renders the first image among those within. */
-  private def within(in: Properties): Declaration =
+  private def innerIntegrator(in: Properties): Declaration =
     val help = in.plugin.name match
       case "adaptive" => "--error ends a rendering at an error"
       case "irrcache" => "the integrator within has no bias"
       case _ => "--aov writes layers: depth, normal, albedo and others"
     val message = s"${in.plugin.description} is not supported; using the integrator within"
-    session.warn(Code.Unsupported, in.at, message, Some(help))
+    session.warn(Code.Unsupported, in.pos, message, Some(help))
     in.ignore(in.plugin.properties.map(_.name).filter(_.nonEmpty)*)
     val inner = in.nested("integrator")
     inner.find(_.name != "field").orElse(inner.headOption)
-      .fold(Integrators.default(session, in.at))(apply)
+      .fold(Integrators.default(session, in.pos))(apply)
 
   /** Mitsuba counts the edges of a path, pbrt the surfaces between. */
   private def limited(in: Properties, name: String, extra: Param*): Declaration =
@@ -108,24 +108,24 @@ final class Integrators(session: Session, sampleCount: => Int):
     if depth < -1 then
       session.warn(
         Code.CorrectedValue,
-        in.atOf("max_depth"),
+        in.posOf("max_depth"),
         s"`max_depth` must be at least 0, or -1 for no limit, found $depth; using -1"
       )
     if depth == 0 then
       session.warn(
         Code.DarkScene,
-        in.atOf("max_depth"),
+        in.posOf("max_depth"),
         "paths of depth 0 see nothing; the image is black"
       )
     session.declare(
       "Integrator",
       name,
-      in.at,
-      Param.int("maxdepth", in.atOf("max_depth"), edges) +: extra
+      in.pos,
+      Param.int("maxdepth", in.posOf("max_depth"), edges) +: extra
     )
 
   private def hiding(in: Properties): Seq[Param] =
-    val position = in.atOf("hide_emitters")
+    val position = in.posOf("hide_emitters")
     Option.when(in.flag("hide_emitters", false))(Param.bool("hideemitters", position, true)).toSeq
 
 object Integrators:
@@ -168,7 +168,7 @@ object Integrators:
   /** Russian roulette ends paths long before. */
   private val Unlimited = 10_000
 
-  private def unlimited(session: Session) = session.allowance.most(Limit.Depth, Unlimited)
+  private def unlimited(session: Session) = session.allowance.capped(Limit.Depth, Unlimited)
 
   def default(session: Session, at: SourcePos): Declaration =
     session.declare("Integrator", "path", at, Seq(Param.int("maxdepth", at, unlimited(session))))

@@ -30,13 +30,17 @@ final class Media(session: Session, colors: Colors):
       in.ignore("method", "step_size", "strategy", "sampling_density", "medium_sampling_weight")
       in.warnUnsupported("all channels are rendered", "channel", "monochromatic")
       for v <- in.objectNamed("orientation") do
-        session.warn(Code.Unsupported, v.at, "orientations of particles are not supported; ignored")
+        session.warn(
+          Code.Unsupported,
+          v.pos,
+          "orientations of particles are not supported; ignored"
+        )
     val scale = in.number("scale", 1).toFloat
     in.plugin.name match
       case "homogeneous" if in.plugin.isOld || in.contains("material") =>
         // Their scale is that of the medium
-        val known = Presets.coefficients(in, colors)
-        described(in, known.sigmaA, known.sigmaS, phase, 1f)
+        val medium = Presets.coefficients(in, colors)
+        described(in, medium.sigmaA, medium.sigmaS, phase, 1f)
       case "homogeneous" => uniformExtinction(in, phase, scale)
       case "heterogeneous" =>
         volume(in, "sigma_t").map(v => (v, v.name)) match
@@ -73,7 +77,7 @@ final class Media(session: Session, colors: Colors):
       for x <- Seq(0f, 1f); y <- Seq(0f, 1f); z <- Seq(0f, 1f) yield toWorld.point(Vec3(x, y, z))
     def bound(extremum: Seq[Float] => Float) =
       Array(extremum(corners.map(_.x)), extremum(corners.map(_.y)), extremum(corners.map(_.z)))
-    val position = in.at
+    val position = in.pos
     // More cells than one, since pbrt's densities fall to 0 in the outermost
     val density = Array.fill(BoxResolution * BoxResolution * BoxResolution)(1f)
     val gridParams = Seq("nx", "ny", "nz").map(Param.int(_, position, BoxResolution)) ++ Seq(
@@ -115,7 +119,7 @@ final class Media(session: Session, colors: Colors):
       case Some(v) =>
         session.warn(
           Code.Unsupported,
-          v.at,
+          v.pos,
           s"${v.description} is not supported as `$name`; using $default"
         )
         Rgb.gray(default)
@@ -132,17 +136,17 @@ final class Media(session: Session, colors: Colors):
   private def described(in: Properties, a: Rgb, s: Rgb, phase: Phase, scale: Float) =
     MediumDescription(
       fresh(in),
-      session.declare("Medium", "homogeneous", in.at, coefficients(in, a, s, phase, scale)),
+      session.declare("Medium", "homogeneous", in.pos, coefficients(in, a, s, phase, scale)),
       GraphicsState.Identity
     )
 
   private def coefficients(in: Properties, a: Rgb, s: Rgb, phase: Phase, scale: Float): Seq[Param] =
     val (absorbed, scattered) = phase.reduced(a, s)
     Seq(
-      Textures.rgb("sigma_a", absorbed, in.at),
-      Textures.rgb("sigma_s", scattered, in.at),
-      Param.float("scale", in.at, scale)
-    ) ++ phase.params(in.at)
+      Textures.rgb("sigma_a", absorbed, in.pos),
+      Textures.rgb("sigma_s", scattered, in.pos),
+      Param.float("scale", in.pos, scale)
+    ) ++ phase.params(in.pos)
 
   /** Extinction by a grid; the albedo may be another. */
   private def grid(
@@ -158,7 +162,7 @@ final class Media(session: Session, colors: Colors):
         case None => Some(Right(fixed(in, "albedo", 0.75f)))
     yield
       val file = sigmaT.file
-      val position = volume.at
+      val position = volume.pos
       val (kind, params) = albedo match
         case Right(a) if file.channels == 1 =>
           val density = Param.floats(ParamType.Float, "density", position, file.values)
@@ -177,9 +181,9 @@ final class Media(session: Session, colors: Colors):
       scale: Float
   ): Option[MediumDescription] =
     session.translate(v)(volumes(_)).map: albedo =>
-      session.warn(Code.CorrectedValue, v.at, "the medium ends at the box of its albedos")
+      session.warn(Code.CorrectedValue, v.pos, "the medium ends at the box of its albedos")
       val parted = albedo.sharing(fixed(in, "sigma_t", 1f))
-      placed(in, "rgbgrid", cells(in, parted, v.at, phase, scale), albedo, v.at)
+      placed(in, "rgbgrid", cells(in, parted, v.pos, phase, scale), albedo, v.pos)
 
   private def cells(
       in: Properties,
@@ -194,8 +198,8 @@ final class Media(session: Session, colors: Colors):
     Seq(
       Param.floats(ParamType.Rgb, "sigma_a", at, absorbed),
       Param.floats(ParamType.Rgb, "sigma_s", at, scattered),
-      Param.float("scale", in.at, scale)
-    ) ++ phase.params(in.at)
+      Param.float("scale", in.pos, scale)
+    ) ++ phase.params(in.pos)
 
   private def placed(
       in: Properties,
@@ -206,8 +210,8 @@ final class Media(session: Session, colors: Colors):
   ): MediumDescription =
     MediumDescription(
       fresh(in),
-      session.declare("Medium", kind, in.at, params ++ grid.params(at)),
-      GraphicsState.still(grid.toWorld)
+      session.declare("Medium", kind, in.pos, params ++ grid.params(at)),
+      GraphicsState.constant(grid.toWorld)
     )
 
   private def phaseOf(p: Plugin): Phase =

@@ -36,7 +36,7 @@ final class Mesh(
         mapped(normals)(toWorld.normal),
         uvs,
         indices,
-        missing.take(worldPositions.length)
+        missing.drain(worldPositions.length)
       )
 
   /** A vertex, with all its digits. */
@@ -101,9 +101,9 @@ final class Mesh(
     if normals.nonEmpty then this
     else
       val sums = new Array[Float](positions.length)
-      val parts = cornerNormals
+      val weightedNormals = cornerNormals
       loop(indices.length): c =>
-        loop(3)(k => sums(3 * indices(c) + k) += parts(3 * c + k))
+        loop(3)(k => sums(3 * indices(c) + k) += weightedNormals(3 * c + k))
       Mesh(positions, sums, uvs, indices, rests).unit
 
   /** Normals of the triangles times their angles, at each corner. */
@@ -128,10 +128,11 @@ final class Mesh(
 
   /** With vertex normals of its triangles, which are smooth across edges of at most an angle. */
   def smoothBelow(degrees: Double): Mesh =
-    val parts = cornerNormals
-    def part(c: Int) = Vec3(parts(3 * c), parts(3 * c + 1), parts(3 * c + 2))
+    val weightedNormals = cornerNormals
+    def normalAt(c: Int) =
+      Vec3(weightedNormals(3 * c), weightedNormals(3 * c + 1), weightedNormals(3 * c + 2))
     def unitOf(v: Vec3) = if v.lengthSquared > 0f then v.normalized else v
-    val units = Array.tabulate(indices.length)(c => unitOf(part(c)))
+    val units = Array.tabulate(indices.length)(c => unitOf(normalAt(c)))
     val neighbours = indices.indices.groupBy: c =>
       val i = indices(c)
       (positions(3 * i), positions(3 * i + 1), positions(3 * i + 2))
@@ -143,7 +144,7 @@ final class Mesh(
       other <- corners
       if units(c).dot(units(other)) >= minCosine
       k <- 0 until 3
-    do sums(3 * c + k) += parts(3 * other + k)
+    do sums(3 * c + k) += weightedNormals(3 * other + k)
     Mesh(
       atCorners(positions, 3),
       sums,

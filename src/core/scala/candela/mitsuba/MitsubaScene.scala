@@ -106,7 +106,7 @@ private final class Translation(session: Session, file: Path):
       for surplus <- sensors.drop(1) do
         session.warn(
           Code.Unsupported,
-          surplus.at,
+          surplus.pos,
           "only the first sensor is rendered; this one is ignored",
           Some("--sensor all renders each, --sensor 1 the second")
         )
@@ -120,10 +120,10 @@ private final class Translation(session: Session, file: Path):
 
   private def layered(film: Declaration, aovs: Vector[String]): Declaration =
     if aovs.isEmpty then film
-    else film.copy(params = film.params :+ Param.string("aovs", film.at, aovs*))
+    else film.copy(params = film.params :+ Param.string("aovs", film.pos, aovs*))
 
   /** Paths from lights find no coverage. */
   private def opaque(film: Declaration): Declaration =
     for p <- film.param("alpha") do
-      session.warn(Code.Unsupported, p.at, "\"ptracer\" does not support alpha")
+      session.warn(Code.Unsupported, p.pos, "\"ptracer\" does not support alpha")
     film.copy(params = film.params.filterNot(_.name == "alpha"))

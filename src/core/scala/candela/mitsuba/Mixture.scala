@@ -8,13 +8,13 @@ private[mitsuba] object Mixture:
   /** Weights of so many parts, which sum to at most 1; None, after an error, if they don't fit. */
   def weights(in: Properties, count: Int, kind: String): Option[Vector[Double]] =
     val text = in.text("weights", "")
-    val read = in.session.attempt(Values.numbers(text.replace(';', ' '), in.atOf("weights")))
+    val read = in.session.attempt(Values.numbers(text.replace(';', ' '), in.posOf("weights")))
     read.flatMap: weights =>
       val total = weights.sum
       if weights.size != count || weights.exists(_ < 0) || !(total > 0) then
         in.session.error(
           Code.ParameterCount,
-          in.atOf("weights"),
+          in.posOf("weights"),
           s"`weights` of ${in.plugin.description} must be $count numbers, one for each $kind, at " +
             s"least 0, and not all 0, found `$text`"
         )
@@ -23,7 +23,7 @@ private[mitsuba] object Mixture:
       else
         in.session.warn(
           Code.CorrectedValue,
-          in.atOf("weights"),
+          in.posOf("weights"),
           s"`weights` of ${in.plugin.description} sum to more than 1; they are scaled"
         )
         Some(weights.map(_ / total))

@@ -49,13 +49,13 @@ private final class ObjReader(in: ByteBuffer, file: InputFile, at: SourcePos):
         case "f" => face()
         case _ => ()
       skipLine()
-    val uv = if hasUvs then uvs.take() else Array.emptyFloatArray
+    val uv = if hasUvs then uvs.drain() else Array.emptyFloatArray
     if flipped then loop(uv.length / 2)(i => uv(2 * i + 1) = 1 - uv(2 * i + 1))
-    val normal = if hasNormals then normals.take() else Array.emptyFloatArray
+    val normal = if hasNormals then normals.drain() else Array.emptyFloatArray
     if indices.length == 0 then fail("it has no faces")
-    val rests = missing.take(p.length)
-    def spread = vertices.take().flatMap(v => rests.slice(3 * v, 3 * v + 3))
-    Mesh(positions.take(), normal, uv, indices.take(), if rests.isEmpty then rests else spread)
+    val rests = missing.drain(p.length)
+    def spread = vertices.drain().flatMap(v => rests.slice(3 * v, 3 * v + 3))
+    Mesh(positions.drain(), normal, uv, indices.drain(), if rests.isEmpty then rests else spread)
 
   /** The next word of the line; empty at its end. */
   private def word(): String =

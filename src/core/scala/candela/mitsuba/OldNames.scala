@@ -27,7 +27,7 @@ private[mitsuba] final class OldNames(minor: Int):
       if tag == "texture" && moved.nonEmpty then remaining :+ toUv(moved, e)
       else children ++ (if isObject then added(e, tag, oldType.get, children) else Vector.empty)
     val formerName = e("name").filterNot(attributes.get("name").contains)
-    val plain = Element(tag, attributes, inner, e.at, formerName, isOld = true)
+    val plain = Element(tag, attributes, inner, e.pos, formerName, isOld = true)
     tag match
       case "srgb" => decoded(plain)
       // Often `nan`, and not used
@@ -60,13 +60,13 @@ private[mitsuba] final class OldNames(minor: Int):
       oldType: String,
       children: Vector[Element]
   ): Vector[Element] =
-    def has(name: String) = children.exists(_("name").contains(name))
+    def hasChild(name: String) = children.exists(_("name").contains(name))
     def value(tag: String, name: String, text: String) =
-      Element(tag, Map("name" -> name, "value" -> text), Vector.empty, e.at)
+      Element(tag, Map("name" -> name, "value" -> text), Vector.empty, e.pos)
     (tag, oldType) match
-      case ("sensor", "perspective") if minor < 4 && !has("fov_axis") =>
+      case ("sensor", "perspective") if minor < 4 && !hasChild("fov_axis") =>
         Vector(value("string", "fov_axis", "smaller"))
-      case ("shape", "obj") if minor < 3 && !has("flip_tex_coords") =>
+      case ("shape", "obj") if minor < 3 && !hasChild("flip_tex_coords") =>
         Vector(value("boolean", "flip_tex_coords", "false"))
       case _ => OldSurfaces.added(e)
 
@@ -139,13 +139,13 @@ private[mitsuba] object OldNames:
     def value(name: String, default: String) =
       moved.find(_("name").contains(name)).flatMap(_("value")).getOrElse(default)
     def step(tag: String, x: String, y: String) =
-      Element(tag, Map("x" -> x, "y" -> y), Vector.empty, e.at)
-    val both = value("uvscale", "1")
+      Element(tag, Map("x" -> x, "y" -> y), Vector.empty, e.pos)
+    val uniformScale = value("uvscale", "1")
     val steps = Vector(
-      step("scale", value("uscale", both), value("vscale", both)),
+      step("scale", value("uscale", uniformScale), value("vscale", uniformScale)),
       step("translate", value("uoffset", "0"), value("voffset", "0"))
     )
-    Element("transform", Map("name" -> "to_uv"), steps, e.at)
+    Element("transform", Map("name" -> "to_uv"), steps, e.pos)
 
   /** `to_world` as `toWorld`, `int_ior` as `intIOR`. */
   def camel(name: String): String =

@@ -34,33 +34,33 @@ private[mitsuba] final class OldShapes(
     if !(reduction >= 0 && reduction < 1) then
       Values.fail(
         Code.ParameterValue,
-        in.atOf("reduction"),
+        in.posOf("reduction"),
         s"`reduction` must be at least 0 and below 1, found $reduction"
       )
     val minCosine = Math.cos(Math.toRadians(in.number("angle_threshold", 1))).toFloat
     val scale = toWorld.vector(Vec3.Z).length / (1 - reduction)
     val radius = (in.number("radius", 0.025) * scale).toFloat
     fileOf(in).toVector.flatMap: file =>
-      val fibres = HairFibres.reduced(HairFile.read(file, in.atOf("filename")), reduction)
+      val fibres = HairFibres.reduced(HairFile.read(file, in.posOf("filename")), reduction)
         .map(HairFibres.placed(_, toWorld, minCosine)).filter(_.size > 1)
       val segments = fibres.map(_.size - 1).sum
       val isLarge = segments > OldShapes.MaxTubeSegments
       if isLarge && !suitsRibbons then
         session.warn(
           Code.Unsupported,
-          in.at,
+          in.pos,
           s"hair of $segments segments is too large for round fibres; using ribbons, which " +
             "shadow themselves"
         )
       if isLarge || suitsRibbons then
         val common = Vector(
-          Param.string("type", in.at, "cylinder"),
-          Param.float("width", in.atOf("radius"), 2 * radius),
+          Param.string("type", in.pos, "cylinder"),
+          Param.float("width", in.posOf("radius"), 2 * radius),
           // A segment is straight
-          Param.float("splitdepth", in.at, 0f)
+          Param.float("splitdepth", in.pos, 0f)
         )
         fibres.map: f =>
-          Form("curve", HairFibres.points(f, in.at) +: common, Transform.Identity, false)
+          Form("curve", HairFibres.points(f, in.pos) +: common, Transform.Identity, false)
       else if fibres.isEmpty then Vector.empty
       else
         val mesh = Tubes.polylines(fibres, radius)
@@ -73,17 +73,17 @@ private[mitsuba] final class OldShapes(
     val (name, factor) = in.nested("texture").headOption match
       case Some(t) => heights(t)
       case None =>
-        val file = in.text("filename").map(_ -> in.atOf("filename"))
+        val file = in.text("filename").map(_ -> in.posOf("filename"))
         if file.isEmpty then
           session.error(
             Code.MissingParameter,
-            in.at,
+            in.pos,
             s"${in.plugin.description} must have a `filename` or a texture"
           )
         (file, 1.0)
     val height = factor * in.number("scale", 1)
-    val scale = Param.float("scale", in.atOf("scale"), height.toFloat)
-    val smooth = Param.bool("smooth", in.at, in.flag("shading_normals", true))
+    val scale = Param.float("scale", in.posOf("scale"), height.toFloat)
+    val smooth = Param.bool("smooth", in.pos, in.flag("shading_normals", true))
     name match
       case None => Some(Form("trianglemesh", params(Mesh.rectangle, in), toWorld, isFlipped))
       case Some((name, at)) =>
@@ -97,14 +97,14 @@ private[mitsuba] final class OldShapes(
       session.translate(texture): in =>
         in.ignore("filter_type", "wrap_mode", "max_anisotropy", "cache")
         in.warnUnsupported("ignored", "channel", "gamma", "to_uv")
-        (in.text("filename").map(_ -> in.atOf("filename")), 1.0)
+        (in.text("filename").map(_ -> in.posOf("filename")), 1.0)
     case "scale" if Properties(texture, session).nested("texture").nonEmpty =>
       session.translate(texture): in =>
         val (name, factor) = heights(in.nested("texture").head)
         (name, factor * in.number("scale", 1))
     case _ =>
       val message = s"heights from a ${texture.description} are not supported; the field is flat"
-      session.warn(Code.Unsupported, texture.at, message)
+      session.warn(Code.Unsupported, texture.pos, message)
       (None, 1.0)
 
 private object OldShapes:

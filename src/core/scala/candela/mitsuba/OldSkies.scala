@@ -24,21 +24,21 @@ private[mitsuba] final class OldSkies(session: Session, skies: Skies):
       in.warnUnsupported("the sky ends at the horizon", "stretch")
     if in.flag("extend", false) then in.warnUnsupported("the sky ends at the horizon", "extend")
     def light(name: String, params: Seq[Param]) =
-      val statement = session.declare("LightSource", name, in.at, params)
-      LightDescription(statement, GraphicsState.still(toWorld), "")
+      val statement = session.declare("LightSource", name, in.pos, params)
+      LightDescription(statement, GraphicsState.constant(toWorld), "")
     val radius = in.number("sun_radius_scale", 1)
     if radius < 0 then
       session.error(
         Code.ParameterValue,
-        in.atOf("sun_radius_scale"),
+        in.posOf("sun_radius_scale"),
         s"`sun_radius_scale` must be at least 0, found $radius"
       )
     if radius > 0 || sunScale == 0 || !(toSun.z >= 0f) then Vector(light("sunsky", params))
     else
       // A sun without extent
       val ray = Seq("from" -> toSun, "to" -> Vec3.Zero).map: (name, p) =>
-        Param.floats(ParamType.Point3, name, in.at, Array(p.x, p.y, p.z))
-      val sun = light("distant", Textures.rgb("L", irradiance(in, toSun, sunScale), in.at) +: ray)
+        Param.floats(ParamType.Point3, name, in.pos, Array(p.x, p.y, p.z))
+      val sun = light("distant", Textures.rgb("L", irradiance(in, toSun, sunScale), in.pos) +: ray)
       if skyScale == 0 then Vector(sun)
       else Vector(light("sunsky", params), sun)
 
@@ -48,7 +48,7 @@ private[mitsuba] final class OldSkies(session: Session, skies: Skies):
         for name <- Skies.Times; p <- in.property(name) do
           session.warn(
             Code.IdleParameter,
-            p.at,
+            p.pos,
             s"`$name` is ignored: the direction of the sun is given"
           )
         toWorld.inverse.vector(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
@@ -57,12 +57,12 @@ private[mitsuba] final class OldSkies(session: Session, skies: Skies):
   /** The disk of the sun, whose power does not depend on its size. */
   private def disk(in: Properties, toSun: Vec3, scale: Double): Seq[Param] =
     val radius = in.number("sun_radius_scale", 1)
-    val shown = if radius > 0 then irradiance(in, toSun, scale) else Rgb.Black
+    val sunIrradiance = if radius > 0 then irradiance(in, toSun, scale) else Rgb.Black
     val angle = OldSkies.SunDegrees * (if radius > 0 then radius else 1)
     Seq(
-      Param.float("sunscale", in.at, if radius > 0 && scale > 0 then 1f else 0f),
-      Param.float("sunaperture", in.atOf("sun_radius_scale"), Math.min(angle, 179).toFloat),
-      Param.float("sunirradiance", in.at, shown.r, shown.g, shown.b)
+      Param.float("sunscale", in.pos, if radius > 0 && scale > 0 then 1f else 0f),
+      Param.float("sunaperture", in.posOf("sun_radius_scale"), Math.min(angle, 179).toFloat),
+      Param.float("sunirradiance", in.pos, sunIrradiance.r, sunIrradiance.g, sunIrradiance.b)
     )
 
   private def irradiance(in: Properties, toSun: Vec3, scale: Double): Rgb =

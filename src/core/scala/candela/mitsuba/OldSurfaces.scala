@@ -37,4 +37,4 @@ private[mitsuba] object OldSurfaces:
     if e.tag != "bsdf" || !e("type").contains("mirror") then Vector.empty
     else
       val chrome = Map("name" -> "material", "value" -> "Cr")
-      Vector(Element("string", chrome, Vector.empty, e.at))
+      Vector(Element("string", chrome, Vector.empty, e.pos))

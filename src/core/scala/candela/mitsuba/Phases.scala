@@ -52,14 +52,14 @@ object Phase:
         Isotropic
 
   private def tabulated(in: Properties): Phase =
-    val numbers = in.text("values").fold(Vector.empty)(Values.numbers(_, in.atOf("values")))
+    val numbers = in.text("values").fold(Vector.empty)(Values.numbers(_, in.posOf("values")))
     val values = numbers.map(_.toFloat)
     if values.size > 1 && values.forall(_ >= 0f) && values.exists(_ > 0f) then
       of("tabulated", values.size.toFloat +: values)
     else
       in.session.error(
         Code.ParameterValue,
-        in.atOf("values"),
+        in.posOf("values"),
         s"`values` of ${in.plugin.description} must be two numbers or more, at least 0, and " +
           s"not all 0, found ${values.size}: ${values.take(8).mkString(", ")}"
       )
@@ -77,7 +77,7 @@ object Phase:
       case phases =>
         session.error(
           Code.ParameterValue,
-          in.at,
+          in.pos,
           s"${in.plugin.description} must have two phase functions, found ${phases.size}"
         )
         Isotropic

@@ -23,7 +23,7 @@ enum Value(val description: String):
   case Reference(id: String) extends Value("a reference")
 
 /** A named value; nested objects often have no name. */
-final class Property(val name: String, val value: Value, val at: SourcePos)
+final class Property(val name: String, val value: Value, val pos: SourcePos)
 
 /** An object of a scene.
   *
@@ -35,7 +35,7 @@ final class Plugin(
     val kind: String,
     val name: String,
     val id: Option[String],
-    val at: SourcePos,
+    val pos: SourcePos,
     val properties: Vector[Property],
     val isOld: Boolean = false
 ):

@@ -82,11 +82,11 @@ object Plugins:
   /** Reports a type that is not read: a warning if Mitsuba has it. */
   def unsupported(p: Plugin, instead: String, session: Session): Unit =
     if unsupportedTypes.getOrElse(p.kind, Vector.empty).contains(p.name) then
-      session.warn(Code.Unsupported, p.at, s"${p.description} is not supported; $instead")
+      session.warn(Code.Unsupported, p.pos, s"${p.description} is not supported; $instead")
     else
       session.missing(
         Code.UnknownType,
-        p.at,
+        p.pos,
         s"unknown ${p.description}",
         instead,
         candela.diagnostics.Suggest.help(p.name, read.getOrElse(p.kind, Vector.empty))

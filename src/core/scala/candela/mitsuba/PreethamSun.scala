@@ -54,10 +54,10 @@ private[mitsuba] object PreethamSun:
     )
     val coarse = table(620, 10)(.105f, .09f, .079f, .067f, .057f, .048f, .036f, .028f, .023f, .018f,
       .014f, .011f, .01f, .009f, .007f, .004f, 0f, 0f)
-    val parts = Seq(ultraviolet, fine, coarse)
+    val segments = Seq(ultraviolet, fine, coarse)
     Spectrum(
-      parts.flatMap(_.lambda).toArray,
-      parts.flatMap(_.values).toArray,
+      segments.flatMap(_.lambda).toArray,
+      segments.flatMap(_.values).toArray,
       Spectrum.Outside.Zero
     )
 

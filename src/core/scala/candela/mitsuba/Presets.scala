@@ -93,19 +93,19 @@ private[mitsuba] object Presets:
     */
   def coefficients(in: Properties, colors: Colors): Coefficients =
     val name = in.text("material", "skin1")
-    val known = measured.getOrElse(
+    val preset = measured.getOrElse(
       // 0.6 misspells one
       name.toLowerCase.replace("budweiser beer", "budweiser beder"), {
         in.session.error(
           Code.UnknownType,
-          in.atOf("material"),
+          in.posOf("material"),
           s"unknown medium `$name`",
           Suggest.help(name, measured.keys)
         )
         measured("skin1")
       }
     )
-    val (s, a) = (known.sigmaS * PerUnit, known.sigmaA * PerUnit)
+    val (s, a) = (preset.sigmaS * PerUnit, preset.sigmaA * PerUnit)
     def given_(name: String, default: Rgb) = colors.fixed(in, name, default, Role.Unbounded)
     val (sigmaS, sigmaA) =
       if in.contains("sigma_t") || in.contains("albedo") then
@@ -114,8 +114,8 @@ private[mitsuba] object Presets:
         (scattering, sigmaT - scattering)
       else (given_("sigma_s", s), given_("sigma_a", a))
     val isNamed = Seq("sigma_s", "sigma_a", "sigma_t", "albedo").forall(!in.contains(_))
-    val g = given_("g", if isNamed then known.g else Rgb.Black)
+    val g = given_("g", if isNamed then preset.g else Rgb.Black)
     val eta =
       if in.contains("int_ior") || in.contains("ext_ior") then Indices.relative(in, "bk7")
-      else known.eta
+      else preset.eta
     Coefficients(sigmaA, sigmaS * (Rgb.White - g), eta) * in.number("scale", 1).toFloat

@@ -11,7 +11,7 @@ final class Properties(val plugin: Plugin, val session: Session):
   private val names = mutable.LinkedHashSet.empty[String]
   private val queried = mutable.HashSet.empty[Property]
 
-  def at: SourcePos = plugin.at
+  def pos: SourcePos = plugin.pos
 
   def property(name: String): Option[Property] =
     names += name
@@ -20,13 +20,13 @@ final class Properties(val plugin: Plugin, val session: Session):
     if matches.size > 1 then
       session.warn(
         Code.IdleParameter,
-        matches.head.at,
-        s"`$name` is repeated at ${matches.last.at}; this value is ignored"
+        matches.head.pos,
+        s"`$name` is repeated at ${matches.last.pos}; this value is ignored"
       )
     matches.lastOption
 
   def contains(name: String): Boolean = property(name).isDefined
-  def atOf(name: String): SourcePos = property(name).fold(at)(_.at)
+  def posOf(name: String): SourcePos = property(name).fold(pos)(_.pos)
 
   private def value[A](name: String, expected: String)(read: PartialFunction[Value, A]): Option[A] =
     property(name).flatMap: p =>
@@ -34,7 +34,7 @@ final class Properties(val plugin: Plugin, val session: Session):
       if converted.isEmpty then
         session.error(
           Code.ParameterValue,
-          p.at,
+          p.pos,
           s"`$name` of ${plugin.description} must be $expected, found ${p.value.description}"
         )
       converted
@@ -48,7 +48,7 @@ final class Properties(val plugin: Plugin, val session: Session):
   def integer(name: String, default: Int): Int =
     number(name).fold(default): x =>
       if x != Math.rint(x) || Math.abs(x) > Int.MaxValue then
-        session.error(Code.ParameterType, atOf(name), s"`$name` must be a whole number")
+        session.error(Code.ParameterType, posOf(name), s"`$name` must be a whole number")
       x.toInt
 
   def flag(name: String, default: Boolean): Boolean =
@@ -62,8 +62,8 @@ final class Properties(val plugin: Plugin, val session: Session):
   /** A transform that may move. */
   def motion(name: String): Option[AnimatedTransform] =
     value(name, "a transform"):
-      case Value.Placed(t) => GraphicsState.still(t)
-      case Value.Moving(keys) => session.motion(keys, atOf(name))
+      case Value.Placed(t) => GraphicsState.constant(t)
+      case Value.Moving(keys) => session.motion(keys, posOf(name))
 
   /** A transform where nothing can move. */
   def transform(name: String): Transform =
@@ -71,7 +71,7 @@ final class Properties(val plugin: Plugin, val session: Session):
       if t.isAnimated then
         session.warn(
           Code.NotAnimated,
-          atOf(name),
+          posOf(name),
           s"${plugin.description} can't move; using its place as the shutter opens"
         )
       t.start
@@ -83,7 +83,7 @@ final class Properties(val plugin: Plugin, val session: Session):
     else
       session.error(
         Code.UnknownType,
-        atOf(name),
+        posOf(name),
         s"unknown `$name` `$choice`",
         Suggest.help(choice, choices)
       )
@@ -106,7 +106,7 @@ final class Properties(val plugin: Plugin, val session: Session):
   private def objectOf(p: Property): Option[Plugin] = p.value match
     case Value.Nested(plugin) => Some(plugin)
     case Value.Reference(id) =>
-      val referenced = session.plugin(id, p.at)
+      val referenced = session.plugin(id, p.pos)
       if referenced.isEmpty then queried += p
       referenced
     case _ => None
@@ -125,7 +125,7 @@ final class Properties(val plugin: Plugin, val session: Session):
     for name <- unsupported; p <- property(name) do
       session.warn(
         Code.Unsupported,
-        p.at,
+        p.pos,
         s"`$name` of ${plugin.description} is not supported; $consequence"
       )
 
@@ -138,19 +138,19 @@ final class Properties(val plugin: Plugin, val session: Session):
         case Value.Nested(inner) =>
           session.warn(
             Code.UnknownParameter,
-            p.at,
+            p.pos,
             s"${plugin.description} takes no ${inner.description} here; it is ignored"
           )
         case Value.Reference(id) =>
           session.warn(
             Code.UnknownParameter,
-            p.at,
+            p.pos,
             s"${plugin.description} takes no `$id` here; it is ignored"
           )
         case _ =>
           session.warn(
             Code.IdleParameter,
-            p.at,
+            p.pos,
             s"`${p.name}` is not a parameter of ${plugin.description}; it is ignored",
             Suggest.help(inFile(p.name), names.map(inFile))
           )

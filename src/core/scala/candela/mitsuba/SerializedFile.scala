@@ -59,7 +59,7 @@ private final class SerializedReader(
     unpacks: Long => Unit,
     fail: String => Nothing
 ):
-  private val in: InputStream = InflaterInputStream(ByteArrayInputStream(bytes))
+  private val input: InputStream = InflaterInputStream(ByteArrayInputStream(bytes))
   private val buffer = ByteBuffer.allocate(1 << 15).order(ByteOrder.LITTLE_ENDIAN).flip()
 
   def read(): Mesh =
@@ -85,7 +85,7 @@ private final class SerializedReader(
           floats += x.toFloat
         else floats += buffered(4).getFloat
         i += 1
-      floats.take()
+      floats.drain()
     val positions = values(3L * vertices, true, rests)
     val normals = values(3L * vertices, (flags & 1) != 0)
     val uvs = values(2L * vertices, (flags & 2) != 0)
@@ -99,7 +99,7 @@ private final class SerializedReader(
       i += 1
     if !positions.forall(_.isFinite) then fail("a position is not finite")
     val finite = normals.map(x => if x.isFinite then x else 0f)
-    Mesh(positions, finite, uvs, indices.take(), rests.take(positions.length))
+    Mesh(positions, finite, uvs, indices.drain(), rests.drain(positions.length))
 
   private def skipName(): Unit =
     var length = 0
@@ -119,7 +119,7 @@ private final class SerializedReader(
       buffer.compact()
       var read = 0
       while buffer.position() < size && read >= 0 do
-        read = in.read(buffer.array, buffer.position(), buffer.remaining)
+        read = input.read(buffer.array, buffer.position(), buffer.remaining)
         if read > 0 then buffer.position(buffer.position() + read): Unit
       buffer.flip()
       if buffer.remaining < size then throw EOFException()

@@ -36,7 +36,7 @@ final class Session(
   val objects: Vector[Property] =
     expanded.elements.flatMap: e =>
       if e.tag == "ref" then None
-      else values.plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.at))
+      else values.plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.pos))
 
   /** The sensors of the scene, those in shapes last. */
   lazy val sensors: Vector[Plugin] =
@@ -65,9 +65,9 @@ final class Session(
         at,
         "motion between two times within the shutter's is not supported; the path is straight"
       )
-    val start = Session.between(keys, open)
-    if close > open then AnimatedTransform(start, Session.between(keys, close))
-    else GraphicsState.still(start)
+    val start = Session.interpolated(keys, open)
+    if close > open then AnimatedTransform(start, Session.interpolated(keys, close))
+    else GraphicsState.constant(start)
 
   private val byId: Map[String, Plugin] =
     val plugins = mutable.HashMap.empty[String, Plugin]
@@ -76,8 +76,8 @@ final class Session(
         if plugins.contains(id) then
           error(
             Code.Redefined,
-            p.at,
-            s"the id `$id` is repeated; the first is at ${plugins(id).at}"
+            p.pos,
+            s"the id `$id` is repeated; the first is at ${plugins(id).pos}"
           )
         else plugins(id) = p
       p.properties.map(_.value).foreach:
@@ -91,11 +91,11 @@ final class Session(
   /** Names of properties in the file, by position and by Mitsuba's name of today. */
   private lazy val formerNames: Map[(SourcePos, String), String] =
     def of(e: Element): Vector[((SourcePos, String), String)] =
-      e.formerName.map((e.at, e("name").mkString) -> _).toVector ++ e.children.flatMap(of)
+      e.formerName.map((e.pos, e("name").mkString) -> _).toVector ++ e.children.flatMap(of)
     expanded.elements.flatMap(of).toMap
 
   def report(p: Problem): Unit =
-    val named = p.at.fold(p): at =>
+    val named = p.pos.fold(p): at =>
       val message = Session.Quoted.replaceAllIn(
         p.message,
         m =>
@@ -145,7 +145,7 @@ final class Session(
 
   /** A file, in the first folder that has it. */
   private def locate(name: String, at: SourcePos): Option[InputFile] =
-    folder.find(name, Some(at), expanded.folders)
+    folder.locate(name, Some(at), expanded.folders)
 
   /** The file, which becomes part of the scene. */
   private def noted(file: InputFile): InputFile =
@@ -181,7 +181,7 @@ final class Session(
 
   /** Runs `body` on the properties of an object, then reports those that it did not query. */
   def translate[A](p: Plugin)(body: Properties => A): A =
-    allowance.checkTime(Some(p.at))
+    allowance.checkTime(Some(p.pos))
     val properties = Properties(p, this)
     val result = body(properties)
     properties.finish()
@@ -199,7 +199,7 @@ object Session:
   private val Quoted = "`(\\w+)`".r
 
   /** A motion at a time. */
-  private def between(keys: Vector[(Double, Transform)], time: Double): Transform =
+  private def interpolated(keys: Vector[(Double, Transform)], time: Double): Transform =
     keys.indexWhere(_._1 > time) match
       case -1 => keys.last._2
       case 0 => keys.head._2

@@ -15,7 +15,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   private val groups = mutable.LinkedHashMap.empty[Plugin, (String, Vector[ShapeDescription])]
   private val placed = InstanceList.newBuilder
 
-  private val old = OldShapes(session, fileOf, params)
+  private val oldShapes = OldShapes(session, fileOf, params)
 
   private var depth = 0
 
@@ -34,7 +34,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       case None => ofType(p)
       case Some(moving) =>
         val unplaced = p.properties.filterNot(_.name == "to_world")
-        ofType(Plugin(p.kind, p.name, p.id, p.at, unplaced, p.isOld)).map: s =>
+        ofType(Plugin(p.kind, p.name, p.id, p.pos, unplaced, p.isOld)).map: s =>
           s.copy(objectToWorld = moving.after(s.objectToWorld))
 
   private def ofType(p: Plugin): Vector[ShapeDescription] = p.name match
@@ -48,16 +48,16 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
           if g.name != "shapegroup" then
             session.error(
               Code.MissingParameter,
-              in.at,
+              in.pos,
               "an instance must contain a shapegroup, or refer to one"
             )
-          else placed += InstanceDescription(group(g), in.at, placement)
+          else placed += InstanceDescription(group(g), in.pos, placement)
       Vector.empty
     case "deformable" =>
       session.translate(p): in =>
         session.warn(
           Code.Unsupported,
-          in.at,
+          in.pos,
           s"${p.description} is not supported; it does not move"
         )
         in.ignore(p.properties.map(_.name).filter(_.nonEmpty)*)
@@ -66,7 +66,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     case "merge" =>
       depth += 1
       if depth > Session.MaxDepth then
-        Values.fail(Code.Circle, p.at, s"more than ${Session.MaxDepth} shapes within each other")
+        Values.fail(Code.Circle, p.pos, s"more than ${Session.MaxDepth} shapes within each other")
       try session.translate(p)(_.nested("shape").flatMap(descriptions))
       finally depth -= 1
     case _ => session.translate(p)(shape)
@@ -83,7 +83,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         val flat = inner.filterNot: s =>
           val isNested = s.name == "instance" || s.name == "shapegroup"
           if isNested then
-            session.error(Code.Nesting, s.at, s"a shapegroup can't contain an ${s.description}")
+            session.error(Code.Nesting, s.pos, s"a shapegroup can't contain an ${s.description}")
           isNested
         (name, flat.flatMap(descriptions))
       }
@@ -95,7 +95,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     in.nested("sensor"): Unit
     val bsdf = in.nested("bsdf")
     bsdf.drop(1).foreach(b =>
-      session.warn(Code.Nesting, b.at, "a shape has one bsdf; this one is ignored")
+      session.warn(Code.Nesting, b.pos, "a shape has one bsdf; this one is ignored")
     )
     val attributes = bsdf.headOption.flatMap(attributesFor(in, _))
     val scattering = in.nested("subsurface").headOption
@@ -114,14 +114,14 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val isHair = surface.material.name == "hair"
     val forms = in.plugin.name match
       case "bsplinecurve" if isHair => fibres(in)
-      case "hair" => old.hair(in, suitsRibbons = isHair)
+      case "hair" => oldShapes.hair(in, suitsRibbons = isHair)
       case _ => form(in, attributes).toVector
     for Form(name, params, toWorld, isReversed) <- forms yield
       val alpha = surface.alpha.toVector
       def medium(side: String) = in.nested("medium", side).headOption.fold("")(media(_))
       ShapeDescription(
-        session.declare("Shape", name, in.at, params ++ alpha),
-        GraphicsState.still(toWorld),
+        session.declare("Shape", name, in.pos, params ++ alpha),
+        GraphicsState.constant(toWorld),
         isReversed,
         material,
         emitter.flatMap(emitters.area),
@@ -135,7 +135,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   private def bare(in: Properties, emits: Boolean): Surface =
     val grey = candela.color.Rgb.gray(if emits then 0f else 0.5f)
     val material =
-      session.declare("Material", "diffuse", in.at, Seq(Textures.rgb("reflectance", grey, in.at)))
+      session.declare("Material", "diffuse", in.pos, Seq(Textures.rgb("reflectance", grey, in.pos)))
     Surface(material, isOneSided = true)
 
   /** Of the mesh, if its surface uses them. */
@@ -146,17 +146,17 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       if types.exists(Set("bitmap", "checkerboard", "gridtexture")) then
         session.warn(
           Code.Unsupported,
-          in.at,
+          in.pos,
           "textures by u and v are not supported beside attributes of a mesh; they lie elsewhere"
         )
       fileOf(in).map(file =>
-        MeshAttributes(PlyFile.read(file, Some(in.at), keepsAll = true), in.flag("srgb", true))
+        MeshAttributes(PlyFile.read(file, Some(in.pos), keepsAll = true), in.flag("srgb", true))
       )
 
   private def form(in: Properties, attributes: Option[MeshAttributes]): Option[Form] =
     val toWorld = in.transform("to_world")
     val isFlipped = in.flag("flip_normals", false)
-    def number(name: String, x: Double) = Param.float(name, in.atOf(name), x.toFloat)
+    def number(name: String, x: Double) = Param.float(name, in.posOf(name), x.toFloat)
     in.plugin.name match
       case "sphere" =>
         val centre = in.triple("center").fold(Transform.Identity)(Transform.translate(_, _, _))
@@ -193,19 +193,19 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
           in.warnUnsupported("materials of .mtl files are not read", "load_materials")
         if in.integer("shape_index", -1) >= 0 then
           in.warnUnsupported("all parts of the file are read", "shape_index")
-        mesh(in, toWorld, isFlipped)(ObjFile.read(_, isUp, in.at))
+        mesh(in, toWorld, isFlipped)(ObjFile.read(_, isUp, in.pos))
       case "ply" =>
         val isUp = in.flag("flip_tex_coords", false)
         in.ignore("srgb")
         mesh(in, toWorld, isFlipped, attributes): file =>
-          val ply = PlyFile.read(file, Some(in.at))
+          val ply = PlyFile.read(file, Some(in.pos))
           if isUp then loop(ply.uvs.length / 2)(i => ply.uvs(2 * i + 1) = 1 - ply.uvs(2 * i + 1))
           Mesh(ply.positions, ply.normals, ply.uvs, ply.indices, ply.rests)
       case "serialized" =>
         val index = in.integer("shape_index", 0)
         in.ignore("flip_tex_coords")
-        mesh(in, toWorld, isFlipped)(SerializedFile.read(_, index, in.at))
-      case "heightfield" => old.heightfield(in, toWorld, isFlipped)
+        mesh(in, toWorld, isFlipped)(SerializedFile.read(_, index, in.pos))
+      case "heightfield" => oldShapes.heightfield(in, toWorld, isFlipped)
       case "bsplinecurve" => curves(in, minPoints = 4, isFlipped)(Tubes.splines)
       case "linearcurve" => curves(in, minPoints = 2, isFlipped)(Tubes.capsules)
       case _ =>
@@ -220,7 +220,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val (dx, dy, dz) = (x1 - x0, y1 - y0, z1 - z0)
     val length = Math.sqrt(dx * dx + dy * dy + dz * dz)
     if !(length > 0) then
-      session.error(Code.ParameterValue, in.at, "the ends of a cylinder must differ")
+      session.error(Code.ParameterValue, in.pos, "the ends of a cylinder must differ")
     Option.when(length > 0):
       val frame = Shapes.frame(dx / length, dy / length, dz / length)
       (toWorld * Transform.translate(x0, y0, z0) * frame, length)
@@ -240,16 +240,16 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     case None =>
       session.error(
         Code.MissingParameter,
-        in.at,
+        in.pos,
         s"${in.plugin.description} must have a `filename`"
       )
       None
-    case Some(name) => session.file(name, in.atOf("filename"), "skipped")
+    case Some(name) => session.file(name, in.posOf("filename"), "skipped")
 
   private def read(in: Properties, minPoints: Int): Option[Vector[CurvePoints]] =
     val toWorld = in.transform("to_world")
     fileOf(in).map(file =>
-      CurvePoints.placed(CurveFile.read(file, minPoints, in.atOf("filename")), toWorld)
+      CurvePoints.placed(CurveFile.read(file, minPoints, in.posOf("filename")), toWorld)
     )
 
   private def curves(in: Properties, minPoints: Int, isFlipped: Boolean)(
@@ -258,7 +258,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     read(in, minPoints).map: curvePoints =>
       // Through an open end, the far side is not seen from within
       val isOpen = minPoints == 4 && curvePoints.exists(_.isOpen)
-      val culls = Option.when(isOpen)(Param.bool("cullbackfaces", in.at, true))
+      val culls = Option.when(isOpen)(Param.bool("cullbackfaces", in.pos, true))
       Form(
         "trianglemesh",
         params(tessellate(curvePoints), in) ++ culls,
@@ -270,7 +270,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   private def fibres(in: Properties): Vector[Form] =
     in.ignore("flip_normals")
     for curve <- read(in, 4).toVector.flatten; fibre <- Fibres.of(curve)
-    yield Form("curve", fibre.params(in.at), curve.placement, isReversed = false)
+    yield Form("curve", fibre.params(in.pos), curve.placement, isReversed = false)
 
   private def meshForm(
       in: Properties,
@@ -296,11 +296,11 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val uvs = m.uvs.clone
     loop(uvs.length / 2)(i => uvs(2 * i + 1) = 1 - uvs(2 * i + 1))
     Seq(
-      Param.int("indices", in.at, m.indices*),
-      Param.floats(ParamType.Point3, "P", in.at, m.positions, m.rests)
+      Param.int("indices", in.pos, m.indices*),
+      Param.floats(ParamType.Point3, "P", in.pos, m.positions, m.rests)
     ) ++
-      Option.when(m.normals.nonEmpty)(Param.floats(ParamType.Normal, "N", in.at, m.normals)) ++
-      Option.when(uvs.nonEmpty)(Param.floats(ParamType.Point2, "uv", in.at, uvs))
+      Option.when(m.normals.nonEmpty)(Param.floats(ParamType.Normal, "N", in.pos, m.normals)) ++
+      Option.when(uvs.nonEmpty)(Param.floats(ParamType.Point2, "uv", in.pos, uvs))
 
 object Shapes:
 

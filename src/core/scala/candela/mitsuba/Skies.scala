@@ -16,7 +16,7 @@ final class Skies(session: Session, colors: Colors):
         if conflicting.nonEmpty then
           session.error(
             Code.ExclusiveParameters,
-            in.atOf(conflicting.head),
+            in.posOf(conflicting.head),
             s"`sun_direction` and `${conflicting.head}` are mutually exclusive"
           )
         toWorld.inverse.vector(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
@@ -24,7 +24,7 @@ final class Skies(session: Session, colors: Colors):
     if in.flag("complex_sun", false) then
       session.warn(
         Code.Unsupported,
-        in.atOf("complex_sun"),
+        in.posOf("complex_sun"),
         "`complex_sun` is not supported; using a uniform disk"
       )
     val skyScale = checked(in, "sky_scale", 1, "at least 0")(_ >= 0)
@@ -33,25 +33,25 @@ final class Skies(session: Session, colors: Colors):
       number(in, "sun_scale", "sunscale", 1, "at least 0")(_ >= 0)
     )
     val sky = params(in, toSun, Rgb.gray(0.3f), skyScale)
-    session.declare("LightSource", "sunsky", in.at, sky ++ sun)
+    session.declare("LightSource", "sunsky", in.pos, sky ++ sun)
 
   /** Those of the sky, and the sun's direction. */
   def params(in: Properties, toSun: Vec3, defaultAlbedo: Rgb, skyScale: Double): Seq[Param] =
     val albedo = colors.fixed(in, "albedo", defaultAlbedo, Role.Reflectance)
     if Seq(albedo.r, albedo.g, albedo.b).exists(c => !(c >= 0f && c <= 1f)) then
-      session.error(Code.ParameterValue, in.atOf("albedo"), "`albedo` must be from 0 to 1")
+      session.error(Code.ParameterValue, in.posOf("albedo"), "`albedo` must be from 0 to 1")
     Seq(
       number(in, "turbidity", "turbidity", 3, "from 1 to 10")(x => x >= 1 && x <= 10),
-      Param.float("skyscale", in.at, skyScale.toFloat),
-      Param.float("albedo", in.atOf("albedo"), albedo.r, albedo.g, albedo.b),
-      Param.floats(ParamType.Vector3, "sun", in.at, Array(toSun.x, toSun.y, toSun.z))
+      Param.float("skyscale", in.pos, skyScale.toFloat),
+      Param.float("albedo", in.posOf("albedo"), albedo.r, albedo.g, albedo.b),
+      Param.floats(ParamType.Vector3, "sun", in.pos, Array(toSun.x, toSun.y, toSun.z))
     )
 
   private def number(in: Properties, name: String, ours: String, default: Double, range: String)(
       isIn: Double => Boolean
   ): Param =
     val x = checked(in, name, default, range)(isIn)
-    Param.float(ours, in.atOf(name), x.toFloat)
+    Param.float(ours, in.posOf(name), x.toFloat)
 
   private def checked(in: Properties, name: String, default: Double, range: String)(
       isIn: Double => Boolean
@@ -59,7 +59,7 @@ final class Skies(session: Session, colors: Colors):
     val x = in.number(name, default)
     if isIn(x) then x
     else
-      session.error(Code.ParameterValue, in.atOf(name), s"`$name` must be $range, found $x")
+      session.error(Code.ParameterValue, in.posOf(name), s"`$name` must be $range, found $x")
       default
 
   /** When and where the sun is seen. */
@@ -85,28 +85,28 @@ final class Skies(session: Session, colors: Colors):
     if from > to then
       session.error(
         Code.ParameterValue,
-        in.atOf("window_end_time"),
+        in.posOf("window_end_time"),
         "`window_end_time` is before `window_start_time`"
       )
     val (open, close) = (in.number("shutter_open", 0), in.number("shutter_close", 1))
     if !(close > open) then
       session.error(
         Code.ParameterValue,
-        in.atOf("shutter_close"),
+        in.posOf("shutter_close"),
         "`shutter_close` must be after `shutter_open`"
       )
     val count = SunPosition.days(end) - SunPosition.days(placeAndTime(in, year, month, day, 0))
     if count < 0 then
       session.error(
         Code.ParameterValue,
-        in.at,
+        in.pos,
         "the period of \"timed_sunsky\" ends before it begins"
       )
     val (first, last) = session.shutter
     if last > first then
       session.warn(
         Code.CorrectedValue,
-        in.at,
+        in.pos,
         "the sun can't move while the shutter is open; using its position at the middle of the time"
       )
     val passed = (0.5 * (first + last) - open) / (close - open) * Math.max(count, 1)

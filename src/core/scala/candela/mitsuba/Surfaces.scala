@@ -41,7 +41,11 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       (p, textures.mesh), {
         depth += 1
         if depth > Session.MaxDepth then
-          Values.fail(Code.Circle, p.at, s"more than ${Session.MaxDepth} BSDFs refer to each other")
+          Values.fail(
+            Code.Circle,
+            p.pos,
+            s"more than ${Session.MaxDepth} BSDFs refer to each other"
+          )
         val surface =
           try session.translate(p)(translated)
           finally depth -= 1
@@ -71,7 +75,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   /** The material of a shape: by name if the BSDF has an id. */
   def ref(p: Plugin, s: Surface): MaterialRef =
     if p.id.isEmpty then MaterialRef.Inline(s.material)
-    else MaterialRef.Named(name(p.id.get, s.material), p.at)
+    else MaterialRef.Named(name(p.id.get, s.material), p.pos)
 
   private def name(wanted: String, material: Declaration): String =
     names.getOrElseUpdate(
@@ -106,7 +110,11 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     in.nested("bsdf").toList match
       case only :: Nil => apply(only)
       case Nil =>
-        session.error(Code.MissingParameter, in.at, s"${in.plugin.description} must contain a bsdf")
+        session.error(
+          Code.MissingParameter,
+          in.pos,
+          s"${in.plugin.description} must contain a bsdf"
+        )
         basic.grey(in)
       case first :: surplus =>
         warnSurplus(in, surplus)
@@ -116,7 +124,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     for p <- surplus do
       session.warn(
         Code.Nesting,
-        p.at,
+        p.pos,
         s"${in.plugin.description} has one bsdf too many; this one is ignored"
       )
 
@@ -125,7 +133,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     for p <- inner.find(p => kinds.isTransmissive(apply(p))) do
       session.warn(
         Code.Nesting,
-        p.at,
+        p.pos,
         "Mitsuba rejects \"twosided\" around a transmissive bsdf"
       )
     inner match
@@ -139,18 +147,14 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
 
   private def sides(in: Properties, front: Plugin, back: Plugin): Surface =
     for p <- List(front, back).distinct; alpha <- apply(p).alpha if front ne back do
-      session.warn(
-        Code.Unsupported,
-        alpha.at,
-        "one-sided masks are not supported; this one is opaque"
-      )
+      unsupported(alpha.pos, "one-sided masks are not supported; this one is opaque")
     val names = List(front, back).map(p => nameOf(p, apply(p)))
     Surface(
       session.declare(
         "Material",
         "twosided",
-        in.at,
-        Seq(Param.string("materials", in.at, names*))
+        in.pos,
+        Seq(Param.string("materials", in.pos, names*))
       ),
       isOneSided = false
     )
@@ -166,13 +170,13 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   /** A surface whose mask is a part of its BSDF, as within others: a blend with nothing. */
   def inlineMask(s: Surface): Surface =
     val surface =
-      if s.material.name == "interface" then s.copy(material = clear(s.material.at)) else s
+      if s.material.name == "interface" then s.copy(material = clear(s.material.pos)) else s
     surface.alpha match
       case None => surface
       case Some(opacity) =>
-        val Seq(first, second) = Seq(clear(opacity.at), blackBehind(surface).material).map: d =>
+        val Seq(first, second) = Seq(clear(opacity.pos), blackBehind(surface).material).map: d =>
           name(d.name, d)
-        mixed(opacity.at, first, second, opacity.renamed("amount"))
+        mixed(opacity.pos, first, second, opacity.renamed("amount"))
 
   /** What passes all light unscattered, but is a surface. */
   private def clear(at: SourcePos): Declaration =
@@ -182,13 +186,13 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   private def blackBehind(s: Surface): Surface =
     if !s.isOneSided then s
     else
-      val side = Param.bool("onesided", s.material.at, true)
+      val side = Param.bool("onesided", s.material.pos, true)
       s.copy(material = nested(s.material, Vector(side)), isOneSided = false)
 
   /** A material within another one that changes it. */
   private def nested(d: Declaration, changes: Vector[Param]): Declaration =
-    val inner = Param.string("material", d.at, name(d.name, d))
-    session.declare("Material", "nested", d.at, inner +: changes)
+    val inner = Param.string("material", d.pos, name(d.name, d))
+    session.declare("Material", "nested", d.pos, inner +: changes)
 
   private def mixed(at: SourcePos, first: String, second: String, amount: Param): Surface =
     val materials = Param.string("materials", at, first, second)
@@ -205,20 +209,20 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       (theirs, ours) <-
         Seq("use_shadowing_function" -> "softedges", "flip_invalid_normals" -> "turnednormals")
       if !in.flag(theirs, true)
-    yield Param.bool(ours, in.atOf(theirs), false)
+    yield Param.bool(ours, in.posOf(theirs), false)
 
   private def mapped(in: Properties): Surface =
     val maps = in.nested("texture", "normalmap") ++ in.nested("texture")
     val file = maps.headOption.flatMap: t =>
       if t.name != "bitmap" then
-        session.warn(Code.Unsupported, t.at, "only bitmaps can be normal maps; this one is ignored")
+        unsupported(t.pos, "only bitmaps can be normal maps; this one is ignored")
         None
       else
         session.translate(t): bitmap =>
           bitmap.ignore("raw", "filter_type", "wrap_mode", "format", "accel")
           bitmap.ignore(Textures.OldOptions*)
           val mapping = textures.imageMapping(bitmap)
-          bitmap.text("filename").flatMap(session.file(_, bitmap.atOf("filename"), "ignored"))
+          bitmap.text("filename").flatMap(session.file(_, bitmap.posOf("filename"), "ignored"))
             .map(path => Bump.Normals(session.named(path), mapping))
     raised(child(in), file.getOrElse(Bump.Flat), normalOptions(in))
 
@@ -234,13 +238,13 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       case Bump.Height(texture, scale) =>
         val name = if isV4 then "displacement" else "bumpmap"
         val shade = Shade.Textured(texture)
-        plain.copy(params = plain.params :+ textures.number(name, shade, d.at, scale))
+        plain.copy(params = plain.params :+ textures.number(name, shade, d.pos, scale))
       case Bump.Normals(file, mapping) if isV4 =>
         val uvMapping = Option.when(mapping != Textures.Upright):
-          Param.floats(ParamType.Float, "normalmapuv", d.at, mapping.toArray)
-        plain.copy(params = (plain.params :+ Param.string("normalmap", d.at, file)) ++ uvMapping)
+          Param.floats(ParamType.Float, "normalmapuv", d.pos, mapping.toArray)
+        plain.copy(params = (plain.params :+ Param.string("normalmap", d.pos, file)) ++ uvMapping)
       case Bump.Normals(_, _) =>
-        session.warn(Code.Unsupported, d.at, "normal maps of this BSDF are not supported; ignored")
+        unsupported(d.pos, "normal maps of this BSDF are not supported; ignored")
         d
     s.copy(material = material)
 
@@ -249,14 +253,14 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     in.nested("bsdf").toList match
       case a :: b :: surplus =>
         warnSurplus(in, surplus)
-        val (Seq(first, second), isOneSided) = parts(Seq(a, b)): @unchecked
-        mixed(in.at, first, second, weight).copy(isOneSided = isOneSided)
+        val (Seq(first, second), isOneSided) = components(Seq(a, b)): @unchecked
+        mixed(in.pos, first, second, weight).copy(isOneSided = isOneSided)
       case _ =>
-        session.error(Code.MissingParameter, in.at, "blendbsdf must contain two bsdfs")
+        session.error(Code.MissingParameter, in.pos, "blendbsdf must contain two bsdfs")
         basic.grey(in)
 
   /** Names of what is blended, and whether all of it is black from behind. */
-  private def parts(inner: Seq[Plugin]): (Seq[String], Boolean) =
+  private def components(inner: Seq[Plugin]): (Seq[String], Boolean) =
     val surfaces = inner.map(p => inlineMask(apply(p)))
     val isOneSided = surfaces.forall(_.isOneSided)
     val names = inner.zip(surfaces).map: (p, s) =>
@@ -268,21 +272,21 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     val inner = in.nested("bsdf")
     Mixture.weights(in, inner.size, "bsdf").filter(_ => inner.nonEmpty).fold(basic.grey(in)):
       weights =>
-        val (names, isOneSided) = parts(inner)
-        val rest = Math.max(0.0, 1.0 - weights.sum)
-        val black = Option.when(rest > Surfaces.MinRest):
+        val (names, isOneSided) = components(inner)
+        val remainder = Math.max(0.0, 1.0 - weights.sum)
+        val black = Option.when(remainder > Surfaces.MinRest):
           val d = session.declare(
             "Material",
             "diffuse",
-            in.at,
-            Seq(Textures.rgb("reflectance", Rgb.Black, in.at))
+            in.pos,
+            Seq(Textures.rgb("reflectance", Rgb.Black, in.pos))
           )
-          (name("black", d), rest)
-        val used = names.zip(weights).filter(_._2 > 0.0) ++ black
-        val (last, _) = used.init.foldRight(used.last):
+          (name("black", d), remainder)
+        val weighted = names.zip(weights).filter(_._2 > 0.0) ++ black
+        val (last, _) = weighted.init.foldRight(weighted.last):
           case ((first, weight), (second, others)) =>
             val amount = (others / (weight + others)).toFloat
-            val blend = mixed(in.at, first, second, Param.float("amount", in.at, amount))
+            val blend = mixed(in.pos, first, second, Param.float("amount", in.pos, amount))
             (name(in.plugin.id.getOrElse("mixturebsdf"), blend.material), weight + others)
         Surface(named(last), isOneSided)
 
@@ -293,9 +297,8 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     in.ignore(Surfaces.Sampling*)
     val medium = Presets.coefficients(in, colors)
     for surface <- s if !Surfaces.Interfaces(surface.material.name) do
-      session.warn(
-        Code.Unsupported,
-        surface.material.at,
+      unsupported(
+        surface.material.pos,
         "the surface of what scatters light beneath it reflects as glass does; this one does, too"
       )
     for
@@ -303,40 +306,41 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       base <- surface.material.param("reflectance")
       if base.strings.nonEmpty || base.floats.exists(_ > 0f)
     do
-      session.warn(
-        Code.Unsupported,
-        base.at,
+      unsupported(
+        base.pos,
         s"diffuse reflection is not supported beside ${p.description}; it is left out"
       )
-    session.warn(
-      Code.Unsupported,
-      p.at,
+    unsupported(
+      p.pos,
       s"${p.description} is rendered as multiple and single scattering by photon beam diffusion"
     )
     val rough = s.toVector.flatMap(_.material.params)
       .filter(q => Set("uroughness", "vroughness", "remaproughness")(q.name))
     val params = Vector(
-      Textures.rgb("sigma_a", medium.sigmaA, in.at),
-      Textures.rgb("sigma_s", medium.sigmaS, in.at),
-      Param.float("eta", in.at, medium.eta.toFloat)
+      Textures.rgb("sigma_a", medium.sigmaA, in.pos),
+      Textures.rgb("sigma_s", medium.sigmaS, in.pos),
+      Param.float("eta", in.pos, medium.eta.toFloat)
     )
-    Surface(session.declare("Material", "subsurface", in.at, params ++ rough), isOneSided = false)
+    Surface(session.declare("Material", "subsurface", in.pos, params ++ rough), isOneSided = false)
 
   /** A BSDF under a coat, which reflects on either side. */
   private def coated(in: Properties, rough: Vector[Param]): Surface =
     val inner = blackBehind(inlineMask(child(in)))
     val absorption = colors.shade(in, "sigma_a", Rgb.Black, Role.Unbounded)
     val params = Vector(
-      Param.string("material", in.at, name(inner.material.name, inner.material)),
-      Param.float("eta", in.at, Indices.relative(in, "bk7").toFloat),
-      Param.float("thickness", in.atOf("thickness"), in.number("thickness", 1).toFloat),
-      textures.color("sigma_a", absorption, in.atOf("sigma_a"))
+      Param.string("material", in.pos, name(inner.material.name, inner.material)),
+      Param.float("eta", in.pos, Indices.relative(in, "bk7").toFloat),
+      Param.float("thickness", in.posOf("thickness"), in.number("thickness", 1).toFloat),
+      textures.color("sigma_a", absorption, in.posOf("sigma_a"))
     )
     val gloss = basic.scales(in, "specular_reflectance" -> "specular")
     Surface(
-      session.declare("Material", "coating", in.at, params ++ gloss ++ rough),
+      session.declare("Material", "coating", in.pos, params ++ gloss ++ rough),
       isOneSided = false
     )
+
+  private def unsupported(pos: SourcePos, message: String): Unit =
+    session.warn(Code.Unsupported, pos, message)
 
 private object Surfaces:
   /** How precisely Mitsuba 0.6 computes subsurface scattering. */

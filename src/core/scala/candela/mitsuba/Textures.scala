@@ -38,7 +38,7 @@ final class Textures(session: Session, colors: Colors):
     number(
       name,
       colors.shade(in, property, Rgb.gray(default.toFloat), Role.Reflectance),
-      in.atOf(property)
+      in.posOf(property)
     )
 
   def number(name: String, shade: Shade, at: SourcePos, scale: Float = 1f): Param = shade match
@@ -55,7 +55,7 @@ final class Textures(session: Session, colors: Colors):
         if depth > Session.MaxDepth then
           Values.fail(
             Code.Circle,
-            p.at,
+            p.pos,
             s"more than ${Session.MaxDepth} textures refer to each other"
           )
         try define(p, valueType, scale)
@@ -75,7 +75,7 @@ final class Textures(session: Session, colors: Colors):
     if inner.isEmpty then
       session.error(
         Code.MissingParameter,
-        in.at,
+        in.pos,
         s"${in.plugin.description} must contain a texture, or have a `value`"
       )
     inner.flatMap: p =>
@@ -83,10 +83,10 @@ final class Textures(session: Session, colors: Colors):
       else
         apply(p, valueType, scale).map: name =>
           val params = Seq(
-            Param.texture("tex1", in.at, name),
-            Textures.rgb("tex2", factor, in.at)
+            Param.texture("tex1", in.pos, name),
+            Textures.rgb("tex2", factor, in.pos)
           )
-          add(name, valueType, session.declare("Texture", "scale", in.at, params, V3))
+          add(name, valueType, session.declare("Texture", "scale", in.pos, params, V3))
 
   private val V3 = Some(Dialect.V3)
 
@@ -109,15 +109,15 @@ final class Textures(session: Session, colors: Colors):
         None
     parameters.map: (typed, toWorld) =>
       val (name, params) = typed
-      val t = session.declare("Texture", name, p.at, params)
+      val t = session.declare("Texture", name, p.pos, params)
       val plain = add(p.id.getOrElse("texture"), valueType, t, toWorld)
       if scale == 1f then plain
       else
         val scaled = session.declare(
           "Texture",
           "scale",
-          p.at,
-          Seq(Param.texture("tex", p.at, plain), Param.float("scale", p.at, scale))
+          p.pos,
+          Seq(Param.texture("tex", p.pos, plain), Param.float("scale", p.pos, scale))
         )
         add(plain, valueType, scaled)
 
@@ -132,7 +132,7 @@ final class Textures(session: Session, colors: Colors):
     unique
 
   private def bitmap(in: Properties): Option[(String, Seq[Param])] =
-    val position = in.at
+    val position = in.pos
     val filter = filterOf(in)
     val wrap = wrapOf(in)
     val encoding = encodingOf(in)
@@ -143,9 +143,9 @@ final class Textures(session: Session, colors: Colors):
       name <- in.text("filename").orElse:
         session.error(Code.MissingParameter, position, "a bitmap must have a `filename`")
         None
-      path <- session.file(name, in.atOf("filename"), s"using ${Textures.Fallback.r}")
+      path <- session.file(name, in.posOf("filename"), s"using ${Textures.Fallback.r}")
     yield "imagemap" -> (Seq(
-      Param.string("filename", in.atOf("filename"), session.named(path)),
+      Param.string("filename", in.posOf("filename"), session.named(path)),
       Param.string("filter", position, if filter == "nearest" then "point" else "bilinear"),
       Param.string("wrap", position, wrap),
       Param.string("encoding", position, encoding)
@@ -156,7 +156,7 @@ final class Textures(session: Session, colors: Colors):
     if filter == "trilinear" || filter == "ewa" then
       session.warn(
         Code.CorrectedValue,
-        in.atOf("filter_type"),
+        in.posOf("filter_type"),
         "images are not filtered over footprints; using `bilinear`"
       )
     filter
@@ -165,18 +165,22 @@ final class Textures(session: Session, colors: Colors):
   private def wrapOf(in: Properties): String =
     def word(name: String, default: String) =
       in.word(name, default, "repeat", "mirror", "clamp", "zero", "black", "one", "white")
-    val both = word("wrap_mode", "repeat")
-    val (u, v) = (word("wrap_mode_u", both), word("wrap_mode_v", both))
+    val defaultMode = word("wrap_mode", "repeat")
+    val (u, v) = (word("wrap_mode_u", defaultMode), word("wrap_mode_v", defaultMode))
     if u != v then
       session.warn(
         Code.Unsupported,
-        in.atOf("wrap_mode_v"),
+        in.posOf("wrap_mode_v"),
         s"images are wrapped by u as by v; using `$u`"
       )
     u match
       case "zero" | "black" => "black"
       case "one" | "white" =>
-        session.warn(Code.Unsupported, in.at, s"the wrap mode `$u` is not supported; using `clamp`")
+        session.warn(
+          Code.Unsupported,
+          in.pos,
+          s"the wrap mode `$u` is not supported; using `clamp`"
+        )
         "clamp"
       case other => other
 
@@ -193,20 +197,20 @@ final class Textures(session: Session, colors: Colors):
   private def lines(in: Properties, valueType: String): Option[(String, Seq[Param])] =
     def color(ours: String, name: String, default: Float): Param =
       val shade = colors.shade(in, name, Rgb.gray(default), Role.Reflectance)
-      if valueType == "float" then number(ours, shade, in.atOf(name))
-      else this.color(ours, shade, in.atOf(name))
+      if valueType == "float" then number(ours, shade, in.posOf(name))
+      else this.color(ours, shade, in.posOf(name))
     val width = in.number("line_width", 0.01).toFloat
     Some("lines" -> (Seq(
       color("tex1", "color0", 0.2f),
       color("tex2", "color1", 0.4f),
-      Param.float("linewidth", in.atOf("line_width"), width)
+      Param.float("linewidth", in.posOf("line_width"), width)
     ) ++ coordinates(in, flipped = false)))
 
   private def checkerboard(in: Properties, valueType: String): Option[(String, Seq[Param])] =
     def square(ours: String, name: String, default: Float): Param =
       val shade = colors.shade(in, name, Rgb.gray(default), Role.Reflectance)
-      if valueType == "float" then number(ours, shade, in.atOf(name))
-      else color(ours, shade, in.atOf(name))
+      if valueType == "float" then number(ours, shade, in.posOf(name))
+      else color(ours, shade, in.posOf(name))
     // Two squares of pbrt's are one period of Mitsuba's
     val mapping = coordinates(in, flipped = false, factor = 2f)
     // As a number, Mitsuba 3's has the two colours the other way round
@@ -224,15 +228,15 @@ final class Textures(session: Session, colors: Colors):
       v <- in.objectNamed("volume").filter(_.name == "gridvolume").orElse:
         session.error(
           Code.MissingParameter,
-          in.at,
+          in.pos,
           s"${in.plugin.description} must have a `volume` of type \"gridvolume\""
         )
         None
       grid <- session.translate(v)(volumes(_))
     yield
       val values = if valueType == "float" then grid.numbers else grid.colors
-      val params = grid.params(v.at) :+ Param.floats(ParamType.Float, "values", v.at, values)
-      (("grid", params), GraphicsState.still(grid.toWorld))
+      val params = grid.params(v.pos) :+ Param.floats(ParamType.Float, "values", v.pos, values)
+      (("grid", params), GraphicsState.constant(grid.toWorld))
 
   /** A number or a colour at each point of the mesh. */
   private def attribute(in: Properties, valueType: String): Option[(String, Seq[Param])] =
@@ -249,7 +253,7 @@ final class Textures(session: Session, colors: Colors):
     if grid.isEmpty then
       session.warn(
         Code.CorrectedValue,
-        in.atOf("name"),
+        in.posOf("name"),
         s"the mesh has no attribute `$name`; using ${Textures.Fallback.r}",
         mesh.flatMap(m => Suggest.help(name, m.names.toVector))
       )
@@ -265,7 +269,7 @@ final class Textures(session: Session, colors: Colors):
           Rgb(values(cell * channels), values(cell * channels + 1), values(cell * channels + 2))
             .luminance
       val texels = Array.tabulate(cells * wanted)(i => value(i / wanted, i % wanted) * scale)
-      val position = in.at
+      val position = in.pos
       (
         "grid",
         Seq(
@@ -282,7 +286,7 @@ final class Textures(session: Session, colors: Colors):
     if name.contains("color") && isOfIntegers && !in.contains("scale") then
       session.warn(
         Code.CorrectedValue,
-        in.atOf("name"),
+        in.posOf("name"),
         s"`$name` has integers above 1, which are used as they are, as in Mitsuba",
         Some(s"""for colours from 0 to 255, add <float name="scale" value="${1f / 255f}"/>""")
       )
@@ -292,7 +296,7 @@ final class Textures(session: Session, colors: Colors):
     Seq("uscale", "uskew", "udelta", "vskew", "vscale", "vdelta").zip(mapping(in, flipped))
       .map((name, x) => (name, x * factor))
       .filter((name, x) => if name.endsWith("scale") then x != 1f else x != 0f)
-      .map((name, x) => Param.float(name, in.at, x))
+      .map((name, x) => Param.float(name, in.pos, x))
 
   /** Of an image, by pbrt's u, v and 1: two rows of three factors. */
   def imageMapping(in: Properties): Vector[Float] = mapping(in, flipped = true)

@@ -26,16 +26,16 @@ final class Values(
     if !Kinds.contains(e.tag) then
       fail(
         Code.UnknownElement,
-        e.at,
+        e.pos,
         s"unknown element <${e.tag}>",
         Suggest.help(e.tag, Kinds ++ Tags)
       )
     val name = e("type").getOrElse(fail(
       Code.UnknownElement,
-      e.at,
+      e.pos,
       s"<${e.tag}> must have the attribute `type`"
     ))
-    Plugin(e.tag, name, e("id"), e.at, e.children.flatMap(property), e.isOld)
+    Plugin(e.tag, name, e("id"), e.pos, e.children.flatMap(property), e.isOld)
 
   private def attempt[A](body: => A): Option[A] =
     try Some(body)
@@ -47,46 +47,46 @@ final class Values(
   private def property(e: Element): Option[Property] =
     val isObject = Kinds.contains(e.tag) && (e.tag != "spectrum" || e("type").nonEmpty)
     if isObject then
-      plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.at))
+      plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.pos))
     else
       attempt(value(e)).map: v =>
-        Property(e("name").getOrElse(""), v, e.at)
+        Property(e("name").getOrElse(""), v, e.pos)
 
   private def value(e: Element): Value =
     def text = e("value").getOrElse(fail(
       Code.UnknownElement,
-      e.at,
+      e.pos,
       s"<${e.tag}> must have the attribute `value`"
     ))
     if e.tag != "ref" && e("name").isEmpty then
       if !Tags.contains(e.tag) then
         fail(
           Code.UnknownElement,
-          e.at,
+          e.pos,
           s"unknown element <${e.tag}>",
           Suggest.help(e.tag, Kinds ++ Tags)
         )
-      else fail(Code.UnknownElement, e.at, s"<${e.tag}> must have the attribute `name`")
+      else fail(Code.UnknownElement, e.pos, s"<${e.tag}> must have the attribute `name`")
     e.tag match
-      case "float" => Value.Number(number(text, e.at))
-      case "integer" => Value.Number(integer(text, e.at))
+      case "float" => Value.Number(number(text, e.pos))
+      case "integer" => Value.Number(integer(text, e.pos))
       case "boolean" =>
         text.trim.toLowerCase match
           case "true" => Value.Flag(true)
           case "false" => Value.Flag(false)
-          case other => fail(Code.ParameterValue, e.at, s"expected true or false, found `$other`")
+          case other => fail(Code.ParameterValue, e.pos, s"expected true or false, found `$other`")
       case "string" => Value.Text(text)
       case "vector" | "point" =>
         e("value") match
-          case Some(t) => triple(numbers(t, e.at), e.at)
+          case Some(t) => triple(numbers(t, e.pos), e.pos)
           case None =>
-            def c(name: String) = e(name).fold(0.0)(number(_, e.at))
+            def c(name: String) = e(name).fold(0.0)(number(_, e.pos))
             Value.Triple(c("x"), c("y"), c("z"))
-      case "rgb" | "srgb" => Value.Color(color(text, e.at))
+      case "rgb" | "srgb" => Value.Color(color(text, e.pos))
       case "spectrum" => spectrum(e)
       case "blackbody" =>
-        val kelvin = number(e("temperature").getOrElse(text).stripSuffix("K"), e.at)
-        val position = e.at
+        val kelvin = number(e("temperature").getOrElse(text).stripSuffix("K"), e.pos)
+        val position = e.pos
         Value.Nested(
           Plugin(
             "spectrum",
@@ -94,24 +94,24 @@ final class Values(
             None,
             position,
             Vector(Property("temperature", Value.Number(kelvin), position)) ++
-              e("scale").map(s => Property("scale", Value.Number(number(s, e.at)), position))
+              e("scale").map(s => Property("scale", Value.Number(number(s, e.pos)), position))
           )
         )
       case "transform" => Value.Placed(Transforms.of(e))
       case "animation" =>
         val keys = e.children.filter(_.tag == "transform").map: key =>
-          number(key("time").getOrElse("0"), key.at) -> Transforms.of(key)
-        if keys.isEmpty then fail(Code.UnknownElement, e.at, "<animation> must have a <transform>")
+          number(key("time").getOrElse("0"), key.pos) -> Transforms.of(key)
+        if keys.isEmpty then fail(Code.UnknownElement, e.pos, "<animation> must have a <transform>")
         Value.Moving(keys.sortBy(_._1))
       case "ref" =>
         Value.Reference(e("id").getOrElse(fail(
           Code.UnknownElement,
-          e.at,
+          e.pos,
           "<ref> must have the attribute `id`"
         )))
       case other => fail(
           Code.UnknownElement,
-          e.at,
+          e.pos,
           s"unknown element <$other>",
           Suggest.help(other, Kinds ++ Tags)
         )
@@ -143,11 +143,11 @@ final class Values(
   private def spectrum(e: Element): Value =
     (e("value"), e("filename")) match
       case (Some(text), _) if text.contains(':') =>
-        Value.Wavelengths(pairs(words(text).flatMap(_.split(':')), e.at))
-      case (Some(text), _) => Value.Flat(number(text, e.at))
-      case (None, Some(name)) => Value.Wavelengths(file(name, e.at))
+        Value.Wavelengths(pairs(words(text).flatMap(_.split(':')), e.pos))
+      case (Some(text), _) => Value.Flat(number(text, e.pos))
+      case (None, Some(name)) => Value.Wavelengths(file(name, e.pos))
       case _ =>
-        fail(Code.SpectrumFile, e.at, "<spectrum> must have the attribute `value` or `filename`")
+        fail(Code.SpectrumFile, e.pos, "<spectrum> must have the attribute `value` or `filename`")
 
   def file(name: String, at: SourcePos): Spectrum =
     def fails(reason: String) =
@@ -243,21 +243,21 @@ private[mitsuba] object Transforms:
       Vector(m(0), m(4), m(8))
 
   private def step(e: Element): Transform =
-    def component(name: String, default: Double) = e(name).fold(default)(number(_, e.at))
+    def component(name: String, default: Double) = e(name).fold(default)(number(_, e.pos))
     def list(name: String) =
-      e(name).map(numbers(_, e.at)).filter(_.size == 3)
+      e(name).map(numbers(_, e.pos)).filter(_.size == 3)
         .getOrElse(fail(
           Code.ParameterCount,
-          e.at,
+          e.pos,
           s"<${e.tag}> must have the attribute `$name`, of three numbers"
         ))
     def regular(t: Option[Transform], reason: String) =
-      t.getOrElse(fail(Code.Transform, e.at, s"transform can't be inverted: $reason"))
+      t.getOrElse(fail(Code.Transform, e.pos, s"transform can't be inverted: $reason"))
     def axes(default: Double) =
-      e("value").map(numbers(_, e.at)) match
+      e("value").map(numbers(_, e.pos)) match
         case Some(Vector(s)) => Vector(s, s, s)
         case Some(v) if v.size == 3 => v
-        case Some(v) => fail(Code.ParameterCount, e.at, s"expected three numbers, found ${v.size}")
+        case Some(v) => fail(Code.ParameterCount, e.pos, s"expected three numbers, found ${v.size}")
         case None =>
           Vector(component("x", default), component("y", default), component("z", default))
     e.tag match
@@ -271,10 +271,10 @@ private[mitsuba] object Transforms:
         val v = axes(0)
         val degrees = e("angle").fold(fail(
           Code.UnknownElement,
-          e.at,
+          e.pos,
           "<rotate> must have the attribute `angle`"
         )):
-          number(_, e.at)
+          number(_, e.pos)
         regular(rotation(degrees, v), "axis of length 0, or far from 1")
       case "lookat" =>
         val reason = "origin equals target, or up is parallel to the view direction"
@@ -283,18 +283,18 @@ private[mitsuba] object Transforms:
         val up = if stated.forall(_ == 0.0) then across(origin, target) else stated
         regular(Transform.lookAt(origin, target, up), reason).inverse
       case "matrix" =>
-        val m = numbers(e("value").getOrElse(""), e.at)
+        val m = numbers(e("value").getOrElse(""), e.pos)
         val rows = m.size match
           case 16 => m
           case 9 => Vector(m.take(3) :+ 0.0, m.slice(3, 6) :+ 0.0, m.drop(6) :+ 0.0).flatten ++
               Vector(0.0, 0.0, 0.0, 1.0)
-          case n => fail(Code.ParameterCount, e.at, s"expected 16 numbers, found $n")
+          case n => fail(Code.ParameterCount, e.pos, s"expected 16 numbers, found $n")
         regular(Transform.fromRows(rows), "matrix of determinant 0")
       case other =>
         val steps = List("lookat", "matrix", "rotate", "scale", "translate")
         fail(
           Code.UnknownElement,
-          e.at,
+          e.pos,
           s"unknown element <$other>",
           candela.diagnostics.Suggest.help(other, steps)
         )

@@ -15,17 +15,17 @@ final class Views(session: Session, media: Media, image: String):
     session.translate(p): in =>
       val (width, height, film) = in.nested("film").headOption match
         case Some(f) => session.translate(f)(filmOf)
-        case None => filmOf(Properties(plain("film", "hdrfilm", in.at), session))
+        case None => filmOf(Properties(plain("film", "hdrfilm", in.pos), session))
       val filter = in.nested("film").headOption
         .flatMap(f => Properties(f, session).nested("rfilter").headOption)
-        .getOrElse(plain("rfilter", "gaussian", in.at))
+        .getOrElse(plain("rfilter", "gaussian", in.pos))
       val sampler =
-        in.nested("sampler").headOption.getOrElse(plain("sampler", "independent", in.at))
+        in.nested("sampler").headOption.getOrElse(plain("sampler", "independent", in.pos))
       in.ignore("srf")
       val toWorld = in.motion("to_world").getOrElse(GraphicsState.Identity)
       val medium = in.nested("medium").headOption.fold("")(media(_))
       val axes = if p.name == "spherical" then Views.PanoramaAxes else Views.Axes
-      val toCamera = GraphicsState.inverse(toWorld.after(GraphicsState.still(axes)))
+      val toCamera = GraphicsState.inverse(toWorld.after(GraphicsState.constant(axes)))
       from.copy(
         camera = Some(camera(in, width, height)),
         worldToCamera = toCamera,
@@ -40,9 +40,9 @@ final class Views(session: Session, media: Media, image: String):
 
   private def camera(in: Properties, width: Int, height: Int): Declaration =
     val shutter = Seq("shutter_open" -> "shutteropen", "shutter_close" -> "shutterclose").flatMap:
-      (name, ours) => in.number(name).map(x => Param.float(ours, in.atOf(name), x.toFloat))
+      (name, ours) => in.number(name).map(x => Param.float(ours, in.posOf(name), x.toFloat))
     val clips = Seq("near_clip" -> "nearclip", "far_clip" -> "farclip").flatMap: (name, ours) =>
-      in.number(name).map(x => Param.float(ours, in.atOf(name), x.toFloat))
+      in.number(name).map(x => Param.float(ours, in.posOf(name), x.toFloat))
     val always = shutter ++ clips
     val aspect = width.toDouble / height
     val dx = in.number("principal_point_offset_x", 0)
@@ -51,12 +51,12 @@ final class Views(session: Session, media: Media, image: String):
     def window(halfX: Double, halfY: Double) =
       val (cx, cy) = (2 * dx * halfX, -2 * dy * halfY)
       val sides = Seq(cx - halfX, cx + halfX, cy - halfY, cy + halfY).map(_.toFloat)
-      Param.float("screenwindow", in.at, sides*)
+      Param.float("screenwindow", in.pos, sides*)
     def lens(scale: Double) =
       val focus = in.number("focus_distance").orElse(in.number("far_clip")).getOrElse(1e4)
       Seq(
-        Param.float("lensradius", in.at, (in.number("aperture_radius", 0) / scale).toFloat),
-        Param.float("focaldistance", in.atOf("focus_distance"), (focus / scale).toFloat)
+        Param.float("lensradius", in.pos, (in.number("aperture_radius", 0) / scale).toFloat),
+        Param.float("focaldistance", in.posOf("focus_distance"), (focus / scale).toFloat)
       )
     in.plugin.name match
       case "orthographic" | "telecentric" =>
@@ -67,13 +67,13 @@ final class Views(session: Session, media: Media, image: String):
         session.declare(
           "Camera",
           "orthographic",
-          in.at,
+          in.pos,
           (always :+ window(1, 1 / aspect)) ++ (if isFlat then Nil else lens(scale))
         )
       case "spherical" =>
         in.ignore("near_clip", "far_clip")
-        val layout = Param.string("mapping", in.at, "equirectangular")
-        session.declare("Camera", "spherical", in.at, shutter :+ layout)
+        val layout = Param.string("mapping", in.pos, "equirectangular")
+        session.declare("Camera", "spherical", in.pos, shutter :+ layout)
       case name =>
         if !Views.Perspective(name) then
           Plugins.unsupported(in.plugin, "using \"perspective\"", session)
@@ -83,10 +83,10 @@ final class Views(session: Session, media: Media, image: String):
             in.warnUnsupported("the image is not distorted", "kc")
         if name != "thinlens" then in.ignore("focus_distance")
         val view =
-          Seq(Param.float("fov", in.atOf("fov"), FieldOfView.shorter(in, aspect).toFloat)) ++
+          Seq(Param.float("fov", in.posOf("fov"), FieldOfView.shorter(in, aspect).toFloat)) ++
             Option.when(dx != 0 || dy != 0)(window(halfX, halfY))
         val optics = if name == "thinlens" then lens(1) else Nil
-        session.declare("Camera", "perspective", in.at, view ++ optics ++ always)
+        session.declare("Camera", "perspective", in.pos, view ++ optics ++ always)
 
   /** Width and height in pixels, and the film. */
   private def filmOf(in: Properties): (Int, Int, Declaration) =
@@ -96,7 +96,7 @@ final class Views(session: Session, media: Media, image: String):
     val width = in.integer("width", if isText then 1 else 768)
     val height = in.integer("height", if isText then 1 else 576)
     if width < 1 || height < 1 then
-      Values.fail(Code.TooLarge, in.at, s"a film can't have $width × $height pixels")
+      Values.fail(Code.TooLarge, in.pos, s"a film can't have $width × $height pixels")
     in.nested("rfilter"): Unit
     in.ignore("file_format", "banner", "compensate", "attach_log", "digits", "variable")
     if in.text("tonemap_method", "gamma").toLowerCase != "gamma" then
@@ -109,12 +109,12 @@ final class Views(session: Session, media: Media, image: String):
     val bounds = Option.when(crop.exists(in.contains)):
       val (x, y) = (in.integer("crop_offset_x", 0), in.integer("crop_offset_y", 0))
       val (w, h) = (in.integer("crop_width", width), in.integer("crop_height", height))
-      Param.int("pixelbounds", in.at, x, x + w, y, y + h)
+      Param.int("pixelbounds", in.pos, x, x + w, y, y + h)
     // Only multichannel integrators have several
     val formats = in.text("pixel_format", "rgb").toLowerCase.split("[\\s,]+").filter(_.nonEmpty)
     val format = formats.headOption.getOrElse("rgb")
     in.ignore("channel_names")
-    val formatPosition = in.atOf("pixel_format")
+    val formatPosition = in.posOf("pixel_format")
     if !Views.PixelFormats.contains(format) then
       session.error(
         Code.UnknownType,
@@ -134,20 +134,20 @@ final class Views(session: Session, media: Media, image: String):
     val samplesBorder = in.flag("sample_border", edges)
     val isHalf = in.text("component_format", "float16").toLowerCase == "float16"
     val params = Seq(
-      Param.int("xresolution", in.atOf("width"), width),
-      Param.int("yresolution", in.atOf("height"), height),
-      Param.string("filename", in.at, s"$image.exr"),
-      Param.bool("savefp16", in.at, isHalf),
-      Param.bool("sampleborder", in.atOf("sample_border"), samplesBorder)
+      Param.int("xresolution", in.posOf("width"), width),
+      Param.int("yresolution", in.posOf("height"), height),
+      Param.string("filename", in.pos, s"$image.exr"),
+      Param.bool("savefp16", in.pos, isHalf),
+      Param.bool("sampleborder", in.posOf("sample_border"), samplesBorder)
     ) ++ bounds ++ alpha ++ in.number("exposure").filter(_ != 0).map: stops =>
-      Param.float("exposure", in.atOf("exposure"), stops.toFloat)
-    (width, height, session.declare("Film", "rgb", in.at, params))
+      Param.float("exposure", in.posOf("exposure"), stops.toFloat)
+    (width, height, session.declare("Film", "rgb", in.pos, params))
 
   private def filterOf(in: Properties): Declaration =
     def filter(name: String, radius: Double, extra: Param*) =
-      val size = Seq("xradius", "yradius").map(Param.float(_, in.at, radius.toFloat))
-      session.declare("PixelFilter", name, in.at, size ++ extra)
-    def number(name: String, x: Double) = Param.float(name, in.at, x.toFloat)
+      val size = Seq("xradius", "yradius").map(Param.float(_, in.pos, radius.toFloat))
+      session.declare("PixelFilter", name, in.pos, size ++ extra)
+    def number(name: String, x: Double) = Param.float(name, in.pos, x.toFloat)
     in.plugin.name match
       case "box" => filter("box", in.number("radius", 0.5))
       case "tent" => filter("triangle", in.number("radius", 1))
@@ -171,16 +171,20 @@ final class Views(session: Session, media: Media, image: String):
     in.ignore("seed", "jitter", "strength", "scramble", "dimension")
     val count = in.integer("sample_count", 4)
     if count < 1 then
-      Values.fail(Code.ParameterValue, in.atOf("sample_count"), "`sample_count` must be at least 1")
-    def sampler(name: String, params: Param*) = session.declare("Sampler", name, in.at, params)
-    val countPosition = in.atOf("sample_count")
+      Values.fail(
+        Code.ParameterValue,
+        in.posOf("sample_count"),
+        "`sample_count` must be at least 1"
+      )
+    def sampler(name: String, params: Param*) = session.declare("Sampler", name, in.pos, params)
+    val countPosition = in.posOf("sample_count")
     in.plugin.name match
       case "ldsampler" => sampler("paddedsobol", Param.int("pixelsamples", countPosition, count))
       case "sobol" => sampler("sobol", Param.int("pixelsamples", countPosition, count))
       case "halton" | "hammersley" =>
         if in.plugin.name == "hammersley" then
           val message = s"${in.plugin.description} is not supported; using \"halton\""
-          session.warn(Code.Unsupported, in.at, message)
+          session.warn(Code.Unsupported, in.pos, message)
         sampler("halton", Param.int("pixelsamples", countPosition, count))
       case "stratified" | "multijitter" | "orthogonal" =>
         val x = Math.ceil(Math.sqrt(count)).toInt

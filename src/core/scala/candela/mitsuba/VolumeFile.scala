@@ -35,24 +35,25 @@ private[mitsuba] object VolumeFile:
     val bytes =
       try file.map()
       catch case e: IOException => fail(IoReason(e))
-    val in = bytes.order(ByteOrder.LITTLE_ENDIAN)
-    if in.remaining < Header || in.get() != 'V' || in.get() != 'O' || in.get() != 'L' then
+    val input = bytes.order(ByteOrder.LITTLE_ENDIAN)
+    if input.remaining < Header || input.get() != 'V' || input.get() != 'O' || input.get() != 'L'
+    then
       fail("it does not begin with VOL")
-    if in.get() != 3 then fail("only version 3 is known")
-    val encoding = in.getInt()
+    if input.get() != 3 then fail("only version 3 is known")
+    val encoding = input.getInt()
     if encoding != 1 && encoding != Bytes then fail("only 32-bit floats and bytes are known")
-    val size = Array.fill(3)(in.getInt())
-    val channels = in.getInt()
-    val bounds = Array.fill(6)(in.getFloat())
+    val size = Array.fill(3)(input.getInt())
+    val channels = input.getInt()
+    val bounds = Array.fill(6)(input.getFloat())
     if channels != 1 && channels != 3 then
       fail(s"it has $channels channels; only one or three are supported")
-    val room = in.remaining / (if encoding == Bytes then 1 else 4) / channels
+    val room = input.remaining / (if encoding == Bytes then 1 else 4) / channels
     val cells = size.map(_.toLong).product
     if size.exists(n => n < 1 || n > 65536) || cells > room then
       fail(s"it is too short for ${size.mkString(" × ")} cells")
     val values = new Array[Float](cells.toInt * channels)
-    if encoding == Bytes then loop(values.length)(i => values(i) = (in.get() & 0xff) / 255f)
-    else in.asFloatBuffer.get(values)
+    if encoding == Bytes then loop(values.length)(i => values(i) = (input.get() & 0xff) / 255f)
+    else input.asFloatBuffer.get(values)
     loop(values.length): i =>
       if !(values(i) <= MaxValue) then fail(s"its value ${values(i)} is damaged")
       values(i) = Math.max(0f, values(i))

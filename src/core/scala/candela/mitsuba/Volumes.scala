@@ -14,13 +14,13 @@ private[mitsuba] final class Volumes(session: Session):
     if in.word("filter_type", "trilinear", "trilinear", "nearest") == "nearest" then
       session.warn(
         Code.CorrectedValue,
-        in.atOf("filter_type"),
+        in.posOf("filter_type"),
         "a gridvolume is interpolated; using `trilinear`"
       )
     if in.word("wrap_mode", "clamp", "clamp", "repeat", "mirror") != "clamp" then
       session.warn(
         Code.CorrectedValue,
-        in.atOf("wrap_mode"),
+        in.posOf("wrap_mode"),
         "a gridvolume ends at its box; using `clamp`"
       )
     val toWorld = in.transform("to_world")
@@ -30,10 +30,10 @@ private[mitsuba] final class Volumes(session: Session):
       yield Array(a, b, c, d, e, f).map(_.toFloat)
     for
       name <- in.text("filename").orElse:
-        session.error(Code.MissingParameter, in.at, "a gridvolume must have a `filename`")
+        session.error(Code.MissingParameter, in.pos, "a gridvolume must have a `filename`")
         None
-      path <- session.file(name, in.atOf("filename"), "skipped")
-      file <- session.attempt(VolumeFile.read(path, in.atOf("filename")))
+      path <- session.file(name, in.posOf("filename"), "skipped")
+      file <- session.attempt(VolumeFile.read(path, in.posOf("filename")))
     yield
       val box =
         if in.plugin.isOld then beyond(stated.getOrElse(file.bounds), file.size)
@@ -47,8 +47,8 @@ private[mitsuba] final class Volumes(session: Session):
   private def beyond(bounds: Array[Float], size: Array[Int]): Array[Float] =
     Array.tabulate(6): i =>
       val n = size(i % 3)
-      val half = if n > 1 then 0.5f * (bounds(i % 3 + 3) - bounds(i % 3)) / (n - 1) else 0f
-      if i < 3 then bounds(i) - half else bounds(i) + half
+      val halfCell = if n > 1 then 0.5f * (bounds(i % 3 + 3) - bounds(i % 3)) / (n - 1) else 0f
+      if i < 3 then bounds(i) - halfCell else bounds(i) + halfCell
 
 /** A grid with its place.
   *

@@ -19,7 +19,7 @@ import java.util.concurrent.locks.LockSupport
 private[candela] final class Bootstrap(asked: Int, mutations: Long):
   import Bootstrap.*
 
-  private val most = Math.max(asked.toLong, Math.min(mutations, MostPaths)).toInt
+  private val maxPaths = Math.max(asked.toLong, Math.min(mutations, MostPaths)).toInt
   @volatile private var round = Round(asked, Sums(0, 0, 0), None)
   @volatile private var result: Option[Start] = None
   @volatile private var failure: Option[Throwable] = None
@@ -43,24 +43,24 @@ private[candela] final class Bootstrap(asked: Int, mutations: Long):
         throw e
 
   private def work(round: Round, isStopped: () => Boolean, strength: Int => Float): Unit =
-    var part = round.next.getAndIncrement()
-    while part < round.parts && !isStopped() do
-      val end = Math.min(round.strengths.length, (part + 1) * PartSize)
-      var i = part * PartSize
+    var batch = round.next.getAndIncrement()
+    while batch < round.batches && !isStopped() do
+      val end = Math.min(round.strengths.length, (batch + 1) * PartSize)
+      var i = batch * PartSize
       while i < end && !isStopped() do
         round.strengths(i) = strength(round.first + i)
         i += 1
-      if i == end && round.done.incrementAndGet() == round.parts then finish(round)
-      part = round.next.getAndIncrement()
+      if i == end && round.done.incrementAndGet() == round.batches then finish(round)
+      batch = round.next.getAndIncrement()
 
   private def finish(last: Round): Unit =
     val sums = last.sums
     val starts = last.starts
-    val left = most - sums.count
-    if left <= 0 || (sums.count >= Fewest && sums.relativeError <= Precision) then
+    val remaining = maxPaths - sums.count
+    if remaining <= 0 || (sums.count >= Fewest && sums.relativeError <= Precision) then
       val (first, picks) = starts.getOrElse((last.first, Discrete(last.strengths)))
       result = Some(Start(sums.mean.toFloat, first, picks))
-    else round = Round(Math.min(Math.min(sums.count, LargestRound), left), sums, starts)
+    else round = Round(Math.min(Math.min(sums.count, LargestRound), remaining), sums, starts)
 
 private[candela] object Bootstrap:
 
@@ -92,13 +92,13 @@ private[candela] object Bootstrap:
       if total > 0 then Math.sqrt(Math.max(0.0, variance) / count) / mean
       else Double.PositiveInfinity
 
-  /** @param before  sums of the earlier rounds
+  /** @param previous  sums of the earlier rounds
     * @param earlier initial states of the first earlier round that found light
     */
-  private final class Round(size: Int, before: Sums, earlier: Option[(Int, Discrete)]):
+  private final class Round(size: Int, previous: Sums, earlier: Option[(Int, Discrete)]):
     val strengths = new Array[Float](size)
-    val first: Int = before.count
-    val parts: Int = (size + PartSize - 1) / PartSize
+    val first: Int = previous.count
+    val batches: Int = (size + PartSize - 1) / PartSize
     val next = AtomicInteger()
     val done = AtomicInteger()
 
@@ -108,7 +108,7 @@ private[candela] object Bootstrap:
       for s <- strengths do
         total += s
         squares += s.toDouble * s
-      Sums(before.count + size, before.total + total, before.squares + squares)
+      Sums(previous.count + size, previous.total + total, previous.squares + squares)
 
     def starts: Option[(Int, Discrete)] = earlier.orElse:
       Option.when(strengths.exists(_ > 0f))((first, Discrete(strengths)))

@@ -48,7 +48,7 @@ final class MarkovChains(
   def walker(): ChainWalker = MarkovWalker(tracer, settings, view, this)
 
   /** Helps with the bootstrap until it is complete. */
-  private[candela] def begin(walker: MarkovWalker, isStopped: () => Boolean): Unit =
+  private[candela] def prepare(walker: MarkovWalker, isStopped: () => Boolean): Unit =
     if bootstrap.start.isEmpty then
       val samples = PrimarySamples(settings.largeStep, settings.sigma)
       bootstrap.help(isStopped): path =>
@@ -56,7 +56,7 @@ final class MarkovChains(
         walker.follow(samples)
         walker.proposed.strength
 
-  /** Initial states of the chains; none before [[begin]] has computed them. */
+  /** Initial states of the chains; none before [[prepare]] has computed them. */
   private[candela] def start: Option[Bootstrap.Start] = bootstrap.start
 
   /** The chain `chain`, created on first use. */

@@ -39,8 +39,8 @@ private[candela] final class MarkovWalker(
   def raysTraced: Long = paths.raysTraced
   def lastMaterial: Int = paths.lastMaterial
 
-  def begin(isStopped: () => Boolean): Boolean =
-    chains.begin(this, isStopped)
+  def prepare(isStopped: () => Boolean): Boolean =
+    chains.prepare(this, isStopped)
     chains.start.isDefined
 
   def advance(chain: Int, paths: Long, weight: Float, isLeft: () => Boolean): Long =
@@ -50,7 +50,7 @@ private[candela] final class MarkovWalker(
     else
       var i = 0L
       while i < paths do
-        view.splats.begin()
+        view.splats.countSample()
         i += 1
       paths
 
@@ -60,23 +60,23 @@ private[candela] final class MarkovWalker(
     var currentWeight = pending
     var i = 0L
     while i < count && !isLeft() do
-      view.splats.begin()
+      view.splats.countSample()
       samples.propose()
       follow(samples)
-      val here = chain.current.strength
-      val there = proposed.strength
-      val accept = if there >= here then 1f else there / here
-      currentWeight += (1f - accept) / (here / mean + largeStep)
+      val oldStrength = chain.current.strength
+      val newStrength = proposed.strength
+      val accept = if newStrength >= oldStrength then 1f else newStrength / oldStrength
+      currentWeight += (1f - accept) / (oldStrength / mean + largeStep)
       val draw = samples.uniform()
       val proposedWeight =
-        (if samples.isLarge then accept + 1f else accept) / (there / mean + largeStep)
+        (if samples.isLarge then accept + 1f else accept) / (newStrength / mean + largeStep)
       if draw < accept then
         chain.current.addTo(view.splats, currentWeight)
         samples.accept()
         chain.current.swap(proposed)
         currentWeight = proposedWeight
       else
-        if there > 0f then proposed.addTo(view.splats, proposedWeight)
+        if newStrength > 0f then proposed.addTo(view.splats, proposedWeight)
         samples.reject()
       i += 1
     if i >= count then chain.current.addTo(view.splats, currentWeight) else pending = currentWeight
@@ -109,7 +109,7 @@ private[candela] final class Contribution(view: View) extends Splats:
     strength = 0f
 
   /** Paths are counted by the chains. */
-  def begin(): Unit = ()
+  def countSample(): Unit = ()
 
   /** The image has no groups of lights, … */
   def add(x: Float, y: Float, light: Rgb, group: Int): Unit =
@@ -118,12 +118,12 @@ private[candela] final class Contribution(view: View) extends Splats:
       if weight > 0f && weight < Float.PositiveInfinity then
         if (count + 1) * Numbers > data.length then
           data = java.util.Arrays.copyOf(data, 2 * data.length)
-        val at = count * Numbers
-        data(at) = x
-        data(at + 1) = y
-        data(at + 2) = light.r
-        data(at + 3) = light.g
-        data(at + 4) = light.b
+        val offset = count * Numbers
+        data(offset) = x
+        data(offset + 1) = y
+        data(offset + 2) = light.r
+        data(offset + 3) = light.g
+        data(offset + 4) = light.b
         count += 1
         strength += weight
 
@@ -154,11 +154,11 @@ private[candela] final class Contribution(view: View) extends Splats:
 
   /** Adds the splats, times `weight`, to `splats`. */
   def addTo(splats: Splats, weight: Float): Unit =
-    var at = 0
-    while at < count * Numbers do
-      val light = Rgb(data(at + 2), data(at + 3), data(at + 4))
-      splats.add(data(at), data(at + 1), light * weight, group = 0)
-      at += Numbers
+    var offset = 0
+    while offset < count * Numbers do
+      val light = Rgb(data(offset + 2), data(offset + 3), data(offset + 4))
+      splats.add(data(offset), data(offset + 1), light * weight, group = 0)
+      offset += Numbers
 
 private object Contribution:
   /** Floats per splat. */

@@ -107,7 +107,7 @@ private[candela] object PrimarySamples:
     private var changed = new Array[Int](InitialSize)
     private var oldValues = new Array[Float](InitialSize)
     private var oldChanged = new Array[Int](InitialSize)
-    private var known = 0
+    private var filled = 0
     private var next = 0
 
     def samplesPerPixel: Int = 1
@@ -115,27 +115,27 @@ private[candela] object PrimarySamples:
     def copy(): Numbers = Numbers(owner)
 
     def save(to: CheckedOutput): Unit =
-      to.int(known)
-      for i <- 0 until known do
+      to.int(filled)
+      for i <- 0 until filled do
         to.float(values(i))
         to.int(changed(i))
 
     def load(from: CheckedInput): Unit =
-      known = from.count(bytes = 8)
+      filled = from.count(bytes = 8)
       next = 0
-      val size = Math.max(InitialSize, known)
+      val size = Math.max(InitialSize, filled)
       values = new Array[Float](size)
       changed = new Array[Int](size)
       oldValues = new Array[Float](size)
       oldChanged = new Array[Int](size)
-      for i <- 0 until known do
+      for i <- 0 until filled do
         values(i) = from.float()
         changed(i) = from.int()
         require(values(i) >= 0f && values(i) < 1f, s"a random number is ${values(i)}")
         require(changed(i) >= NeverChanged && changed(i) <= owner.time, s"a step is ${changed(i)}")
 
     def clear(): Unit =
-      known = 0
+      filled = 0
       next = 0
 
     def rewind(): Unit = next = 0
@@ -147,7 +147,7 @@ private[candela] object PrimarySamples:
     def next1D(): Float =
       val i = next
       next += 1
-      if i == known then grow()
+      if i == filled then grow()
       if changed(i) < owner.lastLarge then
         values(i) = owner.uniform()
         changed(i) = owner.lastLarge
@@ -166,13 +166,13 @@ private[candela] object PrimarySamples:
       y = next1D()
 
     private def grow(): Unit =
-      if known == values.length then
-        values = java.util.Arrays.copyOf(values, 2 * known)
-        changed = java.util.Arrays.copyOf(changed, 2 * known)
-        oldValues = java.util.Arrays.copyOf(oldValues, 2 * known)
-        oldChanged = java.util.Arrays.copyOf(oldChanged, 2 * known)
-      changed(known) = NeverChanged
-      known += 1
+      if filled == values.length then
+        values = java.util.Arrays.copyOf(values, 2 * filled)
+        changed = java.util.Arrays.copyOf(changed, 2 * filled)
+        oldValues = java.util.Arrays.copyOf(oldValues, 2 * filled)
+        oldChanged = java.util.Arrays.copyOf(oldChanged, 2 * filled)
+      changed(filled) = NeverChanged
+      filled += 1
 
   /** Wraps around to [0, 1): the space is a torus. */
   private def wrapped(value: Float): Float =

@@ -26,19 +26,19 @@ private[candela] final class Photons:
       edges: Int = 1,
       place: Int = PhotonMap.Surface
   ): Unit =
-    val at = count * Numbers
-    if at == data.length then data = java.util.Arrays.copyOf(data, 2 * data.length)
-    data(at) = p.x
-    data(at + 1) = p.y
-    data(at + 2) = p.z
-    data(at + 3) = from.x
-    data(at + 4) = from.y
-    data(at + 5) = from.z
-    data(at + 6) = light.r
-    data(at + 7) = light.g
-    data(at + 8) = light.b
-    data(at + PhotonMap.EdgesOffset) = edges.toFloat
-    data(at + PhotonMap.PlaceOffset) = place.toFloat
+    val offset = count * Numbers
+    if offset == data.length then data = java.util.Arrays.copyOf(data, 2 * data.length)
+    data(offset) = p.x
+    data(offset + 1) = p.y
+    data(offset + 2) = p.z
+    data(offset + 3) = from.x
+    data(offset + 4) = from.y
+    data(offset + 5) = from.z
+    data(offset + 6) = light.r
+    data(offset + 7) = light.g
+    data(offset + 8) = light.b
+    data(offset + PhotonMap.EdgesOffset) = edges.toFloat
+    data(offset + PhotonMap.PlaceOffset) = place.toFloat
     count += 1
     if place >= 0 then inMedia += 1
 
@@ -79,18 +79,18 @@ private[candela] final class PhotonMap(
   sort()
 
   private def sort(): Unit =
-    inline def each(inline use: (Array[Float], Int, Int) => Unit): Unit =
+    inline def eachPhoton(inline use: (Array[Float], Int, Int) => Unit): Unit =
       for part <- parts do
         GivenUp.check(isStopped)
         loop(part.count): i =>
-          val at = i * Numbers
+          val offset = i * Numbers
           val d = part.data
-          if d(at + PlaceOffset) == Surface then
-            use(d, at, bucket(cell(d(at)), cell(d(at + 1)), cell(d(at + 2))))
-    each((_, _, b) => starts(b + 1) += 1)
+          if d(offset + PlaceOffset) == Surface then
+            use(d, offset, bucket(cell(d(offset)), cell(d(offset + 1)), cell(d(offset + 2))))
+    eachPhoton((_, _, b) => starts(b + 1) += 1)
     loop(mask + 1)(b => starts(b + 1) += starts(b))
     val next = starts.clone()
-    each: (d, at, b) =>
+    eachPhoton: (d, at, b) =>
       System.arraycopy(d, at, data, next(b) * Numbers, Numbers)
       next(b) += 1
 
@@ -112,7 +112,7 @@ private[candela] final class PhotonMap(
       most: Int = Int.MaxValue,
       isAlone: Boolean = false
   ): Rgb =
-    val p = vertex.at.p
+    val p = vertex.point.p
     // Lowest of the eight cells: the one below the nearest cell boundary along each axis
     val x0 = cell(p.x - radius)
     val y0 = cell(p.y - radius)
@@ -136,28 +136,28 @@ private[candela] final class PhotonMap(
   ): Rgb =
     val takesAll = limit == Float.PositiveInfinity
     val b = bucket(x, y, z)
-    val p = vertex.at.p
+    val p = vertex.point.p
     var r, g, blue = 0f
-    var at = starts(b) * Numbers
+    var offset = starts(b) * Numbers
     val end = starts(b + 1) * Numbers
-    while at < end do
-      val px = data(at)
-      val py = data(at + 1)
-      val pz = data(at + 2)
+    while offset < end do
+      val px = data(offset)
+      val py = data(offset + 1)
+      val pz = data(offset + 2)
       val distance2 = square(px - p.x) + square(py - p.y) + square(pz - p.z)
       // Other cells may have the same hash; they are visited separately
       if distance2 < radius2 && cell(px) == x && cell(py) == y && cell(pz) == z &&
-        Math.abs(data(at + EdgesOffset)) <= most
+        Math.abs(data(offset + EdgesOffset)) <= most
       then
-        val wi = Vec3(data(at + 3), data(at + 4), data(at + 5))
+        val wi = Vec3(data(offset + 3), data(offset + 4), data(offset + 5))
         val f = vertex.received(wi)
         if !f.isBlack && (takesAll || vertex.pdf(wi) <= limit) then
           // If both paths carry their hero alone, each stands for all three wavelengths
-          val share = if isAlone && data(at + EdgesOffset) < 0f then 1f / 3f else 1f
-          r += f.r * data(at + 6) * share
-          g += f.g * data(at + 7) * share
-          blue += f.b * data(at + 8) * share
-      at += Numbers
+          val share = if isAlone && data(offset + EdgesOffset) < 0f then 1f / 3f else 1f
+          r += f.r * data(offset + 6) * share
+          g += f.g * data(offset + 7) * share
+          blue += f.b * data(offset + 8) * share
+      offset += Numbers
     Rgb(r, g, blue)
 
 private[candela] object PhotonMap:

@@ -38,7 +38,7 @@ private[candela] final class PhotonMapper(
   private val looksBeyond = scene.hasInterfaces && interfaces == Interfaces.Weighed
   private var photons = PhotonMap(Array.empty, paths = 1, radius = 1f) // none yet
 
-  def begin(pass: Int, isStopped: () => Boolean): Boolean =
+  def startPass(pass: Int, isStopped: () => Boolean): Boolean =
     val prepared = passes(pass, tracer, isStopped)
     for map <- prepared do photons = map
     prepared.isDefined
@@ -46,7 +46,7 @@ private[candela] final class PhotonMapper(
   override def raysTraced: Long = super.raysTraced + tracer.raysTraced
 
   def radiance(cameraRay: Ray, sampler: Sampler): Rgb =
-    begin(cameraRay, sampler)
+    startPath(cameraRay, sampler)
     // Photons of dispersive scenes have one wavelength
     if scene.isDispersive then path.terminateSecondary()
     var hasGathered = false
@@ -69,7 +69,7 @@ private[candela] final class PhotonMapper(
           if !vertex.bsdf.isSpecular && limit > 0f then
             addScattered(photons.gather(vertex, limit))
           scatter(sampler)
-          leave()
+          leaveVertex()
           if !(vertex.bounce.isSpecular || vertex.bounce.pdf > follows) then
             if looksBeyond then hasGathered = true else end()
     L.toRgb

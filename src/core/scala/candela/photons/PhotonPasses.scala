@@ -84,7 +84,7 @@ private[candela] final class WholePhotons(scene: Scene, settings: PhotonSettings
 
   private def store(vertex: PathVertex, photons: Photons): Unit =
     val isKept = if vertex.isSpecularSoFar then settings.caustics else settings.indirect
-    if vertex.edges > 1 && isKept then photons.add(vertex.at.p, vertex.wo, vertex.throughput)
+    if vertex.edges > 1 && isKept then photons.add(vertex.point.p, vertex.wo, vertex.throughput)
 
 /** The photon maps of all passes, shared by all workers. A worker that needs a map helps to build
   * it; the map is bit-identical for any thread count.
@@ -113,19 +113,19 @@ abstract class PhotonMaps(first: Float, asked: Int, view: View) extends SharedPa
       tracer: PhotonTracer,
       isStopped: () => Boolean
   ): Option[PhotonMap] =
-    val pass = find(number)
+    val pass = passAt(number)
     if pass.map.isEmpty then pass.help(tracer, shutter, isStopped)
     pass.map
 
   def release(pass: Int): Unit = synchronized:
-    val at = pass % recent.length
-    if recent(at) != null && recent(at).number == pass then recent(at) = null
+    val slot = pass % recent.length
+    if recent(slot) != null && recent(slot).number == pass then recent(slot) = null
 
-  private def find(number: Int): Pass = synchronized:
-    val at = number % recent.length
-    if recent(at) == null || recent(at).number != number then
-      recent(at) = Pass(number, paths, radius(number))
-    recent(at)
+  private def passAt(number: Int): Pass = synchronized:
+    val slot = number % recent.length
+    if recent(slot) == null || recent(slot).number != number then
+      recent(slot) = Pass(number, paths, radius(number))
+    recent(slot)
 
   private def radius(pass: Int): Float =
     var r2 = first.toDouble * first
@@ -141,7 +141,7 @@ private[candela] object PhotonMaps:
   private val Pause = 50_000L
 
   private final class Pass(val number: Int, paths: Int, radius: Float):
-    private val parts = new Array[Photons]((paths + PartSize - 1) / PartSize)
+    private val batches = new Array[Photons]((paths + PartSize - 1) / PartSize)
     private val next = AtomicInteger()
     private val done = AtomicInteger()
     @volatile private var failure: Option[Throwable] = None
@@ -158,15 +158,15 @@ private[candela] object PhotonMaps:
         LockSupport.parkNanos(Pause)
 
     private def work(tracer: PhotonTracer, shutter: Shutter, isStopped: () => Boolean): Unit =
-      var part = next.getAndIncrement()
-      while part < parts.length && !isStopped() do
-        val count = Math.min(PartSize, paths - part * PartSize)
-        parts(part) = tracer.trace(number, part, count, shutter, isStopped)
+      var batch = next.getAndIncrement()
+      while batch < batches.length && !isStopped() do
+        val count = Math.min(PartSize, paths - batch * PartSize)
+        batches(batch) = tracer.trace(number, batch, count, shutter, isStopped)
         // Else it has a part of its paths
-        if !isStopped() && done.incrementAndGet() == parts.length then
-          try map = Some(PhotonMap(parts, paths, radius, tracer.draw(number), isStopped))
+        if !isStopped() && done.incrementAndGet() == batches.length then
+          try map = Some(PhotonMap(batches, paths, radius, tracer.draw(number), isStopped))
           catch case _: GivenUp => () // as the parts of the others
-        part = next.getAndIncrement()
+        batch = next.getAndIncrement()
 
 /** The passes of [[PhotonMapper]].
   *

@@ -30,8 +30,8 @@ private[candela] final class PhotonTree(
   import PhotonTree.*
 
   val count: Int =
-    val all = parts.foldLeft(0)((n, p) => Math.addExact(n, p.inMedia))
-    (all - first + every - 1) / every
+    val total = parts.foldLeft(0)((n, p) => Math.addExact(n, p.inMedia))
+    (total - first + every - 1) / every
 
   /** Power of a photon to that per area across a ray that finds it. */
   val perArea: Float = every / (Pi * square(radius) * paths)
@@ -42,18 +42,19 @@ private[candela] final class PhotonTree(
   /** Their positions again, close together: most photons of the leaves that a ray meets are beyond
     * the radius, and memory is what a search waits for.
     */
-  private val places = new Array[Float](3 * count)
+  private val positions = new Array[Float](3 * count)
 
   /** A power of two, so that all leaves have the same depth; the last may be empty. */
-  private val leaves = Integer.highestOneBit(Math.max(1, 2 * ((count + OfLeaf - 1) / OfLeaf) - 1))
-  private val boxes = new Array[Float](2 * leaves * 6)
+  private val leafCount =
+    Integer.highestOneBit(Math.max(1, 2 * ((count + OfLeaf - 1) / OfLeaf) - 1))
+  private val boxes = new Array[Float](2 * leafCount * 6)
   if count > 0 then
     sort()
     enclose()
 
   private def sort(): Unit =
-    val all = new Array[Float](data.length)
-    var at = 0
+    val photons = new Array[Float](data.length)
+    var offset = 0
     var skipped = every - 1 - first
     for part <- parts do
       GivenUp.check(isStopped)
@@ -61,15 +62,15 @@ private[candela] final class PhotonTree(
         if part.data(i * Numbers + PhotonMap.PlaceOffset) >= 0f then
           skipped += 1
           if skipped == every then
-            System.arraycopy(part.data, i * Numbers, all, at, Numbers)
-            at += Numbers
+            System.arraycopy(part.data, i * Numbers, photons, offset, Numbers)
+            offset += Numbers
             skipped = 0
     val low = Array.fill(3)(Float.PositiveInfinity)
     val high = Array.fill(3)(Float.NegativeInfinity)
     loop(count): i =>
       loop(3): k =>
-        low(k) = Math.min(low(k), all(i * Numbers + k))
-        high(k) = Math.max(high(k), all(i * Numbers + k))
+        low(k) = Math.min(low(k), photons(i * Numbers + k))
+        high(k) = Math.max(high(k), photons(i * Numbers + k))
     val forIndex = 64 - java.lang.Long.numberOfLeadingZeros(count - 1L)
     val bits = Math.min(MortonBits, (63 - forIndex) / 3)
     val cells = (1 << bits).toDouble
@@ -78,45 +79,46 @@ private[candela] final class PhotonTree(
       var morton = 0L
       loop(3): k =>
         val extent = high(k).toDouble - low(k)
-        val place = if extent > 0.0 then (all(i * Numbers + k) - low(k)) / extent * cells else 0.0
-        morton |= spread(Math.min(place.toLong, (1L << bits) - 1)) << k
+        val coordinate =
+          if extent > 0.0 then (photons(i * Numbers + k) - low(k)) / extent * cells else 0.0
+        morton |= spread(Math.min(coordinate.toLong, (1L << bits) - 1)) << k
       keys(i) = morton << forIndex | i
     GivenUp.check(isStopped)
     java.util.Arrays.sort(keys)
     val index = (1L << forIndex) - 1
     loop(count): i =>
-      System.arraycopy(all, (keys(i) & index).toInt * Numbers, data, i * Numbers, Numbers)
-      System.arraycopy(data, i * Numbers, places, 3 * i, 3)
+      System.arraycopy(photons, (keys(i) & index).toInt * Numbers, data, i * Numbers, Numbers)
+      System.arraycopy(data, i * Numbers, positions, 3 * i, 3)
 
   private def enclose(): Unit =
-    var node = 2 * leaves - 1
+    var node = 2 * leafCount - 1
     while node > 0 do
       GivenUp.check(isStopped, node)
       val box = node * 6
       loop(3): k =>
         var low = Float.PositiveInfinity
         var high = Float.NegativeInfinity
-        if node < leaves then
+        if node < leafCount then
           low = Math.min(boxes(2 * box + k), boxes(2 * box + 6 + k))
           high = Math.max(boxes(2 * box + 3 + k), boxes(2 * box + 9 + k))
         else
-          loop(begin(node), end(node)): i =>
-            low = Math.min(low, places(3 * i + k))
-            high = Math.max(high, places(3 * i + k))
+          loop(start(node), end(node)): i =>
+            low = Math.min(low, positions(3 * i + k))
+            high = Math.max(high, positions(3 * i + k))
         boxes(box + k) = low
         boxes(box + 3 + k) = high
       node -= 1
 
   /** Of the photons of a leaf. */
-  private def begin(node: Int): Int = Math.min((node - leaves) * OfLeaf, count)
-  private def end(node: Int): Int = Math.min((node - leaves + 1) * OfLeaf, count)
+  private def start(node: Int): Int = Math.min((node - leafCount) * OfLeaf, count)
+  private def end(node: Int): Int = Math.min((node - leafCount + 1) * OfLeaf, count)
 
   /** Finds the photons around a ray, in the order in which it passes them.
     *
     * @param medium that the photons have arrived in
     * @param most   leaves out photons whose paths have more edges
     */
-  def find(ray: Ray, medium: Int, most: Int, out: PassedPhotons): Unit =
+  def query(ray: Ray, medium: Int, most: Int, out: PassedPhotons): Unit =
     out.clear()
     if count > 0 then
       val stack = out.stack
@@ -126,7 +128,7 @@ private[candela] final class PhotonTree(
         top -= 1
         val node = stack(top)
         if passes(ray, node) then
-          if node >= leaves then look(ray, node, medium.toFloat, most.toFloat, out)
+          if node >= leafCount then searchLeaf(ray, node, medium.toFloat, most.toFloat, out)
           else
             stack(top) = 2 * node + 1
             stack(top + 1) = 2 * node
@@ -147,22 +149,28 @@ private[candela] final class PhotonTree(
     // Comparisons with NaN, of a ray along a side, are false
     boxes(box) <= boxes(box + 3) && !(near > far || far < 0f || near > ray.tMax)
 
-  private def look(ray: Ray, node: Int, medium: Float, most: Float, out: PassedPhotons): Unit =
+  private def searchLeaf(
+      ray: Ray,
+      node: Int,
+      medium: Float,
+      most: Float,
+      out: PassedPhotons
+  ): Unit =
     val perSquare = 1f / (square(ray.dx) + square(ray.dy) + square(ray.dz))
     val radius2 = square(radius)
-    var i = begin(node)
+    var i = start(node)
     val last = end(node)
     while i < last do
-      val x = places(3 * i) - ray.ox
-      val y = places(3 * i + 1) - ray.oy
-      val z = places(3 * i + 2) - ray.oz
+      val x = positions(3 * i) - ray.ox
+      val y = positions(3 * i + 1) - ray.oy
+      val z = positions(3 * i + 2) - ray.oz
       val t = (x * ray.dx + y * ray.dy + z * ray.dz) * perSquare
       val beside2 = square(x - t * ray.dx) + square(y - t * ray.dy) + square(z - t * ray.dz)
       if beside2 < radius2 && t > 0f && t < ray.tMax then
-        val at = i * Numbers
-        val isTaken = data(at + PhotonMap.PlaceOffset) == medium &&
-          Math.abs(data(at + PhotonMap.EdgesOffset)) <= most
-        if isTaken then out.add(t, at)
+        val offset = i * Numbers
+        val isTaken = data(offset + PhotonMap.PlaceOffset) == medium &&
+          Math.abs(data(offset + PhotonMap.EdgesOffset)) <= most
+        if isTaken then out.add(t, offset)
       i += 1
 
 private object PhotonTree:
@@ -190,9 +198,9 @@ private[candela] final class PassedPhotons:
 
   private[candela] def clear(): Unit = count = 0
 
-  private[candela] def add(t: Float, at: Int): Unit =
+  private[candela] def add(t: Float, offset: Int): Unit =
     if count == keys.length then keys = java.util.Arrays.copyOf(keys, 2 * count)
-    keys(count) = java.lang.Float.floatToRawIntBits(t).toLong << 32 | at
+    keys(count) = java.lang.Float.floatToRawIntBits(t).toLong << 32 | offset
     count += 1
 
   private[candela] def sort(): Unit = java.util.Arrays.sort(keys, 0, count)
@@ -201,7 +209,7 @@ private[candela] final class PassedPhotons:
   def t(i: Int): Float = java.lang.Float.intBitsToFloat((keys(i) >>> 32).toInt)
 
   /** Where its numbers begin in the map's data. */
-  def at(i: Int): Int = keys(i).toInt
+  def offset(i: Int): Int = keys(i).toInt
 
 private[candela] object PassedPhotons:
   /** Nodes that wait in a traversal, at most: one for each level of a tree, and one more. */

@@ -17,8 +17,8 @@ private[render] final class ChainWorker(
       Refused(walker.refused, walker.x, walker.y, 0, walker.lastMaterial)
 
   protected def work(chain: Int, wave: Int): Boolean =
-    !schedule.takes(chain) ||
-      (walker.begin(() => queue.isStopped) && advance(chain, wave))
+    !schedule.takesChain(chain) ||
+      (walker.prepare(() => queue.isStopped) && advance(chain, wave))
 
   private def advance(chain: Int, wave: Int): Boolean =
     val end = schedule.paths(chain, schedule.endSample(wave))

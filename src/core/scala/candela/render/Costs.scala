@@ -13,7 +13,7 @@ final case class Costs(all: Vector[Cost] = Vector.empty):
       Cost(kind, same.map(_.bytes).sum, same.map(_.seconds).sum, same.exists(_.isMost)))
 
   /** What there is to tell: surfaces are built together, and a scene may have no triangles. */
-  def told: Vector[Cost] =
+  def reported: Vector[Cost] =
     val isOther = all.exists(_.kind == CostKind.Shapes) &&
       all.forall(c => c.kind != CostKind.Triangles || c.bytes == 0)
     val named =
@@ -30,10 +30,10 @@ final case class Costs(all: Vector[Cost] = Vector.empty):
     * @param needed bytes that are needed at least, if that is known
     */
   def problem(heap: Long, needed: Option[Long], at: Option[SourcePos] = None): Problem =
-    val listed = greatest.map(c => s"${c.kind.word} ${ByteCount.show(c.bytes)}").mkString(", ")
-    val limit = s"Java's heap is limited to ${ByteCount.show(heap)}"
+    val listed = greatest.map(c => s"${c.kind.word} ${ByteCount.format(c.bytes)}").mkString(", ")
+    val limit = s"Java's heap is limited to ${ByteCount.format(heap)}"
     val message = needed match
-      case Some(n) => s"the scene needs about ${ByteCount.show(n)} of memory, but $limit: $listed"
+      case Some(n) => s"the scene needs about ${ByteCount.format(n)} of memory, but $limit: $listed"
       case None if listed.isEmpty => s"out of memory: $limit"
       case None => s"out of memory: $limit; the scene has $listed"
     val bytesNeeded = Math.max(needed.getOrElse(0L), Math.max(heap, bytes))

@@ -12,7 +12,7 @@ object FilmSize:
     * @param pixels  that are rendered
     * @param samples of each
     */
-  def least(
+  def lowerBound(
       pixels: Long,
       samples: Int,
       layers: Vector[ImageLayer],

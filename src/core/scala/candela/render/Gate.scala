@@ -12,7 +12,7 @@ private[render] final class Gate:
 
   private def isStill: Boolean = synchronized(waiting >= working)
 
-  def leave(): Unit = synchronized:
+  def exit(): Unit = synchronized:
     working -= 1
     notifyAll()
 

@@ -81,7 +81,7 @@ private[render] final class TileJobs(
   def job(
       integrators: WorkerIntegrators,
       begin: TaskQueue => TileWorker.BeginWave = _ => TileWorker.Unweighted
-  ): Job = jobOf(queue => worker(integrators.make(None), queue, begin(queue)))
+  ): Job = jobOf(queue => worker(integrators.create(None), queue, begin(queue)))
 
   def jobOf(worker: TaskQueue => Worker): Job =
     new Job(schedule, film, layers, chains = None, guide, worker)

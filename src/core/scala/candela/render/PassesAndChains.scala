@@ -34,23 +34,23 @@ final class Passes(
     val tiles = TileJobs(plan, schedule, (_, sample) => shard.takesPass(sample))
     tiles.jobOf: queue =>
       val integrator = shared.integrator(None)
-      tiles.worker(integrator, queue, begin(integrator, queue))
+      tiles.worker(integrator, queue, beginWave(integrator, queue))
 
   private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
     val integrator = passes(plan.view(Splats.Discarded)).integrator(Some(report))
-    SingleSamples(integrator, begin(integrator, _))
+    SingleSamples(integrator, beginWave(integrator, _))
 
   /** Begins waves of a pass; all samples count the same. */
-  private def begin(integrator: PassIntegrator, queue: TaskQueue): TileWorker.BeginWave =
+  private def beginWave(integrator: PassIntegrator, queue: TaskQueue): TileWorker.BeginWave =
     (pass, _) =>
-      if integrator.begin(pass, () => queue.isStopped) then 1f else TileWorker.Stopped
+      if integrator.startPass(pass, () => queue.isStopped) then 1f else TileWorker.Stopped
 
   private[render] def spectral(
       bases: Array[Wavelengths],
       parts: Vector[RenderMethod]
   ): RenderMethod =
-    val all = parts.collect { case p: Passes => p }
-    Passes(view => SpectralPasses(all.map(_.passes(view)), bases), bias)
+    val methods = parts.collect { case p: Passes => p }
+    Passes(view => SpectralPasses(methods.map(_.passes(view)), bases), bias)
 
 object Passes:
   /** What is said of guiding where photons bring caustics. */
@@ -83,15 +83,15 @@ final class Chains(
   private[render] def job(plan: RenderPlan, shard: Shard): Job =
     val splats = RenderMethod.splatFilm(plan)
     val view = plan.view(splats)
-    val all = chains(view, paths(view, _))
-    val schedule = ChainSchedule(all.count, plan.crop.pixels, plan.samplesPerPixel, shard)
+    val sharedChains = chains(view, paths(view, _))
+    val schedule = ChainSchedule(sharedChains.count, plan.crop.pixels, plan.samplesPerPixel, shard)
     new Job(
       schedule,
       Job.film(plan.crop, Some(splats)),
       layers = None,
-      Some(all),
+      Some(sharedChains),
       guide = None,
-      ChainWorker(all.walker(), schedule, _)
+      ChainWorker(sharedChains.walker(), schedule, _)
     )
 
   private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
@@ -101,13 +101,13 @@ final class Chains(
       bases: Array[Wavelengths],
       parts: Vector[RenderMethod]
   ): RenderMethod =
-    val all = parts.collect { case c: Chains => c }
+    val methods = parts.collect { case c: Chains => c }
     Chains(
       (view, splats) =>
-        val ofBases = all.zip(bases).map: (of, basis) =>
+        val ofBases = methods.zip(bases).map: (of, basis) =>
           of.paths(view, ConvertedSplats(splats, basis))
         SpectralChainPaths(ofBases.toArray, bases)
       ,
       chains,
-      RenderMethod.inBases(bases, all.map(_.integrators))
+      RenderMethod.inBases(bases, methods.map(_.integrators))
     )

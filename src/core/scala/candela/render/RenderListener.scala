@@ -56,7 +56,7 @@ abstract class RenderListener:
   def progressed(progress: Progress): Unit = ()
 
   /** When [[passed]] is called. */
-  def looks: Looks = Looks.Never
+  def frequency: Looks = Looks.Never
 
   /** Called before the first pass.
     *
@@ -82,8 +82,8 @@ object RenderListener:
   private final class All(listeners: Vector[RenderListener]) extends RenderListener:
     override def started(live: Live): Unit = listeners.foreach(_.started(live))
     override def progressed(progress: Progress): Unit = listeners.foreach(_.progressed(progress))
-    override def looks: Looks = listeners.map(_.looks).fold(Looks.Never)(_.max(_))
+    override def frequency: Looks = listeners.map(_.frequency).fold(Looks.Never)(_.max(_))
     override def begins(samples: Int, film: Film): Unit =
       listeners.foreach(_.begins(samples, film))
     override def passed(pass: Pass, film: Film): Unit =
-      for l <- listeners if l.looks.include(pass) do l.passed(pass, film)
+      for l <- listeners if l.frequency.include(pass) do l.passed(pass, film)

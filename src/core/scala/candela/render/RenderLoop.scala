@@ -25,7 +25,7 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
     Live(plan, job, queue, state, planned, canKeepOn, () => seconds)
   private val timeLeft =
     TimeLeft(schedule, pixels.toDouble / shard.count, earlierSamples, rule)
-  private val looks = rule.looks.max(listener.looks)
+  private val frequency = rule.frequency.max(listener.frequency)
   private var lastBeats = 0L
   private var lastBeat = started
 
@@ -39,13 +39,13 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
     reportProgress()
     for c <- checkpointer do
       // A worker's sample without end may be in the film in part
-      if queue.isLost then c.lose() else c.save(state)
+      if queue.isLost then c.discard() else c.save(state)
       c.finish()
     state.settle()
     result
 
   /** The waves before which the workers wait for each other. */
-  private def pauses: Iterator[Int] = looks match
+  private def pauses: Iterator[Int] = frequency match
     case Looks.Never => Iterator(schedule.waves)
     case Looks.Doublings => schedule.passes.iterator
     case Looks.Waves => Iterator.range(0, schedule.waves).map(_ + 1)
@@ -53,7 +53,7 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   /** Renders all waves before `end`, in several passes if the rule asks for fewer samples. */
   private def renderUntil(end: Int): Unit =
     val target = schedule.firstSample(end)
-    val isDivisible = looks == Looks.Waves && schedule.step > 0
+    val isDivisible = frequency == Looks.Waves && schedule.step > 0
     var done = Math.max(earlierSamples, schedule.firstSample(end - 1))
     while done < target && continues do
       val maxSamples = if isDivisible then rule.maxSamples else Int.MaxValue
@@ -73,14 +73,14 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   /** Takes samples until each pixel has `samples`, none of the wave `end` or a later one. */
   private def renderPass(end: Int, samples: Int): Unit =
     queue.openUntil(end, samples)
-    val begin = seconds
+    val passStart = seconds
     lastBeat = System.nanoTime
     Workers.run(workers, queue, () => isWorthWaiting)(() => tick())
-    if looks != Looks.Never && !queue.isStopped then
+    if frequency != Looks.Never && !queue.isStopped then
       val isWhole = samples == schedule.firstSample(end)
       val pass = Pass(
         samples,
-        begin,
+        passStart,
         end = seconds,
         workers.map(_.seconds),
         isLast = isWhole && end >= schedule.waves,
@@ -90,8 +90,8 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
         () => queue.isStopped
       )
       val pauseStart = System.nanoTime
-      if rule.looks.include(pass) then rule.passed(pass, job.film)
-      if listener.looks.include(pass) then listener.passed(pass, job.film)
+      if rule.frequency.include(pass) then rule.passed(pass, job.film)
+      if listener.frequency.include(pass) then listener.passed(pass, job.film)
       pausedNanos += System.nanoTime - pauseStart
 
   /** Called about ten times a second. */

@@ -109,7 +109,7 @@ object RenderMethod:
   private[render] def single(plan: RenderPlan, report: PathReport)(
       integrators: View => WorkerIntegrators
   ): SingleSamples =
-    SingleSamples(integrators(plan.view(Splats.Discarded)).make(Some(report)))
+    SingleSamples(integrators(plan.view(Splats.Discarded)).create(Some(report)))
 
   /** The film of splats. */
   private[render] def splatFilm(plan: RenderPlan): SplatFilm =
@@ -145,7 +145,7 @@ final class MethodPilot(
 
 object MethodPilot:
   /** Leaves the method as it is, and says why. */
-  def without(why: String, alone: RenderMethod): MethodPilot =
+  def unchanged(why: String, alone: RenderMethod): MethodPilot =
     MethodPilot(_ => (None, s"none: $why"), _ => alone, connects = false, blurs = false)
 
 /** A method that renders alone, beside which a pilot may choose a better one. */

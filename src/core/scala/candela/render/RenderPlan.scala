@@ -79,8 +79,8 @@ final case class RenderPlan(
     * whole image, not on the part that is rendered.
     */
   def piloted: RenderPlan = method.pilot.fold(this): pilot =>
-    val whole = PixelBounds(0, 0, width, height)
-    val (choice, why) = pilot.run(view(Splats.Discarded).copy(crop = whole))
+    val fullImage = PixelBounds(0, 0, width, height)
+    val (choice, why) = pilot.run(view(Splats.Discarded).copy(crop = fullImage))
     val chosen = choice.fold(method.withoutPilot)(pilot.method)
     copy(
       method = chosen,
@@ -106,7 +106,7 @@ final case class RenderPlan(
         crop.x1 + reach.beyondX,
         crop.y1 + reach.beyondY
       )
-      sampleWindow.fold(reached)(reached.within)
+      sampleWindow.fold(reached)(reached.intersection)
 
   /** Limit of a sample's indirect light, if there is one. */
   def indirectLimit: Option[SampleLimit] = fireflies match

@@ -117,7 +117,7 @@ abstract class Checkpointer:
 
   /** Called at the end instead of `save`, if some sample did not end in time: the last copy counts.
     */
-  def lose(): Unit
+  def discard(): Unit
 
   /** Called after each `save`, while sampling goes on: what may take longer. */
   def finish(): Unit

@@ -36,6 +36,6 @@ object Renderer:
     */
   def trace(plan: RenderPlan, x: Int, y: Int, sample: Int, report: PathReport): Option[Rgb] =
     val (film, worker) = Job.single(plan, x, y, report)
-    worker.take(x, y, sample)
+    worker.traceSample(x, y, sample)
     val data = film.toImage(1f).data
     Option.when(worker.refused.isEmpty)(Rgb(data(0), data(1), data(2)))

@@ -18,7 +18,7 @@ final case class Progress(
     outlook: Outlook = Outlook()
 ):
   /** How much of the rendering is done, in [0, 1]; of one that a goal ends, of its time. */
-  def part: Double =
+  def fraction: Double =
     if outlook.hasGoal then outlook.left.fold(0.0)(l => seconds / Math.max(seconds + l, 1e-9))
     else if total == 0 then 1
     else done.toDouble / total
@@ -94,9 +94,9 @@ final case class Rendering(
 
   /** Likewise, if the colours are developed. */
   def image(development: Development, colors: Image): Image =
-    val layered = layers.fold(colors)(_.behind(colors, development, film.splats))
+    val layered = layers.fold(colors)(_.appendTo(colors, development, film.splats))
     development.bands.fold(layered): bands =>
-      film.bands.fold(bands.behind(layered, film.toImage(1f)))(_.behind(layered, film.splats))
+      film.bands.fold(bands.appendTo(layered, film.toImage(1f)))(_.appendTo(layered, film.splats))
 
   def isComplete: Boolean = samplesDone >= samplesPerPixel
 

@@ -86,8 +86,8 @@ private[render] abstract class Schedule(
   private def endingAt(samples: Long): Option[Int] =
     if samples < grown then Some(growing.indexOf(samples.toInt)).filter(_ > 0)
     else
-      val whole = growing.length + (samples - grown) / largestWave
-      Option.when(start(whole.toInt) == samples)(whole.toInt)
+      val waveCount = growing.length + (samples - grown) / largestWave
+      Option.when(start(waveCount.toInt) == samples)(waveCount.toInt)
 
 private[render] object Schedule:
 
@@ -124,7 +124,7 @@ private[render] final class ChainSchedule(
 
   override def step: Int = 0
 
-  def takes(chain: Int): Boolean = shard.takesChain(chain)
+  def takesChain(chain: Int): Boolean = shard.takesChain(chain)
 
   /** Number of paths of the chain after `samples` per pixel. */
   def paths(chain: Int, samples: Int): Long = (samples * pixels + pieces - 1 - chain) / pieces
@@ -135,7 +135,7 @@ private[render] final class ChainSchedule(
     progress >= paths(chain, samples)
 
   protected def samplesOf(chain: Int, progress: Long): Int =
-    if !takes(chain) then samplesPerPixel
+    if !takesChain(chain) then samplesPerPixel
     else
       // The last wave whose paths are all there
       var done = 0

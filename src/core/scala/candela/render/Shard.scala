@@ -9,7 +9,7 @@ final case class Shard(index: Int, count: Int):
   /** Whether it has this sample of a tile: of every pixel its part, and equal work, even if there
     * are more shards than samples.
     */
-  private[render] def takes(tile: Int, sample: Int): Boolean =
+  private[render] def takesTile(tile: Int, sample: Int): Boolean =
     count == 1 || (tile.toLong + sample) % count == index
 
   /** As a share of the passes, whose preparation is then divided, too. */

@@ -8,7 +8,7 @@ import candela.film.Film
 abstract class StoppingRule:
 
   /** When [[passed]] is called. */
-  def looks: Looks
+  def frequency: Looks
 
   /** Called before the first pass.
     *
@@ -42,7 +42,7 @@ abstract class StoppingRule:
 object StoppingRule:
   /** All planned samples are taken. */
   object Never extends StoppingRule:
-    def looks: Looks = Looks.Never
+    def frequency: Looks = Looks.Never
 
 /** When a rule is expected to stop a rendering, whichever comes first.
   *

@@ -42,8 +42,8 @@ final class ThreadPool(val threads: Int, val worksAside: Boolean = true)
     executor.allowCoreThreadTimeOut(true)
     executor
 
-  def each(count: Int)(task: Int => Unit): Unit =
-    if threads == 1 || count <= 1 then Parallel.Alone.each(count)(task)
+  def forEach(count: Int)(task: Int => Unit): Unit =
+    if threads == 1 || count <= 1 then Parallel.Alone.forEach(count)(task)
     else
       val nextIndex = AtomicInteger()
       val remaining = CountDownLatch(count)

@@ -36,9 +36,9 @@ private[render] final class TileWorker(
   private val bands: BandFilm | Null = film.bands.orNull
   private val visible: VisibleSurface | Null = plan.layers.map(_.surface.copy()).orNull
   private val dimmer: SampleLimit | Null = plan.indirectLimit.orNull
-  private val parts: LightParts | Null =
+  private val lightParts: LightParts | Null =
     if dimmer != null || plan.layers.exists(_.groups.isDefined) then integrator.lightParts else null
-  if visible != null then visible.parts = parts
+  if visible != null then visible.lightParts = lightParts
 
   // Accumulators of samples shared by several pixels
   private val levels: LevelPass | Null = film.levels.map(_.pass()).orNull
@@ -61,7 +61,7 @@ private[render] final class TileWorker(
       Refused(refusedCount, refusedX, refusedY, refusedSample, refusedMaterial)
 
   /** Takes one sample of the first tile, independent of the schedule. */
-  def take(x: Int, y: Int, sample: Int): Unit =
+  def traceSample(x: Int, y: Int, sample: Int): Unit =
     this.x = x
     this.y = y
     this.sample = sample
@@ -115,8 +115,8 @@ private[render] final class TileWorker(
 
   private def beginTile(number: Int): Unit =
     tile = schedule.tiles(number)
-    if shares != null then shares.begin(number, waveWeight)
-    if levels != null then levels.begin(number)
+    if shares != null then shares.selectTile(number, waveWeight)
+    if levels != null then levels.selectTile(number)
     if visible != null then visible.weight = waveWeight
 
   private def takeSample(): Unit =
@@ -143,22 +143,22 @@ private[render] final class TileWorker(
       add(Rgb.Black)
       if layerFilm != null then layerFilm.miss(x, y, ownWeight)
     else
-      if visible != null then visible.look(ray, sample)
-      val found = integrator.radiance(ray, sampler)
-      if !queue.isLost then record(found, weight)
+      if visible != null then visible.trace(ray, sample)
+      val estimate = integrator.radiance(ray, sampler)
+      if !queue.isLost then record(estimate, weight)
 
   private def record(estimate: Rgb, weight: Float): Unit =
     val srgb = plan.basis.toSrgb(estimate)
-    if parts != null && !plan.basis.isSrgb then parts.convert(parts, plan.basis)
+    if lightParts != null && !plan.basis.isSrgb then lightParts.convert(lightParts, plan.basis)
     val radiance =
-      if dimmer != null && parts != null then parts.limit(dimmer, weight) else srgb
+      if dimmer != null && lightParts != null then lightParts.limit(dimmer, weight) else srgb
     val scaled = if weighs then weighed(radiance, weight) else radiance
     val light = if limit != null && !weighsLast then scaled * limit.scale(scaled) else scaled
     if light.isFinite then
       add(light)
       if bands != null then addTo(bands, weight)
       if layerFilm != null && visible != null then
-        if parts != null then develop(parts, radiance, light)
+        if lightParts != null then develop(lightParts, radiance, light)
         layerFilm.add(x, y, light, ownWeight, visible)
     else refuse()
 

@@ -13,10 +13,14 @@ final class Tiles(val integrators: WorkerIntegrators) extends RenderMethod:
   def dividesLight: Boolean = integrators.divideLight
 
   private[render] def job(plan: RenderPlan, shard: Shard): Job =
-    TileJobs(plan, TileSchedule(plan.sampled, plan.samplesPerPixel), shard.takes).job(integrators)
+    TileJobs(
+      plan,
+      TileSchedule(plan.sampled, plan.samplesPerPixel),
+      shard.takesTile
+    ).job(integrators)
 
   private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
-    SingleSamples(integrators.make(Some(report)))
+    SingleSamples(integrators.create(Some(report)))
 
   private[render] def spectral(
       bases: Array[Wavelengths],
@@ -44,7 +48,7 @@ final class GuidedTiles(
     GuidedTiles.job(plan, shard, settings, guided, None)
 
   private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
-    SingleSamples(unguided.make(Some(report)))
+    SingleSamples(unguided.create(Some(report)))
 
   private[render] def spectral(
       bases: Array[Wavelengths],
@@ -70,11 +74,11 @@ object GuidedTiles:
     // Fireflies are told from other samples by how many there are of each brightness
     val weighted = settings.copy(weighs = plan.fireflies != Fireflies.Reweighted)
     val guide = Guide(weighted, samples, plan.sampled.pixels)
-    val begin: TaskQueue => TileWorker.BeginWave = queue =>
+    val beginWave: TaskQueue => TileWorker.BeginWave = queue =>
       (sample, moves) =>
-        if guide.begin(sample, moves, () => queue.isAbandoned) then guide.weight
+        if guide.beginSample(sample, moves, () => queue.isAbandoned) then guide.weight
         else TileWorker.Stopped
-    TileJobs(plan, schedule, shard.takes, splats, Some(guide)).job(guided(guide), begin)
+    TileJobs(plan, schedule, shard.takesTile, splats, Some(guide)).job(guided(guide), beginWave)
 
 /** Camera samples, tile by tile; their light paths splat to the whole film.
   *
@@ -102,7 +106,7 @@ final class SplattedTiles(
       case Some(g) => GuidedTiles.job(plan, shard, g.settings, g.integrators(view, _), Some(splats))
       case None =>
         val schedule = TileSchedule(plan.sampled, plan.samplesPerPixel)
-        TileJobs(plan, schedule, shard.takes, Some(splats)).job(integrators(view))
+        TileJobs(plan, schedule, shard.takesTile, Some(splats)).job(integrators(view))
 
   private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
     RenderMethod.single(plan, report)(integrators)
@@ -111,10 +115,10 @@ final class SplattedTiles(
       bases: Array[Wavelengths],
       parts: Vector[RenderMethod]
   ): RenderMethod =
-    val all = parts.collect { case s: SplattedTiles => s }
-    def guidedBy(guide: Guide) = all.flatMap(_.guided).map(g => g.integrators(_, guide))
+    val methods = parts.collect { case s: SplattedTiles => s }
+    def guidedBy(guide: Guide) = methods.flatMap(_.guided).map(g => g.integrators(_, guide))
     SplattedTiles(
-      RenderMethod.inBases(bases, all.map(_.integrators)),
+      RenderMethod.inBases(bases, methods.map(_.integrators)),
       beside,
       guided.map(g =>
         GuidedSplats(

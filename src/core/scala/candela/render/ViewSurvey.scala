@@ -38,15 +38,15 @@ final class ViewSurvey(plan: RenderPlan, sight: Sight):
 
   private val ray = Ray()
   private val hit = Hit()
-  private val at = sight.scene.newPoint()
+  private val point = sight.scene.newPoint()
 
   /** What rays through a grid meet; through a finer one, if they meet nothing. */
-  lazy val seen: FirstSurfaces =
+  lazy val firstSurfaces: FirstSurfaces =
     val coarse = through(GridSize)
     if coarse.isNothing then through(FineGridSize) else coarse
 
   /** Whether rays from the camera in all directions meet a surface. */
-  lazy val isEnclosed: Boolean = seen.isAround && camera(0.5f, 0.5f) &&
+  lazy val isEnclosed: Boolean = firstSurfaces.isAround && camera(0.5f, 0.5f) &&
     firstOf(Directions)(toSphere(ray.origin, _)).isAround
 
   /** Whether no sample of a grid of pixels has any light. Photons take too long to tell. */
@@ -89,11 +89,11 @@ final class ViewSurvey(plan: RenderPlan, sight: Sight):
     var distance = Float.PositiveInfinity
     var nearest = -1
     for i <- 0 until count if set(i) do
-      val from = ray.origin
+      val origin = ray.origin
       rays += 1
-      if sight.scene.closestBehindInterfaces(ray, hit, at) then
+      if sight.scene.closestBehindInterfaces(ray, hit, point) then
         hits += 1
-        val d = (at.p - from).length
+        val d = (point.p - origin).length
         if d < distance then
           distance = d
           nearest = sight.scene.objectIndex(hit)

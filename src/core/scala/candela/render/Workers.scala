@@ -58,7 +58,7 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
 
   /** Whether it has ended though some workers have not: their paths don't count any more. */
   def isLost: Boolean = isForgotten
-  def lose(): Unit = isForgotten = true
+  def markLost(): Unit = isForgotten = true
 
   /** Called by workers wherever they may pause; false if the rendering is stopped. */
   def goesOn(): Boolean =
@@ -74,8 +74,8 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
       onWait()
       !isStopped
 
-  private[render] def begin(workers: Int): Unit = gate.expect(workers)
-  private[render] def end(): Unit = gate.leave()
+  private[render] def start(workers: Int): Unit = gate.expect(workers)
+  private[render] def end(): Unit = gate.exit()
 
   def failure: Option[Throwable] = firstFailure.get
 
@@ -156,7 +156,7 @@ private[render] object Workers:
         catch case e: Throwable => queue.fail(e)
         finally queue.end()
       ThreadPool.thread(s"worker-${i + 1}", guarded)
-    queue.begin(threads.size)
+    queue.start(threads.size)
     threads.foreach(_.start())
     try
       for thread <- threads do
@@ -182,4 +182,4 @@ private[render] object Workers:
       for thread <- threads do
         val millisLeft = (end - System.nanoTime) / 1_000_000
         if millisLeft > 0 then thread.join(millisLeft)
-      if threads.exists(_.isAlive) then queue.lose()
+      if threads.exists(_.isAlive) then queue.markLost()

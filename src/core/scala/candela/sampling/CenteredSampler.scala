@@ -4,19 +4,19 @@ package candela.sampling
   * scene moves, of the shutter interval. The dimensions behind these are those of `inner`.
   */
 final class CenteredSampler(inner: Sampler, moves: Boolean) extends Sampler:
-  private var places, times = 0
+  private var points, times = 0
 
   def samplesPerPixel: Int = inner.samplesPerPixel
   override def isProgressive: Boolean = inner.isProgressive
 
   def start(x: Int, y: Int, sample: Int): Unit =
     inner.start(x, y, sample)
-    places = CenteredSampler.CenteredPoints
+    points = CenteredSampler.CenteredPoints
     times = if moves then 1 else 0
 
   override def skipTo(requests: Int): Unit =
     inner.skipTo(requests)
-    places = 0
+    points = 0
     times = 0
 
   override def position: Long = inner.position
@@ -31,8 +31,8 @@ final class CenteredSampler(inner: Sampler, moves: Boolean) extends Sampler:
 
   def next2D(): Unit =
     inner.next2D()
-    if places > 0 then
-      places -= 1
+    if points > 0 then
+      points -= 1
       x = 0.5f
       y = 0.5f
     else

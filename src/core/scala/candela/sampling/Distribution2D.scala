@@ -31,12 +31,12 @@ final class Distribution2D private (
 
   /** (x, y, pdf): the position sampled by (`u1`, `u2`) in the half-open unit square. */
   def sample(u1: Float, u2: Float): Vec3 =
-    val row = Cdf.find(rowCdf, 0, u2, cutsOfRows, binsOfRows, 0)
-    val at = row * (columns + 1)
-    val column = Cdf.find(inRow, at, u1, cutsInRow, binsInRow, row * (cutsInRow + 1))
+    val row = Cdf.findBin(rowCdf, 0, u2, cutsOfRows, binsOfRows, 0)
+    val rowStart = row * (columns + 1)
+    val column = Cdf.findBin(inRow, rowStart, u1, cutsInRow, binsInRow, row * (cutsInRow + 1))
     Vec3(
-      Cdf.place(column, Cdf.within(inRow, at, column, u1), columns),
-      Cdf.place(row, Cdf.within(rowCdf, 0, row, u2), rows),
+      Cdf.position(column, Cdf.relativePosition(inRow, rowStart, column, u1), columns),
+      Cdf.position(row, Cdf.relativePosition(rowCdf, 0, row, u2), rows),
       density(column, row)
     )
 
@@ -46,8 +46,8 @@ final class Distribution2D private (
     else density(Cdf.binOf(x, columns), Cdf.binOf(y, rows))
 
   private def density(column: Int, row: Int): Float =
-    val at = row * (columns + 1) + column
-    (inRow(at + 1) - inRow(at)) * columns * ((rowCdf(row + 1) - rowCdf(row)) * rows)
+    val index = row * (columns + 1) + column
+    (inRow(index + 1) - inRow(index)) * columns * ((rowCdf(row + 1) - rowCdf(row)) * rows)
 
   private def arrays = (inRow, rowCdf, binsInRow, binsOfRows)
 
@@ -102,7 +102,7 @@ object Distribution2D:
 
     def read(in: CheckedInput): Distribution2D =
       val (columns, rows) = (in.int(), in.int())
-      val made = new Distribution2D(
+      val result = new Distribution2D(
         columns,
         rows,
         in.double(),
@@ -111,11 +111,11 @@ object Distribution2D:
         in.ints(),
         in.ints()
       )
-      val (inRow, rowCdf, binsInRow, binsOfRows) = made.arrays
-      def has(length: Int, of: Long) = length == of
-      val fits = columns > 0 && rows > 0 && has(inRow.length, (columns + 1L) * rows) &&
-        has(rowCdf.length, rows + 1L) &&
-        has(binsInRow.length, (Cdf.cutpoints(columns) + 1L) * rows) &&
-        has(binsOfRows.length, Cdf.cutpoints(rows) + 1L)
+      val (inRow, rowCdf, binsInRow, binsOfRows) = result.arrays
+      def matches(length: Int, of: Long) = length == of
+      val fits = columns > 0 && rows > 0 && matches(inRow.length, (columns + 1L) * rows) &&
+        matches(rowCdf.length, rows + 1L) &&
+        matches(binsInRow.length, (Cdf.cutpoints(columns) + 1L) * rows) &&
+        matches(binsOfRows.length, Cdf.cutpoints(rows) + 1L)
       if !fits then throw IOException("its parts don't fit together")
-      made
+      result

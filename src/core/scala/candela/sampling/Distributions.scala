@@ -35,23 +35,23 @@ private[sampling] object Cdf:
   /** The bin i < `count` whose half-open CDF interval contains `u` in [0, 1). Its probability is
     * positive.
     */
-  def find(cdf: Array[Float], at: Int, count: Int, u: Float): Int =
+  def findBin(cdf: Array[Float], at: Int, count: Int, u: Float): Int =
     // The last i with sum(i) ≤ u: bins of probability zero have their successor's sum, so they are
     // never selected
-    between(cdf, at, 0, count, u)
+    search(cdf, at, 0, count, u)
 
-  /** As [[find]], for a bin from `first` until `end`. By the bits, which have the order of Floats
-    * that are not negative: which half comes next can't be predicted.
+  /** As [[findBin]], for a bin from `first` until `end`. Compares bits, which have the order of
+    * Floats that are not negative: no branch, since which half comes next can't be predicted.
     */
-  private def between(cdf: Array[Float], at: Int, first: Int, end: Int, u: Float): Int =
+  private def search(cdf: Array[Float], at: Int, first: Int, end: Int, u: Float): Int =
     val goal = java.lang.Float.floatToRawIntBits(u)
     var low = first
-    var left = end - first
-    while left > 1 do
-      val half = left >>> 1
-      val beyond = (goal - java.lang.Float.floatToRawIntBits(cdf(at + low + half))) >> 31
-      low += half & ~beyond
-      left -= half
+    var remaining = end - first
+    while remaining > 1 do
+      val step = remaining >>> 1
+      val beyond = (goal - java.lang.Float.floatToRawIntBits(cdf(at + low + step))) >> 31
+      low += step & ~beyond
+      remaining -= step
     low
 
   /** Number of cutpoints of a CDF of `count` bins, for a search of few steps: a power of two, so
@@ -72,25 +72,25 @@ private[sampling] object Cdf:
       bins: Array[Int],
       to: Int
   ): Unit =
-    loop(n)(k => bins(to + k) = find(cdf, at, count, k.toFloat / n))
+    loop(n)(k => bins(to + k) = findBin(cdf, at, count, k.toFloat / n))
     bins(to + n) = count - 1
 
-  /** The same bin as [[find]]'s, between the two next cutpoints: fewer branches to guess, and less
-    * memory to visit.
+  /** The same bin as [[findBin]]'s, between the two next cutpoints: fewer branches to guess, and
+    * less memory to visit.
     */
-  def find(cdf: Array[Float], at: Int, u: Float, n: Int, bins: Array[Int], from: Int): Int =
+  def findBin(cdf: Array[Float], at: Int, u: Float, n: Int, bins: Array[Int], from: Int): Int =
     val k = from + (u * n).toInt
-    between(cdf, at, bins(k), bins(k + 1) + 1, u)
+    search(cdf, at, bins(k), bins(k + 1) + 1, u)
 
   private inline val BinsOfCutpoint = 8
 
   /** Relative position of `u` in its bin, in [0, 1). */
-  def within(cdf: Array[Float], at: Int, bin: Int, u: Float): Float =
+  def relativePosition(cdf: Array[Float], at: Int, bin: Int, u: Float): Float =
     val low = cdf(at + bin)
     belowOne((u - low) / (cdf(at + bin + 1) - low))
 
   /** A position in bin `bin` of `count` equal bins over [0, 1); [[binOf]] inverts it. */
-  def place(bin: Int, fraction: Float, count: Int): Float =
+  def position(bin: Int, fraction: Float, count: Int): Float =
     var x = belowOne((bin + fraction) / count)
     while binOf(x, count) > bin do x = Math.nextDown(x)
     while binOf(x, count) < bin do x = Math.nextUp(x)
@@ -114,10 +114,10 @@ final class Discrete(weights: Array[Float]):
   def size: Int = cdf.length - 1
 
   /** Samples an index for `u` in [0, 1); never one of probability 0. */
-  def sample(u: Float): Int = Cdf.find(cdf, 0, size, u)
+  def sample(u: Float): Int = Cdf.findBin(cdf, 0, size, u)
 
   /** Reuses `u` after it sampled `picked`: uniform in [0, 1) again, with fewer bits. */
-  def remapped(u: Float, picked: Int): Float = Cdf.within(cdf, 0, picked, u)
+  def remapped(u: Float, picked: Int): Float = Cdf.relativePosition(cdf, 0, picked, u)
 
   /** Probability with which `sample` returns `index`. */
   def probability(index: Int): Float = cdf(index + 1) - cdf(index)
@@ -142,8 +142,8 @@ final class Distribution1D(values: Array[Float]):
 
   /** Samples a position for `u` in [0, 1); the result is in [0, 1). */
   def sample(u: Float): Float =
-    val bin = Cdf.find(cdf, 0, size, u)
-    Cdf.place(bin, Cdf.within(cdf, 0, bin, u), size)
+    val bin = Cdf.findBin(cdf, 0, size, u)
+    Cdf.position(bin, Cdf.relativePosition(cdf, 0, bin, u), size)
 
   /** Pdf of `sample` at `x`; 0 outside [0, 1]. */
   def pdf(x: Float): Float =

@@ -25,7 +25,7 @@ final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends HashedSam
   private var dimension = 0
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    begin(SampleHash.pixel(x, y, seed))
+    startAt(SampleHash.pixel(x, y, seed))
     index = sample
     dimension = 0
 
@@ -61,17 +61,17 @@ final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends HashedSam
     * scrambling and independent random digits after it: a single hash supplies them.
     */
   private def radicalInverse(base: Int, bits: Long): Float =
-    var rest = index
+    var remaining = index
     var digits = 0L
     var cells = 1L
     var prefix = bits // a hash of all digits before this one
-    while cells < samplesPerPixel || rest > 0 do
-      val quotient = rest / base
-      val digit = rest - quotient * base
+    while cells < samplesPerPixel || remaining > 0 do
+      val quotient = remaining / base
+      val digit = remaining - quotient * base
       digits = digits * base + Permutation.element(digit, base, prefix)
       cells *= base
       prefix = SampleHash.mix64(prefix + (digit + 1) * SampleHash.Step)
-      rest = quotient
+      remaining = quotient
     val tail = SampleHash.toUnit((prefix >>> 32).toInt)
     belowOne(((digits + tail) / cells.toDouble).toFloat)
 
@@ -82,9 +82,9 @@ object HaltonSampler:
 
   private val primes: Array[Int] =
     val sieve = Array.fill(7920)(true)
-    val found = Array.newBuilder[Int]
+    val result = Array.newBuilder[Int]
     for n <- 2 until sieve.length if sieve(n) do
-      found += n
+      result += n
       for multiple <- n * n.toLong until sieve.length.toLong by n.toLong do
         sieve(multiple.toInt) = false
-    found.result()
+    result.result()

@@ -18,7 +18,7 @@ final class OwenSobolSampler(val samplesPerPixel: Int, seed: Int) extends Hashed
   private var reversedIndex = 0
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    begin(SampleHash.pixel(x, y, seed))
+    startAt(SampleHash.pixel(x, y, seed))
     reversedIndex = Integer.reverse(sample)
 
   def next1D(): Float =
@@ -32,12 +32,12 @@ final class OwenSobolSampler(val samplesPerPixel: Int, seed: Int) extends Hashed
     val seedX = (bits >>> 32).toInt
     val seedY = SampleHash.mix(seedX ^ bits.toInt)
     // Reversed as one number, which takes as long as one of them
-    val both = java.lang.Long.reverse(
+    val reversedBits = java.lang.Long.reverse(
       (Sobol.scramble(index, seedX).toLong << 32) |
         (Sobol.scramble(Sobol.second(index), seedY) & 0xffffffffL)
     )
-    x = SampleHash.toUnit(both.toInt)
-    y = SampleHash.toUnit((both >>> 32).toInt)
+    x = SampleHash.toUnit(reversedBits.toInt)
+    y = SampleHash.toUnit((reversedBits >>> 32).toInt)
 
   def copy(): OwenSobolSampler = OwenSobolSampler(samplesPerPixel, seed)
 

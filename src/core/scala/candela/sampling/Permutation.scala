@@ -18,19 +18,19 @@ object Permutation:
       val bits = 32 - Integer.numberOfLeadingZeros(n - 1)
       val mask = -1 >>> (32 - bits)
       val fold = (bits + 1) / 2
-      var at = index
+      var permuted = index
       while
         var keys = seed
         var round = 0
         while round < Rounds do
           keys = keys * 0xd1342543de82ef95L + SampleHash.Step
           val key = (keys >>> 32).toInt
-          at = ((at + (key >>> 16)) * (key | 1)) & mask
-          at ^= at >>> fold
+          permuted = ((permuted + (key >>> 16)) * (key | 1)) & mask
+          permuted ^= permuted >>> fold
           round += 1
-        at >= n
+        permuted >= n
       do ()
-      at
+      permuted
 
   /** Enough to distribute pairs of elements uniformly; `PermutationSuite` rejects 5. */
   private inline val Rounds = 10

@@ -24,7 +24,7 @@ abstract class PhaseFunction:
   final def sample(wo: Vec3, u1: Float, u2: Float): Vec3 =
     val cosTheta = cosine(u1)
     val sinTheta = safeSqrt(1f - cosTheta * cosTheta)
-    Frame.around(wo).toWorld(Warp.around(cosTheta, sinTheta, u2))
+    Frame.fromZ(wo).toWorld(Warp.spherical(cosTheta, sinTheta, u2))
 
 object PhaseFunction:
   /** Words for the kinds that [[of]] sums. */
@@ -44,12 +44,12 @@ object PhaseFunction:
     val fits = weights.size == kinds.size && weights.forall(_ >= 0f) &&
       Math.abs(weights.sum - 1f) < 1e-4f
     val start = Option((Vector.empty[PhaseFunction], values))
-    val parts = kinds.foldLeft(start): (made, kind) =>
+    val parsed = kinds.foldLeft(start): (made, kind) =>
       for
         (done, from) <- made
         (part, rest) <- next(kind, from)
       yield (done :+ part, rest)
-    parts.collect:
+    parsed.collect:
       case (Vector(single), Vector()) if fits => single
       case (several, Vector()) if fits => BlendedPhase(several.toArray, weights.toArray)
 
@@ -96,12 +96,12 @@ final class TabulatedPhase(values: Array[Float]) extends PhaseFunction:
 
   def cosine(u: Float): Float =
     val i = steps.sample(u)
-    val part = steps.remapped(u, i)
+    val areaFraction = steps.remapped(u, i)
     val (a, b) = (values(i).toDouble, values(i + 1).toDouble)
-    // The fraction of the step below which `part` of its area lies, without cancellation
-    val height = a + Math.sqrt(a * a + part * (b * b - a * a))
-    val within = if height > 0.0 then part * (a + b) / height else part.toDouble
-    (1.0 - 2.0 * (i + within) / last).toFloat
+    // The fraction of the step below which `areaFraction` of its area lies, without cancellation
+    val height = a + Math.sqrt(a * a + areaFraction * (b * b - a * a))
+    val fraction = if height > 0.0 then areaFraction * (a + b) / height else areaFraction.toDouble
+    (1.0 - 2.0 * (i + fraction) / last).toFloat
 
   def asymmetry: Float =
     // Of each step: the integral of the product of two lines

@@ -14,11 +14,11 @@ enum PointSet(val word: String, val meaning: String):
   case ZSobol extends PointSet("zsobol", "scrambled Sobol' points along a space-filling curve")
 
   /** The most samples per pixel that it can place. */
-  def most: Int = this match
+  def maxSamples: Int = this match
     case ZSobol => ZSobolSampler.MaxSamples
     case _ => Int.MaxValue
 
-  /** @param count samples per pixel, at most `most`; some sets round it up */
+  /** @param count samples per pixel, at most `maxSamples`; some sets round it up */
   def sampler(count: Int, seed: Int, width: Int, height: Int): Sampler = this match
     case Independent => IndependentSampler(count, seed)
     case Stratified(grid) =>

@@ -64,7 +64,7 @@ abstract class HashedSampler extends Sampler:
   private var counter, first = 0L
 
   /** Numbers the requests from here: the same for all samples that form one set of points. */
-  protected final def begin(at: Long): Unit =
+  protected final def startAt(at: Long): Unit =
     first = at
     counter = at
 
@@ -88,7 +88,7 @@ final class IndependentSampler(val samplesPerPixel: Int, seed: Int) extends Hash
   override def isProgressive: Boolean = true
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    begin(SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample))
+    startAt(SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample))
 
   def next1D(): Float =
     SampleHash.toUnit((nextBits() >>> 32).toInt)

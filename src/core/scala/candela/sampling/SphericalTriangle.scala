@@ -67,9 +67,9 @@ final class SphericalTriangle:
   /** Samples a unit direction; requires a positive solid angle. */
   def sample(u1: Float, u2: Float): MutableVec3 =
     // Moves the corner c along its arc until the remaining part has the fraction u1 of the area.
-    val part = u1 * area
+    val subArea = u1 * area
     var s, t = 0.0
-    sinCos(part): (sine, cosine) =>
+    sinCos(subArea): (sine, cosine) =>
       s = sine * cosAlpha - cosine * sinAlpha
       t = cosine * cosAlpha + sine * sinAlpha
     val u = t - cosAlpha
@@ -79,19 +79,23 @@ final class SphericalTriangle:
     val ex = cx - ax * cosAC
     val ey = cy - ay * cosAC
     val ez = cz - az * cosAC
-    val up = sine(q) / positive(length(ex, ey, ez))
-    val mx = ax * q + ex * up
-    val my = ay * q + ey * up
-    val mz = az * q + ez * up
+    val eScale = sine(q) / positive(length(ex, ey, ez))
+    val mx = ax * q + ex * eScale
+    val my = ay * q + ey * eScale
+    val mz = az * q + ez * eScale
     // Then samples the arc from b to the moved corner, uniformly in the height over b.
     val cosBM = bx * mx + by * my + bz * mz
     val w = 1 - u2 * (1 - cosBM)
     val fx = mx - bx * cosBM
     val fy = my - by * cosBM
     val fz = mz - bz * cosBM
-    val on = sine(w) / positive(length(fx, fy, fz))
+    val fScale = sine(w) / positive(length(fx, fy, fz))
     direction.set(
-      Vec3((bx * w + fx * on).toFloat, (by * w + fy * on).toFloat, (bz * w + fz * on).toFloat)
+      Vec3(
+        (bx * w + fx * fScale).toFloat,
+        (by * w + fy * fScale).toFloat,
+        (bz * w + fz * fScale).toFloat
+      )
     )
     direction
 

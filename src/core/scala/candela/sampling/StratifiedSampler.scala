@@ -23,25 +23,25 @@ final class StratifiedSampler(xSamples: Int, ySamples: Int, jitter: Boolean, see
 
   def start(x: Int, y: Int, sample: Int): Unit =
     index = sample % samplesPerPixel
-    begin(SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample / samplesPerPixel))
+    startAt(SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample / samplesPerPixel))
 
   def next1D(): Float =
     val bits = nextBits()
     val cell = Permutation.element(index, samplesPerPixel, bits)
-    place(cell, (offsetBits(bits, cell) >>> 32).toInt, samplesPerPixel)
+    jittered(cell, (offsetBits(bits, cell) >>> 32).toInt, samplesPerPixel)
 
   def next2D(): Unit =
     val bits = nextBits()
     val cell = Permutation.element(index, samplesPerPixel, bits)
     val offset = offsetBits(bits, cell)
-    x = place(cell % xSamples, (offset >>> 32).toInt, xSamples)
-    y = place(cell / xSamples, offset.toInt, ySamples)
+    x = jittered(cell % xSamples, (offset >>> 32).toInt, xSamples)
+    y = jittered(cell / xSamples, offset.toInt, ySamples)
 
   def copy(): StratifiedSampler = StratifiedSampler(xSamples, ySamples, jitter, seed)
 
   private def offsetBits(bits: Long, cell: Int): Long =
     SampleHash.mix64(bits + (cell + 1) * SampleHash.Step)
 
-  private def place(cell: Int, offset: Int, cells: Int): Float =
-    val within = if jitter then SampleHash.toUnit(offset) else 0.5f
-    belowOne((cell + within) / cells)
+  private def jittered(cell: Int, offset: Int, cells: Int): Float =
+    val fraction = if jitter then SampleHash.toUnit(offset) else 0.5f
+    belowOne((cell + fraction) / cells)

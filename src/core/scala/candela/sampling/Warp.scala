@@ -21,9 +21,9 @@ object Warp:
     // Selected by bits, as a branch could not be predicted: all ones if |a| > |b|
     val wide = (magnitudeBits(b) - magnitudeBits(a)) >> 31
     val r = select(wide, a, b)
-    val other = select(wide, b, a)
+    val shorter = select(wide, b, a)
     // The angle to the nearer axis
-    val phi = if r == 0f then 0.0 else 0.25 * Math.PI * (other / r)
+    val phi = if r == 0f then 0.0 else 0.25 * Math.PI * (shorter / r)
     val along = r * cosOfEighth(phi).toFloat
     val across = r * sinOfEighth(phi).toFloat
     Vec3(select(wide, along, across), select(wide, across, along), 0f)
@@ -45,11 +45,12 @@ object Warp:
   def cosineHemispherePdf(cosTheta: Float): Float = if cosTheta > 0f then cosTheta * InvPi else 0f
 
   /** Uniform directions with z ≥ 0. Source: PBRT 3rd ed., §13.6.1. */
-  def uniformHemisphere(u1: Float, u2: Float): Vec3 = around(1f - u1, safeSqrt(u1 * (2f - u1)), u2)
+  def uniformHemisphere(u1: Float, u2: Float): Vec3 =
+    spherical(1f - u1, safeSqrt(u1 * (2f - u1)), u2)
 
   /** Uniform directions. Source: PBRT 3rd ed., §13.6.1. */
   def uniformSphere(u1: Float, u2: Float): Vec3 =
-    around(1f - 2f * u1, 2f * safeSqrt(u1 * (1f - u1)), u2)
+    spherical(1f - 2f * u1, 2f * safeSqrt(u1 * (1f - u1)), u2)
 
   inline val UniformSpherePdf = 0.07957747154594766788f
 
@@ -62,7 +63,7 @@ object Warp:
     */
   def uniformCone(u1: Float, u2: Float, oneMinusCosMax: Float): Vec3 =
     val h = u1 * oneMinusCosMax
-    around(1f - h, safeSqrt(h * (2f - h)), u2)
+    spherical(1f - h, safeSqrt(h * (2f - h)), u2)
 
   /** Pdf inside the cone; it is 0 outside. */
   def uniformConePdf(oneMinusCosMax: Float): Float = InvTwoPi / oneMinusCosMax
@@ -82,6 +83,6 @@ object Warp:
       Vec3(b0, b1, 1f - b0 - b1)
 
   /** The direction at an angle of θ to +z, and `u` of a turn around it. */
-  def around(cosTheta: Float, sinTheta: Float, u: Float): Vec3 =
+  def spherical(cosTheta: Float, sinTheta: Float, u: Float): Vec3 =
     sinCos(2.0 * Math.PI * u): (sine, cosine) =>
       Vec3(sinTheta * cosine.toFloat, sinTheta * sine.toFloat, cosTheta)

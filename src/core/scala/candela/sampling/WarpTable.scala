@@ -67,8 +67,8 @@ final class WarpTable(
     // The four tables around the parameters, and their weights
     private val i = WarpTable.cell(first, a)
     private val j = WarpTable.cell(second, b)
-    private val s = WarpTable.part(first, i, a)
-    private val t = WarpTable.part(second, j, b)
+    private val s = WarpTable.fraction(first, i, a)
+    private val t = WarpTable.fraction(second, j, b)
     private val i1 = Math.min(i + 1, first.length - 1)
     private val j1 = Math.min(j + 1, second.length - 1)
     private val s00 = i * second.length + j
@@ -95,11 +95,11 @@ final class WarpTable(
       val cy = clamp(gy.toInt, 0, height - 2)
       val fx = gx - cx.toFloat
       val fy = gy - cy.toFloat
-      val at = cx + cy * width
+      val index = cx + cy * width
       lerp(
         fy,
-        lerp(fx, value(channel, at), value(channel, at + 1)),
-        lerp(fx, value(channel, at + width), value(channel, at + width + 1))
+        lerp(fx, value(channel, index), value(channel, index + 1)),
+        lerp(fx, value(channel, index + width), value(channel, index + width + 1))
       )
 
     private def rowSum(row: Int): Float = blended(along, size, row * width + width - 1)
@@ -118,12 +118,12 @@ final class WarpTable(
 
     /** Sets x and y to the image of a uniform point. */
     def sample(u1: Float, u2: Float): Unit =
-      val row = WarpTable.find(height)(r => blended(down, height, r) < u2)
+      val row = WarpTable.findInterval(height)(r => blended(down, height, r) < u2)
       val r0 = rowSum(row)
       val r1 = rowSum(row + 1)
       val fy = WarpTable.invert(r0, r1, u2 - blended(down, height, row))
       val target = u1 * lerp(fy, r0, r1)
-      val column = WarpTable.find(width)(c => sum(c, row, fy) < target)
+      val column = WarpTable.findInterval(width)(c => sum(c, row, fy) < target)
       val fx = WarpTable.invert(
         edge(column, row, fy),
         edge(column + 1, row, fy),
@@ -142,17 +142,17 @@ final class WarpTable(
       val fy = gy - row.toFloat
       val c0 = edge(column, row, fy)
       val c1 = edge(column + 1, row, fy)
-      val before = sum(column, row, fy)
+      val preceding = sum(column, row, fy)
       val r0 = rowSum(row)
       val r1 = rowSum(row + 1)
-      val whole = lerp(fy, r0, r1)
-      x = if whole > 0f then (before + fx * (c0 + 0.5f * fx * (c1 - c0))) / whole else fx
+      val rowTotal = lerp(fy, r0, r1)
+      x = if rowTotal > 0f then (preceding + fx * (c0 + 0.5f * fx * (c1 - c0))) / rowTotal else fx
       y = blended(down, height, row) + fy * (r0 + 0.5f * fy * (r1 - r0))
 
 object WarpTable:
 
   /** The last index below `count` − 1 for which `isBelow` holds; 0 if there is none. */
-  private inline def find(count: Int)(inline isBelow: Int => Boolean): Int =
+  private inline def findInterval(count: Int)(inline isBelow: Int => Boolean): Int =
     var low = 0
     var high = count - 1
     while high - low > 1 do
@@ -161,15 +161,15 @@ object WarpTable:
     low
 
   private def cell(of: Array[Float], v: Float): Int =
-    if of.length < 2 then 0 else find(of.length)(of(_) <= v)
+    if of.length < 2 then 0 else findInterval(of.length)(of(_) <= v)
 
-  private def part(of: Array[Float], i: Int, v: Float): Float =
+  private def fraction(of: Array[Float], i: Int, v: Float): Float =
     if of.length < 2 then 0f else clamp((v - of(i)) / (of(i + 1) - of(i)), 0f, 1f)
 
   /** Position in [0, 1] at which the integral of a line from `a` at 0 to `b` at 1 reaches `area`.
     */
   private def invert(a: Float, b: Float, area: Float): Float =
-    val found =
+    val root =
       if Math.abs(a - b) < 1e-4f * (a + b) then 2f * area / (a + b)
       else (a - safeSqrt(a * a - 2f * area * (a - b))) / (a - b)
-    if found >= 0f && found <= 1f then found else if found > 1f then 1f else 0f
+    if root >= 0f && root <= 1f then root else if root > 1f then 1f else 0f

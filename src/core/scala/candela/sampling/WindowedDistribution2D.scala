@@ -34,40 +34,41 @@ final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int
     val j = Math.min(cy.toInt, rows - 1)
     val tx = cx - i
     val ty = cy - j
-    val at = j * (columns + 1) + i
-    val top = sums(at) * (1 - tx) + sums(at + 1) * tx
-    val bottom = sums(at + columns + 1) * (1 - tx) + sums(at + columns + 2) * tx
+    val index = j * (columns + 1) + i
+    val top = sums(index) * (1 - tx) + sums(index + 1) * tx
+    val bottom = sums(index + columns + 1) * (1 - tx) + sums(index + columns + 2) * tx
     (top * (1 - ty) + bottom * ty) / (columns.toDouble * rows)
 
   /** ∫ of the function over the window; its edges in [0, 1]. */
   def integral(x0: Float, y0: Float, x1: Float, y1: Float): Double =
-    Math.max(0.0, over(x0.toDouble, y0.toDouble, x1.toDouble, y1.toDouble))
+    Math.max(0.0, mass(x0.toDouble, y0.toDouble, x1.toDouble, y1.toDouble))
 
-  private def over(x0: Double, y0: Double, x1: Double, y1: Double): Double =
+  private def mass(x0: Double, y0: Double, x1: Double, y1: Double): Double =
     upTo(x1, y1) - upTo(x0, y1) - upTo(x1, y0) + upTo(x0, y0)
 
   /** (x, y, pdf): the position in the window sampled by (`u1`, `u2`) of the unit square; the pdf is
     * 0 if the function is zero in the window.
     */
   def sample(u1: Float, u2: Float, x0: Float, y0: Float, x1: Float, y1: Float): Vec3 =
-    val all = integral(x0, y0, x1, y1)
-    if !(all > 0) then Vec3.Zero
+    val total = integral(x0, y0, x1, y1)
+    if !(total > 0) then Vec3.Zero
     else
       val top = y0.toDouble
       val bottom = y1.toDouble
-      val x = place(u1 * all, x0.toDouble, x1.toDouble, columns)(over(x0.toDouble, top, _, bottom))
+      val x =
+        bisect(u1 * total, x0.toDouble, x1.toDouble, columns)(mass(x0.toDouble, top, _, bottom))
       val column = Math.min((x * columns).toInt, columns - 1).toDouble
       val left = column / columns
       val right = (column + 1) / columns
-      val within = over(left, top, right, bottom)
-      if !(within > 0) then Vec3.Zero
+      val columnMass = mass(left, top, right, bottom)
+      if !(columnMass > 0) then Vec3.Zero
       else
-        val y = place(u2 * within, top, bottom, rows)(over(left, top, right, _))
-        Vec3(x.toFloat, y.toFloat, density(x.toFloat, y.toFloat, all))
+        val y = bisect(u2 * columnMass, top, bottom, rows)(mass(left, top, right, _))
+        Vec3(x.toFloat, y.toFloat, density(x.toFloat, y.toFloat, total))
 
   /** Position at which the increasing `sum` reaches `target`: the cell by bisection, then linearly.
     */
-  private inline def place(target: Double, low: Double, high: Double, cells: Int)(
+  private inline def bisect(target: Double, low: Double, high: Double, cells: Int)(
       inline sum: Double => Double
   ): Double =
     // Indices of cell borders within the window: sum(first) ≤ target < sum(last)
@@ -87,10 +88,10 @@ final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int
   def pdf(x: Float, y: Float, x0: Float, y0: Float, x1: Float, y1: Float): Float =
     if x < x0 || x > x1 || y < y0 || y > y1 then 0f
     else
-      val all = integral(x0, y0, x1, y1)
-      if all > 0 then density(x, y, all) else 0f
+      val total = integral(x0, y0, x1, y1)
+      if total > 0 then density(x, y, total) else 0f
 
-  private def density(x: Float, y: Float, all: Double): Float =
+  private def density(x: Float, y: Float, total: Double): Float =
     val i = Math.min((x * columns).toInt, columns - 1)
     val j = Math.min((y * rows).toInt, rows - 1)
-    (values(j * columns + i) / all).toFloat
+    (values(j * columns + i) / total).toFloat

@@ -27,13 +27,13 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
   private val topShift =
     2 * ZSobolSampler.ceilLog2(Math.max(width, height)) + logSamples - 2
 
-  private var place = 0L // along the curve, samples of a pixel side by side
+  private var mortonIndex = 0L // along the curve, samples of a pixel side by side
 
   def start(x: Int, y: Int, sample: Int): Unit =
     val set = sample >>> logSamples
-    begin(SampleHash.mix64(seed + (set + 1) * SampleHash.Step))
+    startAt(SampleHash.mix64(seed + (set + 1) * SampleHash.Step))
     val number = sample - (set << logSamples)
-    place = (ZSobolSampler.spread(x) | ZSobolSampler.spread(y) << 1) << logSamples | number
+    mortonIndex = (ZSobolSampler.spread(x) | ZSobolSampler.spread(y) << 1) << logSamples | number
 
   def next1D(): Float =
     val bits = nextBits()
@@ -55,10 +55,10 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
     var index = 0L
     var shift = topShift
     while shift >= 0 do
-      val digit = (place >>> shift).toInt & 3
-      index |= ZSobolSampler.permuted(digit, random(key, place >>> (shift + 2))) << shift
+      val digit = (mortonIndex >>> shift).toInt & 3
+      index |= ZSobolSampler.permuted(digit, random(key, mortonIndex >>> (shift + 2))) << shift
       shift -= 2
-    if shift == -1 then index | ((place ^ random(key, place >>> 1)) & 1) else index
+    if shift == -1 then index | ((mortonIndex ^ random(key, mortonIndex >>> 1)) & 1) else index
 
   /** Random bits for the digit that follows `prefix`. */
   private def random(key: Int, prefix: Long): Int =

@@ -17,7 +17,7 @@ final class CasterPoint:
   private[scene] var reach: Float = 0f
 
   /** Where its primitive lies in the sum of all areas, from 0 to 1. */
-  var place: Double = 0.0
+  var areaFraction: Double = 0.0
 
   /** In world space. */
   def p: MutableVec3 = surface.p
@@ -49,19 +49,19 @@ final class Casters private (
     * @return false: no point was sampled
     */
   def sample(choice: Double, u1: Float, u2: Float, ray: Ray, out: CasterPoint): Boolean =
-    out.place = aim.place(choice)
-    val place = out.place * total
-    if place < world.area then
-      out.primitive = world.sample(place, u1, u2, out)
+    out.areaFraction = aim.warp(choice)
+    val target = out.areaFraction * total
+    if target < world.area then
+      out.primitive = world.sample(target, u1, u2, out)
       out.inner = -1
     else
-      val i = placed.find(place - world.area)
+      val i = placed.findInterval(target - world.area)
       val instance = placed.instances(i)
-      val rest = (place - world.area - placed.start(i)) / placed.areaOf(i)
-      val of = objects(placed.all.objectOf(instance))
+      val fraction = (target - world.area - placed.start(i)) / placed.areaOf(i)
+      val table = objects(placed.allInstances.objectOf(instance))
       out.primitive = placed.first + instance
-      out.inner = of.sample(Math.min(rest, Casters.BelowOne) * of.area, u1, u2, out)
-      out.surface.p = placed.all.toWorld(instance, ray, out.p)
+      out.inner = table.sample(Math.min(fraction, Casters.BelowOne) * table.area, u1, u2, out)
+      out.surface.p = placed.allInstances.toWorld(instance, ray, out.p)
       out.reach *= placed.stretch(i)
     out.surface.pdf > 0f
 
@@ -76,29 +76,29 @@ final class Casters private (
       val k = world.indexOf(hit.primitive)
       if k < 0 then 0f
       else
-        val often = aim.density(world.start(k) / total, world.end(k) / total)
-        (often * world.chance(hit.primitive, at.p) / total).toFloat
+        val aimDensity = aim.density(world.start(k) / total, world.end(k) / total)
+        (aimDensity * world.chance(hit.primitive, at.p) / total).toFloat
     else
       val instance = hit.primitive - placed.first
       val i = placed.indexOf(instance)
       if i < 0 then 0f
       else
-        val of = objects(placed.all.objectOf(instance))
-        val k = of.indexOf(hit.inner)
-        val scale = if k < 0 then 0.0 else placed.areaOf(i) / of.area
-        val begin = world.area + placed.start(i)
-        val often =
+        val table = objects(placed.allInstances.objectOf(instance))
+        val k = table.indexOf(hit.inner)
+        val scale = if k < 0 then 0.0 else placed.areaOf(i) / table.area
+        val start = world.area + placed.start(i)
+        val aimDensity =
           if k < 0 then 0.0
           else
             aim.density(
-              (begin + of.start(k) * scale) / total,
-              (begin + of.end(k) * scale) / total
+              (start + table.start(k) * scale) / total,
+              (start + table.end(k) * scale) / total
             )
         val chance =
-          if of.isEven(hit.inner) then 1.0
-          else of.chance(hit.inner, placed.all.toObject(instance, ray, at.p))
-        val inObject = often * scale / total * chance
-        (inObject * placed.all.shrinkage(instance, ray, at.geometricNormal)).toFloat
+          if table.isEven(hit.inner) then 1.0
+          else table.chance(hit.inner, placed.allInstances.toObject(instance, ray, at.p))
+        val inObject = aimDensity * scale / total * chance
+        (inObject * placed.allInstances.shrinkage(instance, ray, at.geometricNormal)).toFloat
 
 object Casters:
   private inline val BelowOne = 1.0 - 1e-16
@@ -126,23 +126,23 @@ object Casters:
   */
 final class CasterAim private (ends: Array[Double]):
   /** @param u uniform in [0, 1) */
-  def place(u: Double): Double =
+  def warp(u: Double): Double =
     if ends.length == 0 then u
     else
-      val cell = CasterTable.find(ends, u)
-      val begin = if cell == 0 then 0.0 else ends(cell - 1)
-      val within = Math.max(0.0, Math.min((u - begin) / (ends(cell) - begin), CasterAim.BelowOne))
-      (cell + within) / ends.length
+      val cell = CasterTable.findInterval(ends, u)
+      val start = if cell == 0 then 0.0 else ends(cell - 1)
+      val fraction = Math.max(0.0, Math.min((u - start) / (ends(cell) - start), CasterAim.BelowOne))
+      (cell + fraction) / ends.length
 
   /** Average density from one place to another. */
   def density(from: Double, to: Double): Double =
     if ends.length == 0 || to <= from then 1.0 else (upTo(to) - upTo(from)) / (to - from)
 
-  private def upTo(place: Double): Double =
-    val at = place * ends.length
-    val cell = Math.min(at.toInt, ends.length - 1)
-    val begin = if cell == 0 then 0.0 else ends(cell - 1)
-    begin + (ends(cell) - begin) * (at - cell)
+  private def upTo(position: Double): Double =
+    val scaled = position * ends.length
+    val cell = Math.min(scaled.toInt, ends.length - 1)
+    val start = if cell == 0 then 0.0 else ends(cell - 1)
+    start + (ends(cell) - start) * (scaled - cell)
 
 object CasterAim:
   private inline val BelowOne = 1.0 - 1e-12
@@ -168,9 +168,9 @@ final class CasterLearning:
   import CasterLearning.*
   private val moments = new Array[Double](Cells)
 
-  /** A path that began at `place` brings so much light. */
-  def add(place: Double, light: Double): Unit =
-    moments(Math.min((place * Cells).toInt, Cells - 1)) += light * light
+  /** A path that began at `position` brings so much light. */
+  def add(position: Double, light: Double): Unit =
+    moments(Math.min((position * Cells).toInt, Cells - 1)) += light * light
 
   def addAll(other: CasterLearning): Unit =
     for i <- moments.indices do moments(i) += other.moments(i)
@@ -191,19 +191,23 @@ private[candela] object CasterLearning:
   *
   * @param first number of the first instance among the primitives
   */
-private final class Placed(val all: Instances, val first: Int, objects: Array[CasterTable]):
+private final class Placed(
+    val allInstances: Instances,
+    val first: Int,
+    objects: Array[CasterTable]
+):
   val instances: Array[Int] =
-    (0 until all.count).filter(i => objects(all.objectOf(i)).area > 0.0).toArray
-  private val stretches: Array[Double] = instances.map(all.stretch)
+    (0 until allInstances.count).filter(i => objects(allInstances.objectOf(i)).area > 0.0).toArray
+  private val stretches: Array[Double] = instances.map(allInstances.stretch)
   private val ends: Array[Double] = instances.indices
-    .map(i => objects(all.objectOf(instances(i))).area * stretches(i) * stretches(i))
+    .map(i => objects(allInstances.objectOf(instances(i))).area * stretches(i) * stretches(i))
     .scanLeft(0.0)(_ + _).tail.toArray
 
   def area: Double = if ends.isEmpty then 0.0 else ends.last
   def start(i: Int): Double = if i == 0 then 0.0 else ends(i - 1)
   def areaOf(i: Int): Double = ends(i) - start(i)
   def stretch(i: Int): Float = stretches(i).toFloat
-  def find(place: Double): Int = CasterTable.find(ends, place)
+  def findInterval(position: Double): Int = CasterTable.findInterval(ends, position)
 
   /** Among these, −1: it has no casters. */
   def indexOf(instance: Int): Int =
@@ -226,8 +230,8 @@ private final class CasterTable(surfaces: Surfaces, casts: Array[Boolean]):
   def end(index: Int): Double = ends(index)
 
   /** Samples a point of the primitive at this place in the sum of all areas; returns its number. */
-  def sample(place: Double, u1: Float, u2: Float, out: CasterPoint): Int =
-    val primitive = primitives(CasterTable.find(ends, place))
+  def sample(position: Double, u1: Float, u2: Float, out: CasterPoint): Int =
+    val primitive = primitives(CasterTable.findInterval(ends, position))
     val to = out.surface
     if primitive < soup.count then
       val b = Warp.uniformTriangle(u1, u2)
@@ -269,11 +273,11 @@ private final class CasterTable(surfaces: Surfaces, casts: Array[Boolean]):
 private object CasterTable:
   private inline val RelativeReach = 1e-3f
 
-  /** The first interval whose end is beyond `place`. */
-  def find(ends: Array[Double], place: Double): Int =
+  /** The first interval whose end is beyond `position`. */
+  def findInterval(ends: Array[Double], position: Double): Int =
     var low = 0
     var high = ends.length - 1
     while low < high do
       val middle = (low + high) >>> 1
-      if place < ends(middle) then high = middle else low = middle + 1
+      if position < ends(middle) then high = middle else low = middle + 1
     low

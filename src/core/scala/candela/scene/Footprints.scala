@@ -15,13 +15,13 @@ final class Footprints(followsSpecular: Boolean, otherwise: Option[PixelCone]):
   private val cone: PixelCone | Null = otherwise.orNull
 
   /** Sets the footprint of the hit point `at`. */
-  def find(ray: Ray, at: ShadingPoint): Unit =
+  def setFootprint(ray: Ray, at: ShadingPoint): Unit =
     val rays = ray.differential
-    if rays.isKnown && rays.meet(at) then at.footprintInUv()
+    if rays.isKnown && rays.computeFootprint(at) then at.footprintInUv()
     else
       val approximate = cone
       if approximate != null then
-        approximate.meet(at)
+        approximate.approximateFootprint(at)
         at.footprintInUv()
       else at.clearFootprint()
 

@@ -28,8 +28,8 @@ final class PathReport(say: String => Unit):
     ReportedBsdf(bsdf, this)
 
   /** Reports light that a thin dielectric transmits to a vertex. */
-  def passes(at: ShadingPoint, part: Rgb): Unit =
-    say(s"   thin dielectric at ${at.p} transmits $part")
+  def passes(at: ShadingPoint, transmitted: Rgb): Unit =
+    say(s"   thin dielectric at ${at.p} transmits $transmitted")
 
   def value(wo: Vec3, wi: Vec3, f: Rgb): Unit = say(s"   wo $wo, wi $wi: f $f")
 
@@ -49,12 +49,12 @@ final class PathReport(say: String => Unit):
       s"   light $light is sampled: radiance ${s.radiance.toRgb}, pdf ${s.pdf}, direction ${s.wi}"
     )
 
-  def found(light: Int, radiance: Rgb): Unit =
+  def reportHit(light: Int, radiance: Rgb): Unit =
     say(s"   light $light is hit: radiance $radiance, throughput $throughput")
 
   /** Reports the replacement of the BSDF at the current vertex. */
-  def sees(bsdf: Bsdf, how: String): Bsdf =
-    say(s"   $how: ${name(bsdf)}")
+  def reportBsdf(bsdf: Bsdf, label: String): Bsdf =
+    say(s"   $label: ${name(bsdf)}")
     ReportedBsdf(bsdf, this)
 
   private def name(bsdf: Bsdf): String = bsdf.getClass.getSimpleName
@@ -75,4 +75,4 @@ private final class ReportedBsdf(bsdf: Bsdf, report: PathReport) extends Wrapped
     report.bounce(wo, sample)
     sample
 
-  override def regularized: Bsdf = report.sees(bsdf.regularized, "regularized")
+  override def regularized: Bsdf = report.reportBsdf(bsdf.regularized, "regularized")

@@ -31,7 +31,7 @@ private[scene] object ReportedLights:
     def bounds: Option[LightBounds] = light.bounds
     def radiance(at: ShadingPoint, w: Vec3): Rgb =
       val emitted = light.radiance(at, w)
-      report.found(index, emitted)
+      report.reportHit(index, emitted)
       emitted
     def pdf(from: Vec3, at: ShadingPoint): Float = light.pdf(from, at)
 
@@ -44,6 +44,6 @@ private[scene] object ReportedLights:
       report.chosen(index, out)
     def radiance(from: Vec3, d: Vec3): Rgb =
       val emitted = light.radiance(from, d)
-      report.found(index, emitted)
+      report.reportHit(index, emitted)
       emitted
     def pdf(from: Vec3, d: Vec3): Float = light.pdf(from, d)

@@ -43,7 +43,7 @@ final class Scene(
   private val surfaceLights: Array[SurfaceLight] = lights.map(_.asSurface)
 
   /** Bounding sphere of all surfaces. */
-  lazy val ball: Ball = Ball.around(accelerator.bounds)
+  lazy val ball: Ball = Ball.enclosing(accelerator.bounds)
 
   def closest(ray: Ray, hit: Hit): Boolean = accelerator.closest(ray, hit)
 
@@ -81,22 +81,22 @@ final class Scene(
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     val primitive = hit.primitive
     val rule = footprintRule
-    at.begin(followed = rule != null && ray.differential.isKnown)
+    at.startHit(followed = rule != null && ray.differential.isKnown)
     if primitive < firstInstance then surfaces.fill(primitive, ray, hit, at)
     else instanced.fill(primitive - firstInstance, ray, hit, at)
-    if rule != null && at.hasPartials then rule.find(ray, at)
+    if rule != null && at.hasPartials then rule.setFootprint(ray, at)
 
   /** Computes the place of a hit at the ray's time, as it is at `time`. */
   def surfaceAt(ray: Ray, hit: Hit, time: Float, at: ShadingPoint): Unit =
     val primitive = hit.primitive
-    at.begin(followed = false)
+    at.startHit(followed = false)
     if primitive < firstInstance then surfaces.fill(primitive, ray, hit, at)
     else instanced.fillAt(primitive - firstInstance, ray, hit, time, at)
 
   /** Index of what was hit: the world's meshes and other shapes, then the instances. */
   def objectIndex(hit: Hit): Int =
     if hit.primitive < firstInstance then surfaces.partOf(hit.primitive)
-    else surfaces.parts + hit.primitive - firstInstance
+    else surfaces.partCount + hit.primitive - firstInstance
 
   /** Whether light passes this surface unscattered. */
   def isInterface(at: ShadingPoint): Boolean = interfaces(at.material)
@@ -136,18 +136,18 @@ final class Scene(
     * if the ray escapes.
     */
   def closestBehindInterfaces(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
-    var found = closest(ray, hit)
-    if found then surface(ray, hit, at)
-    while found && isPassed(ray, hit, at) do
+    var isHit = closest(ray, hit)
+    if isHit then surface(ray, hit, at)
+    while isHit && isPassed(ray, hit, at) do
       passThrough(ray, at)
-      found = closest(ray, hit)
-      if found then surface(ray, hit, at)
-    found
+      isHit = closest(ray, hit)
+      if isHit then surface(ray, hit, at)
+    isHit
 
   def bsdf(at: ShadingPoint): Bsdf =
-    val made = materials(at.material).bsdf(at)
+    val scattering = materials(at.material).bsdf(at)
     val report = pathReport
-    if report == null then made else report.scatters(at, made)
+    if report == null then scattering else report.scatters(at, scattering)
 
   /** The same geometry with other materials and lights, in the same order; light sampling keeps its
     * probabilities.

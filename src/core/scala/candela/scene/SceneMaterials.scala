@@ -13,13 +13,13 @@ import candela.bsdf.Material
   *
   * @param kinds        what all sets share
   * @param isDispersive whether any surface is dispersive
-  * @param most         number of materials kept
+  * @param maxCached    number of materials kept
   * @param maker        makes materials by index, all alike; forgotten with what it made
   */
 final class SceneMaterials private (
     kinds: SceneMaterials.Kinds,
     val isDispersive: Boolean,
-    most: Int,
+    maxCached: Int,
     maker: () => Int => Material
 ):
   import SceneMaterials.*
@@ -27,32 +27,32 @@ final class SceneMaterials private (
   // Pages are made when a material of theirs is. What is there is read without a lock: it is
   // stored behind a fence, and loads that depend on one another keep their order
   private val pages = new Array[Array[Material | Null] | Null](kinds.count / Page + 1)
-  private var make: (Int => Material) | Null = null
-  private var kept = 0
+  private var factory: (Int => Material) | Null = null
+  private var cachedCount = 0
 
   def apply(index: Int): Material =
-    val made = there(index)
-    if made != null then made else fresh(index)
+    val cached = lookUp(index)
+    if cached != null then cached else fresh(index)
 
-  private def there(index: Int): Material | Null =
+  private def lookUp(index: Int): Material | Null =
     val page = pages(index >>> PageBits)
     if page == null then null else page(index & (Page - 1))
 
   private def fresh(index: Int): Material = synchronized:
-    val made = there(index)
-    if made != null then made
+    val cached = lookUp(index)
+    if cached != null then cached
     else
-      if kept == most then forget()
-      kept += 1
-      val material = theMaker()(index).met
+      if cachedCount == maxCached then forget()
+      cachedCount += 1
+      val material = theMaker()(index).resolved
       val page = pageOf(index)
       VarHandle.releaseFence()
       page(index & (Page - 1)) = material
       material
 
   private def pageOf(index: Int): Array[Material | Null] =
-    val old = pages(index >>> PageBits)
-    if old != null then old
+    val existing = pages(index >>> PageBits)
+    if existing != null then existing
     else
       val page = new Array[Material | Null](Page)
       VarHandle.releaseFence()
@@ -60,17 +60,17 @@ final class SceneMaterials private (
       page
 
   private def theMaker(): Int => Material =
-    val now = make
-    if now != null then now
+    val existing = factory
+    if existing != null then existing
     else
-      val other = maker()
-      make = other
-      other
+      val created = maker()
+      factory = created
+      created
 
   private def forget(): Unit =
     loop(pages.length)(i => pages(i) = null)
-    make = null
-    kept = 0
+    factory = null
+    cachedCount = 0
 
   /** Which are interfaces, and which are thin dielectrics. */
   private[scene] def interfaces: Array[Boolean] = kinds.interfaces
@@ -86,15 +86,15 @@ final class SceneMaterials private (
   def hasPanes: Boolean = kinds.hasPanes
   def hasCasters: Boolean = kinds.casters.contains(true)
   def isCaster(index: Int): Boolean = kinds.casters(index)
-  def isSubsurface(index: Int): Boolean = kinds.all(index).isSubsurface
+  def isSubsurface(index: Int): Boolean = kinds.materials(index).isSubsurface
   def hasSubsurface: Boolean = kinds.hasSubsurface
 
   /** One material may have several indices. */
-  def isSame(a: Int, b: Int): Boolean = kinds.all(a) eq kinds.all(b)
+  def isSame(a: Int, b: Int): Boolean = kinds.materials(a) eq kinds.materials(b)
 
   /** The materials of another colour basis, in the same order. */
-  def in(isDispersive: Boolean, most: Int)(maker: () => Int => Material): SceneMaterials =
-    new SceneMaterials(kinds, isDispersive, most, maker)
+  def inBasis(isDispersive: Boolean, maxCached: Int)(maker: () => Int => Material): SceneMaterials =
+    new SceneMaterials(kinds, isDispersive, maxCached, maker)
 
 object SceneMaterials:
   private inline val PageBits = 6
@@ -104,22 +104,22 @@ object SceneMaterials:
     new SceneMaterials(Kinds(all), all.exists(_.isDispersive), Int.MaxValue, () => all(_))
 
   /** What is known of materials beforehand, and does not depend on the colour basis. */
-  private final class Kinds(val all: Array[Material]):
-    def count: Int = all.length
-    val interfaces: Array[Boolean] = all.map(_.isInterface)
-    val panes: Array[Boolean] = all.map(_.isPane)
+  private final class Kinds(val materials: Array[Material]):
+    def count: Int = materials.length
+    val interfaces: Array[Boolean] = materials.map(_.isInterface)
+    val panes: Array[Boolean] = materials.map(_.isPane)
 
     // Paths leave a surface that light travels beneath elsewhere
-    val casters: Array[Boolean] = all.map(m => m.isCaster && !m.isSubsurface)
+    val casters: Array[Boolean] = materials.map(m => m.isCaster && !m.isSubsurface)
     private var castersMade: Casters | Null = null
 
     def castersAmong(surfaces: Surfaces, instanced: Instanced): Casters = synchronized:
-      val made = castersMade
-      if made != null then made
+      val existing = castersMade
+      if existing != null then existing
       else
         val fresh = Casters(surfaces, instanced, casters)
         castersMade = fresh
         fresh
     val hasInterfaces: Boolean = interfaces.contains(true)
     val hasPanes: Boolean = panes.contains(true)
-    val hasSubsurface: Boolean = all.exists(_.isSubsurface)
+    val hasSubsurface: Boolean = materials.exists(_.isSubsurface)

@@ -37,13 +37,13 @@ final class ShapeRows(parallel: Parallel):
     if isInverted then inverted.set(size - 1)
 
   /** Adds rows whose group is not known yet. */
-  private def addRows(more: Int, material: Int, light: Int): Unit =
+  private def addRows(added: Int, material: Int, light: Int): Unit =
     if lights.length == 0 && light != ShapeTable.Dark then lights.add(ShapeTable.Dark, size)
-    size = Math.addExact(size, more)
+    size = Math.addExact(size, added)
     if size > groups.length then
       groups = Arrays.copyOf(groups, Math.max(size, (2L * groups.length).min(MaxElements).toInt))
-    materials.add(material, more)
-    if lights.length > 0 || light != ShapeTable.Dark then lights.add(light, more)
+    materials.add(material, added)
+    if lights.length > 0 || light != ShapeTable.Dark then lights.add(light, added)
 
   /** Adds the segments of curves, which do not emit; returns how many. */
   def addCurves(
@@ -53,17 +53,17 @@ final class ShapeRows(parallel: Parallel):
       isReversed: Boolean,
       material: Int
   ): Int =
-    val made = strandsOf(form, toWorld, isReversed)
-    val before = made.count
-    made.add(curves, toWorld)
-    val more = made.count - before
-    addRows(more, material, ShapeTable.Dark)
-    if made.count >= MostSegments then endStrands()
-    more
+    val builder = strandsOf(form, toWorld, isReversed)
+    val oldCount = builder.count
+    builder.add(curves, toWorld)
+    val added = builder.count - oldCount
+    addRows(added, material, ShapeTable.Dark)
+    if builder.count >= MostSegments then endStrands()
+    added
 
   private def strandsOf(form: CurveForm, toWorld: Transform, isReversed: Boolean): CurveBuilder =
     val open = strands
-    if open != null && open.takes(form, toWorld, isReversed) then open
+    if open != null && open.accepts(form, toWorld, isReversed) then open
     else
       endStrands()
       val fresh = CurveBuilder(form, toWorld, isReversed)
@@ -82,8 +82,8 @@ final class ShapeRows(parallel: Parallel):
     endStrands()
     val flags = new Array[Boolean](if inverted.isEmpty then 0 else size)
     loop(flags.length)(i => flags(i) = inverted.get(i))
-    val all = Arrays.copyOf(groups, size).asInstanceOf[Array[ShapeGroup]]
-    ShapeTable(all, materials.take(), lights.take(), flags)
+    val shapeGroups = Arrays.copyOf(groups, size).asInstanceOf[Array[ShapeGroup]]
+    ShapeTable(shapeGroups, materials.drain(), lights.drain(), flags)
 
 object ShapeRows:
   /** From which on the segments of curves are made: so many keep all threads busy, and the curves

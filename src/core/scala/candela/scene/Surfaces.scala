@@ -31,7 +31,7 @@ final class Surfaces(
       else veils.ofShape(primitive - soup.count)
     veil.isHole(at, ray, primitive, shadow = false)
 
-  def parts: Int = soup.meshes.length + solids.count
+  def partCount: Int = soup.meshes.length + solids.count
 
   /** The primitives to build an accelerator from: these surfaces, and `instances` of others. */
   def primitives(instances: Instances = Instances.Empty): Primitives =
@@ -68,18 +68,18 @@ final class Instanced(val objects: Array[Surfaces], val instances: Instances):
   /** Computes the geometry of a hit at the ray's time, as it is at `time`, in world space. */
   def fillAt(i: Int, ray: Ray, hit: Hit, time: Float, at: ShadingPoint): Unit =
     objects(instances.objectOf(i)).fill(hit.inner, instances.enter(i, ray), hit, at)
-    val before = ray.time
+    val oldTime = ray.time
     ray.time = time
     val _ = instances.enter(i, ray)
     instances.locate(i, ray, at)
-    ray.time = before
+    ray.time = oldTime
 
   /** Summary for the render plan. */
   def describe: String =
     if instances.count == 0 then "none"
     else
       val triangles = objects.map(_.soup.count.toLong).sum
-      val others = objects.map(_.solids.count).sum
-      val solids = if others == 0 then "" else s" and $others other shapes"
+      val solidCount = objects.map(_.solids.count).sum
+      val solids = if solidCount == 0 then "" else s" and $solidCount other shapes"
       val moving = if instances.moving == 0 then "" else s", ${instances.moving} of them moving"
       s"${instances.count} of ${objects.length} objects with $triangles triangles$solids$moving"

@@ -4,9 +4,9 @@ import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
 
 /** The arguments of a directive; each method takes some, or throws a located error.
   *
-  * @param at position of the directive's name
+  * @param pos position of the directive's name
   */
-abstract class Arguments(directive: Directive, val at: SourcePos, val report: Problem => Unit):
+abstract class Arguments(directive: Directive, val pos: SourcePos, val report: Problem => Unit):
 
   protected final def fail(at: SourcePos, message: String): Nothing =
     throw SceneError(Problem.error(Code.Arguments, at, message, Some(usage)))
@@ -19,7 +19,7 @@ abstract class Arguments(directive: Directive, val at: SourcePos, val report: Pr
   /** As Floats, which most of what is placed has. */
   protected final def finite(values: Array[Double]): Array[Double] =
     val i = values.indexWhere(x => !(Math.abs(x) <= Float.MaxValue))
-    if i < 0 then values else wrongNumber(at, values.length, i, s"${values(i)}")
+    if i < 0 then values else wrongNumber(pos, values.length, i, s"${values(i)}")
 
   protected final def notQuoted(at: SourcePos, expected: String, actual: String): Nothing =
     fail(at, s"${directive.name} expects $expected in quotes, found $actual")
@@ -65,21 +65,21 @@ abstract class Arguments(directive: Directive, val at: SourcePos, val report: Pr
   */
 private[scenefile] final class WrittenArguments(
     directive: Directive,
-    at: SourcePos,
+    pos: SourcePos,
     in: Tokenizer,
     parameters: Parameters,
     report: Problem => Unit,
     including: (String, SourcePos, SourcePos) => Unit
-) extends Arguments(directive, at, report):
+) extends Arguments(directive, pos, report):
 
-  def include(file: String, nameAt: SourcePos): Unit = including(file, nameAt, at)
+  def include(file: String, nameAt: SourcePos): Unit = including(file, nameAt, pos)
 
   def numbers(count: Int): Array[Double] =
     val values = new Array[Double](count)
     val read = in.readDoubles(values)
     if read < count then
       val actual = if in.current == Token.End then "missing: the file ends here" else in.description
-      wrongNumber(in.at, count, read, actual)
+      wrongNumber(in.pos, count, read, actual)
     finite(values)
 
   /** With or without brackets. */
@@ -89,13 +89,13 @@ private[scenefile] final class WrittenArguments(
     val values = numbers(16)
     if isList then
       if in.current != Token.Close then
-        fail(in.at, s"${directive.name} expects `]` after 16 numbers, found ${in.description}")
+        fail(in.pos, s"${directive.name} expects `]` after 16 numbers, found ${in.description}")
       in.advance()
     values
 
   def quoted(expected: String): (String, SourcePos) =
-    if in.current != Token.Text then notQuoted(in.at, expected, in.description)
-    val text = (in.text, in.at)
+    if in.current != Token.Text then notQuoted(in.pos, expected, in.description)
+    val text = (in.text, in.pos)
     in.advance()
     text
 
@@ -108,7 +108,7 @@ private[scenefile] final class WrittenArguments(
   /** Without quotes. */
   def word(choices: String*): String =
     if in.current != Token.Word || !choices.contains(in.text) then
-      notOneOf(in.at, choices, in.description)
+      notOneOf(in.pos, choices, in.description)
     val text = in.text
     in.advance()
     text

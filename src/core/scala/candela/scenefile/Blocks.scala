@@ -43,11 +43,11 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
     if !isDoubtful then
       val crossed = inner.headOption.orElse(outer.headOption).filter(_ => outer.nonEmpty)
       val message = crossed match
-        case Some(block) => s"$name, but the ${block.begin} at ${block.at} is still open"
+        case Some(block) => s"$name, but the ${block.begin} at ${block.pos} is still open"
         case None => s"$name without $begin"
       val help = crossed.map(block => s"write ${block.end} first")
       if !isOld then throw SceneError(Problem.error(Code.OpenBlock, at, message, help))
-      val done = outer.headOption.fold("ignored")(b => s"closing the ${b.begin} at ${b.at}")
+      val done = outer.headOption.fold("ignored")(b => s"closing the ${b.begin} at ${b.pos}")
       warn(Problem.warning(Code.OpenBlock, at, s"$message; $done", help))
 
   private def close(block: OpenBlock): Unit =
@@ -62,8 +62,8 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
       openBlocks.reverse.toVector.map: block =>
         val help = Some(s"add a matching ${block.end}")
         val message = s"${block.begin} is never closed"
-        if isV4() then Problem.error(Code.OpenBlock, block.at, message, help)
-        else Problem.warning(Code.OpenBlock, block.at, message, help)
+        if isV4() then Problem.error(Code.OpenBlock, block.pos, message, help)
+        else Problem.warning(Code.OpenBlock, block.pos, message, help)
 
   /** Runs `body` with an empty block stack, then restores stack and state. */
   def isolated(body: => Unit): Vector[Problem] =

@@ -52,20 +52,20 @@ enum ParamType(val spelling: String):
 
 /** One `"type name" [ values ]` of a statement, as written.
   *
-  * @param at position of the quoted type and name
-  * @param valuesAt position of the first value
-  * @param floats values of numeric types except `integer`, otherwise empty; `bools`, `ints` and
+  * @param pos        position of the quoted type and name
+  * @param valuesAt   position of the first value
+  * @param floats     values of numeric types except `integer`, otherwise empty; `bools`, `ints` and
   *   `strings` hold the values of their types
-  * @param rests what the values of `floats` lack of those written, if coordinates are so large
+  * @param rests      what the values of `floats` lack of those written, if coordinates are so large
   *   that Floats are coarse; otherwise empty
   * @param colorSpace name of its colour space, if not that of the declaration
-  * @param isDefault whether it comes from an `Attribute` statement, which applies to many
+  * @param isDefault  whether it comes from an `Attribute` statement, which applies to many
   *   declarations, not all of which know it
   */
 final class Param(
     val paramType: ParamType,
     val name: String,
-    val at: SourcePos,
+    val pos: SourcePos,
     val valuesAt: SourcePos,
     val floats: Array[Float] = Array.emptyFloatArray,
     val ints: Array[Int] = Array.emptyIntArray,
@@ -101,7 +101,9 @@ final class Param(
       colorSpace: Option[String] = colorSpace,
       rests: Array[Float] = rests
   ): Param =
-    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, isDefault, colorSpace, rests)
+    Param(
+      paramType, name, pos, valuesAt, floats, ints, bools, strings, isDefault, colorSpace, rests
+    )
 
   def renamed(name: String): Param = copy(name = name)
 
@@ -115,7 +117,7 @@ final class Param(
   def mapped(change: Float => Float): Param = Param(
     paramType,
     name,
-    at,
+    pos,
     valuesAt,
     floats.map(change),
     ints.map(i => if change(i.toFloat) == i.toFloat then i else change(i.toFloat).toInt),
@@ -162,7 +164,7 @@ object Param:
 /** A quoted implementation name with its parameters: `"perspective" "float fov" 45`.
   *
   * @param category statement, for messages: `Shape`, `Material`, `Camera`, …
-  * @param at position of the quoted name
+  * @param pos position of the quoted name
   * @param folder folder of the main scene file; file names in parameters are relative to it
   * @param colorSpace v4's name for the colour space of the parameters
   * @param dialect its dialect, if not that of the scene: a scene of another format is described by
@@ -172,7 +174,7 @@ final case class Declaration(
     category: String,
     name: String,
     params: Vector[Param],
-    at: SourcePos,
+    pos: SourcePos,
     folder: SceneFolder,
     colorSpace: String = "srgb",
     dialect: Option[Dialect] = None
@@ -218,7 +220,7 @@ final case class Declaration(
 
   /** Of what tells statements apart; there may be as many materials as shapes. */
   override def hashCode: Int =
-    var hash = at.hashCode
+    var hash = pos.hashCode
     var i = 0
     while i < params.size do
       hash = 31 * hash + params(i).hashCode

@@ -12,10 +12,10 @@ import scala.collection.mutable
   */
 final class Defines(values: Map[String, String]):
   private val referenced = mutable.HashSet.empty[String]
-  private val seen = mutable.HashSet.empty[String]
+  private val names = mutable.HashSet.empty[String]
 
   /** The same source with the values in it; comments stay as they are. */
-  def in(source: Source): Source =
+  def substitute(source: Source): Source =
     if values.isEmpty then source
     else
       val bytes = source.remaining().getOrElse:
@@ -31,7 +31,7 @@ final class Defines(values: Map[String, String]):
   /** @throws SceneError if a value is of a name that no file has */
   def requireUse(): Unit =
     for name <- (values.keySet -- referenced).minOption do
-      val help = Suggest.help(name, seen.toSet -- referenced)
+      val help = Suggest.help(name, names.toSet -- referenced)
       val message = s"the scene has no parameter `$$$name`"
       throw SceneError(Problem.general(Code.SceneParameter, message, help))
 
@@ -40,7 +40,7 @@ final class Defines(values: Map[String, String]):
     else Defines.Name.replaceAllIn(text, m => quoteReplacement(value(m.group(1), m.matched)))
 
   private def value(name: String, written: String): String =
-    seen += name
+    names += name
     values.get(name).fold(written): value =>
       referenced += name
       String(value.getBytes(UTF_8), ISO_8859_1)

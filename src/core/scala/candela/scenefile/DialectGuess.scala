@@ -32,7 +32,7 @@ final class DialectGuess:
   *
   * @param what as shown in messages
   */
-final case class DialectClue(what: String, at: Option[SourcePos], v2: Int, v3: Int, v4: Int):
+final case class DialectClue(what: String, pos: Option[SourcePos], v2: Int, v3: Int, v4: Int):
   def weight(d: Dialect): Int = d match
     case Dialect.V2 => v2
     case Dialect.V3 => v3

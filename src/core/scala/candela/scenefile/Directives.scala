@@ -54,7 +54,7 @@ object Directives:
       val times = in.numbers(2)
       scene.transformTimes(times(0).toFloat, times(1).toFloat)
     ,
-    Directive("WorldBegin", "", Options)((in, scene) => scene.beginWorld(in.at))
+    Directive("WorldBegin", "", Options)((in, scene) => scene.beginWorld(in.pos))
   )
 
   private val transforms: List[Directive] = List(
@@ -106,20 +106,20 @@ object Directives:
     if inV4 then
       in.report(Problem.warning(
         Code.Transform,
-        in.at,
+        in.pos,
         s"$message; what it places is invisible, as in pbrt-v4"
       ))
       Transform.nowhere
     else
-      in.report(Problem.warning(Code.Transform, in.at, s"$message; the rotation is ignored"))
+      in.report(Problem.warning(Code.Transform, in.pos, s"$message; the rotation is ignored"))
       Transform.Identity
 
   private def noDirection(in: Arguments, inV4: Boolean): Transform =
     val message = "transform can't be inverted: eye equals look-at point"
-    if !inV4 then throw SceneError(Problem.error(Code.Transform, in.at, message))
+    if !inV4 then throw SceneError(Problem.error(Code.Transform, in.pos, message))
     in.report(Problem.warning(
       Code.Transform,
-      in.at,
+      in.pos,
       s"$message; what it places is invisible, as in pbrt-v4"
     ))
     Transform.nowhere
@@ -127,8 +127,8 @@ object Directives:
   /** pbrt-v2 and v3 go on, v4 stops. */
   private def noUp(in: Arguments, inV4: Boolean): Transform =
     val message = "transform can't be inverted: up is parallel to the view direction"
-    if inV4 then throw SceneError(Problem.error(Code.Transform, in.at, message))
-    in.report(Problem.warning(Code.Transform, in.at, s"$message; LookAt is ignored, as pbrt does"))
+    if inV4 then throw SceneError(Problem.error(Code.Transform, in.pos, message))
+    in.report(Problem.warning(Code.Transform, in.pos, s"$message; LookAt is ignored, as pbrt does"))
     Transform.Identity
 
   /** pbrt accepts transforms that flatten meshes, and some scenes use them. */
@@ -138,7 +138,7 @@ object Directives:
     t.getOrElse:
       val message =
         s"singular transform ($reason); meshes are flattened, everything else it places is ignored"
-      in.report(Problem.warning(Code.Transform, in.at, message))
+      in.report(Problem.warning(Code.Transform, in.pos, message))
       flat
 
   private def matrixOf(in: Arguments): Transform =
@@ -148,19 +148,19 @@ object Directives:
 
   private val blocks: List[Directive] = List(
     Directive("AttributeBegin", "", World): (in, scene) =>
-      scene.blocks.start("AttributeBegin", in.at),
-    Directive("AttributeEnd", "", World)((in, scene) => scene.blocks.end("AttributeBegin", in.at)),
+      scene.blocks.start("AttributeBegin", in.pos),
+    Directive("AttributeEnd", "", World)((in, scene) => scene.blocks.end("AttributeBegin", in.pos)),
     Directive("TransformBegin", "", World): (in, scene) =>
-      scene.blocks.start("TransformBegin", in.at),
-    Directive("TransformEnd", "", World)((in, scene) => scene.blocks.end("TransformBegin", in.at)),
+      scene.blocks.start("TransformBegin", in.pos),
+    Directive("TransformEnd", "", World)((in, scene) => scene.blocks.end("TransformBegin", in.pos)),
     Directive("ObjectBegin", "\"name\"", World): (in, scene) =>
-      scene.beginObject(in.quoted("a name")._1, in.at),
-    Directive("ObjectEnd", "", World)((in, scene) => scene.endObject(in.at)),
+      scene.beginObject(in.quoted("a name")._1, in.pos),
+    Directive("ObjectEnd", "", World)((in, scene) => scene.endObject(in.pos)),
     Directive("ObjectInstance", "\"name\"", World): (in, scene) =>
       val (name, at) = in.quoted("an object's name")
       scene.instance(name, at)
     ,
-    Directive("WorldEnd", "", World)((in, scene) => scene.worldEnd = Some(in.at))
+    Directive("WorldEnd", "", World)((in, scene) => scene.worldEnd = Some(in.pos))
   )
 
   private val world: List[Directive] = List(
@@ -202,7 +202,7 @@ object Directives:
   private val miscellaneous: List[Directive] = List(
     Directive("Attribute", "\"target\" parameters", Anywhere): (in, scene) =>
       val defaults = in.named("a target")
-      scene.attribute(defaults.name, defaults.at, defaults.params)
+      scene.attribute(defaults.name, defaults.pos, defaults.params)
     ,
     Directive("ColorSpace", "\"name\"", Anywhere): (in, scene) =>
       val (name, at) = in.quoted("a name")

@@ -18,7 +18,7 @@ private[scenefile] final class DoubtfulFiles(to: Problem => Unit):
   /** Notes that a statement of the file has been read. */
   def dispel(file: String): Unit =
     if doubtful.remove(file) then
-      val (own, others) = warnings.toVector.partition(_.at.exists(_.file == file))
+      val (own, others) = warnings.toVector.partition(_.pos.exists(_.file == file))
       warnings.clear()
       warnings ++= others
       own.foreach(to)
@@ -27,7 +27,7 @@ private[scenefile] final class DoubtfulFiles(to: Problem => Unit):
   def areJustified(file: String): Boolean = justified(file)
 
   def add(problem: Problem): Unit =
-    problem.at.filter(at => doubtful(at.file)) match
+    problem.pos.filter(at => doubtful(at.file)) match
       case None => to(problem)
       case Some(_) if problem.severity == Severity.Warning => warnings += problem
       case Some(at) if justified.add(at.file) =>

@@ -12,12 +12,12 @@ object Excerpts:
 
   /** @param open opens the source of a name, from its start */
   def fill(problems: Vector[Problem], open: String => Option[Source]): Vector[Problem] =
-    val lacking = problems.filter(p => p.at.nonEmpty && p.excerpt.isEmpty)
-    val lines = lacking.flatMap(_.at).groupBy(_.file).toVector.flatMap: (name, positions) =>
+    val lacking = problems.filter(p => p.pos.nonEmpty && p.excerpt.isEmpty)
+    val lines = lacking.flatMap(_.pos).groupBy(_.file).toVector.flatMap: (name, positions) =>
       open(name).toVector.flatMap(excerpts(_, positions))
     val byPosition = lines.toMap
     problems.map(p =>
-      p.copy(excerpt = p.excerpt.orElse(p.at.flatMap(at => byPosition.get(key(at)))))
+      p.copy(excerpt = p.excerpt.orElse(p.pos.flatMap(at => byPosition.get(key(at)))))
     )
 
   private def key(at: SourcePos): (String, Int, Int) = (at.file, at.line, at.column)

@@ -33,7 +33,7 @@ final case class GraphicsState(
   def transformed(change: Transform => Transform): GraphicsState =
     val AnimatedTransform(start, end) = transform
     copy(transform = active match
-      case ActiveTransform.All if start eq end => GraphicsState.still(change(start))
+      case ActiveTransform.All if start eq end => GraphicsState.constant(change(start))
       case ActiveTransform.All => AnimatedTransform(change(start), change(end))
       case ActiveTransform.StartTime => AnimatedTransform(change(start), end)
       case ActiveTransform.EndTime => AnimatedTransform(start, change(end)))
@@ -43,16 +43,16 @@ final case class GraphicsState(
     copy(transform = other.transform, active = other.active)
 
 object GraphicsState:
-  val Identity: AnimatedTransform = still(Transform.Identity)
+  val Identity: AnimatedTransform = constant(Transform.Identity)
 
-  def still(t: Transform): AnimatedTransform = AnimatedTransform(t, t)
+  def constant(t: Transform): AnimatedTransform = AnimatedTransform(t, t)
 
   def inverse(t: AnimatedTransform): AnimatedTransform =
-    if t.start eq t.end then still(t.start.inverse)
+    if t.start eq t.end then constant(t.start.inverse)
     else AnimatedTransform(t.start.inverse, t.end.inverse)
 
 /** An open block: its directive, its position, and the state to restore. */
-final case class OpenBlock(begin: String, at: SourcePos, saved: GraphicsState):
+final case class OpenBlock(begin: String, pos: SourcePos, saved: GraphicsState):
   def end: String = begin.replace("Begin", "End")
 
 /** Maps the names of textures and materials at one point of a file to their unique names.
@@ -83,15 +83,15 @@ object Scope:
 
 /** Names in use, by kind. */
 final class UniqueNames:
-  private val used = mutable.HashMap.empty[String, mutable.HashSet[String]]
+  private val reserved = mutable.HashMap.empty[String, mutable.HashSet[String]]
 
   private val counts = mutable.HashMap.empty[String, Int]
 
   /** Reserves the name; false if already in use. */
   def reserve(kind: String, name: String): Boolean =
-    used.getOrElseUpdate(kind, mutable.HashSet.empty).add(name)
+    reserved.getOrElseUpdate(kind, mutable.HashSet.empty).add(name)
 
-  def isTaken(kind: String, name: String): Boolean = used.get(kind).exists(_(name))
+  def isTaken(kind: String, name: String): Boolean = reserved.get(kind).exists(_(name))
 
   /** A name like `name` that is unused in all the kinds. */
   def fresh(kinds: List[String], name: String): String =

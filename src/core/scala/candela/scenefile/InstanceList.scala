@@ -46,7 +46,7 @@ final class InstanceList private (
   def motions(make: AnimatedTransform => Motion): IndexedSeqView[Motion] =
     val nonPlainBuilder = IntBuffer()
     loop(length)(i => if !isPlain(i) then nonPlainBuilder += i)
-    val nonPlain = nonPlainBuilder.take()
+    val nonPlain = nonPlainBuilder.drain()
     val nonPlainMotions = nonPlain.map(i => make(store.generalTransform(number(i))))
     (0 until length).view.map: i =>
       val row = store.row(number(i))
@@ -80,7 +80,7 @@ final class InstanceList private (
   ): (InstanceList, InstanceList) =
     val (accepted, rejected) = (IntBuffer(), IntBuffer())
     loop(length)(i => (if holds(this(i)) then accepted else rejected) += number(i))
-    (subset(accepted.take()), subset(rejected.take()))
+    (subset(accepted.drain()), subset(rejected.drain()))
 
   private def subset(numbers: Array[Int]): InstanceList =
     new InstanceList(store, numbers, 0, numbers.length)
@@ -154,11 +154,11 @@ private final class InstanceStore private (
   def add(instance: InstanceDescription): Unit =
     addTransform(instance.instanceToWorld)
     numbers += originOf(instance)
-    numbers += instance.at.line
-    numbers += instance.at.column
+    numbers += instance.pos.line
+    numbers += instance.pos.column
 
   private def originOf(instance: InstanceDescription): Int =
-    val position = instance.at
+    val position = instance.pos
     val isLast =
       lastNumber >= 0 && (lastOrigin.name == instance.name) && (lastOrigin.file eq position.file) &&
         (lastOrigin.includedFrom eq position.includedFrom)
@@ -207,7 +207,7 @@ private final class InstanceStore private (
       includedFrom
     )
     val toWorld =
-      if isPlain(i) then GraphicsState.still(rows.transform(row(i))) else generalTransform(i)
+      if isPlain(i) then GraphicsState.constant(rows.transform(row(i))) else generalTransform(i)
     InstanceDescription(name, position, toWorld)
 
 private object InstanceStore:

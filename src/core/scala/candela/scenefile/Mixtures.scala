@@ -14,9 +14,9 @@ private[scenefile] final class Mixtures:
 
   /** Warnings of materials that are defined after mixtures of them. */
   def ofLaterMaterials(dialect: Dialect, named: Vector[(String, Declaration)]): Vector[Problem] =
-    val definitions = named.map((name, material) => name -> material.at).toMap
-    val definitionPositions = named.map((_, material) => material.at).toSet
-    def isNamed(d: Declaration) = definitionPositions(d.at)
+    val definitions = named.map((name, material) => name -> material.pos).toMap
+    val definitionPositions = named.map((_, material) => material.pos).toSet
+    def isNamed(d: Declaration) = definitionPositions(d.pos)
     for
       (mixture, reference) <- open.result()
       // pbrt-v2 looks for the parts of a `Material` when a shape has it

@@ -57,33 +57,33 @@ final class Parameters(
 
   private def parametersHere(in: Tokenizer, params: ParamList): Unit =
     while in.current == Token.Text do
-      val position = in.at
+      val position = in.pos
       val key = keys.getOrElseUpdate(in.text, keyHere(in))
       in.advance()
       val param = values.read(key.paramType, key.name, position, in)
-      params.find(param.name) match
+      params.lookup(param.name) match
         case None => params.add(param)
         case Some(earlier) =>
           val (ignored, effective) =
             if isTexture(earlier) && !isTexture(param) && !isV4() then (param, earlier)
             else (earlier, param)
-          val message = s"`${param.name}` is repeated at ${effective.at}; this value is ignored"
-          warn(Problem.warning(Code.Redefined, ignored.at, message))
+          val message = s"`${param.name}` is repeated at ${effective.pos}; this value is ignored"
+          warn(Problem.warning(Code.Redefined, ignored.pos, message))
           params.replace(earlier, effective)
 
   private def isTexture(param: Param): Boolean = param.paramType == ParamType.Texture
 
   /** Reads one value or list from the current token on, without a preceding `"type name"`. */
   def value(paramType: ParamType, name: String, in: Tokenizer): Param =
-    values.read(paramType, name, in.at, in)
+    values.read(paramType, name, in.pos, in)
 
   private def keyHere(in: Tokenizer): Parameters.Key =
     def fail(message: String, help: String) =
-      throw SceneError(Problem.error(Code.ParameterSyntax, in.at, message, Some(help)))
+      throw SceneError(Problem.error(Code.ParameterSyntax, in.pos, message, Some(help)))
     val types = Parameters.Types
     in.text.split("[ \t]+").filter(_.nonEmpty) match
       case Array(spelling, name, _*) if types.contains(spelling) =>
-        evidence.uses("type", spelling, in.at)
+        evidence.uses("type", spelling, in.pos)
         Parameters.Key(types(spelling), name)
       case Array(spelling, _, _*) =>
         fail(s"unknown parameter type `$spelling`", Suggest.help(spelling, types.keys).get)
@@ -110,7 +110,7 @@ private final class ParamList:
   private var params = Vector.empty[Param]
   private var table: mutable.LinkedHashMap[String, Param] | Null = null
 
-  def find(name: String): Option[Param] =
+  def lookup(name: String): Option[Param] =
     val byName = table
     if byName == null then params.find(_.name == name) else byName.get(name)
 

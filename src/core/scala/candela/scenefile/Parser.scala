@@ -32,7 +32,7 @@ object Parser:
   ): SceneDescription =
     val folder = within.getOrElse(SceneFolder.of(file))
     val opened = folder.scene(file)
-    Refusal.placed(start(file))(Source.read(opened, Content.Tokens).map(defines.in)) match
+    Refusal.placed(start(file))(Source.read(opened, Content.Tokens).map(defines.substitute)) match
       case Right(source) => read(source, folder, Some(opened), dialect, keepGoing, world, defines)
       case Left(reason) =>
         throw SceneError(Problem.general(
@@ -50,7 +50,7 @@ object Parser:
       defines: Defines = Defines.Nothing
   ): Option[Declaration] =
     val opened = within.scene(file)
-    Source.read(opened, Content.Nothing).toOption.map(defines.in).flatMap: source =>
+    Source.read(opened, Content.Nothing).toOption.map(defines.substitute).flatMap: source =>
       val run = ParserRun(
         source,
         within,
@@ -90,7 +90,7 @@ object Parser:
       keepGoing: Boolean,
       defines: Defines = Defines.Nothing
   ): SceneDescription =
-    val source = defines.in(Source.fromText(name, text))
+    val source = defines.substitute(Source.fromText(name, text))
     read(source, within, None, dialect, keepGoing, world = 0, defines)
 
   /** The scene, if it has no errors. */
@@ -117,7 +117,7 @@ object Parser:
           ))
         folder.allowance.readAgain()
         attempt(
-          defines.in(reopened), folder, file, Some(better), keepGoing, world, defines
+          defines.substitute(reopened), folder, file, Some(better), keepGoing, world, defines
         ).toOption.get
     defines.requireUse()
     scene

@@ -137,7 +137,7 @@ private[scenefile] final class ParserRun(
     if !isThere then in.advanceToName()
 
   private def statement(in: Tokenizer): Unit =
-    val position = in.at
+    val position = in.pos
     folder.allowance.checkTime(Some(position))
     val directive = if in.current == Token.Word then Directives.named(in.text) else null
     if directive == null then unknown(in)
@@ -187,7 +187,7 @@ private[scenefile] final class ParserRun(
         throw e
 
   private def unknown(in: Tokenizer): Nothing =
-    val (at, shown) = (in.at, in.description)
+    val (at, shown) = (in.pos, in.description)
     val problem =
       if in.current != Token.Word || in.isNumber then
         val help = "write several values of a parameter in brackets: [ … ]"
@@ -243,7 +243,7 @@ private[scenefile] final class ParserRun(
         for reason <- circle(file, name) do
           throw SceneError(Problem.error(Code.IncludeCircle, nameAt, reason))
         countInclude(nameAt)
-        Source.readNamed(file).map(defines.in) match
+        Source.readNamed(file).map(defines.substitute) match
           case Left(reason) => Left(Missing(Code.NoScene, s"can't include `$name`: $reason", None))
           case Right(source) =>
             sources += file.path
@@ -264,10 +264,10 @@ private[scenefile] final class ParserRun(
     val isInclude = from.current == Token.Word && from.text == "Include" && from.nextIsText
     if !isInclude then None
     else
-      val position = from.at
+      val position = from.pos
       evidence.uses("directive", "Include", position)
       from.advance()
-      val (name, nameAt) = (from.text, from.at)
+      val (name, nameAt) = (from.text, from.pos)
       from.advance()
       val opened = Try(openIncluded(name, nameAt, position))
       val beginning = opened.toOption.flatMap(_.toOption).map(_.text).filter(_.nextIsText)

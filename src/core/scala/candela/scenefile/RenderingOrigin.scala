@@ -11,11 +11,11 @@ object RenderingOrigin:
   private val Camera = "camera"
 
   def of(scene: SceneDescription): Vec3 =
-    if space(scene).contains(World) then Vec3.Zero else half(scene).point(Vec3.Zero)
+    if space(scene).contains(World) then Vec3.Zero else midTransform(scene).point(Vec3.Zero)
 
   /** From the coordinates in which pbrt-v4 renders. */
   def toWorld(scene: SceneDescription): Transform =
-    if space(scene).contains(Camera) then half(scene)
+    if space(scene).contains(Camera) then midTransform(scene)
     else
       val o = of(scene)
       Transform.translate(o.x, o.y, o.z)
@@ -26,10 +26,10 @@ object RenderingOrigin:
   def placing(media: collection.Set[String], scene: SceneDescription): SceneDescription =
     if media.isEmpty then scene
     else
-      val there = toWorld(scene)
+      val renderToWorld = toWorld(scene)
       def moved(t: AnimatedTransform) =
-        if t.start eq t.end then GraphicsState.still(there * t.start)
-        else AnimatedTransform(there * t.start, there * t.end)
+        if t.start eq t.end then GraphicsState.constant(renderToWorld * t.start)
+        else AnimatedTransform(renderToWorld * t.start, renderToWorld * t.end)
       scene.copy(media = scene.media.map: m =>
         if media(m.name) then m.copy(mediumToWorld = moved(m.mediumToWorld)) else m)
 
@@ -38,7 +38,7 @@ object RenderingOrigin:
     scene.options.filter(_.name == Option).lastOption.flatMap(_.strings.headOption)
 
   /** The camera's transform half-way; none of a camera that can't be placed. */
-  private def half(scene: SceneDescription): Transform =
+  private def midTransform(scene: SceneDescription): Transform =
     if scene.worldToCamera.start.isFlat then Transform.Identity else middle(scene)
 
   private def middle(scene: SceneDescription): Transform =

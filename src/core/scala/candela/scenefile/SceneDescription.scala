@@ -12,9 +12,9 @@ final case class AnimatedTransform(start: Transform, end: Transform):
 
   /** Applies `first`, then this. */
   def after(first: AnimatedTransform): AnimatedTransform =
-    val begin = start * first.start
-    if isAnimated || first.isAnimated then AnimatedTransform(begin, end * first.end)
-    else AnimatedTransform(begin, begin)
+    val composedStart = start * first.start
+    if isAnimated || first.isAnimated then AnimatedTransform(composedStart, end * first.end)
+    else AnimatedTransform(composedStart, composedStart)
 
 /** The material of a shape. */
 enum MaterialRef:
@@ -69,7 +69,7 @@ final case class MediumDescription(
 
 final case class InstanceDescription(
     name: String,
-    at: SourcePos,
+    pos: SourcePos,
     instanceToWorld: AnimatedTransform
 )
 

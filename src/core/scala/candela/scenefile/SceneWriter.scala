@@ -60,7 +60,7 @@ final class SceneWriter(
       if m.medium.name != "homogeneous" && isMoved
     yield Problem.warning(
       Code.AsInPbrt,
-      m.medium.at,
+      m.medium.pos,
       s"medium `${m.name}` is placed relative to the camera, as in pbrt-v4: it is defined before " +
         "`Camera`",
       Some("move its MakeNamedMedium after WorldBegin to place it in the world")
@@ -95,13 +95,13 @@ final class SceneWriter(
   // Declarations
 
   private def declare(category: String, from: Named, defaults: String = ""): Declaration =
-    evidence.uses(category, from.name, from.at)
+    evidence.uses(category, from.name, from.pos)
     val inherited = state.defaults.getOrElse(defaults, Vector.empty)
     val combined =
       if inherited.isEmpty then from.params
       else from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
     val params = state.scope.resolve(combined)
-    Declaration(category, from.name, params, from.at, folder, state.colorSpace, foreign)
+    Declaration(category, from.name, params, from.pos, folder, state.colorSpace, foreign)
 
   /** A declaration named by the value of its "string type". */
   private def declareByType(category: String, from: Named, defaults: String): Declaration =
@@ -115,7 +115,7 @@ final class SceneWriter(
         Declaration(category, name, params, t.valuesAt, folder, state.colorSpace, foreign)
       case None => fail(
           Code.MissingParameter,
-          from.at,
+          from.pos,
           s"\"${from.name}\" must have a \"string type\"",
           missing
         )
@@ -250,7 +250,7 @@ final class SceneWriter(
     val unique =
       if names.reserve("material", current) then current
       else
-        rejectInV4(from.at, "material", from.name)
+        rejectInV4(from.pos, "material", from.name)
         names.fresh(List("material"), from.name)
     val _ = names.reserve("material", unique)
     if unique != current then
@@ -261,7 +261,7 @@ final class SceneWriter(
 
   def makeNamedMedium(from: Named): Unit =
     val medium = declareByType("Medium", from, "medium")
-    if media.contains(from.name) then rejectInV4(from.at, "medium", from.name)
+    if media.contains(from.name) then rejectInV4(from.pos, "medium", from.name)
     // A later one goes behind all others
     media.remove(from.name): Unit
     media(from.name) = MediumDescription(from.name, medium, state.transform)
@@ -380,4 +380,4 @@ object SceneWriter:
   private val Examples = Map("Material" -> "diffuse", "Medium" -> "homogeneous")
 
 /** A quoted name with its position, and the parameters after it. */
-final case class Named(name: String, at: SourcePos, params: Vector[Param])
+final case class Named(name: String, pos: SourcePos, params: Vector[Param])

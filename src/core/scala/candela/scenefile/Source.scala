@@ -73,10 +73,10 @@ final class Source private (val name: String, room: Int, input: Input):
     val first = java.util.Arrays.copyOf(window, end)
     if isDone then Some(first)
     else
-      val more = input.stream.readNBytes(Source.MaxWhole - end)
+      val tail = input.stream.readNBytes(Source.MaxWhole - end)
       val isWhole = input.stream.read() < 0
       close()
-      Option.when(isWhole)(first ++ more)
+      Option.when(isWhole)(first ++ tail)
 
   /** Decodes a range of the window: UTF-8, or Latin-1 if invalid (old exporters). */
   def text(from: Int, until: Int): String =

@@ -6,11 +6,11 @@ import scala.collection.mutable
 
 /** A statement of pbrt-v4 that a program makes, instead of a file.
   *
-  * @param at where the program makes it
+  * @param pos where the program makes it
   */
 final case class GivenStatement(
     directive: String,
-    at: SourcePos,
+    pos: SourcePos,
     numbers: Vector[Double] = Vector.empty,
     texts: Vector[String] = Vector.empty,
     params: Vector[Param] = Vector.empty
@@ -39,7 +39,7 @@ final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] 
       // To what is whole, everything may be added
       val misplacement = if base.isEmpty then directive.misplaced(scene.worldBegin) else None
       for message <- misplacement do
-        throw SceneError(Problem.error(Code.WrongPlace, statement.at, message))
+        throw SceneError(Problem.error(Code.WrongPlace, statement.pos, message))
       directive.run(GivenArguments(directive, statement, problems.add, values), scene)
     catch
       case e: SceneError =>
@@ -55,7 +55,7 @@ final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] 
     */
   def change(at: SourcePos)(f: SceneDescription => SceneDescription): Unit =
     try scene.change(f)
-    catch case e: SceneError => e.problems.map(p => p.copy(at = Some(at))).foreach(problems.add)
+    catch case e: SceneError => e.problems.map(p => p.copy(pos = Some(at))).foreach(problems.add)
 
   /** Parameters as a statement has them. */
   def checked(params: Vector[Param]): Vector[Param] =
@@ -89,7 +89,7 @@ private final class GivenArguments(
     statement: GivenStatement,
     report: Problem => Unit,
     values: ValueReader
-) extends Arguments(directive, statement.at, report):
+) extends Arguments(directive, statement.pos, report):
   private val remainingNumbers = statement.numbers.iterator
   private val remainingTexts = statement.texts.iterator
 
@@ -98,29 +98,29 @@ private final class GivenArguments(
 
   def numbers(count: Int): Array[Double] =
     finite(Array.tabulate(count): i =>
-      if !remainingNumbers.hasNext then wrongNumber(at, count, i, "missing")
+      if !remainingNumbers.hasNext then wrongNumber(pos, count, i, "missing")
       remainingNumbers.next())
 
   def matrix(): Array[Double] = numbers(16)
 
   def quoted(expected: String): (String, SourcePos) =
-    if !remainingTexts.hasNext then notQuoted(at, expected, "nothing")
-    (remainingTexts.next(), at)
+    if !remainingTexts.hasNext then notQuoted(pos, expected, "nothing")
+    (remainingTexts.next(), pos)
 
   def another: Option[String] = remainingTexts.nextOption()
 
   def word(choices: String*): String =
     val keyword = remainingTexts.nextOption()
     keyword.filter(choices.contains).getOrElse:
-      notOneOf(at, choices, keyword.fold("nothing")(f => s"`$f`"))
+      notOneOf(pos, choices, keyword.fold("nothing")(f => s"`$f`"))
 
   def params(): Vector[Param] = GivenParameters.checked(statement.params, values, report)
 
   def value(paramType: ParamType, name: String): Param =
-    val param = statement.params.headOption.getOrElse(fail(at, s"`$name` must have a value"))
+    val param = statement.params.headOption.getOrElse(fail(pos, s"`$name` must have a value"))
     if param.paramType != paramType then
       val kinds = s"${paramType.spelling}, found ${param.paramType.spelling}"
-      fail(at, s"the value of `$name` must be of type $kinds")
+      fail(pos, s"the value of `$name` must be of type $kinds")
     param.renamed(name)
 
 private object GivenParameters:
@@ -132,11 +132,11 @@ private object GivenParameters:
       for x <- p.floats.find(!_.isFinite) do
         throw SceneError(Problem.error(
           Code.ParameterValue,
-          p.at,
+          p.pos,
           s"values of `${p.name}` must be numbers, found $x"
         ))
       for earlier <- byName.remove(p.name) do
         val message = s"`${p.name}` is repeated; the earlier value is ignored"
-        report(Problem.warning(Code.Redefined, earlier.at, message))
+        report(Problem.warning(Code.Redefined, earlier.pos, message))
       byName(p.name) = values.checkCount(p)
     byName.values.toVector

@@ -39,10 +39,10 @@ final class Tokenizer(
   def current: Token = kind
 
   /** Position of the current token. */
-  def at: SourcePos = SourcePos(source.name, tokenLine, tokenColumn, includedFrom)
+  def pos: SourcePos = SourcePos(source.name, tokenLine, tokenColumn, includedFrom)
 
   /** Position of the next token. */
-  def nextAt: SourcePos =
+  def nextPos: SourcePos =
     skipBlank()
     nextPlace
 
@@ -249,7 +249,7 @@ final class Tokenizer(
         if isEnd then "string not closed at the end of the file" else "string not closed"
       throw SceneError(Problem.error(
         Code.Token,
-        at,
+        pos,
         message,
         Some("end it with `\"` on the same line")
       ))
@@ -274,7 +274,7 @@ final class Tokenizer(
   /** Slides the window to the current token; false at the end of the file. */
   private def fetch(): Boolean =
     !source.isLast && {
-      val position = if start < cursor then at else nextPlace
+      val position = if start < cursor then pos else nextPlace
       val offset = start
       try Refusal.placed(position)(source.slide(offset))
       catch
@@ -308,17 +308,17 @@ private object Escapes:
     * @param unknown receives the offset of the character after the backslash
     */
   def unescaped(bytes: Array[Byte], from: Int, until: Int)(unknown: Int => Unit): String =
-    val out = ByteArrayOutputStream(until - from)
+    val buffer = ByteArrayOutputStream(until - from)
     var i = from
     while i < until do
-      if bytes(i) != '\\' then out.write(bytes(i))
+      if bytes(i) != '\\' then buffer.write(bytes(i))
       else
         i += 1
         val meaning = Written.indexOf(bytes(i))
         if meaning < 0 then unknown(i)
-        out.write(if meaning >= 0 then Meant.charAt(meaning).toInt else bytes(i).toInt)
+        buffer.write(if meaning >= 0 then Meant.charAt(meaning).toInt else bytes(i).toInt)
       i += 1
-    out.toString(UTF_8)
+    buffer.toString(UTF_8)
 
 /** Converts words to Strings; caches the few names that recur, with their bytes. */
 private final class NameCache:

@@ -18,8 +18,8 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
     * @param at position of the parameter
     */
   def read(paramType: ParamType, name: String, at: SourcePos, in: Tokenizer): Param =
-    val openBracket = Option.when(in.current == Token.Open)(in.at)
-    val valuesAt = if openBracket.nonEmpty then in.nextAt else in.at
+    val openBracket = Option.when(in.current == Token.Open)(in.pos)
+    val valuesAt = if openBracket.nonEmpty then in.nextPos else in.pos
     val isText = if openBracket.nonEmpty then in.nextIsText else in.current == Token.Text
     val isList = openBracket.nonEmpty
     val param = paramType match
@@ -34,7 +34,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
         Param(paramType, name, at, valuesAt, strings = texts(in, isList))
       case _ =>
         val values = numbers(in, isList)
-        val missing = rests.take(values.length)
+        val missing = rests.drain(values.length)
         val isPosition = paramType == ParamType.Point3 || name == "Pw"
         val coarseRests = if isPosition then missing else Array.emptyFloatArray
         Param(paramType, name, at, valuesAt, floats = values, rests = coarseRests)
@@ -49,7 +49,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
 
   private def numbers(in: Tokenizer, isList: Boolean): Array[Float] =
     if isList then in.readFloats(floats, rests) else if in.readFloat(floats) then in.advance()
-    floats.take()
+    floats.drain()
 
   private def integers(name: String, at: SourcePos, in: Tokenizer, isList: Boolean): Array[Int] =
     in.sawFraction = false
@@ -60,7 +60,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
         at,
         s"values of `$name` must be integers; truncating fractions"
       ))
-    ints.take()
+    ints.drain()
 
   private def texts(in: Tokenizer, isList: Boolean): Vector[String] =
     words(in, isList)(_.current == Token.Text)
@@ -97,14 +97,14 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
       case None if in.current == Token.End || in.current == Token.Close || isDirective =>
         Problem.error(
           Code.ParameterSyntax,
-          param.at,
+          param.pos,
           s"$name must have a value",
           Some(example(param))
         )
       case _ if param.paramType == ParamType.Integer && isNumber =>
         Problem.error(
           Code.ParameterType,
-          in.at,
+          in.pos,
           s"values of $name must be 32-bit integers, found ${in.description}"
         )
       case _ =>
@@ -114,7 +114,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
           else if isQuotedNumber then "write it without quotes"
           else example(param)
         val message = s"values of $name must be ${kindOf(param)}, found ${in.description}"
-        Problem.error(Code.ParameterSyntax, in.at, message, Some(help))
+        Problem.error(Code.ParameterSyntax, in.pos, message, Some(help))
 
   private def kindOf(param: Param): String = param.paramType match
     case ParamType.Bool => "`true` or `false`"

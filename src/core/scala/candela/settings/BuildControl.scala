@@ -31,7 +31,7 @@ final case class BuildControl(
     // Untrusted scenes write nothing that their user did not ask for
     textures = textures.copy(isShared = !limits.sandbox),
     // What a limited scene may use is counted as it is made
-    cache = if limits.all.isEmpty then cache else Keep.Nothing
+    cache = if limits.effective.isEmpty then cache else Keep.Nothing
   )
 
 /** Told of the stages before rendering that may take long. */

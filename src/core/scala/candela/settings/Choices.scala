@@ -14,7 +14,7 @@ final case class Choices(
     caustics: CausticsMode,
     byGoal: Boolean = false
 ):
-  private[settings] def in(s: RenderSettings): RenderSettings =
+  private[settings] def applyTo(s: RenderSettings): RenderSettings =
     s.copy(points = Some(points), guiding = Some(guiding), caustics = Some(caustics))
 
 object Choices:
@@ -33,10 +33,10 @@ object Choices:
 
   private[settings] def of(s: RenderSettings): Choices =
     val isByGoal = s.goal.isGiven && !s.preview
-    val usual = if isByGoal then ForGoal else OfScene
+    val defaults = if isByGoal then ForGoal else OfScene
     Choices(
-      s.points.getOrElse(usual.points),
-      s.guiding.getOrElse(usual.guiding),
-      s.caustics.getOrElse(usual.caustics),
+      s.points.getOrElse(defaults.points),
+      s.guiding.getOrElse(defaults.guiding),
+      s.caustics.getOrElse(defaults.caustics),
       isByGoal && s.guiding.isEmpty
     )

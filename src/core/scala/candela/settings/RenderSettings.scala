@@ -59,8 +59,8 @@ final case class RenderSettings(
 ):
   /** With these layers, too; whether each is stored in 16 bits, where that is said. */
   def adding(more: Seq[(Layer, Option[Boolean])]): RenderSettings =
-    val asked = more.collect { case (layer, Some(isHalf)) => layer -> isHalf }
-    val precise = output.copy(precisions = output.precisions ++ asked)
+    val layerPrecisions = more.collect { case (layer, Some(isHalf)) => layer -> isHalf }
+    val precise = output.copy(precisions = output.precisions ++ layerPrecisions)
     copy(layers = layers ++ more.map(_._1), output = precise)
 
   /** With the denoised image, and the layers that guide the denoiser. */
@@ -74,7 +74,7 @@ final case class RenderSettings(
   def choices: Choices = Choices.of(this)
 
   /** The same rendering, whatever goal is set later. */
-  def chosen: RenderSettings = choices.in(this)
+  def chosen: RenderSettings = choices.applyTo(this)
 
   /** A preview shows albedos, for which three numbers do. */
   def colorMode: ColorMode = if preview then ColorMode.Rgb else color
@@ -88,7 +88,7 @@ final case class RenderSettings(
   /** Both these and what the scene's own `Option` statements set; where they differ, these. Seeds
     * are combined.
     */
-  def over(scene: RenderSettings): RenderSettings = copy(
+  def overriding(scene: RenderSettings): RenderSettings = copy(
     seed = seed ^ scene.seed,
     centers = centers || scene.centers,
     unfiltered = unfiltered || scene.unfiltered,

@@ -16,11 +16,12 @@ final case class SceneLimits(
     endsAt: Option[Long] = None
 ):
   /** The limits that hold. */
-  def all: Map[Limit, Long] =
-    val usual = if sandbox then Limit.values.map(l => l -> l.inSandbox).toMap else Map.empty
-    changed.foldLeft(usual):
+  def effective: Map[Limit, Long] =
+    val defaults = if sandbox then Limit.values.map(l => l -> l.inSandbox).toMap else Map.empty
+    changed.foldLeft(defaults):
       case (limits, (limit, Some(most))) => limits + (limit -> most)
       case (limits, (limit, None)) => limits - limit
 
   /** The folder of a scene, through which it reads its files. */
-  def folder(scene: Path): SceneFolder = SceneFolder.of(scene, sandbox, Allowance(all, endsAt))
+  def folder(scene: Path): SceneFolder =
+    SceneFolder.of(scene, sandbox, Allowance(effective, endsAt))

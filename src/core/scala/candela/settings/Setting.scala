@@ -64,13 +64,13 @@ private[settings] object Setting:
   def option[A](name: String, valueName: String, help: String)(of: S => Option[A])(
       put: (S, A) => S
   )(using form: TextForm[A]): Setting =
-    many(name, valueName, help)(of(_).toVector)(put)
+    list(name, valueName, help)(of(_).toVector)(put)
 
-  def many[A](name: String, valueName: String, help: String)(of: S => Vector[A])(
+  def list[A](name: String, valueName: String, help: String)(of: S => Vector[A])(
       put: (S, A) => S
   )(using form: TextForm[A]): Setting =
     def read(text: String) = form.read(text).map(a => put(_: S, a))
-    Setting(name, valueName, help, of(_).map(form.show), read, form.wanted)
+    Setting(name, valueName, help, of(_).map(form.format), read, form.wanted)
 
   def flag(name: String, help: String)(of: S => Boolean)(put: S => S): Setting =
     Setting(name, "", help, s => Option.when(of(s))("").toVector, _ => Some(put), _ => "")
@@ -84,4 +84,4 @@ private[settings] object Setting:
   def shorthand[A](name: String, valueName: String, help: String)(put: (S, A) => S)(using
       form: TextForm[A]
   ): Setting =
-    many[A](name, valueName, help)(_ => Vector.empty)(put)
+    list[A](name, valueName, help)(_ => Vector.empty)(put)

@@ -10,7 +10,7 @@ object SettingsTable:
   private type S = RenderSettings
 
   private def write(s: S)(f: OutputSettings => OutputSettings): S = s.copy(output = f(s.output))
-  private def show(s: S)(f: DisplayTransform => DisplayTransform): S =
+  private def display(s: S)(f: DisplayTransform => DisplayTransform): S =
     write(s)(o => o.copy(display = f(o.display)))
   private def parse(s: S)(f: ReadSettings => ReadSettings): S = s.copy(reading = f(s.reading))
   private def end(s: S)(f: RenderGoal => RenderGoal): S = s.copy(goal = f(s.goal))
@@ -23,10 +23,10 @@ object SettingsTable:
   private given TextForm[Layers] = TextForm(
     TextForm.layer.expected,
     text =>
-      val all = text.split(",", -1).toVector.map(TextForm.layer.read)
-      Option.when(all.forall(_.isDefined))(all.flatten)
+      val layers = text.split(",", -1).toVector.map(TextForm.layer.read)
+      Option.when(layers.forall(_.isDefined))(layers.flatten)
     ,
-    _.map(TextForm.layer.show).mkString(",")
+    _.map(TextForm.layer.format).mkString(",")
   )
 
   /** Of pbrt-v4's films. */
@@ -100,7 +100,7 @@ object SettingsTable:
     option("dialect", "v2|v3|v4", "parse the scene as this pbrt version (default: auto-detected)")(
       _.reading.dialect
     )((s, d) => parse(s)(_.copy(dialect = Some(d)))),
-    many("define", "NAME=VALUE", "set $NAME in the scene's files; also -DNAME=VALUE")(
+    list("define", "NAME=VALUE", "set $NAME in the scene's files; also -DNAME=VALUE")(
       _.reading.defines.toVector.sorted
     )((s, d) => parse(s)(r => r.copy(defines = r.defines + d)))(using TextForm.definition)
       .repeatable.short('D')
@@ -145,22 +145,22 @@ object SettingsTable:
       s"tone curve of $pictures: " +
         curves.map(c => s"${c.word} (${c.meaning})").mkString(", ") + "; default linear"
     )(s => Option.when(s.output.display != DisplayTransform.Plain)(s.output.display.curve))(
-      (s, c) => show(s)(_.copy(curve = c))
+      (s, c) => display(s)(_.copy(curve = c))
     ).explained("[The curves and their sources](PICTURES.md)."),
     value(
       "exposure",
       "STOPS",
       s"scale of the light in $pictures, in stops; auto: the mean becomes middle grey"
-    )(_.output.display.exposure)((s, e) => show(s)(_.copy(exposure = e))),
+    )(_.output.display.exposure)((s, e) => display(s)(_.copy(exposure = e))),
     flag(
       "falsecolor",
       s"show luminance in false colours in $pictures: from -6 to 6 stops about middle grey"
-    )(_.output.display.falseColor)(show(_)(_.copy(falseColor = true))),
+    )(_.output.display.falseColor)(display(_)(_.copy(falseColor = true))),
     value("bits", "8|16", "bits per channel of .png (default 8)")(_.output.display.bits)((s, n) =>
-      show(s)(_.copy(bits = n))
+      display(s)(_.copy(bits = n))
     )(using TextForm.int.filter("8 or 16")(Set(8, 16))),
     flag("dither", "round 8-bit values at random, which hides banding")(_.output.display.dithers)(
-      show(_)(_.copy(dithers = true))
+      display(_)(_.copy(dithers = true))
     ),
     flag(
       "disable-pixel-jitter",

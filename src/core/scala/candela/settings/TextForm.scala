@@ -15,29 +15,29 @@ import scala.util.Try
   *
   * @param expected what messages say of other text, after "expected"
   * @param read     None: it is no such value
-  * @param show     what `read` reads as the same value
+  * @param format   what `read` reads as the same value
   * @param wanted   what messages say of a text that is no such value, after "must be"
   */
 final class TextForm[A] private (
     val expected: String,
     val read: String => Option[A],
-    val show: A => String,
+    val format: A => String,
     val wanted: String => String
 ):
   def map[B](to: A => B)(from: B => A): TextForm[B] =
-    new TextForm[B](expected, read(_).map(to), b => show(from(b)), wanted)
+    new TextForm[B](expected, read(_).map(to), b => format(from(b)), wanted)
 
   def filter(rule: String)(fits: A => Boolean): TextForm[A] =
     new TextForm[A](
       rule,
       read(_).filter(fits),
-      show,
+      format,
       text => if read(text).isDefined then rule else wanted(text)
     )
 
 object TextForm:
-  def apply[A](expected: String, read: String => Option[A], show: A => String): TextForm[A] =
-    new TextForm(expected, read, show, _ => expected)
+  def apply[A](expected: String, read: String => Option[A], format: A => String): TextForm[A] =
+    new TextForm(expected, read, format, _ => expected)
 
   private def named[A](all: Seq[A], name: A => String, expected: String): TextForm[A] =
     TextForm(expected, text => all.find(name(_).equalsIgnoreCase(text)), name)
@@ -49,8 +49,8 @@ object TextForm:
 
   /** Numbers between commas: all of the text's, or none. */
   private def numbers[N](read: String => Option[N])(text: String): Option[Vector[N]] =
-    val all = text.split(",", -1).toVector.map(n => read(n.trim))
-    Option.when(all.forall(_.isDefined))(all.flatten)
+    val parsed = text.split(",", -1).toVector.map(n => read(n.trim))
+    Option.when(parsed.forall(_.isDefined))(parsed.flatten)
 
   val int: TextForm[Int] = new TextForm(
     "a number",
@@ -84,8 +84,8 @@ object TextForm:
       case Count(digits, unit, binary) =>
         val power = Option(unit).fold(0)(u => "kmgt".indexOf(u.toLowerCase) + 1)
         val base = if Option(binary).exists(_.nonEmpty) then 1024 else 1000
-        val all = BigDecimal(digits) * BigDecimal(base).pow(power)
-        Option.when(all.isValidLong || all < Long.MaxValue)(all.toLong)
+        val value = BigDecimal(digits) * BigDecimal(base).pow(power)
+        Option.when(value.isValidLong || value < Long.MaxValue)(value.toLong)
       case _ => None
     },
     _.toString

@@ -17,4 +17,4 @@ final case class TextureControl(
     isShared: Boolean = true
 ):
   /** The folder of files, if there is one. */
-  def cache: Option[Path] = folder.orElse(if isShared then CacheFolder.usual() else None)
+  def cache: Option[Path] = folder.orElse(if isShared then CacheFolder.userFolder() else None)

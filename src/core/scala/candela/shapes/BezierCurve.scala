@@ -45,13 +45,14 @@ object BezierCurve:
     */
   def ofBSpline(p: Array[Float], degree: Int): Array[Array[Double]] =
     Array.tabulate(p.length / 3 - degree): i =>
-      val at = Array.tabulate(degree + 1)(k => point(p, i + k))
-      if degree == 2 then raised(mix(0.5, at(0), at(1)), at(1), mix(0.5, at(1), at(2)))
+      val points = Array.tabulate(degree + 1)(k => point(p, i + k))
+      if degree == 2 then
+        raised(mix(0.5, points(0), points(1)), points(1), mix(0.5, points(1), points(2)))
       else
-        val b = mix(1.0 / 3, at(1), at(2))
-        val c = mix(2.0 / 3, at(1), at(2))
-        val a = mix(0.5, mix(2.0 / 3, at(0), at(1)), b)
-        val d = mix(0.5, c, mix(1.0 / 3, at(2), at(3)))
+        val b = mix(1.0 / 3, points(1), points(2))
+        val c = mix(2.0 / 3, points(1), points(2))
+        val a = mix(0.5, mix(2.0 / 3, points(0), points(1)), b)
+        val d = mix(0.5, c, mix(1.0 / 3, points(2), points(3)))
         Array.concat(a, b, c, d)
 
   /** Degree elevation from 2 to 3. */
@@ -59,7 +60,7 @@ object BezierCurve:
     Array.concat(a, mix(2.0 / 3, a, b), mix(1.0 / 3, b, c), c)
 
   /** Control points of the part of a curve from u0 to u1, in `out`. */
-  def part(
+  def subcurve(
       points: Array[Double],
       u0: Double,
       u1: Double,

@@ -73,10 +73,10 @@ final class BilinearMesh(
       val d2 = dx * dx + dy * dy + dz * dz
       // A ray that starts on the patch, with pError 0 as in a plane z = 0, hits it at distance 0 up
       // to the rounding of these coordinates
-      val least = BilinearMesh.Rounding * (Math.abs(ax) + Math.abs(ay) + Math.abs(az) +
+      val minDistance = BilinearMesh.Rounding * (Math.abs(ax) + Math.abs(ay) + Math.abs(az) +
         Math.abs(ex) + Math.abs(ey) + Math.abs(ez) + Math.abs(fx) + Math.abs(fy) + Math.abs(fz) +
         Math.abs(gx) + Math.abs(gy) + Math.abs(gz))
-      var best = ray.tMax.toDouble
+      var bestT = ray.tMax.toDouble
       var bestU = -1.0
       var bestV = 0.0
       var k = 0
@@ -98,19 +98,19 @@ final class BilinearMesh(
             val t =
               ((bx + v * (fx + u * gx)) * dx + (by + v * (fy + u * gy)) * dy +
                 (bz + v * (fz + u * gz)) * dz) / d2
-            if t < best && t * t * d2 > least * least && t > 0.0 then
-              best = t
+            if t < bestT && t * t * d2 > minDistance * minDistance && t > 0.0 then
+              bestT = t
               bestU = u
               bestV = v
         k += 1
-      val stored = best.toFloat
-      val found = bestU > -0.5 && stored < ray.tMax
+      val stored = bestT.toFloat
+      val isHit = bestU > -0.5 && stored < ray.tMax
       if write then
-        if found then
+        if isHit then
           ray.tMax = stored
           hit.u = BilinearMesh.unit(bestU)
           hit.v = BilinearMesh.unit(bestV)
-      found
+      isHit
 
 object BilinearMesh:
   /** Margin by which a patch extends past its edges, in u and v. */

@@ -93,28 +93,28 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
       val length2 = blended.lengthSquared
       if length2 > 0f && length2 < Float.PositiveInfinity then blended.normalized else facet
 
-  private inline def value(a: Array[Float], each: Int, k: Int, corner: Int): Float =
-    a(each * mesh.indices(4 * patch + corner) + k)
+  private inline def value(a: Array[Float], stride: Int, k: Int, corner: Int): Float =
+    a(stride * mesh.indices(4 * patch + corner) + k)
 
-  private def blend(a: Array[Float], each: Int, k: Int, u: Float, v: Float): Float =
+  private def blend(a: Array[Float], stride: Int, k: Int, u: Float, v: Float): Float =
     lerp(
       v,
-      lerp(u, value(a, each, k, 0), value(a, each, k, 1)),
-      lerp(u, value(a, each, k, 2), value(a, each, k, 3))
+      lerp(u, value(a, stride, k, 0), value(a, stride, k, 1)),
+      lerp(u, value(a, stride, k, 2), value(a, stride, k, 3))
     )
 
-  private def alongU(a: Array[Float], each: Int, k: Int, v: Float): Float =
+  private def alongU(a: Array[Float], stride: Int, k: Int, v: Float): Float =
     lerp(
       v,
-      value(a, each, k, 1) - value(a, each, k, 0),
-      value(a, each, k, 3) - value(a, each, k, 2)
+      value(a, stride, k, 1) - value(a, stride, k, 0),
+      value(a, stride, k, 3) - value(a, stride, k, 2)
     )
 
-  private def alongV(a: Array[Float], each: Int, k: Int, u: Float): Float =
+  private def alongV(a: Array[Float], stride: Int, k: Int, u: Float): Float =
     lerp(
       u,
-      value(a, each, k, 2) - value(a, each, k, 0),
-      value(a, each, k, 3) - value(a, each, k, 1)
+      value(a, stride, k, 2) - value(a, stride, k, 0),
+      value(a, stride, k, 3) - value(a, stride, k, 1)
     )
 
   /** ∂p/∂u × ∂p/∂v is affine in u and v, so a cone around the corners' normals contains all
@@ -122,13 +122,13 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
     */
   def normals: (Vec3, Float) =
     val p = BilinearPatch.Corners(mesh, patch)
-    val all =
+    val cornerNormals =
       for u <- Seq(0f, 1f); v <- Seq(0f, 1f) yield
         val cross = p.alongU(v) cross p.alongV(u)
         Option.when(!cross.isZero):
           val facet = if mesh.flipped then -cross.normalized else cross.normalized
           if mesh.normals.length == 0 then facet else facet.facing(shadingNormal(u, v, facet))
-    val corners = all.flatten
+    val corners = cornerNormals.flatten
     val sum = corners.foldLeft(Vec3.Zero)(_ + _)
     if sum.lengthSquared < 1e-6f then (Vec3.Z, -1f)
     else

@@ -79,14 +79,14 @@ private[shapes] object CornerTable:
       val to = vertices(next(corner))
       val edge = key(Math.min(from, to), Math.max(from, to))
       start(from) = corner
-      val other = open.getOrElse(edge, -1)
-      if other < 0 then
+      val twin = open.getOrElse(edge, -1)
+      if twin < 0 then
         if closed.contains(edge) then crowded = crowded.orElse(Some(corner))
         open(edge) = corner
-      else if vertices(other) == from then throw MeshError(opposed(vertices, corner, other))
+      else if vertices(twin) == from then throw MeshError(opposed(vertices, corner, twin))
       else
-        twins(corner) = other
-        twins(other) = corner
+        twins(corner) = twin
+        twins(twin) = corner
         open.subtractOne(edge)
         closed(edge) = ()
     CornerTable(vertices, twins, start, crowded)
@@ -96,8 +96,8 @@ private[shapes] object CornerTable:
     */
   private def key(from: Int, to: Int): Long = (from.toLong << 32 | to) * 0x9e3779b97f4a7c15L
 
-  private def opposed(vertices: Array[Int], corner: Int, other: Int): String =
-    s"faces ${other / 3} and ${corner / 3} wind opposite ways: both run from vertex " +
+  private def opposed(vertices: Array[Int], corner: Int, twin: Int): String =
+    s"faces ${twin / 3} and ${corner / 3} wind opposite ways: both run from vertex " +
       s"${vertices(corner)} to vertex ${vertices(next(corner))}"
 
   /** What is said of a corner on an edge of more than two faces.

@@ -31,18 +31,18 @@ final class CurveBuilder(form: CurveForm, space: Option[Transform], flipped: Boo
   def count: Int = Math.multiplyExact(placed.length, split)
 
   /** Whether curves with this transform can be added. */
-  def takes(form: CurveForm, toWorld: Transform, reversed: Boolean): Boolean =
+  def accepts(form: CurveForm, toWorld: Transform, reversed: Boolean): Boolean =
     form == this.form && flipped == (reversed != toWorld.swapsHandedness) &&
       (if placeOf(toWorld).isSimilar then space.isEmpty else space.exists(_ eq toWorld))
 
-  /** Adds curves transformed as `takes` was asked. */
+  /** Adds curves transformed as `accepts` was asked. */
   def add(curves: Seq[BezierCurve], toWorld: Transform): Unit =
-    val place = if space.isDefined then Place.InSpace else placeOf(toWorld)
-    for c <- curves do placed += Placed(c, place)
+    val placement = if space.isDefined then Place.InSpace else placeOf(toWorld)
+    for c <- curves do placed += Placed(c, placement)
 
   private def placeOf(toWorld: Transform): Place =
-    val known = last
-    if known != null && (known.toWorld eq toWorld) then known
+    val cached = last
+    if cached != null && (cached.toWorld eq toWorld) then cached
     else
       val fresh = Place(toWorld)
       last = fresh
@@ -53,21 +53,25 @@ final class CurveBuilder(form: CurveForm, space: Option[Transform], flipped: Boo
     val params, widths = new Array[Float](2 * count)
     val normals = new Array[Float](if form.kind == CurveKind.Ribbon then 6 * count else 0)
     parallel.ranges(count): (from, until) =>
-      val part = new Array[Double](12)
+      val controlPoints = new Array[Double](12)
       loop(from, until): segment =>
         val source = placed(segment / split)
         val curve = source.curve
         val i = segment % split
         val u0 = i.toFloat / split
         val u1 = (i + 1).toFloat / split
-        source.place.putPoints(BezierCurve.part(curve.points, u0, u1, part), points, 12 * segment)
+        source.placement.putPoints(
+          BezierCurve.subcurve(curve.points, u0, u1, controlPoints),
+          points,
+          12 * segment
+        )
         params(2 * segment) = u0
         params(2 * segment + 1) = u1
-        widths(2 * segment) = lerp(u0, curve.width0, curve.width1) * source.place.scale
-        widths(2 * segment + 1) = lerp(u1, curve.width0, curve.width1) * source.place.scale
+        widths(2 * segment) = lerp(u0, curve.width0, curve.width1) * source.placement.scale
+        widths(2 * segment + 1) = lerp(u1, curve.width0, curve.width1) * source.placement.scale
         for (n0, n1) <- curve.normals do
-          source.place.putNormal(n0, normals, 6 * segment)
-          source.place.putNormal(n1, normals, 6 * segment + 3)
+          source.placement.putNormal(n0, normals, 6 * segment)
+          source.placement.putNormal(n1, normals, 6 * segment + 3)
     CurveSegments(points, params, widths, normals, form.kind, space, flipped, form.errorWidths)
 
 object CurveBuilder:
@@ -95,10 +99,10 @@ object CurveBuilder:
 
   /** Where curves are: a transform, and the scale of lengths. */
   private final class Place(val toWorld: Transform):
-    private val found = scaleOf(toWorld)
+    private val uniformScale = scaleOf(toWorld)
     private val moves = !toWorld.isIdentity
-    def isSimilar: Boolean = found.isDefined
-    val scale: Float = found.getOrElse(1.0).toFloat
+    def isSimilar: Boolean = uniformScale.isDefined
+    val scale: Float = uniformScale.getOrElse(1.0).toFloat
 
     /** Writes four points. */
     def putPoints(p: Array[Double], to: Array[Float], at: Int): Unit =
@@ -121,4 +125,4 @@ object CurveBuilder:
     /** That of curves in their own space. */
     val InSpace: Place = Place(Transform.Identity)
 
-  private final class Placed(val curve: BezierCurve, val place: Place)
+  private final class Placed(val curve: BezierCurve, val placement: Place)

@@ -44,14 +44,14 @@ final class CurveSegments(
 
   /** Without objects in world space, as there may be millions. */
   def writeBounds(segment: Int, to: Array[Float], at: Int): Unit =
-    val half = 0.5f * Math.max(widths(2 * segment), widths(2 * segment + 1))
+    val halfWidth = 0.5f * Math.max(widths(2 * segment), widths(2 * segment + 1))
     val p = points
     loop(3): axis =>
       val i = 12 * segment + axis
       val low = Math.min(Math.min(Math.min(p(i), p(i + 3)), p(i + 6)), p(i + 9))
       val high = Math.max(Math.max(Math.max(p(i), p(i + 3)), p(i + 6)), p(i + 9))
-      to(at + axis) = low - half
-      to(at + 3 + axis) = high + half
+      to(at + axis) = low - halfWidth
+      to(at + 3 + axis) = high + halfWidth
     if !inWorld then space.foreach(t => Bounds3.read(to, at).mapped(t.point(_)).write(to, at))
     loop(3): axis =>
       val reach = Math.max(Math.abs(to(at + axis)), Math.abs(to(at + 3 + axis)))
@@ -111,7 +111,7 @@ final class CurveSegments(
         yz = -dy
       y2 = yx * yx + yy * yy + yz * yz
     val yScale = 1.0 / Math.sqrt(y2)
-    val half = 0.5 * Math.max(widths(2 * segment), widths(2 * segment + 1))
+    val halfWidth = 0.5 * Math.max(widths(2 * segment), widths(2 * segment + 1))
     val ax = p(i) - ox
     val ay = p(i + 1) - oy
     val az = p(i + 2) - oz
@@ -128,7 +128,7 @@ final class CurveSegments(
     val y1 = (bx * yx + by * yy + bz * yz) * yScale
     val y2_ = (ex * yx + ey * yy + ez * yz) * yScale
     val y3 = (fx * yx + fy * yy + fz * yz) * yScale
-    if CurveWalk.apart(y0, y1, y2_, y3, half) then false
+    if CurveWalk.apart(y0, y1, y2_, y3, halfWidth) then false
     else
       val length = Math.sqrt(dx * dx + dy * dy + dz * dz)
       // z along the ray, x = y × z
@@ -140,7 +140,7 @@ final class CurveSegments(
       val x1 = bx * xx + by * xy + bz * xz
       val x2 = ex * xx + ey * xy + ez * xz
       val x3 = fx * xx + fy * xy + fz * xz
-      if CurveWalk.apart(x0, x1, x2, x3, half) then false
+      if CurveWalk.apart(x0, x1, x2, x3, halfWidth) then false
       else
         val z0 = (ax * dx + ay * dy + az * dz) * zScale
         val z1 = (bx * dx + by * dy + bz * dz) * zScale
@@ -165,7 +165,7 @@ final class CurveSegments(
           z3,
           0.0,
           1.0,
-          CurveWalk.depth(bend, half),
+          CurveWalk.depth(bend, halfWidth),
           segment,
           dx * zScale,
           dy * zScale,

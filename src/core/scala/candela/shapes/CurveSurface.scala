@@ -24,21 +24,21 @@ private[shapes] final class CurveSurface(
       (if space.isEmpty then ray.direction else toObject.vector(ray.direction)).normalized
     val u = hit.u.toFloat
     val u0 = params(2 * segment)
-    val part = params(2 * segment + 1) - u0
-    val s = (u - u0) / part
-    val dpdu = tangent(segment, s) * (1f / part)
+    val uSpan = params(2 * segment + 1) - u0
+    val s = (u - u0) / uSpan
+    val dpdu = tangent(segment, s) * (1f / uSpan)
     val w = lerp(s, widths(2 * segment), widths(2 * segment + 1))
     val width =
       if kind != CurveKind.Ribbon then w
       else w * walk.facing(segment, hit.u, direction.x, direction.y, direction.z).toFloat
     val dpdv = across(segment, hit, direction, dpdu) * width
     at.p = ray.at(ray.tMax)
-    val way = at.p - ray.origin
+    val toHit = at.p - ray.origin
     // A ray that leaves a ribbon seen edge-on may hit it again face-on
     at.pError = error(Math.max(errorWidths * width, 0.5f * w)) + Vec3(
-      (Math.abs(ray.ox) + Math.abs(way.x)) * gamma(3),
-      (Math.abs(ray.oy) + Math.abs(way.y)) * gamma(3),
-      (Math.abs(ray.oz) + Math.abs(way.z)) * gamma(3)
+      (Math.abs(ray.ox) + Math.abs(toHit.x)) * gamma(3),
+      (Math.abs(ray.oy) + Math.abs(toHit.y)) * gamma(3),
+      (Math.abs(ray.oz) + Math.abs(toHit.z)) * gamma(3)
     )
     at.u = u
     at.v = hit.v.toFloat
@@ -83,4 +83,4 @@ private[shapes] object CurveSurface:
   /** Unit vector perpendicular to a curve and to the ray; arbitrary if they are parallel. */
   private def sideways(direction: Vec3, dpdu: Vec3): Vec3 =
     val across = direction cross dpdu
-    if across.isZero then Frame.around(direction).s else across.normalized
+    if across.isZero then Frame.fromZ(direction).s else across.normalized

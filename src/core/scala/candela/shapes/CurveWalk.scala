@@ -35,8 +35,8 @@ private[shapes] final class CurveWalk(
     // format: on
     val w0 = widths(2 * segment).toDouble
     val w1 = widths(2 * segment + 1).toDouble
-    val half = 0.5 * Math.max(w0 + s0 * (w1 - w0), w0 + s1 * (w1 - w0))
-    if CurveWalk.apart(y0, y1, y2, y3, half) || CurveWalk.apart(x0, x1, x2, x3, half) then
+    val halfWidth = 0.5 * Math.max(w0 + s0 * (w1 - w0), w0 + s1 * (w1 - w0))
+    if CurveWalk.apart(y0, y1, y2, y3, halfWidth) || CurveWalk.apart(x0, x1, x2, x3, halfWidth) then
       false
     else if depth > 0 then
       // De Casteljau at the midpoint
@@ -109,8 +109,8 @@ private[shapes] final class CurveWalk(
               // The side of the curve is the sign of its tangent × (vector to the ray)
               val tx = m * m * (x1 - x0) + 2.0 * m * w * (x2 - x1) + w * w * (x3 - x2)
               val ty = m * m * (y1 - y0) + 2.0 * m * w * (y2 - y1) + w * w * (y3 - y2)
-              val part = if width > 0.0 then Math.sqrt(distance2) / width else 0.0
-              hit.v = (if x * ty - y * tx > 0.0 then 0.5 + part else 0.5 - part).toFloat
+              val offset = if width > 0.0 then Math.sqrt(distance2) / width else 0.0
+              hit.v = (if x * ty - y * tx > 0.0 then 0.5 + offset else 0.5 - offset).toFloat
             true
 
   /** The curve's u at a parameter of its segment. */
@@ -149,10 +149,10 @@ private[shapes] final class CurveWalk(
 
 private[shapes] object CurveWalk:
 
-  /** Whether all four coordinates are on one side of zero, farther than `half`. */
-  inline def apart(a: Double, b: Double, c: Double, d: Double, half: Double): Boolean =
-    (a > half && b > half && c > half && d > half) ||
-      (a < -half && b < -half && c < -half && d < -half)
+  /** Whether all four coordinates are on one side of zero, farther than `halfWidth`. */
+  inline def apart(a: Double, b: Double, c: Double, d: Double, halfWidth: Double): Boolean =
+    (a > halfWidth && b > halfWidth && c > halfWidth && d > halfWidth) ||
+      (a < -halfWidth && b < -halfWidth && c < -halfWidth && d < -halfWidth)
 
   /** Largest second difference of four control points, in one coordinate. */
   inline def bend(a: Double, b: Double, c: Double, d: Double): Double =
@@ -161,11 +161,11 @@ private[shapes] object CurveWalk:
   /** Subdivision depth at which a curve is straight to a twentieth of its width (the bound of
     * Nakamaru and Ohno, 2002): log4 of √2·6·bend / (8·width/20).
     */
-  def depth(bend: Double, half: Double): Int =
-    val ratio = 1.4142135623730951 * 6.0 * bend / (8.0 * 0.1 * half)
+  def depth(bend: Double, halfWidth: Double): Int =
+    val ratio = 1.4142135623730951 * 6.0 * bend / (8.0 * 0.1 * halfWidth)
     if !(ratio >= 4.0) then 0 else Math.min(10, Math.getExponent(ratio) / 2)
 
   /** Weight of an end's normal in spherical interpolation; in linear interpolation if both agree.
     */
-  private def share(part: Double, angle: Double): Double =
-    if angle > 1e-6 then Math.sin(part * angle) / Math.sin(angle) else part
+  private def share(t: Double, angle: Double): Double =
+    if angle > 1e-6 then Math.sin(t * angle) / Math.sin(angle) else t

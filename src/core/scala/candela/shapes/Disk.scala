@@ -68,7 +68,7 @@ final class Disk(
     val x = objectX(wx, wy, wz)
     val y = objectY(wx, wy, wz)
     // Projected back onto the plane: the point is exact except for the transform's rounding
-    put(x, y, height, at)
+    setPoint(x, y, height, at)
     val local = Vec3(x.toFloat, y.toFloat, height)
     at.geometricNormal = normal
     if uAlong == DiskU.Radius then alongRadius(local, at) else alongAngle(local, at)

@@ -26,9 +26,9 @@ final class DisplacedMesh(
 object DisplacedMesh:
 
   /** @param normals per vertex, or empty: those of the faces around it
-    * @param longest length of edges in world space, above 0: all get shorter
-    * @param most    number of vertices
-    * @param height  of a vertex by its position and its uv
+    * @param longest     length of edges in world space, above 0: all get shorter
+    * @param maxVertices number of vertices
+    * @param height      of a vertex by its position and its uv
     * @throws MeshError if there are too many triangles
     */
   def of(
@@ -38,11 +38,12 @@ object DisplacedMesh:
       indices: Array[Int],
       toWorld: Transform,
       longest: Float,
-      most: Int = MostVertices
+      maxVertices: Int = MostVertices
   )(height: (Vec3, Float, Float) => Float): DisplacedMesh =
-    if leastVertices(positions, indices, toWorld, longest) > most then throw tooMany(longest, most)
+    if leastVertices(positions, indices, toWorld, longest) > maxVertices then
+      throw tooMany(longest, maxVertices)
     val start = if normals.isEmpty then normalsOf(positions, indices) else normals
-    val mesh = Refinement(positions, start, uvs, toWorld, longest, most)
+    val mesh = Refinement(positions, start, uvs, toWorld, longest, maxVertices)
     loop(indices.length / 3)(f => mesh.add(indices(3 * f), indices(3 * f + 1), indices(3 * f + 2)))
     val fine = mesh.result()
     loop(fine.positions.length / 3): i =>
@@ -66,7 +67,7 @@ object DisplacedMesh:
       toWorld: Transform,
       longest: Float
   ): Double =
-    var least = 0.0
+    var minCount = 0.0
     loop(indices.length / 3): f =>
       val corners = (0 until 3).map(k => toWorld.point(vector(positions, indices(3 * f + k))))
       val Seq(a, b, c) = corners: @unchecked
@@ -74,11 +75,11 @@ object DisplacedMesh:
         corners.map(p => Math.max(Math.abs(p.x), Math.max(Math.abs(p.y), Math.abs(p.z))))
       val edge = Math.max(longest, 4 * Math.ulp(largest.max)).toDouble
       val area = ((b - a) cross (c - a)).length / 2.0
-      least = Math.max(least, area / (Math.sqrt(3) / 4 * edge * edge) / 2)
-    least
+      minCount = Math.max(minCount, area / (Math.sqrt(3) / 4 * edge * edge) / 2)
+    minCount
 
-  private def tooMany(longest: Float, most: Int) =
-    MeshError(s"an edge length of $longest makes more than $most vertices")
+  private def tooMany(longest: Float, maxVertices: Int) =
+    MeshError(s"an edge length of $longest makes more than $maxVertices vertices")
 
   /** Vertices of the finest mesh: some 4 GB. */
   val MostVertices: Int = 100_000_000
@@ -110,7 +111,7 @@ object DisplacedMesh:
       givenUvs: Array[Float],
       toWorld: Transform,
       longest: Float,
-      most: Int
+      maxVertices: Int
   ):
     private val positions, normals, uvs = FloatBuffer()
     private val indices = IntBuffer()
@@ -132,7 +133,7 @@ object DisplacedMesh:
       else (toWorld.point(p(a)) - toWorld.point(p(b))).length
 
     def result(): DisplacedMesh =
-      DisplacedMesh(positions.take(), normals.take(), uvs.take(), indices.take())
+      DisplacedMesh(positions.drain(), normals.drain(), uvs.drain(), indices.drain())
 
     def add(a: Int, b: Int, c: Int): Unit =
       val (ab, bc, ca) = (length(a, b), length(b, c), length(c, a))
@@ -153,14 +154,14 @@ object DisplacedMesh:
       add(middle, b, c)
 
     private def newMiddle(a: Int, b: Int): Int =
-      val made = count
+      val index = count
       count += 1
-      if made >= most then throw tooMany(longest, most)
+      if index >= maxVertices then throw tooMany(longest, maxVertices)
       append(positions, (p(a) + p(b)) * 0.5f)
       append(normals, unit(n(a) + n(b)))
       uvs += (uvs(2 * a) + uvs(2 * b)) * 0.5f
       uvs += (uvs(2 * a + 1) + uvs(2 * b + 1)) * 0.5f
-      made
+      index
 
     private def append(to: FloatBuffer, v: Vec3): Unit =
       to += v.x

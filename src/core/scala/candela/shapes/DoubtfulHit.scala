@@ -53,12 +53,12 @@ object DoubtfulHit:
     val isApart = thin || b1 < -Apart || b2 < -Apart || b1 + b2 > 1.0 + Apart
     // A mean of the corners' distances is at least a distance of the triangle
     val somewhere = if isApart then mean(v, at, s, ray, e0, e1, e2) else t
-    val within = intoBox(v, at, s, ray, somewhere).toFloat
-    if !(within > 0f && TriangleTest.isCloser(within, primitive, ray, hit)) then false
+    val tInBox = intoBox(v, at, s, ray, somewhere).toFloat
+    if !(tInBox > 0f && TriangleTest.isCloser(tInBox, primitive, ray, hit)) then false
     else if ray.isPrimary && OriginInPlane.test(v, at, s, ray) then false
     else
       if write then
-        ray.tMax = within
+        ray.tMax = tInBox
         if isApart then
           val inv = 1f / (e0 + e1 + e2)
           hit.u = e1 * inv
@@ -127,8 +127,8 @@ object DoubtfulHit:
       val maxE = max3(Math.abs(e0), Math.abs(e1), Math.abs(e2))
       val maxX = sheared(ray.kx, ray.shearX)
       val maxY = sheared(ray.ky, ray.shearY)
-      val least = minT(maxX, maxY, max3(Math.abs(s0), Math.abs(s1), Math.abs(s2)), maxE, inv)
-      if t > least then t else Double.NaN
+      val tMin = minT(maxX, maxY, max3(Math.abs(s0), Math.abs(s1), Math.abs(s2)), maxE, inv)
+      if t > tMin then t else Double.NaN
 
   /** Lower bound of t to be positive: the rounding error of the test itself. */
   private def minT(maxX: Float, maxY: Float, maxZ: Float, maxE: Float, inv: Float): Float =

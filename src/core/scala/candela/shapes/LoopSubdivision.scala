@@ -47,9 +47,10 @@ object LoopSubdivision:
     */
   def subdivide(levels: Int, indices: Array[Int], positions: Array[Float]): SubdividedMesh =
     MeshInput.check(levels, indices, positions)
-    val (vertices, used) = MeshInput.withoutUnused(indices, positions.length / 3)
-    var table = CornerTable.of(vertices, used.length)
-    var points = Array.tabulate(3 * used.length)(i => positions(3 * used(i / 3) + i % 3).toDouble)
+    val (vertices, oldIndices) = MeshInput.withoutUnused(indices, positions.length / 3)
+    var table = CornerTable.of(vertices, oldIndices.length)
+    var points =
+      Array.tabulate(3 * oldIndices.length)(i => positions(3 * oldIndices(i / 3) + i % 3).toDouble)
     // Refined vertices have their parent's valence, or at most 6: one buffer serves all levels.
     val ring = new Array[Int](Math.max(table.longestRing, 6))
     val crowded = table.crowded.map(CornerTable.described(_, indices))
@@ -81,15 +82,15 @@ object LoopSubdivision:
       if odd.isLast(corner) then // visits each edge once
         val from = 3 * table.vertices(corner)
         val to = 3 * table.vertices(next(corner))
-        val at = 3 * odd(corner)
+        val offset = 3 * odd(corner)
         if twin < 0 then
-          loop(3)(axis => refined(at + axis) = (points(from + axis) + points(to + axis)) / 2)
+          loop(3)(axis => refined(offset + axis) = (points(from + axis) + points(to + axis)) / 2)
         else
-          val here = 3 * table.vertices(previous(corner))
-          val there = 3 * table.vertices(previous(twin))
+          val opposite = 3 * table.vertices(previous(corner))
+          val twinOpposite = 3 * table.vertices(previous(twin))
           loop(3): axis =>
-            refined(at + axis) = (points(from + axis) + points(to + axis)) * 3 / 8 +
-              (points(here + axis) + points(there + axis)) / 8
+            refined(offset + axis) = (points(from + axis) + points(to + axis)) * 3 / 8 +
+              (points(opposite + axis) + points(twinOpposite + axis)) / 8
     refined
 
   /** Smoothed positions of all vertices of `table`, at the start of an array of `size` numbers.
@@ -114,8 +115,8 @@ object LoopSubdivision:
         var sum = 0.0
         if inside then loop(count)(i => sum += points(3 * ring(i) + axis))
         else sum = points(3 * ring(0) + axis) + points(3 * ring(-count - 1) + axis)
-        val own = 1 - w * (if inside then count else 2)
-        result(3 * vertex + axis) = own * points(3 * vertex + axis) + w * sum
+        val ownWeight = 1 - w * (if inside then count else 2)
+        result(3 * vertex + axis) = ownWeight * points(3 * vertex + axis) + w * sum
     result
 
   /** Face f becomes the faces 4f + k at its corners k and 4f + 3 in the middle:
@@ -132,26 +133,26 @@ object LoopSubdivision:
     val twins = new Array[Int](4 * odd.length)
     val start = new Array[Int](odd.end)
     loop(odd.length): corner =>
-      val behind = previous(corner)
+      val previousCorner = previous(corner)
       val middle = child(corner, 3)
-      val own = child(corner, corner % 3)
-      val ahead = turned(own, corner, next(corner))
-      val back = turned(own, corner, behind)
-      vertices(own) = table.vertices(corner)
-      vertices(ahead) = odd(corner)
-      vertices(back) = odd(behind)
+      val outer = child(corner, corner % 3)
+      val outerNext = turned(outer, corner, next(corner))
+      val outerPrevious = turned(outer, corner, previousCorner)
+      vertices(outer) = table.vertices(corner)
+      vertices(outerNext) = odd(corner)
+      vertices(outerPrevious) = odd(previousCorner)
       vertices(middle) = odd(corner)
       val twin = table.twins(corner)
-      val twinBehind = table.twins(behind)
-      twins(own) = if twin < 0 then -1
+      val twinBehind = table.twins(previousCorner)
+      twins(outer) = if twin < 0 then -1
       else
-        val there = next(twin) // the same vertex, in the neighbour
-        turned(child(there, there % 3), there, twin)
-      twins(back) = if twinBehind < 0 then -1 else child(twinBehind, twinBehind % 3)
-      val inner = turned(middle, corner, behind)
-      twins(ahead) = inner
-      twins(inner) = ahead
-      if table.start(table.vertices(corner)) == corner then start(table.vertices(corner)) = own
+        val twinCorner = next(twin) // the same vertex, in the neighbour
+        turned(child(twinCorner, twinCorner % 3), twinCorner, twin)
+      twins(outerPrevious) = if twinBehind < 0 then -1 else child(twinBehind, twinBehind % 3)
+      val inner = turned(middle, corner, previousCorner)
+      twins(outerNext) = inner
+      twins(inner) = outerNext
+      if table.start(table.vertices(corner)) == corner then start(table.vertices(corner)) = outer
       if odd.isLast(corner) then start(odd(corner)) = middle
     CornerTable(vertices, twins, start, table.crowded)
 
@@ -223,9 +224,9 @@ private[shapes] object LoopNormals:
     val s, t = new Array[Double](3)
     var longest = 0.0
     loop(table.vertexCount): vertex =>
-      val found = table.ring(vertex, ring)
-      val inside = found > 0
-      val count = Math.abs(found)
+      val signedCount = table.ring(vertex, ring)
+      val inside = signedCount > 0
+      val count = Math.abs(signedCount)
       java.util.Arrays.fill(s, 0)
       java.util.Arrays.fill(t, 0)
       loop(count): i =>
@@ -294,10 +295,10 @@ private[shapes] object MeshInput:
   def withoutUnused(indices: Array[Int], vertexCount: Int): (Array[Int], Array[Int]) =
     val uses = new Array[Boolean](vertexCount)
     indices.foreach(i => uses(i) = true)
-    val used = (0 until vertexCount).filter(i => uses(i)).toArray
+    val oldIndices = (0 until vertexCount).filter(i => uses(i)).toArray
     val renumbered = new Array[Int](vertexCount)
-    loop(used.length)(i => renumbered(used(i)) = i)
-    (indices.map(i => renumbered(i)), used)
+    loop(oldIndices.length)(i => renumbered(oldIndices(i)) = i)
+    (indices.map(i => renumbered(i)), oldIndices)
 
 /** An invalid mesh. The message names faces and vertices, counted from 0 in input order; the scene
   * reader adds the location.

@@ -41,12 +41,13 @@ final class KnotVector(val count: Int, val order: Int, val knots: Array[Double])
   private def raise(lower: Array[Double], span: Int, p: Int, t: Double): Array[Double] =
     Array.tabulate(p + 1): j =>
       val i = span - p + j
-      val up = if j > 0 then lower(j - 1) * ratio(t - knots(i), knots(i + p) - knots(i)) else 0.0
-      val down =
+      val rising =
+        if j > 0 then lower(j - 1) * ratio(t - knots(i), knots(i + p) - knots(i)) else 0.0
+      val falling =
         if j < p then
           lower(j) * ratio(knots(i + p + 1) - t, knots(i + p + 1) - knots(i + 1))
         else 0.0
-      up + down
+      rising + falling
 
   private def ratio(a: Double, b: Double): Double = if b == 0 then 0.0 else a / b
 

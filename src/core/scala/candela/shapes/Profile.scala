@@ -101,10 +101,10 @@ object Profile:
     val dz = p2.z - z
     val z2 = p2.z.toDouble * p2.z
     val s2 = p2.x.toDouble * p2.x + p2.y.toDouble * p2.y
-    val other = Seq(2, 4)
+    val secondPoint = Seq(2, 4)
       .map(k => (square(z + k * dz), square(x + k * dx) + square(y + k * dy)))
       .find((zz, _) => Math.abs(zz - z2) > 1e-6 * z2)
-    for (zz, ss) <- other if dz != 0 yield
+    for (zz, ss) <- secondPoint if dz != 0 yield
       val g2 = (ss - s2) / (zz - z2)
       val g0 = s2 - g2 * z2
       Profile(

@@ -95,12 +95,12 @@ final class Quadric(
         y -= k * y
         z += k * s
       steps -= 1
-    put(x, y, z, at)
+    setPoint(x, y, z, at)
     val slope = leaning(x, y, z)
     val gradient = Vec3(x.toFloat, y.toFloat, -slope.toFloat)
     // An apex points up, as the gradient is zero there
-    val up = if gradient.isZero then Vec3.Z else gradient
-    at.geometricNormal = objectToWorld.normal(up).normalized * outside
+    val objectNormal = if gradient.isZero then Vec3.Z else gradient
+    at.geometricNormal = objectToWorld.normal(objectNormal).normalized * outside
     at.u = Math.min(1.0, profile.angle(x, y, z) / phiMax).toFloat
     at.v = Math.max(0.0, Math.min(1.0, profile.v(z))).toFloat
     at.frame.set(Frame.along(
@@ -132,14 +132,14 @@ final class Quadric(
     val inverse = 1f / (uu * vv - uv * uv)
     val bendU = (alongU * (f * uv - e * vv) + alongV * (e * uv - f * uu)) * inverse
     val bendV = (alongU * (-f * vv) + alongV * (f * uv)) * inverse
-    put(alongU, alongV, n, bendU, bendV, at)
+    setDerivatives(alongU, alongV, n, bendU, bendV, at)
 
   /** Sets the derivatives from object space.
     *
     * @param n            unit normal on the side of ∂p/∂u × ∂p/∂v
     * @param bendU, bendV its derivatives
     */
-  private def put(
+  private def setDerivatives(
       alongU: Vec3,
       alongV: Vec3,
       n: Vec3,
@@ -179,11 +179,11 @@ final class Quadric(
     val dpdv = objectToWorld.vector(alongV)
     at.setPartials(dpdu, dpdv, turned(alongU), turned(bend))
     // pbrt's are of the unit normal in object space, on the side of ∂p/∂u × ∂p/∂v
-    val own = Vec3(x.toFloat, y.toFloat, -slope.toFloat)
-    if !own.isZero then
+    val objectNormal = Vec3(x.toFloat, y.toFloat, -slope.toFloat)
+    if !objectNormal.isZero then
       val upwards = if profile.vSpan < 0 then -1f else 1f
-      at.bendU = objectToWorld.normal(ShadingPoint.turn(own, alongU)) * upwards
-      at.bendV = objectToWorld.normal(ShadingPoint.turn(own, bend)) * upwards
+      at.bendU = objectToWorld.normal(ShadingPoint.turn(objectNormal, alongU)) * upwards
+      at.bendV = objectToWorld.normal(ShadingPoint.turn(objectNormal, bend)) * upwards
 
   def normals: (Vec3, Float) = (Vec3.Z, -1f)
 

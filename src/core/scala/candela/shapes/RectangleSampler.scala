@@ -43,7 +43,7 @@ final class RectangleSampler(
       angle = out.rectangle.set(x0, x0 + width, y0, y0 + height, alongZ(from))
       if SurfaceSampler.isByAngle(angle) then
         out.rectangle.sample(u1, u2)
-        place((out.rectangle.x - x0) / width, (out.rectangle.y - y0) / height, out)
+        setPoint((out.rectangle.x - x0) / width, (out.rectangle.y - y0) / height, out)
         out.pdf = (1 / angle).toFloat
     if !SurfaceSampler.isByAngle(angle) then
       sampleArea(u1, u2, out)
@@ -59,13 +59,13 @@ final class RectangleSampler(
     else SurfaceSampler.perSolidAngle(1f / area, from, p, normal)
 
   def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
-    place(u1, u2, out)
+    setPoint(u1, u2, out)
     out.pdf = 1f / area
 
   def areaPdf(p: Vec3): Float = 1f / area
 
-  def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
-    first.meets(ray, hit, at) || second.meets(ray, hit, at)
+  def intersectSurface(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
+    first.intersectSurface(ray, hit, at) || second.intersectSurface(ray, hit, at)
 
   private def isLarge(from: Vec3): Boolean = area > Large * (center - from).lengthSquared
 
@@ -78,7 +78,7 @@ final class RectangleSampler(
       (a.z.toDouble - from.z) * axis.z
 
   /** Bilinear between the corners, so that the point keeps to the triangles despite rounding. */
-  private def place(s: Double, t: Double, out: SurfaceSample): Unit =
+  private def setPoint(s: Double, t: Double, out: SurfaceSample): Unit =
     val wa = (1 - s) * (1 - t)
     val wb = s * (1 - t)
     val wc = s * t

@@ -22,8 +22,8 @@ private[shapes] final class RevolutionSampling(
   private val rings = Distribution1D(Array.tabulate(Rings): i =>
     Gauss.map(x => gradientLength((i + x) / Rings)).sum.toFloat)
 
-  private def gradientLength(part: Double): Double =
-    val z = profile.zMin + part * span
+  private def gradientLength(fraction: Double): Double =
+    val z = profile.zMin + fraction * span
     val radius2 = profile.radius2(z)
     val s = profile.slope(z)
     if radius2 > 0 then Math.sqrt(radius2 + s * s) else 0.0
@@ -52,19 +52,19 @@ private[shapes] final class RevolutionSampling(
 
   /** `out.n` is the gradient's direction, `out.pdf` is per world area. */
   def sample(u1: Float, u2: Float, out: SurfaceSample): Unit =
-    val part = rings.sample(u1)
+    val fraction = rings.sample(u1)
     // In Double up to the world point: `pError` covers its rounding only
-    val z = profile.zMin + part * span
+    val z = profile.zMin + fraction * span
     val r = Math.sqrt(Math.max(0.0, profile.radius2(z)))
     val phi = profile.seam(z) + u2.toDouble * phiMax
     val x = r * Math.cos(phi)
     val y = r * Math.sin(phi)
-    out.p = SurfaceOfRevolution.place(objectToWorld.m, x, y, z)
+    out.p = SurfaceOfRevolution.mapPoint(objectToWorld.m, x, y, z)
     out.pError = TriangleSoup.roundingError(out.p)
     out.n = objectToWorld
       .normal(Vec3(x.toFloat, y.toFloat, -profile.slope(z).toFloat))
       .normalized
-    out.pdf = density(rings.pdf(part), x, y, z)
+    out.pdf = density(rings.pdf(fraction), x, y, z)
 
   /** Pdf per world area with which `sample` returns the point p. */
   def perArea(p: Vec3): Float =
@@ -72,8 +72,8 @@ private[shapes] final class RevolutionSampling(
     val x = m(0) * p.x + m(1) * p.y + m(2) * p.z + m(3)
     val y = m(4) * p.x + m(5) * p.y + m(6) * p.z + m(7)
     val z = m(8) * p.x + m(9) * p.y + m(10) * p.z + m(11)
-    val part = Math.max(0.0, Math.min(1.0, (z - profile.zMin) / span))
-    density(rings.pdf(part.toFloat), x, y, z)
+    val fraction = Math.max(0.0, Math.min(1.0, (z - profile.zMin) / span))
+    density(rings.pdf(fraction.toFloat), x, y, z)
 
   private def density(perPart: Float, x: Double, y: Double, z: Double): Float =
     (perPart / (span * phiMax * stretch(x, y, z))).toFloat

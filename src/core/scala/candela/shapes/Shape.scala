@@ -66,7 +66,7 @@ abstract class Shape extends SurfaceSampler, ShapeGroup:
     surface(ray, hit, at)
   final def shape(number: Int): Shape = this
 
-  final def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
+  final def intersectSurface(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
     val isMet = intersect(ray, hit)
     if isMet then surface(ray, hit, at)
     isMet
@@ -95,7 +95,7 @@ abstract class SurfaceSampler:
   def areaPdf(p: Vec3): Float
 
   /** Whether the ray hits the surface in (0, `ray.tMax`); `at` then receives the geometry. */
-  def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean
+  def intersectSurface(ray: Ray, hit: Hit, at: ShadingPoint): Boolean
 
 /** A sampled point on a surface; mutable, one per worker. Its vectors are stored in place. */
 final class SurfaceSample:

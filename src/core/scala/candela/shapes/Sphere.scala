@@ -73,7 +73,7 @@ final class Sphere private[shapes] (
     val x = px * scale
     val y = py * scale
     val z = pz * scale
-    put(x, y, z, at)
+    setPoint(x, y, z, at)
     val outward = map.normal(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
     at.geometricNormal = if reversed then -outward else outward
     at.u = (phi(x, y) / phiMax).toFloat
@@ -133,7 +133,7 @@ final class Sphere private[shapes] (
     val angle = u2.toDouble * phiMax
     val x = r * Math.cos(angle)
     val y = r * Math.sin(angle)
-    put(x, y, z, out)
+    setPoint(x, y, z, out)
     val n = map.normal(Vec3(x.toFloat, y.toFloat, z.toFloat))
     // dA(world) = |det M| · |M⁻ᵀ n| dA(object) for the unit normal n
     val stretch = Math.abs(map.determinant).toFloat * n.length / radius

@@ -30,10 +30,10 @@ private[candela] final class SphereForm(
     i == 16
 
   private def isSame(t: Transform, i: Int): Boolean =
-    same(t.m(i), map.m(i)) && same(t.inverseM(i), map.inverseM(i))
+    isIdentical(t.m(i), map.m(i)) && isIdentical(t.inverseM(i), map.inverseM(i))
 
   /** To the bit, so that no result depends on what a sphere shares. */
-  private def same(a: Double, b: Double): Boolean =
+  private def isIdentical(a: Double, b: Double): Boolean =
     java.lang.Double.doubleToRawLongBits(a) == java.lang.Double.doubleToRawLongBits(b)
 
 /** Spheres of the same numbers, each with a transform of its own. Parameters as of [[Sphere]]. */
@@ -42,9 +42,9 @@ final class Spheres(radius: Float, zMin: Float, zMax: Float, phiMax: Float):
 
   /** The sphere with this transform; it shares what it can with the one before. */
   def apply(objectToWorld: Transform, reversed: Boolean): Sphere =
-    val known = last
+    val cached = last
     val form =
-      if known != null && known.reversed == reversed && known.fits(objectToWorld) then known
+      if cached != null && cached.reversed == reversed && cached.fits(objectToWorld) then cached
       else SphereForm(objectToWorld, radius, zMin, zMax, phiMax, reversed)
     last = form
     new Sphere(form, objectToWorld)

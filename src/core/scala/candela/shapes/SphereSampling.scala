@@ -42,8 +42,8 @@ object SphereSampling:
     val toSample = (distance2 - radius2) / (distance * cosTheta + halfChord)
     val sinAlpha = (toSample * Math.sqrt(sin2Theta) / radius).toFloat
     val cosAlpha = ((distance - toSample * cosTheta) / radius).toFloat
-    val frame = Frame.around((from - center).normalized)
-    val n = frame.toWorld(Warp.around(cosAlpha, sinAlpha, u2))
+    val frame = Frame.fromZ((from - center).normalized)
+    val n = frame.toWorld(Warp.spherical(cosAlpha, sinAlpha, u2))
     out.n = n
     out.p = center + n * radius
     // centre + r·n: one product and one sum, each rounded; the terms may exceed the result

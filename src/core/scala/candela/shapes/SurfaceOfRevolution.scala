@@ -74,21 +74,21 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, like: Transform) ex
   /** Compared as it is stored: of two at one distance, neither is closer. */
   protected final def isWithin(ray: Ray, t: Double): Boolean = t > 0.0 && t.toFloat < ray.tMax
 
-  /** Distance of the hit that shortened a ray to `t`, recomputed in Double; `t` itself if `found`
+  /** Distance of the hit that shortened a ray to `t`, recomputed in Double; `t` itself if `exact`
     * is another hit, as behind an alpha cutout.
     */
-  protected final def refined(found: Double, t: Float): Double =
-    if Math.abs(found - t) <= 1e-6 * t then found else t.toDouble
+  protected final def refined(exact: Double, t: Float): Double =
+    if Math.abs(exact - t) <= 1e-6 * t then exact else t.toDouble
 
   /** Sets the point from object space, with its error bound in world space. */
-  protected final def put(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
+  protected final def setPoint(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
     at.p = placed(x, y, z)
     at.pError = TriangleSoup.roundingError(at.p) + doubleError
 
   private def placed(x: Double, y: Double, z: Double): Vec3 =
-    SurfaceOfRevolution.place(toWorld, worldX, worldY, worldZ, x, y, z)
+    SurfaceOfRevolution.mapPoint(toWorld, worldX, worldY, worldZ, x, y, z)
 
-  protected final def put(x: Double, y: Double, z: Double, out: SurfaceSample): Unit =
+  protected final def setPoint(x: Double, y: Double, z: Double, out: SurfaceSample): Unit =
     out.p = placed(x, y, z)
     out.pError = TriangleSoup.roundingError(out.p) + doubleError
 
@@ -122,11 +122,11 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, like: Transform) ex
     Bounds3(world.min - pad, world.max + pad)
 
 object SurfaceOfRevolution:
-  private[shapes] def place(m: IArray[Double], x: Double, y: Double, z: Double): Vec3 =
-    place(m, m(3), m(7), m(11), x, y, z)
+  private[shapes] def mapPoint(m: IArray[Double], x: Double, y: Double, z: Double): Vec3 =
+    mapPoint(m, m(3), m(7), m(11), x, y, z)
 
   /** By an affine map with another translation. */
-  private def place(
+  private def mapPoint(
       m: IArray[Double],
       shiftX: Double,
       shiftY: Double,

@@ -41,8 +41,8 @@ private[shapes] object TrianglePartials:
     val isDegenerate = Math.abs(determinant) < Degenerate
     val n = mesh.normals
     if isDegenerate then
-      val any = Frame.around(at.geometricNormal)
-      at.setPartials(any.s, any.t, Vec3.Zero, Vec3.Zero)
+      val frame = Frame.fromZ(at.geometricNormal)
+      at.setPartials(frame.s, frame.t, Vec3.Zero, Vec3.Zero)
     else
       val inverse = 1f / determinant
       at.dpdu = (e1 * v2 - e2 * v1) * inverse
@@ -72,10 +72,10 @@ private[shapes] object TrianglePartials:
         at.tangentU = along.s * length
         at.tangentV = along.t * length
     else
-      val own = bumps.toObject.vector(at.dpdu)
+      val objectU = bumps.toObject.vector(at.dpdu)
       val n = bumps.toObject.normal(ns).normalized
-      val along = Frame.along(n, own)
-      val scale = if bumps.turned then -1f else (n cross own).length
+      val along = Frame.along(n, objectU)
+      val scale = if bumps.turned then -1f else (n cross objectU).length
       at.tangentU = bumps.within.vector(along.s * scale)
       at.tangentV = bumps.within.vector(along.t * scale)
     at.placesTangents = bumps.placed

@@ -24,12 +24,12 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int, isInverted: Boole
   /** Outward unit normal, as [[TriangleSoup.surface]] orients it at the centroid; or its opposite.
     */
   val normal: Vec3 =
-    val at = candela.geometry.ShadingPoint()
+    val centroid = candela.geometry.ShadingPoint()
     val hit = candela.geometry.Hit()
     hit.u = 1.0 / 3
     hit.v = 1.0 / 3
-    soup.surface(triangle, hit, at)
-    if isInverted then -at.geometricNormal else at.geometricNormal
+    soup.surface(triangle, hit, centroid)
+    if isInverted then -centroid.geometricNormal else centroid.geometricNormal
 
   def vertices: Seq[Vec3] = Seq(p0, p1, p2)
   val bounds: Bounds3 = Bounds3.of(vertices)
@@ -38,7 +38,7 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int, isInverted: Boole
     val angle = out.triangle.set(from, p0, p1, p2)
     out.n = normal
     if SurfaceSampler.isByAngle(angle) then
-      place(from, out.triangle.sample(u1, u2), out)
+      setPoint(from, out.triangle.sample(u1, u2), out)
       out.pdf = (1 / angle).toFloat
     else
       placeByArea(u1, u2, out)
@@ -60,7 +60,7 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int, isInverted: Boole
 
   private lazy val corners = Array(p0.x, p0.y, p0.z, p1.x, p1.y, p1.z, p2.x, p2.y, p2.z)
 
-  def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
+  def intersectSurface(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
     val isMet = TriangleTest.intersect(corners, 0, ray, hit)
     if isMet then soup.surface(triangle, hit, at)
     isMet
@@ -68,7 +68,7 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int, isInverted: Boole
   /** Intersects the ray from `from` in direction `w` with the triangle, as barycentric weights that
     * keep the point on it despite rounding.
     */
-  private def place(from: Vec3, w: Vec3, out: SurfaceSample): Unit =
+  private def setPoint(from: Vec3, w: Vec3, out: SurfaceSample): Unit =
     val e1x = p1.x.toDouble - p0.x
     val e1y = p1.y.toDouble - p0.y
     val e1z = p1.z.toDouble - p0.z

@@ -63,12 +63,12 @@ final class TriangleSoup(
   private val marks = if meshes.length < 2 then Array.emptyIntArray else marked
 
   private def marked: Array[Int] =
-    val all = new Array[Int]((count + TriangleSoup.Marked - 1) / TriangleSoup.Marked)
+    val result = new Array[Int]((count + TriangleSoup.Marked - 1) / TriangleSoup.Marked)
     var mesh = 0
-    loop(all.length): i =>
+    loop(result.length): i =>
       while i * TriangleSoup.Marked >= ends(mesh) do mesh += 1
-      all(i) = mesh
-    all
+      result(i) = mesh
+    result
 
   def meshOf(triangle: Int): Int =
     if marks.length == 0 then 0
@@ -96,7 +96,7 @@ final class TriangleSoup(
     val i2 = indices(3 * triangle + 2)
     val b1 = hit.u.toFloat
     val b2 = hit.v.toFloat
-    place(3 * i0, 3 * i1, 3 * i2, hit.u, hit.v, at)
+    setPoint(3 * i0, 3 * i1, 3 * i2, hit.u, hit.v, at)
     facet(3 * i0, 3 * i1, 3 * i2, if mesh.flipped then -1.0 else 1.0, at)
     val n = at.frame.n
     n.set(at.geometricNormal)
@@ -128,7 +128,7 @@ final class TriangleSoup(
 
   /** Computes the point and its error bound; `j0` … are the offsets of the corners' coordinates.
     */
-  private def place(j0: Int, j1: Int, j2: Int, b1: Double, b2: Double, at: ShadingPoint): Unit =
+  private def setPoint(j0: Int, j1: Int, j2: Int, b1: Double, b2: Double, at: ShadingPoint): Unit =
     val b0 = 1.0 - b1 - b2
     val p = positions
     val x = (b0 * p(j0) + b1 * p(j1) + b2 * p(j2)).toFloat
@@ -165,7 +165,7 @@ final class TriangleSoup(
         if isFirst then Vec3(bx.toFloat, by.toFloat, bz.toFloat)
         else Vec3(ax.toFloat, ay.toFloat, az.toFloat)
       at.geometricNormal =
-        if along.isZero then Vec3.Z else Frame.around(along.normalized).s * side.toFloat
+        if along.isZero then Vec3.Z else Frame.fromZ(along.normalized).s * side.toFloat
 
   /** Sets `n` to the interpolated normal, normalised; leaves it unchanged if the corners' normals
     * cancel.

@@ -24,9 +24,9 @@ final class VertexIndices private (
 
   /** Some of them, in memory of their own. */
   def slice(from: Int, until: Int): Array[Int] =
-    val some = new Array[Int](until - from)
-    loop(some.length)(i => some(i) = apply(from + i))
-    some
+    val copied = new Array[Int](until - from)
+    loop(copied.length)(i => copied(i) = apply(from + i))
+    copied
 
   /** The size of all arrays. */
   private[shapes] def bytes: Long = 4L * bases.length + 2L * lows.length + 4L * ints.length
@@ -53,31 +53,31 @@ object VertexIndices:
     private val lows = new Array[Char](count)
     private val far = IntBuffer()
     private val group = new Array[Int](Group)
-    private var at = 0
+    private var position = 0
 
     def add(indices: Array[Int], by: Int): Unit =
       loop(indices.length): i =>
-        group(at & Group - 1) = indices(i) + by
-        at += 1
-        if (at & Group - 1) == 0 then pack(Group)
+        group(position & Group - 1) = indices(i) + by
+        position += 1
+        if (position & Group - 1) == 0 then pack(Group)
 
     /** Packs the latest `n` indices, a group. */
     private def pack(n: Int): Unit =
-      val first = at - n
-      var least, most = group(0)
+      val first = position - n
+      var lowest, highest = group(0)
       loop(n): k =>
-        least = Math.min(least, group(k))
-        most = Math.max(most, group(k))
-      if most - least <= Char.MaxValue then
-        bases(first >> Bits) = least
-        loop(n)(k => lows(first + k) = (group(k) - least).toChar)
+        lowest = Math.min(lowest, group(k))
+        highest = Math.max(highest, group(k))
+      if highest - lowest <= Char.MaxValue then
+        bases(first >> Bits) = lowest
+        loop(n)(k => lows(first + k) = (group(k) - lowest).toChar)
       else
         bases(first >> Bits) = ~far.length
         loop(n)(k => far += group(k))
 
     def result(): VertexIndices =
-      if (at & Group - 1) != 0 then pack(at & Group - 1)
-      val packed = new VertexIndices(count, bases, lows, far.take())
+      if (position & Group - 1) != 0 then pack(position & Group - 1)
+      val packed = new VertexIndices(count, bases, lows, far.drain())
       // Where most groups are far, their places among the near ones would be wasted
       if packed.bytes <= 4L * count then packed
       else

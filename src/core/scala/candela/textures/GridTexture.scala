@@ -16,18 +16,18 @@ enum GridPlace:
     case OfUv => Vec3(at.u, 1f - at.v, 0.5f)
 
 /** Numbers of a grid over the unit cube; outside, those of its border. */
-final class FloatGridTexture(place: GridPlace, grid: TrilinearGrid) extends FloatTexture:
+final class FloatGridTexture(mapping: GridPlace, grid: TrilinearGrid) extends FloatTexture:
   def apply(at: ShadingPoint): Float =
-    val p = place(at)
+    val p = mapping(at)
     grid(p.x, p.y, p.z)
 
 /** Likewise, colours. */
 final class RgbGridTexture(
-    place: GridPlace,
+    mapping: GridPlace,
     red: TrilinearGrid,
     green: TrilinearGrid,
     blue: TrilinearGrid
 ) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb =
-    val p = place(at)
+    val p = mapping(at)
     Rgb(red(p.x, p.y, p.z), green(p.x, p.y, p.z), blue(p.x, p.y, p.z))

@@ -129,7 +129,7 @@ object Pyramid:
     else
       val strips = Math.min(height, 4 * parallel.threads)
       def start(k: Int) = (height.toLong * k / strips).toInt
-      parallel.each(strips)(k => strip(start(k), start(k + 1)))
+      parallel.forEach(strips)(k => strip(start(k), start(k + 1)))
 
   /** Number of texels below which threads do not pay. */
   private val SmallPicture = 1L << 14

@@ -35,13 +35,13 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
   /** The image of this key.
     *
     * @param key  tells its content, and what is made of it
-    * @param make makes its texels
+    * @param load makes its texels
     * @throws ImageError if the image can't be read
     */
-  def image(key: String, wrap: Wrap)(make: () => MadeTexels): CachedImage =
+  def image(key: String, wrap: Wrap)(load: () => MadeTexels): CachedImage =
     val cached = images.get(key)
     if cached != null then cached
-    else synchronized(images.computeIfAbsent(key, _ => stored(key, wrap, make)))
+    else synchronized(images.computeIfAbsent(key, _ => stored(key, wrap, load)))
 
   /** Levels that an image file has itself. */
   def levels(file: FileLevels, wrap: Wrap): Array[MipLevel] =
@@ -49,13 +49,13 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
     val image = TiledImage(memory, file.source, TileLayout.count(layouts))
     layouts.map(TiledLevel(image, _, wrap, file.channels, Array.emptyFloatArray)).toArray
 
-  private def stored(key: String, wrap: Wrap, make: () => MadeTexels): CachedImage =
+  private def stored(key: String, wrap: Wrap, load: () => MadeTexels): CachedImage =
     openFile(key) match
-      case Some(file) => tiled(file, wrap, make)
+      case Some(file) => tiled(file, wrap, load)
       case None =>
-        val texels = make()
+        val texels = load()
         written(key, texels, wrap) match
-          case Some(file) => tiled(file, wrap, make)
+          case Some(file) => tiled(file, wrap, load)
           case None =>
             val (levels, facts) = texels.inMemory(wrap, pool)
             CachedImage(levels.map(MipLevel(_, wrap)), texels.encoding, facts)
@@ -65,14 +65,14 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
   /** The file of this key, if there is one and it is undamaged as far as its header tells. */
   private def openFile(key: String): Option[TileFile] =
     val opened = TileFile.open(folder.open(fileOf(key)), key)
-    if opened.nonEmpty then folder.use(fileOf(key))
+    if opened.nonEmpty then folder.touch(fileOf(key))
     opened
 
-  private def written(key: String, made: MadeTexels, wrap: Wrap): Option[TileFile] =
-    if obstacle.nonEmpty || !TileCache.fits(made) then None
+  private def written(key: String, texels: MadeTexels, wrap: Wrap): Option[TileFile] =
+    if obstacle.nonEmpty || !TileCache.fits(texels) then None
     else
       try
-        folder.write(fileOf(key))(TileFile.write(_, key, made, wrap))
+        folder.write(fileOf(key))(TileFile.write(_, key, texels, wrap))
         openFile(key)
       catch
         case e: WriteError =>
@@ -82,11 +82,11 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
           obstacle = Some(s"can't write to `${folder.path}`: ${IoReason(e)}")
           None
 
-  private def tiled(file: TileFile, wrap: Wrap, make: () => MadeTexels): CachedImage =
+  private def tiled(file: TileFile, wrap: Wrap, load: () => MadeTexels): CachedImage =
     val header = file.header
     val meaning = header.meaning.toArray
     val noMeaning = Array.emptyFloatArray
-    val image = TiledImage(memory, MendedSource(file, wrap, make), header.count)
+    val image = TiledImage(memory, MendedSource(file, wrap, load), header.count)
     val levels = header.layouts.map: layout =>
       TiledLevel(
         image,
@@ -98,7 +98,7 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
     CachedImage(levels.toArray, header.encoding, header.facts)
 
   /** A file; if a tile of it is damaged, one that is made again, or memory. */
-  private final class MendedSource(file: TileFile, wrap: Wrap, make: () => MadeTexels)
+  private final class MendedSource(file: TileFile, wrap: Wrap, load: () => MadeTexels)
       extends TileSource:
     @volatile private var current = file
     @volatile private var packer: TilePacker | Null = null
@@ -112,7 +112,7 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
     private def mend(tile: Int, buffer: TileBuffer): Unit = synchronized:
       if packer == null && (!isMade || !current.read(tile, buffer)) then
         try
-          val texels = make()
+          val texels = load()
           val rewritten = if isMade then None else written(file.header.key, texels, wrap)
           isMade = true
           rewritten match
@@ -128,6 +128,6 @@ final class TileCache(memory: TileMemory, folder: CacheFolder, pool: Parallel = 
 private object TileCache:
 
   /** Whether texels have numbers: those of very narrow images have not. */
-  private def fits(made: MadeTexels): Boolean =
-    TileLayout.ofLevels(made.sizes, made.bands.channels).forall: layout =>
+  private def fits(texels: MadeTexels): Boolean =
+    TileLayout.ofLevels(texels.sizes, texels.bands.channels).forall: layout =>
       layout.count.toLong << (layout.across + layout.down) < Int.MaxValue

@@ -145,60 +145,60 @@ private[textures] object TileFile:
     sum.getValue.toInt
 
   /** @throws candela.image.ImageError if the image can't be read */
-  def write(channel: FileChannel, key: String, made: MadeTexels, wrap: Wrap): Unit =
-    val bands = made.bands
+  def write(channel: FileChannel, key: String, texels: MadeTexels, wrap: Wrap): Unit =
+    val bands = texels.bands
     val header = TileHeader(
       key,
-      made.encoding,
+      texels.encoding,
       TexelFacts(Vector.empty, None),
       bands.channels,
-      made.sizes,
+      texels.sizes,
       bands.meaning.toVector
     )
     // The facts are known at the end: there is room for as many colours as there may be
-    val room = encoded(header).length + made.colors.fold(0)(_.maxColors * 12)
-    val facts = TileWriter.write(channel, Start.toLong + room, header.layouts, made, wrap)
-    made.confirm()
+    val room = encoded(header).length + texels.colors.fold(0)(_.maxColors * 12)
+    val facts = TileWriter.write(channel, Start.toLong + room, header.layouts, texels, wrap)
+    texels.confirm()
     val headerBytes = encoded(header.copy(facts = facts)).padTo(room, 0.toByte)
-    val out = ByteBuffer.allocate(Start + room)
-    out.put(Mark).putInt(room).putInt(checksum(headerBytes)).put(headerBytes).flip()
-    while out.hasRemaining do channel.write(out, out.position()): Unit
+    val buffer = ByteBuffer.allocate(Start + room)
+    buffer.put(Mark).putInt(room).putInt(checksum(headerBytes)).put(headerBytes).flip()
+    while buffer.hasRemaining do channel.write(buffer, buffer.position()): Unit
 
   private def encoded(h: TileHeader): Array[Byte] =
     val bytes = ByteArrayOutputStream()
-    val out = DataOutputStream(bytes)
-    out.writeUTF(h.key)
-    out.writeFloat(h.encoding match
+    val output = DataOutputStream(bytes)
+    output.writeUTF(h.key)
+    output.writeFloat(h.encoding match
       case Encoding.Linear => 0f
       case Encoding.Srgb => -1f
       case Encoding.Gamma(exponent) => exponent)
-    out.writeInt(h.channels)
-    out.writeInt(h.sizes.size)
+    output.writeInt(h.channels)
+    output.writeInt(h.sizes.size)
     for (width, height, isBytes) <- h.sizes do
-      out.writeInt(width)
-      out.writeInt(height)
-      out.writeBoolean(isBytes)
+      output.writeInt(width)
+      output.writeInt(height)
+      output.writeBoolean(isBytes)
     val odd = h.facts.odd.getOrElse(OddTexel(-1, -1, 0f))
-    out.writeInt(odd.x)
-    out.writeInt(odd.y)
-    out.writeFloat(odd.value)
-    out.writeInt(h.facts.colors.size)
-    for c <- h.facts.colors; x <- Vector(c.r, c.g, c.b) do out.writeFloat(x)
-    out.writeInt(h.meaning.size)
-    h.meaning.foreach(out.writeFloat)
+    output.writeInt(odd.x)
+    output.writeInt(odd.y)
+    output.writeFloat(odd.value)
+    output.writeInt(h.facts.colors.size)
+    for c <- h.facts.colors; x <- Vector(c.r, c.g, c.b) do output.writeFloat(x)
+    output.writeInt(h.meaning.size)
+    h.meaning.foreach(output.writeFloat)
     bytes.toByteArray
 
   private def decoded(bytes: Array[Byte]): TileHeader =
-    val in = DataInputStream(ByteArrayInputStream(bytes))
-    def vector[A](element: => A): Vector[A] = Vector.fill(in.readInt())(element)
-    val key = in.readUTF()
-    val encoding = in.readFloat() match
+    val input = DataInputStream(ByteArrayInputStream(bytes))
+    def vector[A](element: => A): Vector[A] = Vector.fill(input.readInt())(element)
+    val key = input.readUTF()
+    val encoding = input.readFloat() match
       case 0f => Encoding.Linear
       case -1f => Encoding.Srgb
       case exponent => Encoding.Gamma(exponent)
-    val channels = in.readInt()
-    val sizes = vector((in.readInt(), in.readInt(), in.readBoolean()))
-    val odd = Some(OddTexel(in.readInt(), in.readInt(), in.readFloat())).filter(_.x >= 0)
-    val colors = vector(Rgb(in.readFloat(), in.readFloat(), in.readFloat()))
+    val channels = input.readInt()
+    val sizes = vector((input.readInt(), input.readInt(), input.readBoolean()))
+    val odd = Some(OddTexel(input.readInt(), input.readInt(), input.readFloat())).filter(_.x >= 0)
+    val colors = vector(Rgb(input.readFloat(), input.readFloat(), input.readFloat()))
     val facts = TexelFacts(colors, odd)
-    TileHeader(key, encoding, facts, channels, sizes, vector(in.readFloat()))
+    TileHeader(key, encoding, facts, channels, sizes, vector(input.readFloat()))

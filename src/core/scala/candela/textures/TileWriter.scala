@@ -13,10 +13,10 @@ import candela.color.Rgb
 private[textures] final class TileWriter private (
     out: TileStream,
     layouts: Vector[TileLayout],
-    made: MadeTexels,
+    texels: MadeTexels,
     wrap: Wrap
 ):
-  private val channels = made.bands.channels
+  private val channels = texels.bands.channels
 
   // The smallest levels are in one tile together
   private val tail = layouts.last.start
@@ -31,10 +31,10 @@ private[textures] final class TileWriter private (
     var odd: Option[OddTexel] = None
     val bands =
       // Rows across whose edges the octahedral square goes on are far away
-      if isEnlarged && wrap == Wrap.OctahedralSphere then TexelBands.of(made.bands.inMemory)
-      else made.bands
+      if isEnlarged && wrap == Wrap.OctahedralSphere then TexelBands.of(texels.bands.inMemory)
+      else texels.bands
     def note(y: Int, band: Texels): Unit =
-      for c <- made.colors do candidates ++= c.candidates(band, y.toLong * band.width)
+      for c <- texels.colors do candidates ++= c.candidates(band, y.toLong * band.width)
       if odd.isEmpty then odd = band.odd.map(o => o.copy(y = y + o.y))
     if isEnlarged then enlarge(bands, note)
     else
@@ -43,10 +43,10 @@ private[textures] final class TileWriter private (
         store(y, band)
     if isShared.last then out.append(tail, shared)
     out.end()
-    TexelFacts(made.colors.fold(Vector.empty)(_.choose(candidates.result())), odd)
+    TexelFacts(texels.colors.fold(Vector.empty)(_.choose(candidates.result())), odd)
 
   private def isEnlarged =
-    layouts(0).width != made.bands.width || layouts(0).height != made.bands.height
+    layouts(0).width != texels.bands.width || layouts(0).height != texels.bands.height
 
   /** A band as it is, and its reductions. */
   private def store(first: Int, band: Texels): Unit =
@@ -59,7 +59,7 @@ private[textures] final class TileWriter private (
 
   private def enlarge(bands: TexelBands, note: (Int, Texels) => Unit): Unit =
     val enlargement =
-      Enlargement(bands.width, bands.height, channels, wrap, made.maxValue.getOrElse(1f))
+      Enlargement(bands.width, bands.height, channels, wrap, texels.maxValue.getOrElse(1f))
     val window = EdgedRows(bands.height, enlargement.length)
     val source = new Array[Float](bands.width * channels)
     def widen(first: Int, band: Texels, y: Int): Unit =
@@ -130,11 +130,11 @@ private[textures] object TileWriter:
       channel: FileChannel,
       start: Long,
       layouts: Vector[TileLayout],
-      made: MadeTexels,
+      texels: MadeTexels,
       wrap: Wrap
   ): TexelFacts =
     TileStream.Buffers.lend: buffer =>
-      new TileWriter(TileStream(channel, start, buffer), layouts, made, wrap).write()
+      new TileWriter(TileStream(channel, start, buffer), layouts, texels, wrap).write()
 
 /** Writes tiles with their checksums, several at once where they follow each other. */
 private final class TileStream(channel: FileChannel, start: Long, buffer: ByteBuffer):

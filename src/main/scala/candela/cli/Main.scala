@@ -59,17 +59,17 @@ object Main:
         answer.problems.foreach(ProblemText.print(_, terminal.err, terminal.hasColor))
         answer.code
       case Right(options) => TimeLimit.during(options, terminal)(execute(_, _, loader))
-    terminal.failure.fold(code)(lost(_, terminal).worseOf(code)).number
+    terminal.failure.fold(code)(reportFailure(_, terminal).worseOf(code)).number
 
   private def execute(options: Options, terminal: Terminal, loader: SceneLoader): ExitCode =
-    val known = CommandTable.of(options.command).names
+    val optionNames = CommandTable.of(options.command).names
     val report = Report(
       terminal.err,
       options.quiet,
       options.verbose,
-      known.contains("keep-going"),
+      optionNames.contains("keep-going"),
       terminal.hasColor,
-      known.contains("verbose")
+      optionNames.contains("verbose")
     )
     if !options.quiet then
       for note <- options.notes do
@@ -102,7 +102,7 @@ object Main:
         CommandService.of(options.command).run(options, terminal, report)
 
   /** Nobody wants to hear of output that its reader did not want, such as `head`. */
-  private def lost(failure: IOException, terminal: Terminal): ExitCode =
+  private def reportFailure(failure: IOException, terminal: Terminal): ExitCode =
     if failure.getMessage != "Broken pipe" then
       val message = s"can't write to standard output: ${failure.getMessage}"
       ProblemText.print(Problem.general(Code.Unwritable, message), terminal.err, terminal.hasColor)

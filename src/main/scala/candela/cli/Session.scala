@@ -31,7 +31,7 @@ import scala.util.Try
 private[cli] final class Session(input: InputStream, terminal: Terminal, loader: SceneLoader):
   import Session.*
 
-  private val keep = Keep()
+  private val cache = Keep()
 
   /** Requests in their order; None: no more will come. */
   private val queue = LinkedBlockingQueue[Option[(Request, Asked)]]()
@@ -66,7 +66,7 @@ private[cli] final class Session(input: InputStream, terminal: Terminal, loader:
         environment = terminal.environment,
         follow = Some(p => send("progress" -> fields(p)))
       )
-      val code = Main.run(words, inner, Scenes(scene, keep, loader))
+      val code = Main.run(words, inner, Scenes(scene, cache, loader))
       inner.out.flush()
       inner.err.flush()
       send("code" -> code, "output" -> output.toString(UTF_8))
@@ -83,15 +83,15 @@ private[cli] object Session:
 
   /** The numbers of a rendering's progress that are known. */
   private def fields(p: Progress): ujson.Value =
-    val known = Vector(
-      Some("done" -> p.part),
+    val figures = Vector(
+      Some("done" -> p.fraction),
       Some("seconds" -> p.seconds),
       Some("samples" -> p.done.toDouble),
       p.outlook.rate.map("samplesPerSecond" -> _),
       p.outlook.error.map("error" -> _),
       p.outlook.left.map("secondsLeft" -> _)
     ).flatten.filter((_, x) => java.lang.Double.isFinite(x))
-    val numbers = known.map((name, x) => name -> (ujson.Num(x): ujson.Value))
+    val numbers = figures.map((name, x) => name -> (ujson.Num(x): ujson.Value))
     ujson.Obj.from(numbers :+ ("line" -> ujson.Str(ProgressLine.line(p))))
 
   private enum Request:

@@ -12,7 +12,7 @@ private[cli] object TimeLimit:
 
   /** Runs a command within the time of its options. */
   def during(options: Options, terminal: Terminal)(run: (Options, Terminal) => ExitCode): ExitCode =
-    options.control.limits.all.get(Limit.Time) match
+    options.control.limits.effective.get(Limit.Time) match
       case None => run(options, terminal)
       case Some(limit) =>
         val nanos = limit * 1_000_000

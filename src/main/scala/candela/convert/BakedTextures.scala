@@ -29,7 +29,7 @@ object BakedTextures:
       val file = baking.write(s.run.files): (x, y) =>
         change(value(window.u(x), window.v(y), Vec3.Zero))
       val repeats = if window.repeats then "" else ", which repeats where u or v is not in [0, 1]"
-      s.warn(Code.Inexpressible, s.declaration.at, s"$reason; using ${baking.describe}$repeats")
+      s.warn(Code.Inexpressible, s.declaration.pos, s"$reason; using ${baking.describe}$repeats")
       s.run.define(texture.copy(
         name = s"${texture.name} baked",
         texture = window.image(texture.texture, file, s.run.pass.to),
@@ -59,7 +59,7 @@ final class Window(su: Float, sv: Float, du: Float, dv: Float, val repeats: Bool
 
   /** The image texture that shows it. */
   def image(source: Declaration, file: String, dialect: Dialect): Declaration =
-    val position = source.at
+    val position = source.pos
     def word(name: String, value: String) =
       Param(ParamType.String, name, position, position, strings = Vector(value))
     // v2 reads images upside down

@@ -35,8 +35,8 @@ object BilinearPatches:
     ).flatten :+ Param(
       ParamType.Integer,
       "indices",
-      d.at,
-      d.at,
+      d.pos,
+      d.pos,
       ints = steps.zip(bases).toArray.flatMap((count, base) => squares(count).map(_ + base))
     )
     val remaining = d.params.filterNot(x => Set("P", "N", "uv", "indices")(x.name))
@@ -55,7 +55,7 @@ object BilinearPatches:
     Math.abs(n dot (c(3) - c(0))) <= 1e-5f * n.length * (c(3) - c(0)).length
 
   private def list(d: Declaration, t: ParamType, name: String, values: Array[Float]) =
-    Option.when(values.nonEmpty)(Param(t, name, d.at, d.at, floats = values))
+    Option.when(values.nonEmpty)(Param(t, name, d.pos, d.pos, floats = values))
 
   private def squares(count: Int): Seq[Int] =
     for

@@ -21,7 +21,7 @@ private[convert] object ColorRanges:
     else
       val range = if upperBound == 1f then "in [0, 1]" else "not negative"
       val message = s"a colour is ${written(p.floats)}; pbrt-v4 takes only colours $range: clamping"
-      val _ = warn(Problem.warning(Code.ShiftedColors, p.at, message))
+      val _ = warn(Problem.warning(Code.ShiftedColors, p.pos, message))
       p.withFloats(values)
 
   private def written(values: Array[Float]) = values.map(NumberText.of).mkString(" ")

@@ -14,10 +14,10 @@ object ColorSpaces:
     val warnings = mutable.LinkedHashSet.empty[Problem]
     for film <- scene.film if film.colorSpace != Srgb do
       val message = s"v3 writes sRGB images, not ${film.colorSpace}"
-      warnings += Problem.warning(Code.ShiftedColors, film.at, message)
+      warnings += Problem.warning(Code.ShiftedColors, film.pos, message)
     val converted = Declarations.map(scene): d =>
       val params = d.params.map(p =>
-        inSrgb(p, d, m => warnings += Problem.warning(Code.ShiftedColors, p.at, m))
+        inSrgb(p, d, m => warnings += Problem.warning(Code.ShiftedColors, p.pos, m))
       )
       d.copy(params = params ++ defaultWhite(d), colorSpace = Srgb)
     Converted(converted, warnings.toVector)
@@ -32,7 +32,7 @@ object ColorSpaces:
     val isGiven = !Lights(d.category) || Vector(name, "filename").exists(d.param(_).isDefined)
     val white = ColorSpace.named(d.colorSpace).getOrElse(ColorSpace.Srgb).light(Rgb.White)
     Option.when(!isGiven && (white - Rgb.White).largest > 1e-3f):
-      Param(ParamType.Rgb, name, d.at, d.at, floats = Array(white.r, white.g, white.b))
+      Param(ParamType.Rgb, name, d.pos, d.pos, floats = Array(white.r, white.g, white.b))
 
   /** Lights by their intensity. */
   private val Intensities = Set("point", "spot")

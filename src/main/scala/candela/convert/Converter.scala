@@ -94,7 +94,7 @@ object Converter:
       val count = if oneSided.size == 1 then "1 shape is" else s"${oneSided.size} shapes are"
       Problem.warning(
         Code.Inexpressible,
-        first.shape.at,
+        first.shape.pos,
         s"$count black from behind in Mitsuba, but not in pbrt"
       )
     Converted(
@@ -116,7 +116,7 @@ object Converter:
       if Set(from, to) == Set(Dialect.V3, Dialect.V4) && !ThroughMedia(integrator)
     yield Problem.warning(
       Code.Inexpressible,
-      first.shape.at,
+      first.shape.pos,
       s"\"$integrator\" finds other light behind surfaces without a BSDF in pbrt-v3 than in " +
         "pbrt-v4; \"volpath\" finds the same"
     )

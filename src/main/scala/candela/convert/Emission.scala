@@ -17,7 +17,7 @@ object Emission:
       val factor = s.take("scale").flatMap(s.colorOf).getOrElse(Rgb.White)
       if !Values.isGray(factor) then
         val c = base.fold(Rgb.White)(p => rgb(p, s))
-        s.addRgb(color, positive(c * factor))(using base.fold(s.declaration.at)(_.at))
+        s.addRgb(color, positive(c * factor))(using base.fold(s.declaration.pos)(_.pos))
       else
         val intensity = base.fold(1f)(p => add(p, color, s))
         if intensity * factor.r != 1f then s.addFloat("scale", intensity * factor.r)
@@ -35,7 +35,7 @@ object Emission:
           case Some(f) => factor *= f
           case None => s.warn(
               Code.Inexpressible,
-              p.at,
+              p.pos,
               s"`$power` has no computable equivalent in v3; ignored"
             )
       for p <- base do
@@ -44,10 +44,10 @@ object Emission:
           case ParamType.Blackbody =>
             val y = luminance(Spectrum.blackbody(p.floats(0)))
             val floats = Array(p.floats(0), 1f / y)
-            s.addRaw(Param(ParamType.Blackbody, color, p.at, p.valuesAt, floats = floats))
+            s.addRaw(Param(ParamType.Blackbody, color, p.pos, p.valuesAt, floats = floats))
           case _ =>
             for x <- s.run.values.spectrum(p, s.declaration) do
-              s.addRgb(color, positive(Colorimetry.unitLuminance(x)))(using p.at)
+              s.addRgb(color, positive(Colorimetry.unitLuminance(x)))(using p.pos)
       if factor != 1f then s.addRgb("scale", Rgb.gray(factor))
 
   private def rgb(p: Param, s: Statement): Rgb = s.colorOf(p).getOrElse(Rgb.White)
@@ -55,17 +55,23 @@ object Emission:
   /** Adds the colour in v4's form; returns the factor removed from it. */
   private def add(p: Param, name: String, s: Statement): Float = p.paramType match
     case ParamType.Blackbody =>
-      s.addRaw(Param(ParamType.Blackbody, name, p.at, p.valuesAt, floats = p.floats.take(1)))
+      s.addRaw(Param(ParamType.Blackbody, name, p.pos, p.valuesAt, floats = p.floats.take(1)))
       (if p.floats.length > 1 then p.floats(1) else 1f) * luminance(Spectrum.blackbody(p.floats(0)))
     case ParamType.Spectrum =>
       // In v3's RGB, because v3 multiplies colours, not spectra.
-      s.addRgb(name, positive(rgb(p, s)))(using p.at)
+      s.addRgb(name, positive(rgb(p, s)))(using p.pos)
       1f
     case ParamType.Rgb =>
-      s.addRaw(Param(ParamType.Rgb, name, p.at, p.valuesAt, floats = p.floats.map(Math.max(_, 0f))))
+      s.addRaw(Param(
+        ParamType.Rgb,
+        name,
+        p.pos,
+        p.valuesAt,
+        floats = p.floats.map(Math.max(_, 0f))
+      ))
       1f
     case _ =>
-      s.addRgb(name, positive(rgb(p, s)))(using p.at)
+      s.addRgb(name, positive(rgb(p, s)))(using p.pos)
       1f
 
   private def luminance(x: Spectrum): Float = Colorimetry.rgb(x, White.EqualEnergy).luminance

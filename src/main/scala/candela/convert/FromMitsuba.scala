@@ -112,10 +112,10 @@ object FromMitsuba:
       val alpha = Math.sqrt(1 / (2.0 * exponent + 1)).toFloat
       val axes = Vector("uroughness", "vroughness")
       val roughness =
-        if d.name == "ward" then axes.flatMap(d.param) else axes.map(Param.float(_, d.at, alpha))
+        if d.name == "ward" then axes.flatMap(d.param) else axes.map(Param.float(_, d.pos, alpha))
       val colors = Vector("reflectance" -> "Kd", "specular" -> "Ks")
         .flatMap((from, to) => d.param(from).map(_.renamed(to)))
-      val params = colors ++ roughness :+ Param.bool("remaproughness", d.at, false)
+      val params = colors ++ roughness :+ Param.bool("remaproughness", d.pos, false)
       d.copy(name = "substrate", params = params ++ bumpsOf(d), dialect = Some(Dialect.V3))
 
     /** A standard deviation in degrees. */
@@ -125,7 +125,7 @@ object FromMitsuba:
       val sigma = d.param("roughness").toVector.map: p =>
         val renamed = p.renamed("sigma")
         if p.paramType == ParamType.Texture then times(renamed, "float", degrees)
-        else Param.float("sigma", p.at, p.floats.head * degrees)
+        else Param.float("sigma", p.pos, p.floats.head * degrees)
       val color = d.param("reflectance").toVector.map(_.renamed("Kd"))
       d.copy(name = "matte", params = color ++ sigma ++ bumpsOf(d), dialect = Some(Dialect.V3))
 
@@ -135,7 +135,7 @@ object FromMitsuba:
           for p <- d.param("mapname") do
             problems += Problem.warning(
               Code.Inexpressible,
-              p.at,
+              p.pos,
               "pbrt's environment maps begin and end half a row beyond Mitsuba's, whose first " +
                 "and last rows are centred on the poles; using pbrt's"
             )
@@ -152,14 +152,14 @@ object FromMitsuba:
     /** pbrt's field of view is the shorter side's, not the width's. */
     private def projection(d: Declaration): Declaration =
       warn(d, "pbrt's projected images darken towards the edges, Mitsuba's do not")
-      val sizes = d.param("mapname").flatMap(p => d.folder.find(p.strings.head, Some(p.valuesAt)))
+      val sizes = d.param("mapname").flatMap(p => d.folder.locate(p.strings.head, Some(p.valuesAt)))
         .flatMap(file => Try(ImageFiles.load(file)).toOption).map(i => i.width.toFloat / i.height)
       val narrow = Math.max(1f, sizes.getOrElse(1f))
       d.copy(params = d.params.map: p =>
         if p.name != "fov" then p
         else
           val halfWidth = Math.tan(Math.toRadians(p.floats.head) / 2) / narrow
-          Param.float("fov", p.at, Math.toDegrees(2 * Math.atan(halfWidth)).toFloat))
+          Param.float("fov", p.pos, Math.toDegrees(2 * Math.atan(halfWidth)).toFloat))
 
     private def texture(d: Declaration): Declaration =
       d.name match
@@ -178,7 +178,7 @@ object FromMitsuba:
         (channel.sum / channel.size).toFloat
       warn(d, "pbrt has no grid or mesh attribute textures; using their mean")
       val kind = if channels == 3 then ParamType.Rgb else ParamType.Float
-      d.copy(name = "constant", params = Vector(Param.floats(kind, "value", d.at, mean)))
+      d.copy(name = "constant", params = Vector(Param.floats(kind, "value", d.pos, mean)))
 
     private def plainTexture(d: Declaration): Declaration =
       val upright = withoutParams(d, "the texture is left upright", "uskew", "vskew")
@@ -187,10 +187,10 @@ object FromMitsuba:
         else
           problems += Problem.warning(
             Code.Inexpressible,
-            p.at,
+            p.pos,
             "pbrt has no wrap `mirror`; using `repeat`"
           )
-          Param.string("wrap", p.at, "repeat"))
+          Param.string("wrap", p.pos, "repeat"))
 
     /** u and v of disks differ. */
     def disks(scene: SceneDescription): Unit =
@@ -210,10 +210,10 @@ object FromMitsuba:
       do
         problems += Problem.warning(
           Code.Inexpressible,
-          depth.at,
+          depth.pos,
           "what thin glass transmits is a scattering event in pbrt, not in Mitsuba's volumetric " +
             s"path tracing; `maxdepth` ${depth.ints.head} may be too low",
-          Some(s"the thin glass is at ${thinDielectric.at}")
+          Some(s"the thin glass is at ${thinDielectric.pos}")
         )
 
     /** pbrt has one distribution. Half the microfacets of a Beckmann distribution, or of a smooth
@@ -224,14 +224,14 @@ object FromMitsuba:
       d.param("distribution").filterNot(_.strings.contains("ggx")).fold(remaining): p =>
         problems += Problem.warning(
           Code.Inexpressible,
-          p.at,
+          p.pos,
           s"pbrt has no distribution `${p.strings.head}`; using `ggx` of equal median slope"
         )
         val factor = Math.sqrt(Math.log(2)).toFloat
         remaining.copy(params = remaining.params.map: q =>
           if q.name != "uroughness" && q.name != "vroughness" then q
           else if q.paramType == ParamType.Texture then times(q, "float", factor)
-          else Param.float(q.name, q.at, q.floats.head * factor))
+          else Param.float(q.name, q.pos, q.floats.head * factor))
 
     /** A texture times a number. */
     private def times(p: Param, valueType: String, factor: Float): Param =
@@ -239,15 +239,15 @@ object FromMitsuba:
       val scale = Declaration(
         "Texture",
         "scale",
-        Vector(Param.texture("tex", p.at, p.strings.head), Param.float("scale", p.at, factor)),
-        p.at,
+        Vector(Param.texture("tex", p.pos, p.strings.head), Param.float("scale", p.pos, factor)),
+        p.pos,
         SceneFolder.Nowhere
       )
       added.getOrElseUpdate(
         name,
         TextureDescription(name, valueType, scale, GraphicsState.Identity)
       )
-      Param.texture(p.name, p.at, name)
+      Param.texture(p.name, p.pos, name)
 
     private def color(d: Declaration, name: String): Option[Rgb] =
       d.param(name).map(_.floats).collect { case Array(r, g, b) => Rgb(r, g, b) }
@@ -276,7 +276,7 @@ object FromMitsuba:
               times(name, "spectrum", ConductorAlbedo.normal(albedo.luminance))
           problems += Problem.warning(
             Code.Inexpressible,
-            tint.at,
+            tint.pos,
             "pbrt has no `scale` of \"conductor\"; using a `reflectance` of equal albedo"
           )
           val remaining = withoutParams(d, "", "scale", "eta", "k")
@@ -326,7 +326,7 @@ object FromMitsuba:
                     "saturated colours become darker"
               )
               p
-      val layer = Seq(Param.float("thickness", d.at, 0f), Param.int("maxdepth", d.at, 100))
+      val layer = Seq(Param.float("thickness", d.pos, 0f), Param.int("maxdepth", d.pos, 100))
       d.copy(name = "coateddiffuse", params = params ++ layer)
 
     /** pbrt's surfaces look the same from behind. */
@@ -356,7 +356,7 @@ object FromMitsuba:
       d.copy(name = "diffusetransmission", params = colors ++ bumpsOf(d))
 
     private def rgb(name: String, c: Rgb, d: Declaration): Param =
-      Param.floats(ParamType.Rgb, name, d.at, Array(c.r, c.g, c.b))
+      Param.floats(ParamType.Rgb, name, d.pos, Array(c.r, c.g, c.b))
 
   private val BumpParams = Set("displacement", "bumpmap", "normalmap")
 

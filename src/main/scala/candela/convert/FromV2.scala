@@ -45,7 +45,7 @@ object FromV2:
         if widths.exists(_ != tau) then
           s.warn(
             Code.Inexpressible,
-            s.declaration.at,
+            s.declaration.pos,
             "a sinc filter has another width in v3, unless its `tau` equals " +
               "its width"
           )
@@ -160,7 +160,7 @@ object FromV2:
         if isDisk then
           "v2 shows this disk bright on its unlit side, v3 on the other"
         else "v2 shows this reflected area light bright outside, v3 inside"
-      run.warn(Code.Inexpressible, s.shape.at, text)
+      run.warn(Code.Inexpressible, s.shape.pos, text)
     Vector(s)
 
   private val accelerators = Table("Accelerator")(

@@ -16,11 +16,11 @@ object FromV2Surfaces:
   private val substrateRoughness =
     Step("`uroughness`, `vroughness`", "alpha of equal lobe width"): s =>
       for name <- Seq("uroughness", "vroughness") if !s.contains(name) do
-        s.put(number(s, name, 0.1f))
+        s.addSource(number(s, name, 0.1f))
       RoughnessSteps.v2(0.1f).run(s)
 
   private def number(s: Statement, name: String, value: Float) =
-    val position = s.declaration.at
+    val position = s.declaration.pos
     candela.scenefile.Param(
       candela.scenefile.ParamType.Float, name, position, position, floats = Array(value)
     )
@@ -83,7 +83,7 @@ object FromV2Surfaces:
           if scale != 1f then s.addFloat("scale", scale)
         else
           val decoded = (x: Float, _: Int) => pow(Math.max(scale * x, 0f), power)
-          s.addString("filename", RewrittenImages.baked(s, file)(decoded))(using file.at)
+          s.addString("filename", RewrittenImages.baked(s, file)(decoded))(using file.pos)
 
   /** v2 flips only TGA files vertically. */
   private val upright =
@@ -95,7 +95,7 @@ object FromV2Surfaces:
           val (scale, delta) = (s.takeNumber("vscale", 1f), s.takeNumber("vdelta", 0f))
           s.addFloat("vscale", -scale)
           s.addFloat("vdelta", 1f - delta)
-        else s.warn(Code.Inexpressible, s.declaration.at, "v3 flips this image vertically")
+        else s.warn(Code.Inexpressible, s.declaration.pos, "v3 flips this image vertically")
 
   private def common = Seq(
     Rule("constant" -> "constant")(retain("value")),

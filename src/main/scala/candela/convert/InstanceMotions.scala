@@ -15,7 +15,7 @@ private[convert] object InstanceMotions:
   /** After the conversion to v4. */
   def toV4(scene: SceneDescription): SceneDescription =
     scene.instances.find(_.instanceToWorld.isAnimated).fold(scene): first =>
-      val space = Param.string(RenderingOrigin.Option, first.at, RenderingOrigin.World)
+      val space = Param.string(RenderingOrigin.Option, first.pos, RenderingOrigin.World)
       scene.copy(options = scene.options :+ space)
 
   private def moves(scene: SceneDescription) = scene.instances.exists(_.instanceToWorld.isAnimated)

@@ -16,17 +16,17 @@ object Meshes:
     case _ => false
 
   private def plyHasNormals(shape: Declaration, p: Param): Boolean =
-    shape.folder.find(p.strings.head, Some(p.valuesAt))
+    shape.folder.locate(p.strings.head, Some(p.valuesAt))
       .exists(header(_).exists(_.matches("property \\S+ nx")))
 
   private def header(file: InputFile): Vector[String] =
     try
       val raw = file.stream()
-      val in = if file.toString.endsWith(".gz") then java.util.zip.GZIPInputStream(raw) else raw
+      val input = if file.toString.endsWith(".gz") then java.util.zip.GZIPInputStream(raw) else raw
       try
-        val text = String(in.readNBytes(LongestHeader), "ISO-8859-1")
+        val text = String(input.readNBytes(LongestHeader), "ISO-8859-1")
         text.linesIterator.map(_.trim).takeWhile(_ != "end_header").toVector
-      finally in.close()
+      finally input.close()
     catch case _: IOException => Vector.empty
 
   private val LongestHeader = 16384

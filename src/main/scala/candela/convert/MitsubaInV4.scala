@@ -25,7 +25,7 @@ private[convert] object MitsubaInV4:
     def clear(shapes: Vector[ShapeDescription]) = shapes.map: s =>
       if !isNull(s) then s
       else
-        val position = s.shape.at
+        val position = s.shape.pos
         val index = Vector(Param.float("eta", position, 1f))
         val glass = Declaration("Material", "dielectric", index, position, s.shape.folder)
         s.copy(material = MaterialRef.Inline(glass))
@@ -34,9 +34,9 @@ private[convert] object MitsubaInV4:
       (shape, point) =>
         Problem.warning(
           Code.Inexpressible,
-          shape.shape.at,
+          shape.shape.pos,
           "pbrt-v4 has no transparent area lights; this one casts shadows",
-          Some(s"of the light at ${point.light.at}")
+          Some(s"of the light at ${point.light.pos}")
         )
     Converted(
       scene.copy(
@@ -65,7 +65,7 @@ private[convert] object MitsubaInV4:
           case Left(reason) =>
             problems += Problem.warning(
               Code.UnconvertedImage,
-              p.at,
+              p.pos,
               s"can't read the image, leaving it unchanged: $reason"
             )
             p.strings.head

@@ -12,8 +12,8 @@ private[convert] abstract class MitsubaLosses:
 
   def warnings: Vector[Problem] = problems.toVector
 
-  protected def warn(d: Declaration, message: String): Unit = warn(d.at, message)
-  protected def warn(p: Param, message: String): Unit = warn(p.at, message)
+  protected def warn(d: Declaration, message: String): Unit = warn(d.pos, message)
+  protected def warn(p: Param, message: String): Unit = warn(p.pos, message)
   protected def warn(at: SourcePos, message: String): Unit =
     problems += Problem.warning(Code.Inexpressible, at, message)
 
@@ -44,7 +44,7 @@ private[convert] abstract class MitsubaLosses:
       for
         kinds <- d.param("phases")
         phase <- PhaseFunction.of(kinds.strings, numbers("phaseweights"), numbers("phasevalues"))
-      yield (kinds.strings, Param.float("g", d.at, phase.asymmetry))
+      yield (kinds.strings, Param.float("g", d.pos, phase.asymmetry))
     summed.fold(d): (kinds, g) =>
       val named = withoutParams(
         d,

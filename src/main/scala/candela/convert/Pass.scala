@@ -51,7 +51,7 @@ final class PassRun(
   def textureToWorld: AnimatedTransform = currentTransform
 
   val values: Values =
-    Values(pass.from, pass.to, (p, message) => warn(Code.Inexpressible, p.at, message))
+    Values(pass.from, pass.to, (p, message) => warn(Code.Inexpressible, p.pos, message))
 
   def warn(code: Code, at: SourcePos, message: String): Unit =
     problems += Problem.warning(code, at, message)
@@ -84,7 +84,7 @@ final class PassRun(
         val dialect = pass.to.toString.toLowerCase
         val instead = table.fallback.fold("ignored")(f => s"using \"$f\"")
         val source = s"${category.toLowerCase} \"${d.name}\""
-        warn(Code.Inexpressible, d.at, s"$dialect has no equivalent of $source; $instead")
+        warn(Code.Inexpressible, d.pos, s"$dialect has no equivalent of $source; $instead")
         table.fallback.map(name => d.copy(name = name, params = Vector.empty))
 
   /** Converts a declaration that several shapes may share, once. */
@@ -100,7 +100,7 @@ final class PassRun(
       val dependencies = added.toVector
       added.clear()
       dependencies ++ declaration.map(d => placed.copy(texture = d))
-    val defaultPosition = scene.camera.fold(SourcePos.Nowhere)(_.at)
+    val defaultPosition = scene.camera.fold(SourcePos.Nowhere)(_.pos)
     def option(category: String, stated: Option[Declaration]): Option[Declaration] =
       val implicitDefault = pass.defaults.get(category).map: name =>
         Declaration(category, name, Vector.empty, defaultPosition, SceneFolder.Nowhere)
@@ -129,7 +129,7 @@ final class PassRun(
       volumeIntegrator = scene.volumeIntegrator.flatMap(convert(_, "VolumeIntegrator")),
       options = scene.options.filter: o =>
         if pass.to != Dialect.V4 then
-          warn(Code.Inexpressible, o.at, s"Option \"${o.name}\" exists only in v4; ignored")
+          warn(Code.Inexpressible, o.pos, s"Option \"${o.name}\" exists only in v4; ignored")
         pass.to == Dialect.V4
       ,
       namedMaterials = materials,
@@ -164,4 +164,4 @@ object PassRun:
     t.copy(textureToWorld = GraphicsState.inverse(t.textureToWorld))
 
   def unplaced(t: TextureDescription): TextureDescription =
-    t.copy(textureToWorld = GraphicsState.still(Transform.Identity))
+    t.copy(textureToWorld = GraphicsState.constant(Transform.Identity))

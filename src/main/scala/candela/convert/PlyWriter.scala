@@ -23,7 +23,7 @@ object PlyWriter:
 
   private def moved(d: Declaration, files: SideFiles): Declaration =
     val name = files.add("mesh", "ply", bytes(d))
-    val position = d.param("P").get.at
+    val position = d.param("P").get.pos
     val filename = Param(ParamType.String, "filename", position, position, strings = Vector(name))
     val remaining = d.params.filterNot(p => InFile(p.name))
     d.copy(name = "plymesh", params = filename +: remaining)
@@ -47,20 +47,20 @@ object PlyWriter:
       names.map(name => s"property ${kind(name)} $name") ++
       Vector(s"element face $faces", "property list uchar int vertex_indices", "end_header"))
       .map(_ + "\n").mkString.getBytes("US-ASCII")
-    val out =
+    val buffer =
       ByteBuffer.allocate(header.length + vertices * (4 * names.size + (if isFine then 12
                                                                         else 0)) + faces * 13)
-    out.order(ByteOrder.LITTLE_ENDIAN).put(header)
+    buffer.order(ByteOrder.LITTLE_ENDIAN).put(header)
     def number(x: Float): Unit =
-      val _ = out.putFloat(x)
+      val _ = buffer.putFloat(x)
     def index(i: Int): Unit =
-      val _ = out.putInt(i)
+      val _ = buffer.putInt(i)
     loop(vertices): i =>
-      if isFine then loop(3)(k => out.putDouble(d.param("P").get.number(3 * i + k)): Unit)
+      if isFine then loop(3)(k => buffer.putDouble(d.param("P").get.number(3 * i + k)): Unit)
       else loop(3)(k => number(p(3 * i + k)))
       if n.nonEmpty then loop(3)(k => number(n(3 * i + k)))
       if uv.nonEmpty then loop(2)(k => number(uv(2 * i + k)))
     loop(faces): i =>
-      val _ = out.put(3.toByte)
+      val _ = buffer.put(3.toByte)
       loop(3)(k => index(indices(3 * i + k)))
-    out.array
+    buffer.array

@@ -72,15 +72,15 @@ object RoughnessSteps:
       else if textured && remap then r
       else a
     for (name, p) <- stated do
-      if baked.contains(name) then s.addTexture(name, baked(name))(using p.at)
+      if baked.contains(name) then s.addTexture(name, baked(name))(using p.pos)
       else if isTexture(p, s) then
         if remap then
           s.warn(
             Code.Inexpressible,
-            p.at,
+            p.pos,
             s"texture of `$name` is unchanged, but maps differently in ${s.target}"
           )
         s.add(name, p)
-      else s.numberOf(p).foreach(r => s.addFloat(name, encoded(r))(using p.at))
+      else s.numberOf(p).foreach(r => s.addFloat(name, encoded(r))(using p.pos))
     if stated.isEmpty then s.addFloat("roughness", alpha(default))
     if !(textured && remap) then s.addBool("remaproughness", false)

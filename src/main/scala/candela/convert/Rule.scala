@@ -69,7 +69,7 @@ object Steps:
       for p <- s.take(name) if !isNeutral(p, s) do
         s.warn(
           Code.Inexpressible,
-          p.at,
+          p.pos,
           s"`$name` of \"${s.name}\" is not supported in ${s.target}; $instead"
         )
 

@@ -106,7 +106,7 @@ final class SceneText private (out: Writer, scene: SceneDescription):
 
   /** The declaration with its class as a parameter. */
   private def typed(d: Declaration): Declaration =
-    val kind = Param(ParamType.String, "type", d.at, d.at, strings = Vector(d.name))
+    val kind = Param(ParamType.String, "type", d.pos, d.pos, strings = Vector(d.name))
     d.copy(params = kind +: d.params)
 
   private def lights(): Unit =

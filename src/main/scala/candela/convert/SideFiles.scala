@@ -103,7 +103,7 @@ object RewrittenImages:
   def file(s: Statement, p: Param): InputFile = file(s.declaration.folder, p)
 
   private def file(folder: SceneFolder, p: Param): InputFile =
-    folder.find(p.strings.head, Some(p.valuesAt)).getOrElse:
+    folder.locate(p.strings.head, Some(p.valuesAt)).getOrElse:
       if SceneFolder.isName(p.strings.head) then
         throw ImageError(Code.NoSuchFile, s"${folder.path.resolve(name(p))}: there is no such file")
       else throw ImageError(Code.UnconvertedImage, "the name is not valid")
@@ -142,7 +142,7 @@ object RewrittenImages:
   private def written(s: Statement, p: Param)(change: Image => Image): String =
     val name = p.strings.head
     def failed(reason: String) =
-      s.warn(Code.UnconvertedImage, p.at, s"can't read the image, leaving it unchanged: $reason")
+      s.warn(Code.UnconvertedImage, p.pos, s"can't read the image, leaving it unchanged: $reason")
       name
     try
       val image = ImageFiles.load(file(s, p)).toImage

@@ -46,7 +46,7 @@ object SkyImages:
       case e: (ImageError | IesError) =>
         s.warn(
           Code.UnconvertedImage,
-          p.at,
+          p.pos,
           s"can't convert the image, ignoring it: ${e.getMessage}"
         )
         None

@@ -57,7 +57,7 @@ final class SolidBaking(
         val difference = s"pbrt-v3 colours the marble of \"$texture\" differently"
         warnings += Problem.warning(
           Code.Inexpressible,
-          s.shape.at,
+          s.shape.pos,
           if image.isDefined then s"$difference; using ${baking.describe} for this shape"
           else s"$difference, and it can't be baked: its points do not have distinct u and v"
         )
@@ -80,7 +80,7 @@ final class SolidBaking(
       if to == Dialect.V4 then
         warnings += Problem.warning(
           Code.Inexpressible,
-          texture.texture.at,
+          texture.texture.pos,
           "v4 clamps reflectances to 1, which the colours that pbrt-v3 extrapolates may exceed"
         )
       val name = Iterator.from(1).map(i => s"${texture.name} baked $i").find: n =>

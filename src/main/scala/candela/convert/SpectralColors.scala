@@ -32,11 +32,11 @@ private[convert] object SpectralColors:
       val percent = Math.round(difference.error * 100)
       Problem.warning(
         Code.ShiftedColors,
-        difference.surface.at,
+        difference.surface.pos,
         s"pbrt-v4 multiplies spectra, $from red, green and blue: this colour differs by up to " +
           s"$percent % of the brightest channel, and by more after several reflections",
-        Some(s"in the light of ${difference.light.at}").filter(_ =>
-          difference.light.at != difference.surface.at
+        Some(s"in the light of ${difference.light.pos}").filter(_ =>
+          difference.light.pos != difference.surface.pos
         )
       )
 
@@ -46,7 +46,7 @@ private[convert] object SpectralColors:
   /** The same for scenes of pbrt-v2 and v3, most of which are not meant to be exact. */
   val Plain = 0.02
 
-  private final class LocatedColor(val color: ColoredSpectrum, val at: SourcePos)
+  private final class LocatedColor(val color: ColoredSpectrum, val pos: SourcePos)
   private final class Difference(
       val error: Double,
       val surface: LocatedColor,
@@ -63,7 +63,7 @@ private[convert] object SpectralColors:
           surface <- surfaceColors.iterator
           light <- lights.valuesIterator ++ surfaceColors.iterator ++ Iterator(LocatedColor(
             White,
-            surface.at
+            surface.pos
           ))
         yield Difference(error(surface.color, light.color), surface, light)
       pairs.maxByOption(_.error)
@@ -95,13 +95,13 @@ private[convert] object SpectralColors:
         val values = s.values.lazyZip(a.values).map((x, y) => x / (x + y))
         val color =
           Rgb(scattered.r / extinction.r, scattered.g / extinction.g, scattered.b / extinction.b)
-        val _ = surfaces.getOrElseUpdate(color, LocatedColor(ColoredSpectrum(values, color), p.at))
+        val _ = surfaces.getOrElseUpdate(color, LocatedColor(ColoredSpectrum(values, color), p.pos))
 
     private def remember(into: mutable.LinkedHashMap[Rgb, LocatedColor], c: Rgb, p: Param): Unit =
       // Scenes have thousands of colours
       val rounded = c.map(x => Math.round(x * 50) / 50f)
       if rounded.isFinite && !Values.isGray(rounded) && into.size < MaxColors then
-        val _ = into.getOrElseUpdate(rounded, LocatedColor(spectrum(c, c.max <= 1f), p.at))
+        val _ = into.getOrElseUpdate(rounded, LocatedColor(spectrum(c, c.max <= 1f), p.pos))
 
   private val Reflecting = Set("reflectance", "transmittance", "color", "Kr", "Kt")
   private val MaxColors = 100
@@ -109,7 +109,7 @@ private[convert] object SpectralColors:
 
   /** In fractions of the brightest that components as large could be. */
   private def error(a: ColoredSpectrum, b: ColoredSpectrum): Double =
-    val spectral = ColorError.seen(a.values.lazyZip(b.values).map(_ * _))
+    val spectral = ColorError.srgb(a.values.lazyZip(b.values).map(_ * _))
     val color = a.components * b.components
     val deviation = color - Rgb(spectral(0).toFloat, spectral(1).toFloat, spectral(2).toFloat)
     deviation.largest / (a.components.max * b.components.max)
@@ -126,7 +126,7 @@ private[convert] object SpectralColors:
 
   /** Mean colour of an image. */
   private def mean(d: Declaration, p: Param): Option[Rgb] =
-    val file = d.folder.find(p.strings.head, Some(p.valuesAt))
+    val file = d.folder.locate(p.strings.head, Some(p.valuesAt))
     file.flatMap(f => Try(ImageFiles.load(f).toImage.linear.toRgb).toOption).map: image =>
       val sums = new Array[Double](3)
       loop(image.data.length)(i => sums(i % 3) += image.data(i))

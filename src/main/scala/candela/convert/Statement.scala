@@ -32,7 +32,7 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
   def take(name: String): Option[Param] = pending.remove(name)
 
   /** Adds a source parameter for later steps. */
-  def put(p: Param): Unit = pending(p.name) = p
+  def addSource(p: Param): Unit = pending(p.name) = p
 
   def hasAdded(t: ParamType): Boolean = added.exists(_.paramType == t)
 
@@ -47,17 +47,17 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
     val adapted = run.values.adapt(p, name, declaration)
     adapted.foreach(a => added += Values.renamed(a, name))
 
-  def addFloat(name: String, values: Float*)(using at: SourcePos = declaration.at): Unit =
+  def addFloat(name: String, values: Float*)(using at: SourcePos = declaration.pos): Unit =
     added += Param(ParamType.Float, name, at, at, floats = values.toArray)
-  def addInteger(name: String, values: Int*)(using at: SourcePos = declaration.at): Unit =
+  def addInteger(name: String, values: Int*)(using at: SourcePos = declaration.pos): Unit =
     added += Param(ParamType.Integer, name, at, at, ints = values.toArray)
-  def addBool(name: String, value: Boolean)(using at: SourcePos = declaration.at): Unit =
+  def addBool(name: String, value: Boolean)(using at: SourcePos = declaration.pos): Unit =
     added += Param(ParamType.Bool, name, at, at, bools = Vector(value))
-  def addString(name: String, values: String*)(using at: SourcePos = declaration.at): Unit =
+  def addString(name: String, values: String*)(using at: SourcePos = declaration.pos): Unit =
     added += Param(ParamType.String, name, at, at, strings = values.toVector)
-  def addRgb(name: String, c: Rgb)(using at: SourcePos = declaration.at): Unit =
+  def addRgb(name: String, c: Rgb)(using at: SourcePos = declaration.pos): Unit =
     added += Param(ParamType.Rgb, name, at, at, floats = Array(c.r, c.g, c.b))
-  def addTexture(name: String, texture: String)(using at: SourcePos = declaration.at): Unit =
+  def addTexture(name: String, texture: String)(using at: SourcePos = declaration.pos): Unit =
     added += Param(ParamType.Texture, name, at, at, strings = Vector(texture))
   def addRaw(p: Param): Unit = added += p
 
@@ -98,11 +98,11 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
     for note <- rule.note if targetName == rule.to && rule.differs(run.ends) do
       val source = s"${declaration.category} \"$name\""
       val message = s"$source is converted to \"$targetName\" in $target: $note"
-      warn(Code.Inexpressible, declaration.at, message)
+      warn(Code.Inexpressible, declaration.pos, message)
     for p <- pending.values if !p.isDefault do
-      warn(Code.UnknownParameter, p.at, s"unknown parameter `${p.name}` of \"$name\"; ignored")
-    val (implied, converted) = added.toVector.partition(_.at == declaration.at)
-    val ordered = converted.sortBy(p => (p.at.line, p.at.column)) ++ implied
+      warn(Code.UnknownParameter, p.pos, s"unknown parameter `${p.name}` of \"$name\"; ignored")
+    val (implied, converted) = added.toVector.partition(_.pos == declaration.pos)
+    val ordered = converted.sortBy(p => (p.pos.line, p.pos.column)) ++ implied
     // v2 and v3 have no `Attribute`
     val written = if run.pass.to == Dialect.V4 then ordered else ordered.map(_.asOwn)
     declaration.copy(name = targetName, params = written, colorSpace = "srgb")

@@ -19,7 +19,7 @@ private[convert] object SunskyLights:
         if !l.light.param("sunscale").exists(_.floats.contains(0f)) then
           problems += Problem.warning(
             Code.Inexpressible,
-            l.light.at,
+            l.light.pos,
             "the sun becomes an image, whose pixels blur its edge by 0.1 degrees"
           )
         inTwo(l, files)
@@ -44,15 +44,15 @@ private[convert] object SunskyLights:
       def light(name: String, params: Param*) =
         l.copy(light =
           Declaration(
-            "LightSource", name, params.toVector, d.at, d.folder.at(files.folder),
+            "LightSource", name, params.toVector, d.pos, d.folder.at(files.folder),
             dialect = Some(Dialect.V4)
           )
         )
       val map = Option.when(sky > 0f):
         val picture = SunAndSky.picture(model, toSun, Side, Side, EqualAreaMap, SamplesAcross)
         val file = files.add("sky", "exr", ImageFiles.exr(picture))
-        val scale = Option.when(sky != 1f)(Param.float("scale", d.at, sky))
-        light("infinite", Param.string("filename", d.at, file) +: scale.toSeq*)
+        val scale = Option.when(sky != 1f)(Param.float("scale", d.pos, sky))
+        light("infinite", Param.string("filename", d.pos, file) +: scale.toSeq*)
       val irradiance = numbers("sunirradiance") match
         case Some(Array(r, g, b)) => Rgb(r, g, b)
         case _ => model.sunIrradiance
@@ -62,8 +62,8 @@ private[convert] object SunskyLights:
         val file = files.add("sun", "exr", ImageFiles.exr(picture))
         light(
           "infinite",
-          Param.string("filename", d.at, file),
-          Param.float("scale", d.at, scale)
+          Param.string("filename", d.pos, file),
+          Param.float("scale", d.pos, scale)
         )
       map.toVector ++ disk
 

@@ -107,11 +107,11 @@ object Tessellation:
       indices: Array[Int]
   ): Declaration =
     def list(t: ParamType, name: String, values: Seq[Float]) =
-      Option.when(values.nonEmpty)(Param(t, name, d.at, d.at, floats = values.toArray))
+      Option.when(values.nonEmpty)(Param(t, name, d.pos, d.pos, floats = values.toArray))
     def flattened(vs: Seq[Vec3]) = vs.flatMap(v => Seq(v.x, v.y, v.z))
     val meshParams = Vector(
       list(ParamType.Point3, "P", flattened(points)),
       list(ParamType.Normal, "N", flattened(normals)),
       list(ParamType.Point2, "uv", uvs.flatMap((u, v) => Seq(u, v)))
-    ).flatten :+ Param(ParamType.Integer, "indices", d.at, d.at, ints = indices)
+    ).flatten :+ Param(ParamType.Integer, "indices", d.pos, d.pos, ints = indices)
     d.copy(name = "trianglemesh", params = meshParams ++ d.param("alpha"))

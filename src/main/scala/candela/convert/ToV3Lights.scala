@@ -33,7 +33,7 @@ object ToV3Lights:
         case None => plain.run(s)
         case Some(p) =>
           for name <- SkyImages.converted(p, s, toSquare = false, Rgb.White) do
-            s.addString("mapname", name)(using p.at)
+            s.addString("mapname", name)(using p.pos)
           scaled.run(s)
 
   private val goniometric: Step =
@@ -42,7 +42,7 @@ object ToV3Lights:
       for
         p <- s.take("filename")
         name <- SkyImages.converted(p, s, toSquare = false, Rgb.White)
-      do s.addString("mapname", name)(using p.at)
+      do s.addString("mapname", name)(using p.pos)
       light.run(s)
 
   private val projection: Step =
@@ -50,7 +50,7 @@ object ToV3Lights:
     Step("`filename`, `scale`, `fov`", "`mapname`, `scale`, `fov`"): s =>
       s.addFloat("fov", s.takeNumber("fov", 90f))
       for p <- s.take("filename") do
-        s.addString("mapname", RewrittenImages.slide(s, p, PictureLookup.Nearest))(using p.at)
+        s.addString("mapname", RewrittenImages.slide(s, p, PictureLookup.Nearest))(using p.pos)
       light.run(s)
 
   val table: Table = Table("LightSource")(
@@ -88,7 +88,7 @@ object ToV3Lights:
       yield
         val sides = if light.param("twosided").exists(_.bools.contains(true)) then 2f else 1f
         val scale = light.param("scale").flatMap(_.floats.headOption).getOrElse(1f)
-        val position = light.param("power").get.at
+        val position = light.param("power").get.pos
         val scaleParam = Param(
           ParamType.Float,
           "scale",

@@ -12,7 +12,7 @@ object ToV3Materials:
   private val bump = Step("`displacement`, `normalmap`", "`bumpmap`; `normalmap` is dropped"): s =>
     for p <- s.take("displacement") do s.add("bumpmap", p)
     for p <- s.take("normalmap") do
-      s.warn(Code.Inexpressible, p.at, "v3 does not support normal maps; ignored")
+      s.warn(Code.Inexpressible, p.pos, "v3 does not support normal maps; ignored")
 
   private def reflectance(default: Float): Seq[Step] = Seq(
     rename("reflectance" -> "Kd"),
@@ -27,7 +27,7 @@ object ToV3Materials:
         if spectrum.exists(_.values.distinct.length > 1) then
           s.warn(
             Code.Inexpressible,
-            p.at,
+            p.pos,
             "v3 does not support dispersion; using the index of refraction at 589 nm"
           )
         spectrum.map(_(589.3f))
@@ -57,12 +57,12 @@ object ToV3Materials:
         case Some(p) =>
           s.colorOf(p) match
             case Some(c) =>
-              s.addRgb("eta", Rgb.White)(using p.at)
-              s.addRgb("k", c.map(absorption))(using p.at)
+              s.addRgb("eta", Rgb.White)(using p.pos)
+              s.addRgb("k", c.map(absorption))(using p.pos)
             case None =>
               s.warn(
                 Code.Inexpressible,
-                p.at,
+                p.pos,
                 "metal can't have a `reflectance` texture in v3; using \"mirror\""
               )
               s.convertTo("mirror")
@@ -83,12 +83,12 @@ object ToV3Materials:
     Step(step.source, "`uroughness`, `vroughness`: alpha, not remapped"): s =>
       for p <- s.take("roughness") do
         for name <- Seq("uroughness", "vroughness") if !s.contains(name) do
-          s.put(Values.renamed(p, name))
-      if !s.contains("uroughness") then s.put(zero(s))
+          s.addSource(Values.renamed(p, name))
+      if !s.contains("uroughness") then s.addSource(zero(s))
       step.run(s)
 
   private def zero(s: Statement) =
-    Param(ParamType.Float, "uroughness", s.declaration.at, s.declaration.at, floats = Array(0f))
+    Param(ParamType.Float, "uroughness", s.declaration.pos, s.declaration.pos, floats = Array(0f))
 
   private val coats = Seq("thickness", "albedo", "g", "maxdepth", "nsamples")
 
@@ -115,7 +115,7 @@ object ToV3Materials:
           case Some(p) if s.colorOf(p).isEmpty => s.add(to, p)
           case p => s.addRgb(to, p.flatMap(s.colorOf).getOrElse(Rgb.gray(0.25f)) * scale)
       if scale != 1f && s.hasAdded(ParamType.Texture) then
-        s.warn(Code.Inexpressible, s.declaration.at, "`scale` does not apply to textures in v3")
+        s.warn(Code.Inexpressible, s.declaration.pos, "`scale` does not apply to textures in v3")
       s.addRgb("Kd", Rgb.White)
       s.addRgb("Ks", Rgb.Black)
 
@@ -126,9 +126,9 @@ object ToV3Materials:
         s.addString(key, name)
       for p <- s.take("amount") do
         s.numberOf(p) match
-          case Some(a) => s.addRgb("amount", Rgb.gray(a))(using p.at)
+          case Some(a) => s.addRgb("amount", Rgb.gray(a))(using p.pos)
           case None =>
-            s.warn(Code.Inexpressible, p.at, "`amount` can't be a float texture in v3; using 0.5")
+            s.warn(Code.Inexpressible, p.pos, "`amount` can't be a float texture in v3; using 0.5")
 
   private val subsurface = Seq(
     retain("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),

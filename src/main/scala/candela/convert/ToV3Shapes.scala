@@ -17,14 +17,14 @@ object ToV3Shapes:
         case Some(x) if x > 0f && x < 1f =>
           s.warn(
             Code.Inexpressible,
-            p.at,
+            p.pos,
             "v3 treats only `alpha` 0 as transparent; the shape is opaque"
           )
-        case Some(x) => s.addFloat("alpha", x)(using p.at)
+        case Some(x) => s.addFloat("alpha", x)(using p.pos)
         case None =>
           s.warn(
             Code.Inexpressible,
-            p.at,
+            p.pos,
             "v3 treats only `alpha` 0 as transparent; values above are opaque"
           )
           s.add("alpha", p)
@@ -57,7 +57,7 @@ object ToV3Shapes:
       else
         run.warn(
           Code.Inexpressible,
-          s.shape.at,
+          s.shape.pos,
           "v3 has no \"bilinearmesh\"; using \"trianglemesh\", finely tessellated " +
             "where it is curved"
         )
@@ -67,7 +67,7 @@ object ToV3Shapes:
         if meshed.shape.name == "plymesh" then
           run.warn(
             Code.Inexpressible,
-            s.shape.at,
+            s.shape.pos,
             "v3 does not reverse the orientation of a PLY mesh with normals"
           )
           meshed
@@ -81,7 +81,7 @@ object ToV3Shapes:
     d.copy(params = d.params.map: p =>
       if isSubdivided && p.name == "indices" then
         val turned = p.ints.grouped(3).toArray.flatMap(_.reverse)
-        Param(p.paramType, p.name, p.at, p.valuesAt, ints = turned)
+        Param(p.paramType, p.name, p.pos, p.valuesAt, ints = turned)
       else if !isSubdivided && p.name == "N" then
-        Param(p.paramType, p.name, p.at, p.valuesAt, floats = p.floats.map(-_))
+        Param(p.paramType, p.name, p.pos, p.valuesAt, floats = p.floats.map(-_))
       else p)

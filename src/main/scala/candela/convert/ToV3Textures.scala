@@ -34,7 +34,7 @@ object ToV3Textures:
           if isPng && encoding == "linear" then s.addBool("gamma", false)
         else
           val decoded = (x: Float, _: Int) => if inverts then 1f - decode(x) else decode(x)
-          s.addString("filename", RewrittenImages.baked(s, p)(decoded))(using p.at)
+          s.addString("filename", RewrittenImages.baked(s, p)(decoded))(using p.pos)
 
   private val filter: Step = Step("`filter`", "`trilinear`, for all but \"ewa\""): s =>
     val p = s.take("filter")
@@ -43,7 +43,7 @@ object ToV3Textures:
     for q <- p if kind == "point" do
       s.warn(
         Code.Inexpressible,
-        q.at,
+        q.pos,
         "v3 does not support \"point\" filtering; using \"trilinear\""
       )
 
@@ -52,7 +52,7 @@ object ToV3Textures:
       if p.strings.headOption.contains("octahedralsphere") then
         s.warn(
           Code.Inexpressible,
-          p.at,
+          p.pos,
           "v3 does not support wrap \"octahedralsphere\"; using \"repeat\""
         )
       else s.add("wrap", p)
@@ -98,13 +98,13 @@ object ToV3Textures:
     for p <- s.take("tex") do s.add("tex1", p)
     for p <- s.take("scale") do
       s.numberOf(p) match
-        case Some(x) => s.addRgb("tex2", Rgb.gray(x))(using p.at)
+        case Some(x) => s.addRgb("tex2", Rgb.gray(x))(using p.pos)
         case None =>
-          val amount = Param(ParamType.Texture, "amount", p.at, p.at, strings = p.strings)
-          val d = Declaration("Texture", "mix", Vector(amount), p.at, s.declaration.folder)
+          val amount = Param(ParamType.Texture, "amount", p.pos, p.pos, strings = p.strings)
+          val d = Declaration("Texture", "mix", Vector(amount), p.pos, s.declaration.folder)
           val name = s"${p.strings.head} as colour"
           val gray = TextureDescription(name, "spectrum", d, GraphicsState.Identity)
-          s.addTexture("tex2", s.run.define(gray))(using p.at)
+          s.addTexture("tex2", s.run.define(gray))(using p.pos)
 
   val colors: Table = Table("spectrum texture", fallback = "constant")(
     (common ++ Seq(

@@ -17,7 +17,7 @@ object ToV3View:
     if !p.exists(_.strings.headOption.contains("equirectangular")) then
       s.warn(
         Code.Inexpressible,
-        p.fold(s.declaration.at)(_.at),
+        p.fold(s.declaration.pos)(_.pos),
         "v3 does not support the equal-area mapping; using " +
           "\"equirectangular\""
       )
@@ -40,8 +40,8 @@ object ToV3View:
 
   private val components = Step("`maxcomponentvalue`", "`maxsampleluminance`, with a warning"): s =>
     for p <- s.take("maxcomponentvalue"); x <- s.numberOf(p) do
-      s.warn(Code.Inexpressible, p.at, "v3 clamps a sample's luminance, v4 its largest component")
-      s.addFloat("maxsampleluminance", x)(using p.at)
+      s.warn(Code.Inexpressible, p.pos, "v3 clamps a sample's luminance, v4 its largest component")
+      s.addFloat("maxsampleluminance", x)(using p.pos)
 
   /** A window of pixels, in fractions of the image. */
   private val pixelBounds = Step("`pixelbounds`", "`cropwindow`"): s =>
@@ -50,7 +50,7 @@ object ToV3View:
     val (width, height) = (size("xresolution", 1280), size("yresolution", 720))
     for p <- s.take("pixelbounds") if p.ints.length == 4 do
       val edges = p.ints.zip(Seq(width, width, height, height)).map((x, extent) => x / extent)
-      s.addFloat("cropwindow", edges.toSeq*)(using p.at)
+      s.addFloat("cropwindow", edges.toSeq*)(using p.pos)
 
   private val film = Seq(
     pixelBounds,
@@ -108,7 +108,7 @@ object ToV3View:
   private val strategy = Step("`lightsampler`", "`lightsamplestrategy`"): s =>
     for p <- s.take("lightsampler") do
       val name = p.strings.headOption.filter(Set("uniform", "power"))
-      name.foreach(s.addString("lightsamplestrategy", _)(using p.at))
+      name.foreach(s.addString("lightsamplestrategy", _)(using p.pos))
 
   private val regularize = unsupported("regularize", "no regularisation")((p, _) =>
     p.bools == Vector(false)

@@ -28,7 +28,7 @@ object ToV4Lights:
           // "goniometric" keeps its colour as a factor.
           val tint = if isGray || !optional then Rgb.White else factor
           for name <- SkyImages.converted(p, s, toSquare = true, tint) do
-            s.addString("filename", name)(using p.at)
+            s.addString("filename", name)(using p.pos)
           if !isGray && !optional then s.addRgb(color, factor)
           else if isGray && factor.r != 1f then s.addFloat("scale", factor.r)
 
@@ -43,7 +43,7 @@ object ToV4Lights:
       s.take("mapname") match
         case Some(p) =>
           val slide = RewrittenImages.slide(s, p, PictureLookup.SmoothRepeating, tint)
-          s.addString("filename", slide)(using p.at)
+          s.addString("filename", slide)(using p.pos)
         case None => s.addString("filename", RewrittenImages.plain(s, tint))
 
   val table: Table = Table("LightSource")(

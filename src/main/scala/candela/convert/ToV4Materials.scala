@@ -25,10 +25,10 @@ object ToV4Materials:
         if value.isEmpty then
           s.warn(
             Code.Inexpressible,
-            p.at,
+            p.pos,
             s"the index of refraction can't be a texture in v4; using $default"
           )
-        s.addFloat("eta", value.getOrElse(default))(using p.at)
+        s.addFloat("eta", value.getOrElse(default))(using p.pos)
 
   /** The coating's index of refraction for which its normal reflectance equals `Ks`. */
   private def coat(defaultKs: Float, fresnel: Float): Step =
@@ -36,9 +36,9 @@ object ToV4Materials:
       val p = s.take("Ks")
       val ks = p.flatMap(s.colorOf).getOrElse(Rgb.gray(defaultKs))
       if p.exists(s.colorOf(_).isEmpty) then
-        s.warn(Code.Inexpressible, p.get.at, "v4's coating can't be textured; using a constant")
+        s.warn(Code.Inexpressible, p.get.pos, "v4's coating can't be textured; using a constant")
       else if !Values.isGray(ks) then
-        s.warn(Code.Inexpressible, p.get.at, "v4's coating can't be coloured; using gray")
+        s.warn(Code.Inexpressible, p.get.pos, "v4's coating can't be coloured; using gray")
       val root = sqrt(Math.min(Math.max(ks.luminance * fresnel, 1e-4f), 0.9f))
       s.addFloat("eta", (1f + root) / (1f - root))
 
@@ -80,11 +80,11 @@ object ToV4Materials:
       for p <- s.take(name) if !isColor(0f)(p, s) do
         s.warn(
           Code.Inexpressible,
-          p.at,
+          p.pos,
           s"`$name` of \"uber\" is not supported in v4; $consequence"
         )
     for p <- s.take("opacity") if !isColor(1f)(p, s) do
-      s.warn(Code.Inexpressible, p.at, "`opacity` of \"uber\" is not supported in v4; opaque")
+      s.warn(Code.Inexpressible, p.pos, "`opacity` of \"uber\" is not supported in v4; opaque")
 
   /** v4 has two textures where v3 has one texture and two factors. */
   private val translucent: Step =
@@ -94,20 +94,20 @@ object ToV4Materials:
         val p = s.take(factor)
         val f = p.flatMap(s.colorOf).getOrElse(Rgb.gray(0.5f))
         if p.exists(s.colorOf(_).isEmpty) then
-          s.warn(Code.Inexpressible, p.get.at, s"`$factor` can't be a texture in v4; using 0.5")
+          s.warn(Code.Inexpressible, p.get.pos, s"`$factor` can't be a texture in v4; using 0.5")
         kd.map(k => (k, s.colorOf(k))) match
           case Some((k, None)) =>
             if !Values.isGray(f) then
               s.warn(
                 Code.Inexpressible,
-                k.at,
+                k.pos,
                 s"`$factor` can't be coloured beside a texture in v4; using gray"
               )
-            s.addTexture(name, product(s, k.strings.head, f.luminance))(using k.at)
+            s.addTexture(name, product(s, k.strings.head, f.luminance))(using k.pos)
           case colored => s.addRgb(name, colored.flatMap(_._2).getOrElse(Rgb.gray(0.25f)) * f)
 
   private def product(s: Statement, texture: String, factor: Float): String =
-    val position = s.declaration.at
+    val position = s.declaration.pos
     val params = Vector(
       Param(ParamType.Texture, "tex", position, position, strings = Vector(texture)),
       Param(ParamType.Float, "scale", position, position, floats = Array(factor))
@@ -130,12 +130,12 @@ object ToV4Materials:
             if s.colorOf(p).exists(!Values.isGray(_)) then
               s.warn(
                 Code.Inexpressible,
-                p.at,
+                p.pos,
                 "`amount` can't be coloured in v4; using its average"
               )
-            s.addFloat("amount", a)(using p.at)
+            s.addFloat("amount", a)(using p.pos)
           case None =>
-            s.addTexture("amount", ToV4Textures.floatTwin(s, p))(using p.at)
+            s.addTexture("amount", ToV4Textures.floatTwin(s, p))(using p.pos)
 
   private val subsurface = Seq(
     retain("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),
@@ -185,7 +185,7 @@ object ToV4Materials:
         if !s.isSpecified("Ks") then
           s.warn(
             Code.Inexpressible,
-            s.declaration.at,
+            s.declaration.pos,
             "v4 has no glossy lobe for \"translucent\"; ignored"
           )
       ),

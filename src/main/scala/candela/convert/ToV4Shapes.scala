@@ -16,16 +16,16 @@ object ToV4Shapes:
         val numbers = values.map(s.numberOf)
         val isPlain = t.exists(x => Plain(x.texture.name)) && numbers.forall(_.nonEmpty)
         if isPlain && numbers.flatten.exists(x => x != 0f && x != 1f) then
-          s.addTexture("alpha", allOrNothing(s, t.get))(using p.at)
+          s.addTexture("alpha", allOrNothing(s, t.get))(using p.pos)
         else
           s.add("alpha", p)
           if !isPlain then
             s.warn(
               Code.Inexpressible,
-              p.at,
+              p.pos,
               "v3 treats only `alpha` 0 as transparent, v4 all values below 1"
             )
-      else s.numberOf(p).foreach(x => s.addFloat("alpha", if x == 0f then 0f else 1f)(using p.at))
+      else s.numberOf(p).foreach(x => s.addFloat("alpha", if x == 0f then 0f else 1f)(using p.pos))
 
   private val Plain = Set("constant", "checkerboard", "dots")
   private val Amounts = Set("value", "tex1", "tex2", "inside", "outside")
@@ -35,7 +35,7 @@ object ToV4Shapes:
       if !Amounts.contains(q.name) then q
       else
         val x = if s.numberOf(q).contains(0f) then 0f else 1f
-        Param(ParamType.Float, q.name, q.at, q.valuesAt, floats = Array(x))
+        Param(ParamType.Float, q.name, q.pos, q.valuesAt, floats = Array(x))
     val cutout = s.run.convert(t.texture.copy(params = params), "float texture").get
     s.run.define(ToV4Textures.placed(t).copy(name = s"${t.name} cutout", texture = cutout))
 
@@ -81,7 +81,7 @@ object ToV4Shapes:
           if s.shape.name == "heightfield" then "same triangles" else "finely tessellated"
         run.warn(
           Code.Inexpressible,
-          s.shape.at,
+          s.shape.pos,
           s"v4 has no \"${s.shape.name}\"; using \"trianglemesh\", $method"
         )
         Vector(s.copy(shape = mesh))

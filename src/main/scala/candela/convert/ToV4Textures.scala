@@ -26,7 +26,7 @@ object ToV4Textures:
           s.addString("encoding", "linear")
         else
           val decoded = (x: Float, _: Int) => if decodes then Srgb.decode(x) else x
-          s.addString("filename", RewrittenImages.baked(s, p)(decoded))(using p.at)
+          s.addString("filename", RewrittenImages.baked(s, p)(decoded))(using p.pos)
 
   private val filter: Step = Step("`trilinear`", "`filter`: \"ewa\", or \"trilinear\""): s =>
     s.addString("filter", if s.takeBool("trilinear", false) then "trilinear" else "ewa")
@@ -70,23 +70,23 @@ object ToV4Textures:
       case Vector(a, b) =>
         val (tex, factor) = if gray(a).nonEmpty && gray(b).isEmpty then (b, a) else (a, b)
         (color(tex), color(factor)) match
-          case (Some(x), Some(y)) => s.addRgb("tex", x * y)(using tex.at)
+          case (Some(x), Some(y)) => s.addRgb("tex", x * y)(using tex.pos)
           case _ =>
             val (base, by) = if color(tex).nonEmpty && gray(factor).isEmpty then (factor, tex)
             else (tex, factor)
             val tinted =
               if gray(by).nonEmpty then None
               else color(by).flatMap(tint(s, base, _)).orElse(product(s))
-            if tinted.nonEmpty then s.addTexture("tex", tinted.get)(using base.at)
+            if tinted.nonEmpty then s.addTexture("tex", tinted.get)(using base.pos)
             else s.add("tex", base)
             if tinted.isEmpty then
               gray(by) match
-                case Some(g) => s.addFloat("scale", g)(using by.at)
+                case Some(g) => s.addFloat("scale", g)(using by.pos)
                 case None =>
-                  s.warn(Code.Inexpressible, by.at, s"$NoProducts; using the luminance of one")
+                  s.warn(Code.Inexpressible, by.pos, s"$NoProducts; using the luminance of one")
                   color(by) match
-                    case Some(c) => s.addFloat("scale", c.luminance)(using by.at)
-                    case None => s.addTexture("scale", floatTwin(s, by))(using by.at)
+                    case Some(c) => s.addFloat("scale", c.luminance)(using by.pos)
+                    case None => s.addTexture("scale", floatTwin(s, by))(using by.pos)
       case single => single.foreach(s.add("tex", _))
 
   private val NoProducts = "v4 can't multiply two colours"
@@ -108,7 +108,7 @@ object ToV4Textures:
       val written = RewrittenImages.baked(s, file): (x, c) =>
         factors(c) * (if decodes then Srgb.decode(x) else x)
       val remaining = t.texture.params.filterNot(q => q.name == "gamma" || q.name == "filename")
-      val image = Param(ParamType.String, "filename", file.at, file.at, strings = Vector(written))
+      val image = Param(ParamType.String, "filename", file.pos, file.pos, strings = Vector(written))
       val d = t.texture.copy(params = image +: remaining)
       val tinted = s.run.convert(d, "spectrum texture").get
       s.run.define(placed(t).copy(name = s"${t.name} tinted", texture = tinted))
@@ -123,7 +123,7 @@ object ToV4Textures:
       yield s.run.define(t.copy(name = s"$name as number", valueType = "float", texture = d))
     s.warn(
       Code.Inexpressible,
-      p.at,
+      p.pos,
       s"v4 needs a float texture here; using the luminance of \"$name\""
     )
     twin.getOrElse(name)
@@ -132,7 +132,7 @@ object ToV4Textures:
     d.copy(params = d.params.map: p =>
       if p.paramType == ParamType.Rgb || p.paramType == ParamType.Spectrum then
         val c = s.colorOf(p).getOrElse(Rgb.White)
-        Param(ParamType.Float, p.name, p.at, p.valuesAt, floats = Array(c.luminance))
+        Param(ParamType.Float, p.name, p.pos, p.valuesAt, floats = Array(c.luminance))
       else p)
 
   /** Interpolates between black and white by a float texture. */

@@ -21,7 +21,7 @@ object ToV4View:
       planes,
       Step("`halffov`", "`fov`")(s =>
         for p <- s.take("halffov"); half <- s.numberOf(p) if half > 0f do
-          s.addFloat("fov", 2 * half)(using p.at)
+          s.addFloat("fov", 2 * half)(using p.pos)
       )
     ),
     Rule("orthographic" -> "orthographic")(projective, shutter, planes),
@@ -43,7 +43,7 @@ object ToV4View:
         if !p.exists(_.bools == Vector(false)) then
           s.warn(
             Code.Inexpressible,
-            p.fold(s.declaration.at)(_.at),
+            p.fold(s.declaration.pos)(_.pos),
             "v4 always weights by the film's exposure"
           )
       )
@@ -56,7 +56,7 @@ object ToV4View:
       val name = p.strings.headOption.getOrElse("")
       val isKnown = Seq(".exr", ".png", ".pfm", ".qoi").exists(name.toLowerCase.endsWith)
       if isKnown then s.add("filename", p)
-      else s.addString("filename", s"${name.replaceFirst("\\.[A-Za-z]+$", "")}.exr")(using p.at)
+      else s.addString("filename", s"${name.replaceFirst("\\.[A-Za-z]+$", "")}.exr")(using p.pos)
 
   /** v4's film integrates over the exposure time; those of v2 and v3 don't. */
   private[convert] def shutterTime(s: Statement): Float =
@@ -78,10 +78,10 @@ object ToV4View:
         for p <- s.take("maxsampleluminance"); x <- s.numberOf(p) do
           s.warn(
             Code.Inexpressible,
-            p.at,
+            p.pos,
             "v4 clamps a sample's largest component, v3 its luminance"
           )
-          s.addFloat("maxcomponentvalue", x)(using p.at)
+          s.addFloat("maxcomponentvalue", x)(using p.pos)
       ),
       pixelBounds,
       drop("display")
@@ -128,7 +128,7 @@ object ToV4View:
   private val strategy = Step("`lightsamplestrategy`", "`lightsampler`"): s =>
     for p <- s.take("lightsamplestrategy") do
       val name = p.strings.headOption.filter(Set("uniform", "power"))
-      name.foreach(s.addString("lightsampler", _)(using p.at))
+      name.foreach(s.addString("lightsampler", _)(using p.pos))
 
   private val path = Seq(
     retain("maxdepth"),
@@ -143,7 +143,7 @@ object ToV4View:
     else
       s.warn(
         Code.Inexpressible,
-        s.declaration.at,
+        s.declaration.pos,
         s"v4 has no \"${s.name}\"; using \"path\", which adds " +
           "indirect light from non-specular surfaces"
       )

@@ -80,7 +80,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
           read
 
   private def numbersOf(p: Param, d: Declaration): Option[Array[Float]] =
-    d.folder.find(p.strings.head, Some(p.valuesAt)).map: file =>
+    d.folder.locate(p.strings.head, Some(p.valuesAt)).map: file =>
       val words = file.lines().flatMap(_.takeWhile(_ != '#').trim.split("[\\s,]+"))
       words.flatMap(Decimal.float).toArray
 
@@ -103,11 +103,11 @@ object Values:
     if p.name == name then p else p.renamed(name, p.paramType)
 
   def rgb(p: Param, c: Rgb): Param =
-    Param(ParamType.Rgb, p.name, p.at, p.valuesAt, floats = Array(c.r, c.g, c.b))
+    Param(ParamType.Rgb, p.name, p.pos, p.valuesAt, floats = Array(c.r, c.g, c.b))
 
   def pairs(p: Param, values: IndexedSeq[(Float, Float)]): Param =
     val floats = values.flatMap((x, y) => Vector(x, y)).toArray
-    Param(ParamType.Spectrum, p.name, p.at, p.valuesAt, floats = floats)
+    Param(ParamType.Spectrum, p.name, p.pos, p.valuesAt, floats = floats)
 
   /** A constant spectrum. */
   def constant(p: Param): Param = pairs(p, Vector((360f, p.floats(0)), (830f, p.floats(0))))

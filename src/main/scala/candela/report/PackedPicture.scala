@@ -48,11 +48,11 @@ private[report] object PackedPicture:
     Image(width, height, image.channelNames, data)
 
   private def packed(bytes: Array[Byte]): String =
-    val out = ByteArrayOutputStream()
+    val buffer = ByteArrayOutputStream()
     val deflater = Deflater(Deflater.BEST_COMPRESSION)
-    val zip = DeflaterOutputStream(out, deflater)
+    val zip = DeflaterOutputStream(buffer, deflater)
     try
       zip.write(bytes)
       zip.close()
     finally deflater.end()
-    Base64.getEncoder.encodeToString(out.toByteArray)
+    Base64.getEncoder.encodeToString(buffer.toByteArray)

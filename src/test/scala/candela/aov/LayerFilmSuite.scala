@@ -26,11 +26,11 @@ final class LayerFilmSuite extends AnyFunSuite:
   /** Seen from the origin. */
   private def surface(p: Vec3, n: Vec3, albedo: Float): VisibleSurface =
     val seen = nothing
-    seen.at.p = p
-    seen.at.geometricNormal = n
-    seen.at.frame.set(Frame.around(n))
-    seen.at.dpdx = Vec3(0, 0, -2)
-    seen.at.u = 0.25f
+    seen.point.p = p
+    seen.point.geometricNormal = n
+    seen.point.frame.set(Frame.fromZ(n))
+    seen.point.dpdx = Vec3(0, 0, -2)
+    seen.point.u = 0.25f
     val ray = Ray()
     ray.set(Vec3.Zero, -n, 1f)
     seen.record(ray, Lambert(Rgb(albedo, 0f, 1f)))
@@ -45,7 +45,7 @@ final class LayerFilmSuite extends AnyFunSuite:
     film.add(3, 5, Rgb(3f, 2f, 7f), 3f, surface(Vec3(3, 4, 0), Vec3(0, 1, 0), 0.9f))
     film.add(3, 5, Rgb(9f, 9f, 9f), 1f, nothing)
     film.miss(3, 5, 1f)
-    film.behind(Image.rgb(2, 1), Development(scale))
+    film.appendTo(Image.rgb(2, 1), Development(scale))
 
   test("channels have pbrt-v4's names, behind the image's own"):
     val names = filled(Layer.gbuffer).channelNames
@@ -58,7 +58,7 @@ final class LayerFilmSuite extends AnyFunSuite:
     val film = LayerFilm(0, 0, 1, 1, Vector(Layer.Albedo))
     film.add(0, 0, Rgb.Black, 1f, surface(Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5f))
     val empty = Image(1, 1, Image.RgbNames, Array(0f, 0f, 0f), colorSpace = space)
-    val image = film.behind(empty, Development())
+    val image = film.appendTo(empty, Development())
     val wanted = space.ofSrgbAdapted * Rgb(0.5f, 0f, 1f)
     assert(image.colorSpace eq space)
     assert(value(image, "Albedo.R") == wanted.r && value(image, "Albedo.G") == wanted.g)
@@ -93,7 +93,7 @@ final class LayerFilmSuite extends AnyFunSuite:
       val seen = surface(Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5f)
       seen.weight = weight
       film.add(3, 5, Rgb(light, 2f, 0f), weight, seen)
-    val image = film.behind(Image.rgb(2, 1), Development())
+    val image = film.appendTo(Image.rgb(2, 1), Development())
     val expected = (42.0 / 6 - (14.0 / 6) * (14.0 / 6)) * 3 / 2
     assert(Math.abs(value(image, "Variance.R") - expected) < 1e-6)
     assert(Math.abs(value(image, "RelativeVariance.R") - expected / (14.0 / 6)) < 1e-6)

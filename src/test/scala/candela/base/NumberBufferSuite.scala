@@ -11,8 +11,8 @@ class NumberBufferSuite extends AnyFunSuite:
         floats += i * 0.5f
         ints += -i
       assert(floats.length == count && ints.length == count)
-      assert(floats.take().sameElements(Array.tabulate(count)(_ * 0.5f)))
-      assert(ints.take().sameElements(Array.tabulate(count)(-_)))
+      assert(floats.drain().sameElements(Array.tabulate(count)(_ * 0.5f)))
+      assert(ints.drain().sameElements(Array.tabulate(count)(-_)))
 
   test("one number so many times is as each added"):
     val (some, each) = (IntBuffer(), IntBuffer())
@@ -22,7 +22,7 @@ class NumberBufferSuite extends AnyFunSuite:
       some += -i
       each += -i
       assert(some.length == each.length)
-    assert(some.take().sameElements(each.take()))
+    assert(some.drain().sameElements(each.drain()))
 
   test("a buffer that was cleared begins anew"):
     val ints = IntBuffer()
@@ -31,7 +31,7 @@ class NumberBufferSuite extends AnyFunSuite:
       ints.clear()
       assert(ints.length == 0)
     for i <- 0 until 7000 do ints += -i
-    assert(ints.take().sameElements(Array.tabulate(7000)(-_)))
+    assert(ints.drain().sameElements(Array.tabulate(7000)(-_)))
 
   test("buffers that go on from one have its numbers, and it has none of theirs"):
     for count <- Seq(0, 5, 4096, 10_000) do
@@ -43,9 +43,9 @@ class NumberBufferSuite extends AnyFunSuite:
         second += 7
       for _ <- 0 until 3 do ints += 1
       val known = Array.range(0, count)
-      assert(first.take().sameElements(known ++ Array.tabulate(5000)(-_)))
-      assert(second.take().sameElements(known ++ Array.fill(5000)(7)))
-      assert(ints.take().sameElements(known ++ Array.fill(3)(1)))
+      assert(first.drain().sameElements(known ++ Array.tabulate(5000)(-_)))
+      assert(second.drain().sameElements(known ++ Array.fill(5000)(7)))
+      assert(ints.drain().sameElements(known ++ Array.fill(3)(1)))
 
   test("numbers can be replaced, and copied to a place of a larger array"):
     val floats = FloatBuffer()

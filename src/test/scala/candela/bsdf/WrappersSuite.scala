@@ -31,7 +31,7 @@ class WrappersSuite extends AnyFunSuite:
 
   test("a wrapper has all that its BSDF has, but for what it takes away"):
     val reflects = BsdfFlags.Transmissive | BsdfFlags.Pane
-    val none = reflects.without(reflects)
+    val none = reflects.minus(reflects)
     val wrappers = Seq(
       Scaled(Any, Rgb.White) -> none,
       SentThrough(Any) -> none,
@@ -44,7 +44,7 @@ class WrappersSuite extends AnyFunSuite:
       Lobes(Array(Lambert.Black, Any), Array(0.5f, 0.5f)) -> none
     )
     for (wrapper, taken) <- wrappers do
-      assert(BsdfFlags.All.without(wrapper.flags) == taken, wrapper.getClass)
+      assert(BsdfFlags.All.minus(wrapper.flags) == taken, wrapper.getClass)
 
   test("a material made of others has what they have, but for what it takes away"):
     import MaterialFlags.*
@@ -62,7 +62,7 @@ class WrappersSuite extends AnyFunSuite:
       DiffuseEquivalent(any, transmits = true) -> (joined | Pane | Caster)
     )
     for (wrapper, taken) <- wrappers do
-      assert(All.without(wrapper.flags) == taken, wrapper.getClass)
+      assert(All.minus(wrapper.flags) == taken, wrapper.getClass)
       assert(wrapper.isAnisotropic && wrapper.isDirected && !wrapper.isConstant, wrapper.getClass)
 
   test("specular parts and straight light are found through all wrappers"):

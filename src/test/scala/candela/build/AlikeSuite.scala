@@ -64,7 +64,7 @@ final class AlikeSuite extends AnyFunSuite:
     def say(problems: Findings): Unit = problems.warn(Code.CorrectedValue, place(1), "odd")
     assert(made(radius(1, -2f), radius(2, -2f))(say) == 2)
     val world = "WorldBegin\nLightSource \"point\"\n" + "Shape \"sphere\" \"float radius\" -1\n" * 3
-    val lines = SceneTexts.problems(world, Dialect.V4).flatMap(_.at).map(_.line)
+    val lines = SceneTexts.problems(world, Dialect.V4).flatMap(_.pos).map(_.line)
     assert(lines == Vector(3, 4, 5))
 
   test("where points alone are others, what was made of the others goes through them"):
@@ -100,7 +100,7 @@ final class AlikeSuite extends AnyFunSuite:
     val wrong = "Shape \"curve\" \"point3 P\" [ 0 0 0  1 1 1 ] \"float width\" 0.1\n"
     val world = "WorldBegin\nLightSource \"point\"\n" + hair(1) + wrong + hair(2)
     val problem = SceneTexts.problems(world, Dialect.V4).head
-    assert(problem.at.exists(_.line == 4) && problem.message.contains("at least 4 points"))
+    assert(problem.pos.exists(_.line == 4) && problem.message.contains("at least 4 points"))
 
   test("shapes of alike statements are where each is placed"):
     def image(params: Int => String) =

@@ -22,7 +22,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val text = s"WorldBegin\n$statement\nLightSource \"point\"\n"
     val found = SceneTexts.problems(text, dialect)
     assert(found.size == 1, found)
-    assert(found.head.at.map(_.line).contains(2), found.head)
+    assert(found.head.pos.map(_.line).contains(2), found.head)
     found.head
 
   private def assertError(p: Problem, message: String, help: String = ""): Unit =
@@ -36,7 +36,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
   test("a misspelt parameter is a warning with the nearest name, at its place"):
     val p = only("Shape \"sphere\" \"float raduis\" 2")
     assertWarning(p, "`raduis` is not a parameter of \"sphere\"", "`radius`")
-    assert(p.at.map(_.column).contains(16))
+    assert(p.pos.map(_.column).contains(16))
 
   test("a missing mesh hides no error of another kind"):
     Samples.inFolder: folder =>
@@ -62,7 +62,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
       )
       val scene = MitsubaScene.readable(file, Map.empty, keepGoing = false)
       val told = intercept[SceneError](SceneBuilder.build(scene, RenderSettings())).problems
-      assert(told.flatMap(_.at.map(_.line)) == Vector(2, 3, 5), told)
+      assert(told.flatMap(_.pos.map(_.line)) == Vector(2, 3, 5), told)
 
   test("of a parameter of another dialect, this one's name is suggested"):
     val p = only("Material \"matte\" \"rgb reflectance\" [.5 .5 .5] Shape \"sphere\"")
@@ -262,9 +262,9 @@ final class BuildErrorsSuite extends AnyFunSuite:
       val found = SceneTexts.problems(text, Dialect.V3, folder)
       val mesh = found.find(_.message.contains("no file `buny.ply`")).get
       assertError(mesh, "no file", "`bunny.ply`")
-      assert(mesh.at.map(_.line).contains(2))
+      assert(mesh.pos.map(_.line).contains(2))
       val texture = found.find(_.message.contains("no file `nowhere.png`")).get
-      assert(texture.severity == Severity.Error && texture.at.map(_.line).contains(3))
+      assert(texture.severity == Severity.Error && texture.pos.map(_.line).contains(3))
     finally
       Files.delete(near)
       Files.delete(folder)
@@ -272,7 +272,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
   test("all errors of a scene are named in one go, in the order of their places"):
     val text = "WorldBegin\nShape \"shpere\"\nLightSource \"piont\"\nShape \"dsik\"\n"
     val errors = SceneTexts.problems(text, Dialect.V4).filter(_.severity == Severity.Error)
-    assert(errors.flatMap(_.at).map(_.line) == Vector(2, 3, 4))
+    assert(errors.flatMap(_.pos).map(_.line) == Vector(2, 3, 4))
 
   test("a problem in a file shows the line that it is about"):
     val file = Files.createTempFile("shpere", ".pbrt")

@@ -42,7 +42,7 @@ final class DialectChoiceSuite extends AnyFunSuite:
     val told = scene.warnings.head
     assert(told.message.contains("is read as v2"), told)
     assert(told.message.contains("Material \"disney\" (line 6) is of v3"), told)
-    assert(told.help.exists(_.contains("--dialect v3")) && told.at.map(_.line).contains(6))
+    assert(told.help.exists(_.contains("--dialect v3")) && told.pos.map(_.line).contains(6))
 
   test("of two dialects that fit as well, the newer one is suggested"):
     val mixed = "Film \"image\"\nWorldBegin\nMaterial \"diffuse\"\nMaterial \"matte\"\n" +

@@ -61,7 +61,7 @@ class FireflyLimitsSuite extends AnyFunSuite:
     assert(limited.features.contains(
       "fireflies" -> "indirect light of samples is limited to 2.0; the image is biased"
     ))
-    assert(limited.indirectLimit.exists(_.most == 2f))
+    assert(limited.indirectLimit.exists(_.maximum == 2f))
     val reweighted = plan(RenderSettings(fireflies = Fireflies.Reweighted))
     assert(reweighted.features.exists((what, how) =>
       what == "fireflies" && how.contains("48 bytes")

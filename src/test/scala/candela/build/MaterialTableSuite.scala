@@ -80,5 +80,5 @@ final class MaterialTableSuite extends AnyFunSuite:
 
   test("each material of a colour gets its own message"):
     val lines = SceneTexts.problems(coloured("diffuse")(_ => "\"float sheen\" 1"), Dialect.V4)
-      .flatMap(_.at).map(_.line)
+      .flatMap(_.pos).map(_.line)
     assert(lines.distinct.size == 5)

@@ -47,7 +47,7 @@ class ObjectUsesSuite extends AnyFunSuite:
     val text = scene("AreaLightSource \"diffuse\"\n" + ball, twice).replace("WorldEnd", "")
     val found = SceneTexts.problems(text, Dialect.V4)
     assert(found.count(_.message.contains("emission is ignored")) == 1)
-    assert(found.head.at.map(_.line).contains(4))
+    assert(found.head.pos.map(_.line).contains(4))
     assert(SceneTexts.plan(text, Dialect.V4).features.toMap.apply("lights").startsWith("one light"))
 
   private val square = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
@@ -94,7 +94,7 @@ class ObjectUsesSuite extends AnyFunSuite:
       // A third of the pixels, as in pbrt; edges run between pixels
       assert(Math.abs(SceneTexts.mean(text, d).average - 1f / 3) < 1e-4f, s"$d $method $copies")
       val told = SceneTexts.problems(text, d).filter(_.message.contains("light nothing"))
-      assert(told.size == 1 && told.head.at.map(_.line).contains(8))
+      assert(told.size == 1 && told.head.pos.map(_.line).contains(8))
 
   test("area lights of objects light nothing in v2 and v3"):
     for (d, method) <- Seq(Dialect.V3 -> "path", Dialect.V3 -> "volpath", Dialect.V2 -> "path") do

@@ -31,7 +31,7 @@ class PartialsReadSuite extends AnyFunSuite:
       LightSource "point"
       ${shapes.mkString("\n")}"""
     val context = BuildContext(SceneTexts.parse(text, Dialect.V4), RenderSettings())
-    def integrator(in: BuildContext) = in.made(None, Integrators.all, "path")
+    def integrator(in: BuildContext) = in.build(None, Integrators.all, "path")
     WorldBuilder(
       context,
       integrator(context),

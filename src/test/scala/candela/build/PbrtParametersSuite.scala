@@ -27,8 +27,8 @@ final class PbrtParametersSuite extends AnyFunSuite:
           case None => Some(s"$what is not declared")
           case Some(f) if f.typeName != p.values =>
             Some(s"$what holds ${p.values}, not ${f.typeName}")
-          case Some(f) if f.shown(dialect) != p.default =>
-            Some(s"$what defaults to ${p.default}, not ${f.shown(dialect)}")
+          case Some(f) if f.defaultText(dialect) != p.default =>
+            Some(s"$what defaults to ${p.default}, not ${f.defaultText(dialect)}")
           case _ => None
       assert(wrong.isEmpty, wrong.mkString("\n", "\n", ""))
 

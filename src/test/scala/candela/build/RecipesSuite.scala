@@ -36,7 +36,7 @@ final class CameraRecipesSuite
       Cameras.all,
       demanding = Set("realistic"),
       demandingIn = Set(candela.scenefile.Dialect.V3, candela.scenefile.Dialect.V4),
-      use = _.make(Transform.Identity, candela.cameras.FilmFrame(8, 8))
+      use = _.create(Transform.Identity, candela.cameras.FilmFrame(8, 8))
     )
 
 final class ShapeRecipesSuite
@@ -59,7 +59,7 @@ final class LightRecipesSuite
       Lights.all,
       demanding = Set("goniometric", "projection"),
       demandingIn = Set(candela.scenefile.Dialect.V4),
-      use = plan => plan.make(Transform.Identity, SkySampling.All)
+      use = plan => plan.create(Transform.Identity, SkySampling.All)
     )
 
 final class AreaLightRecipesSuite extends RecipeLaws[Option[AreaLightPlan]](AreaLights.all)

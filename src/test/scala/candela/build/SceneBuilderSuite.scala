@@ -21,7 +21,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
   private val film = """Film "image" "integer xresolution" 80 "integer yresolution" 40"""
 
   private def integrator(plan: RenderPlan): Integrator = plan.method match
-    case tiles: Tiles => tiles.integrators.make(None)
+    case tiles: Tiles => tiles.integrators.create(None)
     case other => fail(s"$other")
 
   private def feature(plan: RenderPlan, name: String): String =
@@ -221,7 +221,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     val film = "Film \"rgb\" \"float iso\" 400 \"float maxcomponentvalue\" 6"
     val v4 = SceneTexts.plan(s"$camera\n$film\n$nothing", Dialect.V4)
     // 400 / 100 · 0.5 s; samples are limited as the sensor sees them, before that
-    assert(v4.development.scale == 2f && v4.limit.map(_.most) == Some(3f))
+    assert(v4.development.scale == 2f && v4.limit.map(_.maximum) == Some(3f))
     assert(SceneTexts.plan(s"$camera\n$nothing", Dialect.V3).development.scale == 1f)
     val closed = s"Camera \"perspective\" \"float shutterclose\" 0\n$nothing"
     assert(SceneTexts.problems(
@@ -288,7 +288,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     val scene = s"WorldBegin\nObjectBegin \"leaf\"\n$triangle\nObjectEnd\nObjectInstance \"laef\"\n"
     val problem =
       SceneTexts.problems(scene).find(_.message.contains("object `laef` is not defined")).get
-    assert(problem.help.exists(_.contains("`leaf`")) && problem.at.map(_.line).contains(5))
+    assert(problem.help.exists(_.contains("`leaf`")) && problem.pos.map(_.line).contains(5))
 
   test("a named material is made once, however many shapes have it"):
     val scene = s"""WorldBegin

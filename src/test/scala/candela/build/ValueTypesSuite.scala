@@ -47,7 +47,7 @@ final class ValueTypesSuite extends AnyFunSuite:
     do
       val p = ignored(d, scene(s"$light \"float scale\" 3", grey), scene(light, grey))
       assert(p.help.contains("write \"rgb scale\" [ 3 3 3 ]"), p)
-      assert(p.at.map(_.line).contains(5))
+      assert(p.pos.map(_.line).contains(5))
 
   test("a number is no colour of a material in v2 and v3"):
     for d <- old do

@@ -30,5 +30,5 @@ class ClippedCameraSuite extends AnyFunSuite:
     val setup = ProjectiveSetup(Transform.Identity, 10, 10, (-1f, 1f, -1f, 1f), 0f, 1f)
     val clipped = ClippedCamera(PerspectiveCamera(setup, 90f), Transform.Identity, 1f, 3f)
     val place = FilmPlace()
-    def isSeen(z: Float) = clipped.see(Vec3(0.1f, 0.1f, z), 0.5f, 0.5f, place)
+    def isSeen(z: Float) = clipped.project(Vec3(0.1f, 0.1f, z), 0.5f, 0.5f, place)
     assert(clipped.isTraceable && isSeen(2f) && !isSeen(0.9f) && !isSeen(3.1f))

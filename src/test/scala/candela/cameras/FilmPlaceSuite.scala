@@ -38,7 +38,7 @@ final class FilmPlaceSuite extends AnyFunSuite:
         val (u, v) = (draws.unit(), draws.unit())
         camera.generate(x, y, u, v, ray)
         val p = ray.at(draws.magnitude(0.5, 50))
-        assert(camera.see(p, u, v, place))
+        assert(camera.project(p, u, v, place))
         assert(Math.abs(place.x - x) < 0.02f && Math.abs(place.y - y) < 0.02f)
         assert((place.direction + ray.direction).length < 1e-3f)
         assert(((place.eye - ray.origin) cross ray.direction).length < 1e-3f)
@@ -52,8 +52,8 @@ final class FilmPlaceSuite extends AnyFunSuite:
         val (u, v) = (draws.unit(), draws.unit())
         camera.generate(x, y, u, v, ray)
         val p = ray.at(draws.between(8f, 30f))
-        val across = Frame.around(ray.direction)
-        camera.see(p, u, v, place): Unit
+        val across = Frame.fromZ(ray.direction)
+        camera.project(p, u, v, place): Unit
         def at(dx: Float, dy: Float): Vec3 =
           camera.generate(x + dx, y + dy, u, v, ray)
           val t = ((p - ray.origin) dot across.n) / (ray.direction dot across.n)
@@ -64,7 +64,7 @@ final class FilmPlaceSuite extends AnyFunSuite:
         assert(Math.abs(place.density * 20000f * area - 1f) < 0.01f)
 
     test(s"$name: what lies behind is not seen"):
-      assert(!camera.see(toWorld.point(Vec3(0.1f, 0, -1)), 0.5f, 0.5f, FilmPlace()))
+      assert(!camera.project(toWorld.point(Vec3(0.1f, 0, -1)), 0.5f, 0.5f, FilmPlace()))
 
     test(s"$name: light paths can end there"):
       assert(camera.isTraceable)

@@ -30,7 +30,7 @@ class PixelConeSuite extends AnyFunSuite:
       camera.differential(40f, 30f, 0.7f, 0.4f, 0.25f, ray, scratch)
       val at = facing(5f)
       at.p = ray.at(5f / (ray.direction dot toWorld.vector(Vec3.Z)))
-      assert(ray.differential.meet(at))
+      assert(ray.differential.computeFootprint(at))
       assert(abs(at.dpdx.length - step / 4) < 2e-4f * step)
       assert(abs(at.dpdy.length - step / 4) < 2e-4f * step)
       assert(abs(at.dpdx.normalized dot at.dpdy.normalized) < 1e-3f)
@@ -41,7 +41,7 @@ class PixelConeSuite extends AnyFunSuite:
     // In the corner a pixel is cos²θ of one in the middle wide, and cos³θ in the steepest direction
     val middle = 7f * Math.tan(Math.PI / 6).toFloat * 2f / 60
     val at = facing(7f)
-    cone.meet(at)
+    cone.approximateFootprint(at)
     assert(at.dpdx.length < 0.5f * middle * 1.001f && at.dpdx.length > 0.5f * middle * 0.5f)
     assert(abs(at.dpdx dot at.geometricNormal) < 1e-5f)
 
@@ -49,5 +49,5 @@ class PixelConeSuite extends AnyFunSuite:
     val cone = PixelCone.of(OrthographicCamera(setup(0f)), eye, 80, 60, 1f)
     for distance <- Seq(1f, 10f) do
       val at = facing(distance)
-      cone.meet(at)
+      cone.approximateFootprint(at)
       assert(abs(at.dpdx.length - 2f / 60) < 2e-5f && abs(at.dpdy.length - 2f / 60) < 2e-5f)

@@ -40,7 +40,7 @@ class PilotBlocksSuite extends AnyFunSuite:
     for i <- 0 until 3 do parts.add(found(1000 * i, 1000 * (i + 1)))
     def all(blocks: PilotBlocks) =
       val found = blocks.variances(3000, PilotBlocks.EndlessSamples)
-      Vector(found.byPaths, found.without, found.byLight)
+      Vector(found.byPaths, found.excess, found.byLight)
     for (a, b) <- all(whole).zip(all(parts)) do
       assert(Math.abs(a - b) < 1e-9 * Math.abs(a), (a, b))
 
@@ -52,7 +52,7 @@ class PilotBlocksSuite extends AnyFunSuite:
       once.variances(1000, PilotBlocks.UsualSamples),
       twice.variances(2000, PilotBlocks.UsualSamples)
     )
-    assert(Math.abs(of.without - ofTwice.without) < 1e-9 * of.without)
+    assert(Math.abs(of.excess - ofTwice.excess) < 1e-9 * of.excess)
     assert(Math.abs(of.byLight - ofTwice.byLight) < 1e-9 * of.byLight)
 
   test("light that is seldom found counts no more than if it was missing"):
@@ -63,7 +63,7 @@ class PilotBlocksSuite extends AnyFunSuite:
         blocks.addPair(x, y, 1f, 1f)
         val light = 0.01
         blocks.addSplat(x.toFloat, y.toFloat, light, light, seldom)
-      blocks.variances(width * height, usual).without / (width * height)
+      blocks.variances(width * height, usual).excess / (width * height)
     // Relative variance of a sample: the light times its brightness where it is found
     assert(Math.abs(more(1e3) - 0.01 * 0.01 * 1e3) < 0.01)
     assert(Math.abs(more(1e4) - 0.01 * 0.01 * 1e4) < 0.1)

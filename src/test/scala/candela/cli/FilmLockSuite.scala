@@ -21,18 +21,18 @@ class FilmLockSuite extends AnyFunSuite:
   test("the right to write a film has one owner, who leaves nothing behind"):
     TempFolder.use: folder =>
       val film = folder.resolve("a.film")
-      val first = FilmLock.take(film)
-      assert(first.isDefined && FilmLock.take(film).isEmpty)
-      assert(FilmLock.take(folder.resolve("b.film")).map(_.close()).isDefined)
+      val first = FilmLock.acquire(film)
+      assert(first.isDefined && FilmLock.acquire(film).isEmpty)
+      assert(FilmLock.acquire(folder.resolve("b.film")).map(_.close()).isDefined)
       first.foreach(_.close())
       assert(TempFolder.names(folder).isEmpty)
-      assert(FilmLock.take(film).map(_.close()).isDefined)
+      assert(FilmLock.acquire(film).map(_.close()).isDefined)
 
   test("a film that is being written is refused by render and resume"):
     withScene: f =>
       f.render("--outfile", f("one.film"))
       val film = Files.readAllBytes(Path.of(f("one.film"))).toVector
-      for lock <- FilmLock.take(Path.of(f("one.film"))) do
+      for lock <- FilmLock.acquire(Path.of(f("one.film"))) do
         val others = Vector(
           Vector(f.scene, "--outfile", f("one.film")),
           Vector("resume", f("one.film"), "--spp", "8")

@@ -59,7 +59,7 @@ class ColorErrorSuite extends AnyFunSuite:
 
   private def light(s: Float => Float): ColoredSpectrum =
     val values = wavelengths.map(nm => (s(nm) / Colorimetry.D65(nm)).toDouble)
-    val c = ColorError.seen(values)
+    val c = ColorError.srgb(values)
     ColoredSpectrum(values, basis.fromSrgb(Rgb(c(0).toFloat, c(1).toFloat, c(2).toFloat)))
 
   private val grey = ColoredSpectrum(wavelengths.map(_ => 0.7), Rgb.gray(0.7f))

@@ -44,7 +44,8 @@ final class ColorSpaceSuite extends AnyFunSuite:
     val aces = named("aces2065-1")
     val c = Rgb(0.4f, 0.35f, 0.3f)
     val s = Upsampling.spectrum(c, aces)
-    val xyz = aces.seen.map(row => Vector(row(1), row(2), row(3)).map(_ * s(row(0).toFloat)))
+    val xyz =
+      aces.illuminantXyz.map(row => Vector(row(1), row(2), row(3)).map(_ * s(row(0).toFloat)))
     val found = aces.rgbOfXyz * xyz.reduce((a, b) => a.zip(b).map(_ + _))
     for (a, b) <- found.zip(Seq(c.r, c.g, c.b)) do assert(Math.abs(a - b) < 1e-5)
     val srgb = aces.reflectance(c)

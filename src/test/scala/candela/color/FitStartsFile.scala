@@ -7,4 +7,4 @@ import java.nio.file.Path
 object FitStartsFile:
   def main(args: Array[String]): Unit =
     val file = Path.of("src/core/resources" + FitStarts.Resource)
-    WholeFile.write(file, FitStarts.made)
+    WholeFile.write(file, FitStarts.resourceBytes)

@@ -10,7 +10,7 @@ final class FitStartsSuite extends AnyFunSuite:
 
   test("the table that ships is the one that the fit makes", Slow):
     val shipped = getClass.getResourceAsStream(FitStarts.Resource).readAllBytes()
-    assert(java.util.Arrays.equals(shipped, FitStarts.made))
+    assert(java.util.Arrays.equals(shipped, FitStarts.resourceBytes))
 
   /** Largest difference of two spectra. */
   private def apart(a: Upsampling.Fit, b: Upsampling.Fit): Double =
@@ -22,7 +22,8 @@ final class FitStartsSuite extends AnyFunSuite:
   for space <- ColorSpace.all do
     test(s"a fit of $space that starts from the table ends where the way from grey does"):
       val colors = Vector.fill(1000)(Rgb(inside(), inside(), inside()))
-      val pairs = for c <- colors yield (c, Upsampling.near(c, space), Upsampling.far(c, space))
+      val pairs =
+        for c <- colors yield (c, Upsampling.fromTable(c, space), Upsampling.fromGrey(c, space))
       for case (c, Some(fit), far) <- pairs do
         assert(far.isExact && apart(fit, far) < 1e-6, s"$c")
       val found = pairs.count(_._2.isDefined)

@@ -60,5 +60,5 @@ final class UpsamplingSuite extends AnyFunSuite:
     assert(first.distinct.size == first.size && first.forall((a, b) => a != b))
     for (c, (own, _)) <- colors.zip(first) do
       val walk = Upsampling.Walk()
-      walk.go(Array(c.r.toDouble, c.g.toDouble, c.b.toDouble))
+      walk.moveTo(Array(c.r.toDouble, c.g.toDouble, c.b.toDouble))
       assert(own == (400 to 700 by 20).map(nm => walk(nm.toFloat)))

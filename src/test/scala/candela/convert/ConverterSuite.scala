@@ -33,7 +33,7 @@ class ConverterSuite extends AnyFunSuite:
         if lost.isEmpty then
           assert(Exact((name, to)), "it loses nothing: list it among the exact ones")
         else assert(!Exact((name, to)), warnings)
-        assert(converted.warnings.forall(_.at.exists(_.file.endsWith(s"$name.pbrt"))))
+        assert(converted.warnings.forall(_.pos.exists(_.file.endsWith(s"$name.pbrt"))))
         val most = Differing.getOrElse((name, to), Most)
         assert(difference(image(scene, 1), image(again, 2), 2) < most, warnings)
 

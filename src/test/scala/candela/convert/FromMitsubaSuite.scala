@@ -168,7 +168,7 @@ class FromMitsubaSuite extends AnyFunSuite:
       s"<emitter type=\"spot\"><float name=\"beam_width\" value=\"$beam\"/></emitter>"
     val faded = lost(spot(10))
     assert(faded.length == 1 && faded.head.message.contains("fades linearly"))
-    assert(faded.head.at.exists(at => (at.line, at.column) == (2, 11)))
+    assert(faded.head.pos.exists(at => (at.line, at.column) == (2, 11)))
     assert(lost(spot(20)).isEmpty)
     assert(lost("<emitter type=\"constant\"/>").isEmpty)
     val image = Files.createTempFile("candela-mitsuba", ".png")
@@ -176,7 +176,7 @@ class FromMitsubaSuite extends AnyFunSuite:
       val map = s"<emitter type=\"envmap\"><string name=\"filename\" value=\"$image\"/></emitter>"
       val moved = lost(map)
       assert(moved.length == 1 && moved.head.message.contains("centred on the poles"))
-      assert(moved.head.at.exists(at => (at.line, at.column) == (2, 34)))
+      assert(moved.head.pos.exists(at => (at.line, at.column) == (2, 34)))
     finally Files.delete(image)
 
   test("what pbrt's textures, disks and thin glass do otherwise is reported"):

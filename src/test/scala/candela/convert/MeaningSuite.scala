@@ -30,7 +30,7 @@ class MeaningSuite extends AnyFunSuite:
       val files = SideFiles(folder)
       val moved = PlyWriter.extract(made.scene, 1, files)
       val name = moved.shapes.head.shape.param("filename").get.strings.head
-      val mesh = PlyFile.read(InputFile.asked(folder.resolve(name)))
+      val mesh = PlyFile.read(InputFile.named(folder.resolve(name)))
       val x = mesh.positions(0).toDouble + mesh.rests(0)
       assert(Math.abs(x - 4200000.123) < 1e-7, x)
 

@@ -42,7 +42,7 @@ class MitsubaInV4Suite extends AnyFunSuite:
     val shaded = converted(s"\n$emitter\n<emitter type=\"point\"/>").warnings
     assert(shaded.map(_.message) ==
       Vector("pbrt-v4 has no transparent area lights; this one casts shadows"))
-    assert(shaded.head.at.map(_.line).contains(2) && shaded.head.help.get.contains(":3:1"))
+    assert(shaded.head.pos.map(_.line).contains(2) && shaded.head.help.get.contains(":3:1"))
 
   private def colored(light: String, wall: String) =
     converted(s"<emitter type=\"constant\"><rgb name=\"radiance\" value=\"$light\"/></emitter>\n" +
@@ -54,7 +54,7 @@ class MitsubaInV4Suite extends AnyFunSuite:
     assert(colored("17, 12, 4", "0.5, 0.5, 0.5").isEmpty)
     val red = colored("17, 12, 4", "0.63, 0.065, 0.05")
     assert(red.length == 1 && red.head.message.contains("multiplies spectra"))
-    assert(red.head.at.map(_.line).contains(2))
+    assert(red.head.pos.map(_.line).contains(2))
     val percent = "(\\d+) %".r.findFirstMatchIn(red.head.message).get.group(1).toInt
     assert(percent >= 1 && percent <= 20, red.head.message)
 

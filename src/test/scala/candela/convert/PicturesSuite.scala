@@ -99,7 +99,7 @@ class PicturesSuite extends AnyFunSuite:
       converted(text, Dialect.V3, Dialect.V4).warnings.filter(_.message.contains("spectra"))
     // pbrt-v3: .7245 .0548 .0158; pbrt-v4: .6661 .0422 .0072
     val deep = said("\"rgb Kd\" [.8 .2 .1]", "\"xyz L\" [.5 .4 .2]")
-    assert(deep.length == 1 && deep.head.at.exists(_.line == 3), deep)
+    assert(deep.length == 1 && deep.head.pos.exists(_.line == 3), deep)
     assert(deep.head.message.contains("pbrt-v3 red, green and blue"))
     assert(said("\"rgb Kd\" [.5 .5 .5]", "\"xyz L\" [.5 .4 .2]").isEmpty)
     assert(said("\"rgb Kd\" [.6 .5 .4]", "\"rgb L\" [1 .9 .8]").isEmpty)

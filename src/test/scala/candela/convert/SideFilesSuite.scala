@@ -33,7 +33,7 @@ class SideFilesSuite extends AnyFunSuite:
       assert(shapes.map(_.name) == Vector("plymesh", "trianglemesh"))
       assert(shapes.head.params.map(_.name) == Vector("filename", "alpha"))
       val file = folder.resolve(shapes.head.param("filename").get.strings.head)
-      val mesh = candela.build.shapes.PlyFile.read(candela.io.InputFile.asked(file))
+      val mesh = candela.build.shapes.PlyFile.read(candela.io.InputFile.named(file))
       assert(mesh.positions.sameElements(scene.shapes.head.shape.param("P").get.floats))
       assert(mesh.normals.sameElements(scene.shapes.head.shape.param("N").get.floats))
       assert(mesh.uvs.sameElements(scene.shapes.head.shape.param("uv").get.floats))

@@ -97,7 +97,7 @@ class ExactSumsSuite extends AnyFunSuite:
         _ <- 1 to 20
       do
         val sums = ExactSums(64)
-        pool.each(64)(at => all.foreach(sums.add(at, _)))
+        pool.forEach(64)(at => all.foreach(sums.add(at, _)))
         assert((0 until 64).forall(at => sums(at) == sumOf(all)(0)))
         assert((0 until 64).forall(at => sums.remainder(at) == sumOf(all).remainder(0)))
     finally pool.close()

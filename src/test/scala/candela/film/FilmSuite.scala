@@ -44,7 +44,7 @@ class FilmSuite extends AnyFunSuite:
       SampleShares(3, 5, 40, 76, FilterReach(TriangleFilter(1.5f, 1.5f)), tiles.toVector)
     val pass = shares.pass()
     for (tile, i) <- tiles.zipWithIndex do
-      pass.begin(i)
+      pass.selectTile(i)
       for _ <- 1 to 100 do
         val (x, y) = (tile.x0 + 16 * random.nextFloat, tile.y0 + 16 * random.nextFloat)
         if pass.reaches(x, y) then pass.add(x, y, random.nextFloat, -random.nextFloat, 0.3f)
@@ -82,4 +82,4 @@ class FilmSuite extends AnyFunSuite:
     film.add(0, 0, 1f, 2f, 3f, 0.5f)
     film.add(1, 0, 8f, 8f, 8f, 1f)
     assert(before.toImage(1f).data.toVector == Vector(4f, 4f, 4f, 0f, 0f, 0f))
-    assert(film.since(before).toImage(1f).data.toVector == Vector(1f, 2f, 3f, 8f, 8f, 8f))
+    assert(film.deltaSince(before).toImage(1f).data.toVector == Vector(1f, 2f, 3f, 8f, 8f, 8f))

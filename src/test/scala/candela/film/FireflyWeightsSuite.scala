@@ -21,7 +21,7 @@ class FireflyWeightsSuite extends AnyFunSuite:
   private def fill(film: Film, samples: Range)(light: (Int, Int, Int) => Float): Film =
     val pass = film.levels.get.pass()
     for (tile, i) <- tiles.zipWithIndex; sample <- samples do
-      pass.begin(i)
+      pass.selectTile(i)
       for y <- tile.y0 until tile.y1; x <- tile.x0 until tile.x1 do
         val value = light(x, y, sample)
         film.add(x, y, value, value / 2, value / 4, 1f)
@@ -82,8 +82,8 @@ class FireflyWeightsSuite extends AnyFunSuite:
       val level = levels.pass()
       val pass = shares.pass(Some(level))
       for (tile, i) <- tiles.zipWithIndex; sample <- 0 until 32 do
-        pass.begin(i)
-        level.begin(i)
+        pass.selectTile(i)
+        level.selectTile(i)
         for y <- tile.y0 until tile.y1; x <- tile.x0 until tile.x1 do
           // Next to the border of the tiles
           val value = if isOne(x, y, sample) then 1e4f else 1f

@@ -26,7 +26,7 @@ class SampleSharesSuite extends AnyFunSuite:
   private def fill(s: SampleShares, along: Int)(light: (Float, Float) => Float): Unit =
     for (tile, i) <- tiles.zipWithIndex do
       val pass = s.pass()
-      pass.begin(i)
+      pass.selectTile(i)
       for
         y <- tile.y0 until tile.y1; x <- tile.x0 until tile.x1
         v <- 0 until along; u <- 0 until along
@@ -57,7 +57,7 @@ class SampleSharesSuite extends AnyFunSuite:
     val s = shares(filters.head)
     for (weight, light) <- Vector((1f, 3f), (2f, 0f), (1f, 9f)); i <- tiles.indices do
       val pass = s.pass()
-      pass.begin(i, weight)
+      pass.selectTile(i, weight)
       for y <- 16 until 29; x <- tiles(i).x0 until tiles(i).x1 do
         val (px, py) = (x + 0.5f, y + 0.5f)
         if pass.reaches(px, py) then pass.add(px, py, light, 1f, 0f)
@@ -93,7 +93,7 @@ class SampleSharesSuite extends AnyFunSuite:
         val s = shares(GaussianFilter.ofSigma(1.5f, 1.5f, 0.5f))
         val pass = s.pass()
         for i <- order do
-          pass.begin(i)
+          pass.selectTile(i)
           for k <- 0 until 500 do
             val x = (if i == 0 then 10f else 12f) + k * 0.0037f
             val y = 20f + k * 0.0091f
@@ -108,7 +108,7 @@ class SampleSharesSuite extends AnyFunSuite:
     val before = s.copy()
     fill(s, 2)((_, _) => 1f)
     assert(image(before).data.forall(v => v == 4f || v == 8f || v == 0.5f))
-    assert(image(s.since(before)).data.forall(v => v == 1f || v == 2f || v == 0.5f))
+    assert(image(s.deltaSince(before)).data.forall(v => v == 1f || v == 2f || v == 0.5f))
 
   test("filters that stay in the pixel, or are very wide or narrow, are not shared by"):
     assert(!FilterReach.isUseful(BoxFilter(0.5f, 0.5f)))

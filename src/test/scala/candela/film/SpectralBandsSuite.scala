@@ -17,7 +17,7 @@ final class SpectralBandsSuite extends AnyFunSuite:
     java.util.Arrays.fill(colors.data, 0, 3, 2f)
     val written = Image.rgb(2, 1)
     written.data(0) = 9f
-    val image = bands.behind(written, colors)
+    val image = bands.appendTo(written, colors)
     assert(image.channelNames == Image.RgbNames ++ bands.channels && image.data(0) == 9f)
     for i <- 0 until 4 do
       val nm = (400 + 75 * i until 475 + 75 * i).map(l => Colorimetry.radianceOfD65(l + 0.5f))

@@ -37,8 +37,8 @@ final class SplatFilmSuite extends AnyFunSuite:
 
   test("a splat lands in its pixel, over the number of samples and times that of pixels"):
     val f = film()
-    f.begin()
-    f.begin()
+    f.countSample()
+    f.countSample()
     f.add(2.25f, 1.75f, Rgb(1, 2, 3), 0)
     val found = values(f)
     assert(found.slice(18, 21) == Vector(6f, 12f, 18f))
@@ -48,8 +48,8 @@ final class SplatFilmSuite extends AnyFunSuite:
     val all = splats(2000)
     val filter = GaussianFilter.ofSigma(1.5f, 1.5f, 0.5f)
     val (a, b) = (film(filter), film(filter))
-    a.begin()
-    b.begin()
+    a.countSample()
+    b.countSample()
     all.foreach((x, y, c) => a.add(x, y, c, 0))
     all.reverse.foreach((x, y, c) => b.add(x, y, c, 0))
     assert(values(a) == values(b))
@@ -57,11 +57,11 @@ final class SplatFilmSuite extends AnyFunSuite:
 
   test("many bright splats are added without any rounding"):
     val f = film()
-    f.begin()
+    f.countSample()
     for _ <- 1 to 5000 do f.add(0.5f, 0.5f, Rgb(100.25f, 127.5f, 129f), 0)
     val read = film()
     saved(f)(CheckedFile.read(_, "splats")(read.load))
-    for sums <- Seq(f, read, f.copy(), f.since(film())) do
+    for sums <- Seq(f, read, f.copy(), f.deltaSince(film())) do
       assert(values(sums).take(3) == Vector(6015000f, 7650000f, 7740000f))
 
   test("splats of several threads at once, across bands of rows, are those of one"):
@@ -71,7 +71,7 @@ final class SplatFilmSuite extends AnyFunSuite:
     val all = Vector.fill(20000)((draws.between(-1, 9), draws.between(-2, 42)))
     def add(film: SplatFilm, from: Int) =
       for i <- from until all.size by 4 do
-        film.begin()
+        film.countSample()
         film.add(all(i)._1, all(i)._2, Rgb(0.1f * (i % 7), 300f, 1e-8f * i), 0)
     val (together, alone) = (high, high)
     val threads = (0 until 4).map(k => Thread(() => add(together, k)))
@@ -83,7 +83,7 @@ final class SplatFilmSuite extends AnyFunSuite:
 
   test("small and large splats keep their digits"):
     val f = film()
-    f.begin()
+    f.countSample()
     f.add(0.5f, 0.5f, Rgb(1e-9f, 1e7f, 3e-14f), 0)
     for _ <- 1 to 1000 do f.add(0.5f, 0.5f, Rgb(1e-9f, 1e-3f, 3e-14f), 0)
     val found = values(f)
@@ -103,7 +103,7 @@ final class SplatFilmSuite extends AnyFunSuite:
       val f = SplatFilm(0, 0, 16, 16, filter, 1.0, ColorBasis.Srgb, Vector.empty)
       val draws = Draws(6)
       for _ <- 1 to 4000 do
-        f.begin()
+        f.countSample()
         f.add(draws.between(5, 10), draws.between(5, 10), Rgb.White, 0)
       val data = new Array[Float](3 * 256)
       f.addTo(data, 1f)
@@ -112,7 +112,7 @@ final class SplatFilmSuite extends AnyFunSuite:
 
   test("splats that are no light are left out, bright ones scaled to the limit"):
     val f = film(limits = SampleLimit.luminance(1f).toVector)
-    f.begin()
+    f.countSample()
     f.add(0.5f, 0.5f, Rgb(Float.NaN, 0f, 0f), 0)
     f.add(0.5f, 0.5f, Rgb(Float.PositiveInfinity, 0f, 0f), 0)
     assert(values(f).forall(_ == 0f))
@@ -121,18 +121,18 @@ final class SplatFilmSuite extends AnyFunSuite:
 
   test("what was added since a copy can be told"):
     val f = film()
-    f.begin()
+    f.countSample()
     f.add(1.5f, 0.5f, Rgb(1, 2, 3), 0)
     val before = f.copy()
-    f.begin()
+    f.countSample()
     f.add(1.5f, 0.5f, Rgb(5, 5, 5), 0)
-    assert(values(f.since(before)).slice(3, 6) == Vector(60f, 60f, 60f))
+    assert(values(f.deltaSince(before)).slice(3, 6) == Vector(60f, 60f, 60f))
     assert(values(before).slice(3, 6) == Vector(12f, 24f, 36f))
 
   test("groups of lights add up to all splats, and each has its own"):
     def filled(groups: Int) =
       val f = SplatFilm(0, 0, 4, 3, box, 12.0, ColorBasis.Srgb, Vector.empty, groups)
-      f.begin()
+      f.countSample()
       for k <- 0 to 2 do f.add(k + 0.5f, 0.5f, Rgb(1, 2, 3) * (k + 1f), group = k)
       f
     val (one, three) = (filled(1), filled(3))

@@ -120,7 +120,7 @@ final class Trials(from: Path, folder: Path, random: Random):
           val _ = SceneBuilder.build(scene, RenderSettings(samples = Some(1), quick = true))
           None
         case FileKind.Meshes =>
-          val mesh = PlyFile.read(InputFile.asked(file))
+          val mesh = PlyFile.read(InputFile.named(file))
           val vertices = mesh.positions.length / 3
           val isSound = mesh.indices.forall(i => i >= 0 && i < vertices) &&
             mesh.positions.forall(java.lang.Float.isFinite)
@@ -130,7 +130,7 @@ final class Trials(from: Path, folder: Path, random: Random):
           Option.when(picture.width < 1 || picture.height < 1)("an empty picture")
         case FileKind.Volumes =>
           val all =
-            Vector("density", "heat").flatMap(NanoVdbFile.read(InputFile.asked(file), _).toOption)
+            Vector("density", "heat").flatMap(NanoVdbFile.read(InputFile.named(file), _).toOption)
           Option.when(all.exists(_.tree.maximum.isNaN))("an unsound volume")
     catch
       case e: SceneError => unclear(e)
@@ -143,7 +143,7 @@ final class Trials(from: Path, folder: Path, random: Random):
   private def unclear(e: SceneError): Option[String] =
     val errors = e.problems.filter(_.severity == Severity.Error)
     val bad = errors.find(p => p.message.isBlank || p.message.exists(c => c == '\n' || c == '\r'))
-    val lost = errors.find(p => p.at.nonEmpty && p.at.exists(a => a.line < 1 || a.column < 1))
+    val lost = errors.find(p => p.pos.nonEmpty && p.pos.exists(a => a.line < 1 || a.column < 1))
     if errors.isEmpty then Some("an error without errors")
     else bad.orElse(lost).map(p => s"an unclear message: $p")
 

@@ -75,7 +75,7 @@ object Gallery:
     for e <- exhibits if e.isShown && (words.isEmpty || words.exists(e.file.contains)) do
       val (plan, problems) = e.plan(Width, options)
       problems.foreach(p => println(s"${e.file}: ${p.message}"))
-      write(e.file, Denoising.shown(denoising(render(plan))))
+      write(e.file, Denoising.displayed(denoising(render(plan))))
       println(s"${e.file}: ${Looks.of(ImageFiles.read(picture(e.file)))}")
     for c <- Comparisons.all if words.isEmpty || words.exists(c.own.contains) do
       val reference = ImageFiles.read(ReferenceScenes.References.resolve(s"${c.name}.exr"))

@@ -27,11 +27,11 @@ class FrameSuite extends AnyFunSuite:
 
   test("a frame around any direction is orthonormal and right-handed"):
     val draws = Draws(1)
-    (axes ++ nearPoles).foreach(n => orthonormal(Frame.around(n)))
-    for _ <- 0 until 100000 do orthonormal(Frame.around(draws.direction()))
+    (axes ++ nearPoles).foreach(n => orthonormal(Frame.fromZ(n)))
+    for _ <- 0 until 100000 do orthonormal(Frame.fromZ(draws.direction()))
 
   test("a frame around n has n as its third axis"):
-    for n <- axes do assert(Frame.around(n).n == n && Frame.around(n).toLocal(n) == Vec3.Z)
+    for n <- axes do assert(Frame.fromZ(n).n == n && Frame.fromZ(n).toLocal(n) == Vec3.Z)
 
   test("a frame along a vector is orthonormal, and its s follows the vector"):
     val draws = Draws(2)
@@ -54,6 +54,6 @@ class FrameSuite extends AnyFunSuite:
   test("to local and back is the identity"):
     val draws = Draws(4)
     for _ <- 0 until 10000 do
-      val (frame, v) = (Frame.around(draws.direction()), draws.direction())
+      val (frame, v) = (Frame.fromZ(draws.direction()), draws.direction())
       assert((frame.toWorld(frame.toLocal(v)) - v).length <= Rounding)
       assert((frame.toLocal(frame.toWorld(v)) - v).length <= Rounding)

@@ -13,7 +13,7 @@ class RayDifferentialSuite extends AnyFunSuite:
     val n = p.normalized
     at.p = p
     at.geometricNormal = n
-    at.frame.set(Frame.around(n))
+    at.frame.set(Frame.fromZ(n))
     // Parameters along the tangents, in units of length; the normal turns by 1/radius
     val turn = 1f / p.length
     at.setPartials(at.frame.s, at.frame.t, at.frame.s * turn, at.frame.t * turn)
@@ -53,7 +53,7 @@ class RayDifferentialSuite extends AnyFunSuite:
           rays.xDirection = dx
           rays.yOrigin = o + Vec3(h, 0, 0)
           rays.yDirection = d
-          assert(rays.meet(at))
+          assert(rays.computeFootprint(at))
           at.footprintInUv()
           assert((at.dpdx - (q - p)).length < 0.02f * (q - p).length + 2e-5f)
           val wi = bend(d, at.frame.n)
@@ -88,11 +88,11 @@ class RayDifferentialSuite extends AnyFunSuite:
   test("a ray along the surface has no footprint, and says so"):
     val rays = RayDifferential()
     val at = onSphere(Vec3(0, 0, 1))
-    assert(!rays.meet(at))
+    assert(!rays.computeFootprint(at))
     rays.isKnown = true
     rays.xOrigin = Vec3(0, 0, 2)
     rays.xDirection = Vec3.X
     rays.yOrigin = Vec3(0, 0, 2)
     rays.yDirection = Vec3(0, 0, -1)
-    assert(!rays.meet(at))
+    assert(!rays.computeFootprint(at))
     assert(at.dpdx.isZero && at.dpdy.isZero)

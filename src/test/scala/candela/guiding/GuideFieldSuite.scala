@@ -39,13 +39,13 @@ class GuideFieldSuite extends AnyFunSuite:
       for i <- 0 until 10000 do part.add(event(i))
       made
     val (halted, whole) = (guide(), guide())
-    assert(whole.begin(1) && whole.pass.field.regions > 8)
+    assert(whole.beginSample(1) && whole.pass.field.regions > 8)
     // Before the first region, and after the third
     for most <- Vector(0, 3) do
       var regions = 0
-      assert(!halted.begin(1, () => regions += 1, () => regions >= most))
+      assert(!halted.beginSample(1, () => regions += 1, () => regions >= most))
       assert(halted.pass.begun == 0 && regions == most)
-    assert(halted.begin(1) && halted.pass.field.regions == whole.pass.field.regions)
+    assert(halted.beginSample(1) && halted.pass.field.regions == whole.pass.field.regions)
     assert(halted.pass.field.lobes.sameElements(whole.pass.field.lobes))
 
   test("exponentials are exact to five digits"):
@@ -98,7 +98,7 @@ class GuideFieldSuite extends AnyFunSuite:
   test("a part of the paths is guided, and a part of these records, with any camera"):
     def chosen(origin: Int => Vec3, direction: Int => Vec3) =
       val records = GuideRecords(rate = 0.25f, regions = GuideField.Start.regions)
-      val pass = Guide.Pass(GuideField.Start, begun = 1, part = 0.4f, records)
+      val pass = Guide.Pass(GuideField.Start, begun = 1, fraction = 0.4f, records)
       val guided = (0 until 10000).filter(i => pass.includes(origin(i), direction(i)))
       val learning = guided.filter(i => pass.learnsFrom(origin(i), direction(i)))
       // Deviations of 49 and 30

@@ -108,7 +108,7 @@ private object GuidePathSuite:
       path.step()
       event(path, FirstRegion, before, 1.0, p1, q1, p1 / q1)
       part.countEvent(FirstRegion)
-      val place = path.place
+      val place = path.lastEvent
       var found = before + after * first
       for _ <- 0 until branches do
         val b = sampler.next1D() < shareOfBright

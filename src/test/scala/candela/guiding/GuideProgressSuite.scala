@@ -34,8 +34,9 @@ class GuideProgressSuite extends AnyFunSuite:
     lefts.foldLeft(start)((p, l) => p.after(verdict(l, 1.0)))
 
   test("guiding pays by the variance that it leaves, and by what branches cost"):
-    def pays(left: Double, effort: Double) = start.after(verdict(left, 1.0, cost = 3 * effort)).pays
-    assert(!start.pays)
+    def pays(left: Double, effort: Double) =
+      start.after(verdict(left, 1.0, cost = 3 * effort)).isWorthwhile
+    assert(!start.isWorthwhile)
     assert(pays(0.65, 1.0) && !pays(0.67, 1.0) && !pays(0.67, 0.5))
     assert(pays(0.5, 2.1) && !pays(0.5, 2.3))
 
@@ -54,7 +55,7 @@ class GuideProgressSuite extends AnyFunSuite:
   test("where it was certain, a single pass gives it up only if it did not bring much before"):
     assert(after(0.4, 0.8).isCertain && after(0.2, 0.2, 1.1).isCertain)
     val worse = after(0.4, 0.8, 0.8)
-    assert(!worse.pays && worse.givesUp(isLast = false))
+    assert(!worse.isWorthwhile && worse.givesUp(isLast = false))
 
   test("learning has settled where a pass brings less than two percent for the time"):
     def isSettled(noise: Double, cost: Double, before: Double = 0.4, paths: Long = 20000L) =

@@ -18,19 +18,19 @@ class GuideTrialSuite extends AnyFunSuite:
   test("guiding is given up after two passes that leave most of it"):
     val trial = guide()
     val _ = pass(trial, until = 2, left = 0.8)
-    assert(!trial.outcome.gaveUp && trial.pass.part < 1f)
+    assert(!trial.outcome.gaveUp && trial.pass.fraction < 1f)
     val _ = pass(trial, until = 4, left = 0.8)
-    assert(trial.outcome.gaveUp && trial.pass.part == 0f)
+    assert(trial.outcome.gaveUp && trial.pass.fraction == 0f)
 
   test("all paths are guided after one pass that leaves little, or two that leave enough less"):
     val clear = guide()
     val _ = pass(clear, until = 2, left = 0.4)
-    assert(clear.pass.part == 1f)
+    assert(clear.pass.fraction == 1f)
     val close = guide()
     val _ = pass(close, until = 2, left = 0.61)
-    assert(!close.outcome.gaveUp && close.pass.part < 1f)
+    assert(!close.outcome.gaveUp && close.pass.fraction < 1f)
     val _ = pass(close, until = 4, left = 0.61)
-    assert(close.pass.part == 1f)
+    assert(close.pass.fraction == 1f)
 
   test("regions are judged before they are fitted as after"):
     def growth() =
@@ -50,7 +50,7 @@ class GuideTrialSuite extends AnyFunSuite:
     def check(left: Double, isRough: Boolean): Unit =
       val trial = guide(settings = settings)
       val before = trial.pass
-      val paths = (Pixels * before.part).toInt
+      val paths = (Pixels * before.fraction).toInt
       val _ = pass(trial, until = 2, left)
       for fitsRoughly <- Vector(false, true) do
         val records = GuideRecords(1f, before.field.regions)
@@ -76,9 +76,9 @@ class GuideTrialSuite extends AnyFunSuite:
     val trial = guide(learnsOn = true)
     val _ = pass(trial, until = 2, left = 0.5)
     val _ = pass(trial, until = 4, left = 0.82)
-    assert(trial.pass.part == 1f && !trial.outcome.gaveUp)
+    assert(trial.pass.fraction == 1f && !trial.outcome.gaveUp)
     val _ = pass(trial, until = 8, left = 0.82)
-    assert(trial.outcome.gaveUp && trial.pass.part == 0f)
+    assert(trial.outcome.gaveUp && trial.pass.fraction == 0f)
 
 private object GuideTrialSuite:
   val Pixels = 300000
@@ -94,12 +94,12 @@ private object GuideTrialSuite:
     */
   def pass(guide: Guide, until: Int, left: Double): Int =
     val now = guide.pass
-    val paths = (Pixels * (until - now.begun) * now.part).toInt
+    val paths = (Pixels * (until - now.begun) * now.fraction).toInt
     val part = now.newPart()
     assert(part != null)
     record(part.nn, left, paths)
     var fitted = 0
-    assert(guide.begin(until, moves = () => fitted += 1))
+    assert(guide.beginSample(until, moves = () => fitted += 1))
     fitted
 
   /** Paths of one event, with the light 1 or [[Bright]], in places that do not depend on it. */

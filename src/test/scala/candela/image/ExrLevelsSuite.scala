@@ -10,7 +10,7 @@ import candela.testing.{Draws, TempFolder, TiledExr}
 
 class ExrLevelsSuite extends AnyFunSuite:
 
-  private def opened(file: Path): ExrLevels = ExrLevels.of(InputFile.asked(file)) match
+  private def opened(file: Path): ExrLevels = ExrLevels.of(InputFile.named(file)) match
     case Some(Right(levels)) => levels
     case other => fail(s"$other")
 
@@ -46,7 +46,7 @@ class ExrLevelsSuite extends AnyFunSuite:
       val draws = Draws(3)
       val made = TiledExr(32, 16, 8, 8)((_, _, _, _) => draws.unit())
       val file = made.write(folder.resolve("a.exr"))
-      val whole = ImageFiles.load(InputFile.asked(file)).toImage
+      val whole = ImageFiles.load(InputFile.named(file)).toImage
       val levels = opened(file)
       for y <- 0 until 16; x <- 0 until 32; c <- 0 until 3 do
         assert(levels.tile(0, x / 8, y / 8)(x % 8, y % 8, c) == whole(x, y, c))
@@ -54,7 +54,7 @@ class ExrLevelsSuite extends AnyFunSuite:
   test("levels that can't be read one by one have a reason; files without levels have none"):
     TempFolder.use: folder =>
       def reason(made: TiledExr) =
-        ExrLevels.of(InputFile.asked(made.write(folder.resolve("a.exr")))).map(_.left.toOption)
+        ExrLevels.of(InputFile.named(made.write(folder.resolve("a.exr")))).map(_.left.toOption)
       def black(w: Int, h: Int, tile: Int = 16, mode: Int = 1) =
         TiledExr(w, h, tile, tile, mode = mode)((_, _, _, _) => 0f)
       assert(reason(black(30, 20)).flatten.exists(_.contains("30×20 texels are no powers of two")))
@@ -75,6 +75,6 @@ class ExrLevelsSuite extends AnyFunSuite:
         changed(first + at)
         intercept[ImageError](opened(file).tile(0, 0, 0)): Unit
       changed(made.table + 7)
-      assert(ExrLevels.of(InputFile.asked(file)).isEmpty)
+      assert(ExrLevels.of(InputFile.named(file)).isEmpty)
       Files.write(file, bytes.take(first)): Unit
-      assert(ExrLevels.of(InputFile.asked(file)).isEmpty)
+      assert(ExrLevels.of(InputFile.named(file)).isEmpty)

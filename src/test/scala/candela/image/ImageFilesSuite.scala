@@ -31,7 +31,7 @@ class ImageFilesSuite extends AnyFunSuite:
     Samples.inFolder: folder =>
       ImageFiles.write(folder.resolve("a.png"), Image.rgb(3, 2))
       val renamed = Files.move(folder.resolve("a.png"), folder.resolve("a.exr"))
-      assert(ImageFiles.load(InputFile.asked(renamed)).isInstanceOf[ByteImage])
+      assert(ImageFiles.load(InputFile.named(renamed)).isInstanceOf[ByteImage])
 
   test("a TGA file, which has no mark, is known by its extension"):
     Samples.inFolder: folder =>
@@ -39,7 +39,7 @@ class ImageFilesSuite extends AnyFunSuite:
       val file = Array[Byte](0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 32) ++
         Array[Byte](30, 20, 10, 60, 50, 40)
       val path = Files.write(folder.resolve("a.tga"), file)
-      ImageFiles.load(InputFile.asked(path)) match
+      ImageFiles.load(InputFile.named(path)) match
         case image: ByteImage =>
           assert(image.bytes.toVector == Vector[Byte](10, 20, 30, 40, 50, 60))
         case other => fail(s"$other")
@@ -48,7 +48,7 @@ class ImageFilesSuite extends AnyFunSuite:
     Samples.inFolder: folder =>
       def read(name: String, header: String, values: Int*) =
         val bytes = header.getBytes("ISO-8859-1") ++ values.map(_.toByte)
-        ImageFiles.load(InputFile.asked(Files.write(folder.resolve(name), bytes))) match
+        ImageFiles.load(InputFile.named(Files.write(folder.resolve(name), bytes))) match
           case image: ByteImage => (image.channelNames, image.bytes.toVector.map(_ & 255))
           case other => fail(s"$other")
       val pixels = Vector(10, 20, 30, 40, 50, 255)
@@ -153,7 +153,7 @@ class ImageFilesSuite extends AnyFunSuite:
     Samples.inFolder: folder =>
       for (size, isRefused) <- List(20000 -> true, 100 -> false) do
         val file = Files.write(folder.resolve("a.tga"), tga(size))
-        val answer = Samples.attempt(ImageFiles.load(InputFile.asked(file)))
+        val answer = Samples.attempt(ImageFiles.load(InputFile.named(file)))
         assert(answer.left.exists(_.endsWith("can't be in a file of 905 bytes")) == isRefused)
 
   test("pictures of few bits a pixel may be packed far more than others"):
@@ -163,4 +163,4 @@ class ImageFilesSuite extends AnyFunSuite:
       val file = folder.resolve("a.png")
       assert(javax.imageio.ImageIO.write(picture, "png", file.toFile))
       assert(Files.size(file) < 6000 * 6000 / 1400)
-      assert(ImageFiles.load(InputFile.asked(file)).width == 6000)
+      assert(ImageFiles.load(InputFile.named(file)).width == 6000)

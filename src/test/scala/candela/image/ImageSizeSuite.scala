@@ -9,7 +9,7 @@ import candela.testing.{TempFolder, TiledExr}
 
 class ImageSizeSuite extends AnyFunSuite:
 
-  private def guess(file: Path): ImageSize = ImageSize.guess(InputFile.asked(file)).get
+  private def guess(file: Path): ImageSize = ImageSize.guess(InputFile.named(file)).get
 
   test("files of most formats tell their size, however well they are packed"):
     TempFolder.use: folder =>

@@ -37,7 +37,7 @@ class PngBandsSuite extends AnyFunSuite:
       data.grouped(1000).flatMap(chunk("IDAT", _)) ++ chunk("IEND", Array.empty)
 
   private def written(folder: Path, bytes: Array[Byte]): InputFile =
-    InputFile.asked(Files.write(folder.resolve("a.png"), bytes))
+    InputFile.named(Files.write(folder.resolve("a.png"), bytes))
 
   private def values(image: StoredImage): Vector[Float] = image match
     case bytes: ByteImage => bytes.bytes.toVector.map(_.toFloat)

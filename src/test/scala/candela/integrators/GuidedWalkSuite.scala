@@ -98,7 +98,7 @@ final class GuidedWalkSuite extends AnyFunSuite:
       Renderer.render(made, threads = 2).learned.get
     val rooms = learned(GuidedWalkSuite.rooms(Dialect.V4), 256)
     assert(!rooms.gaveUp && rooms.samples == 64)
-    assert(rooms.left.exists(_ < 0.8), rooms)
+    assert(rooms.varianceRatio.exists(_ < 0.8), rooms)
     assert(rooms.share > 0.2 && rooms.share < 1.0, rooms)
     assert(rooms.weight > 1f, rooms)
     assert(rooms.regions > 4 && rooms.lobes > rooms.regions)

@@ -142,7 +142,7 @@ final class InterfacesSuite extends AnyFunSuite:
     def warnings(isV4: Boolean, integrator: String) =
       val dialect = if isV4 then Dialect.V4 else Dialect.V3
       SceneTexts.problems(pbrt(isV4, integrator, "point", 1), dialect).map: p =>
-        s"${p.at.fold("")(at => s"${at.line}: ")}${p.message}"
+        s"${p.pos.fold("")(at => s"${at.line}: ")}${p.message}"
     for isV4 <- Seq(false, true); integrator <- Seq("path", "sppm") do
       assert(
         warnings(isV4, integrator) == Vector(

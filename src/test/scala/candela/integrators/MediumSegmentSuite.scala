@@ -26,7 +26,7 @@ final class MediumSegmentSuite extends AnyFunSuite:
     val ray = Ray()
     ray.set(Vec3.Zero, Vec3.Z, 2f)
     val made = MediumSegment(media, work)
-    made.begin(ray, 0)
+    made.start(ray, 0)
     (made, work)
 
   test("a path that goes straight passes as densely as a light sample, in each colour"):
@@ -44,7 +44,7 @@ final class MediumSegmentSuite extends AnyFunSuite:
 
   test("light that is lost on the way to the path makes the sample none"):
     val (made, work) = segment: s =>
-      s.lose()
+      s.discard()
       s.scaleLight(0f, 0f, 0f)
     made.goTo(1f): Unit
     assert(!work.weights.isLost)

@@ -43,7 +43,7 @@ final class StraightWalkSuite extends AnyFunSuite:
 
   /** Photons that bring all that media scatter: nothing. */
   private val dark = new PhotonLight(scene, scene.casters, 4, bringsAll = true):
-    protected def around(vertex: SurfaceVertex, most: Int, isAlone: Boolean): Rgb = Rgb.Black
+    protected def gather(vertex: SurfaceVertex, most: Int, isAlone: Boolean): Rgb = Rgb.Black
     protected def along(segment: MediumSegment, most: Int, isAlone: Boolean, isSeen: Boolean) = ()
 
   for (what, extinction) <- Seq("grey" -> Rgb.gray(0.8f), "coloured" -> Rgb(0.4f, 0.8f, 1.5f)) do

@@ -24,6 +24,6 @@ final class SurfaceVertexSuite extends AnyFunSuite:
       for event <- 1 to 10000 do
         vertex.scatterAt(Vec3.Zero, -ray.direction, lobe)
         vertex.draw(sampler)
-        assert(vertex.leave(ray))
+        assert(vertex.spawnRay(ray))
         // The rounding of one event, not of all
         assert(Math.abs(ray.direction.length - 1f) < 1e-6f, s"${ray.direction}, event $event")

@@ -11,7 +11,8 @@ import candela.testing.TempFolder
 class CacheFolderSuite extends AnyFunSuite:
 
   test("the user's cache folder is the one that the system names"):
-    def usual(variables: (String, String)*) = CacheFolder.usual(variables.toMap).map(_.toString)
+    def usual(variables: (String, String)*) =
+      CacheFolder.userFolder(variables.toMap).map(_.toString)
     val root = Path.of("").toAbsolutePath.getRoot.resolve("x")
     val tail = Path.of("candela", "textures")
     assert(usual("XDG_CACHE_HOME" -> s"$root", "HOME" -> "/h").contains(s"${root.resolve(tail)}"))

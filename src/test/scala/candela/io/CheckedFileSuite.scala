@@ -29,7 +29,7 @@ class CheckedFileSuite extends AnyFunSuite:
 
   /** By both ways to read, which must agree. */
   private def read(file: Path, mark: String = "test 1"): Values =
-    val made = Try(CheckedFile.make(file, mark)(values))
+    val made = Try(CheckedFile.readOnce(file, mark)(values))
     val read = Try(CheckedFile.read(file, mark)(values))
     assert(made.fold(_.getMessage, identity) == read.fold(_.getMessage, identity))
     read.get
@@ -77,7 +77,7 @@ class CheckedFileSuite extends AnyFunSuite:
 
   test("a damaged file is known while something is made of it, whatever is read"):
     withFile: file =>
-      def made[A](body: CheckedInput => A) = CheckedFile.make(file, "test 1")(body)
+      def made[A](body: CheckedInput => A) = CheckedFile.readOnce(file, "test 1")(body)
       assert(made(_.int()) == -3)
       val failed = intercept[IllegalStateException](made(_ => throw IllegalStateException("odd")))
       assert(failed.getMessage == "odd")

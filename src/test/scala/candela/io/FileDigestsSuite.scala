@@ -27,7 +27,7 @@ class FileDigestsSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val files =
         for name <- names.toVector
-        yield InputFile.asked(Files.writeString(folder.resolve(name), name))
+        yield InputFile.named(Files.writeString(folder.resolve(name), name))
       assume(FileStamp.of(folder.resolve(names.head), rest = 0).nonEmpty, "needs Unix files")
       assume(FileDigests.isTimed(folder), "needs a file system whose kernel sets the times")
       rest()
@@ -49,7 +49,7 @@ class FileDigestsSuite extends AnyFunSuite:
 
   test("a file that was written just now is read again"):
     TempFolder.use: folder =>
-      val file = InputFile.asked(Files.writeString(folder.resolve("a"), "a"))
+      val file = InputFile.named(Files.writeString(folder.resolve("a"), "a"))
       val first = digests(folder.resolve("cache"))
       assert(first(file)("first") == "first")
       first.save()

@@ -22,7 +22,7 @@ class InputFileSuite extends AnyFunSuite:
             Thread.sleep(20)
       writer.setDaemon(true)
       writer.start()
-      val text = Using.resource(InputFile.asked(pipe).stream())(_.readNBytes(1 << 10))
+      val text = Using.resource(InputFile.named(pipe).stream())(_.readNBytes(1 << 10))
       assert(String(text) == "Shape \"disk\"")
 
   private val pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:7\nsize 190001066\n"
@@ -34,13 +34,13 @@ class InputFileSuite extends AnyFunSuite:
         _.bytes(), _.text(), _.stream(), _.channel(), _.map(), _.beginning(4), _.again()
       )
       for (read, i) <- reads.zipWithIndex do
-        val e = intercept[java.io.IOException](read(InputFile.asked(file)))
+        val e = intercept[java.io.IOException](read(InputFile.named(file)))
         assert(e.getMessage.contains("git lfs pull"), s"read $i")
-      assert(!InputFile.asked(file).isPipe)
+      assert(!InputFile.named(file).isPipe)
       val (message, _) = SceneFolder(folder).absence("mesh.ply", None, "no such file")
-      assert(SceneFolder(folder).find("mesh.ply", None).isEmpty && message.contains("Git LFS"))
+      assert(SceneFolder(folder).locate("mesh.ply", None).isEmpty && message.contains("Git LFS"))
 
   test("a larger file that begins like a pointer of Git LFS is read"):
     TempFolder.use: folder =>
       val file = Files.writeString(folder.resolve("a"), pointer + " " * 1024)
-      assert(InputFile.asked(file).bytes().length > 1024)
+      assert(InputFile.named(file).bytes().length > 1024)

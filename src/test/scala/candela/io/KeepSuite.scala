@@ -14,7 +14,7 @@ class KeepSuite extends AnyFunSuite:
   private val Others = Keep.Shelf[String]()
 
   private def written(file: Path, text: String): InputFile =
-    InputFile.asked(Files.writeString(file, text))
+    InputFile.named(Files.writeString(file, text))
 
   /** What is kept of a file; `made`, if nothing is. */
   private def of(keep: Keep, file: InputFile, made: String, way: String = "") =
@@ -30,7 +30,7 @@ class KeepSuite extends AnyFunSuite:
   test("what the scene before the latest has not used is given up"):
     val keep = Keep()
     for scene <- 1 to 5 do
-      keep.begin()
+      keep.startScene()
       assert(keep(Words, "each")(s"$scene") == "1")
       if scene == 1 then assert(keep(Words, "first")("1") == "1"): Unit
       if scene % 2 == 0 then assert(keep(Words, "even")(s"$scene") == s"$scene"): Unit

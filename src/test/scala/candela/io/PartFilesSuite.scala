@@ -107,5 +107,5 @@ class PartFilesSuite extends AnyFunSuite:
       val read = second(shelf, "a")(fail("it is made again"))
       assert(read.toVector == large.toVector && (second(shelf, "a")(fail("again")) eq read))
       Files.delete(only(folder))
-      assert(second.find(shelf, "a").exists(_ eq read))
-      assert(Keep(Some(files(folder))).find(shelf, "a").isEmpty)
+      assert(second.lookup(shelf, "a").exists(_ eq read))
+      assert(Keep(Some(files(folder))).lookup(shelf, "a").isEmpty)

@@ -16,7 +16,7 @@ class ScratchSuite extends AnyFunSuite:
     folder
 
   test("a scratch folder is gone when it is closed, with all that is in it"):
-    val scratch = Scratch.make()
+    val scratch = Scratch.create()
     assert(scratch.folder.getParent == temporary)
     val _ = Files.createDirectories(scratch.folder.resolve("a/b"))
     val _ = Files.writeString(scratch.folder.resolve("a/b/c"), "x")
@@ -26,9 +26,9 @@ class ScratchSuite extends AnyFunSuite:
   test("a folder keeps its lock when the same process makes another one"):
     val locks = Path.of("/proc/locks")
     assume(Files.isReadable(locks), "the system lists no locks")
-    val mine = Scratch.make()
+    val mine = Scratch.create()
     try
-      Scratch.make().close()
+      Scratch.create().close()
       val number = Files.getAttribute(mine.folder.resolve("lock"), "unix:ino")
       val own = s" ${ProcessHandle.current.pid} "
       val held = Files.readString(locks).linesIterator.filter(_.contains(own))
@@ -44,8 +44,8 @@ class ScratchSuite extends AnyFunSuite:
     val target = left("linked-", hasLock = true)
     val linked = temporary.resolve(s"candela-scratch-${System.nanoTime}")
     val link = Files.createSymbolicLink(linked, target)
-    val mine = Scratch.make()
-    val second = Scratch.make()
+    val mine = Scratch.create()
+    val second = Scratch.create()
     try
       for gone <- Vector(killed, old) do assert(!Files.exists(gone), gone)
       for kept <- Vector(young, foreign, target, link, mine.folder) do

@@ -104,8 +104,8 @@ final class AreaLightSuite extends AnyFunSuite:
         if out.pdf > 0f then
           assert(!out.isInfinite && Math.abs(out.wi.length - 1f) < 1e-5f)
           at.p = out.target.p
-          at.u = out.at.u
-          at.v = out.at.v
+          at.u = out.point.u
+          at.v = out.point.v
           at.geometricNormal = out.target.n
           // Densities at grazing angles divide by a cosine that has lost digits
           val cosine = Math.abs(out.target.n dot out.wi)

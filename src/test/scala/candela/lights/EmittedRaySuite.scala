@@ -111,6 +111,6 @@ final class EmittedRaySuite extends AnyFunSuite:
 
   test("a scene without surfaces gets no light from afar"):
     val out = EmittedRay()
-    val nowhere = Ball.around(Bounds3.Empty)
+    val nowhere = Ball.enclosing(Bounds3.Empty)
     ConstantEnvironment(Rgb.White, true).emit(nowhere, 0.3f, 0.3f, 0.3f, 0.3f, out)
     assert(out.pdf == 0f && out.power.isBlack)

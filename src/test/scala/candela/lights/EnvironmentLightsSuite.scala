@@ -110,7 +110,7 @@ final class EnvironmentLightsSuite extends AnyFunSuite:
         for y <- 0 until h; x <- 0 until w yield
           val quarters =
             for j <- Seq(0.25f, 0.75f); i <- Seq(0.25f, 0.75f)
-            yield sphere.between(Vec3((x + i) / w, (y + j) / h, 0f)).average
+            yield sphere.bilinear(Vec3((x + i) / w, (y + j) / h, 0f)).average
           quarters.sum / 4 * layout.share(y, h)
       val mean = expected.sum / (w * h)
       val found = ImageEnvironment.distribution(sphere, complete = true)

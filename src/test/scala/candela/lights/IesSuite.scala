@@ -198,7 +198,7 @@ final class IesSuite extends AnyFunSuite:
       Files.writeString(bad, "IESNA:LM-63-2002\nTILT=NONE\n1 x")
       val problems =
         SceneTexts.problems(scene(isV4 = true, s"\"string filename\" \"$bad\""), Dialect.V4)
-      assert(problems.size == 1 && problems.head.at.map(_.line).contains(9))
+      assert(problems.size == 1 && problems.head.pos.map(_.line).contains(9))
       assert(problems.head.message.endsWith("bad.ies:3: expected the lumens of a lamp, found `x`"))
       val tilted = folder.resolve("tilted.ies")
       Files.writeString(tilted, file("0 90" -> "0", "100 0", head = "IESNA91\nTILT=lamp.til"))

@@ -84,15 +84,15 @@ class BiasTestSuite extends AnyFunSuite:
         val noise = (1 to 8).map(_ => even(random)).sum / 8
         mean.data(i) = (value * noise).toFloat
         variance.data(i) = (value * value * 0.49 / 12 / 8).toFloat
-      Renderings.known(mean, variance, 7)
+      Renderings.withVariance(mean, variance, 7)
     assert(alarms(20)(BiasTest.of(known(1), images(8, even))) <= 4)
     assert(BiasTest.of(known(1.02), images(16, even)).p < 0.05)
 
   test("pixels that are alike have so much more variance in the mean of an image"):
     def flat(value: Float) = Image(side, side, Image.RgbNames, Array.fill(side * side * 3)(value))
     def error(correlation: Double) =
-      def of(value: Float) = Renderings.known(flat(value), flat(0.01f), 1e6, correlation)
-      BiasTest.of(of(1f), of(1.01f)).whole.head.error
+      def of(value: Float) = Renderings.withVariance(flat(value), flat(0.01f), 1e6, correlation)
+      BiasTest.of(of(1f), of(1.01f)).fullImage.head.error
     // Two standard errors of the means, but for the allowance of what half floats round
     assert(Math.abs(error(4) / error(1) - 2) < 0.02)
 

@@ -21,20 +21,20 @@ final class MajorantWalkSuite extends AnyFunSuite:
         met += 1
         var last = Float.NaN
         while walk.next() do
-          assert(last.isNaN || walk.begin == last): Unit
+          assert(last.isNaN || walk.start == last): Unit
           last = walk.end
-          val t = 0.5f * (walk.begin + walk.end)
-          if walk.end - walk.begin > 1e-4f then
+          val t = 0.5f * (walk.start + walk.end)
+          if walk.end - walk.start > 1e-4f then
             val p = origin + direction * t
             def cell(v: Float, n: Int) = (v * n).toInt
             val expected = cell(p.x, 5) + 10f * cell(p.y, 3) + 100f * cell(p.z, 4)
-            assert(walk.most == expected, p): Unit
+            assert(walk.majorant == expected, p): Unit
     assert(met > 500)
 
   test("it enters the box and leaves it where the ray does, or ends with the ray"):
     val walk = MajorantWalk()
     assert(walk.enter(Vec3(-1f, 0.5f, 0.5f), Vec3.X, 10f, grid))
-    assert(walk.next() && walk.begin == 1f)
+    assert(walk.next() && walk.start == 1f)
     while walk.next() do ()
     assert(Math.abs(walk.end - 2f) < 1e-6f)
     assert(walk.enter(Vec3(-1f, 0.5f, 0.5f), Vec3.X, 1.5f, grid))
@@ -46,7 +46,7 @@ final class MajorantWalkSuite extends AnyFunSuite:
   test("the bounds of samples hold for what lies between them"):
     val draws = Draws(4)
     val samples = SampledGrid(7, 20, 1, Array.fill(140)(draws.unit()))
-    val bounds = MajorantGrid.of(7, 20, 1)(samples.most)
+    val bounds = MajorantGrid.of(7, 20, 1)(samples.majorant)
     for _ <- 0 until 20000 do
       val p = draws.vec(0f, 1f)
       val cell = bounds((p.x * bounds.nx).toInt, (p.y * bounds.ny).toInt, 0)

@@ -54,7 +54,7 @@ final class RegionsSuite extends AnyFunSuite:
   test("where media overlap, phase functions count by what they scatter"):
     val regions = Regions(Array(uniform(3f, g = 0.5f), uniform(1f, g = -0.5f)))
     val work = regions.newWork()
-    regions.at(Vec3(3.5f, 1f, 0.5f), work)
+    regions.evaluate(Vec3(3.5f, 1f, 0.5f), work)
     val expected = 0.75f * HenyeyGreenstein.value(1f, 0.5f) +
       0.25f * HenyeyGreenstein.value(1f, -0.5f)
     assert(Math.abs(regions.phase(Vec3.Z, Vec3.Z, work) - expected) < 1e-6f)

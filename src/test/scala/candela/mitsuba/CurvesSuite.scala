@@ -13,7 +13,7 @@ class CurvesSuite extends AnyFunSuite:
   private def read(text: String, least: Int = 2): Vector[CurvePoints] =
     val file = Files.createTempFile("candela", ".txt")
     try CurveFile.read(
-        InputFile.asked(Files.writeString(file, text)),
+        InputFile.named(Files.writeString(file, text)),
         least,
         SourcePos("scene.xml", 1, 1)
       )

@@ -22,7 +22,7 @@ final class EarlierMediaSuite extends MitsubaPictures:
   private def warning(body: String): String =
     val s = scene(body)
     assert(s.errors.isEmpty && s.warnings.size == 1, (s.errors ++ s.warnings).map(_.message))
-    assert(s.warnings.head.at.exists(_.line >= 1))
+    assert(s.warnings.head.pos.exists(_.line >= 1))
     s.warnings.head.message
 
   private def diffuse(texture: String) =

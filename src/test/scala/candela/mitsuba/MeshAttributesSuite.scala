@@ -10,7 +10,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 class MeshAttributesSuite extends AnyFunSuite:
   private val quilt = Path.of("scenes/mitsuba/quilt.ply")
-  private val ply = PlyFile.read(InputFile.asked(quilt), keepsAll = true)
+  private val ply = PlyFile.read(InputFile.named(quilt), keepsAll = true)
   private val attributes = MeshAttributes(ply)
 
   /** The value of a channel at u and v of the grid. */
@@ -21,7 +21,7 @@ class MeshAttributesSuite extends AnyFunSuite:
     grid(u, v, 0.5f)
 
   test("numbers of vertices and faces are kept if asked for, those of quads twice"):
-    assert(PlyFile.read(InputFile.asked(quilt)).ofVertices.isEmpty)
+    assert(PlyFile.read(InputFile.named(quilt)).ofVertices.isEmpty)
     assert(ply.ofVertices.map(_._1) == Vector("r", "g", "b"))
     assert(ply.ofTriangles.map(_._1) == Vector("shine_0"))
     assert(ply.ofTriangles.head._2.length == ply.indices.length / 3)
@@ -31,7 +31,7 @@ class MeshAttributesSuite extends AnyFunSuite:
         "property float z\nelement face 2\nproperty float dirt_0\n" +
         "property list uchar int vertex_indices\nend_header\n" +
         "0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 4 0 1 2 3\n8 3 0 1 2\n"
-      val quad = PlyFile.read(InputFile.asked(Files.writeString(file, text)), keepsAll = true)
+      val quad = PlyFile.read(InputFile.named(Files.writeString(file, text)), keepsAll = true)
       assert(quad.ofTriangles.map((name, v) => name -> v.toSeq) ==
         Vector("dirt_0" -> Seq(7f, 7f, 8f)))
     finally Files.delete(file)

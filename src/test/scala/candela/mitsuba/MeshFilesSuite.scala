@@ -12,7 +12,7 @@ class MeshFilesSuite extends AnyFunSuite:
 
   private def written[A](bytes: Array[Byte])(use: InputFile => A): A =
     val file = Files.createTempFile("candela", ".mesh")
-    try use(InputFile.asked(Files.write(file, bytes)))
+    try use(InputFile.named(Files.write(file, bytes)))
     finally Files.delete(file)
 
   private def obj(text: String): Mesh =
@@ -33,8 +33,8 @@ class MeshFilesSuite extends AnyFunSuite:
     assert(why(obj("v 0 0 0\n")).endsWith("it has no faces"))
 
   test("the same tent as OBJ and as serialized mesh"):
-    val a = ObjFile.read(InputFile.asked(folder.resolve("tent.obj")), flipped = false, at)
-    val b = SerializedFile.read(InputFile.asked(folder.resolve("tent.serialized")), 0, at)
+    val a = ObjFile.read(InputFile.named(folder.resolve("tent.obj")), flipped = false, at)
+    val b = SerializedFile.read(InputFile.named(folder.resolve("tent.serialized")), 0, at)
     def corners(m: Mesh) =
       m.indices.toVector.map(i => m.positions.slice(3 * i, 3 * i + 3).toVector)
     assert(corners(a).toSet == corners(b).toSet)
@@ -43,7 +43,7 @@ class MeshFilesSuite extends AnyFunSuite:
   test("a serialized mesh that claims more than it can hold is refused"):
     val good = Files.readAllBytes(folder.resolve("tent.serialized"))
     assert(why(written(good.take(40))(SerializedFile.read(_, 0, at))).contains("damaged"))
-    val tent = InputFile.asked(folder.resolve("tent.serialized"))
+    val tent = InputFile.named(folder.resolve("tent.serialized"))
     assert(why(SerializedFile.read(tent, 1, at)).contains("1 meshes"))
     val claim = java.nio.ByteBuffer.allocate(21).order(java.nio.ByteOrder.LITTLE_ENDIAN)
     val file = packed(claim.putInt(0x1000).put(0.toByte).putLong(700_000_000L).putLong(1L).array)

@@ -178,7 +178,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
       val body = if kind == "area" then s"<shape type=\"sphere\">$emitter</shape>" else emitter
       inFile(s"${sensor()}$body"): scene =>
         val told = scene.warnings.filter(_.message.startsWith("negative emission"))
-        assert(told.size == 1 && told.head.at.isDefined, emitter)
+        assert(told.size == 1 && told.head.pos.isDefined, emitter)
 
   test("depths that Mitsuba refuses are warnings with a place"):
     def warnings(integrator: String, name: String, value: Int) =
@@ -188,9 +188,9 @@ class MitsubaRulesSuite extends AnyFunSuite:
       )(_.warnings.filter(w => w.message.matches(s"`$name` must be .*, found $value;.*")))
     for kind <- Seq("path", "volpath", "ptracer") do
       for depth <- Seq(-2, -7) do
-        assert(warnings(kind, "max_depth", depth).exists(_.at.isDefined), kind)
+        assert(warnings(kind, "max_depth", depth).exists(_.pos.isDefined), kind)
       for depth <- Seq(0, -1) do
-        assert(warnings(kind, "rr_depth", depth).exists(_.at.isDefined), kind)
+        assert(warnings(kind, "rr_depth", depth).exists(_.pos.isDefined), kind)
       assert(warnings(kind, "max_depth", -1).isEmpty && warnings(kind, "rr_depth", 1).isEmpty)
 
   test("an environment map may have one row or two"):

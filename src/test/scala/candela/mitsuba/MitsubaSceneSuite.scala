@@ -31,7 +31,7 @@ class MitsubaSceneSuite extends AnyFunSuite:
   private def problems(body: String): Vector[String] =
     val scene = read(Sensor + body)
     (scene.errors ++ scene.warnings).map: p =>
-      val place = p.at.fold("")(at => s"${at.line}:${at.column}: ")
+      val place = p.pos.fold("")(at => s"${at.line}:${at.column}: ")
       s"$place${p.message}${p.help.fold("")(h => s" ($h)")}"
 
   private def fatal(body: String, defines: (String, String)*): String =
@@ -114,7 +114,7 @@ class MitsubaSceneSuite extends AnyFunSuite:
     val folder = Files.createTempDirectory("candela-xml")
     def name(declared: String, bytes: Charset, mark: String = ""): String =
       val xml = s"$mark<?xml version='1.0'$declared?>\n<scene version='é'/>"
-      val file = InputFile.asked(Files.write(folder.resolve("a.xml"), xml.getBytes(bytes)))
+      val file = InputFile.named(Files.write(folder.resolve("a.xml"), xml.getBytes(bytes)))
       XmlFile.read(file, None)("version").get
     assert(name("", UTF_8) == "é")
     assert(name(" encoding='utf-8'", UTF_8, mark = "\uFEFF") == "é")

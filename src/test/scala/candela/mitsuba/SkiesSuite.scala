@@ -20,7 +20,7 @@ final class SkiesSuite extends AnyFunSuite:
   private def problems(body: String): Vector[String] =
     val scene = read(Sensor + body)
     (scene.errors ++ scene.warnings).map: p =>
-      s"${p.at.fold("")(at => s"${at.line}:${at.column}: ")}${p.message}"
+      s"${p.pos.fold("")(at => s"${at.line}:${at.column}: ")}${p.message}"
 
   private def sky(inside: String, kind: String = "sunsky"): String =
     s"""\n<emitter type="$kind">$inside</emitter>"""

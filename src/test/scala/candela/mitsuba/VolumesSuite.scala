@@ -20,7 +20,7 @@ class VolumesSuite extends AnyFunSuite:
     values.foreach(bytes.putFloat)
     val file = Files.createTempFile("candela", ".vol")
     try
-      VolumeFile.read(InputFile.asked(Files.write(file, bytes.array)), SourcePos("scene.xml", 1, 1))
+      VolumeFile.read(InputFile.named(Files.write(file, bytes.array)), SourcePos("scene.xml", 1, 1))
     finally Files.delete(file)
 
   test("a volume may be of bytes, of which 255 is 1"):
@@ -33,7 +33,7 @@ class VolumesSuite extends AnyFunSuite:
     try
       val read =
         VolumeFile.read(
-          InputFile.asked(Files.write(file, bytes.array)),
+          InputFile.named(Files.write(file, bytes.array)),
           SourcePos("scene.xml", 1, 1)
         )
       assert(read.values.toVector == Vector(0f, 0.2f, 1f))

@@ -19,7 +19,7 @@ final class BootstrapSuite extends AnyFunSuite:
   ): (Bootstrap.Start, Long) =
     val bootstrap = Bootstrap(asked, mutations)
     val count = LongAdder()
-    ThreadPool(helpers).each(helpers): _ =>
+    ThreadPool(helpers).forEach(helpers): _ =>
       bootstrap.help(() => false): path =>
         count.increment()
         strength(path)

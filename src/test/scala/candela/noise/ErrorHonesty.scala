@@ -118,7 +118,7 @@ private final class HonestyOf(development: Development, truth: Image) extends Re
   private var bySamples = Map.empty[Int, Judged]
 
   def judged: Map[Int, Judged] = bySamples
-  override def looks: Looks = Looks.Waves
+  override def frequency: Looks = Looks.Waves
 
   override def passed(pass: Pass, film: Film): Unit =
     recorder.passed(pass, film)

@@ -21,6 +21,6 @@ object SmallScene:
     val wide = film.param("xresolution").flatMap(_.ints.headOption).getOrElse(width)
     def scaled(p: Param) =
       val sizes = p.ints.map(n => Math.max(1, Math.round(n.toDouble * width / wide).toInt))
-      Param(p.paramType, p.name, p.at, p.valuesAt, ints = sizes)
+      Param(p.paramType, p.name, p.pos, p.valuesAt, ints = sizes)
     val names = Set("xresolution", "yresolution")
     film.copy(params = film.params.map(p => if names(p.name) then scaled(p) else p))

@@ -29,10 +29,10 @@ final class PhotonMapSuite extends AnyFunSuite:
     assert(map.count == 3000)
     val vertex = PathVertex(scene)
     for _ <- 1 to 200 do
-      vertex.at.p = draws.vec(-1.1f, 1.1f)
-      vertex.scatterBy(scene.bsdf(vertex.at), Vec3.Z)
+      vertex.point.p = draws.vec(-1.1f, 1.1f)
+      vertex.scatterBy(scene.bsdf(vertex.point), Vec3.Z)
       // Matte surfaces scatter what comes from above alone
-      val near = places.filter((p, from, _) => (p - vertex.at.p).length < radius && from.z > 0f)
+      val near = places.filter((p, from, _) => (p - vertex.point.p).length < radius && from.z > 0f)
       val expected = near.map(_._3.toDouble).sum * albedo / Math.PI /
         (Math.PI * radius * radius * paths)
       val found = map.gather(vertex, 1f)
@@ -45,13 +45,13 @@ final class PhotonMapSuite extends AnyFunSuite:
     photons.add(Vec3.Zero, Vec3(sqrt(0.99f), 0, 0.1f), Rgb.White)
     val map = PhotonMap(Array(photons), 1, 1f)
     val vertex = PathVertex(scene)
-    vertex.scatterBy(scene.bsdf(vertex.at), Vec3.Z)
+    vertex.scatterBy(scene.bsdf(vertex.point), Vec3.Z)
     val all = map.gather(vertex, 1f).r
     assert(Math.abs(map.gather(vertex, 0.1f).r / all - 0.5f) < 1e-5f)
 
   test("a map without photons is dark"):
     val vertex = PathVertex(scene)
-    vertex.scatterBy(scene.bsdf(vertex.at), Vec3.Z)
+    vertex.scatterBy(scene.bsdf(vertex.point), Vec3.Z)
     assert(PhotonMap(Array(Photons()), 1, 1f).gather(vertex, 1f).isBlack)
 
   test("a map that nobody waits for any more is given up after the next part"):

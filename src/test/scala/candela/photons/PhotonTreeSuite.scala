@@ -40,16 +40,16 @@ final class PhotonTreeSuite extends AnyFunSuite:
         val along = if k % 3 == 0 then Vec3.X else draws.direction() * (0.5f + draws.unit())
         val end = if k % 2 == 0 then Float.PositiveInfinity else 2 * draws.unit()
         ray.set(origin, along, end)
-        made.find(ray, medium, most, passed)
+        made.query(ray, medium, most, passed)
         val expected = all.filter: (p, in, edges) =>
           val t = ((p - origin) dot along) / along.lengthSquared
           in == medium && edges <= most && t > 0 && t < end &&
           (p - origin - along * t).length < radius
         val ts = Vector.tabulate(passed.count)(passed.t)
         assert(ts.size == expected.size && ts == ts.sorted)
-        val places = (0 until passed.count).map(i => made.data(passed.at(i)))
+        val places = (0 until passed.count).map(i => made.data(passed.offset(i)))
         assert(places.toSet == expected.map(_._1.x).toSet)
-        assert(Vector.tabulate(passed.count)(passed.at).distinct.size == passed.count)
+        assert(Vector.tabulate(passed.count)(passed.offset).distinct.size == passed.count)
         found += passed.count
       assert(n < 1000 || found > 300)
 
@@ -82,7 +82,7 @@ final class PhotonTreeSuite extends AnyFunSuite:
       val ray = Ray()
       ray.set(Vec3(.02f, 0, -1), Vec3.Z, Float.PositiveInfinity)
       val passed = PassedPhotons()
-      tree(all, 1f).find(ray, 0, 1, passed)
+      tree(all, 1f).query(ray, 0, 1, passed)
       assert(passed.count == 100)
 
   test("a tree that nobody waits for any more is given up"):

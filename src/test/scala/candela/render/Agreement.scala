@@ -78,9 +78,9 @@ final class Agreement(
 
   private def means: Vector[Disagreement] =
     val variances = filled(variance)
-    val found = Renderings.known(image, variances, count - 1.0, alike)
+    val found = Renderings.withVariance(image, variances, count - 1.0, alike)
     val wanted =
-      Renderings.known(reference.toRgb, ofReference(variances), Agreement.KnownFreedom)
+      Renderings.withVariance(reference.toRgb, ofReference(variances), Agreement.KnownFreedom)
     BiasTest.of(found, wanted, tolerated).worst.map: r =>
       val w = r.window
       val place = s"x ${w.x0} to ${w.x1 - 1}, y ${w.y0} to ${w.y1 - 1}"

@@ -4,12 +4,12 @@ import org.scalatest.funsuite.AnyFunSuite
 
 class CostsSuite extends AnyFunSuite:
   private def told(costs: Cost*): Vector[(CostKind, Long, Double)] =
-    (Costs() ++ costs.toVector).told.map(c => (c.kind, c.bytes, c.seconds))
+    (Costs() ++ costs.toVector).reported.map(c => (c.kind, c.bytes, c.seconds))
 
   test("bytes and seconds of a kind are added up, in the order of the kinds"):
     val all = Costs() ++ Vector(Cost(CostKind.Film, 5), Cost(CostKind.Triangles, 3, 0.5)) ++
       Vector(Cost(CostKind.Film, 2, 1))
-    assert(all.told == Vector(Cost(CostKind.Triangles, 3, 0.5), Cost(CostKind.Film, 7, 1)))
+    assert(all.reported == Vector(Cost(CostKind.Triangles, 3, 0.5), Cost(CostKind.Film, 7, 1)))
     assert(all.bytes == 10)
 
   test("what took neither bytes nor time is not told"):

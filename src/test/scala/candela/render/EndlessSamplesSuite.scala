@@ -59,7 +59,7 @@ class EndlessSamplesSuite extends AnyFunSuite:
     val endless = Endless()
     val timed = new StoppingRule:
       var isEnded = false
-      def looks: Looks = Looks.Doublings
+      def frequency: Looks = Looks.Doublings
       override def isReached: Boolean = isEnded
       override def isOver(seconds: Double, idleSeconds: Double): Boolean =
         isEnded = endless.isBegun && idleSeconds > 0.1
@@ -75,7 +75,7 @@ class EndlessSamplesSuite extends AnyFunSuite:
         def restore(state: RenderState): Unit = ()
         def isDue: Boolean = due && endless.isBegun
         def save(state: RenderState): Unit = saved += 1
-        def lose(): Unit = lost += 1
+        def discard(): Unit = lost += 1
         def finish(): Unit = ()
       val _ = endless.rendered(1, checkpointer = Some(Keeper))
       assert(Keeper.saved == 0 && Keeper.lost == 1)

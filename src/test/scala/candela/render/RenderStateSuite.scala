@@ -30,7 +30,7 @@ class RenderStateSuite extends AnyFunSuite:
       saved += 1
       if isAlwaysDue then
         copies :+= Files.copy(to, to.resolveSibling(s"${to.getFileName}.$saved"))
-    def lose(): Unit = lost += 1
+    def discard(): Unit = lost += 1
     def finish(): Unit = ()
 
   private def withFolder[A](body: Path => A): A =
@@ -272,5 +272,5 @@ class RenderStateSuite extends AnyFunSuite:
     for count <- Vector(2, 5, 64) do
       val taken = Array.fill(9, 40)(0)
       for i <- 0 until count; tile <- 0 until 9; sample <- 0 until 40 do
-        if Shard(i, count).takes(tile, sample) then taken(tile)(sample) += 1
+        if Shard(i, count).takesTile(tile, sample) then taken(tile)(sample) += 1
       assert(taken.forall(_.forall(_ == 1)))

@@ -158,7 +158,7 @@ class RendererSuite extends AnyFunSuite:
     for threads <- 1 to 3 do
       val seen = Vector.newBuilder[(Int, Vector[Float])]
       object Eye extends RenderListener:
-        override def looks: Looks = Looks.Doublings
+        override def frequency: Looks = Looks.Doublings
         override def passed(pass: Pass, film: Film): Unit =
           val _ = seen += pass.samples -> film.toImage(1f).data.toVector
       val watched = Renderer.render(plan, RenderControl(threads, listener = Eye))
@@ -171,7 +171,7 @@ class RendererSuite extends AnyFunSuite:
     val cancellation = Cancellation()
     val told = Vector.newBuilder[Boolean]
     object Eye extends RenderListener:
-      override def looks: Looks = Looks.Doublings
+      override def frequency: Looks = Looks.Doublings
       override def passed(pass: Pass, film: Film): Unit =
         told += pass.isStopped()
         if pass.samples == 2 then cancellation.request()
@@ -189,7 +189,7 @@ class RendererSuite extends AnyFunSuite:
       gray
     val samples = Vector.newBuilder[Int]
     object Eye extends RenderListener:
-      override def looks: Looks = Looks.Doublings
+      override def frequency: Looks = Looks.Doublings
       override def passed(pass: Pass, film: Film): Unit =
         val _ = samples += pass.samples
     val rendering = Renderer.render(plan, RenderControl(2, cancellation, listener = Eye))

@@ -27,7 +27,7 @@ class SharedSamplesSuite extends AnyFunSuite:
     val shared = plan(shares = true)(noise)
     val one = Renderer.render(shared, threads = 1).film.toImage(1f).data.toVector
     object Eye extends RenderListener:
-      override def looks: Looks = Looks.Doublings
+      override def frequency: Looks = Looks.Doublings
       override def passed(pass: Pass, film: Film): Unit =
         val _ = film.toImage(1f)
     for threads <- Vector(2, 3, 7); eye <- Vector(RenderListener.Silent, Eye) do

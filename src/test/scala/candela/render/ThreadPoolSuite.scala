@@ -14,7 +14,7 @@ class ThreadPoolSuite extends AnyFunSuite:
   test("each piece of work is done once, before the call returns"):
     for pool <- pools; count <- Seq(0, 1, 2, 3, 1000) do
       val done = AtomicIntegerArray(count)
-      pool.each(count)(i => done.incrementAndGet(i): Unit)
+      pool.forEach(count)(i => done.incrementAndGet(i): Unit)
       assert((0 until count).forall(i => done.get(i) == 1), s"$count with ${pool.threads}")
 
   test("ranges make up the whole"):
@@ -28,14 +28,14 @@ class ThreadPoolSuite extends AnyFunSuite:
   test("what a piece of work throws is thrown to the caller"):
     for pool <- pools do
       val error = intercept[IllegalStateException]:
-        pool.each(100)(i => if i == 57 then throw IllegalStateException("57"))
+        pool.forEach(100)(i => if i == 57 then throw IllegalStateException("57"))
       assert(error.getMessage == "57")
 
   test("the same threads help again"):
     val pool = ThreadPool(3)
     val seen = java.util.concurrent.ConcurrentHashMap.newKeySet[Thread]()
     for _ <- 1 to 50 do
-      pool.each(3): _ =>
+      pool.forEach(3): _ =>
         seen.add(Thread.currentThread): Unit
         Thread.sleep(1)
     assert(seen.contains(Thread.currentThread) && seen.size <= 3)
@@ -44,21 +44,21 @@ class ThreadPoolSuite extends AnyFunSuite:
     val pool = ThreadPool(2)
     val (isHelping, mayEnd) = (CountDownLatch(1), CountDownLatch(1))
     val other = Thread(() =>
-      pool.each(2): _ =>
+      pool.forEach(2): _ =>
         if Thread.currentThread.getName.startsWith("candela-helper") then isHelping.countDown()
         mayEnd.await()
     )
     other.start()
     isHelping.await()
     val done = AtomicInteger()
-    pool.each(100)(_ => done.incrementAndGet(): Unit)
+    pool.forEach(100)(_ => done.incrementAndGet(): Unit)
     assert(done.get == 100)
     mayEnd.countDown()
     other.join()
 
   test("several threads work at the same time"):
     val both = CountDownLatch(2)
-    ThreadPool(2).each(2): _ =>
+    ThreadPool(2).forEach(2): _ =>
       both.countDown()
       if !both.await(10, java.util.concurrent.TimeUnit.SECONDS) then fail("one waits for the other")
 
@@ -78,7 +78,7 @@ class ThreadPoolSuite extends AnyFunSuite:
     val pool = ThreadPool(3)
     def work(): Int =
       val done = AtomicInteger()
-      pool.each(100): _ =>
+      pool.forEach(100): _ =>
         seen.add(Thread.currentThread): Unit
         done.incrementAndGet(): Unit
       done.get

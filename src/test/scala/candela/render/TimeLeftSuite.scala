@@ -104,7 +104,7 @@ private object TimeLeftSuite:
     def at(seconds: Double, goal: Option[ExpectedEnd] = None): Outlook =
       val ends = goal
       val rule = new StoppingRule:
-        def looks: Looks = Looks.Never
+        def frequency: Looks = Looks.Never
         override def expectedEnd: Option[ExpectedEnd] = ends
       val timeLeft = TimeLeft(schedule, Pixels, earlier, rule)
       looks.takeWhile(_._2 <= seconds + 1e-6)

@@ -54,7 +54,7 @@ object TinyPlan:
   private def floor(v: Float): Int = Math.floor(v).toInt
 
   private final class Formulas(radiance: (Where, Sampler) => Rgb) extends WorkerIntegrators:
-    def make(report: Option[PathReport]): Integrator = Formula(radiance)
+    def create(report: Option[PathReport]): Integrator = Formula(radiance)
     def divideLight: Boolean = false
 
   private final class Formula(radiance: (Where, Sampler) => Rgb) extends Integrator:

@@ -29,7 +29,7 @@ class PageMannersSuite extends AnyFunSuite:
     val program = Reports.suite.scenes.head.programs.head
     val long = program.copy(command = "x" * 300, title = "A program of a long name, 1 thread")
     val scene = Reports.suite.scenes.head
-    val all = Vector.tabulate(6)(i => long.copy(name = s"p$i", others = Some(0.2)))
+    val all = Vector.tabulate(6)(i => long.copy(name = s"p$i", otherShare = Some(0.2)))
     SuitePage.html(Reports.suite.copy(
       machine = Reports.machine.copy(load = Some(2)),
       scenes = Vector(scene, scene.copy(name = "c", title = "Another", programs = all))

@@ -87,7 +87,7 @@ class PagesSuite extends AnyFunSuite:
 
   test("a busy machine is warned of, on top and at each time"):
     val one = Reports.suite.scenes.head
-    val disturbed = one.programs.head.copy(others = Some(0.23))
+    val disturbed = one.programs.head.copy(otherShare = Some(0.23))
     val scene = one.copy(programs = disturbed +: one.programs.tail)
     val busy = SuitePage.html(Reports.suite.copy(scenes = Vector(scene)))
     val words = "On A box, other programs took much of the processors: 23 % while The fast ran;"
@@ -96,7 +96,7 @@ class PagesSuite extends AnyFunSuite:
     val began = "The machine was busy when measuring began (load 1.92 on 2"
     assert(SuitePage.html(loaded).contains(began))
     // The load may be that of what had just ended: the share of each run tells more
-    val shares = one.copy(programs = one.programs.map(_.copy(others = Some(0.01))))
+    val shares = one.copy(programs = one.programs.map(_.copy(otherShare = Some(0.01))))
     val known = SuitePage.html(loaded.copy(scenes = Vector(shares)))
     assert(!known.contains(began) && !known.contains(" ⚠<"))
     assert(!pages(1)._2.contains("class=\"warning\"") && !pages(1)._2.contains(" ⚠<"))

@@ -19,7 +19,10 @@ class CdfSuite extends AnyFunSuite:
       Cdf.writeCutpoints(cdf, at, count, n, bins, at)
       val edges = cdf.drop(at).filter(_ < 1f).flatMap(u => Seq(u, Math.nextUp(u)))
       for u <- edges ++ Seq.fill(200)(draws.unit()) :+ OneMinusEpsilon if u < 1f do
-        assert(Cdf.find(cdf, at, u, n, bins, at) == Cdf.find(cdf, at, count, u), s"$count, $u")
+        assert(
+          Cdf.findBin(cdf, at, u, n, bins, at) == Cdf.findBin(cdf, at, count, u),
+          s"$count, $u"
+        )
 
 class DiscreteSuite extends AnyFunSuite:
 

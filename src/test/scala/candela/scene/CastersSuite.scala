@@ -15,7 +15,7 @@ final class CastersSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       val (from, to) = (Math.min(x, y), Math.max(x, y))
       val count = 4000
       val within = (0 until count).count: i =>
-        val place = aim.place((i + 0.5) / count)
+        val place = aim.warp((i + 0.5) / count)
         place >= from && place < to
       // Of evenly spread numbers at most one is on the wrong side of each end
       assert(Math.abs(within.toDouble / count - aim.density(from, to) * (to - from)) <= 2.0 / count)
@@ -26,4 +26,4 @@ final class CastersSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   test("places are sampled evenly where nothing has weight"):
     val aim = CasterAim(Array(0.0, 0.0), even = 0.5)
-    forAll(unit)(x => assert(aim.place(x) == x))
+    forAll(unit)(x => assert(aim.warp(x) == x))

@@ -179,7 +179,7 @@ class InstancedSuite extends AnyFunSuite:
       def threads = 3
       def worksAside = false
       def aside(name: String)(task: => Unit): Unit = ()
-      def each(count: Int)(task: Int => Unit): Unit = (0 until count).reverse.foreach(task)
+      def forEach(count: Int)(task: Int => Unit): Unit = (0 until count).reverse.foreach(task)
     val alone = Instances.of(objects, places.view)
     val together = Instances.of(objects, places.view, parallel = divided)
     val (moving, still) = places.partition(_._2.moves)

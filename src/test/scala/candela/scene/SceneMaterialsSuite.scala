@@ -14,7 +14,7 @@ final class SceneMaterialsSuite extends AnyFunSuite:
 
   test("materials of a set are made when they are first asked for, once"):
     val makers, made = AtomicInteger()
-    val materials = plain.in(isDispersive = false, most = 1000): () =>
+    val materials = plain.inBasis(isDispersive = false, maxCached = 1000): () =>
       makers.incrementAndGet()
       i =>
         made.incrementAndGet()
@@ -28,7 +28,7 @@ final class SceneMaterialsSuite extends AnyFunSuite:
 
   test("no more of them are kept than asked for, and those forgotten are made again"):
     val makers, made = AtomicInteger()
-    val materials = plain.in(isDispersive = false, most = 10): () =>
+    val materials = plain.inBasis(isDispersive = false, maxCached = 10): () =>
       makers.incrementAndGet()
       i =>
         made.incrementAndGet()
@@ -42,7 +42,7 @@ final class SceneMaterialsSuite extends AnyFunSuite:
 
   test("threads that ask for the same material are given the same"):
     val made = AtomicInteger()
-    val materials = plain.in(isDispersive = false, most = 1000): () =>
+    val materials = plain.inBasis(isDispersive = false, maxCached = 1000): () =>
       i =>
         made.incrementAndGet()
         grey(i)
@@ -57,5 +57,5 @@ final class SceneMaterialsSuite extends AnyFunSuite:
   test("indices of one material are known whatever the set"):
     val one = grey(5)
     val twice = SceneMaterials(Array(one, grey(5), one))
-    val set = twice.in(isDispersive = true, most = 1)(() => grey)
+    val set = twice.inBasis(isDispersive = true, maxCached = 1)(() => grey)
     assert(set.isSame(0, 2) && !set.isSame(0, 1) && set.isDispersive && !twice.isDispersive)

@@ -33,7 +33,7 @@ class IncludeSuite extends AnyFunSuite:
       val scene = Parser.parse(folder.resolve("main.pbrt"))
       assert(scene.shapes.map(_.shape.name) == Vector("b", "d"))
       assert(scene.shapes.forall(_.shape.folder.path == folder))
-      val at = scene.shapes.head.shape.at
+      val at = scene.shapes.head.shape.pos
       assert(at.file.endsWith("b.pbrt") && at.line == 2 && at.column == 7)
       assert(at.includedFrom.get.file.endsWith("a.pbrt"))
       assert(at.includedFrom.get.includedFrom.get.toString.endsWith("main.pbrt:2:3"))
@@ -70,7 +70,7 @@ class IncludeSuite extends AnyFunSuite:
       val text = "WorldBegin Shape \"s\" Include \"a.pbrt\" WorldEnd"
       val problems = intercept[SceneError](Parser.parseText("test", text, folder)).problems
       assert(problems.map(_.message) == Vector("string not closed at the end of the file"))
-      assert(problems.head.at.exists(at => at.file.endsWith("a.pbrt") && at.column == 1))
+      assert(problems.head.pos.exists(at => at.file.endsWith("a.pbrt") && at.column == 1))
 
   test("an included file shares the graphics state; an imported one gives its back"):
     withFolder("a.pbrt" -> "Translate 1 0 0 Shape \"in\""): folder =>
@@ -105,7 +105,7 @@ class IncludeSuite extends AnyFunSuite:
       assert(scene.shapes.map(_.shape.name) == Vector("first", "next", "other"))
       assert(scene.shapes.map(_.shape.params.map(_.name).mkString) == Vector("acb", "d", ""))
       assert(scene.warnings.isEmpty && scene.errors.isEmpty)
-      val at = scene.shapes(1).shape.at
+      val at = scene.shapes(1).shape.pos
       assert(at.file.endsWith("b.pbrt") && at.includedFrom.exists(_.column == 55), at)
 
   test("files that include one another are an error that names them"):
@@ -117,12 +117,14 @@ class IncludeSuite extends AnyFunSuite:
       val error = intercept[SceneError](Parser.parse(folder.resolve("main.pbrt"))).problems.head
       assert(error.message.startsWith("`a.pbrt` includes itself, through `"))
       assert(error.message.endsWith("b.pbrt`"))
-      assert(error.at.get.file.endsWith("b.pbrt"))
+      assert(error.pos.get.file.endsWith("b.pbrt"))
 
   test("a scene file that is not there, or is a folder, is an error without a place"):
     for path <- List("no/such.pbrt", "src") do
       val problem = intercept[SceneError](Parser.parse(Path.of(path))).problems.head
-      assert(problem.at.isEmpty && problem.message.startsWith(s"can't read the scene file `$path`"))
+      assert(
+        problem.pos.isEmpty && problem.message.startsWith(s"can't read the scene file `$path`")
+      )
 
   test("a name that no file can have is a file that is not there"):
     val error = intercept[SceneError]:

@@ -18,16 +18,16 @@ class InstanceListSuite extends AnyFunSuite:
     InstanceDescription(
       name,
       SourcePos("a.pbrt", line, 2, Some(main)),
-      GraphicsState.still(placement)
+      GraphicsState.constant(placement)
     )
 
   private val moving = InstanceDescription("b", main, AnimatedTransform(placement, placement))
   private val flat =
-    InstanceDescription("b", main, GraphicsState.still(Transform.flat(Vector.fill(16)(0.5))))
+    InstanceDescription("b", main, GraphicsState.constant(Transform.flat(Vector.fill(16)(0.5))))
   private val view = InstanceDescription(
     "c",
     main,
-    GraphicsState.still(
+    GraphicsState.constant(
       Transform.fromRows(Vector[Double](1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1, 1)).get
     )
   )
@@ -41,7 +41,7 @@ class InstanceListSuite extends AnyFunSuite:
     told.map(java.lang.Double.doubleToRawLongBits).toVector
 
   private def facts(i: InstanceDescription) =
-    (i.name, i.at, bits(i.instanceToWorld.start), bits(i.instanceToWorld.end))
+    (i.name, i.pos, bits(i.instanceToWorld.start), bits(i.instanceToWorld.end))
 
   private val many = Vector.tabulate(1000)(i => still(if i % 3 == 0 then "a" else "b", i))
 
@@ -90,8 +90,8 @@ class InstanceListSuite extends AnyFunSuite:
   test("instances are parted in their order, also those of one object"):
     val all = view +: many :+ moving
     for list <- listed(all) +: listed(all).ofEach.map(_._2) do
-      val (first, second) = list.partition(_.at.line % 2 == 0)
-      val (expected, others) = list.toVector.partition(_.at.line % 2 == 0)
+      val (first, second) = list.partition(_.pos.line % 2 == 0)
+      val (expected, others) = list.toVector.partition(_.pos.line % 2 == 0)
       assert(first.map(facts) == expected.map(facts) && second.map(facts) == others.map(facts))
 
   test("lists of ten thousand objects take few bytes each"):
@@ -133,7 +133,7 @@ class InstanceListSuite extends AnyFunSuite:
 
   test("an instance takes at most 110 bytes, of which 96 are its matrix"):
     val count = 100_000
-    val one = InstanceDescription("a", main, GraphicsState.still(placement))
+    val one = InstanceDescription("a", main, GraphicsState.constant(placement))
     val builder = InstanceList.newBuilder
     for _ <- 0 until count do builder += one
     val bytes = ObjectSizes().add(Vector(builder.result()))

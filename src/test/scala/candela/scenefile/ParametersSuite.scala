@@ -23,7 +23,7 @@ class ParametersSuite extends AnyFunSuite:
 
   private def error(text: String): String =
     val problems = intercept[SceneError](params(text)).problems
-    problems.map(p => s"${p.at.get.column}: ${p.message}").mkString
+    problems.map(p => s"${p.pos.get.column}: ${p.message}").mkString
 
   test("each spelling of each type is known"):
     val numbers = Map(
@@ -68,7 +68,7 @@ class ParametersSuite extends AnyFunSuite:
 
   test("places are those of the quoted name and of the first value"):
     val p = one("  \"float a\"\n [ 1 2 ]")
-    assert((p.at.line, p.at.column) == (1, 3))
+    assert((p.pos.line, p.pos.column) == (1, 3))
     assert((p.valuesAt.line, p.valuesAt.column) == (2, 4))
 
   test("whole numbers may be written with a point; fractions are cut off with a warning"):
@@ -90,7 +90,7 @@ class ParametersSuite extends AnyFunSuite:
 
   test("of two parameters with one name the last counts, and the first is warned of"):
     assert(one("\"float a\" 1 \"float a\" 2").floats.toVector == Vector(2f))
-    assert(warnings.map(_.at.get.column) == Vector(1))
+    assert(warnings.map(_.pos.get.column) == Vector(1))
 
   test("a value of the wrong kind is an error at the value"):
     assert(error("\"float fov\" \"45\"").startsWith("13: "))
@@ -105,7 +105,7 @@ class ParametersSuite extends AnyFunSuite:
     val (texture, color) = ("\"texture Kd\" \"grid\"", "\"color Kd\" [.4 .2 .1]")
     for text <- Seq(s"$texture $color", s"$color $texture") do
       assert(params(text, isV4 = false).map(_.strings) == Vector(Vector("grid")))
-      assert(warnings.map(_.at.get.column) == Vector(text.indexOf("\"color") + 1))
+      assert(warnings.map(_.pos.get.column) == Vector(text.indexOf("\"color") + 1))
     assert(params(s"$texture $color").map(_.paramType) == Vector(ParamType.Rgb))
 
   test("excess values of pairs or triples are ignored in v2 and v3, with a warning"):

@@ -41,7 +41,7 @@ class ParserSuite extends AnyFunSuite:
     assert(all.map(_.name) == names)
     assert(all.forall(_.folder.path == Path.of("folder")))
     assert(scene.camera.get.param("fov").get.floats.head == 45f)
-    assert(scene.camera.get.at.toString == "test.pbrt:1:8")
+    assert(scene.camera.get.pos.toString == "test.pbrt:1:8")
     assert(scene.transformTimes == (0.25f, 0.75f))
     assert(scene.dialect == Dialect.V2)
 
@@ -73,7 +73,7 @@ class ParserSuite extends AnyFunSuite:
         |CoordSysTransform "camera" Shape "a" CoordSysTransform "world" Shape "b" """.stripMargin
     )
     val view = Transform.lookAt(Seq(0, 0, 5), Seq(0, 0, 0), Seq(0, 1, 0)).get
-    assert(scene.worldToCamera == GraphicsState.still(view))
+    assert(scene.worldToCamera == GraphicsState.constant(view))
     assert(scene.shapes(0).objectToWorld.start == view.inverse)
     assert(scene.shapes(1).objectToWorld.start.isIdentity)
 
@@ -103,7 +103,7 @@ class ParserSuite extends AnyFunSuite:
     assert(a.insideMedium == "in" && a.outsideMedium == "out")
     assert(b.material == MaterialRef.Default && b.areaLight.isEmpty && !b.reverseOrientation)
     assert(b.insideMedium == "")
-    assert(b.objectToWorld == GraphicsState.still(Transform.translate(0, 1, 0)))
+    assert(b.objectToWorld == GraphicsState.constant(Transform.translate(0, 1, 0)))
 
   test("TransformEnd brings back the transform alone in v2 and v3, everything in v4"):
     val text = "WorldBegin TransformBegin Scale 2 2 2 Material \"\" TransformEnd Shape \"a\""
@@ -120,7 +120,7 @@ class ParserSuite extends AnyFunSuite:
       """Translate 1 0 0 LightSource "point" Texture "t" "color" "checkerboard"
         |Volume "homogeneous" """.stripMargin
     )
-    val moved = GraphicsState.still(Transform.translate(1, 0, 0))
+    val moved = GraphicsState.constant(Transform.translate(1, 0, 0))
     assert(scene.lights.head.lightToWorld == moved)
     assert(scene.textures.head.textureToWorld == moved)
     assert(scene.volumes.head.lightToWorld == moved)

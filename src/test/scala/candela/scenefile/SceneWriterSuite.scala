@@ -17,7 +17,7 @@ class SceneWriterSuite extends AnyFunSuite:
         |MediumInterface "" "" LightSource "point" """.stripMargin
     for (dialect, medium) <- List(Dialect.V3 -> "", Dialect.V4 -> "fog") do
       val scene = parse(text, Some(dialect))
-      assert(scene.media.head.mediumToWorld == GraphicsState.still(Transform.translate(1, 0, 0)))
+      assert(scene.media.head.mediumToWorld == GraphicsState.constant(Transform.translate(1, 0, 0)))
       assert(scene.lights.map(_.medium) == Vector("fog", ""))
       assert(scene.cameraMedium == medium)
 
@@ -38,7 +38,7 @@ class SceneWriterSuite extends AnyFunSuite:
         val late = warnings(text + red, d)
         assert(late.size == (if dialects(d) then 2 else 0), s"$d $late")
         assert(late.forall(_.message.startsWith("material `red` is defined only later, at ")))
-        assert(late.forall(_.at.map(_.line).contains(2)))
+        assert(late.forall(_.pos.map(_.line).contains(2)))
         assert(warnings(red + text, d).isEmpty)
     val v4 = "MakeNamedMaterial \"both\" \"string type\" \"mix\" \"string materials\" " +
       "[\"red\" \"red\"]\n" + red.replace("matte", "diffuse")

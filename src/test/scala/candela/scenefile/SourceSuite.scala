@@ -47,9 +47,9 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
         val doubles = new Array[Double](3)
         if in.current == Token.Open then readList()
         else if readDoubles(doubles) == 0 then in.advance()
-        val lists = s"${floats.take().mkString(",")} ${ints.take().mkString(",")}"
+        val lists = s"${floats.drain().mkString(",")} ${ints.drain().mkString(",")}"
         val numbers = s"${doubles.mkString(",")} $lists ${in.sawFraction}"
-        s"${in.at} ${in.current} ${in.text} ${in.isNumber} $numbers"
+        s"${in.pos} ${in.current} ${in.text} ${in.isNumber} $numbers"
       catch case e: SceneError => e.problems.mkString
     Iterator.continually(step()).takeWhile(_ => in.current != Token.End).toVector
 
@@ -97,11 +97,11 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val text = lines.mkString("WorldBegin Shape \"a\" \"float x\" [ ", "\n", s"\n]\n$long [ # here")
     withFile(text.getBytes(UTF_8)): file =>
       val problem = this.problem(file)
-      assert(problem.at.exists(at => (at.line, at.column) == (60002, 1)), problem)
+      assert(problem.pos.exists(at => (at.line, at.column) == (60002, 1)), problem)
     val late = text.replace(long, "Shape \"b\" \"float y\" [ " + long)
     withFile(late.getBytes(UTF_8)): file =>
       val problem = this.problem(file)
-      assert(problem.at.exists(at => (at.line, at.column) == (60002, 400024)))
+      assert(problem.pos.exists(at => (at.line, at.column) == (60002, 400024)))
       assert(problem.excerpt.exists(e => e.startsWith("…") && e.endsWith("1  [ # here")))
     withFile((lines.mkString(
       "WorldBegin Shape \"a\" \"float x\" [ ",
@@ -115,7 +115,7 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val bytes = zipped(_.write("WorldBegin\n  Shape \"sphere\"\n".repeat(20000).getBytes(UTF_8)))
     withFile(bytes.take(bytes.length / 2)): file =>
       assert(problem(file).message.startsWith("can't read further: "))
-      assert(problem(file).at.nonEmpty)
+      assert(problem(file).pos.nonEmpty)
 
   test("a small file that unpacks without end is refused", Slow):
     val blanks = Array.fill[Byte](1 << 20)(' ')
@@ -129,7 +129,7 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     withFile(("WorldBegin\n " + "a" * 3000000).getBytes(UTF_8)): file =>
       val problem = this.problem(file)
       assert(problem.message == "can't read further: token longer than 1 MB")
-      assert(problem.at.exists(at => (at.line, at.column) == (2, 2)))
+      assert(problem.pos.exists(at => (at.line, at.column) == (2, 2)))
 
   test("an error in a line that begins within a character has an excerpt"):
     val bytes = "WorldBegin\n".getBytes(UTF_8) ++ Array[Byte](-128, -65) ++ " x\n".getBytes(UTF_8)

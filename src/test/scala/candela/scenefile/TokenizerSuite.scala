@@ -16,7 +16,7 @@ class TokenizerSuite extends AnyFunSuite:
     in.advance()
     Vector.unfold(()): _ =>
       Option.when(in.current != Token.End):
-        val token = (in.current, in.text, in.at.line, in.at.column)
+        val token = (in.current, in.text, in.pos.line, in.pos.column)
         in.advance()
         (token, ())
 
@@ -58,7 +58,7 @@ class TokenizerSuite extends AnyFunSuite:
     val in = Tokenizer(Source.fromText("test", raw""" "out\Cat\\é" """), None, problems :+= _)
     in.advance()
     assert(in.text == raw"outCat\é")
-    assert(problems.map(p => (p.severity, p.at.map(_.column))) == Vector((
+    assert(problems.map(p => (p.severity, p.pos.map(_.column))) == Vector((
       Severity.Warning,
       Some(6)
     )))
@@ -77,8 +77,8 @@ class TokenizerSuite extends AnyFunSuite:
     in.advance()
     val floats = FloatBuffer()
     in.readFloats(floats, RestBuffer())
-    assert(floats.take().toVector == Vector(1f, -2.5f, 3f))
-    assert(in.current == Token.Close && in.at.line == 3)
+    assert(floats.drain().toVector == Vector(1f, -2.5f, 3f))
+    assert(in.current == Token.Close && in.pos.line == 3)
 
   test("lists of any length are kept whole"):
     val values = Vector.tabulate(100000)(i => i * 0.25f)
@@ -86,23 +86,23 @@ class TokenizerSuite extends AnyFunSuite:
     in.advance()
     val floats = FloatBuffer()
     in.readFloats(floats, RestBuffer())
-    assert(floats.take().toVector == values)
+    assert(floats.drain().toVector == values)
 
   test("a text that the line or the file ends is an error at its opening quote"):
     for text <- List("\n \"abc\nX\"", "\n \"abc", "\n \"abc\\", "\n \"abc\\\n\"") do
       val error = intercept[SceneError](tokens(text)).problems.head
-      assert(error.at.map(p => (p.line, p.column)).contains((2, 2)), text)
+      assert(error.pos.map(p => (p.line, p.column)).contains((2, 2)), text)
 
   test("gzipped files are unpacked, whatever their name"):
     val file = Files.createTempFile("scene", ".pbrt")
     try
       Files.write(file, Gzip.of("WorldBegin".getBytes(UTF_8)))
-      assert(Source.read(InputFile.asked(file)).map(s => s.text(0, s.limit)) == Right("WorldBegin"))
+      assert(Source.read(InputFile.named(file)).map(s => s.text(0, s.limit)) == Right("WorldBegin"))
     finally Files.delete(file)
 
   test("UTF-16 is refused in so many words"):
     val file = Files.createTempFile("scene", ".pbrt")
     try
       Files.write(file, "WorldBegin".getBytes(UTF_16))
-      assert(Source.read(InputFile.asked(file)).left.exists(_.contains("UTF-16")))
+      assert(Source.read(InputFile.named(file)).left.exists(_.contains("UTF-16")))
     finally Files.delete(file)

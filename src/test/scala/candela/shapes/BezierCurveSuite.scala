@@ -22,7 +22,7 @@ class BezierCurveSuite extends AnyFunSuite:
     for _ <- 0 until 200 do
       val c = Array.fill(12)(draws.between(-1, 1).toDouble)
       val (a, b, s) = (draws.unit().toDouble, draws.unit().toDouble, draws.unit().toDouble)
-      near(at(BezierCurve.part(c, a, b), s), at(c, a + s * (b - a)), 1e-12)
+      near(at(BezierCurve.subcurve(c, a, b), s), at(c, a + s * (b - a)), 1e-12)
 
   test("Bézier chains pass through the ends of their parts; degree 2 keeps its shape"):
     val draws = Draws(2)

@@ -19,7 +19,7 @@ class CurveSuite extends AnyFunSuite:
     p.flatMap(q => Seq(q.x.toDouble, q.y.toDouble, q.z.toDouble)).toArray
 
   private def point(c: Array[Double], u: Double): Vec3 =
-    val p = BezierCurve.part(c, u, u)
+    val p = BezierCurve.subcurve(c, u, u)
     Vec3(p(0).toFloat, p(1).toFloat, p(2).toFloat)
 
   private def tangent(c: Array[Double], u: Double): Vec3 =

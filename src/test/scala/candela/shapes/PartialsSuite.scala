@@ -14,7 +14,7 @@ class PartialsSuite extends AnyFunSuite:
       val toWorld = draws.rotation() * draws.stretch()
       val (shape, target) = make(toWorld)
       val d = draws.direction()
-      val side = Frame.around(d).s
+      val side = Frame.fromZ(d).s
       if PartialsLaws.check(shape, target - d * 10f, d, side, 0.003f, 4f) then compared += 1
     compared
 

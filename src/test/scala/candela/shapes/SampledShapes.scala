@@ -49,7 +49,7 @@ object SampledShapes:
       oneMinusCos: Double
   ): ChiSquare.Result =
     val out = SurfaceSample()
-    val frame = Frame.around(axis)
+    val frame = Frame.fromZ(axis)
     ChiSquare.square(seed)(
       u =>
         surface.sample(from, u(), u(), out)

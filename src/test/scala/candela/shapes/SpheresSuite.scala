@@ -15,7 +15,7 @@ class SpheresSuite extends AnyFunSuite:
       val from = around + draws.direction() * draws.between(0f, 9f)
       ray.set(from, around + draws.direction() * 0.9f - from, Float.PositiveInfinity)
       val isHit = s.isHit(ray)
-      val found = s.meets(ray, hit, at)
+      val found = s.intersectSurface(ray, hit, at)
       s.sample(from, draws.unit(), draws.unit(), sample)
       val chosen = Vector(vec(sample.p), vec(sample.n), vec(sample.pError), sample.pdf)
       s.sampleArea(draws.unit(), draws.unit(), sample)

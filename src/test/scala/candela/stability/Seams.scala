@@ -74,10 +74,10 @@ private object Seams:
       val side = if draws.coin() then 1f else -1f
       val small = draws.direction() * (if draws.coin() then 0f else draws.magnitude(1e-30, 1e-3))
       ray.set(small + Vec3(0f, 0f, 3f * side), Vec3(0f, -0f, -side), Float.PositiveInfinity)
-      assert(sphere.meets(ray, hit, at) && isSound(at), s"${at.p} ${at.frame.s}")
+      assert(sphere.intersectSurface(ray, hit, at) && isSound(at), s"${at.p} ${at.frame.s}")
       for strip <- strips do
         ray.set(small + Vec3(3f * side, 0f, 0f), Vec3(-side, 0f, -0f), Float.PositiveInfinity)
-        if strip.meets(ray, hit, at) then
+        if strip.intersectSurface(ray, hit, at) then
           assert(isSound(at), s"${at.p} ${at.geometricNormal} ${at.frame.s} $small"): Unit
       i += 1
 

@@ -10,5 +10,5 @@ final class FileKeeper(from: Option[Path], to: Path) extends Checkpointer:
   def restore(state: RenderState): Unit = from.foreach(CheckedFile.read(_, "state")(state.load))
   def isDue: Boolean = false
   def save(state: RenderState): Unit = CheckedFile.write(to, "state")(state.save)
-  def lose(): Unit = ()
+  def discard(): Unit = ()
   def finish(): Unit = ()

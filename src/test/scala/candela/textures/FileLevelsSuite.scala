@@ -13,7 +13,7 @@ import candela.testing.{Draws, TempFolder, TiledExr}
 class FileLevelsSuite extends AnyFunSuite:
 
   private def opened(file: Path, picked: Int*): FileLevels =
-    FileLevels(ExrLevels.of(InputFile.asked(file)).get.toOption.get, picked.toVector)
+    FileLevels(ExrLevels.of(InputFile.named(file)).get.toOption.get, picked.toVector)
 
   /** In a memory of a few tiles, and a folder that is never made. */
   private def tiled(levels: FileLevels, wrap: Wrap, folder: Path): Array[MipLevel] =

@@ -176,7 +176,7 @@ class TileCacheSuite extends AnyFunSuite:
       val (inTiles, inMemory) = (ewa(tiles), ewa(plain))
       val wrong = AtomicInteger()
       Using.resource(ThreadPool(4)): pool =>
-        pool.each(8): i =>
+        pool.forEach(8): i =>
           val draws = Draws(i)
           for _ <- 0 until 3000 do
             val (k, s, row) = ((3 * draws.unit()).toInt, draws.unit(), draws.unit())

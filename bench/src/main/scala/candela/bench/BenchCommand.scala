@@ -25,12 +25,12 @@ final class BenchService extends CommandService:
   def row: CommandRow = BenchTable.row
 
   override def idle: Options => Vector[String] = o =>
-    val asked = BenchOptions.of(o)
+    val settings = BenchOptions.of(o)
     val isPage = o.reports.isEmpty || o.reports.exists(_.toLowerCase.endsWith(".html"))
     IdleOptions.idle("no-pictures", ": only .html files have pictures")(
-      !asked.pictures && !isPage
+      !settings.pictures && !isPage
     ) ++ IdleOptions.idle("references", ": a suite names its own")(
-      asked.references.isDefined && o.files.forall(_.toLowerCase.endsWith(".conf"))
+      settings.references.isDefined && o.files.forall(_.toLowerCase.endsWith(".conf"))
     )
 
   def run(options: Options, terminal: Terminal, report: Report): ExitCode =
@@ -38,7 +38,7 @@ final class BenchService extends CommandService:
 
 /** `candela bench`: measures error against time for one or more renderers. */
 final class BenchCommand(options: Options, terminal: Terminal, report: Report):
-  private val asked = BenchOptions.of(options)
+  private val settings = BenchOptions.of(options)
   private val cancellation = Cancellation()
 
   def run(): ExitCode = report.guarded(inScratch(compared(_)))
@@ -47,25 +47,25 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     val source = options.files.headOption.map(OutputFiles.path)
     val paths = reports(source)
     paths.foreach(checkFolder)
-    val whole = source.fold(short(scratch))(read)
+    val fullSuite = source.fold(short(scratch))(read)
     val register = FileRegister()
-    register.read(source.toVector ++ whole.scenes.flatMap(s => s.files.values ++ s.reference))
+    register.read(source.toVector ++ fullSuite.scenes.flatMap(s => s.files.values ++ s.reference))
     register.write(Output(paths, "report", options.files.headOption.getOrElse("--peers"), "report"))
-    val chosen = whole.only(Vector.empty, asked.scenes)
+    val chosen = fullSuite.restricted(Vector.empty, settings.scenes)
     val peers =
-      if asked.peers then PeerSuite.of(chosen, sys.env, scratch)
+      if settings.peers then PeerSuite.of(chosen, sys.env, scratch)
       else PeerSuite(chosen, Vector.empty)
-    val suite = peers.suite.only(asked.programs, Vector.empty)
-    val told = if asked.denoise then suite.withDenoised else suite
-    val shown = asked.work.fold(told)(work => told.copy(work = work))
+    val suite = peers.suite.restricted(settings.programs, Vector.empty)
+    val expanded = if settings.denoise then suite.withDenoised else suite
+    val configured = settings.work.fold(expanded)(work => expanded.copy(work = work))
     terminal.interrupts.during(cancellation):
-      val results = measured(seeded(withoutOwnWork(shown)), peers.leftOut, paths, scratch)
+      val results = measured(seeded(withoutOwnWork(configured)), peers.leftOut, paths, scratch)
       if results.scenes.nonEmpty then
         write(paths, results)
         for path <- paths do terminal.out.println(s"wrote $path")
         terminal.out.flush()
       else if cancellation.isRequested then
-        if !options.quiet then terminal.err.println(BenchCommand.nothing(shown))
+        if !options.quiet then terminal.err.println(BenchCommand.nothing(configured))
       else
         // Else they are told already
         val reasons = Option.when(options.quiet):
@@ -75,7 +75,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
       if cancellation.isRequested then ExitCode.Interrupted else ExitCode.Done
 
   private def short(scratch: Path): Suite =
-    if asked.peers then PeerSuite.short(scratch)
+    if settings.peers then PeerSuite.short(scratch)
     else
       val help = Some("or --peers, which has a suite of its own")
       throw SceneError(Problem.general(Code.SuiteFile, "no suite is named", help))
@@ -86,13 +86,13 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
       paths: Vector[Path],
       scratch: Path
   ): SuiteReport =
-    val say: String => Unit = if options.quiet then _ => () else terminal.err.println(_)
+    val log: String => Unit = if options.quiet then _ => () else terminal.err.println(_)
     SuiteResults.of(
       suite,
       self,
       scratch,
       Version.current,
-      say,
+      log,
       () => cancellation.isRequested,
       write(paths, _),
       leftOut
@@ -105,9 +105,9 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
 
   private def read(source: Path): Suite =
     if Files.isDirectory(source) then
-      SuiteFolder.read(source, asked.references.fold(source)(folder))
+      SuiteFolder.read(source, settings.references.fold(source)(folder))
     else if Files.isRegularFile(source) then
-      if asked.peers && SceneFormat.named(source).isDefined then SuiteFolder.ofScene(source)
+      if settings.peers && SceneFormat.named(source).isDefined then SuiteFolder.ofScene(source)
       else
         for other <- notSuite(source) do
           val help = "a suite is a .conf file, or a folder of scenes with references"
@@ -126,17 +126,17 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
 
   private def missing(what: String, path: Path): SceneError =
     val message = s"no such $what: `$path`"
-    SceneError(Problem.general(Code.SuiteFile, message, SceneFolder.near(path)))
+    SceneError(Problem.general(Code.SuiteFile, message, SceneFolder.suggestionFor(path)))
 
   private def notSuite(file: Path): Option[String] =
     if SceneFormat.named(file).isDefined then Some("a scene")
     else ForeignFile.of(file).filter(_.kind != ForeignKind.Suite).map(_.what)
 
-  private def seeded(suite: Suite): Suite = asked.seeds.fold(suite)(n => suite.copy(seeds = n))
+  private def seeded(suite: Suite): Suite = settings.seeds.fold(suite)(n => suite.copy(seeds = n))
 
   /** Sample counts and budgets on the command line apply to all scenes. */
   private def withoutOwnWork(suite: Suite): Suite =
-    if asked.work.isEmpty then suite
+    if settings.work.isEmpty then suite
     else suite.copy(scenes = suite.scenes.map(_.copy(work = None)))
 
   /** Default without `--report`: an HTML page in the current folder, named after the suite. */
@@ -146,14 +146,14 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     names.map(OutputFiles.path).distinct
 
   private def checkFolder(path: Path): Unit =
-    val known = Vector("html", "json", "csv", "svg")
-    if !known.contains(FileName.suffix(path)) then
+    val formats = Vector("html", "json", "csv", "svg")
+    if !formats.contains(FileName.suffix(path)) then
       val help = Some("results are written as .html, .json, .csv, or .svg (the main charts)")
       throw SceneError(Problem.general(Code.UnknownFormat, s"can't write `$path`", help))
     for problem <- FileRegister.obstacle(path) do throw SceneError(problem)
 
   private def text(path: Path, results: SuiteReport): String = FileName.suffix(path) match
-    case "html" => SuitePage.html(results, asked.pictures)
+    case "html" => SuitePage.html(results, settings.pictures)
     case "json" => SuiteData.json(results)
     case "csv" => SuiteData.csv(results)
     case _ => SuiteChart.svg(results)
@@ -178,12 +178,12 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     path.split(separator).map(p => Path.of(p).toAbsolutePath.toString).mkString(separator)
 
   private def inScratch[A](body: Path => A): A =
-    Using.resource(Scratch.make())(scratch => body(scratch.folder))
+    Using.resource(Scratch.create())(scratch => body(scratch.folder))
 
 object BenchCommand:
   /** Where the runs so far tell no error. */
   private def nothing(suite: Suite): String =
-    val why =
+    val hint =
       if suite.scenes.forall(_.reference.isDefined) then ""
       else s"; without a reference, errors are known from ${SeedNoise.Fewest} seeds on"
-    s"nothing written: no scene has results yet$why"
+    s"nothing written: no scene has results yet$hint"

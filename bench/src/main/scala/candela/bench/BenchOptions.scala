@@ -28,7 +28,7 @@ final case class BenchOptions(
 
 object BenchOptions:
   def of(o: Options): BenchOptions =
-    o.module.collect { case asked: BenchOptions => asked }.getOrElse(BenchOptions())
+    o.module.collect { case options: BenchOptions => options }.getOrElse(BenchOptions())
 
 /** Option table of `bench`, one row each. */
 private[bench] object BenchTable extends OptionRows:
@@ -38,7 +38,7 @@ private[bench] object BenchTable extends OptionRows:
   private def change(o: Options)(f: BenchOptions => BenchOptions): Options =
     o.copy(module = Some(f(BenchOptions.of(o))))
 
-  private def once(option: String)(all: Seq[?]): Either[String, Unit] =
+  private def unique(option: String)(all: Seq[?]): Either[String, Unit] =
     Work.repeated(all).fold(success)(n => failure(s"--$option has `$n` twice"))
 
   private val options: Vector[Row] = Vector(
@@ -48,12 +48,12 @@ private[bench] object BenchTable extends OptionRows:
     opt[Seq[Int]]("samples").valueName("N,...")
       .text("samples per pixel; overrides the suite")
       .validate(n => if n.forall(_ >= 1) then success else failure("--samples must be at least 1"))
-      .validate(once("samples"))
+      .validate(unique("samples"))
       .action((n, o) => change(o)(_.copy(work = Some(Work.Samples(n.toVector.sorted))))),
     opt[Seq[Double]]("seconds").valueName("N,...")
       .text("time per image, instead of samples; overrides the suite")
       .validate(n => if n.forall(_ > 0) then success else failure("--seconds must be above 0"))
-      .validate(once("seconds"))
+      .validate(unique("seconds"))
       .action((n, o) => change(o)(_.copy(work = Some(Work.Seconds(n.toVector.sorted))))),
     opt[Int]("seeds").valueName("N")
       .text("independent images per sample count; overrides the suite")

@@ -26,7 +26,7 @@ final class RobustnessService extends CommandService:
 /** `candela robustness`: counts numerical faults of Candela, and of other programs that are there.
   */
 final class RobustnessCommand(options: Options, terminal: Terminal, report: Report):
-  private val asked = RobustnessOptions.of(options)
+  private val settings = RobustnessOptions.of(options)
   private val cancellation = Cancellation()
   private val cores = Runtime.getRuntime.availableProcessors
   private var begun = Option.empty[String]
@@ -37,7 +37,7 @@ final class RobustnessCommand(options: Options, terminal: Terminal, report: Repo
     val register = FileRegister()
     register.write(Output(paths, "report", "robustness", "report"))
     terminal.interrupts.during(cancellation):
-      val results = Using.resource(Scratch.make())(scratch => measured(scratch.folder))
+      val results = Using.resource(Scratch.create())(scratch => measured(scratch.folder))
       OutputFiles.writeAll(paths): path =>
         WholeFile.write(path, text(path, results).getBytes(UTF_8))
       if !options.quiet then for path <- paths do terminal.out.println(s"wrote $path")
@@ -46,9 +46,9 @@ final class RobustnessCommand(options: Options, terminal: Terminal, report: Repo
       if cancellation.isRequested then ExitCode.Interrupted else code
 
   private def measured(scratch: Path): RobustnessReport =
-    val chosen = RobustnessRun.all.filter(m => asked.only.isEmpty || asked.only.contains(m.key))
+    val chosen = RobustnessRun.all.filter(m => settings.only.isEmpty || settings.only.contains(m.key))
     val run = RobustnessRun(
-      asked.rays, chosen, cores, asked.python, scratch, commandLine, cancellation, say
+      settings.rays, chosen, cores, settings.python, scratch, commandLine, cancellation, printRow
     )
     if !options.quiet then
       for (what, why) <- run.leftOut do terminal.err.println(s"skipped: $what: $why")
@@ -56,10 +56,10 @@ final class RobustnessCommand(options: Options, terminal: Terminal, report: Repo
 
   /** Without `--report`, whose files are where the reader found the table. */
   private def commandLine: String =
-    val only = Option.when(asked.only.nonEmpty)(s"--only ${asked.only.mkString(",")}")
-    (Vector("candela robustness", s"--rays ${asked.rays}") ++ only).mkString(" ")
+    val selection = Option.when(settings.only.nonEmpty)(s"--only ${settings.only.mkString(",")}")
+    (Vector("candela robustness", s"--rays ${settings.rays}") ++ selection).mkString(" ")
 
-  private def say(group: RobustGroup, row: RobustRow): Unit =
+  private def printRow(group: RobustGroup, row: RobustRow): Unit =
     if !options.quiet then
       if !begun.contains(group.key) then
         begun = Some(group.key)
@@ -99,7 +99,7 @@ final class RobustnessCommand(options: Options, terminal: Terminal, report: Repo
     case "json" => RobustnessData.json(results)
     case _ =>
       val table = RobustnessText.markdown(results)
-      if Files.isRegularFile(path) then RobustnessCommand.within(Files.readString(path), table)
+      if Files.isRegularFile(path) then RobustnessCommand.replaceTable(Files.readString(path), table)
       else table
 
 object RobustnessCommand:
@@ -107,7 +107,7 @@ object RobustnessCommand:
   private final val End = "<!-- robustness: end -->"
 
   /** The page with the table between its marks, if it has such; else the table alone. */
-  private[bench] def within(page: String, table: String): String =
+  private[bench] def replaceTable(page: String, table: String): String =
     val (begin, end) = (page.indexOf(Begin), page.indexOf(End))
     if begin < 0 || end < begin then table
     else page.take(begin + Begin.length) + s"\n\n$table\n" + page.drop(end)

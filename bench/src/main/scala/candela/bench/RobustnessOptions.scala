@@ -28,7 +28,7 @@ object RobustnessOptions:
   final val MostRays = 1_000_000_000_000L
 
   def of(o: Options): RobustnessOptions =
-    o.module.collect { case asked: RobustnessOptions => asked }.getOrElse(RobustnessOptions())
+    o.module.collect { case options: RobustnessOptions => options }.getOrElse(RobustnessOptions())
 
 /** Option table of `robustness`, one row each. */
 private[bench] object RobustnessTable extends OptionRows:
@@ -50,12 +50,12 @@ private[bench] object RobustnessTable extends OptionRows:
       .action((n, o) => change(o)(_.copy(rays = n))),
     opt[Seq[String]]("only").valueName("KIND,...")
       .text(s"only these kinds of faults: ${kinds.mkString(", ")}")
-      .validate(some("only"))
+      .validate(nonEmpty("only"))
       .validate: all =>
         all.find(!kinds.contains(_)).fold(success): word =>
-          val near = Suggest.nearest(word, kinds)
-          val meant = near.fold(kinds.mkString(", "))(n => s"did you mean `$n`?")
-          failure(s"--only has no kind `$word`: $meant")
+          val nearest = Suggest.nearest(word, kinds)
+          val hint = nearest.fold(kinds.mkString(", "))(n => s"did you mean `$n`?")
+          failure(s"--only has no kind `$word`: $hint")
       .action((k, o) => change(o)(r => r.copy(only = r.only ++ k))),
     opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
       .text("also write the table as .html (with pictures where programs differ), .json or .md")

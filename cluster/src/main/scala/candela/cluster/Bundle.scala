@@ -39,19 +39,20 @@ object Bundle:
     * bundles. They are not compressed: Spark does so where it sends them.
     */
   def of(scene: Path, files: Vector[Path]): Bundle =
-    def whole(path: Path) = path.toAbsolutePath.normalize
-    val folder = files.map(whole(_).getParent).foldLeft(whole(scene).getParent): (common, other) =>
-      Iterator.iterate(common)(_.getParent).find(other.startsWith(_)).get
-    def name(file: Path) = folder.relativize(whole(file)).iterator.asScala.mkString("/")
-    val out = Parts()
-    Using.resource(ZipOutputStream(out)): zip =>
+    def normalized(path: Path) = path.toAbsolutePath.normalize
+    val folder = files.map(normalized(_).getParent).foldLeft(normalized(scene).getParent):
+      (common, other) =>
+        Iterator.iterate(common)(_.getParent).find(other.startsWith(_)).get
+    def name(file: Path) = folder.relativize(normalized(file)).iterator.asScala.mkString("/")
+    val output = Parts()
+    Using.resource(ZipOutputStream(output)): zip =>
       zip.setLevel(Deflater.NO_COMPRESSION)
       for file <- (scene +: files).distinctBy(name).sortBy(name) do
         val entry = ZipEntry(name(file))
         entry.setTime(0)
         zip.putNextEntry(entry)
         val _ = Files.copy(file, zip)
-    Bundle(name(scene), digest(out.parts), out.parts)
+    Bundle(name(scene), digest(output.chunks), output.chunks)
 
   private def digest(parts: Vector[Array[Byte]]): String =
     val sum = MessageDigest.getInstance("SHA-256")
@@ -62,7 +63,7 @@ object Bundle:
     private val last = ByteArrayOutputStream(PartSize)
     private var full = Vector.empty[Array[Byte]]
 
-    def parts: Vector[Array[Byte]] = if last.size == 0 then full else full :+ last.toByteArray
+    def chunks: Vector[Array[Byte]] = if last.size == 0 then full else full :+ last.toByteArray
 
     def write(b: Int): Unit =
       last.write(b)

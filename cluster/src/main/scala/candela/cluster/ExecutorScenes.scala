@@ -12,24 +12,24 @@ import scala.util.{Try, Using}
 /** The scenes that an executor has unpacked and built, for all of its tasks. */
 object ExecutorScenes:
   private lazy val root: Path =
-    val scratch = Scratch.make()
+    val scratch = Scratch.create()
     val cleanUp: Runnable = () => scratch.close()
     Runtime.getRuntime.addShutdownHook(Thread(cleanUp))
     scratch.folder
 
   // Frames of a sequence have most in common
-  private val keep = Keep()
+  private val cache = Keep()
 
   // By bundle; the latest last. Others wait while one is built.
   private val scenes = mutable.LinkedHashMap.empty[String, ShardRenderer]
 
   def renderer(work: Assignment): ShardRenderer = synchronized:
     val key = s"${work.digest} ${work.header.words} ${work.header.samples}"
-    val known = scenes.remove(key)
-    val renderer = known.getOrElse:
+    val cached = scenes.remove(key)
+    val renderer = cached.getOrElse:
       val folder = newFolder()
       // The scene is in memory once it is built.
-      try ShardRenderer(work.header, work.bundle.value.unpack(folder), work.threads, keep)
+      try ShardRenderer(work.header, work.bundle.value.unpack(folder), work.threads, cache)
       finally delete(folder)
     scenes += key -> renderer
     // A sequence renders a few at a time.

@@ -45,9 +45,9 @@ private final class SparkRun(
     group: String
 ) extends ClusterRun:
   import SparkRun.*
-  private val sent = context.broadcast(bundle)
+  private val broadcast = context.broadcast(bundle)
   private val threads = context.getConf.getInt("spark.task.cpus", 1)
-  private val assignment = Assignment(work.header, sent, bundle.digest, threads)
+  private val assignment = Assignment(work.header, broadcast, bundle.digest, threads)
   private val counter = context.longAccumulator(group)
   @volatile private var isCancelled = false
   @volatile private var result: Option[Try[Vector[Vector[FilmChunk]]]] = None
@@ -56,7 +56,7 @@ private final class SparkRun(
   def start(): Unit =
     val job: Runnable = () =>
       result = Some(Try(rendered()))
-      sent.destroy()
+      broadcast.destroy()
     val thread = Thread(job, group)
     thread.setDaemon(true)
     thread.start()
@@ -85,16 +85,16 @@ private final class SparkRun(
 
   /** Renders all shards; those that get lost again. */
   private def rendered(): Vector[Vector[FilmChunk]] =
-    def round(missing: Set[Int], films: Vector[Vector[FilmChunk]], left: Int)
+    def round(missing: Set[Int], films: Vector[Vector[FilmChunk]], retries: Int)
         : Vector[Vector[FilmChunk]] =
-      val (found, film) = collected(summed(missing))
-      val lost = missing -- found
-      if lost.isEmpty || isCancelled then films :+ film
+      val (arrived, film) = collected(summed(missing))
+      val damaged = missing -- arrived
+      if damaged.isEmpty || isCancelled then films :+ film
       else
-        val names = lost.toVector.sorted.map(i => s"$i/$count").mkString(", ")
-        if left == 0 then throw ClusterFailure(s"shards $names arrived damaged repeatedly")
+        val names = damaged.toVector.sorted.map(i => s"$i/$count").mkString(", ")
+        if retries == 0 then throw ClusterFailure(s"shards $names arrived damaged repeatedly")
         note(s"shards $names arrived damaged; rendering them again")
-        round(lost, films :+ film, left - 1)
+        round(damaged, films :+ film, retries - 1)
     round((0 until count).toSet, Vector.empty, Rounds)
 
   /** A single partition: the film of these shards, summed along a tree. */
@@ -107,8 +107,8 @@ private final class SparkRun(
         val grouped = films.mapPartitionsWithIndex(ByGroup(groups))
           .partitionBy(HashPartitioner(groups))
         reduced(grouped.mapPartitions(Chunks).mapPartitions(MergeFilms(assignment)))
-    val parts = context.parallelize(shards.toVector.sorted, shards.size)
-    reduced(parts.mapPartitions(RenderShards(assignment, count, counter)))
+    val partitioned = context.parallelize(shards.toVector.sorted, shards.size)
+    reduced(partitioned.mapPartitions(RenderShards(assignment, count, counter)))
 
   /** The film, and the shards that arrived. */
   private def collected(sum: RDD[FilmChunk]): (Set[Int], Vector[FilmChunk]) =
@@ -128,11 +128,11 @@ private final class SparkRun(
   /** Processors of all executors, once they have registered. */
   private def cores(): Int =
     def executors = context.getExecutorMemoryStatus.size
-    var known = 0
+    var previous = 0
     var quiet = 0
     while !context.isLocal && (executors < 2 || quiet < Settled) && !isCancelled do
-      quiet = if executors == known then quiet + 1 else 0
-      known = executors
+      quiet = if executors == previous then quiet + 1 else 0
+      previous = executors
       LockSupport.parkNanos(Tick)
     context.defaultParallelism
 
@@ -153,5 +153,5 @@ private[cluster] object SparkRun:
 
   /** The program's own message in Spark's, if there is one. */
   def reason(text: String): String =
-    val own = "(?:SceneError|ClusterFailure|IOException): ([^\n]*)".r
-    own.findFirstMatchIn(text).fold(text.linesIterator.nextOption.getOrElse(""))(_.group(1))
+    val pattern = "(?:SceneError|ClusterFailure|IOException): ([^\n]*)".r
+    pattern.findFirstMatchIn(text).fold(text.linesIterator.nextOption.getOrElse(""))(_.group(1))

@@ -21,7 +21,7 @@ final class Assignment(
     val digest: String,
     val threads: Int
 ) extends Serializable:
-  private val java = JavaRelease.here
+  private val java = JavaRelease.current
 
   /** @throws ClusterFailure if this executor runs on another Java than the driver */
   def renderer: ShardRenderer =
@@ -30,10 +30,10 @@ final class Assignment(
 
 /** Releases of Java, whose mathematical functions may round differently. */
 private[cluster] object JavaRelease:
-  def here: Int = Runtime.version.feature
+  def current: Int = Runtime.version.feature
 
   /** @throws ClusterFailure if they differ */
-  def check(driver: Int, executor: Int = here): Unit =
+  def check(driver: Int, executor: Int = current): Unit =
     if driver != executor then
       throw ClusterFailure(
         s"an executor runs on Java $executor, the program on Java $driver, which may not make the " +

@@ -12,9 +12,9 @@ import scala.jdk.CollectionConverters.*
 private final class Traffic extends SparkListener:
   // Values of the accumulators of running tasks, by accumulator and task
   private val values = ConcurrentHashMap[(Long, Long), Long]
-  private val all, failed, shuffled, results = LongAdder()
+  private val finished, failed, shuffled, results = LongAdder()
 
-  def tasks: Long = all.sum
+  def tasks: Long = finished.sum
   def failures: Long = failed.sum
 
   /** Bytes that tasks have read from others. */
@@ -34,7 +34,7 @@ private final class Traffic extends SparkListener:
         case _ => ()
 
   override def onTaskEnd(end: SparkListenerTaskEnd): Unit =
-    all.increment()
+    finished.increment()
     if end.reason != Success then failed.increment()
     values.keySet.removeIf(_._2 == end.taskInfo.taskId): Unit
     for metrics <- Option(end.taskMetrics) do

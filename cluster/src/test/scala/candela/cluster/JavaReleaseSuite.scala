@@ -15,4 +15,4 @@ class JavaReleaseSuite extends AnyFunSuite:
     assert(reason.contains("set JAVA_HOME"))
 
   test("an executor of the same Java renders"):
-    JavaRelease.check(driver = JavaRelease.here)
+    JavaRelease.check(driver = JavaRelease.current)

@@ -122,7 +122,7 @@ object ClusterScaling:
       def restore(state: RenderState): Unit = ()
       def isDue: Boolean = false
       def save(state: RenderState): Unit = write(state, to)
-      def lose(): Unit = ()
+      def discard(): Unit = ()
       def finish(): Unit = ()
     val begin = cpu()
     Renderer.render(plan, RenderControl(1, shard = shard, checkpointer = Some(checkpointer))): Unit

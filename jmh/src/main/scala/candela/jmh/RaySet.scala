@@ -49,7 +49,7 @@ object RaySet:
     def draw() = random.nextDouble().toFloat
     val camera, bounce, shadow = Array.newBuilder[Float]
     val eye = Vec3(-6f, -7f, 5f)
-    val view = Frame.around((Vec3(0f, 0f, 0.8f) - eye).normalized)
+    val view = Frame.fromZ((Vec3(0f, 0f, 0.8f) - eye).normalized)
     val (ray, hit) = (Ray(), Hit())
     def put(to: scala.collection.mutable.ArrayBuilder[Float], o: Vec3, d: Vec3, end: Float) =
       to ++= Array(o.x, o.y, o.z, d.x, d.y, d.z, end)
@@ -67,7 +67,7 @@ object RaySet:
           val o = ray.at(ray.tMax) + n * 1e-4f
           val (r, phi) = (sqrt(draw()), TwoPi * draw())
           val out = Vec3(r * cos(phi), r * sin(phi), sqrt(1f - r * r))
-          put(bounce, o, Frame.around(n).toWorld(out), Float.PositiveInfinity)
+          put(bounce, o, Frame.fromZ(n).toWorld(out), Float.PositiveInfinity)
           val emitter = Vec3(2f + draw(), -3f + draw(), 6f)
           put(shadow, o, (emitter - o).normalized, (emitter - o).length)
     Seq(

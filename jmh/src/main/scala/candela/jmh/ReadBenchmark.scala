@@ -62,4 +62,4 @@ class PlyBenchmark:
 
   @Benchmark
   @OperationsPerInvocation(MeshText.Megabytes)
-  def read(): PlyMesh = PlyFile.read(InputFile.asked(mesh))
+  def read(): PlyMesh = PlyFile.read(InputFile.named(mesh))

@@ -152,7 +152,7 @@ private[building] final class SharedCut(
       val leftCounts = wrongBefore(bins, first, middle, bin => bin > cut)
       val rightCounts = wrongBefore(bins, middle, end, bin => bin <= cut)
       val pairs = leftCounts(chunks)
-      parallel.each(chunks): k =>
+      parallel.forEach(chunks): k =>
         var pair = (pairs.toLong * k / chunks).toInt
         val stop = (pairs.toLong * (k + 1) / chunks).toInt
         if pair < stop then
@@ -176,7 +176,7 @@ private[building] final class SharedCut(
       inline isWrong: Byte => Boolean
   ): Array[Int] =
     val counts = new Array[Int](parallel.threads + 1)
-    parallel.each(parallel.threads): k =>
+    parallel.forEach(parallel.threads): k =>
       var count = 0
       var i = chunkStart(first, end, k)
       val stop = chunkStart(first, end, k + 1)

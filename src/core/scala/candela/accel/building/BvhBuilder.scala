@@ -70,7 +70,7 @@ private[accel] object BvhBuilder:
     val topSize = top.leafSize
     val deferredRanges = top.deferredRanges.toArray
     val subtrees = new Array[Subtree](deferredRanges.length)
-    parallel.each(deferredRanges.length): i =>
+    parallel.forEach(deferredRanges.length): i =>
       val range = deferredRanges(i)
       val builder =
         SubtreeBuilder(records, BinnedCut(records, size.shift, binOf), range.levels, size)

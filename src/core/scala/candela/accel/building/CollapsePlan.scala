@@ -45,7 +45,7 @@ private[building] final class CollapsePlan(
   if tree.root >= 0 then
     val roots = partsBelow(tree.root, tree.rootArea)
     val priced = new Array[Priced](roots.length)
-    parallel.each(roots.length): i =>
+    parallel.forEach(roots.length): i =>
       val pricer = Pricer(Vector.empty)
       val count = pricer.price(roots(i).node, roots(i).area, 0)
       priced(i) = Priced(roots(i).node, count, Array.tabulate(width + 1)(pricer.cost(0, _)))

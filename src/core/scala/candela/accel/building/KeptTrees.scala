@@ -31,16 +31,16 @@ private[accel] final class KeptTrees(
   private def layout(primitives: Primitives): WideLayout =
     val treeParts = TreeParts.of(primitives, parallel)
     val wholeKey = key(treeParts, _ => true)
-    keep.find(Layouts, wholeKey).getOrElse:
+    keep.lookup(Layouts, wholeKey).getOrElse:
       val form = s"$width $lanes $maxLeaf ${treeParts.form}"
-      val previous = keep.find(Latest, form)
+      val previous = keep.lookup(Latest, form)
       val moves = moving(treeParts, previous)
-      keep.put(Latest, form, Moves(treeParts, moves))
+      keep.insert(Latest, form, Moves(treeParts, moves))
       val restingCount = primitives.count - movers(treeParts, moves)
       if previous.isEmpty || restingCount < primitives.count / 2 || restingCount == primitives.count
       then
         val layout = built(primitives, BoxRecord.ofAll(primitives, parallel))
-        keep.put(Layouts, wholeKey, layout)
+        keep.insert(Layouts, wholeKey, layout)
         layout
       else
         val restingLayout = keep(Layouts, key(treeParts, !moves(_))):

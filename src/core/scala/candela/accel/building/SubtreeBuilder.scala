@@ -140,7 +140,7 @@ private[building] object Subtree:
       val count = starts.last / NodeFloats
       throw IllegalStateException(s"a BVH of $count nodes exceeds the maximum array length")
     val joinedNodes = java.util.Arrays.copyOf(top.nodes, starts.last.toInt)
-    parallel.each(parts.length): i =>
+    parallel.forEach(parts.length): i =>
       val start = starts(i).toInt
       System.arraycopy(parts(i).nodes, 0, joinedNodes, start, parts(i).nodes.length)
       children(joinedNodes, start, starts(i + 1).toInt): (at, code, _) =>

@@ -80,7 +80,7 @@ private[building] object TreeParts:
       if ends(i) > starts(i)._1 && primitives.isSolidTriangle(starts(i)._1) then solid(i) = 1
     // A few large meshes, or many small ones
     if starts.length < 4 * parallel.threads then starts.indices.foreach(note(_, parallel))
-    else parallel.each(starts.length)(note(_, Parallel.Alone))
+    else parallel.forEach(starts.length)(note(_, Parallel.Alone))
     val otherCount = primitives.count - soup.count
     val boxes = new Array[Float](6 * otherCount)
     parallel.ranges(otherCount): (from, until) =>

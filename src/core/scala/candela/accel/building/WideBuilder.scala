@@ -31,7 +31,7 @@ private final class WideBuilder(
   private val codes = new Array[Int](1 + deferredSubtrees.length)
   writers(0) = top
   codes(0) = topCode
-  parallel.each(deferredSubtrees.length): i =>
+  parallel.forEach(deferredSubtrees.length): i =>
     val node = deferredSubtrees(i).node
     val writer = WideWriter(width, lanes, tree, plan, partSize = 0)
     codes(i + 1) = writer.write(node, 0)
@@ -50,7 +50,7 @@ private final class WideBuilder(
   /** Primitives in the leaves other than blocks. */
   val unblocked: Array[Int] = new Array[Int](unblockedStarts.last)
 
-  parallel.each(writers.length): i =>
+  parallel.forEach(writers.length): i =>
     val writer = writers(i)
     writer.owners.copyTo(owners, ownerStarts(i))
     writer.unblocked.copyTo(unblocked, unblockedStarts(i))

@@ -15,14 +15,14 @@ final class ChosenMaterial(blend: MixedMaterial) extends WrappedMaterial(blend):
   override val isConstant: Boolean = false
 
   def bsdf(at: ShadingPoint): Bsdf =
-    var part: Material = blend
+    var current: Material = blend
     var weight = Rgb.White
     var bits = ChosenMaterial.hash(at)
     var goesOn = true
     while goesOn do
-      part match
-        case chosen: ChosenMaterial => part = chosen.within
-        case mixed: MixedMaterial if mixed.first eq mixed.second => part = mixed.first
+      current match
+        case chosen: ChosenMaterial => current = chosen.mixture
+        case mixed: MixedMaterial if mixed.first eq mixed.second => current = mixed.first
         case mixed: MixedMaterial =>
           val share = mixed.amountAt(at)
           val isGray = share.r == share.g && share.r == share.b && share.r <= 1f
@@ -31,15 +31,15 @@ final class ChosenMaterial(blend: MixedMaterial) extends WrappedMaterial(blend):
           bits = SampleHash.mix64(bits + SampleHash.Step)
           if SampleHash.toUnit((bits >>> 32).toInt) < chance then
             if !isGray then weight *= share * (1f / chance)
-            part = mixed.first
+            current = mixed.first
           else
-            if !isGray then weight *= MixedMaterial.rest(share) * (1f / (1f - chance))
-            part = mixed.second
+            if !isGray then weight *= MixedMaterial.complement(share) * (1f / (1f - chance))
+            current = mixed.second
         case _ => goesOn = false
-    val found = MixedMaterial.scatter(part, at)
-    if weight == Rgb.White then found else Lobes.Builder().addScaled(found, weight).result
+    val scattered = MixedMaterial.scatter(current, at)
+    if weight == Rgb.White then scattered else Lobes.Builder().addScaled(scattered, weight).result
 
-  private def within: Material = blend
+  private def mixture: Material = blend
 
 object ChosenMaterial:
   private def hash(at: ShadingPoint): Long =

@@ -133,20 +133,20 @@ final class MixedMaterial(
   def bsdf(at: ShadingPoint): Bsdf =
     if first eq second then MixedMaterial.scatter(first, at)
     else
-      val part = amountAt(at)
-      val rest = MixedMaterial.rest(part)
+      val fraction = amountAt(at)
+      val complement = MixedMaterial.complement(fraction)
       val frame = at.frame.toFrame
-      val other = MixedMaterial.scatter(second, at)
+      val secondLobes = MixedMaterial.scatter(second, at)
       at.frame.set(frame)
       Lobes.Builder()
-        .addScaled(MixedMaterial.scatter(first, at), part)
-        .addScaled(other, rest)
+        .addScaled(MixedMaterial.scatter(first, at), fraction)
+        .addScaled(secondLobes, complement)
         .result
 
 object MixedMaterial:
   private val clear = Passthrough(Rgb.White)
 
-  private[composite] def rest(part: Rgb): Rgb = part.map(c => Math.max(1f - c, 0f))
+  private[composite] def complement(fraction: Rgb): Rgb = fraction.map(c => Math.max(1f - c, 0f))
 
   /** Within a blend, an interface is a transparent lobe, not the absence of a surface. */
   private[composite] def scatter(material: Material, at: ShadingPoint): Bsdf =

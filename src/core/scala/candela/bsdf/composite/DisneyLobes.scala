@@ -31,16 +31,16 @@ final class DisneyDiffuse(diffuse: Rgb, flat: Rgb, retro: Rgb, sheen: Rgb, rough
       val cosD = wi dot across.normalized
       val o = Schlick.weight(cosO)
       val i = Schlick.weight(cosI)
-      val back = 2f * roughness * cosD * cosD
+      val rr = 2f * roughness * cosD * cosD
       val base = diffuse * (InvPi * (1f - 0.5f * o) * (1f - 0.5f * i)) +
-        retro * (InvPi * back * (o + i + o * i * (back - 1f))) +
+        retro * (InvPi * rr * (o + i + o * i * (rr - 1f))) +
         sheen * Schlick.weight(cosD)
-      if isFlat then base + flat * (InvPi * flattened(cosO, cosI, o, i, 0.5f * back)) else base
+      if isFlat then base + flat * (InvPi * flattened(cosO, cosI, o, i, 0.5f * rr)) else base
 
   /** After Hanrahan and Krueger. The factor 1.25 roughly preserves the albedo. */
   private def flattened(cosO: Float, cosI: Float, o: Float, i: Float, grazing: Float): Float =
-    val both = lerp(o, 1f, grazing) * lerp(i, 1f, grazing)
-    1.25f * (both * (1f / (cosO + cosI) - 0.5f) + 0.5f)
+    val fss = lerp(o, 1f, grazing) * lerp(i, 1f, grazing)
+    1.25f * (fss * (1f / (cosO + cosI) - 0.5f) + 0.5f)
 
 /** Schlick's approximation of the Fresnel equations.
   *
@@ -100,8 +100,8 @@ final class ClearcoatDistribution(alpha: Float, isBare: Boolean = false)
     1f / (cosine + sqrt(MaskingAlpha2 + cosine * cosine * (1f - MaskingAlpha2)))
 
   def visibility(wo: Vec3, wi: Vec3, m: Vec3): Float =
-    val usual = 0.25f * masked(wo) * masked(wi)
-    if isBare then usual * (4f * Math.abs(wo.z * wi.z)) else usual
+    val smith = 0.25f * masked(wo) * masked(wi)
+    if isBare then smith * (4f * Math.abs(wo.z * wi.z)) else smith
 
   def pdf(wo: Vec3, m: Vec3): Float = d(m) * m.z
 
@@ -109,7 +109,7 @@ final class ClearcoatDistribution(alpha: Float, isBare: Boolean = false)
     // Samples sin²θ rather than cos²θ: most are tiny
     val sine2 = (Math.pow(alpha2, 1.0 - u2) - alpha2) / (1.0 - alpha2)
     val sine = Math.sqrt(Math.max(0.0, sine2))
-    Warp.around(Math.sqrt(Math.max(0.0, 1.0 - sine2)).toFloat, sine.toFloat, u1)
+    Warp.spherical(Math.sqrt(Math.max(0.0, 1.0 - sine2)).toFloat, sine.toFloat, u1)
 
   def sampleWeight(wo: Vec3, wi: Vec3, m: Vec3): Float =
     if m.z > 0f then 4f * Math.abs(wi.z) * visibility(wo, wi, m) * Math.abs(wo dot m) / m.z else 0f

@@ -48,8 +48,8 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
   /** Transmittance of one passage through the fibre. */
   private def transmitted(sinO: Float, gammaT: Float): Rgb =
     val cosT = safeSqrt(1f - square(sinO / eta))
-    val way = 2f * Math.max(0f, cos(gammaT)) / Math.max(cosT, 1e-7f)
-    sigmaA.map(s => exp(-s * way))
+    val pathLength = 2f * Math.max(0f, cos(gammaT)) / Math.max(cosT, 1e-7f)
+    sigmaA.map(s => exp(-s * pathLength))
 
   /** The attenuation Ap of lobe `p`; `fresnel` is the reflectance of the outside. */
   private def share(p: Int, fresnel: Float, t: Rgb): Rgb = p match
@@ -63,11 +63,11 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
   private def fresnel(cosO: Float): Float =
     Fresnel.dielectric(cosO * safeSqrt(1f - h * h), eta)
 
-  private def around(p: Int, phi: Float, gammaT: Float): Float =
+  private def azimuthalTerm(p: Int, phi: Float, gammaT: Float): Float =
     if p == Lobes - 1 then 1f / TwoPi
     else
-      val off = wrapped(phi - exit(p, gammaO, gammaT))
-      Logistic.density(off, shape.azimuthal)
+      val offset = wrapped(phi - exit(p, gammaO, gammaT))
+      Logistic.density(offset, shape.azimuthal)
 
   /** Visits the lobes with their attenuation, longitudinal and azimuthal terms. */
   private inline def lobes(wo: Vec3, wi: Vec3)(inline visit: (Rgb, Float, Float) => Unit): Unit =
@@ -83,7 +83,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     while p < Lobes do
       val along =
         longitudinal(cosI, tiltedCos(sinO, cosO, p), sinI, tiltedSin(sinO, cosO, p), shape.v(p))
-      visit(share(p, r, t), along, around(p, phi, inside))
+      visit(share(p, r, t), along, azimuthalTerm(p, phi, inside))
       p += 1
 
   def f(wo: Vec3, wi: Vec3): Rgb =
@@ -114,13 +114,14 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
       p += 1
     // Select a lobe by its attenuation, and remap the sample
     p = 0
-    var rest = choice * total
-    var own = share(0, r, t).average
-    while p < Lobes - 1 && rest >= own do
-      rest -= own
+    var remaining = choice * total
+    var lobeWeight = share(0, r, t).average
+    while p < Lobes - 1 && remaining >= lobeWeight do
+      remaining -= lobeWeight
       p += 1
-      own = share(p, r, t).average
-    val again = if own > 0f then clamp(rest / own, 0f, OneMinusEpsilon) else 0f
+      lobeWeight = share(p, r, t).average
+    val remapped =
+      if lobeWeight > 0f then clamp(remaining / lobeWeight, 0f, OneMinusEpsilon) else 0f
     val sinP = tiltedSin(sinO, cosO, p)
     val cosP = tiltedCos(sinO, cosO, p)
     val v = shape.v(p)
@@ -132,8 +133,8 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     )
     val cosI = safeSqrt(1f - sinI * sinI)
     val turn =
-      if p == Lobes - 1 then TwoPi * again
-      else exit(p, gammaO, inside) + Logistic.sample(again, shape.azimuthal)
+      if p == Lobes - 1 then TwoPi * remapped
+      else exit(p, gammaO, inside) + Logistic.sample(remapped, shape.azimuthal)
     val phi = azimuth(wo) + turn
     val wi = Vec3(sinI, cosI * cos(phi), cosI * sin(phi))
     val density = pdf(wo, wi)

@@ -73,7 +73,7 @@ private[composite] object Principled:
     val luminance = color.luminance
     if luminance > 0f then color * (1f / luminance) else Rgb.White
 
-  def tinted(hue: Rgb, part: Float): Rgb = Rgb.White * (1f - part) + hue * part
+  def tinted(hue: Rgb, fraction: Float): Rgb = Rgb.White * (1f - fraction) + hue * fraction
 
   def facets(roughness: Float, anisotropic: Float): SeparableTrowbridgeReitz =
     val aspect = safeSqrt(1f - 0.9f * anisotropic)

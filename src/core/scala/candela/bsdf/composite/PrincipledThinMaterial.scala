@@ -25,12 +25,12 @@ final class PrincipledThinMaterial(p: DisneyParameters) extends Material, Textur
     val roughness = p.roughness(at)
     val clear = p.transmission(at)
     val passing = 0.5f * p.diffTrans(at)
-    val near = (1f - clear) * (1f - passing)
+    val frontShare = (1f - clear) * (1f - passing)
 
     val lobes = Lobes.Builder()
     val flat = p.flatness(at)
-    val base = color * near
-    val cloth = Principled.tinted(hue, p.sheenTint(at)) * (p.sheen(at) * near)
+    val base = color * frontShare
+    val cloth = Principled.tinted(hue, p.sheenTint(at)) * (p.sheen(at) * frontShare)
     lobes.add(
       DisneyDiffuse(base * (1f - flat), base * flat, base * (1f - flat), cloth, roughness),
       base.max + 0.2f * cloth.max

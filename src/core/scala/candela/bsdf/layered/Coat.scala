@@ -143,13 +143,16 @@ private object RoughCoat:
     val n = 32768
     var sum = 0.0
     loop(n): i =>
-      val up = Hemisphere.cosineSample(Vec3.Z, LowDiscrepancy(i, 1), LowDiscrepancy(i, 2))
-      val m = top.sample(up, LowDiscrepancy(i, 3), LowDiscrepancy(i, 4))
-      val cosM = up dot m
-      val down = Hemisphere.reflected(up, m, cosM)
-      if cosM > 0f && down.z > 0f then
-        val kept = Fresnel.dielectric(cosM, 1f / eta) * top.sampleWeight(up, down, m)
-        sum += kept * Coat.attenuation(thickness, up.z) * Coat.attenuation(thickness, down.z)
+      val incident = Hemisphere.cosineSample(Vec3.Z, LowDiscrepancy(i, 1), LowDiscrepancy(i, 2))
+      val m = top.sample(incident, LowDiscrepancy(i, 3), LowDiscrepancy(i, 4))
+      val cosM = incident dot m
+      val reflected = Hemisphere.reflected(incident, m, cosM)
+      if cosM > 0f && reflected.z > 0f then
+        val weight = Fresnel.dielectric(cosM, 1f / eta) * top.sampleWeight(incident, reflected, m)
+        sum += weight * Coat.attenuation(thickness, incident.z) * Coat.attenuation(
+          thickness,
+          reflected.z
+        )
     (sum / n).toFloat
 
 /** Quasi-random points in up to four dimensions, for integrals precomputed at scene construction.
@@ -178,15 +181,15 @@ final class Coats:
 
   /** The cached coat with the outer roughness `top` and a thickness in mean free paths. */
   def of(top: TrowbridgeReitz, eta: Float, thickness: Float): Coat =
-    val known = last
-    if known != null && (known._1 eq top) && known._2.eta == eta && known._3 == thickness then
-      known._2
+    val cached = last
+    if cached != null && (cached._1 eq top) && cached._2.eta == eta && cached._3 == thickness then
+      cached._2
     else
-      val coat = found(((top.alphaX, top.alphaY), eta, thickness), top)
+      val coat = lookUp(((top.alphaX, top.alphaY), eta, thickness), top)
       last = (top, coat, thickness)
       coat
 
-  private def found(key: Key, top: TrowbridgeReitz): Coat =
+  private def lookUp(key: Key, top: TrowbridgeReitz): Coat =
     coats.computeIfAbsent(
       key,
       _ =>
@@ -195,7 +198,7 @@ final class Coats:
         else RoughCoat(top, eta, thickness)
     )
 
-  /** Cached coats of isotropic roughnesses from 0 to 1, denser towards 0: for [[Coats.between]]. */
+  /** Cached coats of isotropic roughnesses from 0 to 1, denser towards 0: [[Coats.interpolate]]. */
   def family(eta: Float, thickness: Float): IArray[Coat] =
     families.computeIfAbsent(
       (eta, thickness),
@@ -213,7 +216,7 @@ object Coats:
   /** Interpolates the coat of any roughness from 0 to 1, with an error of at most 0.003
     * (`CoatSuite`). Anisotropic roughnesses use their geometric mean.
     */
-  def between(family: IArray[Coat], top: TrowbridgeReitz): Coat =
+  def interpolate(family: IArray[Coat], top: TrowbridgeReitz): Coat =
     val isotropic = top.alphaX == top.alphaY
     val root = if isotropic then sqrt(top.alphaX) else sqrt(sqrt(top.alphaX * top.alphaY))
     val level = clamp(root, 0f, 1f) * (Levels - 1).toFloat
@@ -230,4 +233,4 @@ private final class BlendedCoat(family: IArray[Coat], top: TrowbridgeReitz, i: I
   def transmittance(w: Vec3): Float = lerp(t, a.transmittance(w), b.transmittance(w))
   def meanTransmittance: Float = lerp(t, a.meanTransmittance, b.meanTransmittance)
   def internalReflectance: Float = lerp(t, a.internalReflectance, b.internalReflectance)
-  def regularized: Coat = Coats.between(family, top.regularized)
+  def regularized: Coat = Coats.interpolate(family, top.regularized)

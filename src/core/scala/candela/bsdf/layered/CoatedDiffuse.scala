@@ -41,43 +41,43 @@ final class CoatedDiffuse(
 ) extends LeanBsdf:
   private val eta = coat.eta
   private val topIsSmooth = top.isSmooth || eta == 1f
-  private val base = under(series)
-  private val sampledBase = if sampledSeries eq series then base else under(sampledSeries)
+  private val base = scaledBase(series)
+  private val sampledBase = if sampledSeries eq series then base else scaledBase(sampledSeries)
   private val meanBase = base.max * Pi * coat.meanTransmittance
 
-  private def under(series: Coat => Rgb): Rgb = series(coat) * (InvPi / (eta * eta))
+  private def scaledBase(series: Coat => Rgb): Rgb = series(coat) * (InvPi / (eta * eta))
 
   def f(wo: Vec3, wi: Vec3): Rgb = value(base, wo, wi)
 
   private def value(base: Rgb, wo: Vec3, wi: Vec3): Rgb =
-    if !Hemisphere.same(wo, wi) then Rgb.Black
+    if !Hemisphere.isSameSide(wo, wi) then Rgb.Black
     else
-      val under = base * (coat.transmittance(wo) * coat.transmittance(wi))
-      if topIsSmooth then under
+      val diffuse = base * (coat.transmittance(wo) * coat.transmittance(wi))
+      if topIsSmooth then diffuse
       else
         val o = Hemisphere.above(wo)
         val i = Hemisphere.above(wi)
         val m = (o + i).normalized
         val cosM = o dot m
         // As in MicrofacetReflection
-        if cosM <= 0f then under
-        else under + gloss * (Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(o, i, m))
+        if cosM <= 0f then diffuse
+        else diffuse + gloss * (Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(o, i, m))
 
   /** Probability of sampling the outer interface: its fraction of the reflected power. */
   private def topChance(reflected: Float, wo: Vec3): Float =
-    val under = meanBase * coat.transmittance(wo)
-    if reflected + under > 0f then reflected / (reflected + under) else 0f
+    val basePower = meanBase * coat.transmittance(wo)
+    if reflected + basePower > 0f then reflected / (reflected + basePower) else 0f
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if !Hemisphere.same(wo, wi) then 0f
+    if !Hemisphere.isSameSide(wo, wi) then 0f
     else
       val chance = topChance(Fresnel.dielectric(Math.abs(wo.z), eta), wo)
-      val under = (1f - chance) * Hemisphere.cosinePdf(wi)
-      if topIsSmooth then under
+      val baseDensity = (1f - chance) * Hemisphere.cosinePdf(wi)
+      if topIsSmooth then baseDensity
       else
         val o = Hemisphere.above(wo)
         val m = (o + Hemisphere.above(wi)).normalized
-        under + chance * MicrofacetReflection.pdf(top, o, m)
+        baseDensity + chance * MicrofacetReflection.pdf(top, o, m)
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val reflected = Fresnel.dielectric(Math.abs(wo.z), eta)
@@ -123,10 +123,10 @@ object CoatedDiffuse:
   def apply(baseHits: Int, sampledBaseHits: Int, top: TrowbridgeReitz, coat: Coat)(
       ofReflectance: (Float => Float) => Rgb
   ): CoatedDiffuse =
-    def of(hits: Int): Coat => Rgb = under => ofReflectance(series(_, under, hits))
-    val whole = of(baseHits)
-    val sampled = if sampledBaseHits == baseHits then whole else of(sampledBaseHits)
-    new CoatedDiffuse(whole, sampled, top, coat)
+    def of(hits: Int): Coat => Rgb = layer => ofReflectance(series(_, layer, hits))
+    val full = of(baseHits)
+    val sampled = if sampledBaseHits == baseHits then full else of(sampledBaseHits)
+    new CoatedDiffuse(full, sampled, top, coat)
 
   /** albedo · Σ (albedo · R)^k by Horner's scheme, for k below `baseHits`. */
   def series(albedo: Float, coat: Coat, baseHits: Int): Float =
@@ -156,7 +156,7 @@ final class CoatedDiffuseMaterial private (
 
   def bsdf(at: ShadingPoint): Bsdf =
     val top = roughness.trowbridgeReitz(at)
-    val coat = coating.at(top)
+    val coat = coating.coatOf(top)
     val ofReflectance = spectrum.getOrElse:
       val albedo = reflectance.albedo(at)
       (f: Float => Float) => albedo.map(f)
@@ -170,13 +170,13 @@ object CoatedDiffuseMaterial:
     */
   private final class Coating(roughness: Roughness, eta: Float, thickness: Float, coats: Coats):
     // Made when a ray needs it: a rough coat takes a hundred thousand samples
-    lazy val at: TrowbridgeReitz => Coat =
+    lazy val coatOf: TrowbridgeReitz => Coat =
       if roughness.isConstant then
         val coat = coats.of(roughness.trowbridgeReitz(ShadingPoint()), eta, thickness)
         _ => coat
       else
         val family = coats.family(eta, thickness)
-        Coats.between(family, _)
+        Coats.interpolate(family, _)
 
   /** Makes a material of a reflectance, with the given medium between coat and base. Random walks
     * are used only if the medium scatters or its thickness varies.

@@ -41,8 +41,8 @@ final class Coated(
   private def absorbed(a: Vec3, b: Vec3): Rgb =
     if isClear then Rgb.White
     else
-      val way = 1f / Hemisphere.absCos(a) + 1f / Hemisphere.absCos(b)
-      absorption.map(s => exp(-s * way))
+      val pathLength = 1f / Hemisphere.absCos(a) + 1f / Hemisphere.absCos(b)
+      absorption.map(s => exp(-s * pathLength))
 
   /** What reaches the inner BSDF and leaves again. */
   private def passed(wo: Vec3, wi: Vec3, o: Vec3, i: Vec3): Rgb =
@@ -54,54 +54,55 @@ final class Coated(
     val reflected = (1f - through) * gloss.max
     if reflected > 0f then reflected / (reflected + through) else 0f
 
-  private def hasFacets(wo: Vec3, wi: Vec3) = !top.isSmooth && Hemisphere.same(wo, wi)
+  private def hasFacets(wo: Vec3, wi: Vec3) = !top.isSmooth && Hemisphere.isSameSide(wo, wi)
 
   def f(wo: Vec3, wi: Vec3): Rgb =
     if Hemisphere.isLevel(wo, wi) then Rgb.Black
     else
       val (o, i) = (bent(wo, eta), bent(wi, eta))
-      val under =
+      val innerTerm =
         if o.isZero || i.isZero then Rgb.Black
         else inner.f(o, i) * passed(wo, wi, o, i) * (1f / (eta * eta))
-      if !hasFacets(wo, wi) then under
+      if !hasFacets(wo, wi) then innerTerm
       else
         val (a, b) = (Hemisphere.above(wo), Hemisphere.above(wi))
         val m = (a + b).normalized
         val cosM = a dot m
-        if cosM <= 0f then under
-        else under + gloss * (Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(a, b, m))
+        if cosM <= 0f then innerTerm
+        else
+          innerTerm + gloss * (Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(a, b, m))
 
   def pdf(wo: Vec3, wi: Vec3): Float =
     if Hemisphere.isLevel(wo, wi) then 0f
     else
       val chance = topChance(wo)
       val (o, i) = (bent(wo, eta), bent(wi, eta))
-      val under =
+      val innerDensity =
         if o.isZero || i.isZero then 0f
         else
           // Solid angles within the coat are smaller
           val spread = Hemisphere.absCos(wi) / (eta * eta * Hemisphere.absCos(i))
           (1f - chance) * inner.pdf(o, i) * spread
-      if !hasFacets(wo, wi) then under
+      if !hasFacets(wo, wi) then innerDensity
       else
         val (a, b) = (Hemisphere.above(wo), Hemisphere.above(wi))
-        under + chance * MicrofacetReflection.pdf(top, a, (a + b).normalized)
+        innerDensity + chance * MicrofacetReflection.pdf(top, a, (a + b).normalized)
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     val chance = topChance(wo)
     if choice < chance then sampledTop(wo, chance, u1, u2)
     else
-      val within = clamp((choice - chance) / (1f - chance), 0f, OneMinusEpsilon)
-      sampledInner(wo, 1f - chance)(inner.sample(_, within, u1, u2))
+      val remapped = clamp((choice - chance) / (1f - chance), 0f, OneMinusEpsilon)
+      sampledInner(wo, 1f - chance)(inner.sample(_, remapped, u1, u2))
 
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     val isMirror = top.isSmooth && topChance(wo) > 0f
-    if isMirror && (!inner.flags.has(BsdfFlags.Specular) || choice < 0.5f) then
-      sampledTop(wo, if inner.flags.has(BsdfFlags.Specular) then 0.5f else 1f, 0.5f, 0.5f)
+    if isMirror && (!inner.flags.hasAny(BsdfFlags.Specular) || choice < 0.5f) then
+      sampledTop(wo, if inner.flags.hasAny(BsdfFlags.Specular) then 0.5f else 1f, 0.5f, 0.5f)
     else
       val share = if isMirror then 0.5f else 1f
-      val within = if isMirror then clamp(2f * choice - 1f, 0f, OneMinusEpsilon) else choice
-      sampledInner(wo, share)(inner.sampleSpecular(_, within))
+      val remapped = if isMirror then clamp(2f * choice - 1f, 0f, OneMinusEpsilon) else choice
+      sampledInner(wo, share)(inner.sampleSpecular(_, remapped))
 
   private def sampledTop(wo: Vec3, chance: Float, u1: Float, u2: Float): BsdfSample =
     if top.isSmooth then
@@ -123,7 +124,7 @@ final class Coated(
     else weighed(wo, wi, wo.z * wi.z > 0f, s.eta)
 
   private def weighed(wo: Vec3, wi: Vec3, isNear: Boolean, eta: Float): BsdfSample =
-    val isOnSide = if isNear then Hemisphere.same(wo, wi) else !Hemisphere.isLevel(wo, wi)
+    val isOnSide = if isNear then Hemisphere.isSameSide(wo, wi) else !Hemisphere.isLevel(wo, wi)
     val density = if isOnSide then pdf(wo, wi) else 0f
     if density <= 0f then BsdfSample.Absorbed
     else
@@ -133,7 +134,7 @@ final class Coated(
   val flags: BsdfFlags =
     val outer =
       if top.isSmooth then BsdfFlags.Specular | BsdfFlags.Narrow else top.flags
-    inner.flags.without(BsdfFlags.Pane) | outer | BsdfFlags.Choosing
+    inner.flags.minus(BsdfFlags.Pane) | outer | BsdfFlags.Choosing
 
   override def regularized: Bsdf =
     Coated(inner.regularized, top.regularized, coat.regularized, absorption, gloss)
@@ -152,8 +153,8 @@ final class CoatingMaterial(
     specular: RgbTexture
 ) extends JoinedMaterial(inner, inner, roughness, absorption, specular):
   private lazy val coat: Coat =
-    val usual = roughness(ShadingPoint())
-    if usual.isSmooth then SmoothCoat(eta, 0f) else RoughCoat(usual, eta, 0f)
+    val reference = roughness(ShadingPoint())
+    if reference.isSmooth then SmoothCoat(eta, 0f) else RoughCoat(reference, eta, 0f)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val (top, depth) = (roughness(at), absorption.positive(at) * thickness)

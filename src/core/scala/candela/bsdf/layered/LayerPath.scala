@@ -45,11 +45,11 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
 
   /** Advances to the next event: [[LayerPath.Base]], [[LayerPath.Top]] or [[LayerPath.Medium]]. */
   def advance(): Int =
-    val up = w.z > 0f
-    val event = if up then LayerPath.Top else LayerPath.Base
+    val isUpward = w.z > 0f
+    val event = if isUpward then LayerPath.Top else LayerPath.Base
     if layers.isClear then
       throughput = throughput * layers.attenuation(layers.thickness, w)
-      height = if up then layers.thickness else 0f
+      height = if isUpward then layers.thickness else 0f
       event
     else
       val far = -log(1f - next()) * w.z
@@ -58,7 +58,7 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
         height = reached
         LayerPath.Medium
       else
-        height = if up then layers.thickness else 0f
+        height = if isUpward then layers.thickness else 0f
         event
 
   def scatterAtBase(u1: Float, u2: Float): Unit =
@@ -100,16 +100,16 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
   /** Reverse direction of propagation, in a frame whose upper hemisphere is the inside. */
   private def inside: Vec3 = Vec3(-w.x, -w.y, w.z)
 
-  private def reflect(o: Vec3, m: Vec3, part: Float): Unit =
+  private def reflect(o: Vec3, m: Vec3, fraction: Float): Unit =
     val i = top.reflected(o, m)
     w = Hemisphere.flipped(i)
-    if !i.isZero then throughput = throughput * (part * top.weight(o, i, m))
+    if !i.isZero then throughput = throughput * (fraction * top.weight(o, i, m))
 
   /** Russian roulette, after more than 3 events and below a throughput of 0.25. */
   def roulette(events: Int): Unit =
-    val left = throughput.max
-    if events > 3 && left < 0.25f then
-      if next() < left then throughput = throughput * (1f / left) else w = Vec3.Zero
+    val survival = throughput.max
+    if events > 3 && survival < 0.25f then
+      if next() < survival then throughput = throughput * (1f / survival) else w = Vec3.Zero
 
 private[bsdf] object LayerPath:
   inline val Base = 0

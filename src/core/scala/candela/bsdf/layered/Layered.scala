@@ -74,7 +74,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
   private val top = layers.top
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if !Hemisphere.same(wo, wi) then Rgb.Black
+    if !Hemisphere.isSameSide(wo, wi) then Rgb.Black
     else
       val o = Hemisphere.above(wo)
       val i = Hemisphere.above(wi)
@@ -83,12 +83,12 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
       while walk < layers.walks do
         sum += connected(o, i, hash(hash(seed + walk, wo), wi))
         walk += 1
-      val under = sum * (1f / (layers.walks * top.eta * top.eta))
-      if top.isSmooth then under
+      val interior = sum * (1f / (layers.walks * top.eta * top.eta))
+      if top.isSmooth then interior
       else
         val m = (o + i).normalized
         val facets = top.distribution.d(m) * top.distribution.visibility(o, i, m)
-        under + Rgb.gray(Fresnel.dielectric(o dot m, top.eta) * facets)
+        interior + Rgb.gray(Fresnel.dielectric(o dot m, top.eta) * facets)
 
   /** One random walk from `o` with a next-event connection to `i` at each event. */
   private def connected(o: Vec3, i: Vec3, seed: Long): Rgb =
@@ -117,21 +117,21 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
             if event == LayerPath.Base then
               if !layers.base.isSpecular then
                 val w = heuristic(exitPdf, layers.base.pdf(-path.w, exit))
-                val found = path.throughput * layers.base.f(-path.w, exit)
-                sum += found * (w * passed * layers.attenuation(distance, exit))
+                val contribution = path.throughput * layers.base.f(-path.w, exit)
+                sum += contribution * (w * passed * layers.attenuation(distance, exit))
               path.scatterAtBase(path.next(), path.next())
               pdf = path.basePdf
             else
               path.throughput = path.throughput * layers.albedo
               val scattered = layers.phase.value(-path.w, exit)
               val w = heuristic(exitPdf, scattered)
-              val kept = w * scattered * passed * layers.attenuation(distance, exit) / exit.z
-              sum += path.throughput * kept
+              val factor = w * scattered * passed * layers.attenuation(distance, exit) / exit.z
+              sum += path.throughput * factor
               if top.isSmooth && layers.base.isSpecular then
                 sum += path.throughput * mirrored(path, exit) * (passed / exit.z)
-              val back = -path.w
+              val wo = -path.w
               path.scatterInMedium()
-              pdf = layers.phase.value(back, path.w)
+              pdf = layers.phase.value(wo, path.w)
             if !top.isSmooth && path.w.z > 0f then
               val crossing = top.crossing(i, -path.w)
               if crossing > 0f then
@@ -145,13 +145,13 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
   private def mirrored(path: LayerPath, exit: Vec3): Rgb =
     val across = layers.attenuation(layers.thickness, exit)
     val base = layers.base.sample(exit, 0.5f, 0.5f, 0.5f).weight
-    val up = layers.phase.value(-path.w, exit) *
+    val toExit = layers.phase.value(-path.w, exit) *
       layers.attenuation(layers.thickness - path.height, exit)
-    val down = layers.phase.value(-path.w, Hemisphere.flipped(exit)) *
+    val toBase = layers.phase.value(-path.w, Hemisphere.flipped(exit)) *
       layers.attenuation(path.height, exit)
     val reflected = Fresnel.dielectric(exit.z, 1f / top.eta)
     val trip = base * (reflected * across * across)
-    val first = base * (down * across) + trip * up
+    val first = base * (toBase * across) + trip * toExit
     // Geometric series of further trips
     first / trip.map(c => 1f - Math.min(c, 0.999f))
 
@@ -159,7 +159,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
     1f - Fresnel.dielectric(Math.max(o dot m, 0f), top.eta)
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if !Hemisphere.same(wo, wi) then 0f
+    if !Hemisphere.isSameSide(wo, wi) then 0f
     else
       val o = Hemisphere.above(wo)
       val m = (o + Hemisphere.above(wi)).normalized
@@ -167,9 +167,9 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
       val reflected = Math.min(Fresnel.dielectric(o.z, top.eta), 0.95f)
       val share = layers.share
       val gloss = if share > 0f then share * MicrofacetReflection.pdf(layers.lobe, o, m) else 0f
-      val under = (1f - reflected) * (gloss + (1f - share) * Hemisphere.cosinePdf(wi))
-      if top.isSmooth then under
-      else under + reflected * MicrofacetReflection.pdf(top.distribution, o, m)
+      val interior = (1f - reflected) * (gloss + (1f - share) * Hemisphere.cosinePdf(wi))
+      if top.isSmooth then interior
+      else interior + reflected * MicrofacetReflection.pdf(top.distribution, o, m)
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     val o = Hemisphere.above(wo)
@@ -181,7 +181,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
       if choice < reflected then
         val i = top.reflected(o, m)
         if i.isZero then BsdfSample.Absorbed
-        else leave(wo, i, Rgb.gray(top.weight(o, i, m)), top.isSmooth, reflected)
+        else buildSample(wo, i, Rgb.gray(top.weight(o, i, m)), top.isSmooth, reflected)
       else
         val below = top.refracted(o, m, top.eta)
         if below.isZero then BsdfSample.Absorbed
@@ -200,7 +200,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
         val event = path.advance()
         if event == LayerPath.Top then
           val wi = path.scatterAtTop()
-          if !wi.isZero then result = leave(wo, wi, path.throughput, path.isSpecular, chance)
+          if !wi.isZero then result = buildSample(wo, wi, path.throughput, path.isSpecular, chance)
         // A smooth interface leaves the stratified samples unused
         else if event == LayerPath.Base then
           if events == 0 && top.isSmooth then path.scatterAtBase(u1, u2)
@@ -214,7 +214,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
   /** @param i      sampled direction in the upper hemisphere
     * @param chance probability of the sample, if specular
     */
-  private def leave(
+  private def buildSample(
       wo: Vec3,
       i: Vec3,
       weight: Rgb,
@@ -227,8 +227,8 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
     else BsdfSample.Absorbed
 
   def flags: BsdfFlags =
-    val own = BsdfFlags.Glossy | BsdfFlags.Choosing
-    if layers.base.isDiffuse || !layers.albedo.isBlack then own | BsdfFlags.Diffuse else own
+    val common = BsdfFlags.Glossy | BsdfFlags.Choosing
+    if layers.base.isDiffuse || !layers.albedo.isBlack then common | BsdfFlags.Diffuse else common
   override def regularized: Bsdf = Layered(layers.regularized, seed)
 
 private object Layered:

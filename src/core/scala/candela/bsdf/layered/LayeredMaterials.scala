@@ -97,8 +97,8 @@ final class LayeredMaterial(layers: LayersTexture) extends Material:
   private val fixed: Layers | Null = if layers.isConstant then layers(ShadingPoint()) else null
 
   def bsdf(at: ShadingPoint): Layered =
-    val here = fixed
-    Layered(if here != null then here else layers(at), Layered.hash(0L, at.p))
+    val constant = fixed
+    Layered(if constant != null then constant else layers(at), Layered.hash(0L, at.p))
 
   override def isAnisotropic: Boolean = layers.isAnisotropic
 

@@ -31,20 +31,20 @@ final class VarnishMaterial(
     eta: Float
 ) extends Material,
       Textured(reflectance, specular, roughness):
-  private val usual = roughness(ShadingPoint())
+  private val reference = roughness(ShadingPoint())
   private val coat: Coat =
-    if usual.isSmooth || under == Varnish.Once then SmoothCoat(eta, 0f)
-    else RoughCoat(usual, eta, 0f)
+    if reference.isSmooth || under == Varnish.Once then SmoothCoat(eta, 0f)
+    else RoughCoat(reference, eta, 0f)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val albedo = reflectance.albedo(at)
     def series(coat: Coat) = under match
       case Varnish.Plain =>
-        val back = reflected(coat)
-        albedo.map(_ / (1f - back))
+        val internal = reflected(coat)
+        albedo.map(_ / (1f - internal))
       case Varnish.Colored =>
-        val back = reflected(coat)
-        albedo.map(c => c / (1f - back * c))
+        val internal = reflected(coat)
+        albedo.map(c => c / (1f - internal * c))
       // Light that leaves is spread by the factor η², which Mitsuba leaves out here
       case Varnish.Once => albedo * (eta * eta)
     new CoatedDiffuse(series, series, roughness(at), coat, specular.positive(at), albedo)
@@ -54,7 +54,7 @@ final class VarnishMaterial(
     * much.
     */
   private def reflected(coat: Coat): Float =
-    if usual.isSmooth then
+    if reference.isSmooth then
       val fitted = VarnishMaterial.fittedReflectance(eta)
       // Beyond an index of 4.3, Mitsuba's surfaces take light away
       if fitted < 1f then fitted else coat.internalReflectance

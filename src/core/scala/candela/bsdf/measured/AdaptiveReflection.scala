@@ -34,17 +34,17 @@ final class AdaptiveReflection(
   def f(wo: Vec3, wi: Vec3): Rgb =
     val i = upper(wo, wi)
     val across = upper(wo, wo) + i
-    if !Hemisphere.same(wo, wi) || across.isZero then Rgb.Black
+    if !Hemisphere.isSameSide(wo, wi) || across.isZero then Rgb.Black
     else
       val facet = Facet(upper(wo, wo), across.normalized)
       val measured = spectra.Blend(facet.phi, facet.theta)
       val area = sigma.Blend(0f, 0f)(side(facet.theta), (facet.phi + Pi) * InvTwoPi)
-      val seen = 4f * i.z * area
-      if !(seen > 0f) then Rgb.Black
+      val denominator = 4f * i.z * area
+      if !(denominator > 0f) then Rgb.Black
       else
-        val scale = ndf.Blend(0f, 0f)(facet.x, facet.y) / seen
-        val x = facet.place.x
-        val y = facet.place.y
+        val scale = ndf.Blend(0f, 0f)(facet.x, facet.y) / denominator
+        val x = facet.vndf.x
+        val y = facet.vndf.y
         Rgb(measured(x, y, 0), measured(x, y, 1), measured(x, y, 2))
           .map(c => Math.max(c * scale, 0f))
 
@@ -60,19 +60,19 @@ final class AdaptiveReflection(
     val y: Float =
       val turn = ((if isIsotropic then azimuth(m) - phi else azimuth(m)) + Pi) * InvTwoPi
       turn - Math.floor(turn.toDouble).toFloat
-    val place = visible.Blend(phi, theta)
-    place.invert(x, y)
+    val vndf = visible.Blend(phi, theta)
+    vndf.invert(x, y)
 
   def pdf(wo: Vec3, wi: Vec3): Float =
     val o = upper(wo, wo)
     val across = o + upper(wo, wi)
-    if !Hemisphere.same(wo, wi) || across.isZero then 0f
+    if !Hemisphere.isSameSide(wo, wi) || across.isZero then 0f
     else
       val m = across.normalized
       val facet = Facet(o, m)
-      val place = facet.place
+      val vndf = facet.vndf
       val bright = luminance.Blend(facet.phi, facet.theta)
-      val onSquare = place(facet.x, facet.y) * bright(place.x, place.y)
+      val onSquare = vndf(facet.x, facet.y) * bright(vndf.x, vndf.y)
       // Jacobian from the unit square to solid angle
       val sine = sqrt(m.x * m.x + m.y * m.y)
       onSquare / (4f * (o dot m) * Math.max(2f * Pi * Pi * facet.x * sine, 1e-6f))
@@ -83,20 +83,20 @@ final class AdaptiveReflection(
     val phi = azimuth(o)
     val bright = luminance.Blend(phi, theta)
     bright.sample(u1, u2)
-    val place = visible.Blend(phi, theta)
-    place.sample(bright.x, bright.y)
-    val polar = 0.5f * Pi * place.x * place.x
-    val around = (2f * place.y - 1f) * Pi + (if isIsotropic then phi else 0f)
-    val m = Vec3(sin(polar) * cos(around), sin(polar) * sin(around), cos(polar))
+    val vndf = visible.Blend(phi, theta)
+    vndf.sample(bright.x, bright.y)
+    val polar = 0.5f * Pi * vndf.x * vndf.x
+    val phiM = (2f * vndf.y - 1f) * Pi + (if isIsotropic then phi else 0f)
+    val m = Vec3(sin(polar) * cos(phiM), sin(polar) * sin(phiM), cos(polar))
     val cosM = o dot m
     val i = Hemisphere.reflected(o, m, cosM).normalized
     if o.z == 0f || cosM <= 0f || i.z <= 0f then BsdfSample.Absorbed
     else
       val wi = upper(wo, i)
-      val found = pdf(wo, wi)
-      val color = if found > 0f then f(wo, wi) * (i.z / found) else Rgb.Black
+      val density = pdf(wo, wi)
+      val color = if density > 0f then f(wo, wi) * (i.z / density) else Rgb.Black
       if color.isBlack || !color.isFinite then BsdfSample.Absorbed
-      else BsdfSample(wi, color, found, isSpecular = false)
+      else BsdfSample(wi, color, density, isSpecular = false)
 
   def flags: BsdfFlags = BsdfFlags.Glossy | BsdfFlags.OneWay | BsdfFlags.Choosing
 

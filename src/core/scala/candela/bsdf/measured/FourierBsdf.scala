@@ -46,7 +46,7 @@ final class FourierTable(
     val eyeFirst = CatmullRom.weights(cosines, eye, eyeWeights)
     if lightFirst == CatmullRom.Outside || eyeFirst == CatmullRom.Outside then 0
     else
-      var most = 0
+      var maxCount = 0
       var o = 0
       while o < 4 do
         var i = 0
@@ -55,20 +55,20 @@ final class FourierTable(
           if weight != 0f then
             val pair = (eyeFirst + o) * size + lightFirst + i
             add(pair, weight, to)
-            most = Math.max(most, counts(pair))
+            maxCount = Math.max(maxCount, counts(pair))
           i += 1
         o += 1
-      most
+      maxCount
 
   private def add(pair: Int, weight: Float, to: Array[Float]): Unit =
     val count = counts(pair)
     var c = 0
     while c < channels do
-      val from = offsets(pair) + c * count
-      val at = c * order
+      val start = offsets(pair) + c * count
+      val target = c * order
       var k = 0
       while k < count do
-        to(at + k) += weight * coefficients(from + k)
+        to(target + k) += weight * coefficients(start + k)
         k += 1
       c += 1
 
@@ -109,9 +109,9 @@ final class FourierBsdf(table: FourierTable) extends Bsdf:
     if count == 0 then 0f else density(series, count, FourierBsdf.cosPhi(wi, wo), wo)
 
   private def density(series: Array[Float], count: Int, cosPhi: Float, wo: Vec3): Float =
-    val all = CatmullRom.value(table.cosines, table.sums, clamp(wo.z, -1f, 1f)) * TwoPi
+    val integral = CatmullRom.value(table.cosines, table.sums, clamp(wo.z, -1f, 1f)) * TwoPi
     val y = FourierSeries.value(series, 0, count, cosPhi)
-    if all > 0f && y > 0f then y / all else 0f
+    if integral > 0f && y > 0f then y / integral else 0f
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     val eye = clamp(wo.z, -1f, 1f)
@@ -124,9 +124,9 @@ final class FourierBsdf(table: FourierTable) extends Bsdf:
       val series = new Array[Float](order * table.channels)
       val count = table.series(light, eye, series)
       if count == 0 || !(series(0) > 0f) || light == 0f then BsdfSample.Absorbed
-      else leave(wo, light, FourierSeries.sample(series, count, u1), series, count)
+      else buildSample(wo, light, FourierSeries.sample(series, count, u1), series, count)
 
-  private def leave(
+  private def buildSample(
       wo: Vec3,
       light: Float,
       phi: Float,

@@ -41,9 +41,9 @@ final class ScatteredReflection(points: Array[Float], values: Array[Float])
   protected def value(wo: Vec3, wi: Vec3): Rgb =
     val x = pair(wo, wi)
     var radius2 = FirstRadius2
-    var found = false
+    var isDone = false
     var result = Rgb.Black
-    while !found do
+    while !isDone do
       var r, g, b, weights = 0f
       var n = 0
       val radius = sqrt(radius2)
@@ -52,10 +52,10 @@ final class ScatteredReflection(points: Array[Float], values: Array[Float])
         var j = cell(x.y - radius)
         while j <= cell(x.y + radius) do
           val row = (k * Cells + j) * Cells
-          var at = starts(row + cell(x.x - radius))
+          var slot = starts(row + cell(x.x - radius))
           val end = starts(row + cell(x.x + radius) + 1)
-          while at < end do
-            val i = members(at)
+          while slot < end do
+            val i = members(slot)
             val d2 = square(points(3 * i) - x.x) + square(points(3 * i + 1) - x.y) +
               square(points(3 * i + 2) - x.z)
             if d2 < radius2 then
@@ -65,11 +65,11 @@ final class ScatteredReflection(points: Array[Float], values: Array[Float])
               b += weight * values(3 * i + 2)
               weights += weight
               n += 1
-            at += 1
+            slot += 1
           j += 1
         k += 1
       if n > 2 || radius2 > LastRadius2 then
-        found = true
+        isDone = true
         if weights > 0f then
           result = Rgb(Math.max(r, 0f), Math.max(g, 0f), Math.max(b, 0f)) * (1f / weights)
       radius2 *= 2f
@@ -115,17 +115,17 @@ final class HalfAngleReflection(values: Array[Float]) extends CosineSampled:
       val y = light.y * c - light.x * s
       val z = light dot h
       val azimuth = Math.atan2(y, x).toFloat
-      val half = if azimuth < 0f then azimuth + Pi else azimuth
+      val folded = if azimuth < 0f then azimuth + Pi else azimuth
       val row = index(sqrt(acos(h.z) / (Pi / 2)), HalfAngles)
       val polar = index(acos(z) / (Pi / 2), Polar)
-      val at = 3 * (index(half / Pi, Azimuths) + Azimuths * (polar + row * Polar))
-      Rgb(values(at), values(at + 1), values(at + 2))
+      val offset = 3 * (index(folded / Pi, Azimuths) + Azimuths * (polar + row * Polar))
+      Rgb(values(offset), values(offset + 1), values(offset + 2))
 
 object HalfAngleReflection:
   val HalfAngles = 90
   val Polar = 90
   val Azimuths = 180
 
-  private def index(part: Float, count: Int): Int =
-    clamp(part * count.toFloat, 0f, (count - 1).toFloat).toInt
+  private def index(fraction: Float, count: Int): Int =
+    clamp(fraction * count.toFloat, 0f, (count - 1).toFloat).toInt
   private def acos(x: Float): Float = Math.acos(clamp(x, -1f, 1f).toDouble).toFloat

@@ -97,8 +97,8 @@ final class RoughDielectric(
         val i = Hemisphere.reflected(o, m, cosM)
         if i.z < Hemisphere.Horizon then out.absorb()
         else if mirror == null then
-          leave(wo, o, i, m, reflectance * (fresnel / p), relative, 1f, out)
-        else leave(wo, o, i, m, reflected(wo, cosM, fresnel) * (1f / p), relative, 1f, out)
+          setSample(wo, o, i, m, reflectance * (fresnel / p), relative, 1f, out)
+        else setSample(wo, o, i, m, reflected(wo, cosM, fresnel) * (1f / p), relative, 1f, out)
       else
         val cosT = Fresnel.cosRefracted(cosM, relative)
         if cosT <= 0f then out.absorb()
@@ -106,9 +106,9 @@ final class RoughDielectric(
           val i = Fresnel.refracted(o, m, cosM, cosT, relative)
           val passed = transmittance * ((1f - fresnel) / ((1f - p) * relative * relative))
           if i.z > -Hemisphere.Horizon then out.absorb()
-          else leave(wo, o, i, m, passed, relative, relative, out)
+          else setSample(wo, o, i, m, passed, relative, relative, out)
 
-  private def leave(
+  private def setSample(
       wo: Vec3,
       o: Vec3,
       i: Vec3,
@@ -125,8 +125,8 @@ final class RoughDielectric(
     else out.absorb()
 
   val flags: BsdfFlags =
-    val own = distribution.flags | BsdfFlags.Choosing
-    if transmittance.isBlack then own else own | BsdfFlags.Transmissive
+    val common = distribution.flags | BsdfFlags.Choosing
+    if transmittance.isBlack then common else common | BsdfFlags.Transmissive
 
   override def regularized: Bsdf =
     RoughDielectric(distribution.regularized, eta, reflectance, transmittance, curve)
@@ -201,7 +201,7 @@ object DielectricMaterial:
     new DielectricMaterial(White, White, ConstantFloat(eta), roughness)
 
   /** PBRT 2's glass: always smooth, and refraction doesn't scale radiance. */
-  def old(kr: RgbTexture, kt: RgbTexture, eta: FloatTexture): DielectricMaterial =
+  def pbrt2Glass(kr: RgbTexture, kt: RgbTexture, eta: FloatTexture): DielectricMaterial =
     new DielectricMaterial(kr, kt, eta, Roughness.Smooth, compresses = false)
 
   private val White = ConstantRgb(Rgb.White)

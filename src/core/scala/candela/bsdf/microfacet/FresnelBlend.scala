@@ -22,17 +22,17 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
   private val absent = Rgb.White - specular
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if !Hemisphere.same(wo, wi) then Rgb.Black
+    if !Hemisphere.isSameSide(wo, wi) then Rgb.Black
     else
       val o = Hemisphere.above(wo)
       val i = Hemisphere.above(wi)
       val m = (o + i).normalized
       val cosM = o dot m
-      val under = base * (penetration(o.z) * penetration(i.z))
-      if cosM <= 0f then under
+      val diffuseTerm = base * (penetration(o.z) * penetration(i.z))
+      if cosM <= 0f then diffuseTerm
       else
         val schlick = specular + absent * fifthPower(1f - Math.min(cosM, 1f))
-        under + schlick * (distribution.d(m) / (4f * cosM * Math.max(o.z, i.z)))
+        diffuseTerm + schlick * (distribution.d(m) / (4f * cosM * Math.max(o.z, i.z)))
 
   /** Approximate transmittance to the base at this cosine, relative to normal incidence. */
   private def penetration(cosine: Float): Float = 1f - fifthPower(1f - 0.5f * cosine)
@@ -40,7 +40,7 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
   private def fifthPower(x: Float): Float = square(x * x) * x
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if !Hemisphere.same(wo, wi) then 0f
+    if !Hemisphere.isSameSide(wo, wi) then 0f
     else
       val o = Hemisphere.above(wo)
       val m = (o + Hemisphere.above(wi)).normalized

@@ -91,27 +91,27 @@ final class TrowbridgeReitz(val alphaX: Float, val alphaY: Float) extends Microf
     sqrt(square(ax * w.x) + square(ay * w.y) + w.z * w.z)
 
   def visibility(wo: Vec3, wi: Vec3, m: Vec3): Float =
-    val both = Math.abs(wi.z) * stretched(wo) + Math.abs(wo.z) * stretched(wi)
-    if both > 0f then 0.5f / both else 0f
+    val denominator = Math.abs(wi.z) * stretched(wo) + Math.abs(wo.z) * stretched(wi)
+    if denominator > 0f then 0.5f / denominator else 0f
 
   def pdf(wo: Vec3, m: Vec3): Float =
-    val seen = Math.abs(wo.z) + stretched(wo)
-    d(m) * 2f * Math.max(0f, wo dot m) / seen
+    val denominator = Math.abs(wo.z) + stretched(wo)
+    d(m) * 2f * Math.max(0f, wo dot m) / denominator
 
   def sample(wo: Vec3, u1: Float, u2: Float): Vec3 =
     val view = Vec3(ax * wo.x, ay * wo.y, wo.z).normalized
-    val up = (1f - u2) * (1f + view.z)
-    val z = up - view.z
+    val sumZ = (1f - u2) * (1f + view.z)
+    val z = sumZ - view.z
     val r = safeSqrt(1f - z * z)
-    val around = Warp.around(up, r, u1)
-    Vec3(ax * (around.x + view.x), ay * (around.y + view.y), up).normalized
+    val circle = Warp.spherical(sumZ, r, u1)
+    Vec3(ax * (circle.x + view.x), ay * (circle.y + view.y), sumZ).normalized
 
   def sampleWeight(wo: Vec3, wi: Vec3, m: Vec3): Float =
     val cosO = Math.abs(wo.z)
     val cosI = Math.abs(wi.z)
     val o = stretched(wo)
-    val both = cosI * o + cosO * stretched(wi)
-    if both > 0f then cosI * (cosO + o) / both else 0f
+    val denominator = cosI * o + cosO * stretched(wi)
+    if denominator > 0f then cosI * (cosO + o) / denominator else 0f
 
 object TrowbridgeReitz:
 
@@ -185,9 +185,9 @@ final class CosinePower(exponentX: Float, exponentY: Float) extends MicrofacetDi
   def pdf(wo: Vec3, m: Vec3): Float = (count * power(m)).toFloat
 
   def sample(wo: Vec3, u1: Float, u2: Float): Vec3 =
-    val around = Warp.around(0f, 1f, u1)
-    val x = Math.sqrt(ey + 1.0) * around.x
-    val y = Math.sqrt(ex + 1.0) * around.y
+    val circle = Warp.spherical(0f, 1f, u1)
+    val x = Math.sqrt(ey + 1.0) * circle.x
+    val y = Math.sqrt(ex + 1.0) * circle.y
     val length2 = x * x + y * y
     val exponent = (ex * x * x + ey * y * y) / length2
     // 1 − u2 is never 0, so neither is the cosine.

@@ -18,7 +18,7 @@ final class MicrofacetReflection(
 ) extends LeanBsdf:
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if !Hemisphere.same(wo, wi) then Rgb.Black
+    if !Hemisphere.isSameSide(wo, wi) then Rgb.Black
     else
       val o = Hemisphere.above(wo)
       val i = Hemisphere.above(wi)
@@ -32,7 +32,7 @@ final class MicrofacetReflection(
         scale * curve(oriented(cosM, wo)) * value
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if !Hemisphere.same(wo, wi) then 0f
+    if !Hemisphere.isSameSide(wo, wi) then 0f
     else
       val o = Hemisphere.above(wo)
       MicrofacetReflection.pdf(distribution, o, (o + Hemisphere.above(wi)).normalized)

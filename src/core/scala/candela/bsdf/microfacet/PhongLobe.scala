@@ -27,16 +27,16 @@ final class PhongLobe(specular: Rgb, exponent: Float) extends LeanBsdf:
     if versine >= 1.0 then 0f else Math.exp(exponent * Math.log1p(-versine)).toFloat
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if Hemisphere.same(wo, wi) then value * power(wo, wi) else Rgb.Black
+    if Hemisphere.isSameSide(wo, wi) then value * power(wo, wi) else Rgb.Black
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if Hemisphere.same(wo, wi) then density * power(wo, wi) else 0f
+    if Hemisphere.isSameSide(wo, wi) then density * power(wo, wi) else 0f
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val cosine = Math.pow(1.0 - u1, 1.0 / (exponent + 1.0))
     val sine = Math.sqrt(Math.max(0.0, 1.0 - cosine * cosine)).toFloat
-    val around = Warp.around(cosine.toFloat, sine, u2)
-    val wi = Frame.around(Hemisphere.mirrored(wo)).toWorld(around)
+    val local = Warp.spherical(cosine.toFloat, sine, u2)
+    val wi = Frame.fromZ(Hemisphere.mirrored(wo)).toWorld(local)
     val p = pdf(wo, wi)
     if p <= 0f then out.absorb()
     else

@@ -17,9 +17,9 @@ final class SeparableTrowbridgeReitz(alphaX: Float, alphaY: Float) extends Micro
 
   /** Masking G₁ over its cosine, up to a factor: 1/(cos θ (1 + Λ)). */
   private def masked(w: Vec3): Float =
-    val both = Math.abs(w.z) +
+    val denominator = Math.abs(w.z) +
       sqrt(square(alphaX * w.x) + square(alphaY * w.y) + w.z * w.z)
-    if both > 0f then 1f / both else 0f
+    if denominator > 0f then 1f / denominator else 0f
 
   def visibility(wo: Vec3, wi: Vec3, m: Vec3): Float = masked(wo) * masked(wi)
 

@@ -71,8 +71,8 @@ final class SmoothDielectric(
       out.set(wi, transmittance * scale, probability, isSpecular = true, eta = relative)
 
   val flags: BsdfFlags =
-    val own = BsdfFlags.Specular | BsdfFlags.Narrow | BsdfFlags.Choosing
-    if transmittance.isBlack then own else own | BsdfFlags.Transmissive
+    val common = BsdfFlags.Specular | BsdfFlags.Narrow | BsdfFlags.Choosing
+    if transmittance.isBlack then common else common | BsdfFlags.Transmissive
 
   /** Unchanged unless `compresses`: [[RoughDielectric]] always scales radiance. */
   override def regularized: Bsdf =
@@ -96,10 +96,10 @@ final class ThinDielectric(
     transmittance: Rgb = Rgb.White
 ) extends Specular:
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
-    val back = reflected(wo)
-    if choice < back then
-      out.set(Hemisphere.mirrored(wo), reflectance, back, isSpecular = true)
-    else out.set(-wo, transmittance, 1f - back, isSpecular = true)
+    val probability = reflected(wo)
+    if choice < probability then
+      out.set(Hemisphere.mirrored(wo), reflectance, probability, isSpecular = true)
+    else out.set(-wo, transmittance, 1f - probability, isSpecular = true)
 
   def flags: BsdfFlags =
     BsdfFlags.Specular | BsdfFlags.Narrow | BsdfFlags.Transmissive | BsdfFlags.Pane |
@@ -109,8 +109,8 @@ final class ThinDielectric(
 
   /** The geometric series of inner reflections. */
   private def reflected(wo: Vec3): Float =
-    val once = Fresnel.dielectric(Math.abs(wo.z), eta)
-    2f * once / (1f + once)
+    val fresnel = Fresnel.dielectric(Math.abs(wo.z), eta)
+    2f * fresnel / (1f + fresnel)
 
 /** A thin dielectric; colours as in [[ThinDielectric]]. */
 final class ThinDielectricMaterial(eta: Float, kr: RgbTexture, kt: RgbTexture)

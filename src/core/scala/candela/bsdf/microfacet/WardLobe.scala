@@ -64,24 +64,24 @@ final class WardLobe(specular: Rgb, alphaX: Float, alphaY: Float, variant: WardV
     if bell <= 0.0 || cosM <= 0.0 then 0.0 else bell / (cosM * m.z * m.z * m.z)
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if !Hemisphere.same(wo, wi) then Rgb.Black
+    if !Hemisphere.isSameSide(wo, wi) then Rgb.Black
     else
       val (o, i) = (Hemisphere.above(wo), Hemisphere.above(wi))
       specular * value(o, i, (o + i).normalized).toFloat
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if !Hemisphere.same(wo, wi) then 0f
+    if !Hemisphere.isSameSide(wo, wi) then 0f
     else
       val o = Hemisphere.above(wo)
       density(o, (o + Hemisphere.above(wi)).normalized).toFloat
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val o = Hemisphere.above(wo)
-    val around = Warp.around(0f, sqrt(-log(1f - u1)), u2)
-    val m = Vec3(ax * around.x, ay * around.y, 1f).normalized
+    val slopes = Warp.spherical(0f, sqrt(-log(1f - u1)), u2)
+    val m = Vec3(ax * slopes.x, ay * slopes.y, 1f).normalized
     val cosM = o dot m
     val i = Hemisphere.reflected(o, m, cosM)
-    val p = if cosM > 0f && Hemisphere.same(o, i) then density(o, m).toFloat else 0f
+    val p = if cosM > 0f && Hemisphere.isSameSide(o, i) then density(o, m).toFloat else 0f
     if p <= 0f then out.absorb()
     else
       val weight = specular * (value(o, i, m) * i.z / p).toFloat

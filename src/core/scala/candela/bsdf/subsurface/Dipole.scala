@@ -35,15 +35,16 @@ final class DipoleProfile(absorption: Float, scattering: Float, eta: Float):
     if reflectance > 0f then albedo * InvPi * 0.25f * (term(real, d) + term(image, d)) else 0f
 
   private def term(z: Float, r: Float): Float =
-    val way = sqrt(r * r + z * z)
-    z * (1f + effective * way) * exp(-effective * way) / (way * way * way)
+    val distance = sqrt(r * r + z * z)
+    z * (1f + effective * distance) * exp(-effective * distance) / (distance * distance * distance)
 
   /** Inverts the cumulative energy of one of the two sources, each of which is integrable. Requires
     * `reflectance` > 0.
     */
   def sample(u: Float): Float =
-    val part = ofReal / reflectance
-    if u < part then radius(real, u / part) else radius(image, (u - part) / (1f - part))
+    val fraction = ofReal / reflectance
+    if u < fraction then radius(real, u / fraction)
+    else radius(image, (u - fraction) / (1f - fraction))
 
   /** The fraction z/d·e^(−σ(d−z)) of the energy of a source at `z` exits farther than d from it. */
   private def radius(z: Float, u: Float): Float =

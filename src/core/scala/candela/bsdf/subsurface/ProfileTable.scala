@@ -130,12 +130,12 @@ final class BeamDiffusion(absorption: Double, scattering: Double, g: Float, eta:
       val mirrored = 2 * zeroAt - real
       val toReal = Math.hypot(r, real)
       val toMirrored = Math.hypot(r, mirrored)
-      val near = Math.exp(-effective * toReal)
-      val far = Math.exp(-effective * toMirrored)
-      val fluence = InvFourPi / diffusion * (near / toReal - far / toMirrored)
+      val realDecay = Math.exp(-effective * toReal)
+      val mirroredDecay = Math.exp(-effective * toMirrored)
+      val fluence = InvFourPi / diffusion * (realDecay / toReal - mirroredDecay / toMirrored)
       val flux = InvFourPi * (
-        real * (1 + effective * toReal) * near / cube(toReal) -
-          mirrored * (1 + effective * toMirrored) * far / cube(toMirrored)
+        real * (1 + effective * toReal) * realDecay / cube(toReal) -
+          mirrored * (1 + effective * toMirrored) * mirroredDecay / cube(toMirrored)
       )
       // Near the beam diffusion overestimates: light has rarely scattered twice
       val correction = 1 - Math.exp(-2 * reducedExtinction * (toReal + real))
@@ -145,13 +145,13 @@ final class BeamDiffusion(absorption: Double, scattering: Double, g: Float, eta:
   /** Single scattering. */
   def single(r: Double): Double =
     // Above this depth, total internal reflection
-    val least = r * Math.sqrt(Math.max(0.0, eta.toDouble * eta - 1))
+    val minDepth = r * Math.sqrt(Math.max(0.0, eta.toDouble * eta - 1))
     var sum = 0.0
     for i <- 0 until Steps do
-      val t = least + depth(i, extinction)
-      val way = Math.hypot(r, t)
-      val cosine = t / way
-      sum += Math.exp(-extinction * (way + least)) / (way * way) * phase(cosine) *
+      val t = minDepth + depth(i, extinction)
+      val distance = Math.hypot(r, t)
+      val cosine = t / distance
+      sum += Math.exp(-extinction * (distance + minDepth)) / (distance * distance) * phase(cosine) *
         (1 - Fresnel.dielectric(-cosine.toFloat, eta)) * cosine
     scattering / extinction * sum / Steps
 

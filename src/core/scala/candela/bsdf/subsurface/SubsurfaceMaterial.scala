@@ -18,7 +18,7 @@ final class SubsurfaceMaterial(
     alongTangents: Boolean = false
 ) extends Material,
       Textured(surface, beneath):
-  private val boundary = surface.folded.met
+  private val boundary = surface.folded.resolved
   private val interior = beneath.folded
 
   def bsdf(at: ShadingPoint): Bsdf = boundary.bsdf(at)

@@ -19,9 +19,9 @@ object Cameras:
 
 /** A camera before placement.
   *
-  * @param make creates the camera from its transform and the film
+  * @param create creates the camera from its transform and the film
   */
-final case class CameraPlan(make: (Transform, FilmFrame) => Camera, shutter: Shutter)
+final case class CameraPlan(create: (Transform, FilmFrame) => Camera, shutter: Shutter)
 
 /** Base of camera recipes. */
 abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
@@ -54,6 +54,6 @@ private[build] object ScreenWindow:
 private[build] object StandInCamera:
   val words = "using a perspective camera of 90 degrees"
 
-  def make(toWorld: Transform, frame: FilmFrame): Camera =
+  def create(toWorld: Transform, frame: FilmFrame): Camera =
     val screen = ScreenWindow.of(frame.width.toFloat / frame.height)
     PerspectiveCamera(ProjectiveSetup(toWorld, frame.width, frame.height, screen, 0f, 1f), 90f)

@@ -16,7 +16,7 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
       "frameaspectratio",
       "aspect ratio, width over height",
       shown = "the image's",
-      range = Range.above(0f).told
+      range = Range.above(0f).deferred
     )(0f)
   private val window =
     numbers(
@@ -65,11 +65,11 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
     val screen = window() match
       case Array(l, r, b, t) => (l, r, b, t)
       case other =>
-        val found = other.length
-        if found > 0 then
+        val count = other.length
+        if count > 0 then
           site.warn(
             Code.CorrectedValue,
-            s"`screenwindow` must be left right bottom top, found $found numbers; it is ignored, " +
+            s"`screenwindow` must be left right bottom top, found $count numbers; it is ignored, " +
               "as pbrt does"
           )
         ScreenWindow.of(ratio)
@@ -80,20 +80,20 @@ object PerspectiveRecipe extends ProjectiveRecipe("perspective", "perspective pr
     "fov",
     "field of view along the shorter side",
     unit = "degrees",
-    range = Range.between(0f, 180f).used
+    range = Range.exclusive(0f, 180f).unclamped
   )(90f)
-  private val half =
+  private val halfFov =
     float(
       "halffov",
       "half of `fov`, instead of `fov`",
       untilV3,
       "degrees",
       "none",
-      Range.between(0f, 90f).told
+      Range.exclusive(0f, 90f).deferred
     )(-1f)
 
-  protected def make()(using Site): CameraPlan =
-    val angle = if half() > 0f then 2f * half() else fov()
+  protected def create()(using Site): CameraPlan =
+    val angle = if halfFov() > 0f then 2f * halfFov() else fov()
     // A screen at infinity, or one behind the camera, has an image, too
     val turned = Math.abs(angle) % 360f
     val isAngle = angle > 0f && angle < 180f
@@ -113,7 +113,7 @@ object PerspectiveRecipe extends ProjectiveRecipe("perspective", "perspective pr
   private val Narrowest = 0.001f
 
 object OrthographicRecipe extends ProjectiveRecipe("orthographic", "orthographic projection"):
-  protected def make()(using Site): CameraPlan = CameraPlan(
+  protected def create()(using Site): CameraPlan = CameraPlan(
     (toWorld, frame) => clipped(toWorld, OrthographicCamera(setup(toWorld, frame))),
     shutter()
   )

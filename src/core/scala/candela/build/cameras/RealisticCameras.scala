@@ -44,7 +44,7 @@ object RealisticRecipe
     shown = "round"
   )("")
 
-  protected def make()(using site: Site): CameraPlan =
+  protected def create()(using site: Site): CameraPlan =
     val lenses = file.given_() match
       case None =>
         site.missing(
@@ -56,26 +56,26 @@ object RealisticRecipe
       case Some(_) =>
         val p = site.declaration.param("lensfile").get
         site.resources.file(p, site.declaration, site.problems, StandInCamera.words).flatMap(read)
-    val place: (Transform, FilmFrame) => Camera = lenses match
+    val cameraOf: (Transform, FilmFrame) => Camera = lenses match
       case Some(lens) => camera(_, _, lens)
-      case None => StandInCamera.make
-    CameraPlan(place, shutter())
+      case None => StandInCamera.create
+    CameraPlan(cameraOf, shutter())
 
   private def read(file: InputFile)(using site: Site): Option[LensSystem] =
-    val at = site.declaration.param("lensfile").get.valuesAt
+    val pos = site.declaration.param("lensfile").get.valuesAt
     def refuse(why: String) =
       val message = s"can't read the lens file `${file.path.getFileName}`: $why"
-      site.problems.missing(Code.MeasuredFile, at, message, StandInCamera.words)
+      site.problems.missing(Code.MeasuredFile, pos, message, StandInCamera.words)
       None
     LensFile.read(file) match
       case Left(why) => refuse(why)
       case Right(surfaces) =>
         val widest = surfaces.find(_.radius == 0.0).map(s => (s.aperture * 2000).toFloat)
         for most <- widest if diameter() > most do
-          val least = DefaultText.number(most)
+          val limit = DefaultText.number(most)
           site.warn(
             Code.CorrectedValue,
-            s"`aperturediameter` must be at most $least mm for this lens; using $least mm"
+            s"`aperturediameter` must be at most $limit mm for this lens; using $limit mm"
           )
         val stopped = surfaces.map: s =>
           if s.radius == 0.0 then s.copy(aperture = Math.min(s.aperture, diameter() / 2000.0))
@@ -88,7 +88,7 @@ object RealisticRecipe
     LensFocus.focused(lens, distance(), frame.diagonal) match
       case Left(why) =>
         site.error(Code.ParameterValue, why)
-        StandInCamera.make(toWorld, frame)
+        StandInCamera.create(toWorld, frame)
       case Right(focused) =>
         val pupil = ExitPupil.of(focused, frame.diagonal)
         if pupil.isDark(0) then
@@ -133,7 +133,7 @@ object RealisticRecipe
 object ForkedRealisticRecipe extends CameraRecipe("realistic", "lens system", onlyV2):
   override def substitute: Option[String] =
     Some(s"only forks of pbrt-v2 have it; ${StandInCamera.words}")
-  protected def make()(using Site): CameraPlan = CameraPlan(StandInCamera.make, shutter())
+  protected def create()(using Site): CameraPlan = CameraPlan(StandInCamera.create, shutter())
 
 /** Reads a table of lens surfaces, from the scene to the film. Each row holds the radius of
   * curvature in mm (0: aperture stop), the distance to the next surface in mm, the index of
@@ -153,14 +153,14 @@ private[build] object LensFile:
   ): Either[String, Vector[LensSurface]] =
     val lines = text.linesIterator.map(_.takeWhile(_ != '#').trim).zipWithIndex
     val words = lines.flatMap((l, i) => l.split("\\s+").filter(_.nonEmpty).map(_ -> (i + 1)))
-    val all = words.toVector
-    all.find((word, _) => !Decimal.double(word).exists(java.lang.Double.isFinite)) match
+    val numbers = words.toVector
+    numbers.find((word, _) => !Decimal.double(word).exists(java.lang.Double.isFinite)) match
       case Some((word, line)) => Left(s"${quoted(word)} in line $line is not a number")
-      case None if all.isEmpty => Left("the file has no surfaces")
-      case None if all.size % Columns != 0 =>
-        Left(s"${all.size} numbers don't form complete surfaces of $Columns each")
+      case None if numbers.isEmpty => Left("the file has no surfaces")
+      case None if numbers.size % Columns != 0 =>
+        Left(s"${numbers.size} numbers don't form complete surfaces of $Columns each")
       case None =>
-        val rows = all.map(_._1.toDouble).grouped(Columns).toVector
+        val rows = numbers.map(_._1.toDouble).grouped(Columns).toVector
         val read = rows.map: row =>
           LensSurface(row(0) / 1000, row(1) / 1000, row(2), row(3) / 2000)
         rows.indexWhere(row => row(3) <= 0 || row(2) < 0 || row(1) < 0) match

@@ -30,7 +30,7 @@ object EnvironmentRecipe
       "panorama as an equirectangular map",
       untilV3
     ):
-  protected def make()(using site: Site): CameraPlan =
+  protected def create()(using site: Site): CameraPlan =
     val step = if site.dialect == Dialect.V2 then 1f else 0.05f
     CameraPlan(SphericalCamera(_, _, LatLongMap, folds = false, step), shutter())
 
@@ -38,7 +38,7 @@ object SphericalRecipe extends PanoramaRecipe("spherical", "spherical panorama",
   private val mapping =
     oneOf("mapping", "layout of the image", Vector("equalarea", "equirectangular"))("equalarea")
 
-  protected def make()(using Site): CameraPlan =
+  protected def create()(using Site): CameraPlan =
     val isEqualArea = mapping() == "equalarea"
     val map = if isEqualArea then EqualAreaMap else LatLongMap
     CameraPlan(SphericalCamera(_, _, map, folds = isEqualArea), shutter())

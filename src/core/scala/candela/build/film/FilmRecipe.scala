@@ -41,7 +41,7 @@ final case class FilmSettings(
   def spectral(exposure: Float): FilmSettings = camera.fold(this): _ =>
     copy(
       development = development.copy(sensor = None),
-      limit = _ => limit(exposure).flatMap(l => SampleLimit.channels(l.most))
+      limit = _ => limit(exposure).flatMap(l => SampleLimit.channels(l.maximum))
     )
 
 /** Base of film recipes. */
@@ -84,12 +84,12 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
   ): FilmSettings =
     // v4 prefers the fractional window if both are given
     val inPixels = crop().isEmpty && pixels().length == 4
-    val asked = if inPixels then pixels().map(_.toFloat) else crop()
-    val isWindow = asked.length == 4
-    if asked.nonEmpty && !isWindow then
-      val message = s"`cropwindow` must be x0 x1 y0 y1, found ${asked.length} numbers"
+    val edges = if inPixels then pixels().map(_.toFloat) else crop()
+    val isWindow = edges.length == 4
+    if edges.nonEmpty && !isWindow then
+      val message = s"`cropwindow` must be x0 x1 y0 y1, found ${edges.length} numbers"
       site.warn(Code.CorrectedValue, s"$message; it is ignored, as pbrt does")
-    val window = if isWindow then asked else Array.emptyFloatArray
+    val window = if isWindow then edges else Array.emptyFloatArray
     FilmSettings(
       x(),
       y(),

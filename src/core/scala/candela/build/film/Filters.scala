@@ -37,13 +37,13 @@ abstract class FilterRecipe(name: String, meaning: String)
 
 object BoxFilterRecipe extends FilterRecipe("box", "box filter"):
   private val size = extents(0.5f)
-  protected def make()(using Site): Filter =
+  protected def create()(using Site): Filter =
     val (x, y) = radii(size)
     BoxFilter(x, y)
 
 object TriangleFilterRecipe extends FilterRecipe("triangle", "triangle (tent) filter"):
   private val size = extents(2f)
-  protected def make()(using Site): Filter =
+  protected def create()(using Site): Filter =
     val (x, y) = radii(size)
     TriangleFilter(x, y)
 
@@ -61,7 +61,7 @@ object GaussianFilterRecipe extends FilterRecipe("gaussian", "Gaussian filter"):
     onlyV4,
     range = Range(0.01f, 1000f).limited
   )(0.5f)
-  protected def make()(using site: Site): Filter =
+  protected def create()(using site: Site): Filter =
     val (x, y) = radii(size)
     if site.dialect == Dialect.V4 then GaussianFilter.ofSigma(x, y, sigma())
     else GaussianFilter.ofAlpha(x, y, alpha())
@@ -73,7 +73,7 @@ object MitchellFilterRecipe
   private val Lobes = Range(-10f, 10f).limited
   private val b = float("B", "parameter B: blur", range = Lobes)(1f / 3f)
   private val c = float("C", "parameter C: ringing", range = Lobes)(1f / 3f)
-  protected def make()(using Site): Filter =
+  protected def create()(using Site): Filter =
     val (x, y) = radii(size)
     MitchellFilter(x, y, b(), c())
 
@@ -84,7 +84,7 @@ object SincFilterRecipe extends FilterRecipe("sinc", "Lanczos-windowed sinc filt
     "cycles of the sinc within the window",
     range = Range(0.01f, 1000f).limited
   )(3f)
-  protected def make()(using site: Site): Filter =
+  protected def create()(using site: Site): Filter =
     val (x, y) = radii(size)
     if site.dialect == Dialect.V2 then LanczosSincFilter.stretched(x, y, tau())
     else LanczosSincFilter(x, y, tau())

@@ -11,7 +11,7 @@ import candela.image.Exposure
 object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
   private val scale =
     float("scale", "scale of all pixel values", onlyV3, range = FilmRecipe.Gain)(1f)
-  private val most =
+  private val maxLuminance =
     float(
       "maxsampleluminance",
       "maximum luminance of a sample; brighter ones are scaled down",
@@ -21,10 +21,10 @@ object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
   noMeaning("no external program displays the image")(
     bool("display", "display the image during rendering", onlyV2)(false)
   )
-  protected def make()(using Site): FilmSettings =
+  protected def create()(using Site): FilmSettings =
     settings(
       Development(scale(), clipsNegative = true),
-      _ => SampleLimit.luminance(most())
+      _ => SampleLimit.luminance(maxLuminance())
     )
 
 object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image"):
@@ -50,18 +50,18 @@ object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image"):
       for p <- site.declaration.param("exposure") do
         site.problems.warn(
           Code.Unsupported,
-          p.at,
+          p.pos,
           "`exposure` is not supported; the image has linear values",
           Some(s"--exposure ${DefaultText.number(stops)} shows it in pictures, such as .png files")
         )
 
-  override protected def make()(using Site): FilmSettings =
+  override protected def create()(using Site): FilmSettings =
     warnOfExposure()
     val layers = Option.when(alpha())(Layer.Alpha) ++
       named().flatMap: text =>
         val (name, word) = (text.take(text.lastIndexOf(':')), text.drop(text.lastIndexOf(':') + 1))
         HitValue.values.find(_.word == word).map(NamedLayer(name, _))
-    super.make().copy(layers = layers.toVector, samplesBorder = border())
+    super.create().copy(layers = layers.toVector, samplesBorder = border())
 
 object GBufferFilmRecipe
     extends SensorFilmRecipe("gbuffer", "RGB image with AOVs: positions, normals, albedo and more"):
@@ -70,8 +70,8 @@ object GBufferFilmRecipe
     "space of positions and normals",
     Vector("camera", "world")
   )("camera")
-  override protected def make()(using Site): FilmSettings =
-    super.make().copy(layers = Layer.gbuffer, layersInWorld = space() == "world")
+  override protected def create()(using Site): FilmSettings =
+    super.create().copy(layers = Layer.gbuffer, layersInWorld = space() == "world")
 
 object SpectralFilmRecipe
     extends SensorFilmRecipe("spectral", "spectral image in bands of wavelengths"):
@@ -82,7 +82,7 @@ object SpectralFilmRecipe
     float("lambdamin", "shortest wavelength", unit = "nm", range = Visible)(360f)
   private val longest = float("lambdamax", "longest wavelength", unit = "nm", range = Visible)(830f)
 
-  override protected def make()(using site: Site): FilmSettings =
+  override protected def create()(using site: Site): FilmSettings =
     val (from, to) = (shortest(), longest())
     if !(from < to) then
       site.error(Code.ParameterValue, s"`lambdamin`, $from nm, must be below `lambdamax`, $to nm")
@@ -93,9 +93,9 @@ object SpectralFilmRecipe
         "rendering is RGB, not spectral; bands sample a smooth spectrum fitted to each pixel's " +
           "colour"
       )
-    val made = super.make()
+    val base = super.create()
     val bands = SpectralBands(buckets(), from, to)
-    made.copy(development = made.development.copy(bands = Some(bands)))
+    base.copy(development = base.development.copy(bands = Some(bands)))
 
 /** Base of v4's films, with a sensor model. */
 abstract class SensorFilmRecipe(name: String, meaning: String)
@@ -103,7 +103,7 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
   private val iso = float("iso", "sensor sensitivity; 100: unscaled", range = FilmRecipe.Gain)(100f)
   private val sensor =
     string("sensor", "sensor response: cie1931, or the name of a camera")("cie1931")
-  private val most =
+  private val maxComponent =
     float(
       "maxcomponentvalue",
       "maximum of a sample's sensor values, X, Y and Z for cie1931, after `iso` and exposure and " +
@@ -117,30 +117,36 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
       unit = "K",
       shown = "none",
       // Below, the white point has next to no green and blue
-      range = Range.atLeast(1000f).or(0f)
+      range = Range.atLeast(1000f).including(0f)
     )(0f)
-  private val half = bool("savefp16", "write 16-bit instead of 32-bit values")(true)
+  private val halfPrecision = bool("savefp16", "write 16-bit instead of 32-bit values")(true)
 
-  protected def make()(using site: Site): FilmSettings =
+  protected def create()(using site: Site): FilmSettings =
     val development =
-      Development(iso() / 100f, clipsNegative = false, isHalf = half(), space = site.colorSpace)
+      Development(
+        iso() / 100f,
+        clipsNegative = false,
+        isHalf = halfPrecision(),
+        space = site.colorSpace
+      )
     val kelvin = white()
-    if most().isFinite && site.rules.dialect == Dialect.V4 then
+    if maxComponent().isFinite && site.rules.dialect == Dialect.V4 then
       site.warn(
         Code.UnlikePbrt,
         "pbrt-v4 applies `maxcomponentvalue` to samples of few random wavelengths, whose colours " +
           "are noisy; what is brighter than half the limit may be darker in its image"
       )
     camera() match
-      case Some(found) =>
+      case Some(cameraSensor) =>
         val balanced = if kelvin == 0f then SensorFilmRecipe.White else kelvin
         settings(
           development.copy(
-            sensor = Some(found.response),
-            balance = Some(found.toRgb(balanced, site.colorSpace))
+            sensor = Some(cameraSensor.response),
+            balance = Some(cameraSensor.toRgb(balanced, site.colorSpace))
           ),
-          exposure => SampleLimit.camera(largest(exposure), found.toRgb(SensorFilmRecipe.White))
-        ).copy(camera = Some(found))
+          exposure =>
+            SampleLimit.camera(largest(exposure), cameraSensor.toRgb(SensorFilmRecipe.White))
+        ).copy(camera = Some(cameraSensor))
       case None =>
         val space = site.colorSpace
         val balance =
@@ -151,13 +157,14 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
           exposure => SampleLimit.sensor(largest(exposure))
         )
 
-  private def largest(exposure: Float)(using Site): Float = most() / (iso() / 100f * exposure)
+  private def largest(exposure: Float)(using Site): Float =
+    maxComponent() / (iso() / 100f * exposure)
 
   /** Returns the camera sensor, or None for the CIE 1931 observer. */
   private def camera()(using site: Site): Option[CameraSensor] =
     val name = sensor()
-    val found = CameraSensor.named(name)
-    if found.isDefined then
+    val cameraSensor = CameraSensor.named(name)
+    if cameraSensor.isDefined then
       site.resources.counting.foreach(_.addDetector(s"the sensor \"$name\" responds to spectra"))
       if !site.resources.mayBeSpectral then
         site.warn(
@@ -172,7 +179,7 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
         "using \"cie1931\"",
         Suggest.help(name, "cie1931" +: CameraSensor.names)
       )
-    found
+    cameraSensor
 
 private object SensorFilmRecipe:
   /** Default white balance of cameras, in K. */

@@ -30,14 +30,14 @@ private object CausticMethod:
     val mode = site.resources.settings.choices.caustics
     val alone = GuidedMethod(scene)((over, guide, parts) => tracer(over, options, guide, parts))
     if mode == CausticsMode.Off then alone
-    else if !scene.mayHaveCasters then without("no surface casts caustics", alone)
+    else if !scene.mayHaveCasters then withoutCaustics("no surface casts caustics", alone)
     else
       isOut(scene, options) match
         case Some(why) if mode == CausticsMode.Photons => refuse(why, "write --caustics off", alone)
         case None if mode == CausticsMode.Photons && scene.lightGroups.isDefined =>
-          val why = "photons do not separate light, as --fireflies clamp and AOVs of light need"
-          refuse(why, "write --caustics on: light paths do", alone)
-        case Some(why) => without(why, alone)
+          val reason = "photons do not separate light, as --fireflies clamp and AOVs of light need"
+          refuse(reason, "write --caustics on: light paths do", alone)
+        case Some(why) => withoutCaustics(why, alone)
         case None =>
           val light = CausticLight(
             scene.casters,
@@ -59,8 +59,8 @@ private object CausticMethod:
             )
           )
 
-  private def without(why: String, alone: RenderMethod): RenderMethod =
-    Piloted(alone, MethodPilot.without(why, alone))
+  private def withoutCaustics(why: String, alone: RenderMethod): RenderMethod =
+    Piloted(alone, MethodPilot.unchanged(why, alone))
 
   private def refuse(why: String, instead: String, alone: RenderMethod)(using
       site: Site
@@ -113,11 +113,16 @@ private object CausticMethod:
     private def beside(choice: LightPathChoice): RenderMethod =
       def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): over =>
         val chosen = light.copy(casters = choice.casters)
-        val own = weighed(choice.weights(over, view))
+        val cameraOptions = weighed(choice.weights(over, view))
         val paths = guide match
-          case None => tracer(over, own, null, null)
+          case None => tracer(over, cameraOptions, null, null)
           case Some(by) =>
-            PartlyGuided(over, by, tracer(over, own, by, _), tracer(over, own, null, _))
+            PartlyGuided(
+              over,
+              by,
+              tracer(over, cameraOptions, by, _),
+              tracer(over, cameraOptions, null, _)
+            )
         CausticTracer(over, paths, view, chosen, choice.perSample)
       SplattedTiles(
         makers(_, None),

@@ -19,21 +19,21 @@ object DirectLightingRecipe
     // pbrt-v1's "weighted", which v2 and v3 read as "all"
     oneOf("strategy", "lights sampled at each point", Vector("all", "one", "weighted"))("all")
 
-  protected def make()(using Site): IntegratorPlan =
+  protected def create()(using Site): IntegratorPlan =
     val (depth, every) = (Math.max(1, maxDepth()), strategy() != "one")
     val interfaces = IntegratorPlan.interfaces
     windowed(IntegratorPlan(
       (scene, samples) =>
-        val each = if every then samples else Array.empty[Int]
-        RenderMethod.tiles(scene)(DirectLighting(_, depth, each, interfaces = interfaces))
+        val sampleCounts = if every then samples else Array.empty[Int]
+        RenderMethod.tiles(scene)(DirectLighting(_, depth, sampleCounts, interfaces = interfaces))
       ,
       // Lights can rely on BSDF sampling only if every light is sampled
       samplesBsdf = every,
       s"directlighting, ${if every then "all lights" else "one light"} at each point",
       interfaces = interfaces,
       throughVolumes = Some((scene, samples, march) =>
-        val each = if every then samples else Array.empty[Int]
-        RenderMethod.tiles(scene)(DirectLighting(_, depth, each, march()))
+        val sampleCounts = if every then samples else Array.empty[Int]
+        RenderMethod.tiles(scene)(DirectLighting(_, depth, sampleCounts, march()))
       )
     ))
 
@@ -45,7 +45,7 @@ object WhittedRecipe
     )
     with Windowed:
 
-  protected def make()(using Site): IntegratorPlan =
+  protected def create()(using Site): IntegratorPlan =
     val depth = Math.max(1, maxDepth())
     val interfaces = IntegratorPlan.interfaces
     windowed(IntegratorPlan(
@@ -89,7 +89,7 @@ object AmbientOcclusionRecipe
   /** Minimum distance of v2's occluders in scene units, which avoids self-occlusion. */
   private val NearV2 = 0.01f
 
-  protected def make()(using site: Site): IntegratorPlan =
+  protected def create()(using site: Site): IntegratorPlan =
     val white = site.resources.basis.ofLight(Rgb.White)
     val rule = site.dialect match
       case Dialect.V2 =>
@@ -117,15 +117,15 @@ object AmbientOcclusionRecipe
         Occlusion(1, 0f, distanceV4(), cosine(), weighs = true, white, beyond)
     // Below 0, Mitsuba 0.6 takes a quarter of the scene's diameter; in pbrt, nothing occludes
     val isRelative = rule.end < 0f && site.rules.dialect == Dialect.Mitsuba
-    def within(scene: Scene) =
+    def ruleFor(scene: Scene) =
       if isRelative then rule.copy(end = scene.ball.radius / 2) else rule
     windowed(IntegratorPlan(
-      (scene, _) => RenderMethod.tiles(scene)(AmbientOcclusion(_, within(scene))),
+      (scene, _) => RenderMethod.tiles(scene)(AmbientOcclusion(_, ruleFor(scene))),
       samplesBsdf = true,
       s"ambientocclusion, ${rule.samples} rays per point",
       isLit = false,
       throughVolumes =
         Some((scene, _, march) =>
-          RenderMethod.tiles(scene)(AmbientOcclusion(_, within(scene), march()))
+          RenderMethod.tiles(scene)(AmbientOcclusion(_, ruleFor(scene), march()))
         )
     ))

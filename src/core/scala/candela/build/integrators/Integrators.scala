@@ -125,14 +125,14 @@ trait Windowed extends Recipe[IntegratorPlan]:
     integers("pixelbounds", "x0 x1 y0 y1: pixels to render", onlyV3, "integer[4]", "all")
 
   protected final def windowed(plan: IntegratorPlan)(using site: Site): IntegratorPlan =
-    val asked = window()
-    if asked.length == 0 then plan
-    else if asked.length == 4 then
-      plan.copy(window = Some(PixelBounds(asked(0), asked(2), asked(1), asked(3))))
+    val bounds = window()
+    if bounds.length == 0 then plan
+    else if bounds.length == 4 then
+      plan.copy(window = Some(PixelBounds(bounds(0), bounds(2), bounds(1), bounds(3))))
     else
       site.error(
         Code.ParameterValue,
-        s"`pixelbounds` must be x0 x1 y0 y1, found ${asked.length} numbers"
+        s"`pixelbounds` must be x0 x1 y0 y1, found ${bounds.length} numbers"
       )
       plan
 
@@ -152,11 +152,11 @@ trait Choosing extends Recipe[IntegratorPlan]:
   )("spatial")
 
   protected final def lightStrategy()(using site: Site): LightStrategy =
-    val asked = site.dialect match
+    val choice = site.dialect match
       case Dialect.V4 | Dialect.Mitsuba => sampler()
       case Dialect.V3 => strategy()
       case _ => ""
-    asked match
+    choice match
       case "power" => LightStrategy.Power
       case "uniform" => LightStrategy.Uniform
       case _ => LightStrategy.Importance
@@ -173,16 +173,16 @@ trait Regularizing extends Recipe[IntegratorPlan]:
 trait PathInstead extends Recipe[IntegratorPlan]:
   protected def depth()(using Site): Int = 5
 
-  protected def make()(using site: Site): IntegratorPlan =
-    val most = depth()
+  protected def create()(using site: Site): IntegratorPlan =
+    val depthLimit = depth()
     val limits =
-      PathLimits(most, rouletteAfter = 1, seesThrough = site.dialect == Dialect.V3)
+      PathLimits(depthLimit, rouletteAfter = 1, seesThrough = site.dialect == Dialect.V3)
     val interfaces = IntegratorPlan.interfaces
     val options = PathOptions(interfaces = interfaces)
     IntegratorPlan(
       (scene, _) => RenderMethod.tiles(scene)(PathTracer(_, limits, options)),
       samplesBsdf = true,
-      s"path, up to $most scattering events",
+      s"path, up to $depthLimit scattering events",
       followsSpecular = site.dialect == Dialect.V4,
       interfaces = interfaces,
       throughVolumes =

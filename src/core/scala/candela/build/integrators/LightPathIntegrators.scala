@@ -28,7 +28,7 @@ object BdptRecipe extends IntegratorRecipe("bdpt", "bidirectional path tracing",
       "power"
     )
   )
-  protected def make()(using Site): IntegratorPlan =
+  protected def create()(using Site): IntegratorPlan =
     windowed(BidirectionalPlans.plan(name, maxDepth(), regularize()))
 
 private[build] object MetropolisRanges:
@@ -60,7 +60,7 @@ object MltRecipe
   )(0.3f)
   private val sigma = float("sigma", "standard deviation of small mutations")(0.01f)
 
-  protected def make()(using Site): IntegratorPlan =
+  protected def create()(using Site): IntegratorPlan =
     val settings = MetropolisSettings(bootstrap(), chains(), largeStep(), sigma())
     BidirectionalPlans.metropolis(name, maxDepth(), mutations(), settings, regularize())
 
@@ -97,10 +97,10 @@ object SppmRecipe extends IntegratorRecipe("sppm", "progressive photon mapping",
     )(Int.MaxValue)
   )
 
-  protected def make()(using site: Site): IntegratorPlan =
-    val asked = if passesToo() > 0 then passesToo() else passes()
+  protected def create()(using site: Site): IntegratorPlan =
+    val passCount = if passesToo() > 0 then passesToo() else passes()
     // In v4 the sampler sets the number of passes
-    val count = Option.when(site.dialect == Dialect.V3)(asked)
+    val count = Option.when(site.dialect == Dialect.V3)(passCount)
     val settings =
       PhotonSettings(radius(), photons(), maxDepth(), compresses = true, seed())
     PhotonPlans.plan(name, maxDepth(), settings, count)
@@ -112,17 +112,17 @@ object LightPathRecipe
         "the sky",
       onlyV4
     ):
-  protected def make()(using site: Site): IntegratorPlan =
-    val most = maxDepth()
+  protected def create()(using site: Site): IntegratorPlan =
+    val depth = maxDepth()
     val passes = site.rules.passes
     IntegratorPlan(
       (scene, _) =>
         SplattedTiles: v =>
           WorkerIntegrators(scene):
-            LightTracer(_, v.camera, v.splats, most, passes, showsSky = passes)
+            LightTracer(_, v.camera, v.splats, depth, passes, showsSky = passes)
       ,
       samplesBsdf = false,
-      s"$name, up to $most scattering events",
+      s"$name, up to $depth scattering events",
       interfaces = Interfaces.Closed,
       hasVeils = passes
     )
@@ -153,24 +153,24 @@ private[build] object BidirectionalPlans:
   def plan(name: String, depth: Int, regularizes: Boolean = false)(using
       site: Site
   ): IntegratorPlan =
-    val most = depth
+    val maxDepth = depth
     val dialect = site.dialect
     IntegratorPlan(
-      (scene, _) => SplattedTiles(tracers(scene, most, regularizes)),
+      (scene, _) => SplattedTiles(tracers(scene, maxDepth, regularizes)),
       samplesBsdf = false,
-      s"$name, up to $most scattering events" + (if regularizes then ", regularised" else ""),
+      s"$name, up to $maxDepth scattering events" + (if regularizes then ", regularised" else ""),
       followsSpecular = dialect == Dialect.V4,
       throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
         limit(scene, media) match
-          case None => SplattedTiles(tracers(scene, most, regularizes, media))
-          case Some(what) => inVolpath(name, what, scene, media, most, regularizes)
+          case None => SplattedTiles(tracers(scene, maxDepth, regularizes, media))
+          case Some(what) => inVolpath(name, what, scene, media, maxDepth, regularizes)
       ,
       throughVolumes = Some: (scene, _, march) =>
         site.warn(
           Code.IntegratorLacks,
           s"\"$name\" does not support volumes yet; using \"path\", which $Lack"
         )
-        RenderMethod.tiles(scene)(PathTracer(_, PathLimits(most), volumes = march()))
+        RenderMethod.tiles(scene)(PathTracer(_, PathLimits(maxDepth), volumes = march()))
     )
 
   /** What of a scene with media is not supported. */
@@ -230,22 +230,22 @@ private[build] object BidirectionalPlans:
       regularizes: Boolean = false
   )(using site: Site): IntegratorPlan =
     val isV2 = site.dialect == Dialect.V2
-    val most = depth
+    val maxDepth = depth
     val seeded = settings.copy(seed = site.resources.seed)
     def chains(scene: Scene, media: SceneMedia | Null) =
       Chains(
-        (view, splats) => tracer(scene, view, most, regularizes, media)(splats),
+        (view, splats) => tracer(scene, view, maxDepth, regularizes, media)(splats),
         (view, paths) => MarkovChains(paths, seeded, view),
-        tracers(scene, most, regularizes, media)
+        tracers(scene, maxDepth, regularizes, media)
       )
     plan(name, depth, regularizes).copy(
       method = (scene, _) => chains(scene, null),
       throughMedia = Option.when(!isV2): (scene, media) =>
         limit(scene, media) match
           case None => chains(scene, media)
-          case Some(what) => inVolpath(name, what, scene, media, most, regularizes)
+          case Some(what) => inVolpath(name, what, scene, media, maxDepth, regularizes)
       ,
-      describe = s"$name, up to $most scattering events, ${settings.chains} chains",
+      describe = s"$name, up to $maxDepth scattering events, ${settings.chains} chains",
       samples = Some(mutations)
     )
 
@@ -262,17 +262,17 @@ private[build] object PhotonPlans:
   def plan(name: String, depth: Int, settings: PhotonSettings, passes: Option[Int])(
       using site: Site
   ): IntegratorPlan =
-    val most = depth
+    val maxDepth = depth
     val seeded = settings.copy(seed = settings.seed ^ site.resources.seed)
     val interfaces =
       if site.dialect == Dialect.V4 then Interfaces.Weighed else IntegratorPlan.interfaces
     BidirectionalPlans
-      .plan(name, most)
+      .plan(name, maxDepth)
       .copy(
         method =
-          (scene, _) => Passes(PhotonPasses(scene, most, seeded, _, interfaces)),
+          (scene, _) => Passes(PhotonPasses(scene, maxDepth, seeded, _, interfaces)),
         describe =
-          s"$name, up to $most scattering events, initial photon radius ${settings.radius}",
+          s"$name, up to $maxDepth scattering events, initial photon radius ${settings.radius}",
         samples = passes,
         interfaces = interfaces,
         throughMedia = None

@@ -41,7 +41,7 @@ final class PhotonMapRecipe(name: String)
     float("gatherangle", "maximum angle between gather rays and photons", unit = "degrees")(10f)
   )
 
-  protected def make()(using Site): IntegratorPlan =
+  protected def create()(using Site): IntegratorPlan =
     val depth = Math.max(bounces(), specular()) + 1
     val settings = PhotonSettings(
       radius(),
@@ -104,7 +104,7 @@ object DipoleSubsurfaceRecipe
     string("pointsfile", "file of surface points", shown = "none")("")
   )
 
-  protected def make()(using Site): IntegratorPlan =
+  protected def create()(using Site): IntegratorPlan =
     // Specular bounces; "directlighting" also counts the last surface
     val depth = maxDepth() + 1
     IntegratorPlan(
@@ -138,7 +138,7 @@ abstract class RadianceTransferRecipe(name: String, meaning: String)
   /** What it makes of the scene's materials. */
   protected def finish(using Site): Material => Material
 
-  protected def make()(using Site): IntegratorPlan = IntegratorPlan(
+  protected def create()(using Site): IntegratorPlan = IntegratorPlan(
     (scene, samples) => RenderMethod.tiles(scene)(DirectLighting(_, 1, samples)),
     samplesBsdf = true,
     s"directlighting for $name",

@@ -18,7 +18,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
   private val hides =
     bool("hideemitters", "hide area lights and sky from the camera", onlyMitsuba)(false)
 
-  protected def make()(using site: Site): IntegratorPlan =
+  protected def create()(using site: Site): IntegratorPlan =
     // v2 samples lights at one vertex more than it counts
     val depth = maxDepth() + (if site.dialect == Dialect.V2 then 1 else 0)
     // "path" of v2 and v4 renders such a surface as glass, or as its reflection only
@@ -90,7 +90,7 @@ object SimplePathRecipe extends IntegratorRecipe("simplepath", "simple path trac
   private val samplesBsdf =
     bool("samplebsdf", "sample BSDFs; if not, mirrors and smooth glass are black")(true)
 
-  protected def make()(using Site): IntegratorPlan =
+  protected def create()(using Site): IntegratorPlan =
     val onward = if samplesBsdf() then Onward.Bsdf else Onward.Hemisphere
     SimplePlans.plan(name, maxDepth(), samplesLights(), onward)
 
@@ -101,14 +101,14 @@ object SimpleVolPathRecipe
         "shine; surfaces may scatter light, too",
       onlyV4
     ):
-  protected def make()(using Site): IntegratorPlan =
-    val most = maxDepth()
+  protected def create()(using Site): IntegratorPlan =
+    val depth = maxDepth()
     val options = PathOptions(samplesLights = false)
     SimplePlans
-      .plan(name, most, samplesLights = false, Onward.Bsdf)
+      .plan(name, depth, samplesLights = false, Onward.Bsdf)
       .copy(throughMedia =
         Some((scene, media) =>
-          RenderMethod.tiles(scene)(VolumePathTracer(_, media, PathLimits(most), options))
+          RenderMethod.tiles(scene)(VolumePathTracer(_, media, PathLimits(depth), options))
         )
       )
 
@@ -119,7 +119,7 @@ object RandomWalkRecipe
         "smooth glass are black",
       onlyV4
     ):
-  protected def make()(using Site): IntegratorPlan =
+  protected def create()(using Site): IntegratorPlan =
     SimplePlans.plan(name, maxDepth(), samplesLights = false, Onward.Sphere, crosses = false)
 
 /** Plans that use [[SimplePathTracer]]. */
@@ -131,13 +131,13 @@ private object SimplePlans:
       onward: Onward,
       crosses: Boolean = true
   ): IntegratorPlan =
-    val most = depth
-    val by = if samplesLights then "" else ", without light sampling"
+    val maxDepth = depth
+    val suffix = if samplesLights then "" else ", without light sampling"
     IntegratorPlan(
       (scene, _) =>
-        RenderMethod.tiles(scene)(SimplePathTracer(_, most, samplesLights, onward, crosses)),
+        RenderMethod.tiles(scene)(SimplePathTracer(_, maxDepth, samplesLights, onward, crosses)),
       samplesBsdf = !samplesLights,
-      s"$name, up to $most scattering events$by",
+      s"$name, up to $maxDepth scattering events$suffix",
       samplesLights = samplesLights,
       interfaces = if samplesLights then Interfaces.Closed else Interfaces.Open
     )

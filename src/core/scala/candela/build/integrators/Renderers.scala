@@ -18,7 +18,7 @@ object Renderers:
 trait SamplerInstead extends Recipe[Option[IntegratorPlan]]:
   override def substitute: Option[String] =
     Some("using \"sampler\", which renders the scene by its surface integrator")
-  protected def make()(using Site): Option[IntegratorPlan] = None
+  protected def create()(using Site): Option[IntegratorPlan] = None
 
 /** The default renderer; some scenes call it "sample". */
 final class SamplerRendererRecipe(name: String)
@@ -30,7 +30,7 @@ final class SamplerRendererRecipe(name: String)
   unsupported("a debugging aid; the image is rendered")(
     bool("visualizeobjectids", "colour primitives by their id")(false)
   )
-  protected def make()(using Site): Option[IntegratorPlan] = None
+  protected def create()(using Site): Option[IntegratorPlan] = None
 
 /** Metropolis renderer: replaces the surface integrator by chains of bidirectional paths. */
 object MetropolisRecipe
@@ -65,7 +65,7 @@ object MetropolisRecipe
     integer("maxconsecutiverejects", "consecutive rejections before forced acceptance")(512)
   )
 
-  protected def make()(using Site): Option[IntegratorPlan] =
+  protected def create()(using Site): Option[IntegratorPlan] =
     val settings = MetropolisSettings(bootstrap(), Chains, largeStep(), Sigma)
     Some(BidirectionalPlans.metropolis(name, depth(), mutations(), settings))
 
@@ -149,5 +149,5 @@ final class VolumeIntegratorRecipe(name: String, meaning: String, scatters: Bool
     range = Range.above(0f)
   )(1f)
 
-  protected def make()(using Site): VolumeMethod =
+  protected def create()(using Site): VolumeMethod =
     VolumeMethod(stepSize(), scatters)

@@ -111,7 +111,7 @@ final class DiffuseLightRecipe(
       Vector("bilinear", "point"),
       onlyMitsuba
     )("bilinear")
-  private val places =
+  private val imageUv =
     numbers(
       "imageuv",
       "float[6]",
@@ -120,13 +120,13 @@ final class DiffuseLightRecipe(
     )
 
   private def lookup(using Site): PictureLookup =
-    val around = wrap() match
+    val wrapMode = wrap() match
       case "repeat" => Wrap.Repeat
       case "mirror" => Wrap.Mirror
       case _ => Wrap.Clamp
-    PictureLookup(filter() == "bilinear", around)
+    PictureLookup(filter() == "bilinear", wrapMode)
 
-  protected def make()(using site: Site): Option[AreaLightPlan] =
+  protected def create()(using site: Site): Option[AreaLightPlan] =
     val isPicture = site.dialect == Dialect.V4 && filename().nonEmpty
     if isPicture && radiance.given_().isDefined then
       site.error(
@@ -143,21 +143,21 @@ final class DiffuseLightRecipe(
       site.warn(Code.DarkLight, "this area light emits nothing; it is ignored")
       None
     else
-      val mapping = AffineUvMapping.of(places())
+      val mapping = AffineUvMapping.of(imageUv())
       Some(AreaLightPlan(emitted, picture, mapping, perUnit, power(), twoSided(), sampleCount()))
 
 /** Lights of an emitting mesh, created once all triangles are known.
   *
-  * @param find the surface of each, which all colour bases share
+  * @param samplersOf the surface of each, which all colour bases share
   */
 private[build] final class MeshLights[S](
-    find: TriangleSoup => Vector[S],
+    samplersOf: TriangleSoup => Vector[S],
     light: (AreaLightPlan, S) => Light
 ):
   private var surfaces = Vector.empty[S]
 
   def of(plan: AreaLightPlan, triangles: TriangleSoup): Vector[Light] =
-    if surfaces.isEmpty then surfaces = find(triangles)
+    if surfaces.isEmpty then surfaces = samplersOf(triangles)
     surfaces.map(light(plan, _))
 
 private[build] object MeshLights:
@@ -173,7 +173,7 @@ private[build] object MeshLights:
       contrary: Boolean,
       site: Site
   ): MeshLights[TriangleSampler] =
-    def find(triangles: TriangleSoup) =
+    def samplersOf(triangles: TriangleSoup) =
       val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k, contrary))
       val flat = samplers.count(s => !(s.area > 0f))
       if flat > 0 then
@@ -182,7 +182,7 @@ private[build] object MeshLights:
           s"$flat of $count triangles of this area light have no area; they emit nothing"
         )
       samplers
-    MeshLights(find, (plan, s) => holes.light(plan.ofTriangle(s, contrary), s))
+    MeshLights(samplersOf, (plan, s) => holes.light(plan.ofTriangle(s, contrary), s))
 
   /** One light for each rectangle of two triangles.
     *
@@ -190,8 +190,8 @@ private[build] object MeshLights:
     */
   def ofRectangles(first: Int, corners: Vector[RectangleSampler.Corners])
       : MeshLights[RectangleSampler] =
-    def find(triangles: TriangleSoup) =
+    def samplersOf(triangles: TriangleSoup) =
       def triangle(i: Int) = TriangleSampler(triangles, i)
       corners.zipWithIndex.map: (c, k) =>
         RectangleSampler(c, triangle(first + 2 * k), triangle(first + 2 * k + 1))
-    MeshLights(find, _.ofRectangle(_))
+    MeshLights(samplersOf, _.ofRectangle(_))

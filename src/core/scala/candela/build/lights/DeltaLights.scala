@@ -20,7 +20,7 @@ private object Places:
   def rounded(p: Position): Vec3 = Vec3(p.x.toFloat, p.y.toFloat, p.z.toFloat)
 
   /** From one point to another. */
-  def between(a: String, from: Vec3, b: String, to: Vec3)(using
+  def vectorBetween(a: String, from: Vec3, b: String, to: Vec3)(using
       Site
   ): Vec3 =
     val (p, q) = (far(a), far(b))
@@ -30,21 +30,21 @@ private object Places:
 object PointLightRecipe extends LightRecipe("point", "isotropic point light"):
   private val intensity =
     color("I", "radiant intensity", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
-  private val from = point("from", "position")(Vec3.Zero)
+  private val position = point("from", "position")(Vec3.Zero)
   private val power =
     float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
 
-  protected def make()(using site: Site): LightPlan =
-    val (i, p) = (scaled(intensity(), power(), 4f * Pi), from())
+  protected def create()(using site: Site): LightPlan =
+    val (i, p) = (scaled(intensity(), power(), 4f * Pi), position())
     val far = Places.far("from")
     // v2 and v3 translate by `from` after the transform, v4 before it
-    def place(toWorld: Transform) = far match
+    def worldPoint(toWorld: Transform) = far match
       case Some(q) if site.dialect == Dialect.V4 => Places.rounded(toWorld.position(q))
       case Some(q) => Places.rounded((q.fromOrigin * toWorld).position(Position.Origin))
       case None if site.dialect == Dialect.V4 => toWorld.point(p)
       case None => toWorld.point(Vec3.Zero) + p
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
-    else LightPlan((toWorld, _) => Some(PointLight(place(toWorld), i)), samples = 1)
+    else LightPlan((toWorld, _) => Some(PointLight(worldPoint(toWorld), i)), samples = 1)
 
 object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
   /** What pbrt-v4 does if the cone is stretched. */
@@ -58,7 +58,7 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
       "coneangle",
       "angle between the axis and the edge of the cone",
       unit = "degrees",
-      range = Range.above(0f).told
+      range = Range.above(0f).deferred
     )(30f)
   private val fading =
     float("conedeltaangle", "angular width of the falloff inside the edge", unit = "degrees")(5f)
@@ -72,14 +72,14 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
       shown = "none"
     )("")
 
-  protected def make()(using site: Site): LightPlan =
+  protected def create()(using site: Site): LightPlan =
     val picture =
       if slide().isEmpty then None
       else LightImages.picture("mapname", PictureLookup.SmoothRepeating)
     val (edge, full) = (cos(radians(cone())), cos(radians(cone() - fading())))
     val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
     val p = Places.far("from").getOrElse(Places.exact(from()))
-    val axis = Places.between("from", from(), "to", to())
+    val axis = Places.vectorBetween("from", from(), "to", to())
     warnOfScale(onlyV4, _.nonEmpty, SpotLightRecipe.Cone)
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
@@ -108,9 +108,9 @@ object DistantLightRecipe extends LightRecipe("distant", "directional light, suc
     float("illuminance", "illuminance on a perpendicular plane, overrides the magnitude of `L`",
       onlyV4, "lx", "none")(-1f)
 
-  protected def make()(using site: Site): LightPlan =
+  protected def create()(using site: Site): LightPlan =
     val l = scaled(radiance(), illuminance(), 1f)
-    val d = Places.between("to", to(), "from", from())
+    val d = Places.vectorBetween("to", to(), "from", from())
     if d.isZero then LightPlan.leftOut("`from` and `to` are the same point")
     else if !shines(l) then LightPlan.leftOut(LightPlan.Black)
     else

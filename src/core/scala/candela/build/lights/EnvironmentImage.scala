@@ -19,7 +19,7 @@ private[build] abstract class EnvironmentImage(
 ):
 
   /** See [[SphereImage]]. */
-  def on(layout: SphereMap, factor: Rgb, smooth: Boolean)(using Site): SphereImage
+  def onSphere(layout: SphereMap, factor: Rgb, smooth: Boolean)(using Site): SphereImage
 
   /** With a row between those at the poles, which alone have no area. */
   def withEquator: EnvironmentImage = this
@@ -32,12 +32,12 @@ private[build] abstract class EnvironmentImage(
   def distribution(image: SphereImage, way: String, complete: Boolean)(using
       site: Site
   ): Distribution2D =
-    def made = ImageEnvironment.distribution(image, complete)
-    content.fold(made)(content => kept(s"$content $way ${image.smooth} $complete")(made))
+    def table = ImageEnvironment.distribution(image, complete)
+    content.fold(table)(content => cached(s"$content $way ${image.smooth} $complete")(table))
 
-  /** The table of this key, which `made` makes. */
-  protected def kept(key: String)(made: => Distribution2D)(using site: Site): Distribution2D =
-    site.resources.keep(EnvironmentImage.Tables, key)(made)
+  /** The table of this key, which `build` builds. */
+  protected def cached(key: String)(build: => Distribution2D)(using site: Site): Distribution2D =
+    site.resources.cache(EnvironmentImage.Tables, key)(build)
 
 private[build] object EnvironmentImage:
   private val Tables = Keep.Shelf[Distribution2D](Some(Distribution2D.Form))
@@ -50,20 +50,20 @@ private[build] object EnvironmentImage:
     override def withEquator: EnvironmentImage =
       InMemory(LightImages.withEquator(image), content)
 
-    def on(layout: SphereMap, factor: Rgb, smooth: Boolean)(using Site): SphereImage =
+    def onSphere(layout: SphereMap, factor: Rgb, smooth: Boolean)(using Site): SphereImage =
       SphereImage(image, layout, factor, smooth, LightImages.conversion)
 
   /** @param stored makes colours of the scene's basis of the pixels, if they are of another */
   final class InTiles(pixels: MipLevel, stored: Option[Rgb => Rgb], content: String)
       extends EnvironmentImage(pixels.width, pixels.height, Some(content)):
-    def on(layout: SphereMap, factor: Rgb, smooth: Boolean)(using Site): SphereImage =
+    def onSphere(layout: SphereMap, factor: Rgb, smooth: Boolean)(using Site): SphereImage =
       TiledSphereImage(pixels, stored, layout, factor, smooth, LightImages.conversion)
 
-    override protected def kept(key: String)(made: => Distribution2D)(using
+    override protected def cached(key: String)(made: => Distribution2D)(using
         site: Site
     ): Distribution2D =
       val textures = site.resources.textures
-      val table = site.resources.keep(TablesOfTiles, key):
+      val table = site.resources.cache(TablesOfTiles, key):
         textures.table(Distribution2D.Form, key)(made)
       textures.warn(site.problems)
       table

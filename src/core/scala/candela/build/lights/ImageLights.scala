@@ -32,7 +32,7 @@ object GoniometricLightRecipe
   private val means = Once[Float]()
   private val grays = Once[Image]()
 
-  protected def make()(using site: Site): LightPlan =
+  protected def create()(using site: Site): LightPlan =
     val isV4 = site.dialect == Dialect.V4
     if IesFile.isNamed(if isV4 then filename() else mapname()) then
       measured(if isV4 then "filename" else "mapname")
@@ -94,13 +94,13 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
       "fov",
       "field of view along the shorter side",
       unit = "degrees",
-      range = Range.between(0f, 180f).told
+      range = Range.exclusive(0f, 180f).deferred
     )(if v4 then 90f else 45f)
   private val power =
     float("power", "total power, overrides the magnitude of the image", onlyV4, "lm", "none")(-1f)
   private val powers = Once[Float]()
 
-  protected def make()(using site: Site): LightPlan =
+  protected def create()(using site: Site): LightPlan =
     val isV4 = site.dialect == Dialect.V4
     val (name, given_) = if isV4 then ("filename", filename()) else ("mapname", mapname())
     if isV4 && given_.isEmpty then
@@ -116,10 +116,10 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
       powers:
         ProjectionLight.power(s, tanHalf, basis.toSrgb(_).luminance)
     def isBlack = slide.exists(s => !(s.meanOfMax > 0f))
-    val all = scaled(intensity(), power(), perUnit)
+    val scaling = scaled(intensity(), power(), perUnit)
     warnOfScale(onlyV4, _.nonEmpty, SpotLightRecipe.Cone)
     if isLost then LightPlan.nothing
-    else if !shines(all) || (!basis.isSpectral && isBlack) then
+    else if !shines(scaling) || (!basis.isSpectral && isBlack) then
       LightPlan.leftOut(LightPlan.Black)
     else if !(fov() > 0f && fov() < 180f) then
       LightPlan.leftOut(
@@ -128,6 +128,8 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     else
       LightPlan(
         (toWorld, _) =>
-          Some(ProjectionLight(LightFrame(toWorld), all, tanHalf, slide, upright = isV4, onPlane)),
+          Some(ProjectionLight(
+            LightFrame(toWorld), scaling, tanHalf, slide, upright = isV4, onPlane
+          )),
         samples = 1
       )

@@ -31,7 +31,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
       "illuminance", "illuminance on a plane, overrides the magnitude of `L`", onlyV4, "lx", "none"
     )(-1f)
   private val irradiances = Once[Float]()
-  private val all, compensated = Once[Distribution2D]()
+  private val uncompensated, compensated = Once[Distribution2D]()
   private val portals = Once[PortalEnvironment]()
   private val portal = numbers(
     "portal",
@@ -40,7 +40,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     onlyV4
   )
 
-  protected def make()(using site: Site): LightPlan =
+  protected def create()(using site: Site): LightPlan =
     val octahedral = site.dialect == Dialect.V4
     val (named, given_) =
       if octahedral then ("filename", filename()) else ("mapname", mapname())
@@ -50,9 +50,9 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
         "`L` and `filename` of an infinite light are mutually exclusive"
       )
     if given_.nonEmpty then
-      val found = LightImages.environment(named)
+      val environment = LightImages.environment(named)
       def isLatLong(i: EnvironmentImage) = !octahedral || i.width == 2 * i.height
-      found.filter(i => isLatLong(i) || LightImages.isSquare(i.width, i.height)) match
+      environment.filter(i => isLatLong(i) || LightImages.isSquare(i.width, i.height)) match
         case None => LightPlan.nothing
         case Some(read) =>
           val isEqualArea = !isLatLong(read)
@@ -71,18 +71,18 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
             if isEqualArea then (EqualAreaMap, "octahedral")
             else if isPolar then (PolarLatLongMap(image.height), "polar")
             else (LatLongMap, "even")
-          val sphere = image.on(layout, l, smooth = !isEqualArea)
+          val sphere = image.onSphere(layout, l, smooth = !isEqualArea)
           val basis = site.resources.basis
           val colors =
             if basis.isSpectral then "as stored" else s"${basis.isSrgb} ${l.r} ${l.g} ${l.b}"
-          around(l, sphere): complete =>
+          imagePlan(l, sphere): complete =>
             image.distribution(sphere, s"$mapping $colors", complete)
     else
       val l = scaled(radiance(), illuminance(), Pi)
       if portal().nonEmpty then
-        val one = Image(1, 1, Image.RgbNames, Array(1f, 1f, 1f))
-        val sphere = SphereImage(one, EqualAreaMap, l, smooth = false)
-        around(l, sphere)(ImageEnvironment.distribution(sphere, _))
+        val white = Image(1, 1, Image.RgbNames, Array(1f, 1f, 1f))
+        val sphere = SphereImage(white, EqualAreaMap, l, smooth = false)
+        imagePlan(l, sphere)(ImageEnvironment.distribution(sphere, _))
       else if !shines(l) then LightPlan.leftOut(LightPlan.Black)
       else
         LightPlan(
@@ -101,7 +101,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
       )
 
   /** @param table its sampling table; see [[ImageEnvironment.distribution]] */
-  private def around(l: Rgb, image: SphereImage)(table: Boolean => Distribution2D)(using
+  private def imagePlan(l: Rgb, image: SphereImage)(table: Boolean => Distribution2D)(using
       site: Site
   ): LightPlan =
     val resources = site.resources
@@ -112,8 +112,8 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
       if p.isEmpty then
         def light(toWorld: Transform, finds: SkySampling) =
           val complete = finds != SkySampling.Bright
-          val kept = if complete then all else compensated
-          val distribution = kept(table(complete))
+          val cache = if complete then uncompensated else compensated
+          val distribution = cache(table(complete))
           Some(new ImageEnvironment(LightFrame(toWorld), image, distribution))
         LightPlan(light, sampleCount())
       else
@@ -174,7 +174,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     val basis = site.resources.basis
     val isSwapped = isEqualArea && filename().toLowerCase.endsWith(".exr")
     val map = if isEqualArea then EqualAreaMap else LatLongMap
-    val luminances = image.on(map, Rgb.White, smooth = false).ofPixels: (r, g, b) =>
+    val luminances = image.onSphere(map, Rgb.White, smooth = false).ofPixels: (r, g, b) =>
       val srgb = basis.toSrgb(Rgb(r, g, b))
       val weighed = if isSwapped then Rgb(srgb.b, srgb.g, srgb.r) else srgb
       weighed.luminance

@@ -130,10 +130,11 @@ private[build] object LightImages:
       // Sums of brighter pixels overflow
       val i = firstUnusable(rgb.data)
       def file = site.declaration.param(name).flatMap(_.strings.headOption).getOrElse("")
-      def place = s"(${i / 3 % rgb.width}, ${i / 3 / rgb.width})"
-      def why = s"$file: the image of a light has pixels that are NaN, infinite, or above 1e30: " +
-        s"the first, at $place, is ${rgb.data(i)}"
-      Either.cond(i == rgb.data.length, rgb, ImageError(Code.ImageContents, why))
+      def pixel = s"(${i / 3 % rgb.width}, ${i / 3 / rgb.width})"
+      def reason =
+        s"$file: the image of a light has pixels that are NaN, infinite, or above 1e30: " +
+          s"the first, at $pixel, is ${rgb.data(i)}"
+      Either.cond(i == rgb.data.length, rgb, ImageError(Code.ImageContents, reason))
     catch case e: ImageError => Left(e)
 
   private def firstUnusable(values: Array[Float]): Int =

@@ -23,11 +23,11 @@ object Lights:
     )
   )
 
-/** Plan of a light: `make` takes its transform, and what must be sampled of it if it is a sky.
+/** Plan of a light: `create` takes its transform, and what must be sampled of it if it is a sky.
   *
   * @param samples light samples per point in v2's and v3's direct lighting
   */
-final case class LightPlan(make: (Transform, SkySampling) => Option[Light], samples: Int)
+final case class LightPlan(create: (Transform, SkySampling) => Option[Light], samples: Int)
 
 /** What light samples must find of a sky; what they leave out, paths find as well by themselves. */
 enum SkySampling:

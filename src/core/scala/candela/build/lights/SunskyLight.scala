@@ -23,7 +23,7 @@ object SunskyLightRecipe
       "sunaperture",
       "angle that the sun subtends",
       unit = "degrees",
-      range = Range.between(0f, 180f)
+      range = Range.exclusive(0f, 180f)
     )(0.5358f)
   private val sunScale =
     float("sunscale", "scale of the sun's radiance", range = Range.atLeast(0f))(1f)
@@ -37,7 +37,7 @@ object SunskyLightRecipe
   private val skyScale =
     float("skyscale", "scale of the sky's radiance", range = Range.atLeast(0f))(1f)
 
-  protected def make()(using site: Site): LightPlan =
+  protected def create()(using site: Site): LightPlan =
     val ground = albedo() match
       case Array(r, g, b) => Rgb(r, g, b)
       case _ => Rgb.gray(0.3f)
@@ -45,7 +45,7 @@ object SunskyLightRecipe
     if !(s.z >= 0f) then LightPlan.leftOut("the sun is below the horizon")
     else if sunScale() == 0f && skyScale() == 0f then LightPlan.leftOut(LightPlan.Black)
     else
-      val all = scaled(Rgb.White)
+      val scaling = scaled(Rgb.White)
       val basis = site.resources.basis
       val convert = if basis.isSpectral then basis.lookUpLight else basis.fromSrgb
       val elevation = Math.asin(Math.min(1.0, s.z.toDouble)).toFloat
@@ -53,19 +53,19 @@ object SunskyLightRecipe
       LightPlan(
         (toWorld, finds) =>
           val frame = LightFrame(toWorld)
-          val half = Math.toRadians(aperture() / 2.0).toFloat
+          val halfAngle = Math.toRadians(aperture() / 2.0).toFloat
           Some(
             SunAndSky(
               frame,
               model,
               s,
-              half,
+              halfAngle,
               skyScale(),
               sunIrradiance() match
                 case Array(r, g, b) => Rgb(r, g, b) * sunScale()
                 case _ => model.sunIrradiance * sunScale()
               ,
-              c => convert(c) * all,
+              c => convert(c) * scaling,
               complete = finds != SkySampling.Bright
             )
           )

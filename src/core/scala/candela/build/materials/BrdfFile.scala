@@ -56,14 +56,14 @@ private[build] object BrdfFile:
     if file.size != expected then
       Left(s"size must be $expected bytes (90 × 90 × 180 values), found ${file.size}")
     else
-      val in = ByteBuffer.wrap(file.bytes()).order(ByteOrder.LITTLE_ENDIAN)
-      val sizes = Vector.fill(3)(in.getInt)
+      val buffer = ByteBuffer.wrap(file.bytes()).order(ByteOrder.LITTLE_ENDIAN)
+      val sizes = Vector.fill(3)(buffer.getInt)
       if sizes != Vector(HalfAngles, Polar, Azimuths) then
         Left(s"table must have 90 × 90 × 180 values, found ${sizes.mkString(" × ")}")
       else
         val values = new Array[Float](3 * entries)
         for c <- 0 until 3; i <- 0 until entries do
-          values(3 * i + c) = Math.max(0.0, in.getDouble() * Scales(c)).toFloat
+          values(3 * i + c) = Math.max(0.0, buffer.getDouble() * Scales(c)).toFloat
         Right(MeasuredBsdf.OfColors(HalfAngleReflection(values)))
 
   // Channel scales of the MERL database

@@ -30,14 +30,15 @@ private[build] object BsdfFile:
     catch case e: java.io.IOException => Left(IoReason(e))
 
   def parse(bytes: Array[Byte]): Either[String, FourierTable] =
-    val in = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN)
+    val buffer = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN)
     val isOurs = bytes.length >= HeaderBytes && String(bytes, 0, 8, ISO_8859_1) == Magic
     if !isOurs then Left("header must begin with \"SCATFUN\" version 1")
     else
-      in.position(8)
-      val Array(flags, n, coefficients, _, channels, bases) = Array.fill(6)(in.getInt): @unchecked
-      in.position(44)
-      val eta = in.getFloat
+      buffer.position(8)
+      val Array(flags, n, coefficients, _, channels, bases) =
+        Array.fill(6)(buffer.getInt): @unchecked
+      buffer.position(44)
+      val eta = buffer.getFloat
       val expected = HeaderBytes + 4L * (n + 3L * n * n + coefficients)
       if flags != 1 then Left(s"flags must be 1 (a plain BSDF), found $flags")
       else if channels != 1 && channels != 3 then
@@ -49,7 +50,7 @@ private[build] object BsdfFile:
         Left(s"size must be at least $expected bytes by its header, found ${bytes.length}")
       else if !(eta > 0f && eta < Float.PositiveInfinity) then
         Left(s"index of refraction must be above 0, found $eta")
-      else table(in, n, coefficients, channels, eta)
+      else table(buffer, n, coefficients, channels, eta)
 
   private def table(
       in: ByteBuffer,
@@ -71,8 +72,8 @@ private[build] object BsdfFile:
     val fits = offsets.indices.forall: i =>
       lengths(i) >= 0 && offsets(i) >= 0 && offsets(i) + lengths(i).toLong * channels <= count
     if !isRising || cosines.exists(c => !(Math.abs(c) <= 1f)) then
-      val found = falling.fold("")(i => s", found ${cosines(i)} after ${cosines(i - 1)}")
-      Left(s"cosines must increase within [-1, 1]$found")
+      val detail = falling.fold("")(i => s", found ${cosines(i)} after ${cosines(i - 1)}")
+      Left(s"cosines must increase within [-1, 1]$detail")
     else if !fits then Left(s"a series extends past the $count coefficients")
     else if coefficients.exists(c => !java.lang.Float.isFinite(c)) then
       Left("a coefficient is NaN or infinite")

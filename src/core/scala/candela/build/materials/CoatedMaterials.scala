@@ -32,7 +32,7 @@ private[build] trait LayerFields extends Fields:
     integer(
       "maxdepth",
       "maximum interactions between the layers",
-      range = Range.atLeast(1f).told
+      range = Range.atLeast(1f).deferred
     )(10),
     integer("nsamples", "random walks per evaluation, if layers are sampled stochastically")(1)
   )
@@ -52,14 +52,14 @@ object CoatedDiffuseRecipe
   protected def tinted()(using site: Site): (RgbTexture, Site) => Material =
     val basis = site.resources.basis
     val coating = eta()
-    val make = CoatedDiffuseMaterial
-      .family(roughness(), Indices.one(coating), layers.medium, site.resources.coats)
+    val coated = CoatedDiffuseMaterial
+      .family(roughness(), Indices.scalar(coating), layers.medium, site.resources.coats)
     (reflectance, _) =>
       // The spectral reflectance of a constant colour is precomputed
       val bySpectrum = reflectance.constant.map: color =>
         lazy val base = basis.reflectance(color)
         (f: Float => Float) => basis.ofReflectance(nm => f(base(nm)))
-      Indices.disperse(coating)(make(reflectance, bySpectrum))
+      Indices.disperse(coating)(coated(reflectance, bySpectrum))
 
 object RoughPlasticRecipe
     extends RoughRecipe("roughplastic", "plastic, smooth or rough", onlyMitsuba, 0f):
@@ -71,18 +71,18 @@ object RoughPlasticRecipe
   private val interreflection =
     bool("interreflection", "simulate interreflection between coat and base")(true)
   private val eta = float("eta", "index of refraction of the coating", range = Indices.range)(1.49f)
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     val rough = roughness()
     if !rough.isConstant && interreflection() then
       site.warn(
         Code.Unsupported,
         "the interreflection of \"roughplastic\" uses its roughness at (0, 0)"
       )
-    val under =
+    val varnish =
       if !interreflection() then Varnish.Once
       else if nonlinear() then Varnish.Colored
       else Varnish.Plain
-    VarnishMaterial(reflectance(), specular(), under, rough, eta())
+    VarnishMaterial(reflectance(), specular(), varnish, rough, eta())
 
 object CoatedConductorRecipe
     extends MaterialRecipe("coatedconductor", "conductor under a dielectric coating", onlyV4)
@@ -92,7 +92,7 @@ object CoatedConductorRecipe
 
   /** Roughness of one of the two interfaces. */
   private final class Side(name: String):
-    private val both = floatTexture(s"$name.roughness", s"$name roughness; 0: smooth")(0f)
+    private val isotropic = floatTexture(s"$name.roughness", s"$name roughness; 0: smooth")(0f)
     private val u = along("u")
     private val v = along("v")
     private def along(axis: String) =
@@ -103,7 +103,7 @@ object CoatedConductorRecipe
       )(0f)
     def apply()(using Site): Roughness =
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
-      Roughness(u.given_().getOrElse(both()), v.given_().getOrElse(both()), model)
+      Roughness(u.given_().getOrElse(isotropic()), v.given_().getOrElse(isotropic()), model)
 
   private val interface = Side("interface")
   private val conductor = Side("conductor")
@@ -118,19 +118,19 @@ object CoatedConductorRecipe
   private val layers = layerParameters()
   protected val tint: Field[RgbTexture] = index.reflectance.get
 
-  override protected def make()(using Site): Material =
-    if tint.given_().isDefined then super.make()
+  override protected def create()(using Site): Material =
+    if tint.given_().isDefined then super.create()
     else
-      val outside = Indices.one(eta())
+      val outside = Indices.scalar(eta())
       coated(outside)(metal(index, outside), spectral(index, outside))
 
   protected def tinted()(using Site): (RgbTexture, Site) => Material =
-    val outside = Indices.one(eta())
-    val make = coated(outside)
+    val outside = Indices.scalar(eta())
+    val withMetal = coated(outside)
     val metal = tintedMetal(index, outside)
     (reflectance, site) =>
-      val by = tintedSpectrum(reflectance, outside)
-      make(metal(reflectance, by, site), by)
+      val spectrum = tintedSpectrum(reflectance, outside)
+      withMetal(metal(reflectance, spectrum, site), spectrum)
 
   /** By the metal, and its reflectance by cosine and wavelength, if there is one.
     *
@@ -168,10 +168,10 @@ object CoatedConductorRecipe
       val outer = Fresnel.dielectric(cosTheta, eta)
       val inside = Fresnel.cosRefracted(cosTheta, eta)
       // Absorption on the way down and up
-      val kept = if inside > 0f then exp(-2f * Math.max(thickness, 0f) / inside) else 0f
+      val transmittance = if inside > 0f then exp(-2f * Math.max(thickness, 0f) / inside) else 0f
       val base = metal(Math.max(inside, 0f))
       nm =>
-        val trip = base(nm) * kept
+        val trip = base(nm) * transmittance
         var sum = 0f
         for _ <- 0 until medium.sampledBaseHits do sum = trip * (1f + outer * sum)
         outer + square(1f - outer) * sum

@@ -10,7 +10,7 @@ object MatteRecipe
     extends MaterialRecipe("matte", "diffuse reflection by the Oren–Nayar model", untilV3):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
   private val sigma = floatTexture("sigma", "standard deviation of facet angles, degrees")(0f)
-  protected def make()(using Site): Material = MatteMaterial(kd(), sigma())
+  protected def create()(using Site): Material = MatteMaterial(kd(), sigma())
 
 object DiffuseRecipe
     extends MaterialRecipe("diffuse", "Lambertian reflection", onlyV4)
@@ -28,7 +28,7 @@ object DiffuseTransmissionRecipe
   private val transmittance =
     rgbTexture("transmittance", "diffuse transmittance, 0 to 1")(Rgb.gray(0.25f))
   private val scale = float("scale", "scale of reflectance and transmittance")(1f)
-  protected def make()(using Site): Material =
+  protected def create()(using Site): Material =
     DiffuseTransmissionMaterial(reflectance(), transmittance(), scale())
 
 object TranslucentRecipe
@@ -43,5 +43,5 @@ object TranslucentRecipe
   private val ks = rgbTexture("Ks", "glossy reflectance")(Rgb.gray(0.25f))
   private val reflect = rgbTexture("reflect", "scale of reflection")(Rgb.gray(0.5f))
   private val transmit = rgbTexture("transmit", "scale of transmission")(Rgb.gray(0.5f))
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     TranslucentMaterial(kd(), ks(), reflect(), transmit(), roughness(), edition(site.dialect))

@@ -23,7 +23,7 @@ object PhongRecipe
     extends MaterialRecipe("phong", "modified Phong model", onlyMitsuba)
     with GlossedFields:
   private val exponent = floatTexture("exponent", "exponent of the glossy lobe")(30f)
-  protected def make()(using Site): Material =
+  protected def create()(using Site): Material =
     PhongMaterial(diffuse(), specular(), exponent(), conserves())
 
 object WardRecipe
@@ -33,7 +33,7 @@ object WardRecipe
   private val v = floatTexture("vroughness", "roughness along v")(0.1f)
   private val variant =
     oneOf("variant", "normalisation", Seq("ward", "ward-duer", "balanced"))("balanced")
-  protected def make()(using Site): Material =
+  protected def create()(using Site): Material =
     val kind = variant() match
       case "ward" => WardVariant.Original
       case "ward-duer" => WardVariant.Duer
@@ -46,12 +46,12 @@ object RoughDiffuseRecipe
     rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.5f))
   private val alpha = floatTexture("roughness", "root mean square slope of the facets")(0.2f)
   private val isFast = bool("fast", "use the approximation without interreflection")(false)
-  protected def make()(using Site): Material =
+  protected def create()(using Site): Material =
     RoughDiffuseMaterial(reflectance(), alpha(), isFast())
 
 object CoatingRecipe
     extends RoughRecipe("coating", "dielectric coat on a named material", onlyMitsuba, 0f):
-  private val within = string("material", "name of the material")("")
+  private val baseName = string("material", "name of the material")("")
   private val eta = float("eta", "index of refraction of the coat")(1.5046f)
   private val specular = rgbTexture("specular", "scale of the coat's reflection")(Rgb.White)
   private val thickness = float("thickness", "thickness of the coat")(1f)
@@ -61,7 +61,7 @@ object CoatingRecipe
     unit = "1/thickness",
     role = SpectrumRole.Unbounded
   )(Rgb.Black)
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     val rough = roughness()
     if !rough.isConstant then
       site.warn(
@@ -69,7 +69,7 @@ object CoatingRecipe
         "what passes the coat of \"coating\" is that of its roughness at (0, 0)"
       )
     CoatingMaterial(
-      named(within(), "material"),
+      named(baseName(), "material"),
       rough,
       eta(),
       sigmaA(),
@@ -85,5 +85,5 @@ object ScatteringLayerRecipe
   private val thickness = float("thickness", "thickness of the layer")(1f)
   private def coefficient(name: String, meaning: String) =
     rgbTexture(name, meaning, unit = "1/thickness", role = SpectrumRole.Unbounded)(Rgb.White)
-  protected def make()(using Site): Material =
+  protected def create()(using Site): Material =
     ScatteringLayerMaterial(sigmaA(), sigmaS(), thickness(), phase())

@@ -22,8 +22,8 @@ object GlassRecipe
   private val v = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", onlyV3)(true)
-  protected def make()(using site: Site): Material =
-    if site.dialect == Dialect.V2 then DielectricMaterial.old(kr(), kt(), index())
+  protected def create()(using site: Site): Material =
+    if site.dialect == Dialect.V2 then DielectricMaterial.pbrt2Glass(kr(), kt(), index())
     else
       val model = if remap() then RoughnessModel.PolynomialAlpha else RoughnessModel.BoundedAlpha
       val rough = Roughness(u(), v(), model, smoothAtZero = true)
@@ -42,18 +42,18 @@ object DielectricRecipe
     extends RoughRecipe("dielectric", "dielectric interface, smooth or rough", onlyV4, 0f)
     with GlassTints:
   private val eta = spectrum("eta", "index of refraction", range = Indices.range)(Indices.glass)
-  protected def make()(using Site): Material =
+  protected def create()(using Site): Material =
     val (kr, kt) = tints()
-    val index = ConstantFloat(Indices.one(eta()))
+    val index = ConstantFloat(Indices.scalar(eta()))
     Indices.disperse(eta())(new DielectricMaterial(kr, kt, index, roughness()))
 
 object ThinDielectricRecipe
     extends MaterialRecipe("thindielectric", "thin dielectric slab, such as a window pane", onlyV4)
     with GlassTints:
   private val eta = spectrum("eta", "index of refraction", range = Indices.range)(Indices.glass)
-  protected def make()(using Site): Material =
+  protected def create()(using Site): Material =
     val (kr, kt) = tints()
-    Indices.disperse(eta())(ThinDielectricMaterial(Indices.one(eta()), kr, kt).folded)
+    Indices.disperse(eta())(ThinDielectricMaterial(Indices.scalar(eta()), kr, kt).folded)
 
 /** Indices of refraction given as numbers or spectra. */
 private[build] object Indices:
@@ -62,7 +62,7 @@ private[build] object Indices:
   /** In pbrt-v4, 0 means 1. */
   def range(using dialect: Dialect): Range =
     val positive = Range.atLeast(0.01f).limited
-    if dialect.base == Dialect.V4 then positive.or(0f) else positive
+    if dialect.base == Dialect.V4 then positive.including(0f) else positive
 
   def spectrum(v: SpectralValue): Float => Float = v match
     case SpectralValue.Wavelengths(s) => s(_)
@@ -73,7 +73,7 @@ private[build] object Indices:
     val isGrey = (c - Rgb.gray(c.g)).map(Math.abs(_)).max <= 1e-5f * c.g
     if isGrey then _ => c.g else Upsampling.spectrum(c)
 
-  /** `material`, made for the index [[one]]; dispersive if that depends on the wavelength and
+  /** `material`, made for the index [[scalar]]; dispersive if that depends on the wavelength and
     * wavelengths are rendered.
     */
   def disperse(v: SpectralValue)(material: Material)(using site: Site): Material =
@@ -90,13 +90,13 @@ private[build] object Indices:
   /** The index at the hero wavelength; of three-number colours at the sodium line, for which
     * indices of glass are specified. 0 means 1, as in pbrt-v4.
     */
-  def one(v: SpectralValue)(using site: Site): Float =
+  def scalar(v: SpectralValue)(using site: Site): Float =
     val index = site.resources.basis match
       case wavelengths: Wavelengths => spectrum(v)(wavelengths.nm(0))
-      case _ => usual(v)
+      case _ => atSodium(v)
     if index == 0f then 1f else index
 
-  private def usual(v: SpectralValue)(using site: Site): Float =
+  private def atSodium(v: SpectralValue)(using site: Site): Float =
     if varies(v) && !site.resources.mayBeSpectral then
       val name = site.declaration.name
       site.warn(

@@ -17,7 +17,7 @@ object PlasticRecipe
     ):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
   private val ks = rgbTexture("Ks", "scale of the glossy lobe")(Rgb.gray(0.25f))
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     PlasticMaterial(kd(), ks(), roughness(), edition(site.dialect))
 
   /** The plastic of pbrt-v2. */
@@ -45,7 +45,7 @@ object UberRecipe extends RoughRecipe(
     "eta", "index of refraction", onlyV3, shown = "index", range = Indices.range
   )(1.5f)
   private val index = floatTexture("index", "index of refraction", range = Indices.range)(1.5f)
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     val n = eta.given_().getOrElse(index())
     UberMaterial(kd(), ks(), kr(), kt(), opacity(), n, roughness(), edition(site.dialect))
 
@@ -60,7 +60,7 @@ object SubstrateRecipe extends MaterialRecipe(
   private val v = floatTexture("vroughness", "roughness along v")(0.1f)
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", onlyV3)(true)
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     val model =
       if site.dialect == Dialect.V2 then RoughnessModel.AnisotropicExponents
       else if remap() then RoughnessModel.PolynomialAlpha
@@ -114,10 +114,10 @@ abstract class DisneyFields(name: String, meaning: String, dialects: Set[Dialect
 
 object DisneyRecipe
     extends DisneyFields("disney", "principled BSDF of Burley 2012 and 2015", onlyV3):
-  protected def make()(using Site): Material = DisneyMaterial(parameters())
+  protected def create()(using Site): Material = DisneyMaterial(parameters())
 
 object PrincipledRecipe
     extends DisneyFields("principled", "Mitsuba's edition of Burley's BSDF", onlyMitsuba):
-  protected def make()(using Site): Material =
+  protected def create()(using Site): Material =
     val p = parameters()
     if p.isThin then PrincipledThinMaterial(p) else PrincipledMaterial(p)

@@ -36,7 +36,7 @@ object HairRecipe
   private val betaN = floatTexture("beta_n", "azimuthal roughness, 0 to 1")(0.3f)
   private val alpha = floatTexture("alpha", "tilt of the cuticle scales", unit = "degrees")(2f)
 
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     HairMaterial(pigment(), eta(), betaM(), betaN(), alpha())
 
   private def pigment()(using site: Site): Pigment =

@@ -64,7 +64,7 @@ object Materials:
     DiffuseMaterial(candela.textures.ConstantRgb(Rgb.gray(0.5f))).folded
 
   /** Names of the materials that a material may refer to. */
-  def parts(d: Declaration): Vector[String] =
+  def nestedNames(d: Declaration): Vector[String] =
     val references = Set("namedmaterial1", "namedmaterial2", "materials", "material")
     if !Set(MixRecipe, TwoSidedRecipe, NestedRecipe, CoatingRecipe).exists(_.name == d.name) then
       Vector.empty
@@ -92,7 +92,7 @@ abstract class MaterialRecipe(
     floatTexture("displacement", "bump map height", onlyV4, "scene units", "none")(0f)
   private val normals: Option[Field[String]] = Option.when(bumps):
     string("normalmap", "normal map image", onlyV4, shown = "none")("")
-  private val places: Option[Field[Array[Float]]] = Option.when(bumps):
+  private val normalMapUv: Option[Field[Array[Float]]] = Option.when(bumps):
     numbers(
       "normalmapuv",
       "float[6]",
@@ -105,15 +105,15 @@ abstract class MaterialRecipe(
   private val turns: Option[Field[Boolean]] = Option.when(bumps):
     bool("turnednormals", "flip normals that face away", onlyMitsuba)(true)
 
-  override protected def made(site: Site): Material =
+  override protected def assemble(site: Site): Material =
     given Site = site
-    val smooth = make().folded
+    val smooth = create().folded
     normalMap() match
       case Some(picture) =>
         site.resources.askForRelief("normal maps")
         // What faces away is turned for each viewer, or at once
         val faces = site.rules.bumps == Bumps.Displaced
-        raised(smooth, NormalMapMaterial(_, picture, place(), faces))
+        raised(smooth, NormalMapMaterial(_, picture, uvMapping(), faces))
       case None =>
         val height = if site.dialect == Dialect.V4 then displacements else heights
         height.fold(smooth)(field => bumped(smooth, field()))
@@ -139,8 +139,8 @@ abstract class MaterialRecipe(
         turns = turns.forall(_())
       )
 
-  private def place()(using Site): Mapping2D =
-    AffineUvMapping.of(places.fold(Array.emptyFloatArray)(_()))
+  private def uvMapping()(using Site): Mapping2D =
+    AffineUvMapping.of(normalMapUv.fold(Array.emptyFloatArray)(_()))
 
   private def normalMap()(using site: Site): Option[MipLevel] =
     for
@@ -153,12 +153,12 @@ abstract class MaterialRecipe(
   private def normalMap(name: String, p: Param)(using site: Site): Option[MipLevel] =
     // pbrt-v4 decodes 8-bit files, except for PNG
     val isPng = name.toLowerCase.endsWith(".png")
-    def decodes(found: Encoding) =
-      val isDecoded = site.rules.decodesNormals && found != Encoding.Linear && !isPng
+    def decodes(encoding: Encoding) =
+      val isDecoded = site.rules.decodesNormals && encoding != Encoding.Linear && !isPng
       if isDecoded then
         site.problems.warn(
           Code.AsInPbrt,
-          p.at,
+          p.pos,
           "pbrt-v4 decodes this normal map as sRGB; it reads PNG and EXR as they are"
         )
       isDecoded
@@ -189,7 +189,7 @@ abstract class RoughRecipe(
     default: Float,
     across: Set[Dialect] = sinceV3
 ) extends MaterialRecipe(name, meaning, dialects):
-  private val both = floatTexture("roughness", "surface roughness; 0: smooth")(default)
+  private val isotropic = floatTexture("roughness", "surface roughness; 0: smooth")(default)
   private val u = alongAxis("u")
   private val v = alongAxis("v")
   private val distribution =
@@ -218,8 +218,8 @@ abstract class RoughRecipe(
             case _ => RoughnessModel.Gaussian
         else if remap() then RoughnessModel.SquareRootAlpha
         else RoughnessModel.PlainAlpha
-    val along = u.flatMap(_.given_()).getOrElse(both())
-    val sideways = v.flatMap(_.given_()).getOrElse(both())
+    val along = u.flatMap(_.given_()).getOrElse(isotropic())
+    val sideways = v.flatMap(_.given_()).getOrElse(isotropic())
     Roughness(along, sideways, model, smoothAtZero)
 
 /** Selects the formulas of pbrt-v2 or v3, which differ for some materials of the same name. */

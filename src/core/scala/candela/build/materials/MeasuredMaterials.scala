@@ -31,14 +31,14 @@ abstract class MeasuredRecipe(
   /** Whether the BSDF is isotropic. */
   protected def isIsotropic: Boolean
 
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     site.declaration.param(parameter).filter(_ => file().nonEmpty) match
       case None =>
         site.error(Code.MissingParameter, s"\"$name\" needs a `$parameter`")
         Materials.default
       case Some(p) =>
         val basis = site.resources.basis
-        val made =
+        val material =
           for
             there <-
               site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
@@ -70,7 +70,7 @@ abstract class MeasuredRecipe(
                 )
                 None
           yield ConstantMaterial(bsdf, isAnisotropic = !isIsotropic)
-        made.getOrElse(StandIns.material(basis))
+        material.getOrElse(StandIns.material(basis))
 
 /** pbrt-v2's measured BRDF. */
 object MeasuredTableRecipe

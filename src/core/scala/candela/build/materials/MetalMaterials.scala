@@ -89,7 +89,7 @@ private[build] trait MetalFields extends SpectrumFields:
   ): Option[Float => Float => Float] =
     (index.eta(), index.k()) match
       case (SpectrumSource.Uniform(eta), SpectrumSource.Uniform(k)) =>
-        val (n, a) = (kept(Indices.spectrum(eta)), kept(Indices.spectrum(k)))
+        val (n, a) = (cached(Indices.spectrum(eta)), cached(Indices.spectrum(k)))
         Some(c => nm => Fresnel.conductor(c, n(nm) / outside, a(nm) / outside))
       case _ => None
 
@@ -101,18 +101,18 @@ private[build] trait MetalFields extends SpectrumFields:
       val basis = site.resources.basis
       lazy val reflectance =
         if basis.isSpectral then basis.reflectance(c) else Indices.reflectance(basis.toSrgb(c))
-      val absorption = kept: nm =>
+      val absorption = cached: nm =>
         val r = clamp(reflectance(nm), 0f, 0.9999f)
         2f * sqrt(r) / sqrt(1f - r)
       cosTheta => nm => Fresnel.conductor(cosTheta, 1f / outside, absorption(nm) / outside)
 
   /** Evaluated once by wavelength where the reflectance has a colour at each of many cosines. */
-  private def kept(s: Float => Float)(using site: Site): Float => Float =
-    if site.resources.basis.isSpectral then s else Colorimetry.kept(s)
+  private def cached(s: Float => Float)(using site: Site): Float => Float =
+    if site.resources.basis.isSpectral then s else Colorimetry.memoized(s)
 
 object MirrorRecipe extends MaterialRecipe("mirror", "perfect specular mirror", untilV3):
   private val kr = rgbTexture("Kr", "reflectance")(Rgb.gray(0.9f))
-  protected def make()(using Site): Material = MirrorMaterial(kr())
+  protected def create()(using Site): Material = MirrorMaterial(kr())
 
 object MetalRecipe
     extends RoughRecipe(
@@ -123,7 +123,7 @@ object MetalRecipe
     )
     with MetalFields:
   private val index = metalIndex()
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     def rgb(v: SpectralValue): Rgb = Spectra.inBasis(v, SpectrumRole.Unbounded, site)
     val eta = SpectrumSource.textured(index.eta())(rgb)
     val k = SpectrumSource.textured(index.k())(rgb)
@@ -138,16 +138,16 @@ object ConductorRecipe
   private val scale = rgbTexture("scale", "scale of the reflectance", onlyMitsuba)(Rgb.White)
   protected val tint: Field[RgbTexture] = index.reflectance.get
 
-  override protected def make()(using Site): Material =
-    if tint.given_().isDefined then super.make()
+  override protected def create()(using Site): Material =
+    if tint.given_().isDefined then super.create()
     else ConductorMaterial(metal(index), roughness(), scale())
 
   protected def tinted()(using Site): (RgbTexture, Site) => Material =
     val (rough, scaled) = (roughness(), scale())
     val metal = tintedMetal(index)
     (reflectance, site) =>
-      val by = tintedSpectrum(reflectance, outside = 1f)
-      ConductorMaterial(metal(reflectance, by, site), rough, scaled)
+      val spectrum = tintedSpectrum(reflectance, outside = 1f)
+      ConductorMaterial(metal(reflectance, spectrum, site), rough, scaled)
 
 object ShinyMetalRecipe extends RoughRecipe(
       "shinymetal",
@@ -158,4 +158,4 @@ object ShinyMetalRecipe extends RoughRecipe(
     ):
   private val kr = rgbTexture("Kr", "mirror reflectance at normal incidence")(Rgb.White)
   private val ks = rgbTexture("Ks", "glossy reflectance at normal incidence")(Rgb.White)
-  protected def make()(using Site): Material = ShinyMetalMaterial(ks(), kr(), roughness())
+  protected def create()(using Site): Material = ShinyMetalMaterial(ks(), kr(), roughness())

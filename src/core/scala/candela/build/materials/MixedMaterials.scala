@@ -14,17 +14,19 @@ object MixRecipe
     string("namedmaterial1", "material where `amount` is 1", untilV3, shown = "none")("")
   private val second =
     string("namedmaterial2", "material where `amount` is 0", untilV3, shown = "none")("")
-  private val part = rgbTexture("amount", "fraction of the first material", untilV3)(Rgb.gray(0.5f))
-  private val both =
+  private val fraction =
+    rgbTexture("amount", "fraction of the first material", untilV3)(Rgb.gray(0.5f))
+  private val materialNames =
     strings("materials", "string[2]", "materials where `amount` is 0 and where it is 1", onlyV4)
-  private val partOfSecond = floatTexture("amount", "fraction of the second material", onlyV4)(0.5f)
+  private val fractionOfSecond =
+    floatTexture("amount", "fraction of the second material", onlyV4)(0.5f)
 
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     if site.dialect == Dialect.V4 then
-      both() match
+      materialNames() match
         case Vector(a, b) =>
           val (one, other) = pair(b, "materials", a, "materials")
-          mixed(one, other, GrayTexture(partOfSecond()))
+          mixed(one, other, GrayTexture(fractionOfSecond()))
         case names =>
           site.error(
             Code.ParameterCount,
@@ -33,7 +35,7 @@ object MixRecipe
           Materials.default
     else
       val (one, other) = pair(first(), "namedmaterial1", second(), "namedmaterial2")
-      mixed(one, other, part())
+      mixed(one, other, fraction())
 
   private def mixed(a: Material, b: Material, amount: RgbTexture)(using site: Site): Material =
     if a.isSubsurface || b.isSubsurface then
@@ -50,10 +52,10 @@ object TwoSidedRecipe
       "materials of the front and the back",
       onlyMitsuba
     ):
-  private val both =
+  private val materialNames =
     strings("materials", "string[2]", "materials of the front and the back")
 
-  protected def make()(using site: Site): Material = both() match
+  protected def create()(using site: Site): Material = materialNames() match
     case Vector(front, back) =>
       val (one, other) = pair(front, "materials", back, "materials")
       TwoSidedMaterial(one, other)
@@ -68,28 +70,28 @@ object TwoSidedRecipe
 private def pair(a: String, parameter: String, b: String, other: String)(using
     Site
 ): (Material, Material) =
-  val one = named(a, parameter)
-  (one, if b == a then one else named(b, other))
+  val material = named(a, parameter)
+  (material, if b == a then material else named(b, other))
 
 private[materials] def named(name: String, parameter: String)(using site: Site): Material =
-  val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)
-  val found = site.resources.materials(name, at, site.resources, site.problems)
-  if site.dialect == Dialect.V4 && found.isInterface then
-    val whole = site.declaration.name
+  val pos = site.declaration.param(parameter).fold(site.declaration.pos)(_.valuesAt)
+  val material = site.resources.materials(name, pos, site.resources, site.problems)
+  if site.dialect == Dialect.V4 && material.isInterface then
+    val outer = site.declaration.name
     site.problems.error(
       Code.ParameterValue,
-      at,
-      s"`$parameter` of \"$whole\" must not name an interface, found `$name`"
+      pos,
+      s"`$parameter` of \"$outer\" must not name an interface, found `$name`"
     )
-  FramedMaterial.of(found)
+  FramedMaterial.of(material)
 
 object NestedRecipe
     extends MaterialRecipe("nested", "material within another one", onlyMitsuba):
-  private val within = string("material", "name of the material")("")
+  private val innerName = string("material", "name of the material")("")
   private val onesided = bool("onesided", "whether it is black from behind")(false)
 
-  protected def make()(using site: Site): Material =
-    val inner = named(within(), "material")
+  protected def create()(using site: Site): Material =
+    val inner = named(innerName(), "material")
     if onesided() then inner.oneSided else inner
 
 /** A medium interface without a surface. */
@@ -97,4 +99,4 @@ final class InterfaceRecipe(name: String, dialects: Set[Dialect])
     extends MaterialRecipe(name, "medium interface without a surface", dialects, bumps = false):
   /** pbrt-v2 and v3 render unknown materials as their default. */
   override def isUnknownElsewhere: Boolean = true
-  protected def make()(using Site): Material = InterfaceMaterial
+  protected def create()(using Site): Material = InterfaceMaterial

@@ -13,16 +13,16 @@ final class ShapeMaterials(dialect: Dialect, named: Map[String, Declaration]):
     val pair =
       for
         said <- declaration(shape, material)
-        surface <- Materials.all.find(said.name, dialect)
-        geometry <- Shapes.all.find(shape.name, dialect)
+        surface <- Materials.all.lookUp(said.name, dialect)
+        geometry <- Shapes.all.lookUp(shape.name, dialect)
         moved = shape.params.filter: p =>
-          surface.takes(p.name, dialect) && !geometry.takes(p.name, dialect)
+          surface.hasParameter(p.name, dialect) && !geometry.hasParameter(p.name, dialect)
         if moved.nonEmpty
       yield
-        val kept = said.params.filterNot(p => moved.exists(_.name == p.name))
+        val remaining = said.params.filterNot(p => moved.exists(_.name == p.name))
         (
           shape.copy(params = shape.params.filterNot(moved.contains)),
-          MaterialRef.Inline(said.copy(params = kept ++ moved))
+          MaterialRef.Inline(said.copy(params = remaining ++ moved))
         )
     pair.getOrElse((shape, material))
 

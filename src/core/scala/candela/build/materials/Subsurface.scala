@@ -31,7 +31,8 @@ abstract class BssrdfRecipe(
   )(1.33f)
   protected val index: Field[FloatTexture] =
     floatTexture("index", "index of refraction", onlyV2, range = Indices.range)(1.3f)
-  private val both = floatTexture("roughness", "roughness along u and v; 0: smooth", onlyV4)(0f)
+  private val isotropic =
+    floatTexture("roughness", "roughness along u and v; 0: smooth", onlyV4)(0f)
   private val alongV3 = floatTexture("uroughness", "roughness along u; 0: smooth", onlyV3)(0f)
   private val acrossV3 = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
   private val alongV4 =
@@ -49,7 +50,7 @@ abstract class BssrdfRecipe(
 
   protected def interior()(using Site): Interior
 
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     SubsurfaceMaterial(boundary(), interior(), alongTangents = site.dialect == Dialect.V3)
 
   private def boundary()(using site: Site): Material = site.dialect match
@@ -60,8 +61,8 @@ abstract class BssrdfRecipe(
       new DielectricMaterial(kr(), kt(), ConstantFloat(eta()), rough)
     case Dialect.V4 | Dialect.Mitsuba =>
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
-      val across = acrossV4.given_().getOrElse(both())
-      DielectricMaterial(eta(), Roughness(alongV4.given_().getOrElse(both()), across, model))
+      val across = acrossV4.given_().getOrElse(isotropic())
+      DielectricMaterial(eta(), Roughness(alongV4.given_().getOrElse(isotropic()), across, model))
 
   protected def table(g: Float)(using site: Site): ProfileTable =
     site.resources.profiles.of(g, eta())
@@ -98,7 +99,7 @@ object SubsurfaceRecipe
     )(Rgb.White)
 
   /** Whole milk, pbrt's default. */
-  private def Milk = MeasuredMedia.find("Wholemilk", Dialect.V4).get
+  private def Milk = MeasuredMedia.coefficients("Wholemilk", Dialect.V4).get
 
   protected def interior()(using site: Site): Interior =
     val measured = measuredName.given_().filter(_.nonEmpty).flatMap(named)
@@ -116,20 +117,25 @@ object SubsurfaceRecipe
         DipoleInterior(a, s, scale(), index(), DipolePoints.Covered)
 
   private def named(name: String)(using site: Site): Option[MediumCoefficients] =
-    val found = MeasuredMedia.find(name, site.dialect)
-    if found.isEmpty then
-      val at = site.declaration.param("name").fold(site.declaration.at)(_.valuesAt)
+    val medium = MeasuredMedia.coefficients(name, site.dialect)
+    if medium.isEmpty then
+      val pos = site.declaration.param("name").fold(site.declaration.pos)(_.valuesAt)
       val message = s"unknown measured material \"$name\""
       val help = Suggest.help(name, MeasuredMedia.names(site.dialect))
       if site.dialect == Dialect.V4 then
-        site.problems.missing(Code.UnknownType, at, message, "using \"Wholemilk\"", help)
+        site.problems.missing(Code.UnknownType, pos, message, "using \"Wholemilk\"", help)
       else
-        site.problems.warn(Code.UnknownType, at, s"$message; using \"Wholemilk\", as in pbrt", help)
-    found
+        site.problems.warn(
+          Code.UnknownType,
+          pos,
+          s"$message; using \"Wholemilk\", as in pbrt",
+          help
+        )
+    medium
 
-  private def measuredInterior(found: Option[MediumCoefficients])(using site: Site): Interior =
+  private def measuredInterior(measured: Option[MediumCoefficients])(using site: Site): Interior =
     if g() != 0f then site.warn(Code.IdleParameter, "`g` is ignored because `name` is given")
-    val medium = found.getOrElse(Milk)
+    val medium = measured.getOrElse(Milk)
     coefficients(color(medium.absorption), color(medium.scattering), 0f)
 
   private def ofColors()(using site: Site): Interior =

@@ -18,14 +18,14 @@ private[build] trait TintedRecipe extends MaterialRecipe:
     */
   protected def tinted()(using Site): (RgbTexture, Site) => Material
 
-  protected def make()(using site: Site): Material =
+  protected def create()(using site: Site): Material =
     val color = tint() // what is wrong with it is said first
     tinted()(color, site)
 
   /** As [[build]], of statements that are [[isAlike]]: `apply` makes each by its site. */
   final def family(first: Site): Site => Material =
-    val made = tinted()(using first)
-    site => made(tint.again()(using site).getOrElse(tint()(using site)), site).folded
+    val colored = tinted()(using first)
+    site => colored(tint.again()(using site).getOrElse(tint()(using site)), site).folded
 
   /** Whether two statements of this material differ in nothing but the numbers of its colour. */
   final def isAlike(a: Declaration, b: Declaration): Boolean =

@@ -15,19 +15,19 @@ private[media] abstract class GridBytes(val size: Long):
     *
     * @throws NanoVdbError if there are fewer
     */
-  final def at(place: Long, count: Int): ByteBuffer =
+  final def read(place: Long, count: Int): ByteBuffer =
     if place < 0 || place > size - count then
       throw NanoVdbError(s"the file is damaged or cut short: $count bytes at $place of $size")
     val target = ByteBuffer.allocate(count).order(ByteOrder.LITTLE_ENDIAN)
     fill(place, target)
     target.flip()
 
-  final def part(start: Long, length: Long): GridBytes =
+  final def slice(start: Long, length: Long): GridBytes =
     if start < 0 || length < 0 || start > size - length then
       throw NanoVdbError(s"the file is cut short: $length bytes at $start of $size")
-    val whole = this
+    val outer = this
     new GridBytes(length):
-      protected def fill(at: Long, target: ByteBuffer): Unit = whole.fill(start + at, target)
+      protected def fill(at: Long, target: ByteBuffer): Unit = outer.fill(start + at, target)
 
 private[media] final class FileBytes(channel: FileChannel, start: Long, length: Long)
     extends GridBytes(length):
@@ -40,13 +40,13 @@ private[media] final class FileBytes(channel: FileChannel, start: Long, length: 
 private[media] final class InflatedBytes(pages: Vector[Array[Byte]], length: Long)
     extends GridBytes(length):
   protected def fill(at: Long, target: ByteBuffer): Unit =
-    var from = at
+    var position = at
     while target.hasRemaining do
-      val page = pages((from / InflatedBytes.PageSize).toInt)
-      val offset = (from % InflatedBytes.PageSize).toInt
+      val page = pages((position / InflatedBytes.PageSize).toInt)
+      val offset = (position % InflatedBytes.PageSize).toInt
       val count = Math.min(page.length - offset, target.remaining)
       val _ = target.put(page, offset, count)
-      from += count
+      position += count
 
 private[media] object InflatedBytes:
   private val PageSize = 1 << 20
@@ -54,28 +54,28 @@ private[media] object InflatedBytes:
 
   /** Decompresses `size` bytes: 8 bytes have the length of the zlib stream that follows. */
   def of(file: GridBytes, start: Long, stored: Long, size: Long): InflatedBytes =
-    val length = file.at(start, 8).getLong()
+    val length = file.read(start, 8).getLong()
     if length > stored - 8 then throw NanoVdbError("the length of a ZIP stream is damaged")
-    val source = file.part(start + 8, length)
+    val source = file.slice(start + 8, length)
     val inflater = Inflater()
     try
       val pages = mutable.ArrayBuffer.empty[Array[Byte]]
       var read = 0L
-      var left = size
+      var remaining = size
       // Pages are allocated as they fill: a damaged size requests no memory.
-      while left > 0 do
-        val page = new Array[Byte](Math.min(left, PageSize).toInt)
+      while remaining > 0 do
+        val page = new Array[Byte](Math.min(remaining, PageSize).toInt)
         var filled = 0
         while filled < page.length do
           if inflater.needsInput then
             val count = Math.min(length - read, ReadSize).toInt
             if count == 0 || inflater.finished then throw NanoVdbError("a ZIP stream is cut short")
-            inflater.setInput(source.at(read, count))
+            inflater.setInput(source.read(read, count))
             read += count
           if inflater.finished then throw NanoVdbError("a ZIP stream is cut short")
           filled += inflater.inflate(page, filled, page.length - filled)
         pages += page
-        left -= page.length
+        remaining -= page.length
       InflatedBytes(pages.toVector, size)
     catch
       case e: DataFormatException => throw NanoVdbError(s"a ZIP stream is damaged: ${e.getMessage}")

@@ -20,17 +20,18 @@ final case class MediumCoefficients(absorption: Rgb, scattering: Rgb)
   */
 private[build] object MeasuredMedia:
 
-  def find(name: String, dialect: Dialect): Option[MediumCoefficients] = table(dialect).get(name)
+  def coefficients(name: String, dialect: Dialect): Option[MediumCoefficients] =
+    table(dialect).get(name)
 
   def names(dialect: Dialect): Vector[String] = table(dialect).keys.toVector.sorted
 
-  private def table(dialect: Dialect) = if dialect == Dialect.V2 then old else current
+  private def table(dialect: Dialect) = if dialect == Dialect.V2 then ofV2 else current
 
   private lazy val samples = read("samples")
   private lazy val current = samples ++ read("liquids")
 
   /** pbrt-v2 uses the measured extinction as scattering. */
-  private lazy val old = samples ++ read("liquids-v2")
+  private lazy val ofV2 = samples ++ read("liquids-v2")
 
   /** Reads rows of a name, three numbers and three numbers; # begins a comment. */
   private def read(file: String): Map[String, MediumCoefficients] =

@@ -92,14 +92,14 @@ trait HasCoefficients extends Scatters:
 
   /** Absorption and scattering coefficients. */
   protected def coefficients()(using site: Site): (Rgb, Rgb) =
-    val known = measured()
+    val tabulated = measured()
     def of(given_ : Option[Rgb], preset: Option[Rgb], default: => Rgb) =
       val first =
         if site.dialect == Dialect.V4 then preset.orElse(given_) else given_.orElse(preset)
       notNegative(first.getOrElse(default) * factor())
     (
-      of(sigmaA.given_(), known.map(_.absorption), sigmaA()),
-      of(sigmaS.given_(), known.map(_.scattering), sigmaS())
+      of(sigmaA.given_(), tabulated.map(_.absorption), sigmaA()),
+      of(sigmaS.given_(), tabulated.map(_.scattering), sigmaS())
     )
 
 trait HasScale extends HasCoefficients:
@@ -112,16 +112,18 @@ trait HasPreset extends HasCoefficients:
 
   override protected def measured()(using site: Site): Option[MediumCoefficients] =
     val name = preset()
-    val found = MeasuredMedia.find(name, site.dialect)
-    if name.nonEmpty && found.isEmpty then
+    val medium = MeasuredMedia.coefficients(name, site.dialect)
+    if name.nonEmpty && medium.isEmpty then
       site.problems.warn(
         Code.UnknownType,
-        site.declaration.param("preset").fold(site.declaration.at)(_.valuesAt),
+        site.declaration.param("preset").fold(site.declaration.pos)(_.valuesAt),
         s"unknown measured medium \"$name\"; using the coefficients, as pbrt does",
         Suggest.help(name, MeasuredMedia.names(site.dialect))
       )
     val basis = site.resources.basis
-    found.map(m => MediumCoefficients(basis.unbounded(m.absorption), basis.unbounded(m.scattering)))
+    medium.map(m =>
+      MediumCoefficients(basis.unbounded(m.absorption), basis.unbounded(m.scattering))
+    )
 
 /** Media of a grid, which may fill more than the grid. */
 trait FillsBox extends HasBox:
@@ -143,9 +145,9 @@ trait HasGrid extends HasCells:
 
   /** Samples of one value each; None, after a report, if there is a wrong number of them. */
   protected final class Samples(values: Field[Array[Float]]):
-    private val made = Once[Option[SampledGrid]]()
+    private val grid = Once[Option[SampledGrid]]()
     def apply()(using Site): Option[SampledGrid] =
-      made(grids(values.name, values(), 1).map(_.head))
+      grid(grids(values.name, values(), 1).map(_.head))
 
   protected def grids(name: String, values: Array[Float], channels: Int)(using
       site: Site

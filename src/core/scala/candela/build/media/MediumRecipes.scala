@@ -18,7 +18,7 @@ object HomogeneousRecipe
   private val emittedScale =
     float("Lescale", "scale of the emission", onlyV4, range = Coefficients)(1f)
 
-  protected def make()(using Site): Option[Medium] =
+  protected def create()(using Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
     val le = notNegative(emitted() * emittedScale())
     Option.unless((absorption + scattering).isBlack)(
@@ -34,7 +34,7 @@ object HeterogeneousRecipe
   private val densities =
     Samples(densityOfCells)
 
-  protected def make()(using site: Site): Option[Medium] =
+  protected def create()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
     val t = absorption + scattering
     if t.r != t.g || t.g != t.b then
@@ -72,7 +72,7 @@ object UniformGridRecipe
       "Le", "emitted radiance", SpectrumRole.Emission, onlyV4, "W/(m² sr)", "none", Held
     )(Rgb.Black)
 
-  protected def make()(using site: Site): Option[Medium] =
+  protected def create()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
     for
       map <- toUnit()
@@ -131,7 +131,7 @@ object RgbGridRecipe
   private val emittedScale =
     float("Lescale", "scale of the emission", onlyV4, range = Coefficients)(1f)
 
-  protected def make()(using site: Site): Option[Medium] =
+  protected def create()(using site: Site): Option[Medium] =
     val (a, s, le) = (
       colors(sigmaA(), SpectrumRole.Unbounded),
       colors(sigmaS(), SpectrumRole.Unbounded),
@@ -189,7 +189,7 @@ object CloudRecipe
   private val wispiness = float("wispiness", "wispiness of the edges")(1f)
   private val frequency = float("frequency", "frequency of the noise")(5f)
 
-  protected def make()(using site: Site): Option[Medium] =
+  protected def create()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
     val (low, high): (Vec3, Vec3) = corners(sorted = true)
     toUnit().map: map =>

@@ -32,7 +32,7 @@ private[media] object NanoVdbChecksum:
     * @throws NanoVdbError if the grid is damaged
     */
   def check(bytes: GridBytes, upper: Int, lower: Int, leaf: Int): Unit =
-    val sums = bytes.at(Sums, 8)
+    val sums = bytes.read(Sums, 8)
     val (head, tail) = (sums.getInt(0), sums.getInt(4))
     // Writers without checksums leave zeros, too
     if (head != Missing || tail != Missing) && (head != 0 || tail != 0) then
@@ -47,10 +47,10 @@ private[media] object NanoVdbChecksum:
 
   /** Where the head may end: after the tree, after the root, or before what is no node. */
   private def headEnds(bytes: GridBytes): Vector[Long] =
-    val header = bytes.at(0, TreeEnd)
+    val header = bytes.read(0, TreeEnd)
     val root = Tree + header.getLong(Tree + 24)
     val tiles =
-      if root >= TreeEnd && root <= bytes.size - RootSize then bytes.at(root, RootSize).getInt(24)
+      if root >= TreeEnd && root <= bytes.size - RootSize then bytes.read(root, RootSize).getInt(24)
       else 0
     val firstUpper = Tree + header.getLong(Tree + 16)
     Vector(
@@ -63,29 +63,29 @@ private[media] object NanoVdbChecksum:
 
   private def crc(bytes: GridBytes, from: Long, end: Long): Int =
     val sum = CRC32()
-    var at = from
-    while at < end do
-      val count = Math.min(end - at, ReadSize).toInt
-      sum.update(bytes.at(at, count))
-      at += count
+    var position = from
+    while position < end do
+      val count = Math.min(end - position, ReadSize).toInt
+      sum.update(bytes.read(position, count))
+      position += count
     sum.getValue.toInt
 
   /** The sum of the sums of blocks; the last one has the rest. */
   private def blocks(bytes: GridBytes, from: Long): Int =
     val count = (bytes.size - from) / BlockSize
-    val all = CRC32()
-    val one = ByteBuffer.allocate(4).order(ByteOrder.LITTLE_ENDIAN)
+    val combined = CRC32()
+    val buffer = ByteBuffer.allocate(4).order(ByteOrder.LITTLE_ENDIAN)
     var i = 0L
     while i < count do
       val start = from + i * BlockSize
       val end = if i == count - 1 then bytes.size else start + BlockSize
-      all.update(one.clear().putInt(crc(bytes, start, end)).flip())
+      combined.update(buffer.clear().putInt(crc(bytes, start, end)).flip())
       i += 1
-    all.getValue.toInt
+    combined.getValue.toInt
 
   /** The sum of the sums of nodes, each of which has 4 bytes or, on some systems, 8. */
   private def nodes(bytes: GridBytes, sizes: Vector[Int]): Vector[Int] =
-    val header = bytes.at(0, TreeEnd)
+    val header = bytes.read(0, TreeEnd)
     // From the upper ones to the leaves
     val levels = Vector(2, 1, 0).zip(sizes).map: (level, size) =>
       val first = Tree + header.getLong(Tree + 8 * level)
@@ -95,11 +95,11 @@ private[media] object NanoVdbChecksum:
     if !fits then Vector.empty
     else
       val (short, long) = (CRC32(), CRC32())
-      val one = ByteBuffer.allocate(8).order(ByteOrder.LITTLE_ENDIAN)
+      val buffer = ByteBuffer.allocate(8).order(ByteOrder.LITTLE_ENDIAN)
       for (first, count, size) <- levels do
         loop(count): i =>
-          val at = first + i.toLong * size
-          val _ = one.clear().putLong(crc(bytes, at, at + size) & 0xffffffffL)
-          short.update(one.array, 0, 4)
-          long.update(one.array, 0, 8)
+          val start = first + i.toLong * size
+          val _ = buffer.clear().putLong(crc(bytes, start, start + size) & 0xffffffffL)
+          short.update(buffer.array, 0, 4)
+          long.update(buffer.array, 0, 8)
       Vector(short.getValue.toInt, long.getValue.toInt)

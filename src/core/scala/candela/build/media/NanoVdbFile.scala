@@ -63,7 +63,7 @@ object NanoVdbFile:
       if codec == 0 && stored != size then
         throw NanoVdbError(s"byte $at: grid `$name` has $stored bytes, expected $size")
       Codecs.lift(codec) match
-        case Some("no compression") => file.part(at, stored)
+        case Some("no compression") => file.slice(at, stored)
         case Some("ZIP") => InflatedBytes.of(file, at, stored, size)
         case other =>
           val coding = other.getOrElse(s"compression number $codec")
@@ -72,31 +72,31 @@ object NanoVdbFile:
           )
 
   private def entries(file: GridBytes): Vector[Entry] =
-    val found = mutable.ArrayBuffer.empty[Entry]
-    var at = 0L
-    while at < file.size do
-      val header = file.at(at, HeaderSize)
+    val result = mutable.ArrayBuffer.empty[Entry]
+    var position = 0L
+    while position < file.size do
+      val header = file.read(position, HeaderSize)
       val mark = UTF_8.decode(header.slice(0, 8)).toString
       if !Marks.contains(mark) then
-        val what = if at == 0 then "not a NanoVDB file" else "damaged"
-        throw NanoVdbError(s"$what: byte $at must begin with `${Marks.head}`")
+        val problem = if position == 0 then "not a NanoVDB file" else "damaged"
+        throw NanoVdbError(s"$problem: byte $position must begin with `${Marks.head}`")
       val version = header.getInt(8) >>> 21
       if version != Version then
         throw NanoVdbError(s"it has version $version of the format, expected $Version")
       val (count, codec) = (header.getShort(12) & 0xffff, header.getShort(14) & 0xffff)
-      at += HeaderSize
+      position += HeaderSize
       val described = Vector.fill(count):
-        val meta = file.at(at, MetaSize)
+        val meta = file.read(position, MetaSize)
         val (size, stored, length) = (meta.getLong(0), meta.getLong(8), meta.getInt(136))
         if size < 0 || stored < 0 || length < 1 || length > LongestName then
-          throw NanoVdbError(s"byte $at: the description of a grid is damaged")
-        val name = UTF_8.decode(file.at(at + MetaSize, length)).toString.takeWhile(_ != 0)
-        at += MetaSize + length
+          throw NanoVdbError(s"byte $position: the description of a grid is damaged")
+        val name = UTF_8.decode(file.read(position + MetaSize, length)).toString.takeWhile(_ != 0)
+        position += MetaSize + length
         (name, size, stored)
       for (name, size, stored) <- described do
-        if stored > file.size - at then
-          throw NanoVdbError(s"the file is cut short: $stored bytes at $at of ${file.size}")
-        found += Entry(name, at, stored, size, codec)
-        at += stored
-    if found.isEmpty then throw NanoVdbError("the file is empty")
-    found.toVector
+        if stored > file.size - position then
+          throw NanoVdbError(s"the file is cut short: $stored bytes at $position of ${file.size}")
+        result += Entry(name, position, stored, size, codec)
+        position += stored
+    if result.isEmpty then throw NanoVdbError("the file is empty")
+    result.toVector

@@ -22,7 +22,7 @@ object NanoVdbRecipe
   private val stored = Once[Option[Voxels]]()
   private val Ignored = "ignoring the medium"
 
-  protected def make()(using site: Site): Option[Medium] =
+  protected def create()(using site: Site): Option[Medium] =
     site.declaration.param("filename").filter(_ => filename().nonEmpty) match
       case None =>
         site.error(Code.MissingParameter, "a \"nanovdb\" medium needs `filename`")
@@ -70,9 +70,9 @@ object NanoVdbRecipe
       file.digest(): Unit
       NanoVdbFile.read(file, gridName()) match
         case Left(names) =>
-          val found = names.distinct.sorted.mkString("`", "`, `", "`")
+          val available = names.distinct.sorted.mkString("`", "`, `", "`")
           val help = Suggest.nearest(gridName(), names).map(n => s"\"string gridname\" \"$n\"")
-          refuse(s"it has no grid `${gridName()}`, only $found", help)
+          refuse(s"it has no grid `${gridName()}`, only $available", help)
         case Right(grid) =>
           val temperature = NanoVdbFile.read(file, temperatureName()).toOption
           if temperature.isEmpty && temperatureName.given_().isDefined then
@@ -96,12 +96,12 @@ object NanoVdbRecipe
     // Floats are coarse where a grid is many times its size from its origin
     val isFar = corners.head.reach >= 1024 * corners.map(_.distance(corners.head)).max
     val origin = if isFar then corners.head else Position.Origin
-    def near(p: Position) = Vec3(
+    def toLocal(p: Position) = Vec3(
       (p.x - origin.x).toFloat,
       (p.y - origin.y).toFloat,
       (p.z - origin.z).toFloat
     )
-    val box = Bounds3.of(corners.map(near))
+    val box = Bounds3.of(corners.map(toLocal))
     val (low, size) = (box.min, box.max - box.min)
     val fits = low.isFinite && size.isFinite
     for scale <- Transform.scale(size.x, size.y, size.z) if fits yield

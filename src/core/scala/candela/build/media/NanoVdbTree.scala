@@ -60,7 +60,7 @@ private[media] object NanoVdbTree:
     private var leavesLeft = bytes.size / LeafSize
 
     def grid(): NanoVdbGrid =
-      val header = bytes.at(0, HeaderSize + 64)
+      val header = bytes.read(0, HeaderSize + 64)
       val (kind, use) = (header.getInt(GridType), header.getInt(GridClass))
       if kind != 1 then
         throw NanoVdbError(s"its values are of type ${named(kind, Types)}, expected float")
@@ -68,13 +68,13 @@ private[media] object NanoVdbTree:
         throw NanoVdbError(s"the grid is a ${named(use, Classes)}, expected a fog volume")
       NanoVdbChecksum.check(bytes, Level.Upper.size, Level.Lower.size, LeafSize)
       val root = HeaderSize + header.getLong(RootOffset)
-      val head = bytes.at(root, RootSize)
+      val head = bytes.read(root, RootSize)
       val tiles = head.getInt(24)
       val background = number(head.getFloat(28))
       if tiles < 0 || tiles > (bytes.size - root) / TileSize then
         throw NanoVdbError(s"the root can't have ${tiles & 0xffffffffL} tiles")
       loop(tiles)(i =>
-        tile(bytes.at(root + RootSize + i * TileSize.toLong, TileSize), root, background)
+        tile(bytes.read(root + RootSize + i * TileSize.toLong, TileSize), root, background)
       )
       val tree = VoxelTree.of(nodes, background)
         .getOrElse(throw NanoVdbError("its voxels are too far apart"))
@@ -134,13 +134,13 @@ private[media] object NanoVdbTree:
     private def leaf(at: Long): Array[Float] =
       leavesLeft -= 1
       if leavesLeft < 0 then throw NanoVdbError("it has more leaves than bytes for them")
-      val values = bytes.at(at + LeafValues, 4 * VoxelNode.LeafSize)
+      val values = bytes.read(at + LeafValues, 4 * VoxelNode.LeafSize)
       Array.tabulate(VoxelNode.LeafSize)(i => number(values.getFloat(4 * i)))
 
     private def visit(at: Long, level: Level): ByteBuffer =
       nodesLeft -= 1
       if nodesLeft < 0 then throw NanoVdbError("it has more nodes than bytes for them")
-      bytes.at(at, level.size)
+      bytes.read(at, level.size)
 
     private def isChild(node: ByteBuffer, level: Level, n: Int): Boolean =
       (node.get(level.children + n / 8) >> (n % 8) & 1) != 0
@@ -153,13 +153,13 @@ private[media] object NanoVdbTree:
 
     /** Equal ones are one object: damaged files have many. */
     private def constantNode(value: Float): VoxelNode =
-      val made = constantNodes.getOrElseUpdate(
+      val node = constantNodes.getOrElseUpdate(
         java.lang.Float.floatToIntBits(value),
         VoxelNode(Array.fill(VoxelNode.LeafCount)(constant(value)))
       )
       if constantNodes.size > MostConstants then
         throw NanoVdbError(s"more than $MostConstants of its large tiles differ")
-      made
+      node
 
     private def number(value: Float): Float =
       if !(Math.abs(value) <= SampledGrid.MaxValue) then

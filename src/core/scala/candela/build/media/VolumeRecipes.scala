@@ -49,17 +49,17 @@ private object VolumeRecipe:
   private val Far = 1024.0
 
 object HomogeneousVolumeRecipe extends VolumeRecipe("homogeneous", "homogeneous volume in a box"):
-  protected def make()(using site: Site): Option[Region] =
+  protected def create()(using site: Site): Option[Region] =
     box().map((toWorld, b) => UniformRegion(toWorld, b, filling()))
 
 object ExponentialVolumeRecipe
     extends VolumeRecipe("exponential", "density that falls off with height h: a exp(-b h)"):
   private val ground = float("a", "density at height 0", range = Coefficients)(1f)
-  private val fall = float("b", "falloff of the density", unit = PerUnit)(1f)
-  private val up = vector("updir", "direction of height")(Vec3.Y)
+  private val falloff = float("b", "falloff of the density", unit = PerUnit)(1f)
+  private val upDirection = vector("updir", "direction of height")(Vec3.Y)
 
-  protected def make()(using site: Site): Option[Region] =
-    val direction = up()
+  protected def create()(using site: Site): Option[Region] =
+    val direction = upDirection()
     if direction.isZero then
       site.error(Code.ParameterValue, "`updir` must not be zero")
       None
@@ -71,14 +71,14 @@ object ExponentialVolumeRecipe
         filling(),
         direction.normalized,
         ground(),
-        fall()
+        falloff()
       )
 
 object VolumeGridRecipe extends VolumeRecipe("volumegrid", "density grid in a box") with HasGrid:
   private val densities =
     Samples(densityOfCells)
 
-  protected def make()(using site: Site): Option[Region] =
+  protected def create()(using site: Site): Option[Region] =
     for
       (toWorld, b) <- box()
       density <- densities()

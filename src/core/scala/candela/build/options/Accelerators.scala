@@ -18,19 +18,19 @@ object BvhRecipe
     string("splitmethod", "split method: sah, hlbvh, middle, equal")("sah"),
     integer("maxnodeprims", "maximum primitives per leaf")(4)
   )
-  protected def make()(using site: Site): AcceleratorPlan = accelerator(site.resources)
+  protected def create()(using site: Site): AcceleratorPlan = accelerator(site.resources)
 
   /** The default accelerator. */
   def accelerator(resources: Resources): AcceleratorPlan =
     (primitives, samples) =>
-      Hierarchies.of(primitives, resources.pool, samples, resources.warmUps, resources.keep)
+      Hierarchies.of(primitives, resources.pool, samples, resources.warmUps, resources.cache)
 
 object GridRecipe
     extends Recipe[AcceleratorPlan]("grid", "uniform grid", onlyV2):
   noMeaning("all shapes are refined in advance")(
     bool("refineimmediately", "refine all shapes when the grid is built")(false)
   )
-  protected def make()(using Site): AcceleratorPlan = (primitives, _) => Grid(primitives)
+  protected def create()(using Site): AcceleratorPlan = (primitives, _) => Grid(primitives)
 
 object KdTreeRecipe
     extends Recipe[AcceleratorPlan]("kdtree", "k-d tree"):
@@ -42,5 +42,5 @@ object KdTreeRecipe
     integer("maxprims", "maximum primitives per leaf")(1),
     integer("maxdepth", "maximum depth", shown = "by the count")(-1)
   )
-  protected def make()(using site: Site): AcceleratorPlan =
+  protected def create()(using site: Site): AcceleratorPlan =
     BvhRecipe.accelerator(site.resources)

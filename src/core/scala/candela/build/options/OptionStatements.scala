@@ -45,7 +45,7 @@ object OptionRecipe extends Recipe[RenderSettings]("", "settings of the whole sc
     bool("wavefront", "use the wavefront renderer")(false)
   )
 
-  protected def make()(using site: Site): RenderSettings =
+  protected def create()(using site: Site): RenderSettings =
     val _ = space() // `Motions` reads it from the description
     for (one, other) <- Seq(reference -> errors, errors -> reference) do
       if one().nonEmpty && other().isEmpty then
@@ -59,7 +59,7 @@ object OptionRecipe extends Recipe[RenderSettings]("", "settings of the whole sc
       edgeScale = edgeScale.given_(),
       output = OutputSettings(
         reference = placed(reference)((folder, name, at) =>
-          folder.find(name, Some(at)).fold(folder.path.resolve(name))(_.path).toString
+          folder.locate(name, Some(at)).fold(folder.path.resolve(name))(_.path).toString
         ),
         errors = placed(errors)((folder, name, _) => folder.path.resolve(name).toString)
       )
@@ -90,4 +90,4 @@ object ColorSpaces:
 
 final class ColorSpaceRecipe(space: ColorSpace)
     extends Recipe[ColorSpace](space.name, space.meaning, onlyV4):
-  protected def make()(using Site): ColorSpace = space
+  protected def create()(using Site): ColorSpace = space

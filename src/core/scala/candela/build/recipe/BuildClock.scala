@@ -9,22 +9,22 @@ final class BuildClock:
   private val owner = Thread.currentThread
   private val nanos = new Array[Long](CostKind.values.length)
   private var kind = -1
-  private var since = 0L
+  private var start = 0L
 
   /** Runs `body`, whose time is of `part`. */
   def during[A](part: CostKind)(body: => A): A =
     if Thread.currentThread ne owner then body
     else
-      val before = kind
+      val outer = kind
       turn(part.ordinal)
       try body
-      finally turn(before)
+      finally turn(outer)
 
   /** Of the part, so far. */
   def seconds(part: CostKind): Double = nanos(part.ordinal) * 1e-9
 
   private def turn(to: Int): Unit =
-    val now = System.nanoTime
-    if kind >= 0 then nanos(kind) += now - since
+    val time = System.nanoTime
+    if kind >= 0 then nanos(kind) += time - start
     kind = to
-    since = now
+    start = time

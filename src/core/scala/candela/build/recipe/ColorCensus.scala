@@ -33,10 +33,11 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
     * of some daylight, for what surfaces make of it.
     */
   def light: Float => Double =
-    val all =
+    val normalized =
       for l <- lights.map(_.values); y = ColorError.luminance(l) if y > 0 yield l.map(_ / y)
     val mean = ColorError.wavelengths.indices.map: w =>
-      if all.isEmpty then 1.0 else Daylight + (1 - Daylight) * all.map(_(w)).sum / all.size
+      if normalized.isEmpty then 1.0
+      else Daylight + (1 - Daylight) * normalized.map(_(w)).sum / normalized.size
     ColorError.light(mean.toArray)
 
   /** What is to be said of a material if the scene is rendered in wavelengths: those of their sets
@@ -89,8 +90,8 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
     val isGrey = (c - Rgb.gray(c.g)).largest <= 1e-4f * c.g
     if c.isFinite && c.max > 0f then
       // Half as bright as can be, as in pbrt-v4
-      lazy val half = SmoothSpectra.spectrum(c * (0.5f / c.max))
-      val smooth = (nm: Float) => if isGrey then c.g else half(nm) * 2f * c.max
+      lazy val dimmed = SmoothSpectra.spectrum(c * (0.5f / c.max))
+      val smooth = (nm: Float) => if isGrey then c.g else dimmed(nm) * 2f * c.max
       role match
         case SpectrumRole.Emission =>
           val full = c * (1f / c.max)
@@ -125,9 +126,9 @@ final class ColorCensus(basis: ColorBasis, pool: Parallel = Parallel.Alone):
     val cell = cellOf(c)
     if cell < 0 then outerCells.add((isEmitted, c.map(x => Math.floor(x * Cells).toFloat)))
     else
-      val at = 2 * cell + (if isEmitted then 1 else 0)
-      val isFirst = !cells.get(at)
-      cells.set(at)
+      val bit = 2 * cell + (if isEmitted then 1 else 0)
+      val isFirst = !cells.get(bit)
+      cells.set(bit)
       isFirst
 
   /** Of a colour with components in [0, 1]; else −1. */

@@ -29,17 +29,20 @@ private[recipe] final class Compositions(most: Int, deepest: Int):
     val outer = named
     named = mutable.HashSet.empty
     try
-      val made = make
-      val parts = if isPlain(made) then Vector.empty else named.toVector.flatMap(sizes.get)
-      val count = parts.map(_.count).sum
-      val depth = parts.map(_.depth).maxOption.getOrElse(0)
+      val result = make
+      val partSizes = if isPlain(result) then Vector.empty else named.toVector.flatMap(sizes.get)
+      val count = partSizes.map(_.count).sum
+      val depth = partSizes.map(_.depth).maxOption.getOrElse(0)
       val isTooLarge = count > most || depth > deepest
       sizes((kind, name)) = if isTooLarge then Size(1, 1) else Size(count + 1, depth + 1)
       if count > most then
-        lighten(made, s"$count others, each counted as often as it is named; the maximum is $most")
+        lighten(
+          result,
+          s"$count others, each counted as often as it is named; the maximum is $most"
+        )
       else if depth > deepest then
-        lighten(made, s"$depth others within each other; the maximum is $deepest")
-      else Right(made)
+        lighten(result, s"$depth others within each other; the maximum is $deepest")
+      else Right(result)
     finally named = outer
 
 private[recipe] object Compositions:

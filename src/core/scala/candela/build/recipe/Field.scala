@@ -7,12 +7,12 @@ import candela.scenefile.{Dialect, Param, ParamType}
 
 /** One parameter of a recipe: name, type, default, documentation and reader.
   *
-  * @param typeName the type as spelled in scene files, for documentation and messages
-  * @param unit     unit of the values, or empty
-  * @param range    the numbers that it takes, per dialect
-  * @param default  default value, per dialect
-  * @param shown    default as text, per dialect
-  * @param adapt    the default for a site
+  * @param typeName    the type as spelled in scene files, for documentation and messages
+  * @param unit        unit of the values, or empty
+  * @param range       the numbers that it takes, per dialect
+  * @param default     default value, per dialect
+  * @param defaultText default as text, per dialect
+  * @param adapt       the default for a site
   */
 class Field[T](
     val name: String,
@@ -22,7 +22,7 @@ class Field[T](
     val unit: String,
     val range: Dialect => Range,
     val default: Dialect => T,
-    val shown: Dialect => String,
+    val defaultText: Dialect => String,
     read: (Param, Site) => Option[T],
     adapt: (T, Site) => T
 ):
@@ -44,8 +44,8 @@ class Field[T](
   def again()(using site: Site): Option[T] = site.declaration.param(name).flatMap(held(_, site))
 
   private def held(p: Param, site: Site): Option[T] =
-    val taken = if Field.OfSpectra(p.paramType) then Range.Any else range(site.dialect)
-    taken.held(p, unit, site).flatMap(read(_, site))
+    val accepted = if Field.OfSpectra(p.paramType) then Range.Any else range(site.dialect)
+    accepted.held(p, unit, site).flatMap(read(_, site))
 
   /** Whether pbrt finds the value, which it looks for by type. Mitsuba's reader knows the types of
     * recipes, not those of pbrt.

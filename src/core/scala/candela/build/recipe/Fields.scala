@@ -75,17 +75,17 @@ trait Fields:
         wrong(p, site, "one string", "string")
       else
         p.strings.headOption.filter(values.contains).orElse {
-          val found = p.strings.headOption.getOrElse("")
-          val message = s"`$name` must be one of ${values.mkString(", ")}, found \"$found\""
-          val help = Suggest.nearest(found, values).map(v => s"did you mean `$v`?")
+          val value = p.strings.headOption.getOrElse("")
+          val message = s"`$name` must be one of ${values.mkString(", ")}, found \"$value\""
+          val help = Suggest.nearest(value, values).map(v => s"did you mean `$v`?")
           if site.dialect == Dialect.V4 && !forgiven then
             site.problems.error(Code.ParameterValue, p.valuesAt, message, help)
           else
-            val used = if instead.isEmpty then "the default" else s"\"$instead\""
+            val fallback = if instead.isEmpty then "the default" else s"\"$instead\""
             site.problems.warn(
               Code.ParameterValue,
               p.valuesAt,
-              s"$message; using $used, as pbrt does",
+              s"$message; using $fallback, as pbrt does",
               help
             )
           Option.when(instead.nonEmpty)(instead)
@@ -197,8 +197,8 @@ trait Fields:
   /** The components of colours: pbrt-v4 rejects others. */
   private def ofColors(role: SpectrumRole)(using Dialect): Range =
     if !v4 then Range.Any
-    else if role == SpectrumRole.Reflectance then Range(0f, 1f).used
-    else Range.atLeast(0f).used
+    else if role == SpectrumRole.Reflectance then Range(0f, 1f).unclamped
+    else Range.atLeast(0f).unclamped
 
   /** Constants of textures: pbrt-v2 and v3 take the first of several numbers. */
   private def firstFloat(p: Param, site: Site): Option[Float] =

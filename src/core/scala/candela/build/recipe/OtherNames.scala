@@ -57,11 +57,11 @@ private[build] object OtherNames:
 
   /** The name in this dialect of a type of another one. */
   def hint(category: String, name: String, dialect: Dialect): Option[String] =
-    val other =
+    val equivalent =
       if dialect == Dialect.V4 then
         Pairs.collectFirst { case (`category`, `name`, modern) => modern }
       else Pairs.collectFirst { case (`category`, old, `name`) => old }
-    other.map(o => s"in ${Dialects.name(dialect)}, write \"$o\"")
+    equivalent.map(o => s"in ${Dialects.name(dialect)}, write \"$o\"")
 
   /** As above, of Mitsuba's types. */
   def ofMitsubas(name: String): Option[String] =

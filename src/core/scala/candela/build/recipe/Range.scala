@@ -18,9 +18,9 @@ final case class Range(
     also: Option[Float] = None
 ):
   def limited: Range = copy(outside = Outside.Limited)
-  def used: Range = copy(outside = Outside.Used)
-  def told: Range = copy(outside = Outside.Told)
-  def or(other: Float): Range = copy(also = Some(other))
+  def unclamped: Range = copy(outside = Outside.Unclamped)
+  def deferred: Range = copy(outside = Outside.Deferred)
+  def including(other: Float): Range = copy(also = Some(other))
 
   private def isWide: Boolean = least <= -Range.Largest && most >= Range.Largest
 
@@ -45,7 +45,7 @@ final case class Range(
 
   /** The parameter with numbers that its recipe can use; None if it is one, after an error. */
   def held(p: Param, unit: String, site: Site): Option[Param] =
-    def isOdd(x: Float) = !holds(x) && (outside != Outside.Told || Range.isAbsurd(x))
+    def isOdd(x: Float) = !holds(x) && (outside != Outside.Deferred || Range.isAbsurd(x))
     def first(isSuch: Float => Boolean) =
       p.floats.find(isSuch).orElse(p.ints.iterator.map(_.toFloat).find(isSuch))
     first(isOdd) match
@@ -62,8 +62,8 @@ final case class Range(
       if isWide || isAbsurd && outside != Outside.Refused then
         s"within ±${DefaultText.number(Range.Largest)}"
       else s"$text$measure"
-    val found = if odd.isNaN then "NaN" else DefaultText.number(odd)
-    def message(verb: String) = s"`${p.name}` $verb be $words, found $found"
+    val value = if odd.isNaN then "NaN" else DefaultText.number(odd)
+    def message(verb: String) = s"`${p.name}` $verb be $words, value $value"
     def nearest(x: Float): Float =
       if holds(x) then x
       else if outside == Outside.Limited then Math.max(least, Math.min(most, x))
@@ -89,10 +89,10 @@ enum Outside:
   case Limited
 
   /** They are used, with a warning. */
-  case Used
+  case Unclamped
 
   /** They are used, and the recipe says what becomes of them. */
-  case Told
+  case Deferred
 
 object Range:
   /** What is larger has squares and products that no Double holds. */
@@ -109,7 +109,7 @@ object Range:
 
   def atLeast(least: Float): Range = Range(least, Largest)
   def above(least: Float): Range = Range(least, Largest, opensLow = true)
-  def between(least: Float, most: Float): Range =
+  def exclusive(least: Float, most: Float): Range =
     Range(least, most, opensLow = true, opensHigh = true)
 
   private def isAbsurd(x: Float) = !(Math.abs(x) <= Largest)

@@ -7,7 +7,7 @@ import scala.jdk.CollectionConverters.*
 import candela.scenefile.Dialect
 
 /** Builds a runtime object from a declaration of one type: the parameters, declared once, and
-  * `make`.
+  * `create`.
   *
   * The declarations provide the documentation, the defaults, the type checks and the list of
   * unsupported parameters; no other code knows a parameter's name. [[Fields]] declares the types of
@@ -33,10 +33,10 @@ abstract class Recipe[A](
     * wavelengths, in parallel. What all of these share, and takes long, is a field of type
     * [[Once]].
     */
-  protected def make()(using Site): A
+  protected def create()(using Site): A
 
-  /** Wraps `make` with the steps common to a category. */
-  protected def made(site: Site): A = make()(using site)
+  /** Wraps `create` with the steps common to a category. */
+  protected def assemble(site: Site): A = create()(using site)
 
   /** The substitute for this type, and why. Its fields are declared nevertheless, for error
     * messages and the reference.
@@ -57,10 +57,10 @@ abstract class Recipe[A](
     if dialects(Dialect.Mitsuba) then
       dialects.filter(d => field.dialects(d) || field.dialects(d.base))
     else
-      val own = if dialects(Dialect.V4) then dialects + Dialect.Mitsuba else dialects
-      own.intersect(field.dialects)
+      val supported = if dialects(Dialect.V4) then dialects + Dialect.Mitsuba else dialects
+      supported.intersect(field.dialects)
 
-  final def takes(parameter: String, dialect: Dialect): Boolean =
+  final def hasParameter(parameter: String, dialect: Dialect): Boolean =
     declared.exists(f => f.name == parameter && f.dialects(dialect))
 
   final def support(field: Field[?]): Support = unused.getOrElse(field, Support.Used)
@@ -84,12 +84,12 @@ abstract class Recipe[A](
     for p <- site.declaration.params do
       val named = byName.getOrDefault(p.name, Recipe.NoFields)
       named.find(f => site.speaks(f.dialects)) match
-        case Some(field) => inspect(field, p.at, site)
+        case Some(field) => inspect(field, p.pos, site)
         case None if named.nonEmpty =>
           val owners = Dialects.list(named.flatMap(_.dialects).toSet)
           site.problems.warn(
             Code.UnknownParameter,
-            p.at,
+            p.pos,
             s"`${p.name}` is a parameter of \"$name\" in $owners only, not in " +
               s"${Dialects.name(site.rules.dialect)}; it is ignored"
           )
@@ -98,13 +98,13 @@ abstract class Recipe[A](
           val names = declared.filter(f => site.speaks(f.dialects)).map(_.name)
           site.problems.warn(
             Code.UnknownParameter,
-            p.at,
+            p.pos,
             s"`${p.name}` is not a parameter of \"$name\"; it is ignored",
             OtherNames.parameter(p.name, names).orElse(Suggest.help(p.name, names))
           )
-    made(site)
+    assemble(site)
 
-  /** Checks the type of a parameter that `make` does not read. */
+  /** Checks the type of a parameter that `create` does not read. */
   private def inspect(field: Field[?], at: candela.diagnostics.SourcePos, site: Site): Unit =
     val isRead = support(field) == Support.Used && substitute.isEmpty
     if !isRead then
@@ -125,11 +125,11 @@ private object Recipe:
 final class Once[T]:
   /** One for each statement, in every colour basis. */
   def apply(make: => T)(using site: Site): T =
-    site.resources.once(site.declaration, this)(make)
+    site.resources.memoize(site.declaration, this)(make)
 
   /** One for each of equal keys, whatever statements ask. */
   def of(key: AnyRef)(make: => T)(using site: Site): T =
-    site.resources.onceFor(key, this)(make)
+    site.resources.memoizeFor(key, this)(make)
 
 /** All recipes of a category, by name.
   *
@@ -142,10 +142,10 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
   /** Finds the recipe of this name, preferably of this dialect. pbrt's scenes may have types of
     * another pbrt, but not of Mitsuba.
     */
-  def find(name: String, dialect: Dialect): Option[Recipe[A]] =
-    find(name, (r: Recipe[A]) => r.dialects(dialect))
+  def lookUp(name: String, dialect: Dialect): Option[Recipe[A]] =
+    lookUp(name, (r: Recipe[A]) => r.dialects(dialect))
 
-  private def find(name: String, isHere: Recipe[A] => Boolean): Option[Recipe[A]] =
+  private def lookUp(name: String, isHere: Recipe[A] => Boolean): Option[Recipe[A]] =
     val named = byName.getOrElse(name, Vector.empty)
     named.find(isHere).orElse:
       named.find(r => !r.isUnknownElsewhere && r.dialects.exists(Dialect.ofPbrt.contains))
@@ -155,9 +155,9 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     */
   def build(site: Site): Option[A] =
     // Sets of wavelengths have materials made while they are rendered, which ends in its own way
-    if site.resources.isPlain then site.allowance.checkTime(Some(site.declaration.at))
+    if site.resources.isPlain then site.allowance.checkTime(Some(site.declaration.pos))
     val name = site.declaration.name
-    find(name, (r: Recipe[A]) => site.speaks(r.dialects)) match
+    lookUp(name, (r: Recipe[A]) => site.speaks(r.dialects)) match
       case Some(recipe) =>
         for instead <- recipe.substitute do
           site.warn(Code.OtherDialect, s"$category \"$name\" is substituted: $instead")
@@ -177,14 +177,14 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     */
   private def suggested(name: String, site: Site): Option[String] =
     val (here, elsewhere) = all.filter(_.name.nonEmpty).partition(r => site.speaks(r.dialects))
-    val known = here.map(_.name)
+    val names = here.map(_.name)
     def translated =
       for
         meant <- Suggest.nearest(name, elsewhere.map(_.name))
         hint <- OtherNames.hint(category, meant, site.dialect)
       yield s"did you mean `$meant`? $hint"
-    if Suggest.nearest(name, known).isDefined then Suggest.help(name, known)
-    else translated.orElse(Suggest.help(name, known))
+    if Suggest.nearest(name, names).isDefined then Suggest.help(name, names)
+    else translated.orElse(Suggest.help(name, names))
 
   /** A type of another dialect is built by the rules of that dialect. */
   private def inDialectOf(recipe: Recipe[A], site: Site): Site =

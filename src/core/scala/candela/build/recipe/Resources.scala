@@ -38,7 +38,7 @@ final class Resources private (
       origin: Position = Position.Origin,
       allowance: Allowance = Allowance(),
       textures: TextureStore = TextureStore.InMemory,
-      keep: Keep = Keep.Nothing,
+      cache: Keep = Keep.Nothing,
       isReadable: Boolean = true
   ) = this(
     basis,
@@ -52,7 +52,7 @@ final class Resources private (
       origin,
       allowance,
       textures,
-      keep,
+      cache,
       isReadable,
       pool
     ),
@@ -79,14 +79,14 @@ final class Resources private (
   /** Where spectra are noted, if they decide how the scene is rendered. */
   def counting: Option[ColorCensus] = Option.when(mayBeSpectral && !basis.isSpectral)(census)
 
-  val materials = NamedMaterials(named, shared.allowance.most(Limit.Depth, 1024))
+  val materials = NamedMaterials(named, shared.allowance.capped(Limit.Depth, 1024))
 
   private val floats = mutable.Map.empty[String, FloatTexture]
   private val colors = mutable.Map.empty[String, RgbTexture]
 
   // How many textures each evaluates, which would take a millisecond if there were more; all may be
   // within each other: evaluation goes as deep into the stack, for which threads have room
-  private val sizes = Compositions(16384, deepest = shared.allowance.most(Limit.Depth, 16384))
+  private val sizes = Compositions(16384, deepest = shared.allowance.capped(Limit.Depth, 16384))
 
   private var define: (() => Unit) | Null = null
 
@@ -101,12 +101,12 @@ final class Resources private (
 
   /** Builds a texture and gives it a name. A texture of too many others is an error. */
   def defineFloat(name: String, at: SourcePos, problems: Findings)(make: => FloatTexture): Unit =
-    val made = sizes.composed("float", name)(make)(_.isConstant)
-    floats(name) = accepted(name, at, problems)(made, StandIns.number)
+    val texture = sizes.composed("float", name)(make)(_.isConstant)
+    floats(name) = accepted(name, at, problems)(texture, StandIns.number)
 
   def defineRgb(name: String, at: SourcePos, problems: Findings)(make: => RgbTexture): Unit =
-    val made = sizes.composed("spectrum", name)(make)(_.isConstant)
-    colors(name) = accepted(name, at, problems)(made, StandIns.color(basis))
+    val texture = sizes.composed("spectrum", name)(make)(_.isConstant)
+    colors(name) = accepted(name, at, problems)(texture, StandIns.color(basis))
 
   private def accepted[A](name: String, at: SourcePos, problems: Findings)(
       made: Either[String, A],
@@ -119,13 +119,13 @@ final class Resources private (
 
   /** Returns the texture that a parameter names, or a fallback after reporting a problem. */
   def floatTexture(p: Param, problems: Findings): Option[FloatTexture] =
-    val found = lookUp(p, floats, colors.keySet, "float", "spectrum", StandIns.Ones, problems)
-    Some(found.getOrElse(StandIns.number))
+    val texture = lookUp(p, floats, colors.keySet, "float", "spectrum", StandIns.Ones, problems)
+    Some(texture.getOrElse(StandIns.number))
 
   /** As above. */
   def rgbTexture(p: Param, problems: Findings): Option[RgbTexture] =
-    val found = lookUp(p, colors, floats.keySet, "spectrum", "float", StandIns.Magentas, problems)
-    Some(found.getOrElse(StandIns.color(basis)))
+    val texture = lookUp(p, colors, floats.keySet, "spectrum", "float", StandIns.Magentas, problems)
+    Some(texture.getOrElse(StandIns.color(basis)))
 
   private def lookUp[T](
       p: Param,
@@ -157,7 +157,7 @@ final class Resources private (
 final class NamedMaterials(statements: NamedMaterials.Statements, deepest: Int):
   import NamedMaterials.*
   private def recipes = statements.recipes
-  private val made = mutable.HashMap.empty[String, Material]
+  private val built = mutable.HashMap.empty[String, Material]
   private val open = mutable.HashSet.empty[String]
   // More lobes would take a millisecond each time; evaluation goes as deep into the stack
   private val sizes = Compositions(most = 1024, deepest)
@@ -180,10 +180,10 @@ final class NamedMaterials(statements: NamedMaterials.Statements, deepest: Int):
       problems.error(Code.Circle, at, s"material `$name` refers to itself")
       StandIns.material(resources.basis)
     else if recipes.contains(name) then
-      if !made.contains(name) then build(name, resources, problems)
-      made(name)
+      if !built.contains(name) then build(name, resources, problems)
+      built(name)
     else
-      made.getOrElseUpdate(
+      built.getOrElseUpdate(
         name, {
           problems.unnamed(
             Code.Undefined,
@@ -204,7 +204,7 @@ final class NamedMaterials(statements: NamedMaterials.Statements, deepest: Int):
     while waiting.nonEmpty do
       val last = waiting.top
       val recipe = recipes(last)
-      recipe.parts.find(p => recipes.contains(p) && !made.contains(p) && !open(p)) match
+      recipe.parts.find(p => recipes.contains(p) && !built.contains(p) && !open(p)) match
         case Some(part) =>
           open += part
           val _ = waiting.push(part)
@@ -212,7 +212,7 @@ final class NamedMaterials(statements: NamedMaterials.Statements, deepest: Int):
           val result =
             try sizes.composed(Kind, last)(recipe.make(resources))(_ => false, chosen)
             finally open -= last
-          made(last) = result match
+          built(last) = result match
             case Right(material) => material
             case Left(why) =>
               problems.error(Code.Circle, recipe.at, s"material `$last` is composed of $why")

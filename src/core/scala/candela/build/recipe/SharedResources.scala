@@ -32,7 +32,7 @@ import candela.textures.{
   * @param origin        where the origin of what is built lies in the scene's world
   * @param allowance     how much the scene may use
   * @param textures      how image textures are kept
-  * @param keep          has what other scenes have made
+  * @param cache         of what other scenes have built
   * @param isReadable    whether all statements could be read
   * @param pool          executes divisible work
   */
@@ -44,7 +44,7 @@ final class SharedResources(
     val origin: Position,
     val allowance: Allowance,
     val textures: TextureStore,
-    val keep: Keep = Keep.Nothing,
+    val cache: Keep = Keep.Nothing,
     isReadable: Boolean = true,
     pool: Parallel = Parallel.Alone
 ):
@@ -112,9 +112,10 @@ final class SharedResources(
       file <- Option(files.get((site.declaration.folder, p.strings.headOption.getOrElse(""))))
       OddTexel(x, y, value) <- odd.computeIfAbsent((file.path, ways), _ => first)
     do
-      val what = s"$file: texels are NaN or infinite: the first, at ($x, $y), is $value; samples " +
-        "that see them are discarded"
-      site.problems.warn(Code.ImageContents, p.valuesAt, what)
+      val message =
+        s"$file: texels are NaN or infinite: the first, at ($x, $y), is $value; samples " +
+          "that see them are discarded"
+      site.problems.warn(Code.ImageContents, p.valuesAt, message)
 
   /** How images of textures are kept, if there are any. */
   def imagesInWords: Option[String] =
@@ -123,19 +124,20 @@ final class SharedResources(
 
   private val contents = ConcurrentHashMap[Path, String]()
   private val images = mutable.Map.empty[Path, Either[ImageError, StoredImage]]
-  private val made = java.util.IdentityHashMap[Declaration, mutable.Map[Once[?], Any]]()
+  private val memoized = java.util.IdentityHashMap[Declaration, mutable.Map[Once[?], Any]]()
 
   /** As [[Once]]. */
-  private[recipe] def once[T](statement: Declaration, what: Once[T])(make: => T): T = synchronized:
-    made
-      .computeIfAbsent(statement, _ => mutable.Map.empty)
-      .getOrElseUpdate(what, make)
-      .asInstanceOf[T] // what this key was given
+  private[recipe] def memoize[T](statement: Declaration, what: Once[T])(make: => T): T =
+    synchronized:
+      memoized
+        .computeIfAbsent(statement, _ => mutable.Map.empty)
+        .getOrElseUpdate(what, make)
+        .asInstanceOf[T] // what this key was given
 
   private val madeFor = mutable.Map.empty[(Once[?], AnyRef), Any]
 
   /** As [[Once.of]]. */
-  private[recipe] def onceFor[T](key: AnyRef, what: Once[T])(make: => T): T = synchronized:
+  private[recipe] def memoizeFor[T](key: AnyRef, what: Once[T])(make: => T): T = synchronized:
     madeFor.getOrElseUpdate((what, key), make).asInstanceOf[T] // what this key was given
 
   /** Resolves the file that a parameter names, relative to the scene's folder. Reports a missing
@@ -146,14 +148,14 @@ final class SharedResources(
   def file(p: Param, from: Declaration, problems: Findings, standIn: String): Option[InputFile] =
     val name = p.strings.headOption.getOrElse("")
     Option(files.get((from.folder, name))).orElse:
-      val found = from.folder.find(name, Some(p.valuesAt))
-      found match
+      val resolved = from.folder.locate(name, Some(p.valuesAt))
+      resolved match
         case Some(there) => files.put((from.folder, name), there): Unit
         case None =>
-          val at = p.valuesAt
-          val (message, help) = from.folder.absence(name, Some(at), s"no file `$name`")
-          problems.missing(Code.NoSuchFile, at, message, standIn, help)
-      found
+          val pos = p.valuesAt
+          val (message, help) = from.folder.absence(name, Some(pos), s"no file `$name`")
+          problems.missing(Code.NoSuchFile, pos, message, standIn, help)
+      resolved
 
   private val faults = ConcurrentHashMap[Path, Option[ImageError]]()
 
@@ -164,7 +166,7 @@ final class SharedResources(
     file(p, from, problems, standIn).filter: file =>
       if !isReadable then
         for e <- faults.computeIfAbsent(file.path, _ => ImageFiles.fault(file)) do
-          told(Left(e), file, p, problems, standIn): Unit
+          report(Left(e), file, p, problems, standIn): Unit
       isReadable
 
   private def load(file: InputFile, at: SourcePos): Either[ImageError, StoredImage] = synchronized:
@@ -172,9 +174,10 @@ final class SharedResources(
       file.path.toAbsolutePath.normalize,
       try
         // The name tells the format
-        val way = file.path.getFileName.toString
-        val (image, content) = keep.ofFile(SharedResources.Images, file, way)(decoded(file, at))
-        for digest <- content do contents.put(file.path, s"$digest $way"): Unit
+        val fileName = file.path.getFileName.toString
+        val (image, content) =
+          cache.ofFile(SharedResources.Images, file, fileName)(decoded(file, at))
+        for digest <- content do contents.put(file.path, s"$digest $fileName"): Unit
         Right(image)
       catch case e: ImageError => Left(e)
     )
@@ -201,7 +204,7 @@ final class SharedResources(
   ): Option[StoredImage] =
     toRead(p, from, problems, standIn).flatMap: file =>
       val image = loaded.computeIfAbsent(file.path, _ => load(file, p.valuesAt))
-      told(image, file, p, problems, standIn)
+      report(image, file, p, problems, standIn)
 
   /** The image that a parameter names, in tiles.
     *
@@ -221,32 +224,32 @@ final class SharedResources(
       def confirm() =
         if !textures.isSame(file) then
           throw ImageError(Code.Unreadable, s"$file: it has changed, or is gone")
-      def make(bands: => ImageBands) =
+      def converted(bands: => ImageBands) =
         if isAgain then confirm()
         isAgain = true
         convert(bands).copy(confirm = () => confirm())
-      def whole() = make(ImageBands.of(decoded(file, p.valuesAt)))
+      def wholeImage() = converted(ImageBands.of(decoded(file, p.valuesAt)))
       lazy val inBands = ImageBands.ofFile(file)
       def first() = inBands match
         case Some(bands) =>
           admit(file, p.valuesAt)(bands.width, bands.height)
-          make(bands)
-        case None => whole()
+          converted(bands)
+        case None => wholeImage()
       val image =
         try
           val digest = Refusal.placed(p.valuesAt)(textures.digest(file))
-          def made(make: () => MadeTexels) =
+          def inTiles(make: () => MadeTexels) =
             clock.during(CostKind.Textures)(tiles.image(s"$digest $ways", wrap)(make))
-          try Right(made(() => first()))
+          try Right(inTiles(() => first()))
           catch
             // What is wrong with a file, and what may be overlooked, its decoder knows
-            case _: ImageError if inBands.nonEmpty => Right(made(() => whole()))
+            case _: ImageError if inBands.nonEmpty => Right(inTiles(() => wholeImage()))
         catch
           case e: ImageError => Left(e)
           case e: IOException =>
             Left(ImageError(Code.Unreadable, s"$file: can't be read: ${IoReason(e)}"))
       textures.warn(site.problems)
-      told(image, file, p, site.problems, standIn)
+      report(image, file, p, site.problems, standIn)
 
   /** The key of an image in tiles. */
   def keyInTiles(p: Param, from: Declaration, ways: String): Option[String] =
@@ -273,38 +276,38 @@ final class SharedResources(
             inFiles.computeIfAbsent((file.path, ways), _ => image)
           case Left(known) =>
             for why <- known do
-              val what = s"$file: the levels in the file are not used: $why"
-              site.problems.warn(Code.ImageContents, p.valuesAt, what)
+              val message = s"$file: the levels in the file are not used: $why"
+              site.problems.warn(Code.ImageContents, p.valuesAt, message)
             None
 
   /** None if the file is damaged: reading it as a whole tells. */
   private def inLevels(
       file: InputFile,
-      found: FileLevels,
+      fileLevels: FileLevels,
       ways: String,
       wrap: Wrap,
       colors: Texels => Vector[Rgb]
   ): Option[CachedImage] =
     clock.during(CostKind.Textures):
       try
-        val small = found.sizes.indexWhere((w, h, _) => w.toLong * h <= SharedResources.Small)
-        val texels = found.texels(small)
+        val small = fileLevels.sizes.indexWhere((w, h, _) => w.toLong * h <= SharedResources.Small)
+        val texels = fileLevels.texels(small)
         // A small level is the mean of the others: what is no number in these is none in it
-        val (w, h, _) = found.sizes.head
+        val (w, h, _) = fileLevels.sizes.head
         val odd = texels.odd.map: o =>
           o.copy(x = o.x * (w / texels.width), y = o.y * (h / texels.height))
         val facts = TexelFacts(colors(texels), odd)
         val levels = textures.tiles match
-          case Some(tiles) => tiles.levels(found, wrap)
+          case Some(tiles) => tiles.levels(fileLevels, wrap)
           case None =>
-            val (all, _) = keep.ofFile(SharedResources.Levels, file, ways):
-              found.sizes.indices.map(found.texels).toArray
+            val (all, _) = cache.ofFile(SharedResources.Levels, file, ways):
+              fileLevels.sizes.indices.map(fileLevels.texels).toArray
             all.map(MipLevel(_, wrap))
         Some(CachedImage(levels, Encoding.Linear, facts))
       catch case _: ImageError => None
 
   /** Reports what is to be said of an image. */
-  private def told[A](
+  private def report[A](
       image: Either[ImageError, A],
       file: InputFile,
       p: Param,

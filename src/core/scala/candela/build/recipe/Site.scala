@@ -46,9 +46,9 @@ final class Site(
     Site(declaration.copy(name = otherType), dialect, resources, problems, toWorld)
 
   def warn(code: Code, message: String, help: => Option[String] = None): Unit =
-    problems.warn(code, declaration.at, message, help)
+    problems.warn(code, declaration.pos, message, help)
   def error(code: Code, message: String, help: => Option[String] = None): Unit =
-    problems.error(code, declaration.at, message, help)
+    problems.error(code, declaration.pos, message, help)
 
   /** Reports a statement that pbrt-v4 rejects and older versions skip with a message. */
   def unusable(code: Code, message: String, help: Option[String] = None): Unit =
@@ -57,8 +57,8 @@ final class Site(
 
   /** Reports a value that pbrt-v4 rejects; older versions use the default. */
   def unread(code: Code, p: Param, message: String, help: Option[String]): Unit =
-    if dialect == Dialect.V4 then problems.error(code, p.at, message, help)
-    else problems.warn(code, p.at, s"$message; it is ignored, as pbrt does", help)
+    if dialect == Dialect.V4 then problems.error(code, p.pos, message, help)
+    else problems.warn(code, p.pos, s"$message; it is ignored, as pbrt does", help)
 
   /** Reports that the statement refers to something missing. */
   def missing(
@@ -67,7 +67,7 @@ final class Site(
       standIn: String,
       help: => Option[String] = None
   ): Unit =
-    problems.missing(code, declaration.at, message, standIn, help)
+    problems.missing(code, declaration.pos, message, standIn, help)
 
 /** Collects the problems of a description, so that one run reports them all. Safe for threads.
   *
@@ -81,8 +81,8 @@ final class Findings(
     lost: Set[NameKind] = Set.empty,
     earlier: Vector[Problem] = Vector.empty
 ):
-  private val all = mutable.LinkedHashSet.from(earlier)
-  private val told = mutable.HashSet.empty[(Severity, Option[SourcePos], String)]
+  private val problems = mutable.LinkedHashSet.from(earlier)
+  private val messages = mutable.HashSet.empty[(Severity, Option[SourcePos], String)]
   @volatile private var errors = earlier.count(_.severity == Severity.Error)
   private var warnings = 0
   private var reports = 0L
@@ -95,13 +95,13 @@ final class Findings(
     reports += 1
     val isError = problem.severity == Severity.Error
     if isError || warnings <= Problems.MaxWarnings then
-      if told.add((problem.severity, problem.at, problem.message)) then
+      if messages.add((problem.severity, problem.pos, problem.message)) then
         if isError then errors += 1 else warnings += 1
         if isError || warnings <= Problems.MaxWarnings then
           val isHelped = errors + warnings <= Problems.MaxHelped
-          all += (if isHelped then problem.withHelp(help) else problem): Unit
+          problems += (if isHelped then problem.withHelp(help) else problem): Unit
         else
-          all += Problem(
+          problems += Problem(
             Code.TooManyProblems,
             Severity.Warning,
             None,
@@ -143,12 +143,12 @@ final class Findings(
   /** Warns of what is wrong in what is not rendered. */
   def warnOf(unrendered: Findings): Unit =
     for
-      p <- unrendered.all.toVector
-      at <- p.at
-      if synchronized(!told((Severity.Error, p.at, p.message)))
+      p <- unrendered.problems.toVector
+      at <- p.pos
+      if synchronized(!messages((Severity.Error, p.pos, p.message)))
     do warn(p.code, at, p.message, p.help)
 
-  def result: Vector[Problem] = Excerpts.fill(all.toVector)
+  def result: Vector[Problem] = Excerpts.fill(problems.toVector)
   def hasErrors: Boolean = errors > 0
 
   /** Stops if there are errors: the scene can't be built.

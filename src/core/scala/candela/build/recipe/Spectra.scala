@@ -29,8 +29,8 @@ object Spectra:
       case ParamType.Blackbody =>
         blackbody(p, site).map((body, scale) => inBasis(body, role, site) * scale)
       case ParamType.Spectrum if p.strings.nonEmpty =>
-        val found = named(p, site, StandIns.Magentas).map(SpectralValue.Wavelengths(_))
-        Some(inBasis(found.getOrElse(SpectralValue.Color(StandIns.Magenta)), role, site))
+        val spectrum = named(p, site, StandIns.Magentas).map(SpectralValue.Wavelengths(_))
+        Some(inBasis(spectrum.getOrElse(SpectralValue.Color(StandIns.Magenta)), role, site))
       case _ =>
         value(p, site).map(inBasis(_, role, site))
 
@@ -186,13 +186,13 @@ object Spectra:
     val name = p.strings.head
     NamedSpectra(name).orElse {
       val folder = site.declaration.folder
-      folder.find(name, Some(p.valuesAt)) match
+      folder.locate(name, Some(p.valuesAt)) match
         case None =>
-          val near = Suggest.nearest(name, NamedSpectra.names).map(n => s"did you mean `$n`?")
+          val suggestion = Suggest.nearest(name, NamedSpectra.names).map(n => s"did you mean `$n`?")
           val nothing = s"`$name` is neither a named spectrum nor a file"
           val (message, help) = folder.absence(name, Some(p.valuesAt), nothing)
-          val known = near.orElse(help).orElse(Some(s"known: ${NamedSpectra.inWords}"))
-          site.problems.missing(Code.SpectrumFile, p.valuesAt, message, standIn, known)
+          val advice = suggestion.orElse(help).orElse(Some(s"known: ${NamedSpectra.inWords}"))
+          site.problems.missing(Code.SpectrumFile, p.valuesAt, message, standIn, advice)
           None
         case Some(file) =>
           numbers(file, name) match
@@ -206,8 +206,8 @@ object Spectra:
   private def numbers(file: InputFile, name: String): Either[String, Array[Float]] =
     try
       val words = file.words()
-      val found = words.flatMap(Decimal.float).toArray
-      if found.length == words.length && found.length % 2 == 0 then Right(found)
+      val values = words.flatMap(Decimal.float).toArray
+      if values.length == words.length && values.length % 2 == 0 then Right(values)
       else Left(s"spectrum file `$name` must contain pairs of wavelength and value")
     catch case e: IOException => Left(s"can't read the spectrum file `$name`: ${IoReason(e)}")
 

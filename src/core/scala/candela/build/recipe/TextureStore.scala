@@ -15,13 +15,13 @@ import candela.textures.{TileCache, TileMemory}
 
 /** Keeps the images of a scene: in memory, or in tiles if they may not fit.
   *
-  * @param tiles      of textures; none: in memory
-  * @param lightTiles of environment maps; none: in memory
-  * @param images     in words; empty if there are none
-  * @param folder     of files of tiles
-  * @param bytes      that the images take in memory, estimated
-  * @param tables     files of what is made of images in tiles
-  * @param known      digests of files that have not changed since a rendering before
+  * @param tiles        of textures; none: in memory
+  * @param lightTiles   of environment maps; none: in memory
+  * @param images       in words; empty if there are none
+  * @param folder       of files of tiles
+  * @param bytes        that the images take in memory, estimated
+  * @param tables       files of what is made of images in tiles
+  * @param knownDigests digests of files that have not changed since a rendering before
   */
 final class TextureStore private (
     val tiles: Option[TileCache],
@@ -33,7 +33,7 @@ final class TextureStore private (
     pool: Parallel,
     keep: Keep,
     tables: Option[PartFiles],
-    known: FileDigests
+    knownDigests: FileDigests
 ):
   /** For people, if there are images.
     *
@@ -44,28 +44,28 @@ final class TextureStore private (
       if prepared == 0 then "all in"
       else if prepared < files.size then s"$prepared of them in their own files, the others in"
       else "in their own files"
-    val but =
+    val exceptions =
       if tiles.exists(_.trouble.nonEmpty) then ", but for those that can't be written" else ""
-    val where = folder.map: f =>
-      if prepared < files.size then s", $whose $f$but" else s", $whose"
-    Option.when(images.nonEmpty)(images + where.getOrElse(""))
+    val location = folder.map: f =>
+      if prepared < files.size then s", $whose $f$exceptions" else s", $whose"
+    Option.when(images.nonEmpty)(images + location.getOrElse(""))
 
   /** Of each file, and whether it is surely as it was then. */
   private val digests = ConcurrentHashMap[Path, (String, () => Boolean)]()
 
-  private lazy val digested: Unit = pool.each(files.size): i =>
+  private lazy val digested: Unit = pool.forEach(files.size): i =>
     try noted(files(i)): Unit
     catch case _: IOException | _: Refusal => () // told when the image is asked for
-    known.save()
+    knownDigests.save()
 
   private def noted(file: InputFile): (String, () => Boolean) =
     digests.computeIfAbsent(
       file.path,
       _ =>
         val isSame = file.watch()
-        val made = known(file):
+        val fileDigest = knownDigests(file):
           if keep.isKeeping then keep.digest(file) else Sha256.ofAll(file.stream())
-        (TextureStore.versioned(made), isSame)
+        (TextureStore.versioned(fileDigest), isSame)
     )
 
   /** Digest of a file's content.
@@ -89,21 +89,21 @@ final class TextureStore private (
     */
   def table[A](form: PartForm[A], key: String)(make: => A): A =
     def written(files: PartFiles) =
-      val made = make
-      files.write(form, key, made)
-      made
+      val value = make
+      files.write(form, key, value)
+      value
     tables.fold(make)(files => files.read(form, key).getOrElse(written(files)))
 
   /** Says, once, that files of tiles or tables can't be written. */
   def warn(problems: Findings): Unit =
-    def say(why: String, effect: String) =
+    def report(why: String, effect: String) =
       problems.warn(Code.Unwritable, None, s"$why; $effect")
     tiles.flatMap(_.trouble) match
       case Some(why) =>
-        say(why, "images without a file in the texture cache are kept in memory")
+        report(why, "images without a file in the texture cache are kept in memory")
       case None =>
         for why <- tables.flatMap(_.trouble()) do
-          say(why, "tables of environment maps are made again for each rendering")
+          report(why, "tables of environment maps are made again for each rendering")
 
 object TextureStore:
   val InMemory: TextureStore =
@@ -149,27 +149,31 @@ object TextureStore:
     else
       val size =
         sizeOf(textures)(_.asTexture) + sizeOf(maps)(s => s.width.toLong * s.height * Pixel)
-      val usual = Math.min(Runtime.getRuntime.maxMemory / ShareOfHeap, MostInMemory)
-      val most = control.memory.getOrElse(usual)
+      val defaultLimit = Math.min(Runtime.getRuntime.maxMemory / ShareOfHeap, MostInMemory)
+      val limit = control.memory.getOrElse(defaultLimit)
       val images = if files.size == 1 then "1 image" else s"${files.size} images"
-      val about = s"about ${ByteCount.show(size)}"
+      val about = s"about ${ByteCount.format(size)}"
       def inMemory(why: String) =
         val bytes = sizeOf(textures)(_.asTexture)
-        val say = s"$images in memory, $about$why"
-        new TextureStore(None, None, say, None, bytes, files, pool, keep, None, FileDigests(None))
-      if size <= most then inMemory(s" of ${ByteCount.show(most)}")
+        val summary = s"$images in memory, $about$why"
+        new TextureStore(
+          None, None, summary, None, bytes, files, pool, keep, None, FileDigests(None)
+        )
+      if size <= limit then inMemory(s" of ${ByteCount.format(limit)}")
       else
         control.cache match
           case None => inMemory(": there is no folder for tiles")
           case Some(path) =>
             val folder = CacheFolder(path, control.folderSize)
-            val cache = Some(new TileCache(new TileMemory(most), folder, pool))
-            val say = s"$images, $about, in tiles: at most ${ByteCount.show(most)} in memory"
+            val cache = Some(new TileCache(new TileMemory(limit), folder, pool))
+            val summary = s"$images, $about, in tiles: at most ${ByteCount.format(limit)} in memory"
             val lights = if maps.isEmpty then None else cache
             val tables = lights.map(_ => PartFiles(folder))
             // What is kept in files has a table of its own
-            val known = FileDigests(Option.unless(keep.isFiled)(PartFiles(folder)))
-            new TextureStore(cache, lights, say, Some(path), most, files, pool, keep, tables, known)
+            val digests = FileDigests(Option.unless(keep.isFiled)(PartFiles(folder)))
+            new TextureStore(
+              cache, lights, summary, Some(path), limit, files, pool, keep, tables, digests
+            )
 
   private def sizeOf(files: Vector[InputFile])(bytes: ImageSize => Long): Long =
     files.map(f => ImageSize.guess(f).fold(0L)(bytes)).sum

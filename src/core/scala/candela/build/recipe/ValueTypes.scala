@@ -43,7 +43,7 @@ private[build] object ValueTypes:
     val (plainType, name) = (ValueTypes.plain(typeName), p.name)
     def numbers = p.floats ++ p.ints.map(_.toFloat)
     def text(values: Array[Float]) = values.map(DefaultText.number).mkString("[ ", " ", " ]")
-    def one = numbers.headOption.map(DefaultText.number)
+    def firstNumber = numbers.headOption.map(DefaultText.number)
     plainType match
       case "spectrum" | "spectrum texture" | "rgb" =>
         val color = numbers match
@@ -52,7 +52,7 @@ private[build] object ValueTypes:
           case _ => Array(0.5f, 0.5f, 0.5f)
         Some(s"write \"rgb $name\" ${text(color)}")
       case "float" | "float texture" =>
-        Some(s"write \"float $name\"" + one.fold("")(x => s" $x"))
+        Some(s"write \"float $name\"" + firstNumber.fold("")(x => s" $x"))
       case "integer" =>
         Some(s"write \"integer $name\"" + p.floats.headOption.fold("")(x => s" ${x.toInt}"))
       case _ => Some(s"write \"$plainType $name\"")

@@ -10,8 +10,8 @@ import candela.scenefile.Dialect
   */
 final class IndependentRecipe(name: String, dialects: Set[Dialect])
     extends SamplerRecipe(name, "independent random samples", dialects, default = 4):
-  protected def make()(using site: Site): SamplerRequest => SamplerPlan =
-    asked(PointSet.Independent, isEven = site.rules.defaultsToIndependent)
+  protected def create()(using site: Site): SamplerRequest => SamplerPlan =
+    samplerPlan(PointSet.Independent, isEven = site.rules.defaultsToIndependent)
 
 /** Scrambled (0,2)-sequences, for all samplers of this kind. */
 class ScrambledSobolRecipe(name: String, meaning: String, dialects: Set[Dialect])
@@ -29,7 +29,8 @@ class ScrambledSobolRecipe(name: String, meaning: String, dialects: Set[Dialect]
       integer("dimensions", "well-sampled dimensions", onlyV3)(4)
     )
 
-  protected def make()(using site: Site): SamplerRequest => SamplerPlan = asked(PointSet.Sobol)
+  protected def create()(using site: Site): SamplerRequest => SamplerPlan =
+    samplerPlan(PointSet.Sobol)
 
 /** Samplers replaced by scrambled Sobol' points. */
 final class SubstitutedRecipe(name: String, meaning: String, dialects: Set[Dialect])
@@ -43,8 +44,8 @@ object ZSobolRecipe
   noMeaning("Owen scrambling is always used")(
     string("randomization", "scrambling: none, permutedigits, fastowen or owen")("fastowen")
   )
-  protected def make()(using Site): SamplerRequest => SamplerPlan =
-    asked(PointSet.ZSobol, isEven = false)
+  protected def create()(using Site): SamplerRequest => SamplerPlan =
+    samplerPlan(PointSet.ZSobol, isEven = false)
 
 object HaltonRecipe extends SamplerRecipe("halton", "Halton points"):
   noMeaning("digits are always scrambled")(
@@ -53,7 +54,7 @@ object HaltonRecipe extends SamplerRecipe("halton", "Halton points"):
   unsupported("samples cover the whole pixel, as those of all other samplers")(
     bool("samplepixelcenter", "place all samples at the pixel centre", onlyV3)(false)
   )
-  protected def make()(using Site): SamplerRequest => SamplerPlan = asked(PointSet.Halton)
+  protected def create()(using Site): SamplerRequest => SamplerPlan = samplerPlan(PointSet.Halton)
 
 object StratifiedRecipe
     extends Recipe[SamplerRequest => SamplerPlan]("stratified", "stratified (jittered) samples"):
@@ -66,17 +67,17 @@ object StratifiedRecipe
   noMeaning("all dimensions are equally well sampled")(
     integer("dimensions", "well-sampled dimensions", onlyV3)(4)
   )
-  protected def make()(using site: Site): SamplerRequest => SamplerPlan =
-    val asked = Strata(x(), y(), jitter())
+  protected def create()(using site: Site): SamplerRequest => SamplerPlan =
+    val strata = Strata(x(), y(), jitter())
     val fixed =
-      if asked.x.toLong * asked.y <= Int.MaxValue then asked
+      if strata.x.toLong * strata.y <= Int.MaxValue then strata
       else
         site.error(
           Code.ParameterValue,
           s"`xsamples` × `ysamples` must be at most ${Int.MaxValue} samples per pixel, found " +
-            s"${asked.x} × ${asked.y}"
+            s"${strata.x} × ${strata.y}"
         )
-        asked.copy(x = 1, y = 1)
+        strata.copy(x = 1, y = 1)
     val s = seed()
     request =>
       val grid = request.spp.fold(fixed)(Strata.square(_, fixed.jitter))
@@ -93,8 +94,8 @@ object AdaptiveRecipe
       onlyV2
     ):
   private val Samples = Range(1f, 1 << 29).limited
-  private val most = integer("maxsamples", "maximum samples per pixel", range = Samples)(32)
-  private val least = integer("minsamples", "minimum samples per pixel", range = Samples)(4)
+  private val maximum = integer("maxsamples", "maximum samples per pixel", range = Samples)(32)
+  private val minimum = integer("minsamples", "minimum samples per pixel", range = Samples)(4)
   declare(
     string("method", "criterion: contrast, shapeid")("contrast")
   )
@@ -106,9 +107,9 @@ object AdaptiveRecipe
     */
   private def maxSamples()(using Site): Int =
     def power(n: Int) = Integer.highestOneBit(Math.max(2, n) * 2 - 1)
-    val (a, b) = (power(least()), power(most()))
+    val (a, b) = (power(minimum()), power(maximum()))
     if a == b then 2 * a else Math.max(a, b)
 
-  protected def make()(using Site): SamplerRequest => SamplerPlan =
+  protected def create()(using Site): SamplerRequest => SamplerPlan =
     val n = maxSamples()
     request => SamplerPlan(name, request.spp.getOrElse(n), request.seed, PointSet.Sobol)

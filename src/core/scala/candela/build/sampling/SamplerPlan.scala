@@ -26,15 +26,15 @@ final case class SamplerPlan(
 
   /** The points of this choice, and why. */
   def describe(choice: PointChoice): String =
-    val taken = points(choice)
+    val chosen = points(choice)
     choice match
-      case PointChoice.Named(_) => s"${taken.meaning}, by --sampler"
-      case PointChoice.Best | PointChoice.Progressive if isEven && taken != own =>
-        s"${taken.meaning}, which have less noise than \"$name\" (--sampler scene takes " +
+      case PointChoice.Named(_) => s"${chosen.meaning}, by --sampler"
+      case PointChoice.Best | PointChoice.Progressive if isEven && chosen != own =>
+        s"${chosen.meaning}, which have less noise than \"$name\" (--sampler scene takes " +
           s"${own.meaning})"
-      case PointChoice.Progressive if taken != own =>
-        s"${taken.meaning}, any number of which are evenly spread, unlike those of \"$name\""
-      case _ => s"${taken.meaning}, for \"$name\""
+      case PointChoice.Progressive if chosen != own =>
+        s"${chosen.meaning}, any number of which are evenly spread, unlike those of \"$name\""
+      case _ => s"${chosen.meaning}, for \"$name\""
 
 object SamplerPlan:
   /** The points with the least noise, see docs/SAMPLERS.md. */

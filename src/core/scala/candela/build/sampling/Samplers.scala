@@ -44,7 +44,7 @@ abstract class SamplerRecipe(
     else default)
   private val seed = integer("seed", "random seed", onlyV4, shown = "the option's")(0)
 
-  protected def asked(points: PointSet, isEven: Boolean = true)(using
+  protected def samplerPlan(points: PointSet, isEven: Boolean = true)(using
       Site
   ): SamplerRequest => SamplerPlan =
     val s = seed()

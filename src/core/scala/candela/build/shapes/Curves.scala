@@ -9,7 +9,7 @@ import candela.shapes.{CurveForm, CurveKind}
 object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or grass", sinceV3):
   private val points = numbers("P", "point3[]", "control points")
   private val basis = oneOf("basis", "spline basis", Seq("bezier", "bspline"))("bezier")
-  private val degree = integer("degree", "spline degree", range = Range(2f, 3f).told)(3)
+  private val degree = integer("degree", "spline degree", range = Range(2f, 3f).deferred)(3)
   private val kind = oneOf(
     "type",
     "curve type",
@@ -21,19 +21,19 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
     "width",
     "constant width",
     unit = "scene units",
-    range = Range.atLeast(0f).told
+    range = Range.atLeast(0f).deferred
   )(1f)
   private val width0 = float(
     "width0",
     "width at the start",
     shown = "width",
-    range = Range.atLeast(0f).told
+    range = Range.atLeast(0f).deferred
   )(1f)
   private val width1 = float(
     "width1",
     "width at the end",
     shown = "width",
-    range = Range.atLeast(0f).told
+    range = Range.atLeast(0f).deferred
   )(1f)
   private val normals = numbers("N", "normal[]", "normals of a ribbon, at the ends of its segments")
   private val splitdepth =
@@ -71,10 +71,10 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
     else if n.length == 3 * (curves + 1) then
       Some(Vector.tabulate(curves + 1)(i => Vec3(n(3 * i), n(3 * i + 1), n(3 * i + 2))))
     else
-      val found = n.length / 3
+      val normalCount = n.length / 3
       site.unusable(
         Code.ParameterValue,
-        s"`N` of $curves ribbon segments must have ${curves + 1} normals, found $found"
+        s"`N` of $curves ribbon segments must have ${curves + 1} normals, found $normalCount"
       )
       None
 
@@ -91,7 +91,7 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       None
     else
       val count = curves.toLong << depth
-      site.allowance.check(Limit.Triangles, count, Some(site.declaration.at)):
+      site.allowance.check(Limit.Triangles, count, Some(site.declaration.pos)):
         s"a curve of $count segments"
       val drawn = kind() match
         case "ribbon" => CurveKind.Ribbon

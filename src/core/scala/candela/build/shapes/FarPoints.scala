@@ -30,13 +30,13 @@ private[build] object FarPoints:
 
   /** The points relative to `origin`. */
   def relative(p: Array[Float], rests: Array[Float], origin: Position): Array[Float] =
-    val from = Array(origin.x, origin.y, origin.z)
-    val made = new Array[Float](p.length)
-    loop(p.length)(i => made(i) = (p(i) - from(i % 3) + rests(i)).toFloat)
-    made
+    val offset = Array(origin.x, origin.y, origin.z)
+    val points = new Array[Float](p.length)
+    loop(p.length)(i => points(i) = (p(i) - offset(i % 3) + rests(i)).toFloat)
+    points
 
   /** A shape of points relative to another origin, which is returned, too. */
-  def near(d: Declaration, toWorld: Transform): Option[(Declaration, Position)] =
+  def recentred(d: Declaration, toWorld: Transform): Option[(Declaration, Position)] =
     def replaced(p: Param, values: Array[Float], origin: Position) =
       (d.copy(params = d.params.map(q => if q eq p then p.withFloats(values) else q)), origin)
     d.param("P").filter(_.rests.length > 0) match
@@ -55,6 +55,6 @@ private[build] object FarPoints:
     Array.tabulate(3)(k => (p.number(k) / p.number(3)).toFloat)
 
   private def weighted(p: Param, origin: Position): Array[Float] =
-    val from = Array(origin.x, origin.y, origin.z, 0.0)
+    val offset = Array(origin.x, origin.y, origin.z, 0.0)
     Array.tabulate(p.floats.length): i =>
-      (p.number(i) - from(i % 4) * p.number(i / 4 * 4 + 3)).toFloat
+      (p.number(i) - offset(i % 4) * p.number(i / 4 * 4 + 3)).toFloat

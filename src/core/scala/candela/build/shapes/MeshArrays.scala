@@ -22,9 +22,9 @@ private[build] object MeshArrays:
       uvs: Array[Float],
       indices: Array[Int]
   )(using site: Site): Option[ShapeGeometry] =
-    val whole = wholeFaces(indices, 3)
-    val fits = isWhole(positions, whole)
-    Option.when(fits)(triangles(positions, normals, uvs, whole))
+    val faces = wholeFaces(indices, 3)
+    val fits = isWhole(positions, faces)
+    Option.when(fits)(triangles(positions, normals, uvs, faces))
 
   /** Drops the indices of an incomplete last face, with a warning, as pbrt does. */
   def wholeFaces(indices: Array[Int], corners: Int)(using site: Site): Array[Int] =
@@ -90,8 +90,8 @@ private[build] object MeshArrays:
       if positions.length % 3 != 0 then
         problem(s"`P` must have a multiple of 3 numbers, found ${positions.length}")
       else if indices.length % corners != 0 then
-        val found = indices.length
-        problem(s"`indices` must have a multiple of $corners numbers, found $found")
+        val count = indices.length
+        problem(s"`indices` must have a multiple of $corners numbers, found $count")
       else
         indices.find(i => i < 0 || i >= vertices) match
           case Some(i) =>

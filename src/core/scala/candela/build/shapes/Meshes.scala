@@ -71,16 +71,17 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
         site.resources.file(p, site.declaration, site.problems, standIn).flatMap: file =>
           try
             val keepQuads = site.dialect == Dialect.V4
-            val (read, digest) = site.resources.keep.ofFile(Meshes, file, s"$keepQuads"):
+            val (read, digest) = site.resources.cache.ofFile(Meshes, file, s"$keepQuads"):
               PlyFile.read(file, keepQuads = keepQuads)
-            val near = read.near(site.toWorld)
-            val (mesh, origin) = near.getOrElse((read, Position.Origin))
-            val toWorld = if near.isEmpty then site.toWorld else site.toWorld * origin.fromOrigin
-            val content = digest.filter(_ => near.isEmpty).map(d => s"$d $keepQuads")
-            val made =
+            val recentred = read.recentred(site.toWorld)
+            val (mesh, origin) = recentred.getOrElse((read, Position.Origin))
+            val toWorld =
+              if recentred.isEmpty then site.toWorld else site.toWorld * origin.fromOrigin
+            val content = digest.filter(_ => recentred.isEmpty).map(d => s"$d $keepQuads")
+            val shape =
               if displacement.given_().isEmpty then Some(ofFile(mesh, content))
               else displaced(mesh, toWorld)
-            if near.isEmpty then made else made.map(ShapeGeometry.Around(origin, _))
+            if recentred.isEmpty then shape else shape.map(ShapeGeometry.Around(origin, _))
           catch
             case e: SceneError =>
               for x <- e.problems do
@@ -100,23 +101,28 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
       None
     else
       val heights = displacement()
-      val at = ShadingPoint()
+      val point = ShadingPoint()
       val halves = mesh.quads.grouped(4).flatMap(q => Seq(q(0), q(1), q(3), q(0), q(3), q(2)))
       try
-        val made = DisplacedMesh.of(
+        val displacedMesh = DisplacedMesh.of(
           mesh.positions,
           mesh.normals,
           mesh.uvs,
           mesh.indices ++ halves,
           toWorld,
           longest,
-          site.allowance.most(Limit.Triangles, DisplacedMesh.MostVertices)
+          site.allowance.capped(Limit.Triangles, DisplacedMesh.MostVertices)
         ): (p, u, v) =>
-          at.p = p
-          at.u = u
-          at.v = v
-          heights(at)
-        Some(ShapeGeometry.Triangles(made.positions, made.normals, made.uvs, made.indices))
+          point.p = p
+          point.u = u
+          point.v = v
+          heights(point)
+        Some(ShapeGeometry.Triangles(
+          displacedMesh.positions,
+          displacedMesh.normals,
+          displacedMesh.uvs,
+          displacedMesh.indices
+        ))
       catch
         case e: MeshError =>
           site.error(Code.DamagedMesh, s"\"plymesh\": ${e.getMessage}")
@@ -154,14 +160,14 @@ object BilinearMeshRecipe
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val p = points()
     val given_ = indices()
-    val all = if given_.isEmpty && p.length == 12 then Array(0, 1, 2, 3) else given_
-    if p.isEmpty || all.length < 4 then
+    val quadIndices = if given_.isEmpty && p.length == 12 then Array(0, 1, 2, 3) else given_
+    if p.isEmpty || quadIndices.length < 4 then
       site.error(Code.MissingParameter, "a \"bilinearmesh\" needs `P` and `indices`")
       None
     else
-      val whole = MeshArrays.wholeFaces(all, 4)
-      Option.when(MeshArrays.isWhole(p, whole, 4))(
-        MeshArrays.patches(p, normals(), uv(), whole)
+      val faces = MeshArrays.wholeFaces(quadIndices, 4)
+      Option.when(MeshArrays.isWhole(p, faces, 4))(
+        MeshArrays.patches(p, normals(), uv(), faces)
       )
 
 object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surface"):
@@ -184,13 +190,13 @@ object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surf
       MeshArrays.checked(points(), Array.empty, Array.empty, faces).flatMap: _ =>
         try
           val count = (faces.length.toLong / 3) << (2 * depth)
-          site.allowance.check(Limit.Triangles, count, Some(site.declaration.at)):
+          site.allowance.check(Limit.Triangles, count, Some(site.declaration.pos)):
             s"\"loopsubdiv\" makes $count triangles"
           def key = Sha256.hex(Sha256.ofNumbers(
             Seq(Numbers(Array(depth)), Numbers(faces), Numbers(points())),
             Parallel.Alone
           ))
-          val fine = site.resources.keep(Fine, key):
+          val fine = site.resources.cache(Fine, key):
             LoopSubdivision.subdivide(depth, faces, points())
           for edge <- fine.crowded do
             site.warn(Code.BrokenMesh, s"\"loopsubdiv\": $edge, as in pbrt")
@@ -206,13 +212,13 @@ object HeightFieldRecipe
     "nu",
     "grid points along x",
     shown = "none",
-    range = Range.atLeast(2f).told
+    range = Range.atLeast(2f).deferred
   )(0)
   private val nv = integer(
     "nv",
     "grid points along y",
     shown = "none",
-    range = Range.atLeast(2f).told
+    range = Range.atLeast(2f).deferred
   )(0)
   private val heights = numbers("Pz", "float[]", "heights, in rows of constant y")
 
@@ -278,7 +284,7 @@ object HeightMapRecipe
       site.allowance.check(
         Limit.Triangles,
         2L * rgb.width * rgb.height,
-        Some(site.declaration.at)
+        Some(site.declaration.pos)
       )(s"a height field of ${rgb.width} × ${rgb.height} pixels")
       val z = Array.tabulate(rgb.width * rgb.height): i =>
         scale() * Rgb(rgb.data(3 * i), rgb.data(3 * i + 1), rgb.data(3 * i + 2)).luminance

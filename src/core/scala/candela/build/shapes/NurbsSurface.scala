@@ -40,7 +40,7 @@ private[build] final class NurbsSide(
     Option.when(wrong.isEmpty)(KnotVector(n, k, all.map(_.toDouble)))
 
   /** Parameter values of evaluation. */
-  def places()(using site: Site): Array[Double] =
+  def parameters()(using site: Site): Array[Double] =
     val start = from.given_().getOrElse(knots()(order() - 1)).toDouble
     val end = to.given_().getOrElse(knots()(count())).toDouble
     Array.tabulate(NurbsRecipe.Dice)(i => start + (end - start) * i / (NurbsRecipe.Dice - 1))
@@ -58,13 +58,13 @@ object NurbsRecipe
       s"n$d",
       s"number of control points along $d",
       shown = "none",
-      range = Range.atLeast(2f).told
+      range = Range.atLeast(2f).deferred
     )(0),
     integer(
       s"${d}order",
       s"order (degree + 1) along $d",
       shown = "none",
-      range = Range.atLeast(2f).told
+      range = Range.atLeast(2f).deferred
     )(0),
     numbers(s"${d}knots", "float[]", s"knots along $d"),
     float(s"${d}0", s"start of $d", shown = s"${d}knots[${d}order - 1]")(0f),
@@ -77,18 +77,20 @@ object NurbsRecipe
       kv <- v.read()
       control <- homogeneous(ku.count, kv.count)
     yield
-      val (us, vs) = (u.places().map(inside(ku)), v.places().map(inside(kv)))
+      val (us, vs) = (u.parameters().map(inside(ku)), v.parameters().map(inside(kv)))
       val surface = Nurbs(ku, kv, control)
       val n = Dice * Dice
       val (positions, normals) = (new Array[Float](3 * n), new Array[Float](3 * n))
       val uvs = new Array[Float](2 * n)
       loop(n): i =>
         val (s, t) = (us(i % Dice), vs(i / Dice))
-        val at = surface.at(s, t)
-        val length = Math.sqrt(at(3) * at(3) + at(4) * at(4) + at(5) * at(5))
+        val evaluated = surface.at(s, t)
+        val length = Math.sqrt(
+          evaluated(3) * evaluated(3) + evaluated(4) * evaluated(4) + evaluated(5) * evaluated(5)
+        )
         loop(3): k =>
-          positions(3 * i + k) = at(k).toFloat
-          normals(3 * i + k) = if length > 0 then (at(3 + k) / length).toFloat else 0f
+          positions(3 * i + k) = evaluated(k).toFloat
+          normals(3 * i + k) = if length > 0 then (evaluated(3 + k) / length).toFloat else 0f
         uvs(2 * i) = s.toFloat
         uvs(2 * i + 1) = t.toFloat
       MeshArrays.triangles(positions, normals, uvs, MeshArrays.grid(Dice, Dice))

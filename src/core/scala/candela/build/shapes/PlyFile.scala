@@ -31,10 +31,10 @@ final class PlyMesh(
     val rests: Array[Float] = Array.emptyFloatArray
 ):
   /** Around another point, if digits of the vertices would be missing in the world. */
-  def near(toWorld: Transform): Option[(PlyMesh, Position)] =
+  def recentred(toWorld: Transform): Option[(PlyMesh, Position)] =
     FarPoints.middle(positions, rests, toWorld).map: origin =>
-      val there = FarPoints.relative(positions, rests, origin)
-      (PlyMesh(there, normals, uvs, indices, quads, ofVertices, ofTriangles), origin)
+      val points = FarPoints.relative(positions, rests, origin)
+      (PlyMesh(points, normals, uvs, indices, quads, ofVertices, ofTriangles), origin)
 
 /** Reads meshes in the polygon file format: ASCII, binary of both byte orders, and either gzipped.
   *
@@ -57,15 +57,21 @@ object PlyFile:
       case Right(source) => mesh(source, at, keepQuads, keepsAll)
       case Left(why) => throw problem(at, s"can't read the mesh `$file`: $why")
 
-  /** Positions of the first vertices, at most `most`. */
-  def begin(file: InputFile, most: Int): Array[Double] =
+  /** Positions of the first vertices, at most `limit`. */
+  def firstPositions(file: InputFile, limit: Int): Array[Double] =
     def fail(at: Long, message: String) = throw problem(None, message)
     Source.read(file) match
       case Left(why) => fail(0, why)
       case Right(source) =>
         try
           val header = PlyHeader.read(source, fail)
-          PlyReader(header, PlyNumbers.of(source, header, fail), false, false, fail).begin(most)
+          PlyReader(
+            header,
+            PlyNumbers.of(source, header, fail),
+            false,
+            false,
+            fail
+          ).firstPositions(limit)
         finally source.close()
 
   private def problem(at: Option[SourcePos], message: String): SceneError =
@@ -79,8 +85,8 @@ object PlyFile:
   ): PlyMesh =
     var isAscii = true
     def fail(offset: Long, message: String): Nothing =
-      val place = if isAscii then s"line ${lineOf(offset, source)}" else s"byte $offset"
-      throw problem(at, s"mesh `${source.name}`, $place: $message")
+      val location = if isAscii then s"line ${lineOf(offset, source)}" else s"byte $offset"
+      throw problem(at, s"mesh `${source.name}`, $location: $message")
     try
       val header = PlyHeader.read(source, fail)
       isAscii = header.format == PlyFormat.Ascii
@@ -139,41 +145,41 @@ private[build] final class PlyReader(
         case "vertex" => readVertices(element)
         case "face" => readFaces(element, vertexCount)
         case _ => loop(element.count)(_ => element.properties.foreach(skip))
-    val triangles = indices.take()
-    val patches = quads.take()
+    val triangles = indices.drain()
+    val patches = quads.drain()
     if triangles.isEmpty && patches.isEmpty then fail(in.offset, "no face has three corners")
-    val others = ofTriangles.map((name, values) => name -> values.take())
-    val missing = rests.take(positions.length)
-    PlyMesh(positions, normals, uvs, triangles, patches, ofVertices, others, missing)
+    val triangleValues = ofTriangles.map((name, values) => name -> values.drain())
+    val missing = rests.drain(positions.length)
+    PlyMesh(positions, normals, uvs, triangles, patches, ofVertices, triangleValues, missing)
 
   /** Positions of the first vertices, if the file begins with them. */
-  def begin(most: Int): Array[Double] =
+  def firstPositions(limit: Int): Array[Double] =
     val element = header.elements.head
-    val places = PlyReader.Position.map(name => element.properties.indexWhere(_.name == name))
-    if element.name != "vertex" || places.exists(_ < 0) ||
+    val columns = PlyReader.Position.map(name => element.properties.indexWhere(_.name == name))
+    if element.name != "vertex" || columns.exists(_ < 0) ||
       element.properties.exists(_.countType.nonEmpty)
     then Array.emptyDoubleArray
     else
-      Array.fill(Math.min(most, element.count)):
+      Array.fill(Math.min(limit, element.count)):
         val row = element.properties.map(p => in.next(p.valueType))
-        places.map(row(_))
+        columns.map(row(_))
       .flatten
 
   private def needed(name: String): PlyElement =
     header.elements.find(_.name == name).filter(_.count > 0).getOrElse:
-      val found = header.elements.map(e => s"${e.count} ${e.name}").mkString(", ")
-      val others = if found.isEmpty then "none" else found
-      fail(in.offset, s"the file must have $name elements, found $others")
+      val listed = header.elements.map(e => s"${e.count} ${e.name}").mkString(", ")
+      val summary = if listed.isEmpty then "none" else listed
+      fail(in.offset, s"the file must have $name elements, found $summary")
 
   private def readVertices(element: PlyElement): Unit =
     val names = element.properties.filter(_.countType.isEmpty).map(_.name)
-    def has(wanted: Seq[String]) = wanted.forall(names.contains)
+    def hasAll(wanted: Seq[String]) = wanted.forall(names.contains)
     def room(wanted: Seq[String]) =
-      new Array[Float](if has(wanted) then element.count * wanted.size else 0)
-    if !has(PlyReader.Position) then
-      val found = element.properties.map(_.name).mkString("`", "`, `", "`")
-      fail(in.offset, s"vertices must have `x`, `y` and `z`, found $found")
-    val uvNames = PlyReader.TextureCoordinates.find(has).getOrElse(PlyReader.NoCoordinates)
+      new Array[Float](if hasAll(wanted) then element.count * wanted.size else 0)
+    if !hasAll(PlyReader.Position) then
+      val listed = element.properties.map(_.name).mkString("`", "`, `", "`")
+      fail(in.offset, s"vertices must have `x`, `y` and `z`, found $listed")
+    val uvNames = PlyReader.TextureCoordinates.find(hasAll).getOrElse(PlyReader.NoCoordinates)
     positions = room(PlyReader.Position)
     normals = room(PlyReader.Normal)
     uvs = room(uvNames)
@@ -187,12 +193,12 @@ private[build] final class PlyReader(
       val group = groups.headOption.filter(_ => p.countType.isEmpty)
       group.map((g, array) => (array, g.size, g.indexOf(p.name))).orElse:
         Option.when(keepsAll && p.countType.isEmpty):
-          val own = new Array[Float](element.count)
-          ofVertices :+= p.name -> own
-          (own, 1, 0)
+          val values = new Array[Float](element.count)
+          ofVertices :+= p.name -> values
+          (values, 1, 0)
     val targets = roles.map(_.fold(null)(_._1)).toArray
     val strides = roles.map(_.fold(0)(_._2)).toArray
-    val places = roles.map(_.fold(0)(_._3)).toArray
+    val offsets = roles.map(_.fold(0)(_._3)).toArray
     val properties = element.properties.toArray
     val row = new Array[Float](properties.length)
     val isRow = properties.forall(p => p.countType.isEmpty && p.valueType == PlyType.Float32)
@@ -200,24 +206,25 @@ private[build] final class PlyReader(
       if isRow && in.finiteRow(row) then
         loop(row.length): k =>
           val target = targets(k)
-          if target != null then target(i * strides(k) + places(k)) = row(k)
+          if target != null then target(i * strides(k) + offsets(k)) = row(k)
       else
         loop(properties.length): k =>
           val target = targets(k)
           if target == null then skip(properties(k))
           else
-            val at = i * strides(k) + places(k)
-            target(at) = number(properties(k), target eq positions, i, at)
+            val index = i * strides(k) + offsets(k)
+            target(index) = number(properties(k), target eq positions, i, index)
 
   /** The property's value; 0 if it is not finite, except in positions, where that is an error. */
   private def number(p: PlyProperty, isPosition: Boolean, vertex: Int, i: Int): Float =
-    val at = in.offset
+    val offset = in.offset
     val exact = in.next(p.valueType)
     val value = exact.toFloat
     if java.lang.Float.isFinite(value) then
       if isPosition && RestBuffer.isCoarse(value) then rests.note(i, exact, value)
       value
-    else if isPosition then fail(at, s"`${p.name}` of vertex $vertex must be finite, found $value")
+    else if isPosition then
+      fail(offset, s"`${p.name}` of vertex $vertex must be finite, found $value")
     else 0f
 
   private def skip(p: PlyProperty): Unit =
@@ -230,28 +237,30 @@ private[build] final class PlyReader(
     val corners =
       element.properties.indexWhere(p => PlyReader.Corners(p.name) && p.countType.nonEmpty)
     if corners < 0 then
-      val found = element.properties.map(_.name).mkString("`", "`, `", "`")
-      fail(in.offset, s"faces must have a list `vertex_indices`, found $found")
+      val listed = element.properties.map(_.name).mkString("`", "`, `", "`")
+      fail(in.offset, s"faces must have a list `vertex_indices`, found $listed")
     val properties = element.properties.toArray
     val isPlain = properties.length == 1 && PlyReader.isUsualList(properties(0))
-    val kept = properties.map(p => keepsAll && p.countType.isEmpty)
+    val retained = properties.map(p => keepsAll && p.countType.isEmpty)
     ofTriangles =
-      properties.toVector.zip(kept).collect { case (p, true) => p.name -> FloatBuffer() }
-    val own = new Array[Float](ofTriangles.size)
+      properties.toVector.zip(retained).collect { case (p, true) => p.name -> FloatBuffer() }
+    val faceValues = new Array[Float](ofTriangles.size)
     val three = new Array[Int](3)
     loop(element.count): _ =>
       if isPlain && in.triangle(three, vertexCount) then triangle(three(0), three(1), three(2))
       else
-        val before = indices.length
+        val firstIndex = indices.length
         var i = 0
         loop(properties.length): k =>
           if k == corners then readCorners(properties(k), vertexCount)
-          else if kept(k) then
+          else if retained(k) then
             val value = in.next(properties(k).valueType).toFloat
-            own(i) = if java.lang.Float.isFinite(value) then value else 0f
+            faceValues(i) = if java.lang.Float.isFinite(value) then value else 0f
             i += 1
           else skip(properties(k))
-        loop((indices.length - before) / 3)(_ => loop(own.length)(i => ofTriangles(i)._2 += own(i)))
+        loop((indices.length - firstIndex) / 3)(_ =>
+          loop(faceValues.length)(i => ofTriangles(i)._2 += faceValues(i))
+        )
 
   private def readCorners(p: PlyProperty, vertexCount: Int): Unit =
     val length = in.length(p.countType.get)
@@ -283,11 +292,11 @@ private[build] final class PlyReader(
     indices += c
 
   private def index(t: PlyType, vertexCount: Int): Int =
-    val at = in.offset
+    val offset = in.offset
     val value = in.next(t)
     if !(value >= 0 && value < vertexCount && value == Math.rint(value)) then
       val range = s"between 0 and ${vertexCount - 1}"
-      fail(at, s"the vertex index of a face must be $range, found ${PlyNumbers.plain(value)}")
+      fail(offset, s"the vertex index of a face must be $range, found ${PlyNumbers.plain(value)}")
     value.toInt
 
 private[build] object PlyReader:

@@ -57,14 +57,14 @@ private[build] object PlyHeader:
     val elements = mutable.ArrayBuffer.empty[PlyElement]
     val lines = Lines(source)
     if lines.line() != "ply" then fail(0, "not a PLY file; it must begin with `ply`")
-    var more = true
-    while more do
+    var isInHeader = true
+    while isInHeader do
       if lines.isAtEnd then
         fail(source.offset(source.limit), "the header must end with `end_header`")
       val line = lines.line()
       def wrong(what: String) =
-        val shown = line.take(60).map(c => if Character.isISOControl(c) then '?' else c)
-        fail(lines.lastStart, s"$what: `$shown`")
+        val excerpt = line.take(60).map(c => if Character.isISOControl(c) then '?' else c)
+        fail(lines.lastStart, s"$what: `$excerpt`")
       words(line) match
         case "format" :: name :: _ =>
           format = Some(Formats.getOrElse(name, wrong("unknown format")))
@@ -75,15 +75,15 @@ private[build] object PlyHeader:
           val last = elements.last
           val added = property(rest).getOrElse(wrong("unknown property"))
           elements(elements.length - 1) = last.copy(properties = last.properties :+ added)
-        case "end_header" :: Nil => more = false
+        case "end_header" :: Nil => isInHeader = false
         case Nil | ("comment" | "obj_info") :: _ => ()
         case _ => wrong("unknown header line")
-    val known = format.getOrElse(fail(0, "the header must have a `format`"))
-    PlyHeader(known, elements.toVector, lines.end)
+    val declaredFormat = format.getOrElse(fail(0, "the header must have a `format`"))
+    PlyHeader(declaredFormat, elements.toVector, lines.end)
 
   private def words(line: String): List[String] =
-    val each = java.util.StringTokenizer(line, " \t\n\u000b\f\r")
-    List.fill(each.countTokens)(each.nextToken())
+    val tokens = java.util.StringTokenizer(line, " \t\n\u000b\f\r")
+    List.fill(tokens.countTokens)(tokens.nextToken())
 
   private def property(words: List[String]): Option[PlyProperty] = words match
     case "list" :: count :: value :: name :: Nil =>
@@ -159,10 +159,10 @@ private[build] sealed abstract class PlyNumbers(
     fail: (Long, String) => Nothing
 ):
   /** Index of the next byte in the source's window. */
-  protected var at: Int = start
+  protected var cursor: Int = start
 
   /** Byte offset of the next number. */
-  def offset: Long = source.offset(at)
+  def offset: Long = source.offset(cursor)
 
   /** Reads the next number, of type `t`. */
   def next(t: PlyType): Double
@@ -182,20 +182,20 @@ private[build] sealed abstract class PlyNumbers(
 
   /** Whether the file is large enough for the elements. */
   final def canHold(element: PlyElement): Boolean =
-    leastSize(element) <= source.maxAfter(at)
+    leastSize(element) <= source.maxAfter(cursor)
 
   /** Reads the length of a list. */
   final def length(t: PlyType): Int =
-    val from = offset
+    val listStart = offset
     val n = next(t)
     if !(n >= 0 && n <= Int.MaxValue && n == Math.rint(n)) then
-      fail(from, s"invalid list length ${PlyNumbers.plain(n)}")
+      fail(listStart, s"invalid list length ${PlyNumbers.plain(n)}")
     n.toInt
 
   /** Advances the window to the next byte. */
   protected final def fetch(): Unit =
-    source.slide(at)
-    at = 0
+    source.slide(cursor)
+    cursor = 0
 
   protected final def tooShort(): Nothing =
     fail(source.offset(source.limit), "unexpected end of file")
@@ -213,20 +213,21 @@ private[build] final class AsciiPlyNumbers(
     super.offset
 
   private def skipBlank(): Unit =
-    while at < source.limit && source.bytes(at) <= ' ' && source.bytes(at) > 0 do at += 1
-    if source.limit - at < PlyNumbers.UsualNumber && !source.isLast then
+    while cursor < source.limit && source.bytes(cursor) <= ' ' && source.bytes(cursor) > 0 do
+      cursor += 1
+    if source.limit - cursor < PlyNumbers.UsualNumber && !source.isLast then
       fetch()
       skipBlank()
 
   def next(t: PlyType): Double =
     skipBlank()
-    if at >= source.limit then tooShort()
-    var end = number.scan(at)
+    if cursor >= source.limit then tooShort()
+    var end = number.scan(cursor)
     while number.stop == source.limit && !source.isLast do
       fetch()
-      end = number.scan(at)
+      end = number.scan(cursor)
     if end < 0 then fail(offset, "expected a number")
-    at = end
+    cursor = end
     val isCoarse = RestBuffer.isCoarse(number.toFloat)
     if t == PlyType.Float32 && !isCoarse then number.toFloat.toDouble else number.toDouble
 
@@ -243,20 +244,21 @@ private[build] final class BinaryPlyNumbers(
 
   def next(t: PlyType): Double =
     val size = t.bytes
-    if source.limit - at < size then need(size)
+    if source.limit - cursor < size then ensure(size)
     val bytes = source.bytes
-    val from = at
-    at += size
+    val valueStart = cursor
+    cursor += size
     (t.ordinal: @switch) match
-      case 0 => bytes(from)
-      case 1 => bytes(from) & 0xff
-      case 2 => short(bytes, from)
-      case 3 => short(bytes, from) & 0xffff
-      case 4 => int(bytes, from)
-      case 5 => (int(bytes, from) & 0xffffffffL).toDouble
-      case 6 => java.lang.Float.intBitsToFloat(int(bytes, from))
+      case 0 => bytes(valueStart)
+      case 1 => bytes(valueStart) & 0xff
+      case 2 => short(bytes, valueStart)
+      case 3 => short(bytes, valueStart) & 0xffff
+      case 4 => int(bytes, valueStart)
+      case 5 => (int(bytes, valueStart) & 0xffffffffL).toDouble
+      case 6 => java.lang.Float.intBitsToFloat(int(bytes, valueStart))
       case _ =>
-        val (first, second) = (int(bytes, from) & 0xffffffffL, int(bytes, from + 4) & 0xffffffffL)
+        val (first, second) =
+          (int(bytes, valueStart) & 0xffffffffL, int(bytes, valueStart + 4) & 0xffffffffL)
         val bits = if isLittle then second << 32 | first else first << 32 | second
         java.lang.Double.longBitsToDouble(bits)
 
@@ -266,32 +268,32 @@ private[build] final class BinaryPlyNumbers(
       var isFinite = true
       var i = 0
       while i < row.length do
-        val x = java.lang.Float.intBitsToFloat(int(bytes, at + 4 * i))
+        val x = java.lang.Float.intBitsToFloat(int(bytes, cursor + 4 * i))
         isFinite &= Math.abs(x) <= Float.MaxValue
         row(i) = x
         i += 1
-      if isFinite then at += 4 * row.length
+      if isFinite then cursor += 4 * row.length
       isFinite
     }
 
   override def triangle(corners: Array[Int], count: Int): Boolean =
-    hold(13) && source.bytes(at) == 3 && {
+    hold(13) && source.bytes(cursor) == 3 && {
       var isInRange = true
       var i = 0
       while i < 3 do
-        corners(i) = int(source.bytes, at + 1 + 4 * i)
+        corners(i) = int(source.bytes, cursor + 1 + 4 * i)
         isInRange &= Integer.compareUnsigned(corners(i), count) < 0
         i += 1
-      if isInRange then at += 13
+      if isInRange then cursor += 13
       isInRange
     }
 
   /** Whether there are so many bytes more. */
   private def hold(size: Int): Boolean =
-    if source.limit - at < size && !source.isLast then fetch()
-    source.limit - at >= size
+    if source.limit - cursor < size && !source.isLast then fetch()
+    source.limit - cursor >= size
 
-  private def need(size: Int): Unit = if !hold(size) then tooShort()
+  private def ensure(size: Int): Unit = if !hold(size) then tooShort()
 
   private def short(bytes: Array[Byte], i: Int): Short =
     if isLittle then (bytes(i) & 0xff | bytes(i + 1) << 8).toShort

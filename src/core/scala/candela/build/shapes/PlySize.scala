@@ -35,17 +35,19 @@ object PlySize:
   private def size(header: PlyHeader, length: Long): PlySize =
     def named(name: String) = header.elements.find(_.name == name)
     val vertex = named("vertex")
-    val has = vertex.toSet.flatMap(_.properties.map(_.name))
-    val numbers = 3 + (if has("nx") then 3 else 0) + (if has("u") || has("s") then 2 else 0)
+    val properties = vertex.toSet.flatMap(_.properties.map(_.name))
+    val numbers = 3 + (if properties("nx") then 3
+                       else 0) + (if properties("u") || properties("s") then 2 else 0)
     val faces = named("face").fold(0L)(_.count.toLong)
     val isBinary = header.format != PlyFormat.Ascii && length > 0 && faces > 0
     val lists = named("face").fold(Vector.empty)(_.properties.filter(_.countType.nonEmpty))
     val corners = lists match
       case Vector(list) if isBinary =>
-        val others = header.elements.filter(_.name != "face").map(e => e.count.toLong * bytes(e))
-        val rest = (length - header.bodyStart - others.sum).toDouble / faces
+        val otherBytes =
+          header.elements.filter(_.name != "face").map(e => e.count.toLong * bytes(e))
+        val bytesPerFace = (length - header.bodyStart - otherBytes.sum).toDouble / faces
         val beside = named("face").fold(0)(bytes(_)) + list.countType.fold(0)(_.bytes)
-        Math.max(3.0, Math.min(MostCorners, (rest - beside) / list.valueType.bytes))
+        Math.max(3.0, Math.min(MostCorners, (bytesPerFace - beside) / list.valueType.bytes))
       case _ => 3.0
     PlySize(vertex.fold(0L)(_.count.toLong), faces, corners, numbers)
 

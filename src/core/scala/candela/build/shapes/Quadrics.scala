@@ -8,7 +8,7 @@ import candela.shapes.{Disk, Profile, Quadric, Spheres}
 
 object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whole or partial"):
   private val radius =
-    float("radius", "radius", unit = "scene units", range = Range.atLeast(0f).told)(1f)
+    float("radius", "radius", unit = "scene units", range = Range.atLeast(0f).deferred)(1f)
   private val zmin = float(
     "zmin",
     "z of the lower clip plane",
@@ -107,7 +107,7 @@ object CylinderRecipe extends SweptRecipe("cylinder", "open cylinder about the z
 
 object ConeRecipe extends SweptRecipe("cone", "open cone about z, from z = 0 to its apex", untilV3):
   private val radius = float("radius", "radius at z = 0", unit = "scene units")(1f)
-  private val height = float("height", "z of the apex", range = Range.above(0f).told)(1f)
+  private val height = float("height", "z of the apex", range = Range.above(0f).deferred)(1f)
 
   protected def geometry()(using Site): Option[ShapeGeometry] =
     if radius() == 0f then leftOut("`radius` is 0")

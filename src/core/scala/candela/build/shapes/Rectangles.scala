@@ -23,9 +23,9 @@ private[build] object Rectangles:
         mesh.normals.length > 0 &&
         (((b - a) cross (c - a)) dot corners(t, mesh.normals).reduce(_ + _)) < 0f
 
-      val found = Iterator.range(0, triangles, 2).map: t =>
+      val rectangles = Iterator.range(0, triangles, 2).map: t =>
         RectangleSampler
           .of(corners(t, points), corners(t + 1, points))
           .filter(_ => isTurned(t) == isTurned(t + 1))
-      val all = found.takeWhile(_.isDefined).flatten.toVector
-      if 2 * all.size == triangles then all else Vector.empty
+      val samplers = rectangles.takeWhile(_.isDefined).flatten.toVector
+      if 2 * samplers.size == triangles then samplers else Vector.empty

@@ -67,7 +67,7 @@ abstract class ShapeRecipe(
   /** Do rays from behind pass? */
   protected def isOpenBehind()(using Site): Boolean = false
 
-  protected final def make()(using site: Site): Option[ShapePlan] =
+  protected final def create()(using site: Site): Option[ShapePlan] =
     geometry().map: geometry =>
       val holes = holesOf(alpha)
       if site.dialect == Dialect.V4 then

@@ -91,16 +91,16 @@ object SoupBuilder:
     if toWorld.isIdentity then p
     else
       val m = toWorld.m
-      val out = new Array[Float](p.length)
+      val transformed = new Array[Float](p.length)
       loop(p.length / 3): i =>
         val x = p(3 * i).toDouble
         val y = p(3 * i + 1).toDouble
         val z = p(3 * i + 2).toDouble
         val w = m(12) * x + m(13) * y + m(14) * z + m(15)
         loop(3): r =>
-          out(3 * i + r) =
+          transformed(3 * i + r) =
             ((m(4 * r) * x + m(4 * r + 1) * y + m(4 * r + 2) * z + m(4 * r + 3)) / w).toFloat
-      out
+      transformed
 
   private[build] def normals(n: Array[Float], toWorld: Transform, flip: Boolean): Array[Float] =
     if n.length == 0 || (toWorld.isIdentity && !flip) then n
@@ -108,13 +108,13 @@ object SoupBuilder:
     else
       val m = toWorld.inverseM
       val sign = if flip then -1.0 else 1.0
-      val out = new Array[Float](n.length)
+      val transformed = new Array[Float](n.length)
       loop(n.length / 3): i =>
         val x = n(3 * i) * sign
         val y = n(3 * i + 1) * sign
         val z = n(3 * i + 2) * sign
         // Not normalised: lengths weight the interpolation, as in pbrt
-        out(3 * i) = (m(0) * x + m(4) * y + m(8) * z).toFloat
-        out(3 * i + 1) = (m(1) * x + m(5) * y + m(9) * z).toFloat
-        out(3 * i + 2) = (m(2) * x + m(6) * y + m(10) * z).toFloat
-      out
+        transformed(3 * i) = (m(0) * x + m(4) * y + m(8) * z).toFloat
+        transformed(3 * i + 1) = (m(1) * x + m(5) * y + m(9) * z).toFloat
+        transformed(3 * i + 2) = (m(2) * x + m(6) * y + m(10) * z).toFloat
+      transformed

@@ -32,11 +32,11 @@ abstract class GridRecipe[A](meaning: String, channels: Int)
       )
 
 object FloatGridRecipe extends GridRecipe[FloatTexture]("numbers in a box", 1):
-  protected def make()(using Site): FloatTexture =
+  protected def create()(using Site): FloatTexture =
     grids().fold(StandIns.number)((mapping, grids) => FloatGridTexture(mapping, grids.head))
 
 object RgbGridRecipe extends GridRecipe[RgbTexture]("colours in a box", 3):
-  protected def make()(using site: Site): RgbTexture =
+  protected def create()(using site: Site): RgbTexture =
     val basis = site.resources.basis
     grids().fold(StandIns.color(basis)): (mapping, grids) =>
       val texture = RgbGridTexture(mapping, grids(0), grids(1), grids(2))

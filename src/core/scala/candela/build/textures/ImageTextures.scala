@@ -127,7 +127,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
             else
               val (width, height) = (stored.width, stored.height)
               val limit = maxValue(isBytes)
-              val (pool, keep) = (site.resources.pool, site.resources.keep)
+              val (pool, keep) = (site.resources.pool, site.resources.cache)
               val key = site.resources.keyOf(p, site.declaration).map(k => s"$k $ways")
               MipMap.ofImage(width, height, wrapping, limit, pool, keep, key)(texels)
 
@@ -221,7 +221,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     if site.dialect == Dialect.V2 then 1f else scale()
 
 object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "numbers"):
-  protected def make()(using site: Site): FloatTexture =
+  protected def create()(using site: Site): FloatTexture =
     lookup().fold(StandIns.number)(FloatImageTexture(mapped(period), _, outerScale, invert()))
 
   protected def texels(image: ImageBands, decode: Float => Float)(using site: Site): TexelBands =
@@ -236,7 +236,7 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "
   protected def note(colors: => Vector[Rgb])(using Site): Unit = ()
 
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "colours"):
-  protected def make()(using site: Site): RgbTexture =
+  protected def create()(using site: Site): RgbTexture =
     val basis = site.resources.basis
     lookup().fold(StandIns.color(basis)): lookup =>
       val image = RgbImageTexture(mapped(period), lookup, outerScale, invert())

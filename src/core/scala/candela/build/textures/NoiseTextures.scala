@@ -25,32 +25,32 @@ abstract class NoiseRecipe[A](name: String, meaning: String, dialects: Set[Diale
 
 object FloatFbmRecipe
     extends NoiseRecipe[FloatTexture]("fbm", "fractional Brownian motion", every):
-  protected def make()(using Site): FloatTexture = fbm()
+  protected def create()(using Site): FloatTexture = fbm()
 
 object RgbFbmRecipe
     extends NoiseRecipe[RgbTexture]("fbm", "fractional Brownian motion, as grey", untilV3):
-  protected def make()(using Site): RgbTexture = GrayTexture(fbm())
+  protected def create()(using Site): RgbTexture = GrayTexture(fbm())
 
 object FloatWrinkledRecipe
     extends NoiseRecipe[FloatTexture]("wrinkled", "turbulence: sum of absolute noise", every):
-  protected def make()(using Site): FloatTexture = wrinkled()
+  protected def create()(using Site): FloatTexture = wrinkled()
 
 object RgbWrinkledRecipe
     extends NoiseRecipe[RgbTexture]("wrinkled", "turbulence, as grey", untilV3):
-  protected def make()(using Site): RgbTexture = GrayTexture(wrinkled())
+  protected def create()(using Site): RgbTexture = GrayTexture(wrinkled())
 
 object FloatWindyRecipe extends Recipe[FloatTexture]("windy", "noise resembling wind-blown waves"):
-  protected def make()(using Site): FloatTexture = WindyTexture(Solid.filtered)
+  protected def create()(using Site): FloatTexture = WindyTexture(Solid.filtered)
 
 object RgbWindyRecipe
     extends Recipe[RgbTexture]("windy", "noise resembling wind-blown waves, as grey", untilV3):
-  protected def make()(using Site): RgbTexture = GrayTexture(WindyTexture(Solid.filtered))
+  protected def create()(using Site): RgbTexture = GrayTexture(WindyTexture(Solid.filtered))
 
 object RgbMarbleRecipe
     extends NoiseRecipe[RgbTexture]("marble", "marble: layers of grey displaced by noise", every):
   private val scale = float("scale", "approximate number of layers per unit of length")(1f)
   private val variation = float("variation", "amplitude of the noise displacement")(0.2f)
-  protected def make()(using site: Site): RgbTexture =
+  protected def create()(using site: Site): RgbTexture =
     val texture = marble(scale(), variation())
     if site.resources.basis.isSrgb then texture
     else RebasedTexture(texture, site.resources.basis.lookUp)

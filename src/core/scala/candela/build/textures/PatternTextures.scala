@@ -8,7 +8,7 @@ import candela.textures.*
 abstract class CheckerboardRecipe[A]
     extends MappedRecipe[A]("checkerboard", "checkerboard of two textures"):
   private val dimension =
-    integer("dimension", "3 for a solid checkerboard", range = Range(2f, 3f).told)(2)
+    integer("dimension", "3 for a solid checkerboard", range = Range(2f, 3f).deferred)(2)
   private val aamode =
     oneOf("aamode", "antialiasing of edges", Seq("closedform", "none"), untilV3)("closedform")
 
@@ -26,19 +26,19 @@ abstract class CheckerboardRecipe[A]
 object FloatCheckerboardRecipe extends CheckerboardRecipe[FloatTexture]:
   private val tex1 = floatTexture("tex1", "value of even squares")(1f)
   private val tex2 = floatTexture("tex2", "value of odd squares")(0f)
-  protected def make()(using Site): FloatTexture = CheckerboardFloat(checks(), tex1(), tex2())
+  protected def create()(using Site): FloatTexture = CheckerboardFloat(checks(), tex1(), tex2())
 
 object RgbCheckerboardRecipe extends CheckerboardRecipe[RgbTexture]:
   private val tex1 = rgbTexture("tex1", "value of even squares")(Rgb.White)
   private val tex2 = rgbTexture("tex2", "value of odd squares")(Rgb.Black)
-  protected def make()(using Site): RgbTexture = CheckerboardRgb(checks(), tex1(), tex2())
+  protected def create()(using Site): RgbTexture = CheckerboardRgb(checks(), tex1(), tex2())
 
 object FloatBilerpRecipe
     extends MappedRecipe[FloatTexture]("bilerp", "bilinear interpolation of four corner values"):
   private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:
     (n, d) =>
       float(n, s"value at the corner $n")(d)
-  protected def make()(using Site): FloatTexture =
+  protected def create()(using Site): FloatTexture =
     BilerpFloat(mapped(0), corners(0)(), corners(1)(), corners(2)(), corners(3)())
 
 object RgbBilerpRecipe
@@ -46,25 +46,25 @@ object RgbBilerpRecipe
   private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:
     (n, d) =>
       color(n, s"colour at the corner $n", SpectrumRole.Reflectance)(Rgb.gray(d))
-  protected def make()(using Site): RgbTexture =
+  protected def create()(using Site): RgbTexture =
     BilerpRgb(mapped(0), corners(0)(), corners(1)(), corners(2)(), corners(3)())
 
 /** All versions of pbrt use `inside` outside the dots and `outside` inside. */
 object FloatDotsRecipe extends MappedRecipe[FloatTexture]("dots", "polka dots"):
   private val inside = floatTexture("inside", "value outside the dots, as in pbrt")(1f)
   private val outside = floatTexture("outside", "value inside the dots, as in pbrt")(0f)
-  protected def make()(using Site): FloatTexture =
+  protected def create()(using Site): FloatTexture =
     DotsFloat(mapped(PerlinNoise.Period), outside(), inside())
 
 object RgbDotsRecipe extends MappedRecipe[RgbTexture]("dots", "polka dots"):
   private val inside = rgbTexture("inside", "value outside the dots, as in pbrt")(Rgb.White)
   private val outside = rgbTexture("outside", "value inside the dots, as in pbrt")(Rgb.Black)
-  protected def make()(using Site): RgbTexture =
+  protected def create()(using Site): RgbTexture =
     DotsRgb(mapped(PerlinNoise.Period), outside(), inside())
 
 object RgbUvRecipe
     extends MappedRecipe[RgbTexture]("uv", "texture coordinates as red and green", untilV3):
-  protected def make()(using Site): RgbTexture = UvColor(mapped(1))
+  protected def create()(using Site): RgbTexture = UvColor(mapped(1))
 
 abstract class LinesRecipe[A]
     extends MappedRecipe[A]("lines", "lines where s or t is an integer", onlyMitsuba):
@@ -74,9 +74,9 @@ abstract class LinesRecipe[A]
 object FloatLinesRecipe extends LinesRecipe[FloatTexture]:
   private val tex1 = floatTexture("tex1", "value between the lines")(0.2f)
   private val tex2 = floatTexture("tex2", "value of the lines")(0.4f)
-  protected def make()(using Site): FloatTexture = LinesFloat(lines(), tex1(), tex2())
+  protected def create()(using Site): FloatTexture = LinesFloat(lines(), tex1(), tex2())
 
 object RgbLinesRecipe extends LinesRecipe[RgbTexture]:
   private val tex1 = rgbTexture("tex1", "value between the lines")(Rgb.gray(0.2f))
   private val tex2 = rgbTexture("tex2", "value of the lines")(Rgb.gray(0.4f))
-  protected def make()(using Site): RgbTexture = LinesRgb(lines(), tex1(), tex2())
+  protected def create()(using Site): RgbTexture = LinesRgb(lines(), tex1(), tex2())

@@ -32,10 +32,10 @@ object Textures:
     */
   def define(t: TextureDescription, site: Site): Unit =
     if t.valueType == "float" then
-      site.resources.defineFloat(t.name, site.declaration.at, site.problems):
+      site.resources.defineFloat(t.name, site.declaration.pos, site.problems):
         floats.build(site).getOrElse(StandIns.number)
     else
-      site.resources.defineRgb(t.name, site.declaration.at, site.problems):
+      site.resources.defineRgb(t.name, site.declaration.pos, site.problems):
         colors.build(site).getOrElse(StandIns.color(site.resources.basis))
 
 /** Recipes of unsupported textures, which fall back to 0.5. */
@@ -44,7 +44,7 @@ trait HalfInstead[A] extends Recipe[A]:
     Some("using the constant 0.5, since no library for the JVM reads Ptex")
 
 trait HalfFloat extends HalfInstead[FloatTexture]:
-  protected def make()(using Site): FloatTexture = ConstantFloat(0.5f)
+  protected def create()(using Site): FloatTexture = ConstantFloat(0.5f)
 
 trait HalfRgb extends HalfInstead[RgbTexture]:
-  protected def make()(using Site): RgbTexture = ConstantRgb(Rgb.gray(0.5f))
+  protected def create()(using Site): RgbTexture = ConstantRgb(Rgb.gray(0.5f))

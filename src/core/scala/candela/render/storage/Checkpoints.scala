@@ -38,7 +38,7 @@ final class Checkpoints(
     isWritten = succeeds(writer.write(header(state.samplesDone), state))
     pause = secondsSince(start)
 
-  def lose(): Unit =
+  def discard(): Unit =
     isWritten = succeeds:
       throw IOException("a sample did not end in time; the last copy is kept, if there is one")
 

@@ -57,7 +57,7 @@ final case class FilmHeader(
     copy(shards = shards, count = count, done = state.samplesDone)
 
   /** `shard 3/16`, or all of several. */
-  def part: String = FilmHeader.named(FilmHeader.runs(shards.toVector.sorted), count)
+  def label: String = FilmHeader.named(FilmHeader.runs(shards.toVector.sorted), count)
 
   /** The first difference between this rendering and another, in words; the part and the number of
     * samples done may differ.

@@ -25,7 +25,7 @@ object FilmLock:
     *
     * @throws IOException if the folder can't be written
     */
-  def take(film: Path): Option[FilmLock] =
+  def acquire(film: Path): Option[FilmLock] =
     val target = FilmFile.target(film)
     val file = target.resolveSibling(s".${target.getFileName}.lock")
     // A pipe would wait, and a link might lead anywhere
@@ -43,5 +43,5 @@ object FilmLock:
     else if !Files.exists(file) then
       // Its last owner deleted it after it was opened here
       channel.close()
-      take(film)
+      acquire(film)
     else Some(FilmLock(file, channel))

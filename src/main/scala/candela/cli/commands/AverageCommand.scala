@@ -9,14 +9,14 @@ import candela.image.{ImageEdits, ImageFiles, WriteOptions}
 final class AverageCommand(options: Options, terminal: Terminal, report: Report):
 
   def run(): ExitCode = report.guarded:
-    val outputs = OutputFiles.asked(options.outfiles)
+    val outputs = OutputFiles.requested(options.outfiles)
     outputs.check(options.files, "mean")
     val images = options.files.iterator.map: name =>
       name -> ImageFiles.read(OutputFiles.path(name)).linear
     val mean = ImageEdits.mean(images)
-    val how = WriteOptions(isHalf = options.image.isHalf, display = options.display)
+    val writeOptions = WriteOptions(isHalf = options.image.isHalf, display = options.display)
     OutputFiles.writeAll(outputs.paths): out =>
-      ImageFiles.write(out, mean, Vector("images" -> options.files.mkString(", ")), how)
+      ImageFiles.write(out, mean, Vector("images" -> options.files.mkString(", ")), writeOptions)
       if !options.quiet then
         val count = Figures.count(options.files.size, "image")
         terminal.out.println(s"wrote $out  ${mean.width}x${mean.height}, mean of $count")

@@ -15,7 +15,7 @@ import scala.util.Using
 
 /** `candela compare --bias`: tests whether two programs render the same expected image. */
 private[commands] final class BiasComparison(
-    asked: CompareOptions,
+    options: CompareOptions,
     terminal: Terminal,
     a: ImageSet,
     b: ImageSet
@@ -23,33 +23,33 @@ private[commands] final class BiasComparison(
   def run(): ExitCode =
     val test = BiasTest.of(renderings(a), renderings(b))
     lines(test).foreach(terminal.out.println)
-    for name <- asked.heatMap do writeMap(test, OutputFiles.path(name))
+    for name <- options.heatMap do writeMap(test, OutputFiles.path(name))
     if test.skipped > 0 then
       terminal.err.println(s"NaN or infinite in ${Figures.count(test.skipped, "tile")}")
     if isFound(test) || test.skipped > 0 then ExitCode.BadInput else ExitCode.Done
 
-  private def isFound(test: BiasTest): Boolean = test.p < asked.significance
+  private def isFound(test: BiasTest): Boolean = test.p < options.significance
 
   private def renderings(set: ImageSet): Renderings = set.files match
     case Vector(file) => withVariance(file)
     case files =>
-      try Renderings.seeds(files.map(file => TileSums.of(shown(ImageFiles.read(file)))))
+      try Renderings.seeds(files.map(file => TileSums.of(selected(ImageFiles.read(file)))))
       catch case e: ImageError => throw ImageError(e.code, s"${set.name}: ${e.getMessage}")
 
   /** The channels to compare, of the part to compare. */
-  private def shown(image: Image): Image =
+  private def selected(image: Image): Image =
     val pair =
-      asked.channels.fold(ImagePair(image, image))(ImagePair.of(image, image, _))
-    asked.crop.fold(pair)(pair.cropped).image
+      options.channels.fold(ImagePair(image, image))(ImagePair.of(image, image, _))
+    options.crop.fold(pair)(pair.cropped).image
 
   private def withVariance(file: Path): Renderings =
     val image = ImageFiles.read(file)
     val facts = ImageFiles.facts(file).toMap
-    val names = asked.channels.getOrElse(Image.RgbNames)
+    val names = options.channels.getOrElse(Image.RgbNames)
     PixelNoise.of(image, facts, names) match
       case Some(PixelNoise(variance, freedom, correlation)) =>
-        val values = asked.crop.fold(variance)(_.of(variance))
-        Renderings.known(shown(image), values, freedom, correlation)
+        val values = options.crop.fold(variance)(_.of(variance))
+        Renderings.withVariance(selected(image), values, freedom, correlation)
       case None =>
         throw ImageError(
           Code.DifferentImages,
@@ -60,23 +60,23 @@ private[commands] final class BiasComparison(
 
   private def lines(test: BiasTest): Vector[String] =
     val verdict = if isFound(test) then "found" else "none found"
-    val least =
-      if isFound(test) then test.worst.filter(_.adjusted < asked.significance)
+    val regions =
+      if isFound(test) then test.worst.filter(_.adjusted < options.significance)
       else test.worst.take(1)
     val title = if isFound(test) then "different" else "least alike"
-    val percent = Figures.percentage(test.shareBelow(asked.significance))
+    val percent = Figures.percentage(test.shareBelow(options.significance))
     val tenths = test.histogram.map(s => Figures.fixed(100 * s, 1)).mkString(" ")
     Vector(
       s"bias          $verdict: p = ${figure(test.p)}",
       s"compared      ${a.size} and ${b.size}",
-      s"whole image   ${test.whole.map(r => s"${r.channel} ${ratio(r)}").mkString("  ")}",
-      s"small tiles   $percent of ${test.tiles.length} have p < ${asked.significance}, by " +
-        s"chance ${Figures.percentage(asked.significance)}",
+      s"whole image   ${test.fullImage.map(r => s"${r.channel} ${ratio(r)}").mkString("  ")}",
+      s"small tiles   $percent of ${test.tiles.length} have p < ${options.significance}, by " +
+        s"chance ${Figures.percentage(options.significance)}",
       s"p by tenths   $tenths (% of them, by chance 10 each)"
-    ) ++ least.map: r =>
-      s"${title.padTo(14, ' ')}${place(r)}: ${ratio(r)}, p = ${figure(r.adjusted)}"
+    ) ++ regions.map: r =>
+      s"${title.padTo(14, ' ')}${location(r)}: ${ratio(r)}, p = ${figure(r.adjusted)}"
 
-  private def place(r: BiasRegion): String =
+  private def location(r: BiasRegion): String =
     val w = r.window
     s"${r.channel} in x ${w.x0} to ${w.x1}, y ${w.y0} to ${w.y1}"
 
@@ -92,11 +92,11 @@ private[commands] final class BiasComparison(
     val isFalseColor = OutputFormat.of(path).exists(_.contents == Contents.Display)
     if !isFalseColor then ImageFiles.write(path, test.map)
     else
-      val most = asked.heatMapMax.getOrElse(BiasTest.UsualPowers)
-      val about = Vector("metric" -> "p-value", "brightest" -> most.toString)
-      ImageFiles.write(path, HeatMap.of(test.powers, most), about)
-      val least = Figures.general(Math.pow(10, -most))
-      terminal.out.println(s"heat map      p-value from 1 to $least, in $path")
+      val maxPower = options.heatMapMax.getOrElse(BiasTest.UsualPowers)
+      val about = Vector("metric" -> "p-value", "brightest" -> maxPower.toString)
+      ImageFiles.write(path, HeatMap.of(test.powers, maxPower), about)
+      val minP = Figures.general(Math.pow(10, -maxPower))
+      terminal.out.println(s"heat map      p-value from 1 to $minP, in $path")
 
 /** Images of one program, by the name that the user gave them. */
 private[commands] final case class ImageSet(name: String, files: Vector[Path]):
@@ -113,13 +113,13 @@ private[commands] final case class ImageSet(name: String, files: Vector[Path]):
     register.read(other.files)
     val common = files.filter(register.hasRead)
     for first <- common.headOption do
-      val more = common.size - 1
-      val which =
-        if more == 0 then s"`$first` is"
-        else s"`$first` and ${Figures.count(more, "more image")} are"
+      val otherCount = common.size - 1
+      val subject =
+        if otherCount == 0 then s"`$first` is"
+        else s"`$first` and ${Figures.count(otherCount, "more image")} are"
       throw ImageError(
         Code.DifferentImages,
-        s"$which in both sets; each set needs its own seeds"
+        s"$subject in both sets; each set needs its own seeds"
       )
 
 private[commands] object ImageSet:
@@ -129,12 +129,12 @@ private[commands] object ImageSet:
     */
   def named(name: String): ImageSet =
     val path = OutputFiles.path(name)
-    if Files.isDirectory(path) then found(name, ReferenceSet.files(path))
+    if Files.isDirectory(path) then checked(name, ReferenceSet.files(path))
     else if Files.exists(path) then ImageSet(name, Vector(path))
     else
-      found(name, name.split(",").toVector.map(_.trim).filter(_.nonEmpty).flatMap(matching))
+      checked(name, name.split(",").toVector.map(_.trim).filter(_.nonEmpty).flatMap(matching))
 
-  private def found(name: String, files: Vector[Path]): ImageSet =
+  private def checked(name: String, files: Vector[Path]): ImageSet =
     if files.isEmpty then
       throw ImageError(Code.NoSuchFile, s"$name: expected images, found none")
     for twice <- files.diff(files.distinct).headOption do
@@ -152,10 +152,10 @@ private[commands] object ImageSet:
     else
       val folder = OutputFiles.path(name.take(slash + 1))
       val matcher = FileSystems.getDefault.getPathMatcher(s"glob:${name.drop(slash + 1)}")
-      val here = if folder.toString.isEmpty then Path.of(".") else folder
-      if !Files.isDirectory(here) then Vector.empty
+      val directory = if folder.toString.isEmpty then Path.of(".") else folder
+      if !Files.isDirectory(directory) then Vector.empty
       else
-        Using.resource(Files.list(here)): all =>
+        Using.resource(Files.list(directory)): all =>
           all.iterator.asScala.toVector.filter(f => matcher.matches(f.getFileName))
             .map(f => folder.resolve(f.getFileName)).sorted
 
@@ -181,9 +181,9 @@ private[commands] object PixelNoise:
       channels: Vector[String]
   ): Option[PixelNoise] =
     def layer(name: String): Option[Image] =
-      val own = channels.map(c => s"$name.$c")
-      Option.when(own.forall(image.channelNames.contains)):
-        Image(image.width, image.height, channels, ImageEdits.select(image, own).data)
+      val layerChannels = channels.map(c => s"$name.$c")
+      Option.when(layerChannels.forall(image.channelNames.contains)):
+        Image(image.width, image.height, channels, ImageEdits.select(image, layerChannels).data)
     def count(name: String) = facts.get(name).flatMap(_.toIntOption).filter(_ >= 2)
     def ofMean =
       for variance <- layer(ErrorLayer.Name); runs <- count(ReferenceFile.Runs) yield
@@ -194,8 +194,8 @@ private[commands] object PixelNoise:
       for variance <- layer("Variance"); n <- samples(image, count) yield
         val values =
           Array.tabulate(variance.data.length)(i => variance.data(i) / n(i / channels.size))
-        val made = Image(image.width, image.height, channels, values)
-        PixelNoise(made, Math.max(1, n.min - 1), correlation = 1)
+        val meanVariance = Image(image.width, image.height, channels, values)
+        PixelNoise(meanVariance, Math.max(1, n.min - 1), correlation = 1)
     ofMean.orElse(ofSamples)
 
   /** Of each pixel. */

@@ -20,9 +20,9 @@ final class CheckCommand(
 
   def run(): ExitCode =
     val codes = options.files.map: scene =>
-      val before = report.errors
+      val previousErrors = report.errors
       val code = report.guarded(check(scene))
-      val errors = report.errors - before
+      val errors = report.errors - previousErrors
       if code != ExitCode.Done && options.files.size > 1 && !options.quiet then
         terminal.out.println(s"$scene: rejected, ${Figures.count(errors, "error")}")
         terminal.out.flush()
@@ -31,11 +31,11 @@ final class CheckCommand(
     codes.reduce(_ worseOf _)
 
   private def summarise(codes: Vector[ExitCode]): Unit =
-    val good = codes.count(_ == ExitCode.Done)
+    val accepted = codes.count(_ == ExitCode.Done)
     val counts = Vector(
-      good -> "accepted",
+      accepted -> "accepted",
       warned -> "of them with warnings",
-      (codes.size - good) -> "rejected"
+      (codes.size - accepted) -> "rejected"
     ).collect { case (n, what) if n > 0 => s"$n $what" }
     terminal.out.println(s"${codes.size} scenes: ${counts.mkString(", ")}")
 
@@ -61,7 +61,8 @@ final class CheckCommand(
     // Each triangle of a shape that emits light may be one
     val statements = d.lights.size + d.shapes.count(_.areaLight.nonEmpty)
     val lights = loaded.plan.lights
-    val of = if statements > 0 && lights > statements then s" (of $statements in the file)" else ""
+    val suffix =
+      if statements > 0 && lights > statements then s" (of $statements in the file)" else ""
     val counted = Vector(
       shapes -> "shape",
       d.instances.size -> "instance",
@@ -70,6 +71,6 @@ final class CheckCommand(
       loaded.warnings.distinct.size -> "warning",
       loaded.standIns -> "placeholder"
     ).collect:
-      case (n, noun) if n > 0 => Figures.count(n, noun) + (if noun == "light" then of else "")
+      case (n, noun) if n > 0 => Figures.count(n, noun) + (if noun == "light" then suffix else "")
     val film = s"${crop.width}x${crop.height}, ${loaded.plan.sampler.samplesPerPixel} spp"
     (Vector(d.dialect.toString.toLowerCase, film) ++ counted).mkString(", ")

@@ -37,7 +37,7 @@ private[cli] final class ClusterCommand(
   private val sequence = Sequence(options)
   private var open = Vector.empty[Submitted]
   private var samplesDone, samplesAsked = 0L
-  private var looks = Vector.empty[(Double, Long)] // seconds, and samples until then
+  private var history = Vector.empty[(Double, Long)] // seconds, and samples until then
 
   def run(): ExitCode =
     val code = guarded:
@@ -46,7 +46,7 @@ private[cli] final class ClusterCommand(
         Using.resource(Cluster.connect(options.cluster.master.mkString, note)): cluster =>
           for frame <- sequence.frames if !cancellation.isRequested do
             while open.size >= AtOnce do finishOne()
-            begin(frame, cluster)
+            start(frame, cluster)
           while open.nonEmpty do finishOne()
           if options.verbose then note(cluster.summary)
           ExitCode.Done
@@ -66,12 +66,12 @@ private[cli] final class ClusterCommand(
 
   private def note(text: String): Unit = if !options.quiet then terminal.err.println(text)
 
-  private def begin(frame: Frame, cluster: Cluster): Unit =
-    val before = open.size
+  private def start(frame: Frame, cluster: Cluster): Unit =
+    val openCount = open.size
     val code = guarded:
       submit(frame, cluster)
       ExitCode.Done
-    if open.size == before then sequence.ended(frame.scene)(code)
+    if open.size == openCount then sequence.ended(frame.scene)(code)
 
   /** Sends a scene to the cluster, unless its image is done. */
   private def submit(frame: Frame, cluster: Cluster): Unit =
@@ -94,7 +94,7 @@ private[cli] final class ClusterCommand(
   /** Waits for one of the renderings, and writes its image. */
   private def finishOne(): Unit =
     while !open.exists(_.run.isDone) do
-      show()
+      updateProgress()
       if cancellation.isRequested then open.foreach(_.run.cancel())
       LockSupport.parkNanos(Tick)
     progress.finish()
@@ -104,19 +104,19 @@ private[cli] final class ClusterCommand(
       sequence.ended(next.scene)(guarded(finish(next)))
       next.prepared.close()
 
-  private def show(): Unit =
+  private def updateProgress(): Unit =
     if !options.quiet then
       val seconds = (System.nanoTime - started) * 1e-9
-      val now = samplesDone + open.map(s => Math.min(s.run.samples, s.work.total)).sum
-      looks = looks.dropWhile((at, _) => at < seconds / 2) :+ (seconds, now)
-      val (since, before) = looks.head
-      val rate = Option((now - before) / (seconds - since)).filter(r => r > 0 && r.isFinite)
-      val left = rate.map((samplesAsked - now) / _).filter(_ => seconds > FirstSeconds)
-      progress.update(Progress(now, samplesAsked, seconds, Outlook(left, rate)))
+      val sampleCount = samplesDone + open.map(s => Math.min(s.run.samples, s.work.total)).sum
+      history = history.dropWhile((at, _) => at < seconds / 2) :+ (seconds, sampleCount)
+      val (since, before) = history.head
+      val rate = Option((sampleCount - before) / (seconds - since)).filter(r => r > 0 && r.isFinite)
+      val remaining = rate.map((samplesAsked - sampleCount) / _).filter(_ => seconds > FirstSeconds)
+      progress.update(Progress(sampleCount, samplesAsked, seconds, Outlook(remaining, rate)))
 
   private def finish(submitted: Submitted): ExitCode =
     terminal.interrupts.checkTime()
-    Using.resource(Scratch.make()): scratch =>
+    Using.resource(Scratch.create()): scratch =>
       val (films, _) = ShardRenderer.distinct(submitted.run.films(scratch.folder))
       val header = submitted.work.header.merging(films.map(_.header))
       def load(state: RenderState): Unit =

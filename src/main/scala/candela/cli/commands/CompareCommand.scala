@@ -17,74 +17,76 @@ import candela.measure.{ErrorLayer, ErrorMap, HeatMap, ImagePair, Metric, Metric
   * reference.
   */
 final class CompareCommand(options: Options, terminal: Terminal, report: Report):
-  private val asked = options.compare
+  private val compareOptions = options.compare
 
   def run(): ExitCode = report.guarded:
     val Vector(image, reference) = options.files.map(OutputFiles.path): @unchecked
     val register = FileRegister()
     lazy val Vector(a, b) = options.files.map(ImageSet.named): @unchecked
-    val files = if asked.bias then a.files ++ b.files else Vector(image, reference)
+    val files = if compareOptions.bias then a.files ++ b.files else Vector(image, reference)
     files.foreach(CompareCommand.check)
-    if asked.bias then a.checkApart(b)
+    if compareOptions.bias then a.checkApart(b)
     register.read(files)
     for (kind, name, option) <- pictures do
-      val file = OutputFiles.asked(Vector(name))
+      val file = OutputFiles.requested(Vector(name))
       file.check()
       register.write(Output(file.paths, kind, options.files.head, option))
     val code =
-      if asked.bias then BiasComparison(asked, terminal, a, b).run()
+      if compareOptions.bias then BiasComparison(compareOptions, terminal, a, b).run()
       else if Files.isDirectory(image) then compareSet(image, reference)
       else compareTwo(image, reference)
     terminal.out.flush()
     code
 
   private def pictures: Vector[(String, String, String)] =
-    asked.difference.map(("difference", _, "difference")).toVector ++
-      asked.heatMap.map(("heat map", _, "heatmap"))
+    compareOptions.difference.map(("difference", _, "difference")).toVector ++
+      compareOptions.heatMap.map(("heat map", _, "heatmap"))
 
   private def compareTwo(image: Path, reference: Path): ExitCode =
     val comparison = compared(image, reference)
     comparison.lines.foreach(terminal.out.println)
-    if asked.perChannel then comparison.perChannel.foreach(terminal.out.println)
+    if compareOptions.perChannel then comparison.perChannel.foreach(terminal.out.println)
     write(comparison)
     judge(comparison, "")
 
   private def pairOf(a: Image, b: Image): ImagePair =
-    val pair = asked.channels.fold(ImagePair(a, b))(ImagePair.of(a, b, _))
-    asked.crop.fold(pair)(pair.cropped)
+    val pair = compareOptions.channels.fold(ImagePair(a, b))(ImagePair.of(a, b, _))
+    compareOptions.crop.fold(pair)(pair.cropped)
 
   private def compared(image: Path, reference: Path): Comparison =
     val truth = ImageFiles.read(reference)
     val comparison = Comparison(pairOf(ImageFiles.read(image), truth))
     // The error is that of R, G and B
-    val own = if comparison.pair.isColor then ErrorLayer.kept(truth) else truth
-    comparison.copy(own = ErrorLayer.error(asked.crop.fold(own)(_.of(own))))
+    val errorSource = if comparison.pair.isColor then ErrorLayer.extract(truth) else truth
+    comparison.copy(own =
+      ErrorLayer.error(compareOptions.crop.fold(errorSource)(_.of(errorSource)))
+    )
 
   private def write(comparison: Comparison): Unit =
-    val difference = asked.difference.map(OutputFiles.path)
-    val heatMap = asked.heatMap.map(OutputFiles.path)
+    val difference = compareOptions.difference.map(OutputFiles.path)
+    val heatMap = compareOptions.heatMap.map(OutputFiles.path)
     OutputFiles.writeAll((difference ++ heatMap).toVector): path =>
       if difference.contains(path) then ImageFiles.write(path, comparison.pair.difference)
       else writeHeatMap(comparison.pair, path)
 
   private def writeHeatMap(pair: ImagePair, path: Path): Unit =
-    val metric = asked.heatMapMetric
+    val metric = compareOptions.heatMapMetric
     val map = ErrorMap(metric, pair)
     val isFalseColor = OutputFormat.of(path).exists(_.contents == Contents.Display)
     if !isFalseColor then ImageFiles.write(path, map)
     else
-      val most = asked.heatMapMax.getOrElse(HeatMap.usualBrightest(metric, map))
-      val about = Vector("metric" -> metric.word, "brightest" -> most.toString)
-      ImageFiles.write(path, HeatMap.of(map, most), about)
+      val brightest = compareOptions.heatMapMax.getOrElse(HeatMap.usualBrightest(metric, map))
+      val about = Vector("metric" -> metric.word, "brightest" -> brightest.toString)
+      ImageFiles.write(path, HeatMap.of(map, brightest), about)
       terminal.out.println(
-        s"heat map      ${metric.title} from 0 to ${Figures.scientific(most)}, in $path"
+        s"heat map      ${metric.title} from 0 to ${Figures.scientific(brightest)}, in $path"
       )
 
   /** Compares each image of a folder with the reference of the same name, or all with one
     * reference.
     */
   private def compareSet(images: Path, references: Path): ExitCode =
-    if asked.writesPictures then
+    if compareOptions.writesPictures then
       throw ImageError(
         Code.DifferentImages,
         "--difference and --heatmap need two images, not folders"
@@ -104,9 +106,9 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
   private def judge(comparison: Comparison, name: String): ExitCode =
     val skipped = comparison.metrics.skipped
     val wrong =
-      if asked.limits.isEmpty then Vector.empty
+      if compareOptions.limits.isEmpty then Vector.empty
       else if skipped > 0 then Vector(s"NaN or infinite in ${Figures.count(skipped, "pixel")}")
-      else asked.limits.flatMap(BrokenLimits.of(_, comparison))
+      else compareOptions.limits.flatMap(BrokenLimits.of(_, comparison))
     wrong.foreach(text => terminal.err.println(name + text))
     if wrong.isEmpty then ExitCode.Done else ExitCode.BadInput
 
@@ -114,7 +116,7 @@ object CompareCommand:
   /** @throws SceneError if there is no such file */
   private def check(file: Path): Unit = if !Files.exists(file) then
     val message = s"$file: there is no such file"
-    throw SceneError(Problem.general(Code.NoSuchFile, message, SceneFolder.near(file)))
+    throw SceneError(Problem.general(Code.NoSuchFile, message, SceneFolder.suggestionFor(file)))
 
 /** An image with its reference, and their error metrics.
   *
@@ -132,7 +134,7 @@ final case class Comparison(
     val m = metrics
     val ratios = m.channels.zip(m.meanRatio).map((c, r) => s"$c ${Figures.fixed(r, 4)}")
     val difference = Figures.scientific(m.largest.value)
-    val most = m.largest
+    val largest = m.largest
     Vector(
       s"error         ${Comparison.error(m.relativeMse)}",
       s"MSE           ${Figures.scientific(m.mse)}",
@@ -142,20 +144,20 @@ final case class Comparison(
       s"PSNR          ${Comparison.decibels(m.psnr)}"
     ) ++ flip.map(f => s"FLIP          ${Figures.scientific(f)}") ++ Vector(
       s"mean ratio    ${ratios.mkString("  ")}",
-      s"largest       $difference in ${most.channel} at (${most.x}, ${most.y})"
+      s"largest       $difference in ${largest.channel} at (${largest.x}, ${largest.y})"
     ) ++ own.toVector.flatMap(ofReference) ++ Option.when(m.skipped > 0):
       s"skipped       ${Figures.count(m.skipped, "pixel")}, NaN or infinite"
 
   /** The reference's own error, and those of the image without it. */
   private def ofReference(own: OwnError): Vector[String] =
-    def without(all: Double, part: Double) =
+    def excess(all: Double, part: Double) =
       if all > part then Figures.scientific(all - part)
       else s"not resolved (${Figures.scientific(all - part)})"
     Vector(
       s"reference     MSE ${Figures.scientific(own.mse)}, " +
         s"relative MSE ${Figures.scientific(own.relativeMse)}, included above",
-      s"without it    MSE ${without(metrics.mse, own.mse)}, " +
-        s"relative MSE ${without(metrics.relativeMse, own.relativeMse)}"
+      s"without it    MSE ${excess(metrics.mse, own.mse)}, " +
+        s"relative MSE ${excess(metrics.relativeMse, own.relativeMse)}"
     )
 
   /** Table of per-channel metrics. */
@@ -198,16 +200,16 @@ object ReferenceSet:
     * @throws ImageError if the folder contains no images
     */
   def of(images: Path, references: Path): ReferenceSet =
-    val found = files(images)
-    if found.isEmpty then
+    val candidates = files(images)
+    if candidates.isEmpty then
       throw ImageError(Code.DifferentImages, s"$images: no images in this folder")
     if Files.isDirectory(references) then
-      val known = files(references).groupBy(FileName.stem)
-      val matched = found.map: image =>
+      val byStem = files(references).groupBy(FileName.stem)
+      val matched = candidates.map: image =>
         // Of several candidates, prefers the image's own format, then the order of the suffixes,
         // EXR first.
-        val same = known.getOrElse(FileName.stem(image), Vector.empty)
-        image -> same.minByOption: r =>
+        val matches = byStem.getOrElse(FileName.stem(image), Vector.empty)
+        image -> matches.minByOption: r =>
           val suffix = FileName.suffix(r)
           (suffix != FileName.suffix(image), ImageFiles.readable.indexOf(suffix))
       ReferenceSet(
@@ -215,9 +217,9 @@ object ReferenceSet:
         matched.collect { case (image, None) => image }
       )
     else
-      val one = references.toAbsolutePath.normalize
-      val others = found.filterNot(_.toAbsolutePath.normalize == one)
-      ReferenceSet(others.map(image => (image, references)), Vector.empty)
+      val referencePath = references.toAbsolutePath.normalize
+      val compared = candidates.filterNot(_.toAbsolutePath.normalize == referencePath)
+      ReferenceSet(compared.map(image => (image, references)), Vector.empty)
 
   /** One row per comparison, and the means. */
   def table(comparisons: Vector[(Path, Comparison)]): Vector[String] =
@@ -256,14 +258,18 @@ private object BrokenLimits:
   /** The violation, if any; a metric that can't be computed violates its bound. */
   def of(limit: Limit, c: Comparison): Option[String] = limit.option match
     case "min-psnr" =>
-      Option.unless(c.metrics.psnr >= limit.value)(said(limit, c.metrics.psnr, "below"))
+      Option.unless(c.metrics.psnr >= limit.value)(violation(limit, c.metrics.psnr, "below"))
     case other =>
-      val found = figures(other)(c)
-      Option.unless(found.exists(_ <= limit.value)):
-        found.fold(s"${limit.figure} can't be computed for these images")(said(limit, _, "above"))
+      val measured = figures(other)(c)
+      Option.unless(measured.exists(_ <= limit.value)):
+        measured.fold(s"${limit.figure} can't be computed for these images")(violation(
+          limit,
+          _,
+          "above"
+        ))
 
-  private def said(limit: Limit, found: Double, where: String): String =
-    s"${limit.figure} ${Figures.scientific(found)} is $where --${limit.option} ${limit.value}"
+  private def violation(limit: Limit, measured: Double, where: String): String =
+    s"${limit.figure} ${Figures.scientific(measured)} is $where --${limit.option} ${limit.value}"
 
   private val figures: Map[String, Comparison => Option[Double]] = Map(
     "max-mse" -> (c => Some(c.metrics.mse)),

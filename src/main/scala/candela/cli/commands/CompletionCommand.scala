@@ -10,13 +10,13 @@ final class CompletionCommand(options: Options, terminal: Terminal, report: Repo
   def run(): ExitCode = report.guarded:
     val shell = options.files.head
     val lines = Completion.of(shell).getOrElse:
-      val known = s"${Words.shells.init.mkString(", ")} and ${Words.shells.last}"
-      val near = Suggest.nearest(shell, Words.shells).map(n => s"did you mean `$n`?")
+      val shells = s"${Words.shells.init.mkString(", ")} and ${Words.shells.last}"
+      val suggestion = Suggest.nearest(shell, Words.shells).map(n => s"did you mean `$n`?")
       throw SceneError(
         Problem.general(
           Code.UnknownEntry,
           s"there is no completion for `$shell`",
-          near.orElse(Some(s"known: $known"))
+          suggestion.orElse(Some(s"known: $shells"))
         )
       )
     lines.foreach(terminal.out.println(_))

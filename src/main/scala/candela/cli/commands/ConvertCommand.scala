@@ -21,13 +21,13 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
   def run(): ExitCode = report.guarded(Render.withinLimits(convert()))
 
   private def convert(): ExitCode =
-    val out = options.outfiles.headOption.map(OutputFiles.path)
-    val output = Output(out.toVector, "scene", options.files.head)
+    val target = options.outfiles.headOption.map(OutputFiles.path)
+    val output = Output(target.toVector, "scene", options.files.head)
     val register = FileRegister()
     val folder =
-      if out.isEmpty && options.control.limits.sandbox then
+      if target.isEmpty && options.control.limits.sandbox then
         folderOf(OutputFiles.path(options.files.head))
-      else out.fold(Path.of(""))(folderOf)
+      else target.fold(Path.of(""))(folderOf)
     if options.control.limits.sandbox then register.confine(Vector(folder))
     register.read(options.files.map(OutputFiles.path))
     register.check(output)
@@ -48,7 +48,7 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
       val converted = Converter.convert(scene, to, files, options.toPly.orElse(meshSize), baking)
       val warnings = Excerpts.fill(converted.warnings)
       report.warnings(scene.warnings ++ film ++ warnings, all = options.verbose)
-      out match
+      target match
         case Some(path) =>
           WholeFile.write(path): channel =>
             val stream = Channels.newOutputStream(channel)

@@ -58,14 +58,14 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
     val types = in.flatMap(described.types)
     types.filter(_.name.equalsIgnoreCase(name)) match
       case Vector() =>
-        val having = types.flatMap(_.only(name))
+        val having = types.flatMap(_.withParameter(name))
         if having.nonEmpty then separated(having.map(text.parameters))
         else
-          val known = types.map(_.name).filter(_.nonEmpty) ++ others
+          val candidates = types.map(_.name).filter(_.nonEmpty) ++ others
           unknown(
             if in.size == 1 then in.head.name else "type",
             name,
-            known ++ types.flatMap(_.parameters.map(_.name)).distinct
+            candidates ++ types.flatMap(_.parameters.map(_.name)).distinct
           )
       case found => separated(found.map(text.parameters))
 
@@ -78,11 +78,12 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
   private def unknown(kind: String, word: String, known: Vector[String]): Nothing =
     val start = known.find(_.toLowerCase.startsWith(word.toLowerCase))
     val help = Suggest.nearest(word, known).orElse(start).map(k => s"did you mean `$k`?")
-    val where = options.settings.reading.dialect.fold("")(d => s" in ${d.toString.toLowerCase}")
+    val dialectNote =
+      options.settings.reading.dialect.fold("")(d => s" in ${d.toString.toLowerCase}")
     throw SceneError(
       Problem.general(
         Code.UnknownEntry,
-        s"unknown ${kind.toLowerCase} `$word`$where",
+        s"unknown ${kind.toLowerCase} `$word`$dialectNote",
         help.orElse(Some("`candela describe` lists all categories"))
       )
     )
@@ -110,7 +111,7 @@ final case class DescribedType(
     parameters: Vector[DescribedParameter]
 ):
   /** With the parameters of this name alone, if there are any. */
-  def only(parameter: String): Option[DescribedType] =
+  def withParameter(parameter: String): Option[DescribedType] =
     val named = parameters.filter(_.name.equalsIgnoreCase(parameter))
     Option.when(named.nonEmpty)(copy(parameters = named))
 
@@ -122,11 +123,11 @@ final case class DescribedType(
     case statement => s"$statement \"$name\""
 
 /** Formats the recipes for display. */
-final class Described(asked: Set[Dialect]):
+final class Described(requested: Set[Dialect]):
 
   /** The types of the requested dialects, in table order. */
   def types(category: Category): Vector[DescribedType] =
-    for recipe <- category.recipes.all if recipe.dialects.exists(asked)
+    for recipe <- category.recipes.all if recipe.dialects.exists(requested)
     yield DescribedType(
       category,
       recipe.name,
@@ -137,9 +138,9 @@ final class Described(asked: Set[Dialect]):
     )
 
   private def parameters(recipe: Recipe[?]): Vector[DescribedParameter] =
-    val known = recipe.fields.filter(recipe.dialectsOf(_).exists(asked))
+    val supported = recipe.fields.filter(recipe.dialectsOf(_).exists(requested))
     // Parameters that affect the image come first.
-    for field <- known.sortBy(recipe.support(_).ordinal)
+    for field <- supported.sortBy(recipe.support(_).ordinal)
     yield DescribedParameter(
       field.name,
       field.typeName,
@@ -155,12 +156,12 @@ final class Described(asked: Set[Dialect]):
     Dialect.values.filter(dialects).map(Dialects.name).mkString(" ")
 
   private def default(field: Field[?], recipe: Recipe[?]): String =
-    each(field, recipe)(field.shown)
+    byDialect(field, recipe)(field.defaultText)
 
   /** What holds in all dialects, or in each with its dialects: `80 (v2 v3), 5 (v4)`. */
-  private def each(field: Field[?], recipe: Recipe[?])(text: Dialect => String): String =
+  private def byDialect(field: Field[?], recipe: Recipe[?])(text: Dialect => String): String =
     val dialects =
-      Dialect.values.toVector.filter(d => recipe.dialectsOf(field)(d) && asked(d))
+      Dialect.values.toVector.filter(d => recipe.dialectsOf(field)(d) && requested(d))
     val texts = dialects.map(text).distinct
     if texts.size == 1 then texts.head
     else
@@ -171,7 +172,7 @@ final class Described(asked: Set[Dialect]):
   /** The numbers that it takes; of colours, which all take the same, none. */
   private def range(field: Field[?], recipe: Recipe[?]): String =
     val isColor = field.typeName.startsWith("spectrum")
-    val text = if isColor then "" else each(field, recipe)(d => field.range(d.base).text)
+    val text = if isColor then "" else byDialect(field, recipe)(d => field.range(d.base).text)
     if text.isEmpty then "" else s"; $text"
 
   private def meaning(field: Field[?], recipe: Recipe[?]): String =
@@ -206,19 +207,19 @@ final class ReferenceText(described: Described, columns: Int):
       case Vector(only) => parameters(only)
       case types =>
         val rows = types.map: t =>
-          val later = t.substitute.fold("")(instead => s"; substituted: $instead")
-          Vector(s"\"${t.name}\"", t.dialects, t.meaning + later)
+          val substituteNote = t.substitute.fold("")(instead => s"; substituted: $instead")
+          Vector(s"\"${t.name}\"", t.dialects, t.meaning + substituteNote)
         s"${c.name}: ${c.meaning}" +: "" +: table.lines(rows)
 
   def parameters(t: DescribedType): Vector[String] =
     val head = TextTable.wrap(s"${t.title} (${t.dialects}): ${t.meaning}", columns)
-    val later = t.substitute.toVector.flatMap: instead =>
+    val substituteLines = t.substitute.toVector.flatMap: instead =>
       TextTable.wrap(s"Substituted: $instead.", columns)
     val names = Vector("name", "type", "default", "in", "meaning")
     val rows = t.parameters.map(p => Vector(p.name, p.typeName, p.default, p.dialects, p.meaning))
     val body =
       if rows.isEmpty then Vector("  no parameters") else table.lines(names +: rows)
-    head ++ later ++ ("" +: body)
+    head ++ substituteLines ++ ("" +: body)
 
 /** Formats the reference as a Markdown page. */
 final class ReferenceMarkdown(described: Described):
@@ -261,10 +262,10 @@ final class ReferenceMarkdown(described: Described):
     * frequent form.
     */
   private def shared(types: Vector[DescribedType]): Vector[DescribedParameter] =
-    val all = types.flatMap(_.parameters).filter(_.unsupported.isEmpty)
-    def uses(p: DescribedParameter) = all.count(_ == p)
-    val forms = all.distinct.groupBy(_.name).values.map(_.maxBy(uses)).toVector
-    forms.filter(uses(_) >= ReferenceMarkdown.Several).sortBy(all.indexOf)
+    val supported = types.flatMap(_.parameters).filter(_.unsupported.isEmpty)
+    def uses(p: DescribedParameter) = supported.count(_ == p)
+    val forms = supported.distinct.groupBy(_.name).values.map(_.maxBy(uses)).toVector
+    forms.filter(uses(_) >= ReferenceMarkdown.Several).sortBy(supported.indexOf)
 
   private def heading(t: DescribedType): String = s"${t.title}, ${t.dialects}"
 
@@ -276,10 +277,10 @@ final class ReferenceMarkdown(described: Described):
     val (common, special) = t.parameters.partition(shared.contains)
     val support = t.substitute.map(instead => s" Substituted: $instead.").getOrElse("")
     val names = common.map(p => s"`${p.name}`").mkString(", ")
-    val rest =
+    val footer =
       if common.isEmpty then Vector.empty else Vector("", s"[Shared](#$link): $names.")
     Vector("", s"### ${heading(t)}", "", s"${t.meaning.capitalize}.$support") ++
-      (if special.isEmpty then Vector.empty else "" +: table(special)) ++ rest
+      (if special.isEmpty then Vector.empty else "" +: table(special)) ++ footer
 
   /** The address of a heading, as GitHub makes it. */
   private def anchor(heading: String): String =

@@ -12,14 +12,14 @@ final class ExplainCommand(options: Options, terminal: Terminal, report: Report)
   def run(): ExitCode = report.guarded:
     val lines =
       if options.files.isEmpty then list
-      else options.files.map(found).distinct.map(explained).reduce((a, b) => a ++ ("" +: b))
+      else options.files.map(codeOf).distinct.map(explained).reduce((a, b) => a ++ ("" +: b))
     lines.foreach(terminal.out.println(_))
     terminal.out.flush()
     ExitCode.Done
 
-  private def found(word: String): Code = Code.of(word).getOrElse:
-    val near = Suggest.nearest(word.toUpperCase, Code.values.map(_.word))
-    val help = near.fold("`candela explain` lists all")(n => s"did you mean `$n`?")
+  private def codeOf(word: String): Code = Code.of(word).getOrElse:
+    val nearest = Suggest.nearest(word.toUpperCase, Code.values.map(_.word))
+    val help = nearest.fold("`candela explain` lists all")(n => s"did you mean `$n`?")
     throw SceneError(Problem.general(
       Code.UnknownEntry,
       s"no problem is called `$word`",
@@ -41,10 +41,10 @@ private[cli] object ProblemsPage:
 
   def lines: Vector[String] =
     Introduction.linesIterator.toVector ++ ProblemGuide.all.flatMap: e =>
-      val shown =
+      val exampleLines =
         if e.example.isEmpty then Vector.empty
         else Vector("", "```") ++ example(e) ++ Vector("```")
-      Vector("", s"## ${e.code.word}: ${e.title}", "", e.meaning) ++ shown ++
+      Vector("", s"## ${e.code.word}: ${e.title}", "", e.meaning) ++ exampleLines ++
         Vector("", s"**Cure**: ${e.cure}")
 
   def example(e: ProblemEntry): Vector[String] = e.example.toVector.flatMap:

@@ -12,32 +12,34 @@ import candela.lights.{EqualAreaMap, LatLongMap}
 
 /** `candela image`: converts an image to other formats, sizes, ranges and primaries. */
 final class ImageCommand(options: Options, terminal: Terminal, report: Report):
-  private val asked = options.image
+  private val imageOptions = options.image
 
   def run(): ExitCode = report.guarded:
-    val outputs = OutputFiles.asked(options.outfiles)
+    val outputs = OutputFiles.requested(options.outfiles)
     outputs.check(options.files, "image")
     val path = OutputFiles.path(options.files.head)
-    val whole = ImageFiles.read(path).linear
-    val made =
-      try edited(whole)
+    val source = ImageFiles.read(path).linear
+    val result =
+      try edited(source)
       catch
         case e: ImageError => throw ImageError(e.code, message(path, e))
     // As imgtool: a crop knows its place
-    val isPlaced = asked.size.isEmpty && asked.environment.isEmpty && !asked.flips
-    val window = asked.crop.filter(_ => isPlaced).map: c =>
-      ImageWindow(c.x0, c.y0, whole.width, whole.height)
-    val how = WriteOptions(isHalf = asked.isHalf, display = options.display, window = window)
+    val isPlaced =
+      imageOptions.size.isEmpty && imageOptions.environment.isEmpty && !imageOptions.flips
+    val window = imageOptions.crop.filter(_ => isPlaced).map: c =>
+      ImageWindow(c.x0, c.y0, source.width, source.height)
+    val writeOptions =
+      WriteOptions(isHalf = imageOptions.isHalf, display = options.display, window = window)
     OutputFiles.writeAll(outputs.paths): out =>
       val hasColors = OutputFormat.of(out).exists(_.contents != Contents.Channels)
       val written =
-        if hasColors then ImageFiles.colored(path, ImageEdits.layerAsColors(made)) else made
-      val shown =
+        if hasColors then ImageFiles.colored(path, ImageEdits.layerAsColors(result)) else result
+      val metadata =
         if OutputFormat.of(out).exists(_.contents == Contents.Display) then
           options.display.describe(written)
         else Vector.empty
-      ImageFiles.write(out, written, ("image" -> path.toString) +: shown, how)
-      if !options.quiet then terminal.out.println(s"wrote $out  ${made.width}x${made.height}")
+      ImageFiles.write(out, written, ("image" -> path.toString) +: metadata, writeOptions)
+      if !options.quiet then terminal.out.println(s"wrote $out  ${result.width}x${result.height}")
     terminal.out.flush()
     ExitCode.Done
 
@@ -45,18 +47,19 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
     if e.getMessage.startsWith(s"$path") then e.getMessage else s"$path: ${e.getMessage}"
 
   private def edited(image: Image): Image =
-    val selected = asked.channels.fold(image)(ImageEdits.select(image, _))
-    val cropped = asked.crop.fold(selected)(_.of(selected))
-    val shaped = asked.environment match
+    val selected = imageOptions.channels.fold(image)(ImageEdits.select(image, _))
+    val cropped = imageOptions.crop.fold(selected)(_.of(selected))
+    val shaped = imageOptions.environment match
       case Some(shape) => environment(cropped, shape)
       case None =>
-        asked.size.fold(cropped): size =>
+        imageOptions.size.fold(cropped): size =>
           val (w, h) = size.of(cropped.width, cropped.height)
           Resample(cropped, w, h)
-    val scaled = if asked.scale == 1f then shaped else ImageEdits.scaled(shaped, asked.scale)
-    val clamped = asked.clamp.fold(scaled)(ImageEdits.clamped(scaled, _))
-    val placed = asked.colorSpace.fold(clamped)(ImageEdits.inColorSpace(clamped, _))
-    if asked.flips then ImageEdits.flipped(placed) else placed
+    val scaled =
+      if imageOptions.scale == 1f then shaped else ImageEdits.scaled(shaped, imageOptions.scale)
+    val clamped = imageOptions.clamp.fold(scaled)(ImageEdits.clamped(scaled, _))
+    val placed = imageOptions.colorSpace.fold(clamped)(ImageEdits.inColorSpace(clamped, _))
+    if imageOptions.flips then ImageEdits.flipped(placed) else placed
 
   private def environment(image: Image, shape: MapShape): Image =
     val source = image.toRgb
@@ -70,11 +73,11 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
             Vector(Problem(Code.ImageEdit, Severity.Warning, None, message)),
             all = true
           )
-        val side = asked.size.fold(source.width)(_.of(1, 1)._1)
+        val side = imageOptions.size.fold(source.width)(_.of(1, 1)._1)
         SkyImages.resampled(source, LatLongMap, side, side, EqualAreaMap, smooth = true)
       case MapShape.LatLong =>
         if source.width != source.height then
           fail(s"an equalarea map is square, found ${source.width}x${source.height} pixels")
         val (w, h) =
-          asked.size.fold((2 * source.height, source.height))(_.of(2, 1))
+          imageOptions.size.fold((2 * source.height, source.height))(_.of(2, 1))
         SkyImages.resampled(source, EqualAreaMap, w, h, LatLongMap, smooth = true)

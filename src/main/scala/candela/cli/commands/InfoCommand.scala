@@ -21,10 +21,10 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
       if several && i > 0 then terminal.out.println()
       if several then terminal.out.println(name)
       val path = OutputFiles.path(name)
-      val found =
+      val infoLines =
         if isFilm(path) then described(FilmInput.open(name, report).header)
-        else lines(path, ImageFiles.load(InputFile.asked(path)))
-      found.foreach(terminal.out.println)
+        else lines(path, ImageFiles.load(InputFile.named(path)))
+      infoLines.foreach(terminal.out.println)
     terminal.out.flush()
     ExitCode.Done
 
@@ -39,7 +39,7 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
       "size" -> film.size,
       "samples" -> (if film.isComplete && film.isWhole then s"$samples: complete" else samples)
     ) ++ Option.when(film.count > 1):
-      "part" -> (if film.isComplete then s"${film.part}: complete" else film.part)
+      "part" -> (if film.isComplete then s"${film.label}: complete" else film.label)
     ++
       Option.when(film.words.nonEmpty)("options" -> film.words.mkString(" ")) ++
       Option.when(film.outfiles.nonEmpty)("images" -> film.outfiles.mkString(", ")) ++
@@ -71,8 +71,8 @@ object InfoCommand:
   private[cli] def statistics(image: Image): Vector[String] =
     val n = image.channels
     val rows = image.channelNames.zipWithIndex.map: (name, c) =>
-      var least = Double.PositiveInfinity
-      var most = Double.NegativeInfinity
+      var minimum = Double.PositiveInfinity
+      var maximum = Double.NegativeInfinity
       var sum = 0.0
       var nans = 0
       var infinities = 0
@@ -81,12 +81,12 @@ object InfoCommand:
         if v.isNaN then nans += 1
         else if v.isInfinite then infinities += 1
         else
-          least = Math.min(least, v)
-          most = Math.max(most, v)
+          minimum = Math.min(minimum, v)
+          maximum = Math.max(maximum, v)
           sum += v
       val finite = image.width * image.height - nans - infinities
       val figures =
         if finite == 0 then Vector("-", "-", "-")
-        else Vector(least, most, sum / finite).map(Figures.scientific)
+        else Vector(minimum, maximum, sum / finite).map(Figures.scientific)
       (name +: figures) ++ Vector(nans.toString, infinities.toString)
     Comparison.aligned(Vector("channel", "least", "greatest", "mean", "NaN", "infinite") +: rows)

@@ -23,7 +23,7 @@ final class MergeCommand(
     report.guarded:
       val films = usable()
       val first = films.head
-      val outfiles = OutputFiles.asked(options.outfiles)
+      val outfiles = OutputFiles.requested(options.outfiles)
       outfiles.check()
       val register = FileRegister()
       if options.control.limits.sandbox then
@@ -49,10 +49,10 @@ final class MergeCommand(
     val first = films.head
     val header = first.header
     val images = header.outfiles.map(OutputFiles.path)
-    val now = FilmHeaders.of(saved.settings, header.scene, loaded, first.path, images)
+    val expected = FilmHeaders.of(saved.settings, header.scene, loaded, first.path, images)
     register.read(SceneFiles.of(loaded.description))
     outputs.foreach(register.write)
-    FilmKeeper.verify(first, now.copy(count = header.count))
+    FilmKeeper.verify(first, expected.copy(count = header.count))
     try write(films, outfiles, loaded, saved)
     catch
       case e: SceneError if options.film.partial =>
@@ -67,11 +67,11 @@ final class MergeCommand(
         val _ = loaded.gather(film.load)
         Vector.empty
       catch case e: SceneError => e.problems
-    val found = films.map(film => film -> damage(film))
-    val bad = found.flatMap(_._2)
-    if found.forall(_._2.nonEmpty) then throw SceneError(bad)
+    val checked = films.map(film => film -> damage(film))
+    val bad = checked.flatMap(_._2)
+    if checked.forall(_._2.nonEmpty) then throw SceneError(bad)
     leaveOut(bad)
-    found.collect { case (film, Vector()) => film }
+    checked.collect { case (film, Vector()) => film }
 
   private def leaveOut(bad: Vector[Problem]): Unit = report.warnings(
     bad.map(p => p.copy(severity = Severity.Warning, message = s"${p.message}; it is omitted")),
@@ -117,8 +117,9 @@ final class MergeCommand(
       leaveOut(bad)
     else
       val gaps = if bad.isEmpty && !options.film.partial then missing(single) else Vector.empty
-      val all = bad ++ gaps ++ (if options.film.partial then Vector.empty else unfinished(single))
-      if all.nonEmpty then throw SceneError(all)
+      val problems =
+        bad ++ gaps ++ (if options.film.partial then Vector.empty else unfinished(single))
+      if problems.nonEmpty then throw SceneError(problems)
     single
 
   /** The films of the rendering that most of them are of; and what is wrong with the others. */
@@ -127,56 +128,60 @@ final class MergeCommand(
       groups.indexWhere(_.head.header.difference(film.header).isEmpty) match
         case -1 => groups :+ Vector(film)
         case i => groups.updated(i, groups(i) :+ film)
-    val most = groups.maxByOption(_.size).getOrElse(Vector.empty)
+    val largest = groups.maxByOption(_.size).getOrElse(Vector.empty)
     val problems =
-      for first <- most.take(1); film <- films; why <- first.header.difference(film.header)
+      for first <- largest.take(1); film <- films; why <- first.header.difference(film.header)
       yield Problem.general(
         Code.OtherRendering,
         s"`${film.path}` and `${first.path}` belong to different renderings: $why"
       )
-    (most, problems)
+    (largest, problems)
 
   /** One film for each shard: that with the most samples, or the first of equals. */
   private def withoutDoubles(films: Vector[FilmFile]): (Vector[FilmFile], Vector[Problem]) =
     val owners = mutable.HashMap.empty[Int, FilmFile]
     val problems = Vector.newBuilder[Problem]
-    val kept = films.sortBy(-_.header.done).filter: film =>
+    val unique = films.sortBy(-_.header.done).filter: film =>
       val shards = film.header.shards
       shards.find(owners.contains) match
         case None =>
           owners ++= shards.map(_ -> film)
           true
         case Some(shard) =>
-          val both = s"`${owners(shard).path}`, `${film.path}`"
+          val paths = s"`${owners(shard).path}`, `${film.path}`"
           problems +=
             Problem.general(
               Code.IncompleteShards,
-              s"shard $shard/${film.header.count} is given twice: $both"
+              s"shard $shard/${film.header.count} is given twice: $paths"
             )
           false
-    (films.filter(kept.contains), problems.result())
+    (films.filter(unique.contains), problems.result())
 
   private def missing(films: Vector[FilmFile]): Vector[Problem] =
     val count = films.head.header.count
     val gaps = FilmHeader.missing(films.flatMap(_.header.shards).toSet, count)
     val names = FilmHeader.named(gaps, count)
     val isOne = gaps.size == 1 && gaps.forall((first, last) => first == last)
-    val many = if isOne then s"shard $names is" else s"shards $names are"
+    val subject = if isOne then s"shard $names is" else s"shards $names are"
     Option.when(gaps.nonEmpty):
-      Problem.general(Code.IncompleteShards, s"$many missing", Some("--partial merges the others"))
+      Problem.general(
+        Code.IncompleteShards,
+        s"$subject missing",
+        Some("--partial merges the others")
+      )
     .toVector
 
   private def unfinished(films: Vector[FilmFile]): Vector[Problem] =
     for film <- films if films.size > 1 && !film.header.isComplete yield
       val header = film.header
       val isOne = header.shards.size == 1
-      val which = if isOne then s"shard ${header.part} is" else s"shards ${header.part} are"
+      val subject = if isOne then s"shard ${header.label} is" else s"shards ${header.label} are"
       val completed =
         if isOne then s"`candela resume ${film.path}` completes it"
         else "`candela resume` completes the film of each shard, from which it was merged"
       Problem.general(
         Code.IncompleteShards,
-        s"$which unfinished, with ${header.done} of ${header.samples} samples " +
+        s"$subject unfinished, with ${header.done} of ${header.samples} samples " +
           s"per pixel: `${film.path}`",
         Some(s"$completed; --partial merges the samples so far")
       )

@@ -24,26 +24,30 @@ private[cli] object PixelMaterial:
     ray.weight = 1f
     for shutter <- plan.shutter do ray.time = shutter.at(0.5f)
     plan.camera.generate(x + 0.5f, y + 0.5f, 0.5f, 0.5f, ray)
-    val seen = layers.surface.copy()
-    if ray.weight != 0f then seen.look(ray)
+    val surface = layers.surface.copy()
+    if ray.weight != 0f then surface.trace(ray)
     out.println(s"pixel ($x, $y)")
-    if ray.weight == 0f || !seen.isThere then out.println("nothing but the environment")
+    if ray.weight == 0f || !surface.isThere then out.println("nothing but the environment")
     else
       val names = layers.names
-      val at = seen.at
+      val point = surface.point
       val facts = Vector(
-        "material" -> names.materials.lift(at.material).getOrElse("unknown"),
-        "shape" -> names.objects.lift(seen.scene.objectIndex(seen.hit)).getOrElse("unknown"),
-        "point" -> shown(at.p.toVec3),
-        "normal" -> shown(at.geometricNormal.toVec3),
-        "shading normal" -> shown(at.frame.n),
-        "uv" -> s"${number(at.u)} ${number(at.v)}",
-        "albedo" -> Vector(seen.albedo.r, seen.albedo.g, seen.albedo.b).map(number).mkString(" "),
-        "light" -> (if at.areaLight < 0 then "none" else s"number ${at.areaLight}")
+        "material" -> names.materials.lift(point.material).getOrElse("unknown"),
+        "shape" -> names.objects.lift(surface.scene.objectIndex(surface.hit)).getOrElse("unknown"),
+        "point" -> formatted(point.p.toVec3),
+        "normal" -> formatted(point.geometricNormal.toVec3),
+        "shading normal" -> formatted(point.frame.n),
+        "uv" -> s"${number(point.u)} ${number(point.v)}",
+        "albedo" -> Vector(
+          surface.albedo.r,
+          surface.albedo.g,
+          surface.albedo.b
+        ).map(number).mkString(" "),
+        "light" -> (if point.areaLight < 0 then "none" else s"number ${point.areaLight}")
       )
       for (what, value) <- facts do out.println(s"  ${what.padTo(16, ' ')}$value")
     out.flush()
     ExitCode.Done
 
-  private def shown(v: Vec3): String = Vector(v.x, v.y, v.z).map(number).mkString(" ")
+  private def formatted(v: Vec3): String = Vector(v.x, v.y, v.z).map(number).mkString(" ")
   private def number(x: Float): String = Figures.scientific(x)

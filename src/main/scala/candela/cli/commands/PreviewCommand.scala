@@ -24,18 +24,19 @@ final class PreviewCommand(
     report.guarded:
       val previews = FileRegister()
       for scene <- options.files do
-        val files = OutputFiles.asked(asked(scene).outfiles)
+        val files = OutputFiles.requested(previewOptions(scene).outfiles)
         previews.note(Output(files.paths, "preview", scene))
       val codes = options.files.map: scene =>
         report.guarded(RenderCommand(
-          asked(scene), terminal, report, loader, register = register
+          previewOptions(scene), terminal, report, loader, register = register
         ).run())
       codes.foldLeft(ExitCode.Done)(_ worseOf _)
 
-  private def asked(scene: String): Options =
+  private def previewOptions(scene: String): Options =
     val picture =
       FileName.withSuffix(OutputFiles.path(scene).getFileName, OutputFormat.preview.suffix)
-    val known = Option.when(terminal.isInteractive)(Thumbnail.kindOf(terminal.environment)).flatten
+    val terminalKind =
+      Option.when(terminal.isInteractive)(Thumbnail.kindOf(terminal.environment)).flatten
     options.copy(
       files = Vector(scene),
       outfiles =
@@ -53,7 +54,7 @@ final class PreviewCommand(
         goal = RenderGoal(time = Some(Seconds)),
         reading = options.settings.reading.copy(keepGoing = true)
       ),
-      thumbnail = options.thumbnail.orElse(known)
+      thumbnail = options.thumbnail.orElse(terminalKind)
     )
 
 object PreviewCommand:

@@ -40,7 +40,7 @@ final class ReferenceCommand(
     register.check(Output(Vector(path), "reference", scene, isRewritten = true))
     terminal.interrupts.during(cancellation):
       val start = loaded(0): prepared =>
-        told(prepared)
+        reportWarnings(prepared)
         register.read(SceneFiles.of(prepared.description))
         register.write(Output(Vector(path), "reference", scene, isRewritten = true))
         file.start(prepared)
@@ -55,11 +55,11 @@ final class ReferenceCommand(
     def beside =
       val name = OutputFiles.ofName(scene, Path.of("")).paths.head
       name.resolveSibling(s"${FileName.stem(name)}-reference.${OutputFormat.default.suffix}")
-    val asked = options.outfiles.headOption.fold(beside)(OutputFiles.path)
-    if !OutputFormat.of(asked).contains(OutputFormat.default) then
+    val target = options.outfiles.headOption.fold(beside)(OutputFiles.path)
+    if !OutputFormat.of(target).contains(OutputFormat.default) then
       val help = Some("only .exr files hold the reference's own error")
-      throw SceneError(Problem.general(Code.UnknownFormat, s"can't write `$asked`", help))
-    asked
+      throw SceneError(Problem.general(Code.UnknownFormat, s"can't write `$target`", help))
+    target
 
   private def loaded[A](run: Int)(body: Prepared => A): A =
     val control = options.building.copy(samples = Some(perRun))
@@ -67,11 +67,11 @@ final class ReferenceCommand(
 
   private def settings(run: Int): RenderSettings = file.settings(run)
 
-  private def told(prepared: Prepared): Unit =
-    val all = prepared.warnings ++ Option.when(prepared.plan.method.blurs):
+  private def reportWarnings(prepared: Prepared): Unit =
+    val warnings = prepared.warnings ++ Option.when(prepared.plan.method.blurs):
       val message = "the integrator blurs: the error of the reference does not show this bias"
       Problem(Code.OptionMisfit, Severity.Warning, None, message)
-    report.warnings(all, all = options.verbose)
+    report.warnings(warnings, all = options.verbose)
     if options.verbose then Explanation.print(prepared.plan, terminal.err)
 
   private def continued(start: Option[ReferenceMean]): Option[ReferenceMean] =
@@ -98,25 +98,29 @@ final class ReferenceCommand(
   /** One run; what an interrupted one has rendered is kept in a film file. */
   private def rendered(prepared: Prepared, film: Path, run: Int): Rendering =
     // A film of other runs must not go on as this one
-    val now = FilmHeaders.of(settings(run), scene, prepared, film).copy(samples = perRun)
+    val header = FilmHeaders.of(settings(run), scene, prepared, film).copy(samples = perRun)
     def warn(problem: Problem) = report.warnings(Vector(problem), all = true)
-    val how = FilmKeeper.How(options.film.every, warn)
+    val keeperOptions = FilmKeeper.How(options.film.every, warn)
     val progress = ProgressLine(terminal.err, terminal.isInteractive, terminal.isReadByProgram)
-    Using.resource(FilmKeeper.of(film, now, prepared.plan, how)(FilmKeeping.locked(film))):
-      keeper =>
-        val shown = Option.when(!options.quiet)(RenderListener.onProgress(progress.update))
-        val control = RenderControl(
-          options.control.threads,
-          cancellation,
-          RenderListener.all(shown),
-          checkpointer = Some(keeper.checkpointer(() => false))
-        )
-        val rendering =
-          try Render.render(prepared, control)
-          finally progress.finish()
-        ofLast = rendering.seconds
-        seconds += ofLast
-        rendering
+    Using.resource(FilmKeeper.of(
+      film,
+      header,
+      prepared.plan,
+      keeperOptions
+    )(FilmKeeping.locked(film))): keeper =>
+      val progressListener = Option.when(!options.quiet)(RenderListener.onProgress(progress.update))
+      val control = RenderControl(
+        options.control.threads,
+        cancellation,
+        RenderListener.all(progressListener),
+        checkpointer = Some(keeper.checkpointer(() => false))
+      )
+      val rendering =
+        try Render.render(prepared, control)
+        finally progress.finish()
+      ofLast = rendering.seconds
+      seconds += ofLast
+      rendering
 
   private def isEnough(mean: ReferenceMean): Boolean =
     val isGood = mean.runs >= ReferenceFile.FewestRuns &&

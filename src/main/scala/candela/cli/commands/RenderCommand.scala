@@ -33,7 +33,7 @@ final class RenderCommand(
   private val cancellation = Cancellation()
   private val sequence = Sequence(options)
   private val files = RenderOutputs(options, report, register, resumed)
-  private lazy val keep =
+  private lazy val cache =
     val files = options.sceneCache
     if options.keepsScenes && files.isEmpty then
       val help = Some("name one: --scene-cache FOLDER")
@@ -62,7 +62,7 @@ final class RenderCommand(
         sequence.ended(frame.scene):
           report.guarded:
             Using.resource(load(frame, n)): prepared =>
-              if isLookedAt then look(prepared)
+              if isLookedAt then inspect(prepared)
               else
                 val isFollowed = prepared.description.isFollowed
                 val names = Sequence.ofWorld(frame.scene, frame.outfiles, n, isFollowed)
@@ -85,19 +85,20 @@ final class RenderCommand(
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
     val stages = if options.quiet then BuildStages.Silent else StageLine(terminal)
-    val control = options.building.copy(world = Some(world), cache = keep, stages = stages)
+    val control = options.building.copy(world = Some(world), cache = cache, stages = stages)
     val prepared = loader.load(scene, options.sceneSettings, control)
     // A first look ignores most of what warnings are about.
     val isBrief = options.settings.preview && !options.verbose
-    val told = if isBrief then prepared.warnings.filter(_.standIn.nonEmpty) else prepared.warnings
-    report.warnings(told, all = options.verbose)
+    val reported =
+      if isBrief then prepared.warnings.filter(_.standIn.nonEmpty) else prepared.warnings
+    report.warnings(reported, all = options.verbose)
     if options.explain || options.verbose then Explanation.print(prepared.plan, terminal.err)
     prepared
 
   /** Whether something of the scene is printed, and nothing rendered. */
   private def isLookedAt: Boolean = options.debug || options.pixelMaterial.isDefined
 
-  private def look(prepared: Prepared): ExitCode = options.pixelMaterial match
+  private def inspect(prepared: Prepared): ExitCode = options.pixelMaterial match
     case Some((x, y)) if !options.debug => PixelMaterial.run(prepared.plan, x, y, terminal.out)
     case _ => PixelTrace.run(prepared, options, terminal.out)
 
@@ -156,7 +157,7 @@ final class RenderCommand(
     val image = writer.image(rendering)
     val written = writer.write(wanted, rendering, image)
     if wanted.size < writer.paths.size then
-      terminal.err.println(Summary.kept(writer.paths.diff(wanted), rendering))
+      terminal.err.println(Summary.unreplaced(writer.paths.diff(wanted), rendering))
     Summary.print(options, terminal, written, prepared, rendering)
     writer.warnIfEmpty(rendering, image)
     if written.size < writer.paths.size then ExitCode.BadInput else ExitCode.Done

@@ -31,16 +31,16 @@ final class ResumeCommand(
         s"`${film.path}` is a merger of shards; resume the shards, and merge them"
       )
     val saved = FilmInput.options(film, options).copy(
-      outfiles = header.outfiles.map(FilmInput.at(film, _)),
+      outfiles = header.outfiles.map(FilmInput.resolve(film, _)),
       film = options.film.copy(shard = Shard(header.shards.head, header.count))
     )
     // A goal goes beyond the number of samples, to which points and footprints still belong
-    val taken =
+    val sampleLimit =
       if options.settings.goal.isGiven then RenderPlan.Endless
       else Math.max(header.samples, header.done)
-    val now = options.settings.samples match
+    val resumed = options.settings.samples match
       case Some(samples) => saved.setting(_.copy(samples = Some(samples)))
       case None =>
         val footprint = Option(header.footprint).filter(_ > 0)
-        saved.controlling(_.copy(samples = Some(taken), footprint = footprint))
-    RenderCommand(now, terminal, report, loader, Some(film)).run()
+        saved.controlling(_.copy(samples = Some(sampleLimit), footprint = footprint))
+    RenderCommand(resumed, terminal, report, loader, Some(film)).run()

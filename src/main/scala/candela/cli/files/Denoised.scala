@@ -18,7 +18,7 @@ private[cli] final case class Denoised(image: Image, renderSeconds: Double, seco
     def error(of: Image) = Errors.quickly(reference)(of).relativeMse
     val noisy = error(image.toRgb)
     val atEqualTime = noisy * renderSeconds / (renderSeconds + seconds)
-    val figures = Vector(noisy, atEqualTime, error(Denoising.shown(image).toRgb))
+    val figures = Vector(noisy, atEqualTime, error(Denoising.displayed(image).toRgb))
     val names = Vector("noisy", "noisy in the same time", "denoised")
     figures.map(e => Figures.percentage(Math.sqrt(e))).zip(names).map((e, name) =>
       s"$e $name"

@@ -11,12 +11,12 @@ import scala.util.Try
 
 /** Files to write.
   *
-  * @param kind   as messages name them: "image"
-  * @param of     the input they belong to
-  * @param option that names them
-  * @param beside what is written with them, such as previous copies
-  * @param at     the parameter that names them, if a scene does
-  * @param isAsked whether the user has named them: pipes and devices, too
+  * @param kind        as messages name them: "image"
+  * @param of          the input they belong to
+  * @param option      that names them
+  * @param beside      what is written with them, such as previous copies
+  * @param pos         the parameter that names them, if a scene does
+  * @param isAsked     whether the user has named them: pipes and devices, too
   * @param isRewritten whether they are written more than once, so that they are no pipes
   */
 private[candela] final case class Output(
@@ -25,7 +25,7 @@ private[candela] final case class Output(
     of: String,
     option: String = "outfile",
     beside: Vector[Path] = Vector.empty,
-    at: Option[SourcePos] = None,
+    pos: Option[SourcePos] = None,
     isAsked: Boolean = true,
     isRewritten: Boolean = false
 )
@@ -69,22 +69,22 @@ private[candela] final class FileRegister:
   private def outside(file: Path, output: Output): Option[Problem] =
     for
       folders <- room
-      if !place(file).exists(there => folders.exists(there.startsWith(_)))
+      if !canonical(file).exists(there => folders.exists(there.startsWith(_)))
       message = s"the ${output.kind} must be in the folder of the image, found `$file`"
     yield
       val help = Some("--sandbox allows output only in the folder of --outfile or of the scene")
-      Problem.error(Code.Sandboxed, output.at, message, help)
+      Problem.error(Code.Sandboxed, output.pos, message, help)
 
   /** A pipe would be written to for ever, if nobody reads it. */
   private def irregular(file: Path, output: Output): Option[Problem] =
-    val isOther = !output.isAsked && Files.exists(file) && place(file).isEmpty
+    val isOther = !output.isAsked && Files.exists(file) && canonical(file).isEmpty
     Option.when(isOther || (output.isRewritten && WholeFile.isPipe(file))):
       val message = s"expected a regular file for the ${output.kind}, found a pipe or a device: " +
         s"`$file`"
       val help = Some(
         if output.isAsked then "choose another file" else s"--${output.option} FILE names another"
       )
-      Problem.error(Code.Unwritable, output.at, message, help)
+      Problem.error(Code.Unwritable, output.pos, message, help)
 
   /** Notes files that will be written.
     *
@@ -99,13 +99,14 @@ private[candela] final class FileRegister:
     * @throws SceneError if one is noted already
     */
   def note(output: Output): Unit =
-    for file <- output.files ++ output.beside; path <- place(file) do
+    for file <- output.files ++ output.beside; path <- canonical(file) do
       for other <- outputs.get(path) do throw overwrite(file, output, other)
       outputs += path -> output
 
   private def overwrite(file: Path, output: Output, other: Output): SceneError =
-    val that = if other.kind == output.kind then "that" else s"the ${other.kind}"
-    val message = s"the ${output.kind} of `${output.of}` would overwrite $that of `${other.of}`: "
+    val existing = if other.kind == output.kind then "that" else s"the ${other.kind}"
+    val message =
+      s"the ${output.kind} of `${output.of}` would overwrite $existing of `${other.of}`: "
     val help =
       if other.of == output.of then s"choose another name with --${output.option} FILE"
       else "render them separately, with --outfile"
@@ -128,7 +129,7 @@ private[candela] object FileRegister:
   /** A path that all names of a file have, by links or in other cases, whether it exists or not.
     * None for pipes and devices.
     */
-  private def place(file: Path): Option[Path] =
+  private def canonical(file: Path): Option[Path] =
     Try(WholeFile.target(file)).toOption.flatten.map: target =>
       val absolute = target.toAbsolutePath
       def inFolder = absolute.getParent.toRealPath().resolve(absolute.getFileName)
@@ -136,7 +137,7 @@ private[candela] object FileRegister:
 
   /** What tells that a file has been read: hard links differ by their paths alone. */
   private def identities(file: Path): Vector[AnyRef] =
-    val place = this.place(file)
-    val key = place.flatMap: path =>
+    val canonicalPath = this.canonical(file)
+    val key = canonicalPath.flatMap: path =>
       Try(Option(Files.readAttributes(path, classOf[BasicFileAttributes]).fileKey)).toOption.flatten
-    (place ++ key).toVector
+    (canonicalPath ++ key).toVector

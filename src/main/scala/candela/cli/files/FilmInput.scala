@@ -24,7 +24,7 @@ private[cli] object FilmInput:
     * @param now options of this command
     */
   def options(film: FilmFile, now: Options): Options =
-    val scene = at(film, film.header.scene)
+    val scene = resolve(film, film.header.scene)
     val file = OutputFiles.path(scene)
     if now.control.limits.sandbox then
       val folder = SceneFolder.of(film.path, isConfined = true)
@@ -44,6 +44,6 @@ private[cli] object FilmInput:
     )
 
   /** A file named by the rendering, as found from here. */
-  def at(film: FilmFile, name: String): String =
+  def resolve(film: FilmFile, name: String): String =
     val folder = film.path.toAbsolutePath.getParent.resolve(film.header.folder).normalize
     if folder == Path.of("").toAbsolutePath then name else folder.resolve(name).toString

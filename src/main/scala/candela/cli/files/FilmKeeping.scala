@@ -47,12 +47,12 @@ private[cli] object FilmKeeping:
   ): Option[FilmKeeper] =
     for path <- path(options, outfiles, images, resumed) yield
       val shard = options.film.shard
-      val now = FilmHeaders.of(options.settings, scene, loaded, path, images, shard)
+      val header = FilmHeaders.of(options.settings, scene, loaded, path, images, shard)
       def warn(problem: Problem) = report.warnings(Vector(problem), all = true)
-      val how = FilmKeeper.How(options.film.every, warn)
+      val keeperOptions = FilmKeeper.How(options.film.every, warn)
       resumed match
-        case Some(film) => FilmKeeper.resumed(film, now, loaded.plan, how)
-        case None => FilmKeeper.of(path, now, loaded.plan, how)(locked(path))
+        case Some(film) => FilmKeeper.resumed(film, header, loaded.plan, keeperOptions)
+        case None => FilmKeeper.of(path, header, loaded.plan, keeperOptions)(locked(path))
 
   /** @throws SceneError if another rendering writes this film file */
   def locked(path: Path): FilmLock =

@@ -11,7 +11,7 @@ import scala.util.Try
 private[cli] object FilmName:
 
   /** Where the name is. */
-  def place(scene: SceneDescription): Option[SourcePos] =
+  def position(scene: SceneDescription): Option[SourcePos] =
     scene.film.flatMap(_.param("filename")).map(_.valuesAt)
 
   /** What is to be said of a name that leads out of the folder where images go: the current one; of
@@ -23,7 +23,7 @@ private[cli] object FilmName:
       name <- p.strings.headOption
       path <- Try(Path.of(name)).toOption
       kind <- leaving(path)
-      problem = told(scene, p.valuesAt, name, kind)
+      problem = pathProblem(scene, p.valuesAt, name, kind)
     yield Excerpts.fill(Vector(problem)).head
 
   private def leaving(path: Path): Option[String] =
@@ -32,13 +32,18 @@ private[cli] object FilmName:
       Option.when((0 until path.getNameCount).exists(path.getName(_).toString == "..")):
         "a path through `..`"
 
-  private def told(scene: SceneDescription, at: SourcePos, name: String, kind: String): Problem =
+  private def pathProblem(
+      scene: SceneDescription,
+      at: SourcePos,
+      name: String,
+      kind: String
+  ): Problem =
     if scene.folder.isConfined then
       val message = s"expected an image in the scene's folder, found $kind: `$name`"
       Problem.error(Code.ImageName, at, message, Some("--outfile FILE says where the image goes"))
     else
-      val here = Path.of("").toAbsolutePath
-      val there = here.resolve(name).normalize
-      val shown = Try(here.relativize(there)).getOrElse(there)
-      val message = s"the scene names its image by $kind; from this folder, it goes to `$shown`"
+      val workingFolder = Path.of("").toAbsolutePath
+      val target = workingFolder.resolve(name).normalize
+      val relative = Try(workingFolder.relativize(target)).getOrElse(target)
+      val message = s"the scene names its image by $kind; from this folder, it goes to `$relative`"
       Problem.warning(Code.ImageName, at, message, Some("--outfile FILE sends it elsewhere"))

@@ -36,18 +36,18 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
   /** Leaves out a preview that would overwrite a file that was read, or go to a pipe: nobody asked
     * for it.
     */
-  def without(isRead: Path => Boolean): OutputFiles =
+  def excluding(isRead: Path => Boolean): OutputFiles =
     def isPipe(path: Path) = Files.exists(path) && !Files.isRegularFile(path)
     val (lost, kept) = paths.drop(1).partition(path => isRead(path) || isPipe(path))
-    val told = lost.map: path =>
-      val why = if isRead(path) then "an input file" else "not a regular file"
+    val notices = lost.map: path =>
+      val reason = if isRead(path) then "an input file" else "not a regular file"
       Problem(
         Code.OutputConflict,
         Severity.Warning,
         None,
-        s"no preview is written: `$path` is $why"
+        s"no preview is written: `$path` is $reason"
       )
-    OutputFiles(paths.take(1) ++ kept, warnings ++ told)
+    OutputFiles(paths.take(1) ++ kept, warnings ++ notices)
 
   /** @throws SceneError if no file can store alpha */
   def checkAlpha(): Unit =
@@ -95,7 +95,7 @@ object OutputFiles:
     plan.layers.exists(!_.layers.forall(isIdle)) || plan.development.bands.nonEmpty
 
   /** Exactly the requested images. */
-  def asked(names: Vector[String]): OutputFiles =
+  def requested(names: Vector[String]): OutputFiles =
     val paths = names.filterNot(FilmOptions.isFilm).map(path)
     OutputFiles(paths.distinctBy(_.toAbsolutePath.normalize), Vector.empty)
 

@@ -44,14 +44,16 @@ private[cli] final class Sequence(options: Options):
   /** `4 scenes: 2 rendered, 1 skipped (done already), 1 failed: b.pbrt`; of several scenes only. */
   def summary: Option[String] =
     Option.when(frames.size > 1 || skipped.nonEmpty):
-      def part(count: Int, what: String) = Option.when(count > 0)(s"$count $what")
-      val more = failed.size - Sequence.MostNamed
-      val names = failed.take(Sequence.MostNamed) ++ Option.when(more > 0)(s"… and $more more")
+      def counted(count: Int, what: String) = Option.when(count > 0)(s"$count $what")
+      val unnamed = failed.size - Sequence.MostNamed
+      val names =
+        failed.take(Sequence.MostNamed) ++ Option.when(unnamed > 0)(s"… and $unnamed more")
       val missing = frames.size - failed.size - rendered - skippedCount
-      val parts = part(rendered, "rendered") ++ part(skippedCount, "skipped (done already)") ++
-        part(failed.size, names.mkString("failed (", ", ", ")")) ++
-        part(missing, "not begun")
-      s"${Figures.count(frames.size, "scene")}: ${parts.mkString(", ")}"
+      val counts =
+        counted(rendered, "rendered") ++ counted(skippedCount, "skipped (done already)") ++
+          counted(failed.size, names.mkString("failed (", ", ", ")")) ++
+          counted(missing, "not begun")
+      s"${Figures.count(frames.size, "scene")}: ${counts.mkString(", ")}"
 
 private[cli] object Sequence:
   /** Failed scenes in the summary. */

@@ -25,7 +25,7 @@ object CommandLine:
 
   /** @param columns width of the help, in characters */
   def parse(args: Seq[String], columns: Int = Terminal.UsualColumns): Either[Answer, Options] =
-    unreadable(args).orElse(missing(args)).orElse(asked(args, HelpText(columns))) match
+    unreadable(args).orElse(missing(args)).orElse(information(args, HelpText(columns))) match
       case Some(answer) => Left(answer)
       case None =>
         translated(args) match
@@ -54,22 +54,22 @@ object CommandLine:
       Answer(Vector.empty, Vector(Problem.general(Code.UnknownCommand, message, Some(cure))))
 
   /** What needs no options: help, the version, and a word that is nearly a command. */
-  private def asked(args: Seq[String], help: HelpText): Option[Answer] =
-    def told(command: Option[Command]) = Answer(command.fold(help.overview)(help.of))
+  private def information(args: Seq[String], help: HelpText): Option[Answer] =
+    def helpAnswer(command: Option[Command]) = Answer(command.fold(help.overview)(help.of))
     val first = args.headOption.getOrElse("")
     val named = commandOf(first)
     def mistyped(word: String) =
       val known = Command.values.map(_.word) ++ Vector("help", "version")
-      val near = Synonyms.get(word).orElse(Suggest.nearest(word, known))
-      near.map(n => noCommand(s"`$word` is not a command; did you mean `$n`?"))
-    if args.exists(HelpWords) then Some(told(named))
+      val nearest = Synonyms.get(word).orElse(Suggest.nearest(word, known))
+      nearest.map(n => noCommand(s"`$word` is not a command; did you mean `$n`?"))
+    if args.exists(HelpWords) then Some(helpAnswer(named))
     else if args.exists(VersionWords) || (first == "version" && args.size == 1) then
       Some(Answer(VersionText.lines()))
     else if first == "help" then
       args.lift(1) match
-        case None => Some(told(None))
+        case None => Some(helpAnswer(None))
         case Some(word) =>
-          commandOf(word).map(c => told(Some(c))).orElse(mistyped(word)).orElse:
+          commandOf(word).map(c => helpAnswer(Some(c))).orElse(mistyped(word)).orElse:
             Some(noCommand(s"`$word` is not a command"))
     else if named.isEmpty && isWord(first) then mistyped(first)
     else None
@@ -113,8 +113,8 @@ object CommandLine:
 
   /** Translates pbrt's words for rendering; other commands have options of their own. */
   private def translated(args: Seq[String]): Either[String, (Seq[String], Vector[String])] =
-    val own = Command.values.map(_.word)
-    val isOther = args.headOption.exists(w => own.contains(w) && w != Command.Render.word)
+    val commands = Command.values.map(_.word)
+    val isOther = args.headOption.exists(w => commands.contains(w) && w != Command.Render.word)
     if isOther then Right((args, Vector.empty))
     else
       val isNamed = args.headOption.contains(Command.Render.word)
@@ -125,9 +125,9 @@ object CommandLine:
         (words, found.notes)
 
   private def parseOurs(args: Seq[String]): Either[Answer, Options] =
-    val all = withCommand(args)
-    val command = commandOf(all.head).getOrElse(Command.Render)
-    val words = FilmOptions.withValues(joined(all))
+    val arguments = withCommand(args)
+    val command = commandOf(arguments.head).getOrElse(Command.Render)
+    val words = FilmOptions.withValues(joined(arguments))
     words.find(isTooLong) match
       case Some(word) =>
         val message = s"no option begins with `${word.take(MostShort)}`"
@@ -283,8 +283,8 @@ final case class Options(
   def sceneSettings: RenderSettings =
     // A traced pixel is one of the whole image
     val region = if debug then RenderRegion.Whole else settings.region
-    val shown = if pixelMaterial.isEmpty then Vector.empty else Layer.cryptomatte
-    settings.copy(region = region, layers = (settings.layers ++ shown).distinct)
+    val extraLayers = if pixelMaterial.isEmpty then Vector.empty else Layer.cryptomatte
+    settings.copy(region = region, layers = (settings.layers ++ extraLayers).distinct)
 
   /** How the command reads and builds its scenes. */
   def building: BuildControl = control.copy(

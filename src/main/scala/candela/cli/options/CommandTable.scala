@@ -23,8 +23,8 @@ private[candela] final case class CommandRow(
 ):
   /** As in `candela view [options] image...`. */
   def usage: String =
-    val shown = if table.isEmpty then "" else " [options]"
-    (s"candela ${command.word}$shown" +: files).mkString(" ")
+    val suffix = if table.isEmpty then "" else " [options]"
+    (s"candela ${command.word}$suffix" +: files).mkString(" ")
 
   /** Names of the arguments. */
   def files: Vector[String] = arguments.flatMap(_.toList).map(_.name)
@@ -33,7 +33,7 @@ private[candela] final case class CommandRow(
   def page: String =
     val module =
       command.module.map(name => s"\nit belongs to the module [`$name`](INSTALL.md#benchmarks)")
-    OptionText.whole(OptionText(meaning, more) + module.getOrElse(""))
+    OptionText.sentences(OptionText(meaning, more) + module.getOrElse(""))
 
   def options: Vector[OptionDef[?, Options]] = table.flatMap(_.toList)
 
@@ -256,8 +256,8 @@ private[cli] object CommandTable extends OptionRows:
 
   /** What is wrong with the words of a command line, of which one may name a part of the image. */
   def problem(words: Seq[String]): Option[String] =
-    val parts = words.map(_.takeWhile(c => c != '=' && c != ':')).filter(Regions)
-    Option.when(parts.size > 1):
+    val regions = words.map(_.takeWhile(c => c != '=' && c != ':')).filter(Regions)
+    Option.when(regions.size > 1):
       "only one of --cropwindow, --pixelbounds and --pixel can be given"
 
   private val Regions = Set("--cropwindow", "--pixelbounds", "--pixel")

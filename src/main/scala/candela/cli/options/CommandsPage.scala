@@ -28,22 +28,22 @@ private[cli] object CommandsPage:
   private def command(row: CommandRow): Vector[String] =
     val arguments = row.arguments.flatMap(_.toList).map(a => Vector(s"`${a.name}`", a.desc))
     val (common, special) = row.options.partition(o => shared.contains(described(o)))
-    val all = arguments ++ special.map(described)
+    val rows = arguments ++ special.map(described)
     val names = common.map(o => s"`--${o.name}`").mkString(", ")
-    val rest =
+    val footer =
       if common.isEmpty then Vector.empty
       else Vector("", s"[Also](#${anchor(SharedTitle)}): $names.")
     Vector("", s"## candela ${row.command.word}", "", s"`${row.usage}`", "", row.page, "") ++
-      table(Vector(if row.options.isEmpty then "argument" else "option", "effect"), all) ++ rest
+      table(Vector(if row.options.isEmpty then "argument" else "option", "effect"), rows) ++ footer
 
   /** Name and text. */
   private def described(o: OptionDef[?, Options]): Vector[String] =
-    Vector(name(o), OptionText.whole(o.desc))
+    Vector(name(o), OptionText.sentences(o.desc))
 
   /** Options that at least three commands have in the same form. */
   private lazy val shared: Vector[Vector[String]] =
-    val all = CommandTable.rows.flatMap(_.options.map(described))
-    all.distinct.filter(o => all.count(_ == o) >= 3)
+    val options = CommandTable.rows.flatMap(_.options.map(described))
+    options.distinct.filter(o => options.count(_ == o) >= 3)
 
   private def name(o: OptionDef[?, Options]): String =
     val value = o.valueName.fold("")(v => s" $v")

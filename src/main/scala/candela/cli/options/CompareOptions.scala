@@ -62,15 +62,15 @@ private[cli] object CompareTable extends OptionRows:
 
   private given Read[Metric] = Read.reads: word =>
     Metric.named(word).filter(_.hasMap).getOrElse:
-      val known = Metric.values.filter(_.hasMap).map(_.word).mkString(", ")
-      throw IllegalArgumentException(s"expected one of $known")
+      val metrics = Metric.values.filter(_.hasMap).map(_.word).mkString(", ")
+      throw IllegalArgumentException(s"expected one of $metrics")
 
   private def change(o: Options)(f: CompareOptions => CompareOptions): Options =
     o.copy(compare = f(o.compare))
 
   private def limit(option: String, figure: String, text: String): Row =
-    val where = if option.startsWith("min") then "below" else "above"
-    opt[Double](option).valueName("X").text(s"exit with 1 if $text is $where X")
+    val side = if option.startsWith("min") then "below" else "above"
+    opt[Double](option).valueName("X").text(s"exit with 1 if $text is $side X")
       .validate: x =>
         if x >= 0 then success else failure(s"--$option must be at least 0, found `$x`")
       .action: (x, o) =>
@@ -82,7 +82,7 @@ private[cli] object CompareTable extends OptionRows:
       .action((w, o) => change(o)(_.copy(crop = Some(w)))),
     opt[Seq[String]]("channels").valueName("NAME,...")
       .text("restrict the comparison to these channels (default R,G,B)")
-      .validate(some("channels"))
+      .validate(nonEmpty("channels"))
       .action((names, o) => change(o)(_.copy(channels = Some(names.toVector)))),
     opt[Unit]("per-channel")
       .text("also print per-channel figures")

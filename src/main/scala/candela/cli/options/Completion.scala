@@ -35,9 +35,9 @@ private[cli] object Completion:
   )
 
   def options(row: CommandRow): Vector[Known] =
-    row.options.map(known) :+ Known(Vector("-h", "--help"), "print this help", None, "", false)
+    row.options.map(entry) :+ Known(Vector("-h", "--help"), "print this help", None, "", false)
 
-  private def known(o: OptionDef[?, Options]): Known =
+  private def entry(o: OptionDef[?, Options]): Known =
     val mayLack = o.valueName.exists(_.startsWith("["))
     Known(
       o.shortOpt.toVector.map(s => s"-$s") :+ s"--${o.name}",
@@ -51,11 +51,11 @@ private[cli] object Completion:
   def commandWords: Vector[String] = commands.map(_.command.word)
 
   /** Words at the first place that are no commands of the table. */
-  val others: Vector[(String, String)] =
+  val extraWords: Vector[(String, String)] =
     Vector("help" -> "list the commands, or the options of one", "version" -> "print the version")
 
   /** All that may stand at the first place and is no file. */
-  def firsts: Vector[String] = commandWords ++ others.map(_._1)
+  def firsts: Vector[String] = commandWords ++ extraWords.map(_._1)
 
   /** What stands behind a word at the first place, and is neither option nor value. */
   def arguments: Vector[(String, Words)] =
@@ -74,12 +74,12 @@ private object BashCompletion:
 
   /** Cases of what follows an option, one for those with the same words. */
   private def values: Vector[String] =
-    val all =
+    val cases =
       for
         r <- commands; o <- options(r); value <- o.value.toVector; name <- o.names
       yield s"'${r.command.word} $name'" -> action(value)
-    all.map(_._2).distinct.map: action =>
-      s"    ${all.filter(_._2 == action).map(_._1).mkString("|")}) $action; return ;;"
+    cases.map(_._2).distinct.map: action =>
+      s"    ${cases.filter(_._2 == action).map(_._1).mkString("|")}) $action; return ;;"
 
   private def words(all: Vector[String]): String = s"_candela_words '${all.mkString(" ")}'"
 
@@ -150,20 +150,21 @@ private object ZshCompletion:
 
   def script: Vector[String] =
     Head.linesIterator.toVector ++
-      (commands.map(r => r.command.word -> r.meaning) ++ others).map: (word, meaning) =>
+      (commands.map(r => r.command.word -> r.meaning) ++ extraWords).map: (word, meaning) =>
         s"    '$word:${quoted(meaning)}'"
       ++ Middle.linesIterator ++ commands.flatMap(arguments) ++ End.linesIterator
 
   private def arguments(r: CommandRow): Vector[String] =
-    val own = options(r).flatMap(option)
+    val optionLines = options(r).flatMap(option)
     s"    ${r.command.word}) _arguments -S \\" +:
-      (own :+ s"'*:${r.command.word}:${action(r.takes.named)}' ;;").map("      " + _)
+      (optionLines :+ s"'*:${r.command.word}:${action(r.takes.named)}' ;;").map("      " + _)
 
   private def option(o: Known): Vector[String] =
     val value = o.value.fold("")(w => s":${inSpec(o.valueName)}:${action(w)}")
-    val many = if o.isRepeated then "*" else ""
-    val others = if o.isRepeated || o.names.size < 2 then "" else o.names.mkString("(", " ", ")")
-    o.names.map(n => s"'$others$many$n[${inSpec(o.text)}]$value' \\")
+    val repeatMark = if o.isRepeated then "*" else ""
+    val exclusions =
+      if o.isRepeated || o.names.size < 2 then "" else o.names.mkString("(", " ", ")")
+    o.names.map(n => s"'$exclusions$repeatMark$n[${inSpec(o.text)}]$value' \\")
 
   private def action(w: Words): String = w match
     case Words.Files(Vector()) => "_files"
@@ -216,7 +217,7 @@ private object FishCompletion:
   import Completion.*
 
   def script: Vector[String] =
-    val first = commands.map(r => r.command.word -> r.meaning) ++ others
+    val first = commands.map(r => r.command.word -> r.meaning) ++ extraWords
     Head.linesIterator.toVector ++
       first.map((word, text) =>
         s"complete -c candela -n __candela_first -a $word -d ${quoted(text)}"

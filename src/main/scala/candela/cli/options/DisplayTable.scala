@@ -13,13 +13,13 @@ private[cli] object DisplayTable extends OptionRows:
 
   private given Read[ThumbnailKind] = Read.reads: word =>
     ThumbnailKind.values.find(_.word.equalsIgnoreCase(word)).getOrElse:
-      val known = ThumbnailKind.values.map(_.word).mkString(", ")
-      throw IllegalArgumentException(s"expected one of $known")
+      val kinds = ThumbnailKind.values.map(_.word).mkString(", ")
+      throw IllegalArgumentException(s"expected one of $kinds")
 
-  def options: Vector[Row] = shown ++ thumbnails
+  def options: Vector[Row] = imageRows ++ thumbnails
 
   /** All but those of the terminal. */
-  def shown: Vector[Row] = settings("tonemap", "exposure", "falsecolor", "bits", "dither")
+  def imageRows: Vector[Row] = settings("tonemap", "exposure", "falsecolor", "bits", "dither")
 
   def thumbnails: Vector[Row] = Vector(
     opt[ThumbnailKind]("thumbnail").valueName(ThumbnailKind.values.map(_.word).mkString("|"))

@@ -50,8 +50,8 @@ private[cli] final class HelpText(columns: Int):
 
   /** A long name as lines, which end after `|` or `,`. */
   private def broken(name: String): Vector[String] =
-    val parts = name.split("(?<=[|,])").toVector
-    val lines = parts.tail.foldLeft(Vector(Indent + parts.head)): (done, part) =>
+    val segments = name.split("(?<=[|,])").toVector
+    val lines = segments.tail.foldLeft(Vector(Indent + segments.head)): (done, part) =>
       if done.last.length + part.length <= columns then done.init :+ done.last + part
       else done :+ Indent * 4 + part
     lines
@@ -90,35 +90,36 @@ private[cli] object UsageErrors:
     */
   def explained(errors: Vector[String], command: Command): Vector[UsageError] =
     val row = CommandTable.of(command)
-    val own = errors.filterNot(_.startsWith("Missing argument"))
+    val specific = errors.filterNot(_.startsWith("Missing argument"))
     // What follows a faulty option may be taken for its value
-    (if own.isEmpty then errors else own).map(one(_, row)).distinct
+    (if specific.isEmpty then errors else specific).map(usageError(_, row)).distinct
 
-  private def one(error: String, row: CommandRow): UsageError =
+  private def usageError(error: String, row: CommandRow): UsageError =
     val command = s"`candela ${row.command.word}`"
-    def must(name: String, what: String, found: String) = UsageError(
+    def invalid(name: String, what: String, found: String) = UsageError(
       Code.OptionValue,
       if found.isEmpty then s"--$name needs a value: ${valueOf(name, row)}"
-      else s"--$name must be $what, found `$found`${near(what, found)}"
+      else s"--$name must be $what, found `$found`${suggestion(what, found)}"
     )
     def missing(what: String) = UsageError(Code.MissingArgument, s"$command needs $what")
     error match
       case s"Unknown option $option" => UsageError(Code.UnknownOption, unknown(option, row))
       case s"Unknown argument '$file'" =>
-        val all = row.files.mkString(" and ")
+        val files = row.files.mkString(" and ")
         val message =
           if row.files.isEmpty then s"$command takes only options; unexpected argument `$file`"
-          else s"$command takes $all; unexpected argument `$file`"
+          else s"$command takes $files; unexpected argument `$file`"
         UsageError(Code.MoreArguments, message)
       case s"Missing argument $file" => missing(s"a file: $file")
       case s"Missing option --$name" => missing(s"--$name ${valueOf(name, row)}")
       case s"Missing value after $option" =>
         val word = option.dropWhile(_ == '-')
         val name = row.options.find(_.shortOpt.contains(word)).fold(word)(_.name)
-        must(name, "", "")
+        invalid(name, "", "")
       case s"Option --$name expects a number but was given '$found'" =>
-        must(name, number(found), found)
-      case s"Option --$name failed when given '$found'. expected $what" => must(name, what, found)
+        invalid(name, number(found), found)
+      case s"Option --$name failed when given '$found'. expected $what" =>
+        invalid(name, what, found)
       case s"--$_ must be $_" => UsageError(Code.OptionValue, error)
       case other => UsageError(Code.OptionConflict, other)
 
@@ -132,7 +133,7 @@ private[cli] object UsageErrors:
     row.option(name).flatMap(_.valueName).getOrElse("VALUE")
 
   /** The nearest of the words that are understood, if there are any. */
-  private def near(what: String, found: String): String =
+  private def suggestion(what: String, found: String): String =
     val words = what.split("[^A-Za-z0-9-]+").toVector
       .filter(w => w.length > 2 && !Prose(w) && w.exists(_.isLetter))
     val nearest = if found.length > 2 then Suggest.nearest(found, words) else None
@@ -142,16 +143,16 @@ private[cli] object UsageErrors:
 
   private def unknown(option: String, row: CommandRow): String =
     val name = option.dropWhile(_ == '-').takeWhile(c => c != '=' && c != ':')
-    val known = row.options
+    val options = row.options
     val isShort = !option.startsWith("--")
-    if known.exists(o => o.name == name || (isShort && o.shortOpt.contains(name))) then
-      s"--${known.find(o => o.name == name || o.shortOpt.contains(name)).get.name} is given twice"
+    if options.exists(o => o.name == name || (isShort && o.shortOpt.contains(name))) then
+      s"--${options.find(o => o.name == name || o.shortOpt.contains(name)).get.name} is given twice"
     else
-      val others = CommandTable.rows.filter(r => r != row && r.option(name).isDefined)
-      val nearest = Suggest.nearest(name, "help" +: known.map(_.name))
+      val otherRows = CommandTable.rows.filter(r => r != row && r.option(name).isDefined)
+      val nearest = Suggest.nearest(name, "help" +: options.map(_.name))
       val hint =
-        if others.nonEmpty then
-          val words = others.map(r => s"`${r.command.word}`")
+        if otherRows.nonEmpty then
+          val words = otherRows.map(r => s"`${r.command.word}`")
           s"; ${listed(words)} ${if words.size == 1 then "has" else "have"} it"
         else nearest.fold("")(k => s"; did you mean `--$k`?")
       s"`candela ${row.command.word}` has no option `${option.stripSuffix("=")}`$hint"

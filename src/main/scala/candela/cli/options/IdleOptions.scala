@@ -49,12 +49,12 @@ private[candela] object IdleOptions:
       "denoise" -> o.settings.output.denoise,
       "thumbnail" -> o.thumbnail.isDefined
     )
-    val silent = printed.toVector.flatMap: name =>
+    val idleOutputs = printed.toVector.flatMap: name =>
       unwritten.flatMap((option, isGiven) => idle(option, s": --$name renders no image")(isGiven))
     val isFilm = FilmOptions.asksForFilm(o)
     val formats = o.outfiles.flatMap(format)
     val isFilmAlone = o.outfiles.nonEmpty && o.outfiles.forall(FilmOptions.isFilm)
-    silent ++ interval(o, isFilm) ++
+    idleOutputs ++ interval(o, isFilm) ++
       idle("write-partial-images", ": only a film is written")(o.partialImages && isFilmAlone) ++
       idle("sample", " without --debug")(o.sample != 0 && !o.debug) ++
       idle("store-time", s": ${listed(formats)} files store no metadata")(
@@ -73,8 +73,8 @@ private[candela] object IdleOptions:
     val hasPicture = formats.isEmpty || isShown || formats.exists(_.contents == Contents.Display)
     val plain = DisplayTransform.Plain
     val d = o.display
-    val why = s": ${listed(formats)} files store linear light"
-    def unseen(option: String, isGiven: Boolean) = idle(option, why)(!hasPicture && isGiven)
+    val reason = s": ${listed(formats)} files store linear light"
+    def unseen(option: String, isGiven: Boolean) = idle(option, reason)(!hasPicture && isGiven)
     unseen("tonemap", d.curve != plain.curve) ++
       unseen("exposure", d.exposure != Exposure.Stops(0f)) ++
       unseen("falsecolor", d.falseColor) ++
@@ -89,10 +89,10 @@ private[candela] object IdleOptions:
   private def halves(o: Options): Vector[String] =
     val formats = o.outfiles.flatMap(format)
     val exr = OutputFormat.default
-    def other(option: String, isGiven: Boolean) =
+    def exrOnly(option: String, isGiven: Boolean) =
       idle(option, s": only .${exr.suffix} files have it")(isGiven && !formats.contains(exr))
     if formats.isEmpty then Vector.empty
-    else other("half", o.image.isHalf) ++ other("colorspace", o.image.colorSpace.isDefined)
+    else exrOnly("half", o.image.isHalf) ++ exrOnly("colorspace", o.image.colorSpace.isDefined)
 
   private def compared(c: CompareOptions): Vector[String] =
     val isColored =
@@ -113,8 +113,9 @@ private[candela] object IdleOptions:
 
   private def described(o: Options): Vector[String] =
     val page = o.pages.lastOption
-    val others = page.filter(_ => o.settings.reading.dialect.isDefined).filter(_ != Page.Reference)
-    others.toVector.flatMap(p => idle("dialect", s" with --${p.option}")(true)) ++
+    val fixedPage =
+      page.filter(_ => o.settings.reading.dialect.isDefined).filter(_ != Page.Reference)
+    fixedPage.toVector.flatMap(p => idle("dialect", s" with --${p.option}")(true)) ++
       page.toVector.flatMap: p =>
         o.pages.distinct.filter(_ != p).flatMap: other =>
           idle(other.option, s" with --${p.option}, which prints a page of its own")(true)

@@ -26,9 +26,9 @@ final case class ImageOptions(
 /** A size in pixels; None follows from the other and the image's shape. */
 final case class ImageSize(width: Option[Int], height: Option[Int]):
   def of(w: Int, h: Int): (Int, Int) =
-    def part(given_ : Option[Int], other: Option[Int], n: Int, m: Int) =
+    def side(given_ : Option[Int], other: Option[Int], n: Int, m: Int) =
       given_.orElse(other.map(o => Math.round(o.toDouble * n / m).toInt)).getOrElse(n).max(1)
-    (part(width, height, w, h), part(height, width, h, w))
+    (side(width, height, w, h), side(height, width, h, w))
 
 /** Parametrisations of the sphere by environment maps. */
 enum MapShape(val word: String):
@@ -73,19 +73,19 @@ private[cli] object ImageTable extends OptionRows:
       .text(s"image to write, ${OutputFormat.listed()}")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f))
 
-  private def half: Row =
+  private def halfRow: Row =
     opt[Unit]("half")
       .text("store 16-bit floats in .exr")
       .action((_, o) => change(o)(_.copy(isHalf = true)))
 
   /** Options of `average`. */
-  val average: Vector[Row] = Vector(outfile, half)
+  val average: Vector[Row] = Vector(outfile, halfRow)
 
   val options: Vector[Row] = Vector[Row](
     outfile,
     opt[Seq[String]]("channels").valueName("NAME,...")
       .text("keep only these channels")
-      .validate(some("channels"))
+      .validate(nonEmpty("channels"))
       .action((names, o) => change(o)(_.copy(channels = Some(names.toVector)))),
     opt[PixelWindow]("crop")(using CompareTable.window).valueName("x0,x1,y0,y1")
       .text("keep only these pixels, x1 and y1 excluded; a negative end is a size")
@@ -114,5 +114,5 @@ private[cli] object ImageTable extends OptionRows:
     opt[Unit]("flip")
       .text("turn the image upside down")
       .action((_, o) => change(o)(_.copy(flips = true))),
-    half
+    halfRow
   )

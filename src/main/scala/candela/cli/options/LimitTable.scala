@@ -10,7 +10,7 @@ private[cli] object LimitTable:
   private val b = OParser.builder[Options]
   import b.opt
 
-  private final case class Changed(limit: Limit, most: Option[Long])
+  private final case class Changed(limit: Limit, bound: Option[Long])
 
   private given Read[Changed] = Read.reads: text =>
     val (name, value) = text.trim.span(_ != '=')
@@ -19,13 +19,13 @@ private[cli] object LimitTable:
     val amount = value.drop(1).trim
     if amount.equalsIgnoreCase("none") then Changed(limit, None)
     else
-      val most = limit match
+      val bound = limit match
         case Limit.Time => milliseconds(amount)
         case Limit.Bytes => TextForm.size.read(amount)
         case _ => TextForm.count.read(amount)
       Changed(
         limit,
-        Some(most.getOrElse(
+        Some(bound.getOrElse(
           throw IllegalArgumentException(s"expected ${expected(limit)}")
         ))
       )
@@ -57,16 +57,16 @@ private[cli] object LimitTable:
           s"(default: none; with --sandbox: ${defaults})"
       )
       .action: (all, o) =>
-        limiting(o)(l => l.copy(changed = l.changed ++ all.map(c => c.limit -> c.most)))
+        limiting(o)(l => l.copy(changed = l.changed ++ all.map(c => c.limit -> c.bound)))
   )
 
   /** Those of the sandbox, as the option takes them. */
   private[cli] def defaults: String = Limit.values.map: limit =>
-    val most = limit.inSandbox
+    val bound = limit.inSandbox
     val text = limit match
-      case Limit.Time => s"${most / 60_000}m"
-      case Limit.Bytes => s"${most / 1_000_000_000}GB"
-      case _ if most % 1_000_000 == 0 => s"${most / 1_000_000}M"
-      case _ => most.toString
+      case Limit.Time => s"${bound / 60_000}m"
+      case Limit.Bytes => s"${bound / 1_000_000_000}GB"
+      case _ if bound % 1_000_000 == 0 => s"${bound / 1_000_000}M"
+      case _ => bound.toString
     s"${limit.word}=$text"
   .mkString(", ")

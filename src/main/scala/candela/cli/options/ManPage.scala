@@ -14,7 +14,7 @@ private[cli] object ManPage:
 
   def lines: Vector[String] =
     s""".TH CANDELA 1 "$Date" "Candela ${Version.current}" "User Commands"""" +:
-      (head ++ commands ++ Manual.sections.flatMap(section) ++ more)
+      (head ++ commands ++ Manual.sections.flatMap(section) ++ seeAlso)
 
   private def head: Vector[String] =
     Vector(".SH NAME", s"candela \\- ${escaped(Manual.Purpose)}", ".SH SYNOPSIS") ++
@@ -22,7 +22,7 @@ private[cli] object ManPage:
 
   private def commands: Vector[String] =
     ".SH COMMANDS" +: CommandTable.rows.flatMap: row =>
-      val options = row.options.flatMap(o => ".TP" +: name(o) +: text(OptionText.whole(o.desc)))
+      val options = row.options.flatMap(o => ".TP" +: name(o) +: text(OptionText.sentences(o.desc)))
       s".SS ${escaped(row.usage)}" +: (text(row.page) ++ options)
 
   private def name(o: OptionDef[?, Options]): String =
@@ -37,24 +37,24 @@ private[cli] object ManPage:
         case Manual.Part.Table(_, rows) =>
           rows.flatMap(r => ".TP" +: text(r.head) :++ text(r.tail.mkString(" ")))
 
-  private def more: Vector[String] =
+  private def seeAlso: Vector[String] =
     ".SH SEE ALSO" +: text("`candela describe` prints the reference of scenes.")
 
   /** Markdown as roff, a sentence a line: code is bold, links are their words. */
   private def text(markdown: String): Vector[String] =
     val plain = OptionText.unlinked(markdown)
     // Between backticks is every second part
-    val parts = plain.split("`", -1).toVector.zipWithIndex
-    val all = parts.map((t, i) => if i % 2 == 1 then bold(t) else escaped(t)).mkString
-    all.split("(?<=[a-z)R]\\.) (?=[A-Z])").toVector
+    val segments = plain.split("`", -1).toVector.zipWithIndex
+    val roff = segments.map((t, i) => if i % 2 == 1 then bold(t) else escaped(t)).mkString
+    roff.split("(?<=[a-z)R]\\.) (?=[A-Z])").toVector
 
   private def bold(s: String): String = s"\\fB${escaped(s)}\\fR"
 
   /** Without meaning to roff; all characters are ASCII, so that no formatter needs an encoding. */
   private def escaped(s: String): String =
-    val shown = s.replace("\\", "\\e").replace("-", "\\-")
+    val roff = s.replace("\\", "\\e").replace("-", "\\-")
     val ascii = StringBuilder()
-    shown.codePoints.forEach: c =>
+    roff.codePoints.forEach: c =>
       if c < 128 then ascii += c.toChar: Unit
       else ascii ++= f"\\[u$c%04X]": Unit
     if ascii.startsWith(".") || ascii.startsWith("'") then s"\\&$ascii" else ascii.toString

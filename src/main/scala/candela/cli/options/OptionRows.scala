@@ -42,7 +42,7 @@ private[candela] trait OptionRows:
     else b.opt[Unit](of.name).text(text).action((_, o) => of.change("").fold(o)(o.setting))
 
   /** Of a list, as of `,`, nothing may be left. */
-  protected final def some(option: String)(all: Seq[?]): Either[String, Unit] =
+  protected final def nonEmpty(option: String)(all: Seq[?]): Either[String, Unit] =
     if all.nonEmpty then b.success
     else b.failure(s"--$option must be at least one name, found none")
 

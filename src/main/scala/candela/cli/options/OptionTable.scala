@@ -190,9 +190,9 @@ private[candela] object OptionTable extends OptionRows:
   ) ++ parsing ++ Vector(explain, quiet, verbose("")) ++ DisplayTable.options ++
     LimitTable.options
 
-  val image: Vector[Row] = (ImageTable.options :+ quiet) ++ DisplayTable.shown
+  val image: Vector[Row] = (ImageTable.options :+ quiet) ++ DisplayTable.imageRows
 
-  val average: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.shown
+  val average: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.imageRows
 
   val reference: Vector[Row] =
     ReferenceTable.options ++ TextureTable.options ++ Vector(threads, setting("cropwindow")) ++

@@ -12,7 +12,7 @@ private[cli] object OptionText:
   def short(text: String): String = text.takeWhile(_ != '\n')
 
   /** All of it, as sentences. */
-  def whole(text: String): String =
+  def sentences(text: String): String =
     text.split('\n').map(_.trim).filter(_.nonEmpty).map(sentence).mkString(" ")
 
   /** With a capital at the start and a full stop. */

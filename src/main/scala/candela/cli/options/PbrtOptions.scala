@@ -28,7 +28,7 @@ enum Here:
   * @param value shown for what follows it; empty: nothing does
   */
 final case class PbrtOption(name: String, value: String, dialects: Set[Dialect], here: Here):
-  def shown: String = if value.isEmpty then s"--$name" else s"--$name $value"
+  def usage: String = if value.isEmpty then s"--$name" else s"--$name $value"
   def takesValue: Boolean = value.nonEmpty
 
 /** All options of the command lines of pbrt-v2, v3 and v4: the table of docs/PBRT-OPTIONS.md. */
@@ -123,11 +123,11 @@ object PbrtOptions:
     val words = Vector.newBuilder[String]
     val notes = Vector.newBuilder[String]
     var command = Option.empty[String]
-    var rest = args.toList
+    var remaining = args.toList
     var problem = Option.empty[String]
-    while rest.nonEmpty && problem.isEmpty do
-      val word = rest.head
-      rest = rest.tail
+    while remaining.nonEmpty && problem.isEmpty do
+      val word = remaining.head
+      remaining = remaining.tail
       val (name, joined) = word.split("=", 2) match
         case Array(n, value) => (n, Some(value))
         case _ => (word, None)
@@ -137,16 +137,17 @@ object PbrtOptions:
           if !joined.contains("false") then words += word
         case Some(known) =>
           val value = joined.toList ++ (
-            if known.takesValue && joined.isEmpty then rest.take(valuesOf(known, rest)) else Nil
+            if known.takesValue && joined.isEmpty then remaining.take(valuesOf(known, remaining))
+            else Nil
           )
-          if known.takesValue && joined.isEmpty then rest = rest.drop(value.size)
+          if known.takesValue && joined.isEmpty then remaining = remaining.drop(value.size)
           known.here match
             case Same(_) if !known.takesValue => words += s"--${known.name}"
             case Same(_) => words ++= Vector(s"--${known.name}", value.mkString(","))
             case Ignored(_, _, values) if values.nonEmpty && !value.exists(values.contains) =>
-              val found = value.headOption.fold("but has no value")(v => s"found `$v`")
-              val all = s"${values.init.mkString(", ")} or ${values.last}"
-              problem = Some(s"--${known.name} must be $all, $found")
+              val actual = value.headOption.fold("but has no value")(v => s"found `$v`")
+              val accepted = s"${values.init.mkString(", ")} or ${values.last}"
+              problem = Some(s"--${known.name} must be $accepted, $actual")
             case Ignored(reason, isTold, _) =>
               if isTold then notes += s"--${known.name} has no effect: $reason"
             case Refused(instead) =>
@@ -164,8 +165,8 @@ object PbrtOptions:
     if isOption then byName.get(plain(word)) else None
 
   /** Number of words that an option's value takes: four, if a crop window has spaces. */
-  private def valuesOf(option: PbrtOption, rest: List[String]): Int =
-    val numbers = rest.take(4)
+  private def valuesOf(option: PbrtOption, remaining: List[String]): Int =
+    val numbers = remaining.take(4)
     val hasSpaces = option.name == "cropwindow" && numbers.size == 4 &&
       numbers.forall(Decimal.float(_).isDefined)
     if hasSpaces then 4 else 1
@@ -173,14 +174,14 @@ object PbrtOptions:
   /** docs/PBRT-OPTIONS.md. */
   def page: String =
     val rows = all.map: o =>
-      val here = o.here match
+      val meaning = o.here match
         case Same("") => "the same"
         case Same(note) => s"the same; $note"
         case As(words*) => s"`${words.mkString(" ")}`"
         case Ignored(reason, _, _) => s"accepted, without effect: $reason"
         case Refused(instead) => s"rejected: $instead"
       val versions = Dialect.ofPbrt.filter(o.dialects).map(Dialects.name).mkString(" ")
-      s"| `${o.shown}` | $versions | $here |"
+      s"| `${o.usage}` | $versions | $meaning |"
     (Introduction +: rows :+ "").mkString("\n")
 
   private val Introduction =

@@ -26,7 +26,7 @@ private[cli] object TextureTable extends OptionRows:
   /** A cache of this size holds more than the tiles that one lookup needs. */
   private val MinBytes = 1_000_000L
 
-  private def kept[A](change: (A, TextureControl) => TextureControl): (A, Options) => Options =
+  private def updating[A](change: (A, TextureControl) => TextureControl): (A, Options) => Options =
     (value, o) => o.controlling(c => c.copy(textures = change(value, c.textures)))
 
   /** Whether a word after `--scene-cache` is its folder, and not a scene or an option. */
@@ -55,8 +55,8 @@ private[cli] object TextureTable extends OptionRows:
       ))
       .validate: n =>
         if n >= MinBytes then success
-        else failure(s"--texture-memory must be at least 1M, found ${ByteCount.show(n)}")
-      .action(kept((n, t) => t.copy(memory = Some(n)))),
+        else failure(s"--texture-memory must be at least 1M, found ${ByteCount.format(n)}")
+      .action(updating((n, t) => t.copy(memory = Some(n)))),
     opt[Path]("texture-cache").valueName("FOLDER")
       .text(OptionText(
         "folder of the texture cache (default: candela/textures in the user's cache folder)",
@@ -65,12 +65,12 @@ private[cli] object TextureTable extends OptionRows:
       .validate: folder =>
         if folder.toString.nonEmpty then success
         else failure("--texture-cache must be a folder, found an empty name")
-      .action(kept((f, t) => t.copy(folder = Some(f)))),
+      .action(updating((f, t) => t.copy(folder = Some(f)))),
     opt[Long]("texture-cache-size")(using reading(TextForm.size)).valueName("SIZE")
       .text(OptionText(
         "maximum size of the texture cache; the least recently used files are deleted " +
           "(default 20G)",
         "Files of the current run stay until the next file is written."
       ))
-      .action(kept((n, t) => t.copy(folderSize = n)))
+      .action(updating((n, t) => t.copy(folderSize = n)))
   )

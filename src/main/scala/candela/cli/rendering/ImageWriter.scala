@@ -53,8 +53,8 @@ private[cli] final class ImageWriter(
   def write(wanted: Vector[Path], rendering: Rendering, image: Image): Vector[Path] = synchronized:
     val about = digest.filter(_ => rendering.isComplete).map(Sequence.Digest -> _).toVector
     // Those that can't hold the digest first: what is done is told by the others
-    val lost = OutputFiles.failures(wanted.sortBy(Sequence.keepsDigest)): path =>
+    val failures = OutputFiles.failures(wanted.sortBy(Sequence.keepsDigest)): path =>
       files.write(path, image, rendering, about, denoising.map(_.describe))
-    if lost.nonEmpty then
-      val _ = report.errors(lost.sortBy((path, _) => wanted.indexOf(path)).map(_._2))
-    wanted.diff(lost.map(_._1))
+    if failures.nonEmpty then
+      val _ = report.errors(failures.sortBy((path, _) => wanted.indexOf(path)).map(_._2))
+    wanted.diff(failures.map(_._1))

@@ -9,7 +9,7 @@ object Learning:
 
   def summary(o: GuideOutcome): String =
     if o.gaveUp then
-      val gain = o.left.fold("")(left => s": variance × ${Figures.fixed(left, 2)}")
+      val gain = o.varianceRatio.fold("")(left => s": variance × ${Figures.fixed(left, 2)}")
       s"guiding: given up at sample ${o.samples}, as it did not pay$gain"
     else
       val rows = figures(o).filter(_.key != "samples").map(f => s"${f.what} ${f.text}")
@@ -24,6 +24,6 @@ object Learning:
       count("lobes", "lobes", o.lobes),
       LearnedFigure("share", "guided bounces", o.share, s"${Figures.fixed(100 * o.share, 1)} %"),
       LearnedFigure("weight", "weight of the last samples", o.weight, Figures.fixed(o.weight, 0))
-    ) ++ o.left.map: left =>
-      val what = "variance of the paths that were compared, relative to unguided ones"
-      LearnedFigure("varianceLeft", what, left, Figures.fixed(left, 3))
+    ) ++ o.varianceRatio.map: left =>
+      val description = "variance of the paths that were compared, relative to unguided ones"
+      LearnedFigure("varianceLeft", description, left, Figures.fixed(left, 3))

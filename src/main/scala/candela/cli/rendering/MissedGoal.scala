@@ -15,9 +15,9 @@ private[cli] object MissedGoal:
         s"the rendering ended after ${Figures.duration(rendering.seconds)}, " +
           s"not ${Figures.duration(asked)}"
       val error = goal.options.error.map: asked =>
-        val found = goal.errorAt(rendering.samplesDone)
-        val known = found.fold("not known")(e => s"${Figures.percentage(e)}")
-        s"the error is $known, not ${Figures.percentage(asked)}"
+        val estimate = goal.errorAt(rendering.samplesDone)
+        val formatted = estimate.fold("not known")(e => s"${Figures.percentage(e)}")
+        s"the error is $formatted, not ${Figures.percentage(asked)}"
       val planned = Figures.count(rendering.samplesPerPixel, "sample")
       ProblemText.numbered(
         s"warning: ${(error ++ time).mkString(", and ")}: all $planned " +

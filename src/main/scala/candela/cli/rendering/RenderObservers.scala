@@ -16,17 +16,18 @@ import java.nio.file.Path
 private[cli] final class ErrorLog(development: Development, reference: Image, file: Path)
     extends RenderListener:
   private val lines = StringBuilder()
-  private var lost = Vector.empty[Problem]
+  private var failures = Vector.empty[Problem]
   private var unresolved = 0
 
-  override def looks: Looks = Looks.Doublings
+  override def frequency: Looks = Looks.Doublings
 
   override def passed(pass: Pass, film: Film): Unit =
     val errors = Errors.quickly(reference)(development(film))
     if errors.isUnresolved then unresolved += 1
     lines ++= s"${pass.samples}, ${Figures.general(errors.mse)}\n"
-    lost = OutputFiles.failures(Vector(file))(WholeFile.write(_, lines.toString.getBytes(UTF_8)))
-      .map(_._2)
+    failures =
+      OutputFiles.failures(Vector(file))(WholeFile.write(_, lines.toString.getBytes(UTF_8)))
+        .map(_._2)
 
   /** Which lines the reference's own error, which is subtracted, leaves nothing of. */
   def remark: Option[String] = Option.when(unresolved > 0):
@@ -34,7 +35,7 @@ private[cli] final class ErrorLog(development: Development, reference: Image, fi
     s"$lines of $file: the MSE is below the reference's own, and shown as 0"
 
   /** Why the last lines could not be written. */
-  def failure: Vector[Problem] = lost
+  def failure: Vector[Problem] = failures
 
 private[cli] object ErrorLog:
   /** None unless the plan asks for one. */
@@ -49,7 +50,7 @@ private[cli] final class PartialImages(write: Rendering => Unit) extends RenderL
 
   override def started(live: Live): Unit = this.live = Some(live)
 
-  override def looks: Looks = Looks.Doublings
+  override def frequency: Looks = Looks.Doublings
 
   override def passed(pass: Pass, film: Film): Unit =
     if !pass.isLast then live.foreach(l => write(l.rendering))

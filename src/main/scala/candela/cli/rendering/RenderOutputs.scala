@@ -29,7 +29,7 @@ private[cli] final class RenderOutputs(
       val together = FileRegister()
       for Frame(scene, outfiles, _) <- frames if Files.exists(OutputFiles.path(scene)) do
         val images =
-          if outfiles.nonEmpty then Some(OutputFiles.asked(outfiles))
+          if outfiles.nonEmpty then Some(OutputFiles.requested(outfiles))
           else
             loader.imageName(scene, options.settings.reading, options.building)
               .map(OutputFiles.named(scene, _))
@@ -42,14 +42,14 @@ private[cli] final class RenderOutputs(
     * @throws SceneError if a file can't be written
     */
   def check(scene: String, outfiles: Vector[String]): Unit =
-    val images = OutputFiles.asked(outfiles)
+    val images = OutputFiles.requested(outfiles)
     if options.control.limits.sandbox then register.confine(folders(scene, outfiles))
     images.check()
     register.read((scene +: (options.reference ++ options.settings.output.reference).toVector)
       .map(OutputFiles.path))
     register.check(Output(images.paths, "image", scene))
     val film = if resumed.isDefined then None else FilmKeeping.named(options, outfiles)
-    others(
+    extraOutputs(
       scene,
       film.map(OutputFiles.path),
       options.settings.output.errors,
@@ -65,31 +65,31 @@ private[cli] final class RenderOutputs(
     register.read(SceneFiles.of(loaded.description) ++
       plan.errors.map(e => OutputFiles.path(e.reference)))
     val files =
-      if outfiles.nonEmpty then OutputFiles.asked(outfiles)
-      else if resumed.isDefined then OutputFiles.asked(Vector.empty) // a shard
-      else OutputFiles.ofScene(scene, loaded).without(register.hasRead)
+      if outfiles.nonEmpty then OutputFiles.requested(outfiles)
+      else if resumed.isDefined then OutputFiles.requested(Vector.empty) // a shard
+      else OutputFiles.ofScene(scene, loaded).excluding(register.hasRead)
     report.warnings(files.warnings, all = true)
     files.check()
     if OutputFiles.needLayers(plan, options.settings.output.denoise) && files.paths.nonEmpty then
       files.checkLayers()
     if options.settings.layers.contains(Layer.Alpha) && files.paths.nonEmpty then files.checkAlpha()
-    val at = if outfiles.isEmpty then FilmName.place(loaded.description) else None
+    val pos = if outfiles.isEmpty then FilmName.position(loaded.description) else None
     // Those of a film are not named now
     val isAsked = outfiles.nonEmpty && resumed.isEmpty
-    register.write(Output(files.paths, "image", scene, at = at, isAsked = isAsked))
+    register.write(Output(files.paths, "image", scene, pos = pos, isAsked = isAsked))
     val film = FilmKeeping.path(options, outfiles, files.paths, resumed)
     val errorsAt = loaded.description.options.find(_.name == "msereferenceout").map(_.valuesAt)
-    others(scene, film, plan.errors.map(_.file), errorsAt).foreach(register.write)
+    extraOutputs(scene, film, plan.errors.map(_.file), errorsAt).foreach(register.write)
     files.paths
 
   /** Where a sandbox lets files be written. */
   private def folders(scene: String, outfiles: Vector[String]): Vector[Path] =
     val beside = resumed.map(_.path).toVector ++ outfiles.map(OutputFiles.path)
-    val all = if beside.isEmpty then Vector(OutputFiles.path(scene)) else beside
-    all.map(file => Option(file.getParent).getOrElse(Path.of(""))).distinct
+    val paths = if beside.isEmpty then Vector(OutputFiles.path(scene)) else beside
+    paths.map(file => Option(file.getParent).getOrElse(Path.of(""))).distinct
 
   /** @param at where the scene names the list of errors */
-  private def others(
+  private def extraOutputs(
       scene: String,
       film: Option[Path],
       errors: Option[String],
@@ -104,7 +104,7 @@ private[cli] final class RenderOutputs(
         "list of errors",
         scene,
         "mse-reference-out",
-        at = at.filterNot(_ => isAsked),
+        pos = at.filterNot(_ => isAsked),
         isAsked = isAsked
       )
     )

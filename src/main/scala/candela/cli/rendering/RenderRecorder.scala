@@ -25,8 +25,8 @@ final class RenderRecorder(development: Development, val reference: Option[Image
   /** The final image, the first pass, and the reference. */
   def pictures: Vector[Picture] =
     def named(i: (Image, Int)) = Picture(Figures.count(i._2, "sample"), i._1)
-    val begin = first.filter(f => last.exists(_._2 != f._2))
-    last.map(named).toVector ++ begin.map(named) ++
+    val firstPass = first.filter(f => last.exists(_._2 != f._2))
+    last.map(named).toVector ++ firstPass.map(named) ++
       reference.map(r => Picture("reference", r.toRgb, isReference = true))
 
   override protected def measured(pass: Pass, image: => Image): Unit =
@@ -49,16 +49,16 @@ object RenderRecorder:
     // It may be read more than once, and a scene may have named it
     for why <- InputFile.obstacle(file) do
       throw SceneError(Problem.general(Code.Unreadable, s"can't read the reference `$name`: $why"))
-    val image = ErrorLayer.kept(ImageFiles.read(file))
+    val image = ErrorLayer.extract(ImageFiles.read(file))
     val crop = plan.crop
-    def has(width: Int, height: Int) = image.width == width && image.height == height
-    if has(crop.width, crop.height) then image
-    else if has(plan.width, plan.height) then
+    def isSize(width: Int, height: Int) = image.width == width && image.height == height
+    if isSize(crop.width, crop.height) then image
+    else if isSize(plan.width, plan.height) then
       PixelWindow(crop.x0, crop.x1, crop.y0, crop.y1).of(image)
     else
-      val found = s"${image.width}×${image.height}"
+      val actual = s"${image.width}×${image.height}"
       val wanted = s"${plan.width}×${plan.height}"
       throw SceneError(Problem.general(
         Code.DifferentImages,
-        s"reference `$name` must be $wanted pixels, found $found"
+        s"reference `$name` must be $wanted pixels, found $actual"
       ))

@@ -47,7 +47,7 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
     val errors =
       for d <- denoised; r <- recorder.reference yield "error" -> d.errors(r)
     val clean = denoised.map: d =>
-      Picture(s"${last.map(_.name).mkString}, denoised", Denoising.shown(d.image))
+      Picture(s"${last.map(_.name).mkString}, denoised", Denoising.displayed(d.image))
     RenderReport(
       scene,
       Version.current,
@@ -83,7 +83,7 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
       case ((name, seconds), begin) => Span(name, begin, begin + seconds)
 
   private def window: Option[String] = options.settings.region match
-    case window: RenderRegion.Window => Some(TextForm.window.show(window))
+    case window: RenderRegion.Window => Some(TextForm.window.format(window))
     case _ => None
 
   private def rows(rendering: Rendering, threads: Int): Vector[(String, String)] =
@@ -106,8 +106,9 @@ final class Reporting(options: Options, scene: String, loaded: Prepared):
 private object Reporting:
   private def samples(r: Rendering): String =
     val planned = if r.isOpenEnded then "" else s" of ${r.samplesPerPixel}"
-    val now = if r.earlier == 0 then "" else s", ${r.samplesDone - r.earlier} of them in this run"
-    s"${r.samplesDone}$planned$now"
+    val runNote =
+      if r.earlier == 0 then "" else s", ${r.samplesDone - r.earlier} of them in this run"
+    s"${r.samplesDone}$planned$runNote"
 
 /** Report files: `.html` for readers, `.json` and `.csv` for programs. */
 object ReportFiles:
@@ -132,10 +133,10 @@ object ReportFiles:
     * @return those written, and what is wrong with the others
     */
   def write(paths: Vector[Path], report: RenderReport): (Vector[Path], Vector[Problem]) =
-    val lost = OutputFiles.failures(paths): path =>
+    val failures = OutputFiles.failures(paths): path =>
       val text = FileName.suffix(path) match
         case "html" => RenderPage.html(report)
         case "json" => RenderData.json(report)
         case _ => RenderData.csv(report)
       WholeFile.write(path, text.getBytes(UTF_8))
-    (paths.diff(lost.map(_._1)), lost.map(_._2))
+    (paths.diff(failures.map(_._1)), failures.map(_._2))

@@ -32,9 +32,9 @@ private[cli] final class SceneRun(
     Option.when(options.reports.nonEmpty)(Reporting(options, writer.name, prepared))
   private val errorLog = ErrorLog.of(plan)
   private val recorder: Option[ErrorRecorder] = reporting.map(_.recorder).orElse:
-    val tells = !options.quiet && !isPreview && options.film.shard.isWhole
+    val isEstimated = !options.quiet && !isPreview && options.film.shard.isWhole
     val estimates = if settings.goal.isGiven then Looks.Waves else Looks.Doublings
-    Option.when(settings.goal.isGiven || tells):
+    Option.when(settings.goal.isGiven || isEstimated):
       ErrorRecorder(plan.development, None, estimates)
   private val goal = recorder.map(Goal(settings.goal, plan.samplesPerPixel, _, isWhole = isPreview))
   private val reference =
@@ -53,14 +53,14 @@ private[cli] final class SceneRun(
       val result = results(rendering)
       val films = keeping.map(_.path)
         .filter(_ => writer.paths.isEmpty && checkpoints.forall(_.failure.isEmpty))
-      val (files, failures) = tell(result, films.toVector)
+      val (files, failures) = announce(result, films.toVector)
       watching.foreach(_.await(files))
       // The warning of it is not printed with --quiet
       val unsaved =
         for k <- keeping; c <- checkpoints if options.quiet && c.failure.nonEmpty
         yield FilmKeeper.unwritable(k.path, c.failure).copy(severity = Severity.Error)
-      val lost = failures ++ errorLog.toVector.flatMap(_.failure) ++ unsaved
-      if lost.nonEmpty then throw SceneError(lost)
+      val problems = failures ++ errorLog.toVector.flatMap(_.failure) ++ unsaved
+      if problems.nonEmpty then throw SceneError(problems)
       if !result.isComplete || checkpoints.exists(_.failure.nonEmpty) then ExitCode.BadInput
       else if !rendering.isComplete && !(isLate && result.hasAll) then ExitCode.Interrupted
       else ExitCode.Done
@@ -72,10 +72,10 @@ private[cli] final class SceneRun(
       watching: Option[Watching]
   ): Rendering =
     val update = terminal.follow.getOrElse(progress.update)
-    val shown = Option.when(!options.quiet)(RenderListener.onProgress(update))
+    val progressListener = Option.when(!options.quiet)(RenderListener.onProgress(update))
     val followed = watching.map(w => RenderListener.onStart(w.start))
     val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
-    val listeners = shown ++ errorLog ++ images ++ followed
+    val listeners = progressListener ++ errorLog ++ images ++ followed
     val control = RenderControl(
       options.control.threads,
       cancellation,
@@ -121,11 +121,11 @@ private[cli] final class SceneRun(
     *
     * @return all files, and what is wrong with those that can't be written
     */
-  private def tell(result: Result, films: Vector[Path]): (Vector[Path], Vector[Problem]) =
+  private def announce(result: Result, films: Vector[Path]): (Vector[Path], Vector[Problem]) =
     import result.*
-    val told = !options.quiet
-    if wanted.size < writer.paths.size && told then
-      terminal.err.println(Summary.kept(writer.paths.diff(wanted), rendering, isLate))
+    val isPrinted = !options.quiet
+    if wanted.size < writer.paths.size && isPrinted then
+      terminal.err.println(Summary.unreplaced(writer.paths.diff(wanted), rendering, isLate))
     val files = written ++ films
     val develops = if denoised.isEmpty then "develop" else "develop and denoise"
     val after = Vector(develops -> developSeconds, "write" -> writeSeconds)
@@ -143,17 +143,17 @@ private[cli] final class SceneRun(
     writer.warnIfEmpty(rendering, image)
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)
-    for log <- errorLog; remark <- log.remark if told do terminal.err.println(remark)
+    for log <- errorLog; remark <- log.remark if isPrinted do terminal.err.println(remark)
     val threads = options.control.threads
     val (pages, failures) = reporting.fold((Vector.empty, Vector.empty)):
       _.write(rendering, threads, developSeconds, writeSeconds, denoised)
-    for path <- pages if told do terminal.out.println(s"wrote $path")
+    for path <- pages if isPrinted do terminal.out.println(s"wrote $path")
     terminal.out.flush()
-    for r <- reference; d <- denoised if told do
+    for r <- reference; d <- denoised if isPrinted do
       terminal.out.println(s"error  ${d.errors(r)}")
     for kind <- options.thumbnail do
-      val shown = Denoising.shown(image)
-      terminal.out.control(Thumbnail.of(shown, options.display, kind, terminal))
+      val displayed = Denoising.displayed(image)
+      terminal.out.control(Thumbnail.of(displayed, options.display, kind, terminal))
     terminal.out.flush()
     (files ++ pages, failures)
 

@@ -29,8 +29,8 @@ object Summary:
       noise: String = "",
       shards: Int = 1
   ): String =
-    val told = if noise.isEmpty then "" else s", $noise"
-    val missing = told + placeholders(standIns) + darkness(r)
+    val noiseNote = if noise.isEmpty then "" else s", $noise"
+    val missing = noiseNote + placeholders(standIns) + darkness(r)
     val names = written.mkString(", ")
     if r.isComplete && r.seconds == 0 then
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
@@ -39,9 +39,10 @@ object Summary:
       val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
       val size = s"${r.film.width}x${r.film.height}"
       val seconds = Figures.duration(r.seconds)
-      val own =
+      val shardShare =
         if shards == 1 then "" else s"${Figures.general(r.samplesDone.toDouble / shards)} of "
-      s"wrote $names  $size, $own${r.samplesDone} spp${ofThisRun(r)}, $seconds, $rates$missing"
+      s"wrote $names  $size, $shardShare${r.samplesDone} spp${ofThisRun(r)}, $seconds, " +
+        s"$rates$missing"
     else
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
       val number =
@@ -58,12 +59,12 @@ object Summary:
     */
   def noise(samples: Int, error: Option[Double], interval: Option[Interval]): String =
     error.filter(_ => samples >= Goal.MinSamples).fold(unknown(samples)):
-      known(_, interval)
+      estimated(_, interval)
 
   private def unknown(samples: Int): String =
     if samples < Goal.MinSamples then "error unknown: too few samples" else "error unknown"
 
-  private def known(error: Double, interval: Option[Interval]): String =
+  private def estimated(error: Double, interval: Option[Interval]): String =
     val limits = interval.filter(_.isKnown).map(i => (Math.sqrt(i.low), Math.sqrt(i.high)))
     def isWide(limit: Double) = Math.abs(limit / error - 1) > MaxOmitted
     val range = limits match
@@ -86,20 +87,20 @@ object Summary:
 
   /** A discarded sample counts as black. */
   private def darkness(r: Rendering): String =
-    val lost = r.refused.fold(0L)(_.count)
+    val discarded = r.refused.fold(0L)(_.count)
     val done = Math.max(r.samplesTaken, r.film.width.toLong * r.film.height * r.samplesDone)
-    if lost * LeastLoss <= done then ""
+    if discarded * LeastLoss <= done then ""
     else
-      val share = Figures.percentage(lost.toDouble / done)
+      val share = Figures.percentage(discarded.toDouble / done)
       s"; the image is too dark: $share of its samples were discarded"
 
   /** One discarded sample among so many is not worth a word in the last line. */
   private val LeastLoss = 1000
 
   /** Of images that a rendering without samples did not replace. */
-  def kept(images: Vector[Path], r: Rendering, isLate: Boolean = false): String =
-    val why = if r.isComplete then "" else s"${ended(isLate)}: "
-    s"${why}kept ${images.mkString(", ")}: the new image has less than 1 sample per pixel"
+  def unreplaced(images: Vector[Path], r: Rendering, isLate: Boolean = false): String =
+    val reason = if r.isComplete then "" else s"${ended(isLate)}: "
+    s"${reason}kept ${images.mkString(", ")}: the new image has less than 1 sample per pixel"
 
   /** `continuing x.film at 12 samples per pixel` */
   def continues(film: FilmFile): String =
@@ -143,12 +144,12 @@ object Summary:
       rendering: Rendering,
       after: Vector[(String, Double)]
   ): String =
-    val all = Vector(
+    val durations = Vector(
       "parse" -> prepared.readSeconds,
       "build" -> prepared.buildSeconds,
       "render" -> rendering.seconds
     ) ++ after
-    all.map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
+    durations.map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
 
   /** @param isTraceable whether `render` can trace the same sample: not of a smaller image */
   def refused(r: Refused, isTraceable: Boolean): String =

@@ -67,11 +67,11 @@ final class Watching(
       terminal.err.println(ProblemText.numbered(message, Code.Viewer))
 
   private def cannotServe(address: WatchAddress, cause: String): SceneError =
-    val place = (address.host ++ address.port.map(_.toString)).mkString(":")
+    val endpoint = (address.host ++ address.port.map(_.toString)).mkString(":")
     val help = "choose another with --watch PORT or --watch ADDRESS:PORT"
     SceneError(Problem.general(
       Code.Viewer,
-      s"can't serve the live page at $place: $cause",
+      s"can't serve the live page at $endpoint: $cause",
       Some(help)
     ))
 

@@ -23,8 +23,8 @@ final class Printer private (to: PrintStream) extends PrintStream(to):
     * @param color its parameter of ECMA-48's SGR
     */
   def println(before: String, marked: String, color: String, after: String): Unit =
-    val parts = Vector(before, marked, after).map(Visible.line)
-    to.println(s"${parts(0)}\u001b[1;${color}m${parts(1)}\u001b[0m${parts(2)}")
+    val texts = Vector(before, marked, after).map(Visible.line)
+    to.println(s"${texts(0)}\u001b[1;${color}m${texts(1)}\u001b[0m${texts(2)}")
 
   /** Prints escape sequences and carriage returns of the program itself. */
   def control(text: String): Unit = to.print(text)
@@ -42,15 +42,15 @@ object Printer:
 /** Prints a stream of text, of which parts arrive. */
 private[cli] final class PrintingWriter(to: Printer) extends Writer:
   // The first half of a character whose second half is yet to come
-  private var half = ""
+  private var pending = ""
 
   override def write(chars: Array[Char], from: Int, count: Int): Unit =
-    val text = half + String(chars, from, count)
-    half = if text.lastOption.exists(Character.isHighSurrogate) then text.takeRight(1) else ""
-    to.print(text.dropRight(half.length))
+    val text = pending + String(chars, from, count)
+    pending = if text.lastOption.exists(Character.isHighSurrogate) then text.takeRight(1) else ""
+    to.print(text.dropRight(pending.length))
 
   override def flush(): Unit = to.flush()
 
   override def close(): Unit =
-    to.print(half)
+    to.print(pending)
     to.flush()

@@ -35,7 +35,7 @@ final class ProgressLine(err: Printer, isInteractive: Boolean, isForPrograms: Bo
       shownLength = text.length
 
   private def log(progress: Progress): Unit =
-    val steps = (progress.part * LogSteps).toInt
+    val steps = (progress.fraction * LogSteps).toInt
     val isDue =
       if isForPrograms then progress.seconds - shownAt >= ProgramSeconds
       else steps > shownSteps && steps < LogSteps && progress.seconds - shownAt >= LogSeconds
@@ -71,8 +71,8 @@ object ProgressLine:
 
   /** With hundredths of a percent, for programs: `render 42.17%  12.0 s, …`. */
   private def fineLine(p: Progress): String =
-    val part = "%5.2f%%".formatLocal(Locale.ROOT, p.part * 100)
-    s"render $part  ${Figures.duration(p.seconds)}, ${speed(p)}${end(p)}"
+    val percentage = "%5.2f%%".formatLocal(Locale.ROOT, p.fraction * 100)
+    s"render $percentage  ${Figures.duration(p.seconds)}, ${speed(p)}${end(p)}"
 
   /** Narrower than 80 columns: `render  42% [========>          ] 1.31 M samples/s, 0:17 left`, or
     * `… 1.31 M samples/s, error 1.23 %, 0:17 left`.
@@ -81,19 +81,19 @@ object ProgressLine:
     val isLong = progress.outlook.hasGoal || progress.outlook.error.isDefined
     val room = BarRoom - speed(progress).length
     val width = Math.max(1, Math.min(room, if isLong then NarrowWidth else BarWidth))
-    val full = (progress.part * width).toInt
+    val full = (progress.fraction * width).toInt
     val drawn = if full < width then "=" * full + ">" else "=" * full
     s"render ${percent(progress)} [${drawn.padTo(width, ' ')}] ${speed(progress)}"
 
   private def percent(p: Progress): String =
-    "%3d%%".formatLocal(Locale.ROOT, (p.part * 100).toInt)
+    "%3d%%".formatLocal(Locale.ROOT, (p.fraction * 100).toInt)
 
   private def speed(p: Progress): String =
     if p.done == 0 then "starting"
     else
       val rate = p.outlook.rate.getOrElse(p.done / Math.max(p.seconds, 1e-9))
       val error = p.outlook.error.fold("")(e => s", error ${Figures.percentage(e)}")
-      s"${Figures.metric(rate)} samples/s$error${left(p)}"
+      s"${Figures.metric(rate)} samples/s$error${timeLeft(p)}"
 
   /** At how many samples per pixel a goal ends it, if that is known. */
   private def end(p: Progress): String = p.outlook.samples.fold(""): s =>
@@ -101,6 +101,6 @@ object ProgressLine:
     else if s.low == s.high then s", until ${s.expected} spp"
     else s", until ${s.low} to ${s.high} spp"
 
-  private def left(p: Progress): String = p.outlook.left match
+  private def timeLeft(p: Progress): String = p.outlook.left match
     case Some(seconds) => s", ${Figures.clock(Math.min(seconds, LongestLeft))} left"
     case None => if p.outlook.hasGoal then ", time left unknown" else ""

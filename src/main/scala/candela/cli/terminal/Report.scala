@@ -71,8 +71,8 @@ final class Report(
     val count = errors.distinct.size
     val kinds = grouped(errors, all = isVerbose)
     kinds.take(Report.MostErrors).foreach(printAll)
-    val more = kinds.drop(Report.MostErrors).map((_, places) => places).sum
-    if more > 0 then err.println(s"and ${Figures.count(more, "more error")}")
+    val omitted = kinds.drop(Report.MostErrors).map((_, places) => places).sum
+    if omitted > 0 then err.println(s"and ${Figures.count(omitted, "more error")}")
     else if count > 1 then err.println(Figures.count(count, "error"))
     if canKeepGoing && errors.forall(_.standIn.nonEmpty) then
       err.println(" --keep-going replaces what is missing with placeholders")
@@ -90,8 +90,8 @@ final class Report(
     val ordered = Problem.byPlace(problems.distinct)
     if all then ordered.map((_, 1))
     else
-      val places = ordered.groupMapReduce(_.message)(_ => 1)(_ + _)
-      ordered.distinctBy(_.message).map(p => (p, places(p.message)))
+      val counts = ordered.groupMapReduce(_.message)(_ => 1)(_ + _)
+      ordered.distinctBy(_.message).map(p => (p, counts(p.message)))
 
   private def printAll(problem: Problem, places: Int): Unit =
     print(problem)
@@ -144,8 +144,8 @@ final class Report(
     err.println(ProblemText.numbered(message, Code.Internal))
     if isVerbose || !canTellMore then cause.printStackTrace(err)
     if !isVerbose then
-      val more = if canTellMore then "; --verbose prints the stack trace" else ""
-      err.println(s" please report it with its input$more")
+      val hint = if canTellMore then "; --verbose prints the stack trace" else ""
+      err.println(s" please report it with its input$hint")
     ExitCode.Bug
 
 object Report:
@@ -172,7 +172,7 @@ object ProblemText:
 
   /** The problem as lines, without a final line end. */
   def format(p: Problem): String =
-    (s"${place(p)}${severity(p)}: ${numbered(p)}" +: below(p)).mkString("\n")
+    (s"${prefix(p)}${severity(p)}: ${numbered(p)}" +: below(p)).mkString("\n")
 
   /** Prints the problem.
     *
@@ -180,8 +180,8 @@ object ProblemText:
     */
   def print(p: Problem, to: Printer, hasColor: Boolean): Unit =
     val color = if p.severity == Severity.Error then Red else Yellow
-    if hasColor then to.println(place(p), severity(p), color, s": ${numbered(p)}")
-    else to.println(s"${place(p)}${severity(p)}: ${numbered(p)}")
+    if hasColor then to.println(prefix(p), severity(p), color, s": ${numbered(p)}")
+    else to.println(s"${prefix(p)}${severity(p)}: ${numbered(p)}")
     below(p).foreach(to.println(_))
 
   private def numbered(p: Problem): String = numbered(p.message, p.code)
@@ -189,34 +189,36 @@ object ProblemText:
   /** A message with its number at the end, where it disturbs nobody. */
   def numbered(message: String, code: Code): String = s"$message [${code.word}]"
 
-  private def place(p: Problem): String = p.at.fold("")(at => s"$at: ")
+  private def prefix(p: Problem): String = p.pos.fold("")(at => s"$at: ")
 
   private def severity(p: Problem): String =
     if p.severity == Severity.Error then "error" else "warning"
 
   /** All lines after the first. */
   private def below(p: Problem): Vector[String] =
-    val shown = p.at.zip(p.excerpt).toVector.flatMap(excerpt)
-    shown ++ p.help.map(h => s" $h") ++ p.at.toVector.flatMap(includes)
+    val excerptLines = p.pos.zip(p.excerpt).toVector.flatMap(excerpt)
+    excerptLines ++ p.help.map(h => s" $h") ++ p.pos.toVector.flatMap(includes)
 
   private def excerpt(at: SourcePos, text: String): Vector[String] =
     val number = at.line.toString
-    val before = Excerpt.caret(text, at.column) - 1
+    val offset = Excerpt.caret(text, at.column) - 1
     // Keeps tabs, so the caret lines up at any tab width. What is shown of a control character may
     // be longer than one.
-    val characters = text.codePoints.limit(before).toArray
-    val missing = " " * (before - characters.length).max(0)
-    val shown = Visible.line(String(characters, 0, characters.length)).codePoints.toArray
-    val shift = shown.map(c => if c == '\t' then '\t' else ' ').mkString
+    val characters = text.codePoints.limit(offset).toArray
+    val missing = " " * (offset - characters.length).max(0)
+    val visible = Visible.line(String(characters, 0, characters.length)).codePoints.toArray
+    val shift = visible.map(c => if c == '\t' then '\t' else ' ').mkString
     Vector(s" $number | $text", s" ${" " * number.length} | $shift$missing^")
 
   private def includes(at: SourcePos): Vector[String] =
-    val all =
+    val lines =
       Vector.unfold(at.includedFrom)(_.map(from => (s" included from $from", from.includedFrom)))
-    if all.size <= MostIncludes then all
+    if lines.size <= MostIncludes then lines
     else
-      val half = MostIncludes / 2
-      (all.take(half) :+ s" … ${all.size - 2 * half} more …") ++ all.takeRight(half)
+      val halfLimit = MostIncludes / 2
+      (lines.take(halfLimit) :+ s" … ${lines.size - 2 * halfLimit} more …") ++ lines.takeRight(
+        halfLimit
+      )
 
   /** More, of files that include each other, are left out. */
   private val MostIncludes = 10

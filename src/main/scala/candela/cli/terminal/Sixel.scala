@@ -20,14 +20,14 @@ private[cli] object Sixel:
     loop(codes.length)(i => codes(i) = code(image, i % image.width, i / image.width))
     val text = StringBuilder(s"\u001bPq\"1;1;${image.width};${image.height}")
     for code <- codes.distinct.sorted do
-      val parts = Vector(code / 36, code / 6 % 6, code % 6).map(_ * 100 / (Levels - 1))
-      text ++= s"#$code;2;${parts.mkString(";")}"
+      val components = Vector(code / 36, code / 6 % 6, code % 6).map(_ * 100 / (Levels - 1))
+      text ++= s"#$code;2;${components.mkString(";")}"
     for top <- 0 until image.height by 6 do
       val rows = Math.min(6, image.height - top)
       def column(x: Int, wanted: Int) =
         (0 until rows).map(r => if codes((top + r) * image.width + x) == wanted then 1 << r else 0)
-      val used = codes.slice(top * image.width, (top + rows) * image.width).distinct.sorted
-      val passes = used.map: wanted =>
+      val bandCodes = codes.slice(top * image.width, (top + rows) * image.width).distinct.sorted
+      val passes = bandCodes.map: wanted =>
         val sixels = (0 until image.width).map(x => (63 + column(x, wanted).sum).toChar).mkString
         s"#$wanted${packed(sixels)}"
       text ++= passes.mkString("", "$", "-")

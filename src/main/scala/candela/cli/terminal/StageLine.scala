@@ -15,7 +15,7 @@ final class StageLine(err: Printer, isInteractive: Boolean, seconds: () => Doubl
     var shownLength = 0
     var lines = 0
 
-    def show(): Unit =
+    def refresh(): Unit =
       val passed = seconds() - start
       val text = s"$stage  ${Figures.duration(passed)}"
       if isInteractive && passed >= FirstSeconds then
@@ -26,7 +26,7 @@ final class StageLine(err: Printer, isInteractive: Boolean, seconds: () => Doubl
         err.println(text)
         lines += 1
 
-    val showing = Background.repeat("stage", MillisBetween)(() => show())
+    val showing = Background.repeat("stage", MillisBetween)(() => refresh())
     try body
     finally
       showing.close()

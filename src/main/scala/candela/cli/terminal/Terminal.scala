@@ -71,8 +71,8 @@ object Terminal:
   def ofProcess: Terminal =
     val redraws = isInteractive
     val interrupts = Interrupts.fromSignals(System.err, redraws)
-    val out = Stdout()
-    val buffered = BufferedOutputStream(out, 1 << 13)
+    val stdout = Stdout()
+    val buffered = BufferedOutputStream(stdout, 1 << 13)
     Terminal(
       PrintStream(buffered, false, charset),
       System.err,
@@ -80,7 +80,7 @@ object Terminal:
       interrupts,
       columns,
       sys.env,
-      () => out.failure,
+      () => stdout.failure,
       isAttached || isDevice(1, "/dev/pts/") || isDevice(1, "/dev/tty")
     )
 

@@ -10,19 +10,19 @@ final class TextTable(columns: Int):
     if rows.isEmpty then Vector.empty
     else
       val wanted = rows.head.indices.init.map(i => rows.map(_(i).length).max)
-      def left(widest: Int) =
+      def room(widest: Int) =
         columns - indent - wanted.map(w => w.min(widest) + TextTable.Gap).sum
-      val widest = TextTable.Widest.find(left(_) >= TextTable.LeastText).getOrElse(12)
+      val widest = TextTable.Widest.find(room(_) >= TextTable.LeastText).getOrElse(12)
       val fixed = wanted.map(_.min(widest))
-      val width = Math.max(TextTable.LeastText, left(widest))
+      val width = Math.max(TextTable.LeastText, room(widest))
       rows.flatMap: row =>
         val cells =
           row.init.zip(fixed).map((text, w) => TextTable.wrap(text, w).map(_.padTo(w, ' ')))
         val last = TextTable.wrap(row.last, width)
         val height = (cells.map(_.size) :+ last.size).max
         Vector.tabulate(height): i =>
-          val parts = cells.zip(fixed).map((c, w) => c.applyOrElse(i, _ => " " * w))
-          val line = (parts :+ last.applyOrElse(i, _ => "")).mkString(" " * TextTable.Gap)
+          val padded = cells.zip(fixed).map((c, w) => c.applyOrElse(i, _ => " " * w))
+          val line = (padded :+ last.applyOrElse(i, _ => "")).mkString(" " * TextTable.Gap)
           (" " * indent + line).stripTrailing
 
 object TextTable:

@@ -43,11 +43,11 @@ private[cli] object Thumbnail:
     * @throws SceneError if `asked` is Auto and the terminal is unknown
     */
   def kind(asked: ThumbnailKind, terminal: Terminal): ThumbnailKind =
-    val known =
+    val chosen =
       if asked != ThumbnailKind.Auto then Some(asked)
       else if terminal.isInteractive then kindOf(terminal.environment)
       else None
-    known.getOrElse:
+    chosen.getOrElse:
       val help = "--thumbnail kitty, iterm, sixel or blocks selects a protocol"
       throw SceneError(Problem.general(
         Code.Terminal,
@@ -86,20 +86,20 @@ private[cli] object Thumbnail:
       kind: ThumbnailKind,
       columns: Int
   ): String =
-    val shown = display(image)
-    def small = Resize.fitting(shown, Size, Size)
+    val displayed = display(image)
+    def small = Resize.fitting(displayed, Size, Size)
     kind match
       case ThumbnailKind.Kitty => kitty(ImageFiles.png(small))
       case ThumbnailKind.Iterm => iterm(ImageFiles.png(small))
       case ThumbnailKind.Sixel => Sixel.text(small)
-      case _ => blocks(Resize.fitting(shown, columns - 1, Size))
+      case _ => blocks(Resize.fitting(displayed, columns - 1, Size))
 
   private def kitty(png: Array[Byte]): String =
     val chunks = base64(png).grouped(Chunk).toVector
     val commands = chunks.zipWithIndex.map: (chunk, i) =>
       val first = if i == 0 then "a=T,f=100," else ""
-      val more = if i < chunks.size - 1 then 1 else 0
-      s"${Esc}_G${first}m=$more;$chunk$Esc\\"
+      val moreFlag = if i < chunks.size - 1 then 1 else 0
+      s"${Esc}_G${first}m=$moreFlag;$chunk$Esc\\"
     commands.mkString("", "", "\n")
 
   private def iterm(png: Array[Byte]): String =

@@ -131,6 +131,6 @@ class BvhBuilderSuite extends AnyFunSuite:
 /** Several threads' work by one, the last first. */
 private[building] object Backwards extends Parallel:
   def threads: Int = 3
-  def each(count: Int)(task: Int => Unit): Unit = loop(count)(i => task(count - 1 - i))
+  def forEach(count: Int)(task: Int => Unit): Unit = loop(count)(i => task(count - 1 - i))
   def worksAside: Boolean = false
   def aside(name: String)(task: => Unit): Unit = ()

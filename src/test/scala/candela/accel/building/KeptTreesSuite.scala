@@ -53,7 +53,7 @@ class KeptTreesSuite extends AnyFunSuite:
     Primitives(soup, shapes)
 
   private def tree(keep: Keep, primitives: Primitives, parallel: Parallel = Parallel.Alone) =
-    keep.begin()
+    keep.startScene()
     KeptTrees(keep, 4, 4, 4, parallel).of(primitives)
 
   private def bits(x: Float): Int = java.lang.Float.floatToRawIntBits(x)

@@ -156,7 +156,7 @@ object KernelSuite:
   private final class Later extends Parallel:
     private var waiting = Vector.empty[() => Unit]
     def threads: Int = 1
-    def each(count: Int)(task: Int => Unit): Unit = Parallel.Alone.each(count)(task)
+    def forEach(count: Int)(task: Int => Unit): Unit = Parallel.Alone.forEach(count)(task)
     def worksAside: Boolean = true
     def aside(name: String)(task: => Unit): Unit = waiting :+= (() => task)
     def run(): Unit = waiting.foreach(_())

@@ -68,7 +68,7 @@ class ExchangeSceneSuite extends AnyFunSuite:
   test("Candela renders what it writes for other programs as it renders the scene"):
     TempFolder.use: folder =>
       val made = written(folder, view + world)
-      assert(made.files.contains(PeerScenes.Exchange), made.lost)
+      assert(made.files.contains(PeerScenes.Exchange), made.failures)
       val own = rendered(made.files("v4")).toRgb
       val other = rendered(made.files(PeerScenes.Exchange)).toRgb
       def mean(i: Image, from: Int, until: Int) =
@@ -85,9 +85,9 @@ class ExchangeSceneSuite extends AnyFunSuite:
         "\"point3 P\" [0 0 0  1 0 0  0 1 0]\nLightSource \"spot\"\n"
       val made = written(folder, view + coat)
       assert(made.files.contains("v4") && !made.files.contains(PeerScenes.Exchange))
-      val why = made.lost(PeerScenes.Exchange)
+      val why = made.failures(PeerScenes.Exchange)
       assert(why.contains("material \"coateddiffuse\"") && why.contains("shape \"loopsubdiv\""))
-      assert(why.contains("light \"spot\"") && made.lost("v2").contains("to v2"))
+      assert(why.contains("light \"spot\"") && made.failures("v2").contains("to v2"))
 
   test("all programs get a box filter of one pixel and a path tracer of the scene's depth"):
     TempFolder.use: folder =>

@@ -30,7 +30,7 @@ class PeerSuiteSuite extends AnyFunSuite:
     file
 
   private def found(folder: Path, environment: (String, String)*) =
-    PeerPrograms(Map("PATH" -> "") ++ environment, folder).found
+    PeerPrograms(Map("PATH" -> "") ++ environment, folder).detect
 
   test("programs that are absent are named with where to get them"):
     TempFolder.use: folder =>
@@ -98,5 +98,5 @@ class PeerSuiteSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       for scene <- PeerSuite.short(folder).scenes do
         val made = PeerScenes.of(scene.files("v4"), folder.resolve(scene.name))
-        assert(Seq("v3", "v4", PeerScenes.Exchange).forall(made.files.contains), made.lost)
+        assert(Seq("v3", "v4", PeerScenes.Exchange).forall(made.files.contains), made.failures)
         assert(made.isSame)

@@ -36,7 +36,7 @@ class CountersSuite extends AnyFunSuite:
 
   test("closed meshes of all kinds leak no ray, by each kernel"):
     for mesh <- ClosedMesh.all; kernel <- Kernel.all do
-      val tally = LeakingRays.tally(mesh.accelerator(kernel.make), mesh, Trials(300, slice = 1))
+      val tally = LeakingRays.tally(mesh.accelerator(kernel.create), mesh, Trials(300, slice = 1))
       assert(tally == Tally(300, 0, None), s"${mesh.name}, ${kernel.title}")
 
   /** Finds hits where they are not, by a relative `error`. */
@@ -53,7 +53,7 @@ class CountersSuite extends AnyFunSuite:
     val planted = HitDistances.tally(p => Beside(Hierarchies.scalar(p), 1e-5f), trials)
     assert(planted.faults == planted.trials)
     for kernel <- Kernel.all do
-      assert(HitDistances.tally(kernel.make, trials) == Tally(3000, 0, None), kernel.title)
+      assert(HitDistances.tally(kernel.create, trials) == Tally(3000, 0, None), kernel.title)
 
   test("a shape that its own rays meet again is counted"):
     val inwards = Kind("sphere", Leaving.Anywhere)((_, toWorld, size, _) =>

@@ -39,7 +39,7 @@ class MeasuredCurveSuite extends AnyFunSuite:
     assert(curve.secondsUntil(0.01).isEmpty)
     assert(Math.abs(curve.errorAt(Math.sqrt(1.5 * 3)).get - 0.4) < 1e-9)
     assert(curve.span.contains((1.5, 9.0)))
-    assert(Math.abs(curve.least - 0.05) < 1e-12)
+    assert(Math.abs(curve.lowestError - 0.05) < 1e-12)
     assert(Math.abs(curve.meanRatio(1) - 1.02) < 1e-12)
 
 class LogLogFitSuite extends AnyFunSuite:

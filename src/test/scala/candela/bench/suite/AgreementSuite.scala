@@ -38,7 +38,7 @@ class AgreementSuite extends AnyFunSuite:
     assert(Agreement.broken(mirrored, plain).isDefined)
     val corner = images(11 to 13)((x, y) => if x < 16 && y < 12 then 1.1f else 1f)
     val found = Agreement.broken(corner, plain).get
-    assert(found.where == "in pixels 0 to 15, 0 to 11")
+    assert(found.location == "in pixels 0 to 15, 0 to 11")
 
   test("an image of another size is told"):
     val found = Agreement.broken(Vector(Image.rgb(8, 8)), plain)

@@ -48,7 +48,7 @@ class JudgeSuite extends AnyFunSuite:
 
   test("a reference's own error is subtracted"):
     val own = gray(0.01f)
-    val judge = ReferenceJudge(ErrorLayer.behind(gray(1f), own))
+    val judge = ReferenceJudge(ErrorLayer.append(gray(1f), own))
     take(judge, 0, 1, gray(1.5f))
     take(judge, 0, 2, gray(1.05f))
     val found = judge.results.map(_.measurement.errors)

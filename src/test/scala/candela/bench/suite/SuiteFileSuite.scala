@@ -126,9 +126,9 @@ class SuiteFileSuite extends AnyFunSuite:
       if message == "suite" then assert(said.nonEmpty) else assert(said.contains(message))
 
   test("programs and scenes can be chosen, by names that there are"):
-    val suite = read(good).only(Vector("b"), Vector("y"))
+    val suite = read(good).restricted(Vector("b"), Vector("y"))
     assert(suite.programs.map(_.name) == Vector("b") && suite.scenes.map(_.name) == Vector("y"))
-    val error = intercept[SceneError](read(good).only(Vector("c"), Vector.empty))
+    val error = intercept[SceneError](read(good).restricted(Vector("c"), Vector.empty))
     assert(error.problems.head.message == "unknown program `c`")
 
   test("what is misspelt is told with its place and the nearest name"):
@@ -146,7 +146,7 @@ class SuiteFileSuite extends AnyFunSuite:
     for (written, instead, line, meant) <- slips do
       val p = problem(written, instead)
       assert(p.help.contains(s"did you mean `$meant`?"), p)
-      assert(p.at.exists(_.line == line), p)
+      assert(p.pos.exists(_.line == line), p)
 
   test("braces that are no placeholders stay: of variables, of JSON, behind a backslash"):
     val suite = read(good.replace("spp {spp}", """spp \\{sp}""")

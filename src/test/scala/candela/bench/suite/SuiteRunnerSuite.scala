@@ -148,7 +148,7 @@ class SuiteRunnerSuite extends AnyFunSuite:
       val scene = report.scenes.head
       assert(scene.referenceName.isEmpty && Math.abs(scene.reference(0, 0, 0) - 0.3f) < 1e-6)
       assert(scene.programs.map(_.name) == Vector("one", "two"))
-      assert(scene.biases.map(_.test.whole.size) == Vector(3))
+      assert(scene.biases.map(_.test.fullImage.size) == Vector(3))
       for (p, variance, ratio) <- scene.programs.zip(Seq(0.01, 0.04)).zip(Seq(2 / 3.0, 4 / 3.0))
           .map((a, b) => (a._1, a._2, b))
       do
@@ -367,7 +367,7 @@ class SuiteRunnerSuite extends AnyFunSuite:
       val all = Vector(made("good", "one"), made("better", "one"), made("poor", "two"))
       val (report, _) = run(folder, all*)
       // Half of two families is one more than the best; of three programs it was the second best
-      val worst = report.scenes.head.programs.last.curve.least
+      val worst = report.scenes.head.programs.last.curve.lowestError
       assert(report.scenes.head.target >= worst)
 
   test("what others take of the processors is told"):

@@ -65,7 +65,7 @@ class MaterialSuite extends AnyFunSuite:
       ConductorMaterial(IndexedMetal(gray(0.2f), gray(3f)), rough(0.1f)),
       ConductorMaterial(TintedMetal(gray(0.9f)), rough(0.1f)),
       DielectricMaterial(1.5f, rough(0f)),
-      DielectricMaterial.old(gray(1f), gray(1f), number(1.5f)),
+      DielectricMaterial.pbrt2Glass(gray(1f), gray(1f), number(1.5f)),
       ThinDielectricMaterial(1.5f, gray(1f), gray(1f)),
       DispersiveMaterial(ThinDielectricMaterial(1.5f, gray(1f), gray(1f))),
       PlasticMaterial(gray(0.5f), gray(0.2f), rough(0.1f), Edition.Third),
@@ -73,8 +73,8 @@ class MaterialSuite extends AnyFunSuite:
     )
     for material <- fixed do
       val folded = material.folded
-      assert(folded.met.isInstanceOf[ConstantMaterial] && (folded.met eq folded.met))
-      assert(folded.flags == folded.met.flags)
+      assert(folded.resolved.isInstanceOf[ConstantMaterial] && (folded.resolved eq folded.resolved))
+      assert(folded.flags == folded.resolved.flags)
     val roughness = Roughness(FromU, number(0.1f), RoughnessModel.PlainAlpha)
     val varying = Seq(
       MatteMaterial(GrayFromV, number(0f)),
@@ -88,7 +88,7 @@ class MaterialSuite extends AnyFunSuite:
       ConductorMaterial(IndexedMetal(gray(0.2f), GrayFromV), rough(0.1f)),
       ConductorMaterial(TintedMetal(GrayFromV), rough(0.1f)),
       DielectricMaterial(1.5f, roughness),
-      DielectricMaterial.old(gray(1f), gray(1f), FromU),
+      DielectricMaterial.pbrt2Glass(gray(1f), gray(1f), FromU),
       PlasticMaterial(gray(0.5f), gray(0.2f), roughness, Edition.Third),
       uber(GrayFromV, Edition.Third)
     )
@@ -160,7 +160,7 @@ class MaterialSuite extends AnyFunSuite:
   test("glass of the second edition leaves radiance as it is, and dielectrics scale it"):
     def weight(material: Material) =
       material.bsdf(point(0f, 0f)).sample(Vec3.Z, 0.99f, 0.5f, 0.5f).weight.r
-    assert(weight(DielectricMaterial.old(gray(1f), gray(1f), number(1.5f))) == 1f)
+    assert(weight(DielectricMaterial.pbrt2Glass(gray(1f), gray(1f), number(1.5f))) == 1f)
     val dielectric = weight(DielectricMaterial(1.5f, rough(0f)))
     assert(Math.abs(dielectric - 1 / 2.25f) < 1e-6f) // rounding
     assert(weight(DielectricMaterial(0f, rough(0f))) == 1f) // an index of 0 is none

@@ -72,8 +72,8 @@ class CoatSuite extends AnyFunSuite:
     assert(family.length == Coats.Levels)
     for alpha <- Seq(0.01f, 0.015f, 0.045f, 0.1f, 0.36f, 0.6f, 0.99f) do
       val top = TrowbridgeReitz(alpha, alpha)
-      val (near, exact) = (Coats.between(family, top), coats.of(top, 1.5f, 0.01f))
-      // Linear between 33 levels of roughness: the error that `Coats.between` states
+      val (near, exact) = (Coats.interpolate(family, top), coats.of(top, 1.5f, 0.01f))
+      // Linear between 33 levels of roughness: the error that `Coats.interpolate` states
       assert(Math.abs(near.internalReflectance - exact.internalReflectance) < 0.003f)
       assert(Math.abs(near.meanTransmittance - exact.meanTransmittance) < 0.003f)
       for theta <- 0 to 85 by 5; w = Directions.at(theta, 0) do
@@ -83,9 +83,9 @@ class CoatSuite extends AnyFunSuite:
   test("a family takes anisotropy by its geometric mean, and ends at a roughness of 1"):
     val family = Coats().family(1.5f, 0.01f)
     val w = Directions.at(60, 20)
-    assert(Coats.between(family, TrowbridgeReitz(0.25f, 0.25f)).transmittance(w) ==
+    assert(Coats.interpolate(family, TrowbridgeReitz(0.25f, 0.25f)).transmittance(w) ==
       family(16).transmittance(w))
-    assert(Coats.between(family, TrowbridgeReitz(0.0625f, 1f)).transmittance(w) ==
+    assert(Coats.interpolate(family, TrowbridgeReitz(0.0625f, 1f)).transmittance(w) ==
       family(16).transmittance(w))
-    assert(Coats.between(family, TrowbridgeReitz(3f, 3f)).transmittance(w) ==
+    assert(Coats.interpolate(family, TrowbridgeReitz(3f, 3f)).transmittance(w) ==
       family(32).transmittance(w))

@@ -24,7 +24,7 @@ class RegularizedSuite extends AnyFunSuite:
   private def coated(top: TrowbridgeReitz) =
     CoatedDiffuse(gray, top, coats.of(top, 1.5f, 0.01f), 5)
   private def varying(top: TrowbridgeReitz) =
-    CoatedDiffuse(gray, top, Coats.between(coats.family(1.5f, 0.01f), top), 5)
+    CoatedDiffuse(gray, top, Coats.interpolate(coats.family(1.5f, 0.01f), top), 5)
   private def layered(top: TrowbridgeReitz, base: TrowbridgeReitz) = Layered(
     Layers(top, 1.5f, Conductor(base, copper), 0.2f, Rgb.Black, 0f, 10, 1, base, 0.5f),
     seed = 1

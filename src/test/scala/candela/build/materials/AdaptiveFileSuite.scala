@@ -10,7 +10,7 @@ class AdaptiveFileSuite extends BsdfLaws:
   private val folder = Path.of("scenes/measured")
   private def toRgb(s: Spectrum): Rgb = Colorimetry.rgb(s, Colorimetry.White.D65)
   private def read(name: String): Bsdf =
-    AdaptiveFile.read(InputFile.asked(folder.resolve(name))).fold(why => fail(why), _.make(toRgb))
+    AdaptiveFile.read(InputFile.named(folder.resolve(name))).fold(why => fail(why), _.make(toRgb))
 
   obeysLaws("the same all around", read("glossy.bsdf"), isReciprocal = false)
   obeysLaws("brushed", read("brushed.bsdf"), isReciprocal = false)
@@ -31,7 +31,7 @@ class AdaptiveFileSuite extends BsdfLaws:
       val file = Files.createTempFile("hostile", ".bsdf")
       try
         val _ = Files.write(file, bytes)
-        AdaptiveFile.read(InputFile.asked(file)).fold(identity, _ => "")
+        AdaptiveFile.read(InputFile.named(file)).fold(identity, _ => "")
       finally Files.delete(file)
     assert(problem(Array.empty) == "unexpected end of file")
     assert(problem("tensor_fool!".getBytes ++ whole.drop(12)) == "not a tensor file")

@@ -20,10 +20,11 @@ class MeasuredMediaSuite extends AnyFunSuite:
 
   test("their numbers are those that were published"):
     val milk = MediumCoefficients(Rgb(0.0011f, 0.0024f, 0.014f), Rgb(2.55f, 3.21f, 3.77f))
-    for d <- Dialect.ofPbrt do assert(MeasuredMedia.find("Wholemilk", d).contains(milk))
-    assert(MeasuredMedia.find("Milk", Dialect.V4).isEmpty)
+    for d <- Dialect.ofPbrt do assert(MeasuredMedia.coefficients("Wholemilk", d).contains(milk))
+    assert(MeasuredMedia.coefficients("Milk", Dialect.V4).isEmpty)
 
   test("none scatters or absorbs less than nothing"):
-    for d <- Dialect.ofPbrt; m <- MeasuredMedia.names(d).flatMap(MeasuredMedia.find(_, d)) do
+    for d <- Dialect.ofPbrt; m <- MeasuredMedia.names(d).flatMap(MeasuredMedia.coefficients(_, d))
+    do
       val all = Seq(m.absorption, m.scattering).flatMap(c => Seq(c.r, c.g, c.b))
       assert(all.forall(x => x >= 0f && x < 100f), m)

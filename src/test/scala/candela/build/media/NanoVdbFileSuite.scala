@@ -15,7 +15,7 @@ final class NanoVdbFileSuite extends AnyFunSuite:
 
   private def read(bytes: Array[Byte], name: String = "density") =
     val file = Files.createTempFile("candela", ".nvdb")
-    try NanoVdbFile.read(InputFile.asked(Files.write(file, bytes)), name)
+    try NanoVdbFile.read(InputFile.named(Files.write(file, bytes)), name)
     finally Files.delete(file)
 
   private def grid(bytes: Array[Byte], name: String = "density"): NanoVdbGrid =
@@ -70,9 +70,9 @@ final class NanoVdbFileSuite extends AnyFunSuite:
         case ((i, j, k), v)
             if i >= x - a && i <= x + b && j >= y - c && j <= y + d && k >= z - e && k <= z + f =>
           v
-      assert(tree.most(x - a, y - c, z - e, x + b, y + d, z + f) == inside.max)
+      assert(tree.majorant(x - a, y - c, z - e, x + b, y + d, z + f) == inside.max)
     val all = Int.MinValue
-    assert(tree.most(all, all, all, Int.MaxValue, Int.MaxValue, Int.MaxValue) == tree.maximum)
+    assert(tree.majorant(all, all, all, Int.MaxValue, Int.MaxValue, Int.MaxValue) == tree.maximum)
 
   test("the map of a grid is read: scaled, turned and moved"):
     val shift = Vector(1.0, 2.0, 3.0)

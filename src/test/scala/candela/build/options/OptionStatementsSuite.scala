@@ -112,8 +112,8 @@ final class OptionStatementsSuite extends AnyFunSuite:
   test("the user's settings go before the scene's, and seeds are combined"):
     val scene = RenderSettings(seed = 3, diffuse = true, edgeScale = Some(2f))
     val user = RenderSettings(seed = 5, centers = true, edgeScale = Some(4f))
-    assert(user.over(scene) == scene.copy(seed = 6, centers = true, edgeScale = Some(4f)))
-    assert(RenderSettings().over(scene) == scene)
+    assert(user.overriding(scene) == scene.copy(seed = 6, centers = true, edgeScale = Some(4f)))
+    assert(RenderSettings().overriding(scene) == scene)
 
   test("a scale of edges that is not above 0 is an error"):
     val found = SceneTexts.problems("Option \"displacementedgescale\" 0\nWorldBegin", Dialect.V4)

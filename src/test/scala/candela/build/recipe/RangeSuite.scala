@@ -32,7 +32,8 @@ final class RangeSuite extends AnyFunSuite:
     (numbers, here.problems.result.map(p => s"${p.severity}: ${p.message}"))
 
   test("numbers within a range are used without a word"):
-    for range <- Seq(Range(0f, 1f), Range(0f, 1f).limited, Range(2f, 3f).or(0f), Range.Any) do
+    for range <- Seq(Range(0f, 1f), Range(0f, 1f).limited, Range(2f, 3f).including(0f), Range.Any)
+    do
       assert(held(range, range.also.getOrElse(1f)) == (
         Some(Seq(range.also.getOrElse(1f))),
         Vector()
@@ -49,12 +50,12 @@ final class RangeSuite extends AnyFunSuite:
       Some(Seq(.5f, 1f)),
       Vector(warning + "the nearest that is")
     ))
-    val used = "Warning: `x` should be from 0 to 1, found 2, which is used"
-    assert(held(range.used, 2f) == (Some(Seq(2f)), Vector(used)))
-    assert(held(range.told, 2f) == (Some(Seq(2f)), Vector()))
+    val unclamped = "Warning: `x` should be from 0 to 1, found 2, which is unclamped"
+    assert(held(range.unclamped, 2f) == (Some(Seq(2f)), Vector(unclamped)))
+    assert(held(range.deferred, 2f) == (Some(Seq(2f)), Vector()))
 
   test("what is larger than 1e30 is limited, and infinity is an error, wherever numbers are used"):
-    for range <- Seq(Range.Any, Range(0f, 1f).used, Range(0f, 1f).told) do
+    for range <- Seq(Range.Any, Range(0f, 1f).unclamped, Range(0f, 1f).deferred) do
       val message = "`x` must be within ±1e30, found "
       val warning = s"Warning: ${message}1e35; using 1e30"
       assert(held(range, 1e35f) == (Some(Seq(1e30f)), Vector(warning)))
@@ -63,7 +64,7 @@ final class RangeSuite extends AnyFunSuite:
 
   test("the ends of an open range are outside"):
     assert(held(Range.above(0f), 0f)._2 == Vector("Error: `x` must be above 0, found 0"))
-    assert(held(Range.between(0f, 180f), 180f)._1.isEmpty)
+    assert(held(Range.exclusive(0f, 180f), 180f)._1.isEmpty)
     assert(held(Range.above(0f), Float.MinPositiveValue)._1.nonEmpty)
 
   test("a range is written in words"):
@@ -72,8 +73,8 @@ final class RangeSuite extends AnyFunSuite:
       Range.atLeast(1f) -> "at least 1",
       Range.endless -> "above 0",
       Range(0f, 1f) -> "from 0 to 1",
-      Range.between(0f, 180f) -> "between 0 and 180",
-      Range.atLeast(1000f).or(0f) -> "0 or at least 1000"
+      Range.exclusive(0f, 180f) -> "between 0 and 180",
+      Range.atLeast(1000f).including(0f) -> "0 or at least 1000"
     )
     for (range, text) <- texts do assert(range.text == text)
 

@@ -64,7 +64,7 @@ final class SpectraSuite extends AnyFunSuite:
     def messages(numbers: String, role: SpectrumRole, dialect: Dialect = Dialect.V4) =
       object PlainRecipe extends Recipe[Rgb]("point", "a colour"):
         private val i = color("I", "colour", role)(Rgb.White)
-        protected def make()(using Site): Rgb = i()
+        protected def create()(using Site): Rgb = i()
       val text = s"WorldBegin\nLightSource \"point\" \"rgb I\" [$numbers]\n"
       val light = SceneTexts.parse(text, dialect).lights.head.light
       val site = Site(light, dialect, Resources(ColorBasis.Srgb), Findings())

@@ -156,14 +156,14 @@ class PlyFileSuite extends AnyFunSuite:
     try
       val mesh = header("ascii", 4, 1) + corners + "3 0 1 2\n"
       Files.write(file, Gzip.of(mesh.getBytes("ISO-8859-1")))
-      assert(PlyFile.read(InputFile.asked(file)).indices.toVector == Vector(0, 1, 2))
+      assert(PlyFile.read(InputFile.named(file)).indices.toVector == Vector(0, 1, 2))
     finally Files.delete(file)
 
   test("a file that is not there is an error at the place that asks for it"):
     val at = SourcePos("scene.pbrt", 3, 4)
-    val error = intercept[SceneError](PlyFile.read(InputFile.asked(Path.of("no.ply")), Some(at)))
+    val error = intercept[SceneError](PlyFile.read(InputFile.named(Path.of("no.ply")), Some(at)))
     val problem = error.problems.head
-    assert(problem.at.contains(at))
+    assert(problem.pos.contains(at))
     assert(problem.message == "can't read the mesh `no.ply`: no such file")
 
   test("a header that makes no sense is an error that shows the line"):

@@ -220,7 +220,7 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(report.contains("\"name\": \"denoise\""))
       assert(Files.readString(folder.resolve("r.html")).contains("4 samples, denoised"))
       val png = ImageFiles.read(folder.resolve("a.png")).linear
-      val shown = Denoising.shown(exr)
+      val shown = Denoising.displayed(exr)
       assert(png.data.indices.forall(i => Math.abs(png.data(i) - shown.data(i).min(1f)) < 0.01f))
       val text =
         Files.readString(folder.resolve("a.exr"), java.nio.charset.StandardCharsets.ISO_8859_1)

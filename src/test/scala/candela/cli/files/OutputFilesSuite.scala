@@ -34,17 +34,19 @@ class OutputFilesSuite extends AnyFunSuite:
       assert(files.warnings.map(_.message) == Vector(warning))
 
   test("what is asked for is taken as it is, each once"):
-    val files = OutputFiles.asked(Vector("a.exr", "b.png", "a.exr"))
+    val files = OutputFiles.requested(Vector("a.exr", "b.png", "a.exr"))
     assert(names(files) == Vector("a.exr", "b.png"))
     assert(files.warnings.isEmpty)
 
   private def problems(path: Path): Vector[String] =
-    intercept[SceneError](OutputFiles.asked(Vector(path.toString)).check()).problems.map(_.message)
+    intercept[SceneError](
+      OutputFiles.requested(Vector(path.toString)).check()
+    ).problems.map(_.message)
 
   test("files that can be written pass the check, old or new"):
     TempFolder.use: folder =>
       val old = Files.createFile(folder.resolve("old.png"))
-      OutputFiles.asked(Vector(old.toString, folder.resolve("new.exr").toString)).check()
+      OutputFiles.requested(Vector(old.toString, folder.resolve("new.exr").toString)).check()
 
   test("a folder that is not there is noticed before rendering"):
     TempFolder.use: folder =>
@@ -65,5 +67,5 @@ class OutputFilesSuite extends AnyFunSuite:
   test("all that is wrong is told at once"):
     TempFolder.use: folder =>
       val paths = Vector("a.gif", "none/b.png", "c.exr").map(folder.resolve(_).toString)
-      val error = intercept[SceneError](OutputFiles.asked(paths).check())
+      val error = intercept[SceneError](OutputFiles.requested(paths).check())
       assert(error.problems.size == 2)

@@ -172,7 +172,7 @@ class LimitsSuite extends AnyFunSuite:
       def place(body: => Any): Option[SourcePos] =
         val refusal = intercept[Refusal](body)
         assert(refusal.problem.message.contains("the time limit of 90 s is reached"))
-        refusal.problem.at
+        refusal.problem.pos
       val world = scene("Shape \"sphere\"\n")
       for (name, text) <- Vector("s.pbrt" -> world, "s.xml" -> xml("<shape type=\"sphere\"/>")) do
         val file = Files.writeString(folder.resolve(name), text)
@@ -205,7 +205,7 @@ class LimitsSuite extends AnyFunSuite:
     def limits(words: String*) =
       CommandLine.parse(Vector("check") ++ words :+ "s.pbrt").fold(
         answer => fail(answer.err),
-        _.control.limits.all
+        _.control.limits.effective
       )
     assert(limits() == Map.empty)
     assert(limits("--sandbox") == Limit.values.map(l => l -> l.inSandbox).toMap)

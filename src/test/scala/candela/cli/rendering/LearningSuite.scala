@@ -16,12 +16,12 @@ class LearningSuite extends AnyFunSuite:
         "compared, relative to unguided ones 0.416"
     )
     assert(
-      Learning.summary(outcome.copy(left = Some(1.02), gaveUp = true)) ==
+      Learning.summary(outcome.copy(varianceRatio = Some(1.02), gaveUp = true)) ==
         "guiding: given up at sample 64, as it did not pay: variance × 1.02"
     )
 
   test("too few paths for a comparison have no figure of it"):
-    val keys = Learning.figures(outcome.copy(left = None)).map(_.key)
+    val keys = Learning.figures(outcome.copy(varianceRatio = None)).map(_.key)
     assert(keys == Vector("samples", "regions", "allRegions", "lobes", "share", "weight"))
     val all = Learning.figures(outcome)
     assert(all.map(_.value) == Vector(64.0, 120.0, 300.0, 1400.0, 0.375, 4.0, 0.4156))

@@ -20,7 +20,7 @@ private[peers] object ExchangeImages:
         case Vector("linear") =>
           Image(stored.width, stored.height, stored.channelNames, stored.data).toRgb
         case _ =>
-          values.lose(s"image encoding `$encoding`")
+          values.reject(s"image encoding `$encoding`")
           stored.linear.toRgb
       val data = linear.data.map: x =>
         val scaled = x * scale
@@ -43,10 +43,11 @@ private[peers] object ExchangeImages:
       files: SideFiles,
       values: ExchangeValues
   )(change: Image => Image): String =
-    val found = name.flatMap(p => p.strings.headOption.flatMap(d.folder.find(_, Some(p.valuesAt))))
+    val found =
+      name.flatMap(p => p.strings.headOption.flatMap(d.folder.locate(_, Some(p.valuesAt))))
     found match
       case None =>
-        values.lose(s"image of ${values.statement(d)}")
+        values.reject(s"image of ${values.statement(d)}")
         ""
       case Some(file) =>
         try
@@ -56,5 +57,5 @@ private[peers] object ExchangeImages:
           exr
         catch
           case e: ImageError =>
-            values.lose(e.getMessage)
+            values.reject(e.getMessage)
             ""

@@ -21,14 +21,14 @@ private[peers] final class ExchangeMaterials(
 ):
   private val named = scene.namedMaterials.toMap
   private val textures = scene.textures.map(t => t.name -> t.texture).toMap
-  private val made = mutable.LinkedHashMap.empty[Option[Declaration], (ExchangeMaterial, String)]
+  private val converted = mutable.LinkedHashMap.empty[Option[Declaration], (ExchangeMaterial, String)]
 
   def of(ref: MaterialRef): ExchangeMaterial =
     val declared = ref.declared(named)
-    made.getOrElseUpdate(declared, element(declared, s"m${made.size}"))._1
+    converted.getOrElseUpdate(declared, element(declared, s"m${converted.size}"))._1
 
   /** Those that shapes have asked for. */
-  def elements: Vector[String] = made.values.map(_._2).toVector
+  def elements: Vector[String] = converted.values.map(_._2).toVector
 
   private var mapping: Option[UvMapping] = None
 
@@ -37,19 +37,19 @@ private[peers] final class ExchangeMaterials(
     mapping = None
     val text = d.name match
       case "diffuse" =>
-        values.only(d, "type", "reflectance")
+        values.rejectOthers(d, "type", "reflectance")
         twoSided(id, s"""<bsdf type="diffuse">${reflectance(d)}</bsdf>""")
       case "conductor" =>
-        values.only(d, ("type" +: "eta" +: "k" +: "reflectance" +: Roughness)*)
+        values.rejectOthers(d, ("type" +: "eta" +: "k" +: "reflectance" +: Roughness)*)
         twoSided(id, rough(d, "conductor", "")(metal(d)))
       case "dielectric" =>
-        values.only(d, ("type" +: "eta" +: Roughness)*)
+        values.rejectOthers(d, ("type" +: "eta" +: Roughness)*)
         rough(d, "dielectric", s""" id="$id"""")(ior(d))
       case "thindielectric" =>
-        values.only(d, "type", "eta")
+        values.rejectOthers(d, "type", "eta")
         s"""<bsdf type="thindielectric" id="$id">${ior(d)}</bsdf>"""
       case other =>
-        values.lose(s"material \"$other\"")
+        values.reject(s"material \"$other\"")
         ""
     ExchangeMaterial(id, mapping) -> s"  $text"
 
@@ -72,13 +72,13 @@ private[peers] final class ExchangeMaterials(
 
   /** pbrt's default is copper. */
   private def index(d: Declaration, name: String): Rgb =
-    val copper = Param(ParamType.Spectrum, name, d.at, d.at, strings = Vector(s"metal-Cu-$name"))
+    val copper = Param(ParamType.Spectrum, name, d.pos, d.pos, strings = Vector(s"metal-Cu-$name"))
     values.color(d, d.param(name).getOrElse(copper))
 
   private def rough(d: Declaration, kind: String, id: String)(inner: String): String =
-    val both = values.number(d, "roughness", 0f)
-    val (u, v) = (values.number(d, "uroughness", both), values.number(d, "vroughness", both))
-    if u != v then values.lose("anisotropic roughness")
+    val isotropic = values.number(d, "roughness", 0f)
+    val (u, v) = (values.number(d, "uroughness", isotropic), values.number(d, "vroughness", isotropic))
+    if u != v then values.reject("anisotropic roughness")
     val isRaw = d.param("remaproughness").exists(_.bools.contains(false))
     val alpha = if isRaw then u else sqrt(u)
     if alpha < Smooth then s"""<bsdf type="$kind"$id>$inner</bsdf>"""
@@ -100,19 +100,19 @@ private[peers] final class ExchangeMaterials(
       values.rgbElement("reflectance", c.map(clamp(_, 0f, 1f)))
     case Some(d) if d.name == "imagemap" => image(d)
     case Some(d) =>
-      values.lose(s"texture \"${d.name}\"")
+      values.reject(s"texture \"${d.name}\"")
       ""
     case None =>
-      values.lose(s"texture `$name`")
+      values.reject(s"texture `$name`")
       ""
 
   private def image(d: Declaration): String =
-    values.only(d, "filename", "encoding", "filter", "maxanisotropy", "wrap", "scale", "invert",
+    values.rejectOthers(d, "filename", "encoding", "filter", "maxanisotropy", "wrap", "scale", "invert",
       "mapping", "uscale", "vscale", "udelta", "vdelta")
     def word(name: String, default: String) =
       d.param(name).flatMap(_.strings.headOption).getOrElse(default)
-    if word("mapping", "uv") != "uv" then values.lose("textures that are not by u and v")
-    if word("wrap", "repeat") != "repeat" then values.lose("textures that do not repeat")
+    if word("mapping", "uv") != "uv" then values.reject("textures that are not by u and v")
+    if word("wrap", "repeat") != "repeat" then values.reject("textures that do not repeat")
     mapping = Some(UvMapping(
       values.number(d, "uscale", 1f),
       values.number(d, "vscale", 1f),

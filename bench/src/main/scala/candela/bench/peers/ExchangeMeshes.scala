@@ -41,19 +41,19 @@ private[peers] final class ExchangeMeshes(files: SideFiles, values: ExchangeValu
       mapping: Option[UvMapping],
       inner: String
   ): String =
-    val whole = d.name == "sphere" && mapping.isEmpty &&
+    val isFullSphere = d.name == "sphere" && mapping.isEmpty &&
       !d.params.exists(p => Seq("zmin", "zmax", "phimax").contains(p.name))
     toWorld.uniformScale match
-      case Some(scale) if whole => sphere(d, toWorld, scale, isReversed, inner)
+      case Some(scale) if isFullSphere => sphere(d, toWorld, scale, isReversed, inner)
       case _ =>
         mesh(d) match
           case None =>
-            values.lose(s"shape \"${d.name}\"")
+            values.reject(s"shape \"${d.name}\"")
             ""
-          case Some(made) =>
-            val bytes = placed(made, toWorld, isReversed, mapping)
+          case Some(objectMesh) =>
+            val bytes = placed(objectMesh, toWorld, isReversed, mapping)
             val name = files.add("mesh", "ply", bytes)
-            val isFlat = if made.normals.isEmpty then "true" else "false"
+            val isFlat = if objectMesh.normals.isEmpty then "true" else "false"
             s"""  <shape type="ply"><string name="filename" value="$name"/>""" +
               s"""<boolean name="face_normals" value="$isFlat"/>$inner</shape>"""
 
@@ -76,7 +76,7 @@ private[peers] final class ExchangeMeshes(files: SideFiles, values: ExchangeValu
     def floats(name: String) = d.param(name).fold(Array.emptyFloatArray)(_.floats)
     d.name match
       case "trianglemesh" =>
-        values.only(d, "P", "N", "uv", "st", "S", "indices", "alpha")
+        values.rejectOthers(d, "P", "N", "uv", "st", "S", "indices", "alpha")
         val indices = d.param("indices").fold(Array(0, 1, 2))(_.ints)
         val uvs = if floats("uv").nonEmpty then floats("uv") else floats("st")
         Option.when(indices.length % 3 == 0 && indices.forall(i =>
@@ -84,12 +84,12 @@ private[peers] final class ExchangeMeshes(files: SideFiles, values: ExchangeValu
         )):
           ObjectMesh(floats("P"), floats("N"), uvs, indices)
       case "plymesh" =>
-        values.only(d, "filename", "alpha")
+        values.rejectOthers(d, "filename", "alpha")
         for
           p <- d.param("filename")
-          file <- d.folder.find(p.strings.head, Some(p.valuesAt))
+          file <- d.folder.locate(p.strings.head, Some(p.valuesAt))
         yield
-          val ply = PlyFile.read(file, Some(p.at))
+          val ply = PlyFile.read(file, Some(p.pos))
           ObjectMesh(ply.positions, ply.normals, ply.uvs, ply.indices)
       case "bilinearmesh" => patches(d, floats)
       case "sphere" | "cylinder" | "disk" => Tessellation.surface(d).map(grid(d.name, _))
@@ -97,7 +97,7 @@ private[peers] final class ExchangeMeshes(files: SideFiles, values: ExchangeValu
 
   /** Flat patches, as two triangles each. */
   private def patches(d: Declaration, floats: String => Array[Float]): Option[ObjectMesh] =
-    values.only(d, "P", "N", "uv", "indices", "alpha")
+    values.rejectOthers(d, "P", "N", "uv", "indices", "alpha")
     val p = floats("P")
     val corners = d.param("indices").fold(Array(0, 1, 2, 3))(_.ints)
     def at(i: Int) = Vec3(p(3 * i), p(3 * i + 1), p(3 * i + 2))
@@ -105,28 +105,28 @@ private[peers] final class ExchangeMeshes(files: SideFiles, values: ExchangeValu
       case Array(a, b, c, e) => (at(b) - at(a) + at(c) - at(e)).length <=
           1e-4f * (at(e) - at(a)).length
       case _ => false
-    if !isFlat then values.lose("bilinear patches, unless parallelograms")
+    if !isFlat then values.reject("bilinear patches, unless parallelograms")
     Option.when(isFlat):
       val indices = corners.grouped(4).flatMap(q => Seq(q(0), q(1), q(3), q(0), q(3), q(2))).toArray
       ObjectMesh(p, floats("N"), floats("uv"), indices)
 
   private def grid(name: String, p: (Float, Float) => Vec3): ObjectMesh =
     val (nu, nv) = if name == "sphere" then (256, 128) else (512, 1)
-    val places = for j <- 0 to nv; i <- 0 to nu yield (i.toFloat / nu, j.toFloat / nv)
+    val uvs = for j <- 0 to nv; i <- 0 to nu yield (i.toFloat / nu, j.toFloat / nv)
     val isFlat = name == "disk"
     def normal(u: Float, v: Float): Vec3 =
       val inner = Math.min(Math.max(v, Step), 1 - Step)
       val along = p(u, Math.min(inner + Step, 1f)) - p(u, Math.max(inner - Step, 0f))
       ((p(Math.min(u + Step, 1f), inner) - p(Math.max(u - Step, 0f), inner)) cross along).normalized
     def all(vs: Seq[Vec3]) = vs.flatMap(v => Seq(v.x, v.y, v.z)).toArray
-    val normals = if isFlat then Array.emptyFloatArray else all(places.map(normal(_, _)))
+    val normals = if isFlat then Array.emptyFloatArray else all(uvs.map(normal(_, _)))
     val indices =
       for j <- 0 until nv; i <- 0 until nu; a = j * (nu + 1) + i
       yield Seq(a, a + 1, a + nu + 2, a, a + nu + 2, a + nu + 1)
     ObjectMesh(
-      all(places.map(p(_, _))),
+      all(uvs.map(p(_, _))),
       normals,
-      places.flatMap((u, v) => Seq(u, v)).toArray,
+      uvs.flatMap((u, v) => Seq(u, v)).toArray,
       indices.flatten.toArray
     )
 
@@ -143,17 +143,17 @@ private[peers] final class ExchangeMeshes(files: SideFiles, values: ExchangeValu
       mapping: Option[UvMapping]
   ): Array[Byte] =
     // Corners without coordinates have those of each triangle, so that none is shared
-    val whole = if mapping.isDefined && m.uvs.isEmpty then apart(m) else m
-    val count = whole.points.length / 3
+    val geometry = if mapping.isDefined && m.uvs.isEmpty then apart(m) else m
+    val count = geometry.points.length / 3
     def vec(of: Array[Float], i: Int) = Vec3(of(3 * i), of(3 * i + 1), of(3 * i + 2))
-    val points = Array.tabulate(count)(i => toWorld.point(vec(whole.points, i)))
+    val points = Array.tabulate(count)(i => toWorld.point(vec(geometry.points, i)))
     points.foreach(extend)
     val side = if isReversed then -1f else 1f
     val normals =
-      if whole.normals.length != 3 * count then Array.empty[Vec3]
-      else Array.tabulate(count)(i => toWorld.normal(vec(whole.normals, i)).normalized * side)
+      if geometry.normals.length != 3 * count then Array.empty[Vec3]
+      else Array.tabulate(count)(i => toWorld.normal(vec(geometry.normals, i)).normalized * side)
     val turns = isReversed != toWorld.swapsHandedness
-    val indices = whole.indices.grouped(3).flatMap: t =>
+    val indices = geometry.indices.grouped(3).flatMap: t =>
       val facet = (points(t(1)) - points(t(0))) cross (points(t(2)) - points(t(0)))
       val isTurned =
         if normals.isEmpty then turns
@@ -162,7 +162,7 @@ private[peers] final class ExchangeMeshes(files: SideFiles, values: ExchangeValu
     .toArray
     val uvs = mapping.fold(Array.emptyFloatArray): by =>
       Array.tabulate(2 * count): k =>
-        val x = whole.uvs(k)
+        val x = geometry.uvs(k)
         // v begins at the top of Mitsuba's images, at the bottom of pbrt's
         if k % 2 == 0 then by.scaleU * x + by.du else 1f - (by.scaleV * x + by.dv)
     def all(vs: Array[Vec3]) = vs.flatMap(v => Array(v.x, v.y, v.z))

@@ -20,8 +20,8 @@ final class Inexpressible(val reasons: Vector[String])
   * Colours are multiplied by red, green and blue in all programs that read it.
   */
 final class ExchangeScene(scene: SceneDescription, files: SideFiles):
-  private val lost = mutable.LinkedHashSet.empty[String]
-  private val values = ExchangeValues(reason => lost += reason)
+  private val reasons = mutable.LinkedHashSet.empty[String]
+  private val values = ExchangeValues(reason => reasons += reason)
   private val materials = ExchangeMaterials(scene, files, values)
   private val meshes = ExchangeMeshes(files, values)
 
@@ -36,8 +36,8 @@ final class ExchangeScene(scene: SceneDescription, files: SideFiles):
       s"""  <integrator type="path">$depths</integrator>""",
       sensor
     ) ++ materials.elements ++ shapes ++ lights
-    for m <- scene.media.headOption do values.lose(s"medium `${m.name}`")
-    if lost.nonEmpty then Left(Inexpressible(lost.toVector))
+    for m <- scene.media.headOption do values.reject(s"medium `${m.name}`")
+    if reasons.nonEmpty then Left(Inexpressible(reasons.toVector))
     else
       val start = "<scene version=\"3.0.0\">\n  <default name=\"spp\" value=\"16\"/>\n" +
         "  <default name=\"seed\" value=\"0\"/>\n"
@@ -46,56 +46,56 @@ final class ExchangeScene(scene: SceneDescription, files: SideFiles):
   /** All shapes in the world, those of instances included. */
   private def placed: Vector[ShapeDescription] =
     scene.shapes ++ scene.instances.flatMap: use =>
-      if use.instanceToWorld.isAnimated then values.lose("motion")
+      if use.instanceToWorld.isAnimated then values.reject("motion")
       val to = use.instanceToWorld.start
       scene.objects.getOrElse(use.name, Vector.empty).map: s =>
-        if s.areaLight.isDefined then values.lose("area lights on instances")
-        val there = to * still(s.objectToWorld)
-        s.copy(objectToWorld = AnimatedTransform(there, there))
+        if s.areaLight.isDefined then values.reject("area lights on instances")
+        val toWorld = to * staticTransform(s.objectToWorld)
+        s.copy(objectToWorld = AnimatedTransform(toWorld, toWorld))
 
-  private def still(t: AnimatedTransform): Transform =
-    if t.isAnimated then values.lose("motion")
+  private def staticTransform(t: AnimatedTransform): Transform =
+    if t.isAnimated then values.reject("motion")
     t.start
 
   private def shape(s: ShapeDescription): String =
-    val toWorld = still(s.objectToWorld)
-    if s.shape.param("alpha").nonEmpty then values.lose("alpha cutouts")
-    if s.oneSided then values.lose("surfaces that are black from behind")
+    val toWorld = staticTransform(s.objectToWorld)
+    if s.shape.param("alpha").nonEmpty then values.reject("alpha cutouts")
+    if s.oneSided then values.reject("surfaces that are black from behind")
     val material = materials.of(s.material)
     val emitter = s.areaLight.fold("")(areaLight)
     val inner = s"""<ref id="${material.id}"/>$emitter"""
     meshes.element(s.shape, toWorld, s.reverseOrientation, material.mapping, inner)
 
   private def areaLight(d: Declaration): String =
-    values.only(d, "L", "scale", "twosided")
-    if d.param("twosided").exists(_.bools.contains(true)) then values.lose("two-sided area lights")
+    values.rejectOthers(d, "L", "scale", "twosided")
+    if d.param("twosided").exists(_.bools.contains(true)) then values.reject("two-sided area lights")
     s"""<emitter type="area">${values.rgbElement("radiance", values.light(d, "L"))}</emitter>"""
 
   private def lights: Vector[String] = scene.lights.map: l =>
     val d = l.light
-    val toWorld = still(l.lightToWorld)
+    val toWorld = staticTransform(l.lightToWorld)
     def point(name: String, default: Vec3): Vec3 =
       d.param(name).map(_.floats) match
         case Some(Array(x, y, z)) => Vec3(x, y, z)
         case _ => default
     d.name match
       case "point" =>
-        values.only(d, "I", "scale", "from")
+        values.rejectOthers(d, "I", "scale", "from")
         val p = toWorld.point(point("from", Vec3.Zero))
         s"""  <emitter type="point"><point name="position" x="${p.x}" y="${p.y}" z="${p.z}"/>""" +
           values.rgbElement("intensity", values.light(d, "I")) + "</emitter>"
       case "distant" =>
-        values.only(d, "L", "scale", "from", "to")
+        values.rejectOthers(d, "L", "scale", "from", "to")
         val w = toWorld.vector(point("to", Vec3.Z) - point("from", Vec3.Zero)).normalized
         s"""  <emitter type="directional"><vector name="direction" x="${w.x}" y="${w.y}" """ +
           s"""z="${w.z}"/>${values.rgbElement("irradiance", values.light(d, "L"))}</emitter>"""
       case "infinite" => environment(d, toWorld)
       case other =>
-        values.lose(s"light \"$other\"")
+        values.reject(s"light \"$other\"")
         ""
 
   private def environment(d: Declaration, toWorld: Transform): String =
-    values.only(d, "L", "scale", "filename")
+    values.rejectOthers(d, "L", "scale", "filename")
     d.param("filename") match
       case None =>
         val radiance = values.rgbElement("radiance", values.light(d, "L"))
@@ -111,14 +111,14 @@ final class ExchangeScene(scene: SceneDescription, files: SideFiles):
   private def sensor: String =
     val camera = scene.camera.getOrElse(ExchangeScene.plain("Camera", "perspective"))
     val film = scene.film.getOrElse(ExchangeScene.plain("Film", "rgb"))
-    if camera.name != "perspective" then values.lose(s"camera \"${camera.name}\"")
-    values.only(camera, "fov", "lensradius", "focaldistance", "shutteropen", "shutterclose")
-    values.only(film, "xresolution", "yresolution", "filename", "diagonal", "savefp16")
+    if camera.name != "perspective" then values.reject(s"camera \"${camera.name}\"")
+    values.rejectOthers(camera, "fov", "lensradius", "focaldistance", "shutteropen", "shutterclose")
+    values.rejectOthers(film, "xresolution", "yresolution", "filename", "diagonal", "savefp16")
     def number(d: Declaration, name: String, default: Float) =
       d.param(name).flatMap(_.floats.headOption).getOrElse(default)
     def count(name: String, default: Int) =
       film.param(name).flatMap(_.ints.headOption).getOrElse(default)
-    val cameraToWorld = still(scene.worldToCamera).inverse
+    val cameraToWorld = staticTransform(scene.worldToCamera).inverse
     val lens = number(camera, "lensradius", 0f)
     val focus = number(camera, "focaldistance", 1e6f)
     val thin =

@@ -7,15 +7,15 @@ import candela.scenefile.{Declaration, Dialect, Param, ParamType}
 
 /** Reads parameters of pbrt-v4's statements as numbers and as red, green and blue.
   *
-  * @param lose receives what can't be expressed
+  * @param reject receives what can't be expressed
   */
-private[peers] final class ExchangeValues(val lose: String => Unit):
-  private val values = Values(Dialect.V4, Dialect.V3, (_, why) => lose(why))
+private[peers] final class ExchangeValues(val reject: String => Unit):
+  private val values = Values(Dialect.V4, Dialect.V3, (_, why) => reject(why))
 
   /** Any other parameter can't be expressed. */
-  def only(d: Declaration, names: String*): Unit =
+  def rejectOthers(d: Declaration, names: String*): Unit =
     for p <- d.params if !names.contains(p.name) && !p.isDefault do
-      lose(s"`${p.name}` of ${statement(d)}")
+      reject(s"`${p.name}` of ${statement(d)}")
 
   def statement(d: Declaration): String = s"${d.category.toLowerCase} \"${d.name}\""
 
@@ -24,21 +24,21 @@ private[peers] final class ExchangeValues(val lose: String => Unit):
       case None => default
       case Some(p) if p.floats.length == 1 && p.paramType == ParamType.Float => p.floats(0)
       case _ =>
-        lose(s"`$name` of ${statement(d)}, unless a number")
+        reject(s"`$name` of ${statement(d)}, unless a number")
         default
 
   def color(d: Declaration, p: Param): Rgb =
     if p.paramType == ParamType.Rgb && d.colorSpaceOf(p) != "srgb" then
-      lose(s"colour space ${d.colorSpaceOf(p)}")
+      reject(s"colour space ${d.colorSpaceOf(p)}")
     values.color(p, d).getOrElse:
-      lose(s"`${p.name}` of ${statement(d)}")
+      reject(s"`${p.name}` of ${statement(d)}")
       Rgb.White
 
   /** Index of refraction at 589 nm. */
   def index(d: Declaration, name: String, default: Float): Float = d.param(name) match
     case Some(p) if p.paramType == ParamType.Spectrum =>
       values.spectrum(p, d).fold(default): s =>
-        if s.values.distinct.length > 1 then lose(s"dispersion of ${statement(d)}")
+        if s.values.distinct.length > 1 then reject(s"dispersion of ${statement(d)}")
         s(589.3f)
     case _ => number(d, name, default)
 

@@ -16,12 +16,12 @@ final class PeerPrograms(environment: Map[String, String], folder: Path):
   private val installed = Installed(environment)
 
   /** All that are installed, Candela first, and the others. */
-  def found: (Vector[Program], Vector[Absent]) =
+  def detect: (Vector[Program], Vector[Absent]) =
     val peers = Vector(pbrt4, pbrt3, pbrt2, mitsuba, mitsubaLlvm, cycles, luxCore).flatten
     val present = peers.collect { case Right(p) => p }
     val needed = present.flatMap(_.counterpart).toSet
-    val own = plain +: Vector(rgb).filter(p => needed(p.name))
-    (own ++ present, peers.collect { case Left(a) => a })
+    val selfPrograms = plain +: Vector(rgb).filter(p => needed(p.name))
+    (selfPrograms ++ present, peers.collect { case Left(a) => a })
 
   private val threads = Runtime.getRuntime.availableProcessors
 
@@ -85,25 +85,25 @@ final class PeerPrograms(environment: Map[String, String], folder: Path):
     )
     p.copy(isSeeded = false, edits = Vector(samples))
 
-  private def pbrt(version: Int)(make: Vector[String] => Program): Peer =
-    Some(installed.pbrt(version).map(there =>
-      make(there.words).copy(needs = there.variable.toVector)
+  private def pbrt(version: Int)(create: Vector[String] => Program): Peer =
+    Some(installed.pbrt(version).map(present =>
+      create(present.words).copy(needs = present.variable.toVector)
     ))
 
   private def mitsuba: Peer =
     Some(installed.mitsuba.map(mitsubaOf(_, "scalar_rgb", "mitsuba", 5)))
 
   private def mitsubaLlvm: Peer =
-    installed.mitsubaLlvm.map(there => Right(mitsubaOf(there, "llvm_ad_rgb", "mitsuba-llvm", 6)))
+    installed.mitsubaLlvm.map(present => Right(mitsubaOf(present, "llvm_ad_rgb", "mitsuba-llvm", 6)))
 
-  private def mitsubaOf(there: Present, variant: String, name: String, color: Int): Program =
-    val command = there.words ++ Vector("-m", variant, "-t", "{threads}", "-D", "spp={spp}", "-D",
+  private def mitsubaOf(present: Present, variant: String, name: String, color: Int): Program =
+    val command = present.words ++ Vector("-m", variant, "-t", "{threads}", "-D", "spp={spp}", "-D",
       "seed={seed}", "-o", "{out}", "{scene}")
     program(name, s"Mitsuba 3, $variant", command, PeerScenes.Exchange, color, Some("candela-rgb"))
       .copy(
         threads = Installed.mitsubaThreads(threads),
         ownFamily = Some("mitsuba"),
-        needs = there.variable.toVector
+        needs = present.variable.toVector
       )
 
   private def cycles: Peer = Some(script("cycles", "Cycles", "bpy", 4))

@@ -17,7 +17,7 @@ import java.nio.file.{Files, Path}
   */
 final case class PeerFiles(
     files: Map[String, Path],
-    lost: Map[String, String],
+    failures: Map[String, String],
     isSame: Boolean
 )
 
@@ -34,20 +34,20 @@ object PeerScenes:
     */
   def of(source: Path, folder: Path): PeerFiles =
     val read = Parser.validated(Render.read(source, ReadSettings(), BuildControl()))
-    val own = read.dialect.base
+    val dialect = read.dialect.base
     val scene = normal(read)
     Files.createDirectories(folder): Unit
-    val tried = Vector(Dialect.V2, Dialect.V3, Dialect.V4).map: to =>
+    val attempts = Vector(Dialect.V2, Dialect.V3, Dialect.V4).map: to =>
       name(to) -> written(scene, to, folder)
-    val made = tried.collect { case (format, Right((file, _))) => format -> file }.toMap
-    val failed = tried.collect { case (format, Left(why)) => format -> why }.toMap
-    val exchange = tried.collectFirst:
+    val succeeded = attempts.collect { case (format, Right((file, _))) => format -> file }.toMap
+    val failed = attempts.collect { case (format, Left(why)) => format -> why }.toMap
+    val exchange = attempts.collectFirst:
       case ("v4", Right((_, converted))) => exchanged(converted, folder)
     .getOrElse(Left(failed("v4")))
-    val rgb = exchange.toOption.orElse(made.get(name(Dialect.V3)))
-    val plain = if own == Dialect.V4 then rgb else made.get(name(own))
+    val rgb = exchange.toOption.orElse(succeeded.get(name(Dialect.V3)))
+    val plain = if dialect == Dialect.V4 then rgb else succeeded.get(name(dialect))
     PeerFiles(
-      made ++ exchange.toOption.map(Exchange -> _) ++ plain.map(Rgb -> _),
+      succeeded ++ exchange.toOption.map(Exchange -> _) ++ plain.map(Rgb -> _),
       failed ++ exchange.left.toOption.map(Exchange -> _),
       isSame(read)
     )
@@ -75,18 +75,18 @@ object PeerScenes:
   private val LargeMesh = 100
 
   private def exchanged(scene: SceneDescription, folder: Path): Either[String, Path] =
-    val there = folder.resolve(Exchange)
-    Files.createDirectories(there): Unit
-    val files = SideFiles(there)
-    val moved = candela.convert.Declarations.map(scene)(candela.convert.FileNames(there).moved)
+    val exchangeFolder = folder.resolve(Exchange)
+    Files.createDirectories(exchangeFolder): Unit
+    val files = SideFiles(exchangeFolder)
+    val moved = candela.convert.Declarations.map(scene)(candela.convert.FileNames(exchangeFolder).moved)
     try
       files.completing:
         ExchangeScene.write(moved, depth(scene), files) match
-          case None => Right(there.resolve("scene.xml"))
-          case Some(lost) =>
-            val shown = lost.reasons.take(MostReasons).mkString(", ")
-            val more = lost.reasons.size - MostReasons
-            Left(s"not converted: $shown${if more > 0 then s" and $more more" else ""}")
+          case None => Right(exchangeFolder.resolve("scene.xml"))
+          case Some(inexpressible) =>
+            val listed = inexpressible.reasons.take(MostReasons).mkString(", ")
+            val remaining = inexpressible.reasons.size - MostReasons
+            Left(s"not converted: $listed${if remaining > 0 then s" and $remaining more" else ""}")
     catch case e: SceneError => Left(e.problems.head.message)
 
   private val MostReasons = 3
@@ -96,14 +96,14 @@ object PeerScenes:
     val category = scene.integrator.fold("Integrator")(_.category)
     val hasMedia = scene.media.nonEmpty || scene.volumes.nonEmpty
     val kind = if hasMedia && scene.dialect.base != Dialect.V2 then "volpath" else "path"
-    val params = Vector(Param.int("maxdepth", place(scene), depth(scene)))
+    val params = Vector(Param.int("maxdepth", position(scene), depth(scene)))
     val integrator = declaration(scene, category, kind, params)
     filtered(scene.copy(integrator = Some(integrator), renderer = None))
 
   private def filtered(scene: SceneDescription): SceneDescription =
     val (x, y) =
       if scene.dialect.base == Dialect.V4 then ("xradius", "yradius") else ("xwidth", "ywidth")
-    val params = Vector(x, y).map(Param.float(_, place(scene), 0.5f))
+    val params = Vector(x, y).map(Param.float(_, position(scene), 0.5f))
     scene.copy(filter = Some(declaration(scene, "PixelFilter", "box", params)))
 
   private def declaration(
@@ -114,8 +114,8 @@ object PeerScenes:
   ): Declaration =
     ExchangeScene.plain(category, name).copy(params = params, folder = scene.folder)
 
-  private def place(scene: SceneDescription) =
-    scene.camera.fold(candela.diagnostics.SourcePos.Nowhere)(_.at)
+  private def position(scene: SceneDescription) =
+    scene.camera.fold(candela.diagnostics.SourcePos.Nowhere)(_.pos)
 
   /** Number of surfaces at which a path scatters, at most. */
   private def depth(scene: SceneDescription): Int =

@@ -24,12 +24,12 @@ object PeerSuite:
       environment: Map[String, String],
       folder: Path
   ): PeerSuite =
-    val (programs, absent) = PeerPrograms(environment, folder).found
-    val (scenes, lost) = suite.scenes.map: scene =>
+    val (programs, absent) = PeerPrograms(environment, folder).detect
+    val (scenes, failures) = suite.scenes.map: scene =>
       converted(scene, folder.resolve(s"scene-${scene.name}"), programs)
     .unzip
     val missing = absent.map(a => a.title -> s"not found: ${a.obtain}")
-    PeerSuite(suite.copy(programs = programs, scenes = scenes.flatten), missing ++ lost.flatten)
+    PeerSuite(suite.copy(programs = programs, scenes = scenes.flatten), missing ++ failures.flatten)
 
   private val Preferred = Vector("v4", "v3", "v2", "mitsuba", "scene")
 
@@ -43,15 +43,15 @@ object PeerSuite:
       case None => (Some(scene), Vector.empty) // the runner says which file is missing
       case Some(file) =>
         try
-          val made = PeerScenes.of(file, folder)
-          val reference = scene.reference.filter(_ => made.isSame)
-          val lost = programs.flatMap: p =>
-            p.kinds.headOption.filterNot(made.files.contains).flatMap(made.lost.get).map: why =>
+          val peerFiles = PeerScenes.of(file, folder)
+          val reference = scene.reference.filter(_ => peerFiles.isSame)
+          val failures = programs.flatMap: p =>
+            p.kinds.headOption.filterNot(peerFiles.files.contains).flatMap(peerFiles.failures.get).map: why =>
               s"${p.title} on ${scene.title}" -> why
           val dropped = Option.when(scene.reference.isDefined && reference.isEmpty):
             s"reference of ${scene.title}" -> "it has another filter or integrator"
-          val peers = scene.copy(files = made.files, reference = reference, programs = None)
-          (Some(peers), lost ++ dropped)
+          val peers = scene.copy(files = peerFiles.files, reference = reference, programs = None)
+          (Some(peers), failures ++ dropped)
         catch
           case e: SceneError => (None, Vector(scene.title -> e.problems.head.message))
 

@@ -47,7 +47,7 @@ private[report] object BiasTable:
     Vector[Frag](
       b.program,
       if isFound then tag("b")(chance) else chance,
-      b.test.whole.map(ratio).mkString(", "),
+      b.test.fullImage.map(ratio).mkString(", "),
       location
     )
 

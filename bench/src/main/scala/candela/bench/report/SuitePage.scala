@@ -171,7 +171,7 @@ object SuitePage:
       p.curve.secondsUntil(s.target).fold("–")(estimate),
       p.firstImage.fold("–")(Numbers.short),
       p.curve.memory.fold("–")(m => Numbers.fixed(m * 1e-6, 0)),
-      p.others.fold("–")(Numbers.percentage) + (if p.isDisturbed then " ⚠" else "")
+      p.otherShare.fold("–")(Numbers.percentage) + (if p.isDisturbed then " ⚠" else "")
     ).map(cell => stringFrag(cell.replace("± ", "±\u00a0")))
 
   private def estimate(i: Interval): String = Numbers.short(i.estimate)

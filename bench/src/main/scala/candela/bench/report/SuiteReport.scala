@@ -11,7 +11,7 @@ import candela.report.{Machine, Numbers, RenderData}
   * @param isThin whether its curve is dashed, beside another program of the same colour
   * @param picture image of the longest run with the first seed
   * @param firstImage seconds until it has written an image of one sample per pixel, a median
-  * @param others share of the processors that other programs took during its runs, if known
+  * @param otherShare share of the processors that other programs took during its runs, if known
   */
 final case class ProgramResult(
     name: String,
@@ -22,9 +22,9 @@ final case class ProgramResult(
     curve: MeasuredCurve,
     picture: Image,
     firstImage: Option[Double] = None,
-    others: Option[Double] = None
+    otherShare: Option[Double] = None
 ):
-  def isDisturbed: Boolean = others.exists(_ >= ProgramResult.Disturbing)
+  def isDisturbed: Boolean = otherShare.exists(_ >= ProgramResult.Disturbing)
 
 object ProgramResult:
   /** Share of the processors whose loss is worth a warning. */
@@ -88,12 +88,12 @@ final case class SuiteReport(
     * other programs is known of all runs, that tells.
     */
   def business: Option[String] =
-    machine.business.filter(_ => scenes.exists(_.programs.exists(_.others.isEmpty)))
+    machine.business.filter(_ => scenes.exists(_.programs.exists(_.otherShare.isEmpty)))
 
   /** Where other programs took much of the machine, in words. */
   def disturbances: Vector[String] = scenes.flatMap: s =>
     val shares =
-      for p <- s.programs if p.isDisturbed; share <- p.others
+      for p <- s.programs if p.isDisturbed; share <- p.otherShare
       yield s"${Numbers.percentage(share)} while ${p.title} ran"
     Option.when(shares.nonEmpty):
       s"on ${s.title}, other programs took much of the processors: ${shares.mkString(", ")}; " +
@@ -156,7 +156,7 @@ object SuiteData:
     "program" -> b.program,
     "other" -> b.other,
     "p" -> RenderData.number(b.test.p),
-    "wholeImage" -> ujson.Arr.from(b.test.whole.map(region)),
+    "wholeImage" -> ujson.Arr.from(b.test.fullImage.map(region)),
     "mostDifferent" -> ujson.Arr.from(b.test.worst.map(region))
   )
 
@@ -181,7 +181,7 @@ object SuiteData:
     "efficiency" -> optionalInterval(p.curve.efficiency),
     "firstImage" -> p.firstImage.fold(ujson.Null: ujson.Value)(RenderData.number),
     "memory" -> p.curve.memory.fold(ujson.Null: ujson.Value)(m => RenderData.number(m.toDouble)),
-    "others" -> p.others.fold(ujson.Null: ujson.Value)(RenderData.number),
+    "others" -> p.otherShare.fold(ujson.Null: ujson.Value)(RenderData.number),
     "meanRatio" -> ujson.Arr.from(p.curve.meanRatio.map(RenderData.number)),
     "secondsToTarget" ->
       p.curve.secondsUntil(s.target).fold(ujson.Null: ujson.Value)(i =>

@@ -22,9 +22,9 @@ final class Equipment(
   def tally(count: Long)(of: Trials => Tally): Tally =
     val parts =
       Trials.divided(count, Math.max(Equipment.MinParts, count / Equipment.PartSize).toInt)
-    val found = Array.fill(parts.size)(Tally.Empty)
-    pool.each(parts.size)(k => if !isCancelled() then found(k) = of(parts(k)))
-    found.reduce(_ and _)
+    val tallies = Array.fill(parts.size)(Tally.Empty)
+    pool.forEach(parts.size)(k => if !isCancelled() then tallies(k) = of(parts(k)))
+    tallies.reduce(_ and _)
 
   def counted(count: Long)(of: Trials => Tally): Robust =
     val t = tally(count)(of)

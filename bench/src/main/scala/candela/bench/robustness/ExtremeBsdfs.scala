@@ -82,9 +82,9 @@ object ExtremeBsdfs:
     yield
       val top = TrowbridgeReitz(a, a)
       val gloss = TrowbridgeReitz(0.5f, 0.5f)
-      val made = Layers(top, 1.5f, base, thick, Rgb.White, g, 100, 1, gloss, share = 0.5f)
+      val stack = Layers(top, 1.5f, base, thick, Rgb.White, g, 100, 1, gloss, share = 0.5f)
       s"$words under a coat of roughness $a, thickness $thick" ->
-        new Layered(made, 1)
+        new Layered(stack, 1)
 
   private def disney =
     for ends <- 0 until 64 yield

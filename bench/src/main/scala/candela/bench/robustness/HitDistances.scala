@@ -51,17 +51,17 @@ object HitDistances:
       val d = if axis == 0 then ray.dx else if axis == 1 then ray.dy else ray.dz
       (planes(k % planes.length).toDouble - ray.along(axis)) / d
 
-  def tally(make: Primitives => Accelerator, trials: Trials): Tally =
-    val accelerator = make(Primitives(soup, Array.empty))
+  def tally(create: Primitives => Accelerator, trials: Trials): Tally =
+    val accelerator = create(Primitives(soup, Array.empty))
     val (ray, hit, aim) = (Ray(), Hit(), Aim(trials))
     Tally.of(trials.count): _ =>
       val expected = aim.next(ray)
       val isMet = accelerator.closest(ray, hit)
       if isMet && isRight(ray.tMax, expected) then Tally.Sound
       else
-        val found = if isMet then s"at ${ray.tMax}" else "nothing"
-        s"$found instead of $expected from ${ray.ox} ${ray.oy} ${ray.oz} along " +
+        val actual = if isMet then s"at ${ray.tMax}" else "nothing"
+        s"$actual instead of $expected from ${ray.ox} ${ray.oy} ${ray.oz} along " +
           s"${ray.dx} ${ray.dy} ${ray.dz}"
 
-  def isRight(found: Double, expected: Double): Boolean =
-    Math.abs(found - expected) <= Allowed * Math.abs(expected)
+  def isRight(actual: Double, expected: Double): Boolean =
+    Math.abs(actual - expected) <= Allowed * Math.abs(expected)

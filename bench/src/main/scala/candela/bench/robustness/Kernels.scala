@@ -6,9 +6,9 @@ import candela.bench.report.RobustProgram
 
 /** A way to trace rays in Candela.
   *
-  * @param make the accelerator of primitives
+  * @param create the accelerator of primitives
   */
-final case class Kernel(key: String, title: String)(val make: Primitives => Accelerator):
+final case class Kernel(key: String, title: String)(val create: Primitives => Accelerator):
   def program: RobustProgram = RobustProgram(key, title, isOurs = true)
 
 object Kernel:

@@ -92,30 +92,30 @@ object OtherPainter:
     case V3, V4, Mitsuba
 
   /** Those that are installed, and those that are not, with the reason. */
-  def found(
+  def detect(
       folder: Path,
       commands: Commands,
       threads: Int,
       installed: Installed
   ): (Vector[Painter], Vector[(String, String)]) =
-    def made(title: String, language: Language, program: Either[Absent, Present])(
+    def painter(title: String, language: Language, program: Either[Absent, Present])(
         options: (Path, Path) => Vector[String]
     ): Either[(String, String), Painter] = program match
       case Left(absent) => Left(title -> absent.obtain)
-      case Right(there) if !Commands.isExecutable(there.words.head) =>
-        val named = there.variable.fold("")(v => s" ($v)")
-        Left(title -> s"`${there.words.head}`$named is not installed")
-      case Right(there) =>
+      case Right(present) if !Commands.isExecutable(present.words.head) =>
+        val named = present.variable.fold("")(v => s" ($v)")
+        Left(title -> s"`${present.words.head}`$named is not installed")
+      case Right(present) =>
         val key = title.toLowerCase.replace(' ', '-')
-        val words = (scene: Path, out: Path) => there.words ++ options(scene, out)
-        val known = RobustProgram(key, title, isOurs = false)
-        Right(OtherPainter(known, folder, commands, language, words))
+        val words = (scene: Path, out: Path) => present.words ++ options(scene, out)
+        val robustProgram = RobustProgram(key, title, isOurs = false)
+        Right(OtherPainter(robustProgram, folder, commands, language, words))
     val all = Vector(
-      made("pbrt-v3", Language.V3, installed.pbrt(3)): (scene, out) =>
+      painter("pbrt-v3", Language.V3, installed.pbrt(3)): (scene, out) =>
         Vector("--quiet", s"--nthreads=$threads", s"--outfile=$out", s"$scene"),
-      made("pbrt-v4", Language.V4, installed.pbrt(4)): (scene, out) =>
+      painter("pbrt-v4", Language.V4, installed.pbrt(4)): (scene, out) =>
         Vector("--quiet", "--nthreads", s"$threads", "--outfile", s"$out", s"$scene"),
-      made("Mitsuba 3", Language.Mitsuba, installed.mitsuba): (scene, out) =>
+      painter("Mitsuba 3", Language.Mitsuba, installed.mitsuba): (scene, out) =>
         val count = s"${Installed.mitsubaThreads(threads)}"
         Vector("-m", "scalar_rgb", "-t", count, "-o", s"$out", s"$scene")
     )

@@ -21,12 +21,12 @@ object PeerText:
     val sun = s.sun.map: from =>
       s"LightSource \"distant\" \"rgb L\" ${gray(Math.PI)} \"point from\" [${from.words}] " +
         "\"point to\" [0 0 0]"
-    (head ++ sky ++ sun ++ s.things.flatMap(thing) :+ "WorldEnd").mkString("", "\n", "\n")
+    (head ++ sky ++ sun ++ s.things.flatMap(shapeText) :+ "WorldEnd").mkString("", "\n", "\n")
 
   private def gray(x: Double): String = s"[$x $x $x]"
 
-  private def thing(form: Form, surface: Surface): Vector[String] =
-    val look = surface match
+  private def shapeText(form: Form, surface: Surface): Vector[String] =
+    val material = surface match
       case Surface.Matte(albedo) => Vector(s"Material \"matte\" \"rgb Kd\" ${gray(albedo)}")
       case Surface.Mirror => Vector("Material \"mirror\" \"rgb Kr\" [1 1 1]")
       case Surface.Glass(index) => Vector(s"Material \"glass\" \"float index\" $index")
@@ -47,7 +47,7 @@ object PeerText:
           s"Shape \"trianglemesh\" \"integer indices\" [${triangles.mkString(" ")}] " +
             s"\"point P\" [${corners.map(_.words).mkString("  ")}]$n"
         )
-    ("AttributeBegin" +: look) ++ shape :+ "AttributeEnd"
+    ("AttributeBegin" +: material) ++ shape :+ "AttributeEnd"
 
 /** A [[PeerScene]] in Mitsuba's language, with a mesh file beside it for each mesh. */
 object PeerXml:
@@ -56,7 +56,7 @@ object PeerXml:
   def of(s: PeerScene): (String, Map[String, String]) =
     val meshes = s.things.zipWithIndex.collect:
       case ((mesh: Form.Facets, _), k) => s"mesh-$k.obj" -> obj(mesh)
-    val things = s.things.zipWithIndex.map { case ((form, surface), k) => thing(form, surface, k) }
+    val things = s.things.zipWithIndex.map { case ((form, surface), k) => shapeXml(form, surface, k) }
     val sky = Option.when(s.sky > 0):
       s"""<emitter type="constant"><rgb name="radiance" value="${s.sky}"/></emitter>"""
     val sun = s.sun.map: from =>
@@ -88,11 +88,11 @@ object PeerXml:
        |<string name="component_format" value="float32"/><rfilter type="box"/></film>
        |</sensor>""".stripMargin
 
-  private def thing(form: Form, surface: Surface, k: Int): String =
+  private def shapeXml(form: Form, surface: Surface, k: Int): String =
     def matte(albedo: Double) =
       s"""<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="$albedo"/>
          |</bsdf></bsdf>""".stripMargin
-    val look = surface match
+    val material = surface match
       case Surface.Matte(albedo) => matte(albedo)
       case Surface.Mirror =>
         """<bsdf type="conductor"><string name="material" value="none"/></bsdf>"""
@@ -112,7 +112,7 @@ object PeerXml:
       case Form.Facets(_, _, normals) =>
         s"""<shape type="obj"><string name="filename" value="mesh-$k.obj"/>
            |<boolean name="face_normals" value="${normals.isEmpty}"/>""".stripMargin
-    s"$shape$look</shape>"
+    s"$shape$material</shape>"
 
   private def obj(mesh: Form.Facets): String =
     val hasNormals = mesh.normals.nonEmpty

@@ -110,9 +110,9 @@ private final class SmoothBall(level: Int):
     var (faults, trials) = (0L, 0L)
     for y <- 1 until side - 1; x <- 1 until side - 1 do
       // Pixels of the outline are partly background
-      val around = for dy <- -1 to 1; dx <- -1 to 1 yield lit((y + dy) * side + x + dx)
+      val neighbours = for dy <- -1 to 1; dx <- -1 to 1 yield lit((y + dy) * side + x + dx)
       val expected = lit(y * side + x)
-      if around.forall(!_.isNaN) && expected > 0.1f then
+      if neighbours.forall(!_.isNaN) && expected > 0.1f then
         trials += 1
         if image(x, y, green) < expected / 2 then faults += 1
     Robust.Counted(faults, trials)
@@ -143,11 +143,11 @@ object Bumps extends Measurement(
       for
         p <- by.painters if !by.isCancelled()
         paths = p.paint(input("path", height, light)).map(Pixels.meanAndError)
-        both = p.paint(input("bdpt", height, light)).map(Pixels.meanAndError)
-      yield p.program.key -> paths.flatMap(a => both.map(a -> _)).fold(
+        bdpt = p.paint(input("bdpt", height, light)).map(Pixels.meanAndError)
+      yield p.program.key -> paths.flatMap(a => bdpt.map(a -> _)).fold(
         r => if r.isFailure then Robust.Failed(r.why) else Robust.Absent("has no bdpt"),
-        { case ((expected, a), (found, b)) =>
-          Robust.Mean(found / expected, Math.hypot(a, b) / expected, 1, Allowed)
+        { case ((expected, a), (actual, b)) =>
+          Robust.Mean(actual / expected, Math.hypot(a, b) / expected, 1, Allowed)
         }
       )
     RobustRow(what, cells.toMap)

@@ -15,22 +15,22 @@ object Leaks extends Measurement(
 
   def rows(by: Equipment): Iterator[RobustRow] =
     ClosedMesh.all.iterator.map(aimed(by, _)) ++
-      ClosedMesh.all.iterator.filterNot(_.isInstance).map(seen(by, _))
+      ClosedMesh.all.iterator.filterNot(_.isInstance).map(cameraRow(by, _))
 
   private def aimed(by: Equipment, mesh: ClosedMesh): RobustRow =
     // Those of a needle take as long as 20 others
     val count = if mesh.isSlow then Math.max(1L, by.rays / 10) else by.rays
-    val own = by.kernels.map: kernel =>
-      val accelerator = mesh.accelerator(kernel.make)
+    val kernelCells = by.kernels.map: kernel =>
+      val accelerator = mesh.accelerator(kernel.create)
       kernel.key -> by.counted(count)(LeakingRays.tally(accelerator, mesh, _))
     val embree = by.embree.filterNot(_ => mesh.isInstance).map: e =>
       val aim = LeakingRays.Aim(mesh, Trials(count, 0))
       e.tally("ball", mesh.soup, count): ray =>
         aim.next(ray)
         Double.NaN
-    RobustRow(s"a ball ${mesh.name}", own.toMap ++ embree.getOrElse(Map.empty))
+    RobustRow(s"a ball ${mesh.name}", kernelCells.toMap ++ embree.getOrElse(Map.empty))
 
-  private def seen(by: Equipment, mesh: ClosedMesh): RobustRow =
+  private def cameraRow(by: Equipment, mesh: ClosedMesh): RobustRow =
     by.painted(s"a ball ${mesh.name}, seen from within", PeerInput.of(scene(mesh, side(by)))):
       Pixels.counted(_)(_ != 0f)
 
@@ -54,11 +54,11 @@ object Distances extends Measurement(
         "must be right to a millionth of itself."
     ):
   def rows(by: Equipment): Iterator[RobustRow] =
-    val own = by.kernels.map(k => k.key -> by.counted(by.rays)(HitDistances.tally(k.make, _)))
+    val kernelCells = by.kernels.map(k => k.key -> by.counted(by.rays)(HitDistances.tally(k.create, _)))
     val embree = by.embree.map: e =>
       val aim = HitDistances.Aim(Trials(by.rays, 0))
       e.tally("squares", HitDistances.soup, by.rays)(aim.next)
-    val cells = own.toMap ++ embree.getOrElse(Map.empty[String, Robust])
+    val cells = kernelCells.toMap ++ embree.getOrElse(Map.empty[String, Robust])
     Iterator(RobustRow("triangles in planes close to zero", cells))
 
 /** Rays that meet the surface that they leave. */
@@ -79,9 +79,9 @@ object SelfHits extends Measurement(
   private def spawned(by: Equipment, kind: Kind): RobustRow =
     // Curves take as long as 10 other shapes
     val count = if kind.quick < 2500 then by.rays / 10 else by.rays
-    val each = Math.max(1L, count / Place.values.length)
+    val trialCount = Math.max(1L, count / Place.values.length)
     val all = Place.values.map: place =>
-      by.tally(each)(SpawnedRays(kind, place, _).tally())
+      by.tally(trialCount)(SpawnedRays(kind, place, _).tally())
     val sum = all.reduce(_ and _)
     RobustRow(
       s"a ${kind.name}",
@@ -121,9 +121,9 @@ object BadScattering extends Measurement(
         "pairs of directions down to a cosine of 1e-45. All must be finite, none negative."
     ):
   def rows(by: Equipment): Iterator[RobustRow] = ExtremeBsdfs.all.iterator.map: kind =>
-    val each = Math.max(1L, by.rays / kind.variants.size)
+    val trialCount = Math.max(1L, by.rays / kind.variants.size)
     val all = kind.variants.map: (name, bsdf) =>
-      val t = by.tally(each)(ExtremeInputs.tally(bsdf, _))
+      val t = by.tally(trialCount)(ExtremeInputs.tally(bsdf, _))
       t.copy(first = t.first.map(words => s"$name: $words"))
     val sum = all.reduce(_ and _)
     RobustRow(kind.name, Map("candela" -> Robust.Counted(sum.faults, sum.trials, sum.first)))

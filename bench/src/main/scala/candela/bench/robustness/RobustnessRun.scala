@@ -16,7 +16,7 @@ import candela.report.Machine
   * @param python  a Python that has embreex, if not that of [[Installed]]
   * @param scratch folder for scenes and images
   * @param command command line that makes the same report
-  * @param say     receives each row when it is measured, with its group
+  * @param onRow     receives each row when it is measured, with its group
   */
 final class RobustnessRun(
     rays: Long,
@@ -26,20 +26,20 @@ final class RobustnessRun(
     scratch: Path,
     command: String,
     cancellation: Cancellation,
-    say: (RobustGroup, RobustRow) => Unit
+    onRow: (RobustGroup, RobustRow) => Unit
 ):
   private val commands = Commands(Vector.empty, scratch, () => cancellation.isRequested)
   private val kernels = Kernel.all
   private val installed = Installed(sys.env ++ python.map(Installed.Python -> _))
-  private val (others, without) = OtherPainter.found(scratch, commands, threads, installed)
-  private val painters = OwnPainter(threads, cancellation) +: others
+  private val (otherPainters, absentPainters) = OtherPainter.detect(scratch, commands, threads, installed)
+  private val painters = OwnPainter(threads, cancellation) +: otherPainters
   private val noEmbree = installed.library("Embree", "embreex", "numpy")
   private val embree =
     Option.when(noEmbree.isEmpty)(EmbreeRays(installed.python, scratch, commands))
 
   /** Programs that can't be asked, and why. */
   val leftOut: Vector[(String, String)] =
-    Kernel.missing ++ without ++ noEmbree.map(a => a.title -> a.obtain)
+    Kernel.missing ++ absentPainters ++ noEmbree.map(a => a.title -> a.obtain)
 
   def report(): RobustnessReport =
     val machine = Machine.current()
@@ -69,7 +69,7 @@ final class RobustnessRun(
   private def group(m: Measurement, by: Equipment): RobustGroup =
     val empty = RobustGroup(m.key, m.title, m.per, m.words, Vector.empty)
     val rows = m.rows(by).takeWhile(_ => !cancellation.isRequested).map: row =>
-      say(empty, row)
+      onRow(empty, row)
       row
     empty.copy(rows = rows.toVector)
 

@@ -42,7 +42,7 @@ object Solids:
     indexed(flat(points.map(toWorld.point).toSeq), mesh.indices)
 
   /** Triangles of about `size` around the points that `centre` gives. */
-  def around(draws: Draws, count: Int, size: Float)(centre: => Vec3): Seq[Triangle] =
+  def randomTriangles(draws: Draws, count: Int, size: Float)(centre: => Vec3): Seq[Triangle] =
     Seq.fill(count):
       val c = centre
       (c + draws.vec(-size, size), c + draws.vec(-size, size), c + draws.vec(-size, size))

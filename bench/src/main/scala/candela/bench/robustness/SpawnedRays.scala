@@ -31,10 +31,10 @@ final class SpawnedRays(kind: Kind, place: Place, trials: Trials):
   private def target(): Target = place match
     case Place.Near =>
       size = draws.magnitude(1e-6, 1e6)
-      kind.make(draws, anyPlace(draws.magnitude(1e-3, 10)), size, None)
+      kind.create(draws, anyPlace(draws.magnitude(1e-3, 10)), size, None)
     case Place.Far =>
       size = draws.magnitude(1e-3, 1e3)
-      kind.make(draws, anyPlace(draws.magnitude(1e2, 1e5)), size, None)
+      kind.create(draws, anyPlace(draws.magnitude(1e2, 1e5)), size, None)
     case Place.Ground =>
       size = 1e6f
       onOrigin()
@@ -42,7 +42,7 @@ final class SpawnedRays(kind: Kind, place: Place, trials: Trials):
       size = draws.magnitude(1e-4, 1e4)
       val outside = anyPlace(draws.magnitude(1e-2, 1e3)) * uniform(size)
       val inside = draws.magnitude(1e-3, 1e3)
-      kind.make(
+      kind.create(
         draws,
         uniform(1 / inside) * draws.rotation(),
         inside,
@@ -53,15 +53,15 @@ final class SpawnedRays(kind: Kind, place: Place, trials: Trials):
       val start = anyPlace(draws.magnitude(1e-2, 1e2)) * uniform(size)
       val end = draws.translation(size) * draws.rotation() * start
       val motion = Interpolation(start, end, 0f, 1f, shortest = true)
-      kind.make(draws, Transform.Identity, 1f, Some(motion))
+      kind.create(draws, Transform.Identity, 1f, Some(motion))
 
   /** Finds a point of a shape and makes it again, moved by that. */
   private def onOrigin(): Target =
     val turned = draws.rotation()
     val seed = draws.below(1 << 20)
-    val first = kind.make(Draws(seed), turned, size, None)
+    val first = kind.create(Draws(seed), turned, size, None)
     if land(first, 0.4f) then
-      kind.make(Draws(seed), Transform.translate(-at.p.x, -at.p.y, -at.p.z) * turned, size, None)
+      kind.create(Draws(seed), Transform.translate(-at.p.x, -at.p.y, -at.p.z) * turned, size, None)
     else onOrigin()
 
   /** Aims at the target, and answers whether the hit's geometry is now in `at`. */
@@ -71,19 +71,19 @@ final class SpawnedRays(kind: Kind, place: Place, trials: Trials):
     val inBox = draws.vec(-spread, spread)
     val goal = box.center +
       Vec3(inBox.x * box.extent.x, inBox.y * box.extent.y, inBox.z * box.extent.z)
-    meet(target, o, goal)
+    trace(target, o, goal)
 
-  private def meet(target: Target, o: Vec3, goal: Vec3): Boolean =
+  private def trace(target: Target, o: Vec3, goal: Vec3): Boolean =
     ray.time = draws.unit()
     ray.set(o, (goal - o).normalized, Float.PositiveInfinity)
-    val found = target.closest(ray, hit)
-    if found then target.fill(ray, hit, at)
-    found
+    val hasHit = target.closest(ray, hit)
+    if hasHit then target.fill(ray, hit, at)
+    hasHit
 
   /** Close to the origin, at any scale. */
   private def landOnGround(target: Target): Boolean =
     val goal = draws.direction() * draws.magnitude(1e-6, 1e3)
-    meet(target, goal + draws.direction() * draws.magnitude(1e-2, 1e3), goal)
+    trace(target, goal + draws.direction() * draws.magnitude(1e-2, 1e3), goal)
 
   /** @throws IllegalStateException if rays miss the shapes nearly always */
   def tally(): Tally =
@@ -94,7 +94,7 @@ final class SpawnedRays(kind: Kind, place: Place, trials: Trials):
       var k = 0
       while k < SpawnedRays.PerShape do
         if place == Place.Ground && landOnGround(t) || place != Place.Ground && land(t, 0.4f) then
-          val fault = leave(t)
+          val fault = spawnFault(t)
           landed += 1
           if fault.nonEmpty then
             faults += 1
@@ -106,7 +106,7 @@ final class SpawnedRays(kind: Kind, place: Place, trials: Trials):
     Tally(landed, faults, first)
 
   /** Spawns a ray at `at`; returns what is wrong with it. */
-  private def leave(target: Target): String =
+  private def spawnFault(target: Target): String =
     val n = at.geometricNormal
     val p = at.p
     if !(n.isFinite && Math.abs(n.length - 1f) < 1e-5f && p.isFinite) then s"point $p, normal $n"

@@ -43,19 +43,19 @@ enum Leaving:
 
 /** One kind of shape.
   *
-  * @param make a shape of about the given size, placed; moved about by `motion` if there is one
+  * @param create a shape of about the given size, placed; moved about by `motion` if there is one
   */
 final case class Kind(name: String, leaving: Leaving, quick: Int = 2500)(
-    val make: (Draws, Transform, Float, Option[Motion]) => Target
+    val create: (Draws, Transform, Float, Option[Motion]) => Target
 )
 
 object Kind:
-  private def still(motion: Option[Motion]) = motion.getOrElse(Still(Transform.Identity))
+  private def motionOrRest(motion: Option[Motion]) = motion.getOrElse(Still(Transform.Identity))
 
   private def of(name: String, leaving: Leaving, quick: Int = 2500)(
       shapes: (Draws, Transform, Float) => Seq[Shape]
   ): Kind = Kind(name, leaving, quick)((draws, toWorld, size, motion) =>
-    Target(shapes(draws, toWorld, size), still(motion))
+    Target(shapes(draws, toWorld, size), motionOrRest(motion))
   )
 
   private def quadric(name: String, kind: Int, leaving: Leaving) =
@@ -89,12 +89,12 @@ object Kind:
       Seq.tabulate(segments.count)(CurveSegment(segments, _))
 
   private def triangles(draws: Draws, toWorld: Transform, size: Float) =
-    Solids.of(Solids.around(draws, 1, size)(Vec3.Zero).map: (a, b, c) =>
+    Solids.of(Solids.randomTriangles(draws, 1, size)(Vec3.Zero).map: (a, b, c) =>
       (toWorld.point(a), toWorld.point(b), toWorld.point(c)))
 
   val all: Seq[Kind] = Seq(
     Kind("triangle", Leaving.Anywhere)((draws, toWorld, size, motion) =>
-      Target.mesh(triangles(draws, toWorld, size), still(motion))
+      Target.mesh(triangles(draws, toWorld, size), motionOrRest(motion))
     ),
     of("disk", Leaving.Anywhere)((draws, toWorld, size) =>
       Seq(Disk(toWorld, size * draws.between(-1, 1), size, 0f, TwoPi, draws.coin()))

@@ -41,16 +41,16 @@ object ErrorInterval:
     val mean = parts.map(_.sum).sum / seeds
     if seeds == 1 then ErrorInterval(Interval(mean, Double.NaN, Double.NaN), Double.NaN)
     else
-      val whole = Spread.of(Vector(parts.map(_.sum)), seeds)
-      val within = Spread.of(parts.head.indices.map(i => parts.map(_(i))), seeds)
+      val imageSpread = Spread.of(Vector(parts.map(_.sum)), seeds)
+      val partSpread = Spread.of(parts.head.indices.map(i => parts.map(_(i))), seeds)
       val spread =
-        if whole.variance > within.variance * chance(seeds - 1) then whole else within
-      limits(mean, within, spread, seeds)
+        if imageSpread.variance > partSpread.variance * chance(seeds - 1) then imageSpread else partSpread
+      limits(mean, partSpread, spread, seeds)
 
-  private def limits(mean: Double, within: Spread, spread: Spread, seeds: Int): ErrorInterval =
+  private def limits(mean: Double, partSpread: Spread, spread: Spread, seeds: Int): ErrorInterval =
     if spread.variance <= 0 then ErrorInterval(Interval(mean, mean, mean), Double.PositiveInfinity)
     else
-      val events = mean * mean / within.variance
+      val events = mean * mean / partSpread.variance
       val t = Statistics.studentLimit(spread.degrees)
       val low = gamma(mean, spread.variance, -t)
       val missed = NextEvent * (1 + 1.0 / seeds) * spread.largest * spread.largest /
@@ -82,12 +82,12 @@ object ErrorInterval:
     /** @param values of each independent part, one for each seed */
     def of(values: Iterable[Vector[Double]], seeds: Int): Spread =
       var variance, squares, largest = 0.0
-      for own <- values do
-        val mean = own.sum / seeds
-        val partVariance = own.map(v => (v - mean) * (v - mean)).sum / (seeds - 1) / seeds
+      for seedValues <- values do
+        val mean = seedValues.sum / seeds
+        val partVariance = seedValues.map(v => (v - mean) * (v - mean)).sum / (seeds - 1) / seeds
         variance += partVariance
         squares += partVariance * partVariance
-        largest = Math.max(largest, own.max - mean)
+        largest = Math.max(largest, seedValues.max - mean)
       // The square of a variance from few seeds is too large by (seeds + 1) / (seeds − 1)
       val equal = if squares > 0 then variance * variance / squares else 1.0
       val degrees = equal * (seeds + 1) - 2

@@ -14,45 +14,45 @@ final class Fourier(length: Int):
     sines(i) = -Math.sin(2 * Math.PI * i / length)
   private val readRe, readIm, partRe, partIm = new Array[Double](length)
 
-  /** Transforms complex numbers in place: those from `begin` on, `stride` apart. */
-  def transform(re: Array[Double], im: Array[Double], begin: Int, stride: Int): Unit =
+  /** Transforms complex numbers in place: those from `start` on, `stride` apart. */
+  def transform(re: Array[Double], im: Array[Double], start: Int, stride: Int): Unit =
     var i = 0
     while i < length do
-      readRe(i) = re(begin + i * stride)
-      readIm(i) = im(begin + i * stride)
+      readRe(i) = re(start + i * stride)
+      readIm(i) = im(start + i * stride)
       i += 1
-    transformed(re, im, begin, stride, 0, 1, length)
+    transformed(re, im, start, stride, 0, 1, length)
 
   /** Transforms `n` of the numbers that were read, from `from` on, `step` apart. */
   private def transformed(
       re: Array[Double],
       im: Array[Double],
-      begin: Int,
+      start: Int,
       stride: Int,
       from: Int,
       step: Int,
       n: Int
   ): Unit =
     if n == 1 then
-      re(begin) = readRe(from)
-      im(begin) = readIm(from)
+      re(start) = readRe(from)
+      im(start) = readIm(from)
     else
       val factor = smallestFactor(n)
-      val rest = n / factor
+      val size = n / factor
       var r = 0
       while r < factor do
-        transformed(re, im, begin + r * rest * stride, stride, from + r * step, step * factor, rest)
+        transformed(re, im, start + r * size * stride, stride, from + r * step, step * factor, size)
         r += 1
       var k = 0
-      while k < rest do
-        joined(re, im, begin + k * stride, rest * stride, k, factor, n)
+      while k < size do
+        joined(re, im, start + k * stride, size * stride, k, factor, n)
         k += 1
 
   /** Joins the k-th results of all parts. */
   private def joined(
       re: Array[Double],
       im: Array[Double],
-      begin: Int,
+      start: Int,
       stride: Int,
       k: Int,
       factor: Int,
@@ -61,8 +61,8 @@ final class Fourier(length: Int):
     val turn = length / n
     var r = 0
     while r < factor do
-      partRe(r) = re(begin + r * stride)
-      partIm(r) = im(begin + r * stride)
+      partRe(r) = re(start + r * stride)
+      partIm(r) = im(start + r * stride)
       r += 1
     var q = 0
     while q < factor do
@@ -73,8 +73,8 @@ final class Fourier(length: Int):
         sumRe += partRe(r) * cosines(angle) - partIm(r) * sines(angle)
         sumIm += partRe(r) * sines(angle) + partIm(r) * cosines(angle)
         r += 1
-      re(begin + q * stride) = sumRe
-      im(begin + q * stride) = sumIm
+      re(start + q * stride) = sumRe
+      im(start + q * stride) = sumIm
       q += 1
 
   private def smallestFactor(n: Int): Int =

@@ -105,7 +105,7 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
     val errors = curve(_.estimate)
     Option.when(errors.nonEmpty)((errors.map(_._1).min, errors.map(_._1).max))
 
-  def least: Double = curve(_.estimate).map(_._2).minOption.getOrElse(Double.PositiveInfinity)
+  def lowestError: Double = curve(_.estimate).map(_._2).minOption.getOrElse(Double.PositiveInfinity)
 
   /** The largest peak memory of all runs, in bytes, if known. */
   def memory: Option[Long] = measurements.flatMap(_.memory).maxOption
@@ -134,11 +134,11 @@ private object CurveDoubts:
     val next = errors(if after < 0 then errors.size - 1 else after)
     val last = if after > 0 then errors(after - 1) else next
     val width = Math.log(next._1 / last._1)
-    val part = if width > 0 then Math.log(seconds / last._1) / width else 0.0
+    val fraction = if width > 0 then Math.log(seconds / last._1) / width else 0.0
     def together(far: Interval => Double): Double =
-      val (a, b) = ((1 - part) * Math.log(far(last._2)), part * Math.log(far(next._2)))
+      val (a, b) = ((1 - fraction) * Math.log(far(last._2)), fraction * Math.log(far(next._2)))
       // Zero times an infinite logarithm: the other point is that of the curve
-      if part <= 0 then far(last._2)
-      else if part >= 1 then far(next._2)
+      if fraction <= 0 then far(last._2)
+      else if fraction >= 1 then far(next._2)
       else Math.exp(Math.sqrt(a * a + b * b + 2 * Correlation * a * b))
     (together(i => i.estimate / i.low), together(i => i.high / i.estimate))

@@ -16,8 +16,8 @@ object Statistics:
     val mean = values.sum / n
     if n == 1 then Interval(mean, Double.NaN, Double.NaN)
     else
-      val half = studentLimit(n - 1) * deviation(values) / Math.sqrt(n)
-      Interval(mean, mean - half, mean + half)
+      val halfWidth = studentLimit(n - 1) * deviation(values) / Math.sqrt(n)
+      Interval(mean, mean - halfWidth, mean + halfWidth)
 
   /** Standard deviation of what the values are drawn from; NaN for a single one. */
   def deviation(values: Vector[Double]): Double =

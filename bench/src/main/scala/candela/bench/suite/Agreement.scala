@@ -14,12 +14,12 @@ private[suite] final case class Difference(
     share: Double,
     noise: Double,
     channel: String,
-    where: String
+    location: String
 ):
   def words(counterpart: String): String =
     if share.isNaN then s"not compared: its image has another size than that of $counterpart"
     else
-      val size = f"${100 * share}%+.2g %% in $channel $where"
+      val size = f"${100 * share}%+.2g %% in $channel $location"
       s"not compared: its mean differs from that of $counterpart by $size; " +
         f"the noise is ${100 * noise}%.1g %%"
 
@@ -49,8 +49,8 @@ private[suite] object Agreement:
     if images.exists(i => i.width != width || i.height != height) then
       Some(Difference(Double.NaN, 0, "", ""))
     else
-      val (own, other) = (Tally(images), Tally(counterpart))
-      val found =
+      val (ours, other) = (Tally(images), Tally(counterpart))
+      val differences =
         for
           c <- 0 until 3
           middle = other.mean(Block(0, width, 0, height), c)
@@ -58,15 +58,15 @@ private[suite] object Agreement:
           scale = Math.max(other.mean(block, c), Dark * middle)
           if scale > 0
         yield
-          val share = (own.mean(block, c) - other.mean(block, c)) / scale
+          val share = (ours.mean(block, c) - other.mean(block, c)) / scale
           // The noise of a single image is taken for that of the other program
           val noise = Math.hypot(
-            own.noise(block, c).orElse(other.noise(block, c)).getOrElse(0.0),
+            ours.noise(block, c).orElse(other.noise(block, c)).getOrElse(0.0),
             other.noise(block, c).getOrElse(0.0)
           ) / scale
           (Math.abs(share) - allowed - Deviations * noise) ->
-            Difference(share, noise, Channels(c), block.where(width, height))
-      found.filter(_._1 > 0).maxByOption(_._1).map(_._2)
+            Difference(share, noise, Channels(c), block.describe(width, height))
+      differences.filter(_._1 > 0).maxByOption(_._1).map(_._2)
 
   private val Channels = Vector("red", "green", "blue")
 
@@ -87,7 +87,7 @@ private[suite] object Agreement:
 
   private final case class Block(x0: Int, x1: Int, y0: Int, y1: Int):
     def pixels: Int = (x1 - x0) * (y1 - y0)
-    def where(width: Int, height: Int): String =
+    def describe(width: Int, height: Int): String =
       if x1 - x0 == width && y1 - y0 == height then "over the image"
       else s"in pixels $x0 to ${x1 - 1}, $y0 to ${y1 - 1}"
 
@@ -121,27 +121,27 @@ private[suite] object Agreement:
 
 /** The images of a scene by which programs are compared with their counterparts. */
 private[suite] final class Witnesses(suite: Suite):
-  private val kept = mutable.HashMap.empty[Entry, (Int, Map[Int, Image])]
+  private val longest = mutable.HashMap.empty[Entry, (Int, Map[Int, Image])]
   private val compared =
     suite.programs.filter(_.counterpart.isDefined).flatMap(p => p.counterpart.toSeq :+ p.name).toSet
 
   /** Keeps the images of each program's longest renderings. */
   def take(job: Job, image: Image): Unit =
     if job.isPoint && compared(job.entry.program.name) then
-      val (step, images) = kept.getOrElse(job.entry, (job.step, Map.empty[Int, Image]))
-      if job.step > step then kept(job.entry) = (job.step, Map(job.seed -> image))
-      else if job.step == step then kept(job.entry) = (step, images.updated(job.seed, image))
+      val (step, images) = longest.getOrElse(job.entry, (job.step, Map.empty[Int, Image]))
+      if job.step > step then longest(job.entry) = (job.step, Map(job.seed -> image))
+      else if job.step == step then longest(job.entry) = (step, images.updated(job.seed, image))
 
   /** Programs that render another scene, and in words what differs; all images are forgotten. */
   def refused(): Vector[(Entry, String)] =
-    val found =
+    val mismatches =
       for
-        (entry, (_, images)) <- kept.toVector
+        (entry, (_, images)) <- longest.toVector
         name <- entry.program.counterpart
-        (other, (_, theirs)) <- kept.find(_._1.program.name == name)
+        (other, (_, theirs)) <- longest.find(_._1.program.name == name)
         ours =
           if entry.program.isSeeded then images.values.toVector else images.values.take(1).toVector
         difference <- Agreement.broken(ours, theirs.values.toVector)
       yield entry -> difference.words(other.program.title)
-    kept.clear()
-    found
+    longest.clear()
+    mismatches

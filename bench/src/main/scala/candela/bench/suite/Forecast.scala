@@ -8,7 +8,7 @@ import scala.collection.mutable
 private[suite] final class Forecast(runs: Vector[Forecast.Run]):
   import Forecast.*
 
-  private val left = mutable.Map.from(runs.groupMapReduce(identity)(_ => 1)(_ + _))
+  private val remaining = mutable.Map.from(runs.groupMapReduce(identity)(_ => 1)(_ + _))
   private val times = mutable.Map.empty[Run, Vector[Double]]
   private var done = 0
 
@@ -16,25 +16,25 @@ private[suite] final class Forecast(runs: Vector[Forecast.Run]):
   def ended(job: Job, seconds: Option[Double]): Unit =
     val run = Run(job.entry.program.name, job.entry.scene.name, job.step)
     done += 1
-    left.updateWith(run)(_.map(_ - 1).filter(_ > 0)): Unit
+    remaining.updateWith(run)(_.map(_ - 1).filter(_ > 0)): Unit
     for s <- seconds do times(run) = times.getOrElse(run, Vector.empty) :+ s
 
   /** A run will be repeated. */
   def again(job: Job): Unit =
     val run = Run(job.entry.program.name, job.entry.scene.name, job.step)
-    left.updateWith(run)(n => Some(n.getOrElse(0) + 1)): Unit
+    remaining.updateWith(run)(n => Some(n.getOrElse(0) + 1)): Unit
 
   /** Drops the runs of `entry` from `step` on, and those of first images, if it has none. */
   def dropFrom(entry: Entry, step: Int, hasFirstImage: Boolean): Unit =
     def isOf(run: Run) = run.program == entry.program.name && run.scene == entry.scene.name
-    left.filterInPlace((run, _) =>
+    remaining.filterInPlace((run, _) =>
       !isOf(run) ||
         (if run.step == Job.FirstImage then hasFirstImage else 0 <= run.step && run.step < step)
     ): Unit
 
   /** None until some program has completed one of the steps. */
   def secondsLeft: Option[Double] =
-    val all = left.toVector.map((run, count) => expected(run).map(_ * count))
+    val all = remaining.toVector.map((run, count) => expected(run).map(_ * count))
     Option.when(all.forall(_.isDefined))(all.flatten.sum)
 
   def words: String =
@@ -42,12 +42,12 @@ private[suite] final class Forecast(runs: Vector[Forecast.Run]):
       case None | Some(0.0) => ""
       case Some(s) if s < 90 => f", about $s%.0f s left"
       case Some(s) => f", about ${s / 60}%.0f min left"
-    s"[$done of ${done + left.values.sum}$time]"
+    s"[$done of ${done + remaining.values.sum}$time]"
 
   private def expected(run: Run): Option[Double] =
     def mean(like: Run => Boolean) =
-      val known = times.filter((r, _) => like(r)).values.flatten.toVector
-      Option.when(known.nonEmpty)(known.sum / known.size)
+      val measured = times.filter((r, _) => like(r)).values.flatten.toVector
+      Option.when(measured.nonEmpty)(measured.sum / measured.size)
     mean(_ == run)
       .orElse(mean(r => r.program == run.program && r.step == run.step))
       .orElse(mean(_.step == run.step))

@@ -33,14 +33,14 @@ final class Installed(environment: Map[String, String]):
     val variable = s"PBRT_V$version"
     def sought = Vector(s"pbrt-v$version", s"pbrt$version").flatMap(onPath).headOption
       .orElse(onPath("pbrt").filter(isVersion(_, version)))
-    val where = s"build it from github.com/mmp/pbrt-v$version and set $variable to its program"
-    named(variable).orElse(sought.map(on)).toRight(Absent(s"pbrt-v$version", where))
+    val hint = s"build it from github.com/mmp/pbrt-v$version and set $variable to its program"
+    named(variable).orElse(sought.map(present)).toRight(Absent(s"pbrt-v$version", hint))
 
   /** `MITSUBA`, or the program of this name on the path or beside Python. */
   def mitsuba: Either[Absent, Present] =
     def sought = onPath("mitsuba").orElse(beside(python, "mitsuba"))
-    val where = "`pip install mitsuba`; or set MITSUBA to its program"
-    named("MITSUBA").orElse(sought.map(on)).toRight(Absent("Mitsuba 3", where))
+    val hint = "`pip install mitsuba`; or set MITSUBA to its program"
+    named("MITSUBA").orElse(sought.map(present)).toRight(Absent("Mitsuba 3", hint))
 
   /** Mitsuba again, where its LLVM backend is said to work. */
   def mitsubaLlvm: Option[Present] = named("MITSUBA_LLVM")
@@ -51,16 +51,16 @@ final class Installed(environment: Map[String, String]):
 
   /** Nothing if Python has all these packages, else where to get them. */
   def library(title: String, packages: String*): Option[Absent] =
-    Option.unless(packages.forall(known)):
+    Option.unless(packages.forall(hasPackage)):
       val names = packages.mkString(" ")
       val install = s"`pip install $names`, for the Python that $Python names or `python3`"
-      val missing = if told.isEmpty then s"`$python` is not installed; after that, " else ""
+      val missing = if installedPackages.isEmpty then s"`$python` is not installed; after that, " else ""
       Absent(title, missing + install)
 
-  private def known(name: String): Boolean = told.contains(s"'$name'")
+  private def hasPackage(name: String): Boolean = installedPackages.contains(s"'$name'")
 
   /** A list of the packages that Python has; empty if it can't be started. */
-  private lazy val told: String =
+  private lazy val installedPackages: String =
     val listed = Packages.mkString("['", "', '", "']")
     output(Vector(
       python,
@@ -68,7 +68,7 @@ final class Installed(environment: Map[String, String]):
       s"import importlib.util as u; print([x for x in $listed if u.find_spec(x)])"
     ))
 
-  private def on(word: String) = Present(Vector(word), None)
+  private def present(word: String) = Present(Vector(word), None)
 
   private def named(variable: String): Option[Present] =
     environment.get(variable).map(_.trim).filter(_.nonEmpty).map: command =>
@@ -77,17 +77,17 @@ final class Installed(environment: Map[String, String]):
   /** By the options that its help names. */
   private def isVersion(word: String, version: Int): Boolean =
     val help = output(Vector(word, "--help"))
-    val found =
+    val detected =
       if help.contains("--debugstart") then 4 else if help.contains("--ncores") then 2 else 3
-    help.contains("pbrt") && found == version
+    help.contains("pbrt") && detected == version
 
   private def onPath(name: String): Option[String] =
     environment.getOrElse("PATH", "").split(File.pathSeparatorChar).toVector.filter(_.nonEmpty)
       .map(Path.of(_).resolve(name)).find(Files.isExecutable(_)).map(_.toString)
 
   private def beside(program: String, name: String): Option[String] =
-    val there = if program.contains('/') then Some(program) else onPath(program)
-    there.map(Path.of(_).resolveSibling(name)).filter(Files.isExecutable(_)).map(_.toString)
+    val executable = if program.contains('/') then Some(program) else onPath(program)
+    executable.map(Path.of(_).resolveSibling(name)).filter(Files.isExecutable(_)).map(_.toString)
 
 object Installed:
   /** The variable that names a Python. */

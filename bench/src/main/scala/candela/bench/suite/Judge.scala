@@ -66,7 +66,7 @@ private[suite] final class SeedJudge(suite: Suite, scratch: Path) extends Judge:
   private final case class Kept(job: Job, seconds: Double, memory: Option[Long], file: Path):
     def image: Image = ImageFiles.read(file).toRgb
 
-  private var kept = Vector.empty[Kept]
+  private var storedImages = Vector.empty[Kept]
   private var files = 0
 
   /** All images must have its size. */
@@ -79,17 +79,17 @@ private[suite] final class SeedJudge(suite: Suite, scratch: Path) extends Judge:
       val file = scratch.resolve(s"${job.entry.scene.name}-$files.exr")
       files += 1
       ImageFiles.write(file, image)
-      kept = kept.filterNot(_.job.isInPlaceOf(job)) :+ Kept(job, seconds, memory, file)
+      storedImages = storedImages.filterNot(_.job.isInPlaceOf(job)) :+ Kept(job, seconds, memory, file)
       pooled = None
     "error known after all seeds"
 
   def drop(entries: Set[Entry]): Unit =
-    kept = kept.filterNot(k => entries(k.job.entry))
+    storedImages = storedImages.filterNot(k => entries(k.job.entry))
     pooled = None
 
   /** Of the sample counts that have been rendered with enough seeds. */
   private def sets: Vector[Vector[Kept]] =
-    val all = kept.groupBy(k => (k.job.entry, k.job.step)).values
+    val all = storedImages.groupBy(k => (k.job.entry, k.job.step)).values
     all.filter(_.sizeIs >= SeedNoise.Fewest).toVector
 
   def results: Vector[Result] =
@@ -104,7 +104,7 @@ private[suite] final class SeedJudge(suite: Suite, scratch: Path) extends Judge:
           else images.map(_ => None)
         set.map(_.job).zip(SeedNoise.of(images, scale).zip(parts))
       val byJob = errors.toMap
-      kept.flatMap: k =>
+      storedImages.flatMap: k =>
         byJob.get(k.job).map((e, parts) => result(k.job, k.seconds, k.memory, e, parts))
 
   /** The mean of the longest renderings of one program of each family, all alike: more variants of

@@ -16,19 +16,19 @@ import scala.util.Try
 private[suite] final case class ProcessorTimes(all: Long, busy: Long, own: Long):
 
   /** Share of the processors that others took from then to now. */
-  def othersSince: Option[Double] = ProcessorTimes.now.flatMap(othersUntil)
+  def othersSince: Option[Double] = ProcessorTimes.current.flatMap(othersUntil)
 
   /** None: too short a time. */
   def othersUntil(later: ProcessorTimes): Option[Double] =
     val ticks = later.all - all
     Option.when(ticks > 0):
-      val others = later.busy - busy - (later.own - own)
-      Math.min(1, Math.max(0, others.toDouble / ticks))
+      val otherTicks = later.busy - busy - (later.own - own)
+      Math.min(1, Math.max(0, otherTicks.toDouble / ticks))
 
 private[suite] object ProcessorTimes:
 
   /** None where the system doesn't tell. */
-  def now: Option[ProcessorTimes] = Try:
+  def current: Option[ProcessorTimes] = Try:
     of(Files.readString(Path.of("/proc/stat")), Files.readString(Path.of("/proc/self/stat")))
   .toOption
 

@@ -14,14 +14,14 @@ final class PublicNames(values: Map[String, String], folders: Vector[(String, St
 
   /** @param first variables preferred among those of equal value */
   def of(text: String, first: Vector[String] = Vector.empty): String =
-    val (own, others) = values.toVector.sorted.partition((name, _) => first.contains(name))
-    val variables = (own ++ others).filter(_._2.nonEmpty).distinctBy(_._2)
+    val (preferred, remaining) = values.toVector.sorted.partition((name, _) => first.contains(name))
+    val variables = (preferred ++ remaining).filter(_._2.nonEmpty).distinctBy(_._2)
     // Longest first, because one may be a prefix of another.
     val named = variables.sortBy(-_._2.length).foldLeft(text):
       case (t, (name, value)) =>
         // Matches neither part of a longer name, nor one that begins elsewhere.
-        val whole = s"(?<![\\w/.-])${Regex.quote(value)}(?![\\w.-])"
-        whole.r.replaceAllIn(t, Regex.quoteReplacement("$" + name))
+        val pattern = s"(?<![\\w/.-])${Regex.quote(value)}(?![\\w.-])"
+        pattern.r.replaceAllIn(t, Regex.quoteReplacement("$" + name))
     folders.foldLeft(named):
       case (t, (folder, instead)) => t.replace(folder, instead)
 
@@ -32,7 +32,7 @@ object PublicNames:
     val variables = suite.programs.flatMap(_.needs) ++ suite.scenes.flatMap(_.needs)
     val values = variables.distinct.flatMap(name => sys.env.get(name).map(name -> _))
     val separator = java.io.File.separator
-    val places = Vector(scratch -> "", Path.of("").toAbsolutePath -> "")
+    val prefixes = Vector(scratch -> "", Path.of("").toAbsolutePath -> "")
       .map((folder, instead) => s"$folder$separator" -> instead)
     val home = Option(System.getProperty("user.home")).filter(_.length > 1)
-    PublicNames(values.toMap, places ++ home.map(h => s"$h$separator" -> s"~$separator"))
+    PublicNames(values.toMap, prefixes ++ home.map(h => s"$h$separator" -> s"~$separator"))

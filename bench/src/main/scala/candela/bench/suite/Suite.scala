@@ -121,11 +121,11 @@ final case class Suite(
     )
 
   /** Restricted to these programs and scenes; empty keeps all. */
-  def only(programNames: Vector[String], sceneNames: Vector[String]): Suite =
-    def check(asked: Vector[String], known: Vector[String], what: String): Unit =
-      for name <- asked if !known.contains(name) do
+  def restricted(programNames: Vector[String], sceneNames: Vector[String]): Suite =
+    def check(requested: Vector[String], available: Vector[String], what: String): Unit =
+      for name <- requested if !available.contains(name) do
         val message = s"unknown $what `$name`"
-        throw SceneError(Problem.general(Code.SuiteFile, message, Suggest.help(name, known)))
+        throw SceneError(Problem.general(Code.SuiteFile, message, Suggest.help(name, available)))
     check(programNames, programs.map(_.name), "program")
     check(sceneNames, scenes.map(_.name), "scene")
     copy(

@@ -30,14 +30,14 @@ object SuiteFile:
     catch
       case e: ConfigException =>
         // Some of its messages begin with the file
-        val why = e.getMessage.linesIterator.next().stripPrefix(s"${path.toAbsolutePath}: ")
-        throw wrong(s"$path: $why")
+        val reason = e.getMessage.linesIterator.next().stripPrefix(s"${path.toAbsolutePath}: ")
+        throw wrong(s"$path: $reason")
       case e: PatternSyntaxException =>
         throw wrong(s"$path: invalid regular expression: ${e.getMessage.linesIterator.next()}")
       case e: SceneError =>
-        val own = path.toAbsolutePath.toString
+        val absolutePath = path.toAbsolutePath.toString
         throw SceneError(e.problems.map: p =>
-          p.copy(at = p.at.map(at => if at.file == own then at.copy(file = s"$path") else at)))
+          p.copy(pos = p.pos.map(at => if at.file == absolutePath then at.copy(file = s"$path") else at)))
 
   private val suiteKeys = Set("title", "samples", "seconds", "seeds", "timeout") ++
     Set("programs", "scenes")
@@ -48,15 +48,15 @@ object SuiteFile:
 
   private def suite(c: Config, file: Path): Suite =
     // Keys for substitution only start with an underscore: `_flags`.
-    known(c, suiteKeys, "the suite")
-    val own = named(c, "programs", file)
-    val programs = own.zipWithIndex.map: (n, i) =>
+    checkKeys(c, suiteKeys, "the suite")
+    val programNames = named(c, "programs", file)
+    val programs = programNames.zipWithIndex.map: (n, i) =>
       val entries = c.getConfig(s"programs.$n")
-      checkPrograms(entries, "counterpart", s"program $n", own)(one)
+      checkPrograms(entries, "counterpart", s"program $n", programNames)(singleText)
       program(n, entries, i)
     val scenes = named(c, "scenes", file).map: n =>
       val entries = c.getConfig(s"scenes.$n")
-      checkPrograms(entries, "programs", s"scene $n", own)(texts)
+      checkPrograms(entries, "programs", s"scene $n", programNames)(texts)
       scene(n, entries, file.getParent)
     Suite(
       text(c, "title", FileName.stem(file)),
@@ -73,13 +73,13 @@ object SuiteFile:
   /** In file order, those of included files last. */
   private def named(c: Config, key: String, file: Path): Vector[String] =
     val entries = c.getObject(key)
-    val own = Option(file.toString)
+    val suiteFile = Option(file.toString)
     entries.keySet.asScala.toVector.sortBy: k =>
       val origin = entries.get(k).origin
-      (Option(origin.filename) != own, origin.lineNumber)
+      (Option(origin.filename) != suiteFile, origin.lineNumber)
 
   private def program(name: String, c: Config, index: Int): Program =
-    known(c, programKeys, s"program $name")
+    checkKeys(c, programKeys, s"program $name")
     val command = if c.hasPath("command") then c.getString("command") else ""
     val words = command.split(' ').toVector.filter(_.nonEmpty)
     filled(c, "command", s"program $name", Commands.Placeholders)
@@ -103,7 +103,7 @@ object SuiteFile:
     )
 
   private def edit(c: Config, program: String): Edit =
-    known(c, Set("find", "replace"), s"`edits` of program $program")
+    checkKeys(c, Set("find", "replace"), s"`edits` of program $program")
     filled(c, "replace", s"an edit of program $program", Commands.EditPlaceholders)
     Edit(c.getString("find").r, c.getString("replace"))
 
@@ -111,25 +111,25 @@ object SuiteFile:
   private val Placeholder = """(?<![$\\])\{\w+\}""".r
 
   /** Rejects unknown placeholders, because programs would get them as they are. */
-  private def filled(c: Config, key: String, where: String, known: Vector[String]): Unit =
+  private def filled(c: Config, key: String, where: String, placeholders: Vector[String]): Unit =
     if c.hasPath(key) then
-      for found <- Placeholder.findAllIn(c.getString(key)) if !known.contains(found) do
-        val message = s"unknown placeholder `$found` in $where"
-        throw unknown(message, found, known, c.getValue(key).origin)
+      for placeholder <- Placeholder.findAllIn(c.getString(key)) if !placeholders.contains(placeholder) do
+        val message = s"unknown placeholder `$placeholder` in $where"
+        throw unknown(message, placeholder, placeholders, c.getValue(key).origin)
 
-  private def checkPrograms(c: Config, key: String, where: String, known: Vector[String])(
+  private def checkPrograms(c: Config, key: String, where: String, programNames: Vector[String])(
       names: (Config, String) => Vector[String]
   ): Unit =
     if c.hasPath(key) then
-      for name <- names(c, key) if !known.contains(name) do
+      for name <- names(c, key) if !programNames.contains(name) do
         val message = s"unknown program `$name` in `$key` of $where"
-        throw unknown(message, name, known, c.getValue(key).origin)
+        throw unknown(message, name, programNames, c.getValue(key).origin)
 
   /** An unknown name, with its place and the nearest known one. */
   private def unknown(
       message: String,
       name: String,
-      known: Iterable[String],
+      candidates: Iterable[String],
       origin: ConfigOrigin
   ): SceneError =
     val text =
@@ -141,11 +141,11 @@ object SuiteFile:
         index = Some(lines.indexWhere(_.contains(name), first)).filter(_ >= 0).getOrElse(first)
         text <- lines.lift(index)
       yield (SourcePos(file, index + 1, math.max(text.indexOf(name), 0) + 1), text)
-    val problem = Problem.error(Code.SuiteFile, text.map(_._1), message, Suggest.help(name, known))
+    val problem = Problem.error(Code.SuiteFile, text.map(_._1), message, Suggest.help(name, candidates))
     SceneError(problem.copy(excerpt = text.map(_._2)))
 
   private def scene(name: String, c: Config, folder: Path): SuiteScene =
-    known(c, sceneKeys, s"scene $name")
+    checkKeys(c, sceneKeys, s"scene $name")
     val files = c.getConfig("files")
     SuiteScene(
       name,
@@ -161,7 +161,7 @@ object SuiteFile:
     )
 
   private def growth(c: Config, scene: String): Growth =
-    known(c, Set("of", "size"), s"`grows` of scene $scene")
+    checkKeys(c, Set("of", "size"), s"`grows` of scene $scene")
     val size = c.getDouble("size")
     if !(size > 0) then
       throw wrong(s"`size` must be greater than 0, found `${c.getString("size")}`")
@@ -169,29 +169,29 @@ object SuiteFile:
 
   private def work(c: Config): Option[Work] =
     if c.hasPath("samples") then
-      val counts = once("samples", c.getIntList("samples").asScala.toVector.map(_.intValue))
+      val counts = unique("samples", c.getIntList("samples").asScala.toVector.map(_.intValue))
       if counts.isEmpty || counts.head < 1 then throw wrong("`samples` must be at least 1")
       Some(Work.Samples(counts))
     else if c.hasPath("seconds") then
-      val budgets = once("seconds", c.getDoubleList("seconds").asScala.toVector.map(_.doubleValue))
+      val budgets = unique("seconds", c.getDoubleList("seconds").asScala.toVector.map(_.doubleValue))
       if budgets.isEmpty || budgets.head <= 0 then throw wrong("`seconds` must be greater than 0")
       Some(Work.Seconds(budgets))
     else None
 
   /** In order. */
-  private def once[N: Ordering](key: String, all: Vector[N]): Vector[N] =
+  private def unique[N: Ordering](key: String, all: Vector[N]): Vector[N] =
     for n <- Work.repeated(all) do throw wrong(s"`$key` has `$n` twice")
     all.sorted
 
   /** Rejects unknown keys, because a misspelt one must not be ignored. */
-  private def known(c: Config, keys: Set[String], where: String): Unit =
+  private def checkKeys(c: Config, keys: Set[String], where: String): Unit =
     for key <- c.root.keySet.asScala.toVector.sorted if !keys(key) && !key.startsWith("_") do
       throw unknown(s"unknown key `$key` in $where", key, keys, c.root.get(key).origin)
 
   private def text(c: Config, key: String, other: String): String =
     if c.hasPath(key) then c.getString(key) else other
 
-  private def one(c: Config, key: String): Vector[String] = Vector(c.getString(key))
+  private def singleText(c: Config, key: String): Vector[String] = Vector(c.getString(key))
 
   private def texts(c: Config, key: String): Vector[String] = c.getStringList(key).asScala.toVector
 

@@ -21,7 +21,7 @@ object SuiteResults:
       self: Vector[String],
       scratch: Path,
       version: String,
-      say: String => Unit,
+      log: String => Unit,
       isCancelled: () => Boolean = () => false,
       publish: SuiteReport => Unit = _ => (),
       leftOut: Vector[(String, String)] = Vector.empty
@@ -31,7 +31,7 @@ object SuiteResults:
     val begun = LocalDateTime.now.format(DateTimeFormatter.ofPattern("yyyy-MM-dd HH:mm"))
     val started = System.nanoTime
     val commands = Commands(self, scratch, isCancelled)
-    val runner = SuiteRunner(suite, commands, scratch, names, say, isCancelled)
+    val runner = SuiteRunner(suite, commands, scratch, names, log, isCancelled)
     def report(results: Vector[Result]): SuiteReport =
       val seconds = (System.nanoTime - started) * 1e-9
       val scenes = suite.scenes.flatMap: scene =>
@@ -49,10 +49,10 @@ object SuiteResults:
         scenes,
         leftOut.map((what, why) => what -> names.of(why)) ++ runner.omissions
       )
-    machine.business.foreach(words => say(s"warning: $words"))
-    for (what, why) <- leftOut do say(s"skipped: $what: ${names.of(why)}")
+    machine.business.foreach(words => log(s"warning: $words"))
+    for (what, why) <- leftOut do log(s"skipped: $what: ${names.of(why)}")
     val results = report(runner.run(results => publish(report(results))))
-    results.disturbances.foreach(words => say(s"warning: $words"))
+    results.disturbances.foreach(words => log(s"warning: $words"))
     results
 
   private def sceneResult(
@@ -68,14 +68,14 @@ object SuiteResults:
         .map((entry, all) => programResult(entry, all, runner, names))
     val (reference, makers) = runner.reference(scene)
     val voters = suite.voters(p => programs.exists(_.name == p.name)).map(_.name)
-    val least = programs.filter(p => voters.contains(p.name)).map(_.curve.least)
+    val errors = programs.filter(p => voters.contains(p.name)).map(_.curve.lowestError)
     SceneResult(
       scene.name,
       scene.title,
       scene.note,
       reference,
       scene.reference.map(_.getFileName.toString),
-      scene.target.getOrElse(reachable(least)),
+      scene.target.getOrElse(reachable(errors)),
       programs,
       makers.map(_.title),
       runner.biases(suite.programs.flatMap(p => byEntry.keys.find(_.program == p))),
@@ -83,8 +83,8 @@ object SuiteResults:
     )
 
   /** Error that at least half of them reach. */
-  private[suite] def reachable(least: Vector[Double]): Double =
-    val target = least.sorted.apply(least.size / 2)
+  private[suite] def reachable(errors: Vector[Double]): Double =
+    val target = errors.sorted.apply(errors.size / 2)
     // Rounded up to two digits, for legibility.
     val digit = Math.pow(10, Math.floor(Math.log10(Math.max(target, 1e-12))) - 1)
     Math.ceil(target / digit - 1e-9) * digit
@@ -100,7 +100,7 @@ object SuiteResults:
     val first = results.filter(_.job.samples == 1).map(_.measurement.seconds)
     val times = measurements.groupMap(_.samples)(_.seconds)
     // Repeating the same image adds no information about the error.
-    val kept = if program.isSeeded then measurements else measurements.distinctBy(_.samples)
+    val independent = if program.isSeeded then measurements else measurements.distinctBy(_.samples)
     ProgramResult(
       program.name,
       program.title,
@@ -108,8 +108,8 @@ object SuiteResults:
       program.isThin,
       names.of(program.command.mkString(" "), program.needs).replace(Commands.Self, "candela") +
         program.edits.map(e => s"; /${e.find}/ → ${e.replacement}").mkString,
-      MeasuredCurve(kept, times),
+      MeasuredCurve(independent, times),
       runner.picture(entry),
       Option.when(first.nonEmpty)(Statistics.median(first)),
-      runner.others(entry)
+      runner.otherShare(entry)
     )

@@ -50,7 +50,7 @@ private[suite] final case class Result(job: Job, measurement: Measurement)
 /** Runs the programs of a suite on its scenes, taking turns.
   *
   * @param names file names in messages
-  * @param say receives progress messages, one line each
+  * @param log receives progress messages, one line each
   * @param isCancelled polled between runs
   */
 final class SuiteRunner(
@@ -58,7 +58,7 @@ final class SuiteRunner(
     commands: Commands,
     scratch: Path,
     names: PublicNames,
-    say: String => Unit,
+    log: String => Unit,
     isCancelled: () => Boolean
 ):
   private val copies = SceneCopy(scratch)
@@ -110,31 +110,31 @@ final class SuiteRunner(
     (judges(scene).reference, judges(scene).voters)
 
   /** Share of the processors that other programs took during the runs, where the system tells. */
-  private[suite] def others(entry: Entry): Option[Double] =
+  private[suite] def otherShare(entry: Entry): Option[Double] =
     shares.get(entry).map(all => all.map((t, share) => t * share).sum / all.map(_._1).sum)
 
   /** @param afterScene receives the results so far after each scene */
   private[suite] def run(afterScene: Vector[Result] => Unit): Vector[Result] =
-    val there = suite.scenes.filter(isThere)
+    val available = suite.scenes.filter(isThere)
     val programs = suite.programs.filter: program =>
       commands.missing(program).forall: why =>
         leaveOut(program.title, why)
         false
-    val scenes = there.filter(isRead(_, programs))
+    val scenes = available.filter(isRead(_, programs))
     val plans = scenes.map(scene => scene -> programs.flatMap(entryOf(_, scene)))
     forecast = Forecast(plans.flatMap(_._2).flatMap(Forecast.runs(_, suite)))
     nameWidth = plans.flatMap(_._2).map(e => named(e, 1000).length).maxOption.getOrElse(0)
     waiting = scenes
-    plans.foldLeft(Vector.empty[Result]): (before, plan) =>
+    plans.foldLeft(Vector.empty[Result]): (previous, plan) =>
       val (scene, entries) = plan
-      val all = before ++ (if isCancelled() then Vector.empty else ofScene(scene, entries))
+      val all = previous ++ (if isCancelled() then Vector.empty else ofScene(scene, entries))
       if !isCancelled() then waiting = waiting.filterNot(_ == scene)
-      if all.sizeIs > before.size then afterScene(all)
+      if all.sizeIs > previous.size then afterScene(all)
       all
 
   private def ofScene(scene: SuiteScene, entries: Vector[Entry]): Vector[Result] =
     val judge = scene.reference.fold[Judge](SeedJudge(suite, scratch)): file =>
-      ReferenceJudge(ErrorLayer.kept(ImageFiles.read(file)))
+      ReferenceJudge(ErrorLayer.extract(ImageFiles.read(file)))
     judges(scene) = judge
     val plans = entries.flatMap(planned(_, judge))
     val times = turn(1, plans, judge)
@@ -164,12 +164,12 @@ final class SuiteRunner(
     * from all times so far. Trials are too short for programs that begin to learn later.
     */
   private def settled(plan: Plan, times: Vector[(Job, Double)], judge: Judge): Plan =
-    val own = times.filter((job, _) => job.isPoint && job.entry == plan.entry)
+    val entryTimes = times.filter((job, _) => job.isPoint && job.entry == plan.entry)
     plan.curve.fold(plan): trials =>
-      val curve = own.foldLeft(trials)((all, run) => all.and(run._1.samples, run._2))
+      val curve = entryTimes.foldLeft(trials)((all, run) => all.and(run._1.samples, run._2))
       val better =
         for
-          (job, seconds) <- own
+          (job, seconds) <- entryTimes
           budget <- plan.steps(job.step).budget if TimeCurve.isFar(seconds, budget)
           again = job.copy(samples = curve.samplesIn(budget)) if again.samples != job.samples
           _ = sayAgain(again, seconds, budget)
@@ -180,25 +180,25 @@ final class SuiteRunner(
 
   private def sayAgain(job: Job, seconds: Double, budget: Double): Unit =
     val name = s"${job.entry.scene.title}, ${job.entry.program.title}"
-    say(f"$name: $seconds%.2f s instead of $budget%.2f s; again with ${job.samples} spp")
+    log(f"$name: $seconds%.2f s instead of $budget%.2f s; again with ${job.samples} spp")
     forecast.again(job)
 
   private def leaveOut(what: String, why: String): Unit =
     val publicly = names.of(why)
-    say(s"skipped: $what: $publicly")
+    log(s"skipped: $what: $publicly")
     leftOut += what -> publicly
 
   private def isThere(scene: SuiteScene): Boolean =
     val unset = scene.needs.filterNot(sys.env.contains)
-    val why =
+    val reason =
       if unset.nonEmpty then Some(Commands.notSet(unset))
       else if scene.reference.exists(!Files.isRegularFile(_)) then
         scene.reference.map(f => s"no such reference: $f")
       else if scene.reference.isEmpty && suite.seeds < SeedNoise.Fewest then
         Some(s"without a reference, its noise takes at least ${SeedNoise.Fewest} seeds")
       else scene.files.values.find(!Files.isRegularFile(_)).map(f => s"no such file: $f")
-    why.foreach(leaveOut(scene.title, _))
-    why.isEmpty
+    reason.foreach(leaveOut(scene.title, _))
+    reason.isEmpty
 
   /** Whether one of these programs takes one of the scene's files. */
   private def isRead(scene: SuiteScene, programs: Vector[Program]): Boolean =
@@ -250,9 +250,9 @@ final class SuiteRunner(
   private def render(job: Job, judge: Judge): Option[Double] =
     val out = scratch.resolve("out.exr")
     val name = named(job.entry, job.samples)
-    val before = ProcessorTimes.now
+    val startTimes = ProcessorTimes.current
     val outcome = commands.run(words(job, out), out, suite.timeout)
-    val share = before.flatMap(_.othersSince)
+    val share = startTimes.flatMap(_.othersSince)
     outcome match
       case Outcome.Cancelled => None
       case Outcome.Failed(why) =>
@@ -261,15 +261,15 @@ final class SuiteRunner(
         None
       case Outcome.Done(seconds, memory) =>
         try
-          val image = shown(ImageFiles.read(out), job.entry.program)
+          val image = layerImage(ImageFiles.read(out), job.entry.program)
           val error = judge.take(job, seconds, memory, image)
           val counted = if job.step == Job.WarmUp then "warm-up" else s"seed ${job.seed}"
           forecast.ended(job, Some(seconds))
           for s <- share if job.isPoint do
             shares(job.entry) = shares.getOrElse(job.entry, Vector.empty) :+ (seconds, s)
-          val what = s"${name.padTo(nameWidth, ' ')}  ${counted.padTo(7, ' ')}"
-          say(f"$what $seconds%7.2f s  $error  " + forecast.words)
-          keep(job, image)
+          val label = s"${name.padTo(nameWidth, ' ')}  ${counted.padTo(7, ' ')}"
+          log(f"$label $seconds%7.2f s  $error  " + forecast.words)
+          record(job, image)
           witnesses.take(job, image)
           Some(seconds)
         catch
@@ -281,19 +281,19 @@ final class SuiteRunner(
   private def named(entry: Entry, samples: Int): String =
     s"${entry.scene.title}, ${entry.program.title}, $samples spp"
 
-  private def shown(image: Image, program: Program): Image =
+  private def layerImage(image: Image, program: Program): Image =
     program.layer.fold(image.toRgb): layer =>
       val channels = Image.RgbNames.map(c => s"$layer.$c")
       image.indicesOf(channels).map(image.selected(_).toRgb).getOrElse:
         throw ImageError(Code.ImageContents, s"the image has no layer `$layer`")
 
-  private def keep(job: Job, image: Image): Unit =
+  private def record(job: Job, image: Image): Unit =
     val isBetter = pictures.get(job.entry).forall: (kept, _) =>
       job.samples > kept.samples || job.isInPlaceOf(kept)
     if job.isPoint && isBetter then pictures(job.entry) = (job, image)
     if job.isPoint then
-      val others = tiles.getOrElse(job.entry, Map.empty).filterNot((j, _) => j.isInPlaceOf(job))
-      tiles(job.entry) = others + (job -> TileSums.of(image))
+      val retained = tiles.getOrElse(job.entry, Map.empty).filterNot((j, _) => j.isInPlaceOf(job))
+      tiles(job.entry) = retained + (job -> TileSums.of(image))
 
   private[suite] def words(job: Job, out: Path): Vector[String] =
     val program = job.entry.program

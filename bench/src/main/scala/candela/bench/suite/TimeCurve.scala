@@ -16,9 +16,9 @@ private[suite] final case class TimeCurve(points: Vector[(Int, Double)]):
     */
   def samplesIn(seconds: Double): Int =
     // Trials that took no longer than those before say nothing: noise, or start-up
-    val rising = points.tail.foldLeft(points.take(1)): (kept, p) =>
-      if p._2 > kept.last._2 then kept :+ p else kept.init :+ p
-    val later = Math.max(
+    val rising = points.tail.foldLeft(points.take(1)): (ascending, p) =>
+      if p._2 > ascending.last._2 then ascending :+ p else ascending.init :+ p
+    val upperIndex = Math.max(
       1,
       rising.indexWhere(_._2 > seconds) match
         case -1 => rising.size - 1
@@ -29,9 +29,9 @@ private[suite] final case class TimeCurve(points: Vector[(Int, Double)]):
         val (samples, time) = rising.head
         seconds * samples / Math.max(time, samples * Fastest)
       else
-        val (fewer, sooner) = rising(later - 1)
-        val (more, end) = rising(later)
-        fewer + (seconds - sooner) / Math.max(Fastest, (end - sooner) / (more - fewer))
+        val (n0, t0) = rising(upperIndex - 1)
+        val (n1, t1) = rising(upperIndex)
+        n0 + (seconds - t0) / Math.max(Fastest, (t1 - t0) / (n1 - n0))
     Math.max(1, Math.min(exact, MostSamples).toInt)
 
   /** Samples of the next trial; None if the last took so long that longer runs of up to `budget`
