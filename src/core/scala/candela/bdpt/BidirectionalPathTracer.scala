@@ -20,7 +20,7 @@ import candela.scene.Scene
   *                      is disabled and that light is missing
   * @param splats        receives the splats of light tracing
   * @param maxDepth      maximum number of scattering events of a full path
-  * @param rouletteAfter minimum depth before Russian roulette, for either subpath
+  * @param rouletteDepth as in [[Subpath]], for either subpath
   * @param compresses    as in [[Subpath]]
   * @param regularizes   as in [[candela.integrators.PathTracer]], for each subpath separately
   * @param sceneMedia    participating media, if there are any
@@ -33,7 +33,7 @@ final class BidirectionalPathTracer(
     imageCamera: Camera,
     splats: Splats,
     maxDepth: Int,
-    rouletteAfter: Int,
+    rouletteDepth: Int,
     compresses: Boolean,
     regularizes: Boolean = false,
     sceneMedia: SceneMedia | Null = null
@@ -45,9 +45,9 @@ final class BidirectionalPathTracer(
   private val ownMedia, lightMedia: PathMedia | Null =
     if sceneMedia == null then null else PathMedia(scene, sceneMedia)
   private val lightPaths = LightPaths(
-    scene, maxDepth, rouletteAfter, compresses, weighsAll = true, regularizes, media = lightMedia
+    scene, maxDepth, rouletteDepth, compresses, weighsAll = true, regularizes, media = lightMedia
   )
-  private val path = Subpath(carriesLight = false, compresses, rouletteAfter)
+  private val path = Subpath(carriesLight = false, compresses, rouletteDepth)
   private val vertex = PathVertex(scene)
   private val point = vertex.point
   private val connection = LightConnection(scene)

@@ -23,7 +23,7 @@ import candela.scene.{Casters, Scene}
 private[candela] final class LightPaths(
     scene: Scene,
     maxEdges: Int,
-    rouletteAfter: Int,
+    rouletteDepth: Int,
     compresses: Boolean,
     weighsAll: Boolean,
     regularizes: Boolean = false,
@@ -36,7 +36,7 @@ private[candela] final class LightPaths(
   private val start = EmittedRay()
   private val ray = Ray()
   private val hit = Hit()
-  private val path = Subpath(carriesLight = true, compresses, rouletteAfter)
+  private val path = Subpath(carriesLight = true, compresses, rouletteDepth)
   private val lastP = MutableVec3()
 
   var raysTraced: Long = 0L

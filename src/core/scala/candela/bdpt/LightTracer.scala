@@ -30,7 +30,7 @@ final class LightTracer(
   private val paths = LightPaths(
     scene,
     maxDepth,
-    LightTransport.RouletteAfter,
+    LightTransport.SubpathRouletteDepth,
     compresses = true,
     weighsAll = false,
     countsPassed = countsPassed

@@ -12,14 +12,14 @@ import candela.scene.Scene
   * @param carriesLight  whether it is a light subpath
   * @param compresses    whether refraction scales radiance by the square of the index; not in
   *                      pbrt-v2
-  * @param rouletteAfter minimum number of edges before Russian roulette
+  * @param rouletteDepth the first scattering event after which Russian roulette may end it
   * @param evaluates     whether weights take the density of a direction from the BSDF, as others
   *                      do who don't sample it: that of a random walk's may be another
   */
 private[candela] final class Subpath(
     carriesLight: Boolean,
     compresses: Boolean,
-    rouletteAfter: Int,
+    rouletteDepth: Int,
     evaluates: Boolean = false
 ):
   var throughput: Rgb = Rgb.White
@@ -59,19 +59,19 @@ private[candela] final class Subpath(
         val pdf = if evaluates then vertex.localPdf(bounce.wi) else bounce.pdf
         weights.scatter(cosine, pdf, vertex.bsdf.pdf(bounce.wi, vertex.localWo))
       vertex.spawnRay(ray): Unit
-      cosine > 0f && !throughput.isBlack && survives(vertex.edges, powerWeight.largest, sampler)
+      cosine > 0f && !throughput.isBlack && roulette(vertex.edges, powerWeight.largest, sampler)
 
   /** Shading normal correction, as in [[PathVertex.sentCosine]]. */
   private def correction(vertex: PathVertex, wi: Vec3, z: Float): Float =
     if z == 0f then 0f else vertex.sentCosine(wi) / Math.abs(z)
 
-  /** Russian roulette by the last surface's weight; MIS weights can ignore it. */
-  private def survives(edges: Int, kept: Float, sampler: Sampler): Boolean =
-    if edges < rouletteAfter || kept >= 1f then true
-    else if sampler.next1D() < kept then
-      throughput = throughput * (1f / kept)
-      true
-    else false
+  /** Russian roulette by the last surface's weight; MIS weights can ignore it. False ends the path.
+    */
+  private def roulette(depth: Int, weight: Float, sampler: Sampler): Boolean =
+    val factor =
+      if depth >= rouletteDepth then LightTransport.roulette(weight, 1f, sampler) else 1f
+    if factor > 1f then throughput = throughput * factor
+    factor > 0f
 
 /** A vertex of a subpath, from the camera or from a light, that can be connected to the other
   * subpath. Mutable, for reuse.

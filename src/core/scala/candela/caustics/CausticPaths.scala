@@ -36,7 +36,7 @@ private[candela] final class CausticPaths(
 ) extends LightVertices(scene):
   private val connection = LightConnection(scene)
   private val path =
-    Subpath(carriesLight = true, compresses, LightTransport.RouletteAfter, evaluates = true)
+    Subpath(carriesLight = true, compresses, LightTransport.SubpathRouletteDepth, evaluates = true)
   private val point = CasterPoint()
   private val ray = Ray()
   private val hit = Hit()

@@ -56,7 +56,7 @@ private[candela] object CausticPhotons:
     LightPaths(
       scene,
       light.maxDepth,
-      LightTransport.RouletteAfter,
+      LightTransport.SubpathRouletteDepth,
       light.compresses,
       weighsAll = false,
       media = pathMedia,

@@ -209,7 +209,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     * variance of the image most for what they cost. Draws their points.
     *
     * Light through the surface is not in the field: there, and where it knows nothing,
-    * [[roulette]] decides.
+    * the path's own roulette decides.
     *
     * Sources: Vorba, Křivánek, "Adjoint-Driven Russian Roulette and Splitting in Light Transport
     * Simulation", SIGGRAPH 2016; Rath et al., "EARS: Efficiency-Aware Russian Roulette and
@@ -218,7 +218,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     *
     * @return factor of the throughput
     */
-  def survival(throughput: Float, sampler: Sampler): Float =
+  def rouletteOrSplit(throughput: Float, sampler: Sampler): Float =
     val n = expected(throughput)
     points.draw(n, vertex.bsdf.choosesLobes, sampler)
     if points.count == 0 then 0f else 1f / n
@@ -237,23 +237,21 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       else
         isExpected = true
         val maxBranches = Math.min(BranchPoints.MaxBranches.toFloat, MostInAll / splits)
-        val n = Math.max(LeastSurvival, Math.min(throughput * factor / measurement, maxBranches))
+        val n = Math.max(MinBranches, Math.min(throughput * factor / measurement, maxBranches))
         chances *= n
         splits *= Math.max(1f, n)
         n
 
-  /** Russian roulette by the throughput of BSDF sampling. That of a guided path is small where
-    * paths are many because much light comes from there: it must not end them.
-    *
-    * @param largest of the throughput's colours, without the radiance scaling of refraction
-    * @return factor of the throughput
+  /** The throughput that BSDF sampling of the same path would have; infinite where the field has
+    * decided. That of a guided path is small where paths are many because much light comes from
+    * there: it must not end them.
     */
-  def roulette(largest: Float, threshold: Float, sampler: Sampler): Float =
-    if isExpected then 1f else LightTransport.roulette(largest * ratio * splits, threshold, sampler)
+  def rouletteThroughput(rrBeta: Float): Float =
+    if isExpected then Float.PositiveInfinity else rrBeta * ratio * splits
 
 private object Guidance:
-  /** Branches in which a path leaves a vertex, on average, where it is expected to find little. */
-  inline val LeastSurvival = 0.5f
+  /** Branches in which a path leaves a vertex, on average, where it is expected to meet little. */
+  inline val MinBranches = 0.5f
 
   /** Branches of a path. */
   inline val MostInAll = 64f

@@ -12,11 +12,11 @@ private final class GuidedScattering(guide: Guide, tracer: CameraPath, history: 
   private val guidance = Guidance(guide, tracer.vertex)
   private val branches = Branches(() => tracer.path.another())
 
-  export guidance.{arrive, startPath, leaveAlone, pdf, roulette}
+  export guidance.{arrive, startPath, leaveAlone, pdf, rouletteThroughput}
 
   /** Samples the next direction, and leaves in all branches but one, unless there is one only. */
   def scatter(sampler: Sampler): Unit =
-    tracer.path.scale(guidance.survival(tracer.path.throughput.average, sampler))
+    tracer.path.scale(guidance.rouletteOrSplit(tracer.path.throughput.average, sampler))
     if guidance.branches == 1 then scatterOnce(0)
     else
       leaveInBranches()

@@ -8,10 +8,14 @@ import candela.scene.Scene
 
 /** Parts of the estimators that all light transport algorithms share. */
 object LightTransport:
-  /** Scattering events before Russian roulette starts. As in pbrt-v2 and v3; v4 starts after one,
-    * which costs more in noise than it saves in time: docs/decisions/0016-shared-samples.md.
+  /** The first scattering event after which Russian roulette may end a path. As in pbrt-v2 and v3;
+    * in v4 it is the second, which costs more in noise than it saves in time:
+    * docs/decisions/0016-shared-samples.md.
     */
-  inline val RouletteAfter = 4
+  inline val RouletteDepth = 5
+
+  /** Likewise of a subpath, from the camera or from a light. */
+  inline val SubpathRouletteDepth = 4
 
   /** Weight of a path whose companion wavelengths end: its hero stands for all three. */
   val Hero: Rgb = Rgb(3f, 0f, 0f)
@@ -28,9 +32,10 @@ object LightTransport:
       val r = b / a
       1f / (1f + r * r)
 
-  /** Russian roulette: the factor of the throughput of a path that survives; 0 ends the path.
+  /** Russian roulette: the factor of the throughput; 0 ends the path.
     *
-    * @param throughput largest component, without the radiance scaling of refraction
+    * @param throughput largest component, without the radiance scaling of refraction; below the
+    *                   threshold it is the probability of going on
     */
   def roulette(throughput: Float, threshold: Float, sampler: Sampler): Float =
     if throughput >= threshold then 1f

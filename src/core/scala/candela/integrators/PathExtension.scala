@@ -75,12 +75,11 @@ class PathExtension:
   def leaveVertex(): Unit = ()
   def leaveInMedium(pdf: Float): Unit = ()
 
-  /** Russian roulette: factor of the throughput.
+  /** The throughput by which Russian roulette decides.
     *
-    * @param rrBeta largest of the throughput's colours, without the radiance scaling of refraction
+    * @param rrBeta largest of the path's colours, without the radiance scaling of refraction
     */
-  def roulette(rrBeta: Float, threshold: Float, sampler: Sampler): Float =
-    LightTransport.roulette(rrBeta, threshold, sampler)
+  def rouletteThroughput(rrBeta: Float): Float = rrBeta
 
   /** Goes on with another branch of the path; false: there is none. */
   def nextBranch(sampler: Sampler): Boolean = false

@@ -31,15 +31,15 @@ final case class PathOptions(
 /** Limits of a path tracer's paths.
   *
   * @param maxDepth          scattering events of a path, at most
-  * @param rouletteThreshold throughput below which Russian roulette may end a path
-  * @param rouletteAfter     scattering events before that
+  * @param rouletteDepth     the first scattering event after which Russian roulette may end a path
+  * @param rouletteThreshold throughput below which it may
   * @param seesThrough       does light sampling alone find light straight through the boundary of a
   *                          subsurface medium? So in pbrt-v3; v4 weights it against BSDF sampling,
   *                          which does not find it, and loses that part
   */
 final case class PathLimits(
     maxDepth: Int,
+    rouletteDepth: Int,
     rouletteThreshold: Float = 1f,
-    rouletteAfter: Int = LightTransport.RouletteAfter,
     seesThrough: Boolean = false
 )

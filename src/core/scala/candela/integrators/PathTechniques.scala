@@ -17,8 +17,8 @@ import candela.scene.Scene
 private final class PathTechniques(
     tracer: CameraPath,
     scene: Scene,
-    limits: PathLimits,
     options: PathOptions,
+    seesThrough: Boolean,
     guide: Guide | Null,
     parts: LightParts | Null,
     volumes: VolumeMarch | Null,
@@ -111,7 +111,7 @@ private final class PathTechniques(
       path.terminateSecondary()
     if weights != null then weights.arrive(eye, vertex, history)
     if guiding != null then if isGuided then guiding.arrive() else guiding.leaveAlone()
-    isBoundary = limits.seesThrough && scene.isSubsurface(vertex.point.material)
+    isBoundary = seesThrough && scene.isSubsurface(vertex.point.material)
 
   override def arriveInMedium(p: Vec3, wo: Vec3, medium: Int): Unit =
     if guiding != null then
@@ -169,9 +169,8 @@ private final class PathTechniques(
     if weights != null then weights.scatterInMedium(pdf, history)
     if photons != null then photons.leaveMedium(history)
 
-  override def roulette(rrBeta: Float, threshold: Float, sampler: Sampler): Float =
-    if guiding == null then super.roulette(rrBeta, threshold, sampler)
-    else guiding.roulette(rrBeta, threshold, sampler)
+  override def rouletteThroughput(rrBeta: Float): Float =
+    if guiding == null then rrBeta else guiding.rouletteThroughput(rrBeta)
 
   override def nextBranch(sampler: Sampler): Boolean =
     guiding != null && guiding.followNext(sampler)
@@ -185,12 +184,13 @@ private final class PathTechniques(
 private object PathTechniques:
   /** The extension of a path tracer that has these options.
     *
+    * @param seesThrough         as in [[PathLimits]]
     * @param guide,parts,volumes as in [[PathTracer$]]
     */
   def of(
       scene: Scene,
-      limits: PathLimits,
       options: PathOptions,
+      seesThrough: Boolean,
       guide: Guide | Null,
       sharedParts: LightParts | Null,
       volumes: VolumeMarch | Null = null,
@@ -199,6 +199,6 @@ private object PathTechniques:
     val lightParts =
       if sharedParts != null then sharedParts else scene.lightGroups.map(LightParts(_)).orNull
     val isPlain = guide == null && lightParts == null && volumes == null && !options.extendsPaths &&
-      !scene.isDispersive && !(limits.seesThrough && scene.hasSubsurface)
+      !scene.isDispersive && !(seesThrough && scene.hasSubsurface)
     if isPlain then _ => PathExtension()
-    else PathTechniques(_, scene, limits, options, guide, lightParts, volumes, within)
+    else PathTechniques(_, scene, options, seesThrough, guide, lightParts, volumes, within)

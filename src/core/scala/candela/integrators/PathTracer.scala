@@ -56,6 +56,16 @@ abstract class CameraPath(
     val isOpen = vertex.spawnRay(ray)
     goesOn = isOpen && !path.isBlack
 
+  /** Ends a faint path by Russian roulette.
+    *
+    * @param own [[path]], whose class is known to the caller
+    */
+  protected inline def roulette(own: PathState, limits: PathLimits, sampler: Sampler): Unit =
+    if goesOn && own.depth >= limits.rouletteDepth then
+      val rrBeta = extension.rouletteThroughput(own.throughput.largest * own.etaScale)
+      own.scale(LightTransport.roulette(rrBeta, limits.rouletteThreshold, sampler))
+      goesOn = !own.isBlack
+
   def raysTraced: Long = rays + extension.raysTraced
   override def lastMaterial: Int = vertex.point.material
   override def lightParts: LightParts | Null = extension.lightParts
@@ -165,11 +175,7 @@ final class PathTracer private (
             extension.emerges(sampler)
           do ()
           leaveVertex()
-          // End faint paths by Russian roulette
-          if goesOn && surfacePath.depth > limits.rouletteAfter then
-            val rrBeta = beta.largest * surfacePath.etaScale
-            beta.scale(extension.roulette(rrBeta, limits.rouletteThreshold, sampler))
-            goesOn = !beta.isBlack
+          roulette(surfacePath, limits, sampler)
     L.toRgb
 
   private def hasHad(events: Int): Boolean = surfacePath.depth + surfacePath.passed == events
@@ -196,5 +202,5 @@ object PathTracer:
   ): PathTracer =
     val crosses = !options.interfaces.stopsLight
     val lights = LightConnection(scene, volumes, crosses = crosses)
-    val extend = PathTechniques.of(scene, limits, options, guide, parts, volumes)
+    val extend = PathTechniques.of(scene, options, limits.seesThrough, guide, parts, volumes)
     new PathTracer(scene, limits, options, SurfacePath(), lights, extend)

@@ -29,7 +29,7 @@ abstract class SurfaceWalk(
       scene,
       surfacePath,
       LightConnection(scene, volumes, steps, crosses = !interfaces.stopsLight),
-      PathTechniques.of(scene, PathLimits(maxDepth = 0), PathOptions(), null, null)
+      PathTechniques.of(scene, PathOptions(), seesThrough = false, null, null)
     ):
   /** Its users divide light only if they say so. */
   override def lightParts: LightParts | Null = null

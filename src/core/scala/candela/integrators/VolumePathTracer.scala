@@ -59,7 +59,7 @@ final class VolumePathTracer private (
         if hasHad(limits.maxDepth) then goesOn = false
         else
           scatterInMedium(t, sampler)
-          survive(sampler)
+          roulette(volumePath, limits, sampler)
       else if !isHit then
         // Add light of the environment
         val Le = environment()
@@ -107,7 +107,7 @@ final class VolumePathTracer private (
             goesOn = !volumePath.isBlack
           else leaveVertex()
           if volumePath.depth > limits.maxDepth then goesOn = false
-          survive(sampler)
+          roulette(volumePath, limits, sampler)
     radianceSoFar
 
   private def hasHad(events: Int): Boolean = volumePath.depth == events
@@ -172,13 +172,6 @@ final class VolumePathTracer private (
     vertex.passThrough(ray)
     volumePath.medium = media.beyond(vertex.point, ray.direction, volumePath.medium)
 
-  /** Ends faint paths by Russian roulette. */
-  private def survive(sampler: Sampler): Unit =
-    if goesOn && volumePath.depth > limits.rouletteAfter then
-      val rrBeta = volumePath.throughput.largest * volumePath.etaScale
-      volumePath.scale(extension.roulette(rrBeta, limits.rouletteThreshold, sampler))
-      goesOn = !volumePath.isBlack
-
   /** Adds the light sample at a surface, if it is visible. */
   private def addDirect(): Unit =
     val wi = lights.wi
@@ -229,8 +222,14 @@ object VolumePathTracer:
   ): VolumePathTracer =
     val work = MediumWork()
     val lights = LightConnection(scene)
-    val extend =
-      PathTechniques.of(scene, limits, options, guide, parts, within = Some((media, work)))
+    val extend = PathTechniques.of(
+      scene,
+      options,
+      limits.seesThrough,
+      guide,
+      parts,
+      within = Some((media, work))
+    )
     new VolumePathTracer(
       scene, media, limits, options, work, VolumePath(work.weights), lights, extend
     )

@@ -134,7 +134,6 @@ final class PathWeights:
         scaleAll(s, s, s)
       else scale(0f)
 
-  /** Russian roulette: terminates a faint path with probability 1 − `chance`, and compensates
-    * otherwise.
-    */
-  def gamble(u: Float, chance: Float): Unit = scale(if u < chance then 1f / chance else 0f)
+  /** Russian roulette: ends the path unless `u` is below the probability of going on. */
+  def roulette(u: Float, probability: Float): Unit =
+    scale(if u < probability then 1f / probability else 0f)

@@ -45,7 +45,7 @@ abstract class VaryingMedium(
           scatter(w, point)
         else
           collideUnscattered(w, point, mr, mg, mb, unit, 1f - chance)
-          if w.brightest < VaryingMedium.Faint then w.gamble(work.random.next(), 0.5f)
+          if w.brightest < VaryingMedium.Faint then w.roulette(work.random.next(), 0.5f)
         !scatters
     )
     w.balance()
@@ -58,7 +58,7 @@ abstract class VaryingMedium(
       collide = (_, mr, mg, mb, _, unit) =>
         collideUnscattered(w, work.point, mr, mg, mb, unit, 1f)
         if w.brightest < VaryingMedium.Faint * w.lightDensity then
-          w.gamble(work.random.next(), 0.5f)
+          w.roulette(work.random.next(), 0.5f)
         true
     )
 

@@ -70,7 +70,7 @@ private[candela] final class WholePhotons(scene: Scene, settings: PhotonSettings
     LightPaths(
       scene,
       settings.maxEdges,
-      rouletteAfter = 1,
+      rouletteDepth = 1,
       settings.compresses,
       weighsAll = false,
       startsAlone = scene.isDispersive

@@ -27,7 +27,12 @@ final class StraightWalkSuite extends AnyFunSuite:
 
   /** Mean of what is seen from within the layer, downwards. */
   private def seen(media: SceneMedia, photons: Option[PhotonLight]): Rgb =
-    val tracer = VolumePathTracer(scene, media, PathLimits(4), PathOptions(photons = photons))
+    val tracer = VolumePathTracer(
+      scene,
+      media,
+      PathLimits(4, LightTransport.RouletteDepth),
+      PathOptions(photons = photons)
+    )
     val sampler = IndependentSampler(1, 1)
     val ray = Ray()
     val n = 100000

@@ -175,8 +175,11 @@ trait PathInstead extends Recipe[IntegratorPlan]:
 
   protected def create()(using site: Site): IntegratorPlan =
     val depthLimit = depth()
-    val limits =
-      PathLimits(depthLimit, rouletteAfter = 1, seesThrough = site.dialect == Dialect.V3)
+    val limits = PathLimits(
+      depthLimit,
+      LightTransport.RouletteDepth,
+      seesThrough = site.dialect == Dialect.V3
+    )
     val interfaces = IntegratorPlan.interfaces
     val options = PathOptions(interfaces = interfaces)
     IntegratorPlan(

@@ -9,7 +9,7 @@ import candela.film.{Splats, View}
 import candela.integrators.{
   Interfaces, PathLimits, PathTracer, VolumePathTracer, PathOptions, WorkerIntegrators
 }
-import candela.integrators.LightTransport.RouletteAfter
+import candela.integrators.LightTransport.{RouletteDepth, SubpathRouletteDepth}
 import candela.media.SceneMedia
 import candela.render.{Chains, Passes, RenderMethod, SplattedTiles}
 import candela.scene.Scene
@@ -170,7 +170,8 @@ private[build] object BidirectionalPlans:
           Code.IntegratorLacks,
           s"\"$name\" does not support volumes yet; using \"path\", which $Lack"
         )
-        RenderMethod.tiles(scene)(PathTracer(_, PathLimits(maxDepth), volumes = march()))
+        val limits = PathLimits(maxDepth, RouletteDepth)
+        RenderMethod.tiles(scene)(PathTracer(_, limits, volumes = march()))
     )
 
   /** What of a scene with media is not supported. */
@@ -194,7 +195,7 @@ private[build] object BidirectionalPlans:
       Code.IntegratorLacks,
       s"\"$name\" does not support $what yet; using \"volpath\", which $Lack"
     )
-    val limits = PathLimits(depth, seesThrough = site.dialect == Dialect.V3)
+    val limits = PathLimits(depth, RouletteDepth, seesThrough = site.dialect == Dialect.V3)
     val options = PathOptions(regularizes, subsurface = scene.hasSubsurface)
     RenderMethod.tiles(scene)(VolumePathTracer(_, media, limits, options))
 
@@ -215,7 +216,7 @@ private[build] object BidirectionalPlans:
   )(splats: Splats)(using site: Site): BidirectionalPathTracer =
     val compresses = site.dialect != Dialect.V2
     BidirectionalPathTracer(
-      scene, view.camera, splats, depth, RouletteAfter, compresses, regularizes, media
+      scene, view.camera, splats, depth, SubpathRouletteDepth, compresses, regularizes, media
     )
 
   /** Plan of [[MarkovChains]]. Volumes use the fallback above.

@@ -28,7 +28,12 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     val crossesPanes = name == "volpath" && site.rules.passes
     val interfaces = if name == "volpath" then Interfaces.Open else IntegratorPlan.interfaces
     val countsPassed = site.rules.passes && interfaces.stopsLight
-    val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
+    val limits = PathLimits(
+      depth,
+      LightTransport.RouletteDepth,
+      threshold(),
+      seesThrough = site.dialect == Dialect.V3
+    )
     windowed(IntegratorPlan(
       (scene, _) =>
         val beneath = goesBeneath && scene.hasSubsurface
@@ -103,12 +108,13 @@ object SimpleVolPathRecipe
     ):
   protected def create()(using Site): IntegratorPlan =
     val depth = maxDepth()
+    val limits = PathLimits(depth, LightTransport.RouletteDepth)
     val options = PathOptions(samplesLights = false)
     SimplePlans
       .plan(name, depth, samplesLights = false, Onward.Bsdf)
       .copy(throughMedia =
         Some((scene, media) =>
-          RenderMethod.tiles(scene)(VolumePathTracer(_, media, PathLimits(depth), options))
+          RenderMethod.tiles(scene)(VolumePathTracer(_, media, limits, options))
         )
       )
 
