@@ -32,18 +32,16 @@ private[candela] final class MediumVisibility(
     * `medium`; false if it is zero.
     */
   def reaches(origin: Vec3, light: LightSample, medium: Int): Boolean =
-    work.shadow.start(work.weights.hero, 1f)
-    val end =
-      if light.isInfinite then origin + light.wi * media.reach else LightConnection.end(light)
-    if isCrossed then passes(origin, end, medium)
+    if !light.isInfinite then reaches(origin, LightConnection.end(light), medium)
+    else if isCrossed then reaches(origin, origin + light.wi * media.reach, medium)
     else
-      if light.isInfinite then ray.set(origin, light.wi, Float.PositiveInfinity)
-      else ray.set(origin, end - origin, LightConnection.ShadowEnd)
+      work.shadow.start(work.weights.hero, 1f)
+      ray.set(origin, light.wi, Float.PositiveInfinity)
       rays += 1
-      if scene.isOccluded(ray, hit) then false
-      else
-        if light.isInfinite then ray.tMax = media.reach
+      !scene.isOccluded(ray, hit) && {
+        ray.tMax = media.reach
         attenuate(medium)
+      }
 
   /** As above, between two points. */
   def reaches(origin: Vec3, end: Vec3, medium: Int): Boolean =

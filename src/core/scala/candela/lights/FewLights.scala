@@ -39,11 +39,6 @@ final class FewLights(lights: Array[Light]) extends LightSelection:
 
   def describe: String = s"${lights.length} lights, sampled by importance (few: no light BVH)"
 
-  def choose(p: Vec3, n: Vec3, u: Float): Int =
-    val choice = LightChoice()
-    choose(p, n, u, choice)
-    choice.light
-
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
     val inInfinite = infinite.length * infiniteShare
     out.probability = infiniteShare

@@ -12,16 +12,11 @@ import candela.sampling.Discrete
   */
 abstract class LightSelection:
 
-  /** Samples a light for the point `p` with normal `n`; returns its index, or −1 if no light can
-    * contribute.
-    */
-  def choose(p: Vec3, n: Vec3, u: Float): Int
-
-  /** Probability with which `choose` returns `light`. */
-  def probability(p: Vec3, n: Vec3, light: Int): Float
-
-  /** Samples a light and computes its probability. */
+  /** Samples a light for the point `p` with normal `n`, and computes its probability. */
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit
+
+  /** Probability with which `choose` samples `light`. */
+  def probability(p: Vec3, n: Vec3, light: Int): Float
 
   /** Does the choice depend on the random number? */
   def isRandom: Boolean = true
@@ -30,7 +25,7 @@ abstract class LightSelection:
 
 /** A sampled light with its probability; mutable, one per worker. */
 final class LightChoice:
-  /** Index of the light; −1 if none. */
+  /** Index of the light; −1 if none can contribute. */
   var light: Int = -1
   var probability: Float = 0f
 
@@ -43,7 +38,6 @@ final class LightChoice:
 
 /** The only light. */
 final class SingleLight extends LightSelection:
-  def choose(p: Vec3, n: Vec3, u: Float): Int = 0
   def probability(p: Vec3, n: Vec3, light: Int): Float = 1f
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
     out.light = 0
@@ -72,11 +66,6 @@ final class LightTree(lights: Array[Light], pool: Parallel = Parallel.Alone)
 
   private val infiniteShare: Float =
     1f / Math.max(1, infinite.length + (if hasFinite then 1 else 0))
-
-  def choose(p: Vec3, n: Vec3, u: Float): Int =
-    val choice = LightChoice()
-    choose(p, n, u, choice)
-    choice.light
 
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
     out.probability = infiniteShare
@@ -133,15 +122,9 @@ final class LightTree(lights: Array[Light], pool: Parallel = Parallel.Alone)
       probability
 
 object LightSelection:
-  /** The simplest exact specialisation for these lights. */
-  def of(lights: Array[Light]): LightSelection = byImportance(lights, Parallel.Alone)
-
-  private def byImportance(lights: Array[Light], pool: Parallel): LightSelection =
-    if lights.length == 1 then SingleLight()
-    else if FewLights.suits(lights) then FewLights(lights)
-    else LightTree(lights, pool)
-
-  /** @param scene bounds of all surfaces
+  /** The simplest exact specialisation for these lights.
+    *
+    * @param scene bounds of all surfaces
     * @param pool  builds it
     */
   def of(
@@ -151,8 +134,9 @@ object LightSelection:
       pool: Parallel = Parallel.Alone
   ): LightSelection =
     strategy match
-      case LightStrategy.Importance => byImportance(lights, pool)
-      case _ if lights.length == 1 => of(lights)
+      case _ if lights.length == 1 => SingleLight()
+      case LightStrategy.Importance =>
+        if FewLights.suits(lights) then FewLights(lights) else LightTree(lights, pool)
       case LightStrategy.Power => FixedSelection.byPower(lights, Ball.enclosing(scene))
       case LightStrategy.Uniform => FixedSelection.uniform(lights)
 
@@ -174,17 +158,14 @@ final class FixedSelection(weights: Array[Float], override val describe: String)
     extends LightSelection:
   private val table: Discrete | Null = if weights.exists(_ > 0f) then Discrete(weights) else null
 
-  def choose(p: Vec3, n: Vec3, u: Float): Int =
-    val picks = table
-    if picks == null then -1 else picks.sample(u)
-
   def probability(p: Vec3, n: Vec3, light: Int): Float =
     val picks = table
     if picks == null then 0f else picks.probability(light)
 
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
-    out.light = choose(p, n, u)
-    out.probability = if out.light < 0 then 0f else probability(p, n, out.light)
+    val picks = table
+    out.light = if picks == null then -1 else picks.sample(u)
+    out.probability = if picks == null then 0f else picks.probability(out.light)
 
 object FixedSelection:
   /** @param scene bounding sphere of all surfaces, which lights at infinity illuminate */

@@ -3,8 +3,8 @@ package candela.settings
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 
-/** What trades noise for time. What the user asks for counts; else, with a goal, what was measured
-  * to reach it best, and with a number of samples what the scene says.
+/** What trades noise for time. The user's choice, if there is one. Otherwise, with a goal: what
+  * reached goals soonest in measurements; with a number of samples: what the scene says.
   *
   * @param byGoal whether paths are guided because of the goal
   */

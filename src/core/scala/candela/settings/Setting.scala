@@ -9,7 +9,7 @@ package candela.settings
   * @param texts        its values as text; none: the default
   * @param read         what a value's text changes; None: it is no such value
   * @param wanted       what messages say of such a text, after "must be"
-  * @param isIdentity   whether it shapes the image, in a way that the samples taken don't show
+  * @param isIdentity   whether two films that differ in it are of different images
   * @param isRepeatable whether command lines may have it several times
   * @param letter       of its short option
   * @param implied      what users change by it, too
@@ -40,8 +40,8 @@ final case class Setting private (
 
   private[settings] def explained(more: String): Setting = copy(more = more)
 
-  /** Of the words that tell one image from another, none. */
-  private[settings] def apart: Setting = copy(isIdentity = false)
+  /** Films that differ only in this setting are of the same image. */
+  private[settings] def withoutIdentity: Setting = copy(isIdentity = false)
 
   private[settings] def repeatable: Setting = copy(isRepeatable = true)
 

@@ -37,18 +37,16 @@ object SettingsTable:
   private val pictures = OutputFormat.listed(Contents.Display)
   private val curves = ToneCurve.values.toVector
 
-  /** Digests of films depend on the order of the rows that are not `apart`: a new row is the last
-    * of these.
-    */
+  /** Digests of films depend on the order of those with identity: a new one comes last of these. */
   val all: Vector[Setting] = Vector(
     option("spp", "N", "samples per pixel; overrides the scene")(_.samples)((s, n) =>
       s.copy(samples = Some(n))
-    )(using TextForm.int.filter("at least 1")(_ >= 1)).apart,
+    )(using TextForm.int.filter("at least 1")(_ >= 1)).withoutIdentity,
     option(
       "time",
       "TIME",
       "end after this rendering time, e.g. 90s, 10m or 2h; --spp N is then a maximum"
-    )(_.goal.time)((s, t) => end(s)(_.copy(time = Some(t))))(using TextForm.seconds).apart
+    )(_.goal.time)((s, t) => end(s)(_.copy(time = Some(t))))(using TextForm.seconds).withoutIdentity
       .explained(
         "Reading and building the scene don't count. With `--error`, whichever comes first ends " +
           "it: [time and error](NOISE.md#time-and-error)."
@@ -58,7 +56,7 @@ object SettingsTable:
       "X",
       "end when the relative error, estimated from the noise, is below X, e.g. 2% or 0.02; " +
         "--spp N is then a maximum"
-    )(_.goal.error)((s, x) => end(s)(_.copy(error = Some(x))))(using TextForm.share).apart
+    )(_.goal.error)((s, x) => end(s)(_.copy(error = Some(x))))(using TextForm.share).withoutIdentity
       .explained("[How the error is estimated](NOISE.md)."),
     value("seed", "N", "random seed (default 0)")(_.seed)((s, n) => s.copy(seed = n))(using
       TextForm.int
@@ -231,12 +229,14 @@ object SettingsTable:
       "reference image for --mse-reference-out, which it needs"
     )(_.output.reference)((s, f) => write(s)(_.copy(reference = Some(f))))(using
       TextForm.string
-    ).apart,
+    ).withoutIdentity,
     option(
       "mse-reference-out",
       "FILE",
       "write the MSE at 1, 2, 4, 8, ... samples per pixel, one line each"
-    )(_.output.errors)((s, f) => write(s)(_.copy(errors = Some(f))))(using TextForm.string).apart
+    )(_.output.errors)((s, f) => write(s)(_.copy(errors = Some(f))))(using
+      TextForm.string
+    ).withoutIdentity
   )
 
   private val byName = all.map(s => s.name -> s).toMap

@@ -114,7 +114,8 @@ private object Many:
     val draws = Draws(4)
     val lights = Array.fill[Light](100000):
       PointLight(draws.vec(-100, 100), Rgb.gray(draws.magnitude(1e-6, 1e6)))
-    val selection = LightSelection.of(lights)
+    val selection = LightTree(lights)
+    val choice = LightChoice()
     var i = 0L
     while i < count do
       val p = draws.vec(-120, 120)
@@ -123,9 +124,12 @@ private object Many:
       if i < 1 then
         for k <- lights.indices do sum += selection.probability(p, Vec3.Zero, k)
         assert(Math.abs(sum - 1) < 1e-3, s"$sum at $p"): Unit
-      val chosen = selection.choose(p, Vec3.Zero, draws.unit())
-      val chance = selection.probability(p, Vec3.Zero, chosen)
-      assert(chosen >= 0 && chance > 0f && chance <= 1f, s"$chosen $chance at $p"): Unit
+      selection.choose(p, Vec3.Zero, draws.unit(), choice)
+      val chance = selection.probability(p, Vec3.Zero, choice.light)
+      assert(
+        choice.light >= 0 && chance > 0f && chance <= 1f,
+        s"${choice.light} $chance at $p"
+      ): Unit
       i += 1
 
 private object Sky:

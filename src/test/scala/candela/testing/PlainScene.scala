@@ -4,7 +4,7 @@ import candela.accel.Instances
 import candela.accel.tracing.Bvh
 import candela.bsdf.{ConstantMaterial, Lambert}
 import candela.color.Rgb
-import candela.lights.{Light, LightSelection}
+import candela.lights.{Light, SingleLight}
 import candela.scene.{Instanced, Scene, SceneMaterials, ShapeTable, Surfaces}
 import candela.testing.Soups.Triangle
 
@@ -21,6 +21,6 @@ object PlainScene:
       Bvh(surfaces.primitives(Instances.Empty)),
       SceneMaterials(Array(ConstantMaterial(Lambert(reflectance)))),
       Array(light),
-      LightSelection.of(Array(light)),
+      SingleLight(),
       sidesByGeometry = false
     )
