@@ -3,11 +3,12 @@ package candela.api
 import candela.diagnostics.SceneError
 import candela.image.{Image, Oidn}
 import candela.job.{
-  Denoising, EmptyImage, ErrorRecorder, FilmHeaders, FilmKeeper, Goal, ImageFile, Prepared, Render
+  Denoising, EmptyImage, ErrorRecorder, FilmHeaders, FilmKeeper, GoalRule, ImageFile, Prepared,
+  Render
 }
 import candela.render.{
-  Cancellation as CoreCancellation, RenderControl as CoreControl, RenderFailure, Rendering,
-  StoppingRule
+  Cancellation as CoreCancellation, RenderControl as CoreControl, RenderFailure,
+  RenderListener as CoreListener, Rendering, StoppingRule
 }
 
 import java.nio.file.Path
@@ -110,13 +111,17 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     val target = settings.core.goal
     val recorder =
       Option.when(control.estimates || target.isGiven)(ErrorRecorder(plan.development, None))
-    val goal = recorder.map(Goal(target, plan.samplesPerPixel, _))
+    val goal = recorder.filter(_ => target.isGiven).map(GoalRule(target, plan.samplesPerPixel, _))
+    val estimating = recorder.filter(_ => goal.isEmpty)
     val followed = Followed(control.listener, r => image(r, r.image(plan.development), None))
-    val checkpoints = keeper.map(_.checkpointer(() => goal.exists(_.isReached)))
-    val stop = CoreCancellation(control.cancellation.core, closing)
-    val rule = goal.getOrElse(StoppingRule.Never)
-    val coreControl =
-      CoreControl(control.threads, stop, followed, checkpointer = checkpoints, rule = rule)
+    val checkpoints = keeper.map(_.checkpointer(() => goal.exists(_.stopsAfterPass)))
+    val coreControl = CoreControl(
+      control.threads,
+      CoreCancellation(control.cancellation.core, closing),
+      CoreListener.all(estimating.toVector :+ followed),
+      checkpointer = checkpoints,
+      rule = goal.getOrElse(StoppingRule.Never)
+    )
     val rendering =
       try Render.render(prepared, coreControl)
       catch

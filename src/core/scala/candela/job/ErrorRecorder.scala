@@ -43,7 +43,7 @@ class ErrorRecorder(
   /** The relative error after so many samples per pixel, as far as known: the root of the relative
     * MSE.
     */
-  def errorAt(samples: Double): Option[Double] =
+  override def errorAt(samples: Double): Option[Double] =
     val errors =
       if reference.isEmpty then estimate.map(_.at(samples)) else points.lastOption.map(_.errors)
     errors.map(e => Math.sqrt(e.relativeMse)).filter(_.isFinite)
@@ -105,5 +105,5 @@ class ErrorRecorder(
           else scatter.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
         latest.orElse(estimate.filter(_ => pass.isLast)).map(_.at(pass.samples))
     val interval = this.interval(pass.samples)
-    errors.foreach(e => curve += CurvePoint(pass.samples, pass.end, e, interval))
+    errors.foreach(e => curve += CurvePoint(pass.samples, pass.endSeconds, e, interval))
     measured(pass, image)

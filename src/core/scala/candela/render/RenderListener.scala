@@ -4,22 +4,22 @@ import candela.film.Film
 
 /** A part of a rendering after which all pixels have the same number of samples.
   *
-  * @param samples   samples per pixel so far
-  * @param begin     seconds since the start of rendering, without the time of listeners and rule
-  * @param workers   busy time of each worker, in seconds
-  * @param isLast    whether it completes the rendering
-  * @param isWhole   whether it was not shortened by [[StoppingRule.maxSamples]]
-  * @param clock     seconds since the start of rendering, with the time of listeners and rule
-  * @param step      fewest samples per pixel of a pass; 0: the rendering may end at any time
-  * @param isStopped whether the rendering is to end at once: the listener then breaks off
+  * @param samples       samples per pixel so far
+  * @param beginSeconds  since the start of rendering, as `endSeconds` without the listeners' time
+  * @param workers       busy time of each worker, in seconds
+  * @param isLast        whether it completes the rendering
+  * @param isUnshortened whether it was not shortened by [[StoppingRule.maxSamples]]
+  * @param clock         seconds since the start of rendering, with the time of listeners
+  * @param step          fewest samples per pixel of a pass; 0: the rendering may end at any time
+  * @param isStopped     whether the rendering is to end at once: the listener then breaks off
   */
 final case class Pass(
     samples: Int,
-    begin: Double,
-    end: Double,
+    beginSeconds: Double,
+    endSeconds: Double,
     workers: Vector[Double],
     isLast: Boolean = false,
-    isWhole: Boolean = true,
+    isUnshortened: Boolean = true,
     clock: Double = 0,
     step: Int = 1,
     isStopped: () => Boolean = () => false
@@ -27,7 +27,7 @@ final case class Pass(
   /** Whether it ends at 1, 2, 4, 8, … samples per pixel, or is the last. */
   def isMain: Boolean = isLast || Integer.bitCount(samples) == 1
 
-/** When a listener or rule looks at the image. All workers pause for it, and its time is excluded,
+/** When a listener looks at the image. All workers pause for it, and its time is excluded,
   * so that measurements don't slow down what they measure. The pause is its only cost.
   */
 enum Looks:
@@ -67,6 +67,9 @@ abstract class RenderListener:
   /** Called while no sample is added; not for a cancelled pass. */
   def passed(pass: Pass, film: Film): Unit = ()
 
+  /** The relative error after so many samples per pixel, if it measures errors. */
+  def errorAt(samples: Double): Option[Double] = None
+
 object RenderListener:
   object Silent extends RenderListener
 
@@ -87,3 +90,5 @@ object RenderListener:
       listeners.foreach(_.begins(samples, film))
     override def passed(pass: Pass, film: Film): Unit =
       for l <- listeners if l.frequency.include(pass) do l.passed(pass, film)
+    override def errorAt(samples: Double): Option[Double] =
+      listeners.flatMap(_.errorAt(samples)).headOption

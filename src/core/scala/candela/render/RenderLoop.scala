@@ -1,10 +1,11 @@
 package candela.render
 
 /** One rendering of a plan, from its first sample to its last: workers take samples wave by wave;
-  * between waves, they pause where the rule or the listener looks at the image.
+  * between waves, they pause where a listener looks at the image.
   */
 private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl):
-  import control.{checkpointer, listener, rule, shard}
+  import control.{checkpointer, rule, shard}
+  private val listener = RenderListener.all(Vector(rule, control.listener))
 
   private val started = System.nanoTime
   private var pausedNanos = 0L
@@ -24,17 +25,16 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
       plan.samplesPerPixel < RenderPlan.Endless
     Live(plan, job, queue, state, planned, canKeepOn, () => seconds)
   private val timeLeft =
-    TimeLeft(schedule, pixels.toDouble / shard.count, earlierSamples, rule)
-  private val frequency = rule.frequency.max(listener.frequency)
+    TimeLeft(schedule, pixels.toDouble / shard.count, earlierSamples, rule, listener)
+  private val frequency = listener.frequency
   private var lastBeats = 0L
   private var lastBeat = started
 
   def run(): Rendering =
     listener.started(live)
-    rule.begins(earlierSamples, job.film)
     listener.begins(earlierSamples, job.film)
-    for end <- pauses if schedule.firstSample(end) > earlierSamples && continues do
-      renderUntil(end)
+    for endWave <- pauses if schedule.firstSample(endWave) > earlierSamples && continues do
+      renderUntil(endWave)
     keepOn()
     reportProgress()
     for c <- checkpointer do
@@ -50,15 +50,15 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
     case Looks.Doublings => schedule.passes.iterator
     case Looks.Waves => Iterator.range(0, schedule.waves).map(_ + 1)
 
-  /** Renders all waves before `end`, in several passes if the rule asks for fewer samples. */
-  private def renderUntil(end: Int): Unit =
-    val target = schedule.firstSample(end)
+  /** Renders all waves before `endWave`, in several passes if the rule asks for fewer samples. */
+  private def renderUntil(endWave: Int): Unit =
+    val target = schedule.firstSample(endWave)
     val isDivisible = frequency == Looks.Waves && schedule.step > 0
-    var done = Math.max(earlierSamples, schedule.firstSample(end - 1))
+    var done = Math.max(earlierSamples, schedule.firstSample(endWave - 1))
     while done < target && continues do
       val maxSamples = if isDivisible then rule.maxSamples else Int.MaxValue
       done = if maxSamples >= target - done then target else done + Math.max(1, maxSamples)
-      renderPass(end, done)
+      renderPass(endWave, done)
 
   /** Adds samples beyond the planned ones, as long as a viewer wants them. */
   private def keepOn(): Unit =
@@ -70,28 +70,27 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
       live.extend(schedule.firstSample(wave) - done)
       renderPass(wave, schedule.firstSample(wave))
 
-  /** Takes samples until each pixel has `samples`, none of the wave `end` or a later one. */
-  private def renderPass(end: Int, samples: Int): Unit =
-    queue.openUntil(end, samples)
+  /** Takes samples until each pixel has `samples`, none of the wave `endWave` or a later one. */
+  private def renderPass(endWave: Int, samples: Int): Unit =
+    queue.openUntil(endWave, samples)
     val passStart = seconds
     lastBeat = System.nanoTime
     Workers.run(workers, queue, () => isWorthWaiting)(() => tick())
     if frequency != Looks.Never && !queue.isStopped then
-      val isWhole = samples == schedule.firstSample(end)
+      val isUnshortened = samples == schedule.firstSample(endWave)
       val pass = Pass(
         samples,
         passStart,
-        end = seconds,
+        endSeconds = seconds,
         workers.map(_.seconds),
-        isLast = isWhole && end >= schedule.waves,
-        isWhole,
+        isLast = isUnshortened && endWave >= schedule.waves,
+        isUnshortened,
         clock,
-        step = if isWhole then schedule.step else 1,
+        step = if isUnshortened then schedule.step else 1,
         () => queue.isStopped
       )
       val pauseStart = System.nanoTime
-      if rule.frequency.include(pass) then rule.passed(pass, job.film)
-      if listener.frequency.include(pass) then listener.passed(pass, job.film)
+      listener.passed(pass, job.film)
       pausedNanos += System.nanoTime - pauseStart
 
   /** Called about ten times a second. */
@@ -104,7 +103,7 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   private def observe(): Unit =
     reportProgress()
     if isMoving then lastBeat = System.nanoTime
-    if rule.isOver(clock, (System.nanoTime - lastBeat) * 1e-9) then queue.stop()
+    if rule.stopsNow(clock, (System.nanoTime - lastBeat) * 1e-9) then queue.stop()
 
   private def reportProgress(): Unit =
     val current = live.progress
@@ -121,16 +120,16 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   // Without a copy to save, samples that are not complete in all pixels of a tile may be lost
   private def isWorthWaiting = checkpointer.isDefined && isMoving
 
-  private def continues: Boolean = !queue.isStopped && !rule.isReached
+  private def continues: Boolean = !queue.isStopped && !rule.stopsAfterPass
 
   /** Seconds since the start. */
   private def clock: Double = (System.nanoTime - started) * 1e-9
 
-  /** Seconds since the start, without those of the rule and the listener. */
+  /** Seconds since the start, without those of the listeners. */
   private def seconds: Double = clock - pausedNanos * 1e-9
 
   private def result: Rendering =
     val rendering = live.rendering.copy(earlier = earlierSamples)
     val hasAll = rendering.samplesDone >= plan.samplesPerPixel
-    val isComplete = hasAll || rule.isReached && rendering.samplesDone > 0
+    val isComplete = hasAll || rule.stopsAfterPass && rendering.samplesDone > 0
     if isComplete then rendering.copy(samplesPerPixel = rendering.samplesDone) else rendering

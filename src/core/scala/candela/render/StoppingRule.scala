@@ -1,34 +1,19 @@
 package candela.render
 
-import candela.film.Film
-
 /** Decides when a rendering stops before its planned samples are taken; it does not change them.
-  * The thread that renders calls it.
   */
-abstract class StoppingRule:
-
-  /** When [[passed]] is called. */
-  def frequency: Looks
-
-  /** Called before the first pass.
-    *
-    * @param samples samples per pixel of an earlier rendering that is continued
-    */
-  def begins(samples: Int, film: Film): Unit = ()
-
-  /** Called while no sample is added; not for a cancelled pass. */
-  def passed(pass: Pass, film: Film): Unit = ()
+abstract class StoppingRule extends RenderListener:
 
   /** Whether the rendering stops after the pass that was shown to [[passed]] last. */
-  def isReached: Boolean = false
+  def stopsAfterPass: Boolean = false
 
   /** Asked about ten times a second: whether the rendering stops at once, though not all pixels
     * have the same number of samples.
     *
-    * @param seconds     since the start of rendering, with the time of listeners and this rule
+    * @param seconds     since the start of rendering, with the time of listeners
     * @param idleSeconds since a worker last completed a sample
     */
-  def isOver(seconds: Double, idleSeconds: Double): Boolean = false
+  def stopsNow(seconds: Double, idleSeconds: Double): Boolean = false
 
   /** Samples per pixel to take at most before the next pass, if it looks at waves. */
   def maxSamples: Int = Int.MaxValue
@@ -36,17 +21,13 @@ abstract class StoppingRule:
   /** When it is expected to stop the rendering; none if it never does. */
   def expectedEnd: Option[ExpectedEnd] = None
 
-  /** The relative error after so many samples per pixel, if it measures errors. */
-  def errorAt(samples: Double): Option[Double] = None
-
 object StoppingRule:
   /** All planned samples are taken. */
-  object Never extends StoppingRule:
-    def frequency: Looks = Looks.Never
+  object Never extends StoppingRule
 
 /** When a rule is expected to stop a rendering, whichever comes first.
   *
-  * @param seconds   since the start of rendering, with the time of listeners and the rule
+  * @param seconds   since the start of rendering, with the time of listeners
   * @param isByError whether an error stops it, too
   * @param samples   for that, by the trend of the error so far; none if it can't be known yet
   */

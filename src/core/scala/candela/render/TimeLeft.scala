@@ -14,7 +14,8 @@ private[render] final class TimeLeft(
     schedule: Schedule,
     pixels: Double,
     earlier: Int,
-    rule: StoppingRule
+    rule: StoppingRule,
+    listener: RenderListener
 ):
   import TimeLeft.*
 
@@ -24,8 +25,8 @@ private[render] final class TimeLeft(
 
   /** @param done    samples taken
     * @param planned samples per pixel at which it ends in any case
-    * @param seconds since the start of rendering, without the time of listeners and rule
-    * @param clock   with the time of listeners and rule
+    * @param seconds since the start of rendering, without the time of listeners
+    * @param clock   with the time of listeners
     */
   def outlook(done: Long, planned: Int, seconds: Double, clock: Double): Outlook =
     add(Reading(done, seconds))
@@ -39,7 +40,7 @@ private[render] final class TimeLeft(
     Outlook(
       (bySamples ++ byTime).minOption.map(Math.max(0, _)),
       rate,
-      rule.errorAt(earlier + done / Math.max(1, pixels)),
+      listener.errorAt(earlier + done / Math.max(1, pixels)),
       goal.isDefined,
       byError.flatten
     )

@@ -59,9 +59,9 @@ class EndlessSamplesSuite extends AnyFunSuite:
     val endless = Endless()
     val timed = new StoppingRule:
       var isEnded = false
-      def frequency: Looks = Looks.Doublings
-      override def isReached: Boolean = isEnded
-      override def isOver(seconds: Double, idleSeconds: Double): Boolean =
+      override def frequency: Looks = Looks.Doublings
+      override def stopsAfterPass: Boolean = isEnded
+      override def stopsNow(seconds: Double, idleSeconds: Double): Boolean =
         isEnded = endless.isBegun && idleSeconds > 0.1
         isEnded
     assert(!endless.rendered(2, timed, isCancelled = false).isComplete)

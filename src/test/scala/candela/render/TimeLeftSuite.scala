@@ -104,9 +104,8 @@ private object TimeLeftSuite:
     def at(seconds: Double, goal: Option[ExpectedEnd] = None): Outlook =
       val ends = goal
       val rule = new StoppingRule:
-        def frequency: Looks = Looks.Never
         override def expectedEnd: Option[ExpectedEnd] = ends
-      val timeLeft = TimeLeft(schedule, Pixels, earlier, rule)
+      val timeLeft = TimeLeft(schedule, Pixels, earlier, rule, rule)
       looks.takeWhile(_._2 <= seconds + 1e-6)
         .map((done, s) => timeLeft.outlook(done, spp, s, s)).last
 

@@ -31,7 +31,7 @@ final class RenderRecorder(development: Development, val reference: Option[Image
 
   override protected def measured(pass: Pass, image: => Image): Unit =
     val current = image
-    foundPasses += PassSpan(pass.samples, pass.begin, pass.end, pass.workers)
+    foundPasses += PassSpan(pass.samples, pass.beginSeconds, pass.endSeconds, pass.workers)
     if first.isEmpty then first = Some((current, pass.samples))
     last = Some((current, pass.samples))
 

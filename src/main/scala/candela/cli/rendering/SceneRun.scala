@@ -5,7 +5,7 @@ import candela.cli.files.Denoised
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
-import candela.job.{Denoising, ErrorRecorder, FilmKeeper, Goal, Prepared, Render}
+import candela.job.{Denoising, ErrorRecorder, FilmKeeper, GoalRule, Prepared, Render}
 import candela.render.{Cancellation, Looks, RenderControl, Rendering, RenderListener, StoppingRule}
 import candela.render.storage.Checkpoints
 
@@ -36,14 +36,15 @@ private[cli] final class SceneRun(
     val estimates = if settings.goal.isGiven then Looks.Waves else Looks.Doublings
     Option.when(settings.goal.isGiven || isEstimated):
       ErrorRecorder(plan.development, None, estimates)
-  private val goal = recorder.map(Goal(settings.goal, plan.samplesPerPixel, _, isWhole = isPreview))
+  private val goal = recorder.filter(_ => settings.goal.isGiven)
+    .map(GoalRule(settings.goal, plan.samplesPerPixel, _, finishesFirstSample = isPreview))
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
 
   def run(): ExitCode = terminal.interrupts.during(cancellation):
     val progress = ProgressLine(terminal.err, terminal.isInteractive, terminal.isReadByProgram)
     val checkpoints = keeping.map:
-      _.checkpointer(() => goal.exists(_.isReached), n => recorder.flatMap(_.relativeMse(n)))
+      _.checkpointer(() => goal.exists(_.stopsAfterPass), n => recorder.flatMap(_.relativeMse(n)))
     val watching = Option.when(options.isWatched)(watched())
     try
       val rendering = rendered(progress, checkpoints, watching)
@@ -75,7 +76,8 @@ private[cli] final class SceneRun(
     val progressListener = Option.when(!options.quiet)(RenderListener.onProgress(update))
     val followed = watching.map(w => RenderListener.onStart(w.start))
     val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
-    val listeners = progressListener ++ errorLog ++ images ++ followed
+    val estimating = recorder.filter(_ => goal.isEmpty)
+    val listeners = estimating ++ progressListener ++ errorLog ++ images ++ followed
     val control = RenderControl(
       options.control.threads,
       cancellation,

@@ -3,7 +3,7 @@ package candela.cli.rendering
 import candela.diagnostics.Code
 import candela.cli.options.Options
 import candela.cli.terminal.{Figures, ProblemText, Terminal}
-import candela.job.{Goal, Prepared}
+import candela.job.{GoalRule, Prepared}
 import candela.measure.Interval
 import candela.render.{Refused, Rendering}
 import candela.render.storage.FilmFile
@@ -39,9 +39,9 @@ object Summary:
       val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
       val size = s"${r.film.width}x${r.film.height}"
       val seconds = Figures.duration(r.seconds)
-      val shardShare =
+      val share =
         if shards == 1 then "" else s"${Figures.general(r.samplesDone.toDouble / shards)} of "
-      s"wrote $names  $size, $shardShare${r.samplesDone} spp${ofThisRun(r)}, $seconds, " +
+      s"wrote $names  $size, $share${r.samplesDone} spp${ofThisRun(r)}, $seconds, " +
         s"$rates$missing"
     else
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
@@ -58,11 +58,11 @@ object Summary:
     * @param interval of the relative MSE, which is the error's square; with 95 % confidence
     */
   def noise(samples: Int, error: Option[Double], interval: Option[Interval]): String =
-    error.filter(_ => samples >= Goal.MinSamples).fold(unknown(samples)):
+    error.filter(_ => samples >= GoalRule.MinSamples).fold(unknown(samples)):
       estimated(_, interval)
 
   private def unknown(samples: Int): String =
-    if samples < Goal.MinSamples then "error unknown: too few samples" else "error unknown"
+    if samples < GoalRule.MinSamples then "error unknown: too few samples" else "error unknown"
 
   private def estimated(error: Double, interval: Option[Interval]): String =
     val limits = interval.filter(_.isKnown).map(i => (Math.sqrt(i.low), Math.sqrt(i.high)))

@@ -2,7 +2,7 @@ package candela.cli.rendering
 
 import candela.color.Rgb
 import candela.film.Development
-import candela.job.{ErrorRecorder, Goal}
+import candela.job.{ErrorRecorder, GoalRule}
 import candela.render.{RenderControl, Renderer, TinyPlan}
 import candela.settings.RenderGoal
 
@@ -16,7 +16,7 @@ class MissedGoalSuite extends AnyFunSuite:
 
   test("what ends before its goal because all samples are taken says so, and what to do", Slow):
     def missed(options: RenderGoal) =
-      val ended = Goal(options, 1000, ErrorRecorder(Development(), None))
+      val ended = GoalRule(options, 1000, ErrorRecorder(Development(), None))
       MissedGoal.warning(ended, Renderer.render(plan, RenderControl(2, rule = ended)))
     val why =
       raw"all 1000 samples per pixel are taken; a larger --spp, or none, allows more \[E1104\]"

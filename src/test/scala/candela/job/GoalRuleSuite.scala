@@ -8,16 +8,16 @@ import candela.settings.RenderGoal
 
 import org.scalatest.funsuite.AnyFunSuite
 
-class GoalSuite extends AnyFunSuite:
+class GoalRuleSuite extends AnyFunSuite:
   /** Uniform numbers around 1: their relative error is the root of 1/12 over the samples. */
   private def plan(spp: Int) = TinyPlan(width = 40, height = 30, spp = spp): (_, sampler) =>
     Rgb.gray(0.5f + sampler.next1D())
 
   private def goal(options: RenderGoal) =
-    Goal(options, 1000, ErrorRecorder(Development(), None))
+    GoalRule(options, 1000, ErrorRecorder(Development(), None))
 
-  private def rendered(goal: Goal, spp: Int = 1000): Rendering =
-    Renderer.render(plan(spp), RenderControl(2, rule = goal))
+  private def rendered(rule: GoalRule, spp: Int = 1000): Rendering =
+    Renderer.render(plan(spp), RenderControl(2, rule = rule))
 
   test("a rendering ends at the first number of samples whose error is low enough"):
     // The root of 0.0833 / 41, relative to 1.01; the estimate is known to 5 %
@@ -27,7 +27,7 @@ class GoalSuite extends AnyFunSuite:
 
   test("the last point is that of the image, wherever the goal ended it"):
     val estimating = ErrorRecorder(Development(), None)
-    val rendering = rendered(Goal(RenderGoal(error = Some(0.045)), 1000, estimating))
+    val rendering = rendered(GoalRule(RenderGoal(error = Some(0.045)), 1000, estimating))
     val samples = rendering.samplesDone
     val measuring =
       ErrorRecorder(Development(), Some(Image(40, 30, Image.RgbNames, Array.fill(3600)(1f))))
@@ -41,7 +41,7 @@ class GoalSuite extends AnyFunSuite:
       assert(recorder.points.count(_.samples == samples) == 1)
 
   test("an error of a few samples ends nothing"):
-    assert(rendered(goal(RenderGoal(error = Some(10)))).samplesDone == Goal.MinSamples)
+    assert(rendered(goal(RenderGoal(error = Some(10)))).samplesDone == GoalRule.MinSamples)
 
   test("the samples that an error needs are known before"):
     val ended = goal(RenderGoal(error = Some(0.045)))
@@ -52,11 +52,12 @@ class GoalSuite extends AnyFunSuite:
 
   test("a preview takes a sample of each pixel, whatever the time"):
     val recorder = ErrorRecorder(Development(), None)
-    val late = Goal(RenderGoal(time = Some(1e-9)), 16, recorder, isWhole = true)
+    val late = GoalRule(RenderGoal(time = Some(1e-9)), 16, recorder, finishesFirstSample = true)
     val rendering = rendered(late, spp = 16)
     assert(rendering.isComplete && rendering.samplesDone >= 1)
-    assert(!Goal(RenderGoal(time = Some(1)), 16, recorder, isWhole = true).isOver(99, 99))
-    assert(Goal(RenderGoal(time = Some(1)), 16, recorder).isOver(99, 99))
+    val timed = GoalRule(RenderGoal(time = Some(1)), 16, recorder, finishesFirstSample = true)
+    assert(!timed.stopsNow(99, 99))
+    assert(GoalRule(RenderGoal(time = Some(1)), 16, recorder).stopsNow(99, 99))
 
   private val film = Film(0, 0, 1, 1)
 
@@ -70,14 +71,14 @@ class GoalSuite extends AnyFunSuite:
     timed.begins(0, film)
     var clock = 0.0
     var samples = 0
-    while !timed.isReached do
+    while !timed.stopsAfterPass do
       val size = Math.min(largest, Math.max(1, Integer.highestOneBit(samples) / 2))
       val rest = size - samples % size
       val next = Math.min(timed.maxSamples, rest)
       val end = clock + next * (if samples == 0 then 1 else actual)
       samples += next
       timed.passed(
-        Pass(samples, clock, end, Vector.empty, isWhole = next == rest, clock = end),
+        Pass(samples, clock, end, Vector.empty, isUnshortened = next == rest, clock = end),
         film
       )
       clock = end
@@ -94,17 +95,17 @@ class GoalSuite extends AnyFunSuite:
     val timed = goal(RenderGoal(time = Some(1.2)))
     timed.begins(0, film)
     timed.passed(Pass(1, 0, 0.8, Vector.empty, clock = 0.8), film)
-    assert(!timed.isReached && timed.maxSamples == 2)
+    assert(!timed.stopsAfterPass && timed.maxSamples == 2)
 
   test("samples that take longer than expected are not waited for, nor chains, which end anywhere"):
     val timed = goal(RenderGoal(time = Some(20)))
     timed.begins(0, film)
     for i <- 1 to 3 do timed.passed(Pass(i, i - 1, i, Vector.empty, clock = i), film)
-    assert(timed.maxSamples == 17 && !timed.isOver(20.3, 0) && timed.isOver(20.5, 0))
+    assert(timed.maxSamples == 17 && !timed.stopsNow(20.3, 0) && timed.stopsNow(20.5, 0))
     val chains = goal(RenderGoal(time = Some(20)))
     chains.begins(0, film)
     chains.passed(Pass(1, 0, 1, Vector.empty, clock = 1, step = 0), film)
-    assert(!chains.isReached && !chains.isOver(19.9, 0) && chains.isOver(20, 0))
+    assert(!chains.stopsAfterPass && !chains.stopsNow(19.9, 0) && chains.stopsNow(20, 0))
 
   test("an error is measured in time, or not at all"):
     for (clock, isKnown) <- Vector(2.0 -> true, 2.9 -> false) do
@@ -112,7 +113,7 @@ class GoalSuite extends AnyFunSuite:
       timed.begins(0, film)
       for i <- 1 to 2 do
         timed.passed(Pass(i, 0, 1, Vector.empty, clock = if i == 1 then 1 else clock), film)
-      assert(timed.errorAt(2).isDefined == isKnown && timed.isReached, clock)
+      assert(timed.errorAt(2).isDefined == isKnown && timed.stopsAfterPass, clock)
     val cancelled = goal(RenderGoal(error = Some(1e9)))
     cancelled.begins(0, film)
     for i <- 1 to 2 do cancelled.passed(Pass(i, 0, 1, Vector.empty, isStopped = () => true), film)
@@ -121,8 +122,8 @@ class GoalSuite extends AnyFunSuite:
   test("where an error is looked at does not depend on a time"):
     val both = goal(RenderGoal(error = Some(1e9), time = Some(1000)))
     both.begins(0, film)
-    both.passed(Pass(8, 0, 1, Vector.empty, isWhole = false, clock = 1), film)
-    assert(!both.isReached)
+    both.passed(Pass(8, 0, 1, Vector.empty, isUnshortened = false, clock = 1), film)
+    assert(!both.stopsAfterPass)
     // An end that the time cuts short is not the error's
     val error = Some(0.045)
     val alone = rendered(goal(RenderGoal(error = error))).samplesDone
@@ -136,10 +137,10 @@ class GoalSuite extends AnyFunSuite:
     val ends =
       for planned <- Vector(9, 17, 18, 34, 70, 131) yield
         val trend = ErrorRecorder(Development(), None)
-        rendered(Goal(RenderGoal(error = Some(1e-9)), planned, trend), planned): Unit
+        rendered(GoalRule(RenderGoal(error = Some(1e-9)), planned, trend), planned): Unit
         val most = trend.errorAt(planned).get * 1.0001
         val reached =
-          Goal(RenderGoal(error = Some(most)), planned, ErrorRecorder(Development(), None))
+          GoalRule(RenderGoal(error = Some(most)), planned, ErrorRecorder(Development(), None))
         val rendering = rendered(reached, planned)
         assert(!reached.isMissed(rendering), planned)
         planned - rendering.samplesDone

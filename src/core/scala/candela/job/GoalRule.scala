@@ -6,28 +6,30 @@ import candela.render.{ExpectedEnd, Looks, Pass, Rendering, SampleRange, Stoppin
 import candela.settings.RenderGoal
 
 /** Stops a rendering at a time, or at an error, whichever comes first, with a whole number of
-  * samples in every pixel. Without either, it measures the error.
+  * samples in every pixel. The error is low enough with as many samples as the latest estimate,
+  * after 1, 2, 4, 8, … samples, says that it needs: it is not measured again.
   *
-  * @param planned  samples per pixel at which it ends in any case
-  * @param recorder measures the error
-  * @param isWhole  whether each pixel gets a sample, whatever the time
+  * @param goal                a time, an error, or both
+  * @param planned             samples per pixel at which it ends in any case
+  * @param recorder            measures the error
+  * @param finishesFirstSample whether each pixel gets a sample, whatever the time
   */
-final class Goal(
-    val options: RenderGoal,
+final class GoalRule(
+    val goal: RenderGoal,
     planned: Int,
     recorder: ErrorRecorder,
-    isWhole: Boolean = false
+    finishesFirstSample: Boolean = false
 ) extends StoppingRule:
-  private var hasReached = false
+  private var isReached = false
   private var samplesDone, step, passCount = 0
   private var elapsed, perSample = 0.0
 
   /** Samples per pixel at which the latest estimate expects the error to be low enough. */
-  private var end = Option.empty[Int]
-  private var expected = Option.empty[SampleRange]
+  private var samplesNeeded = Option.empty[Int]
+  private var samplesNeededRange = Option.empty[SampleRange]
 
-  override def isReached: Boolean = hasReached
-  def frequency: Looks = if options.isGiven then Looks.Waves else recorder.frequency
+  override def stopsAfterPass: Boolean = isReached
+  override def frequency: Looks = Looks.Waves
 
   override def begins(samples: Int, film: Film): Unit =
     samplesDone = samples
@@ -35,68 +37,67 @@ final class Goal(
     recorder.begins(samples, film)
 
   override def passed(pass: Pass, film: Film): Unit =
-    if options.isGiven then decide(pass, film) else recorder.passed(pass, film)
-
-  private def decide(pass: Pass, film: Film): Unit =
     val began = System.nanoTime
     def clock = pass.clock + (System.nanoTime - began) * 1e-9
-    def isLate = options.time.exists(clock > _ + Goal.MaxLateSeconds)
+    def isLate = goal.time.exists(clock > _ + GoalRule.MaxLateSeconds)
     val watched = pass.copy(isStopped = () => pass.isStopped() || isLate)
     // Shortened passes depend on the time; where the rendering ends by its error must not
-    if pass.isWhole then
+    if pass.isUnshortened then
       recorder.passed(watched, film)
-      val samples = options.error.flatMap(recorder.samplesUntil)
-      end = samples.map(s => Goal.roundedUp(s.estimate))
-      expected = samples.flatMap(Goal.range)
-    if end.exists(_ <= pass.samples) || pass.isLast && isLow(pass.samples) then hasReached = true
-    val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - samplesDone)
+      val samples = goal.error.flatMap(recorder.samplesUntil)
+      samplesNeeded = samples.map(s => GoalRule.roundedUp(s.estimate))
+      samplesNeededRange = samples.flatMap(GoalRule.range)
+    val hasSamples = samplesNeeded.exists(_ <= pass.samples)
+    if hasSamples || pass.isLast && isLow(pass.samples) then isReached = true
+    val measured = (pass.endSeconds - pass.beginSeconds) / Math.max(1, pass.samples - samplesDone)
     // The first ones are slow: the JVM compiles meanwhile
-    perSample = measured * Goal.Warm(Math.min(passCount, Goal.Warm.size - 1))
+    perSample = measured * GoalRule.Warm(Math.min(passCount, GoalRule.Warm.size - 1))
     passCount += 1
     samplesDone = pass.samples
     step = pass.step
     elapsed = clock
-    if options.time.exists(t => !isWorthMore(t - elapsed)) then hasReached = true
-    if hasReached && !pass.isWhole then recorder.passed(watched.copy(isLast = true), film)
+    if goal.time.exists(t => !isWorthMore(t - elapsed)) then isReached = true
+    if isReached && !pass.isUnshortened then recorder.passed(watched.copy(isLast = true), film)
 
   /** Whether the error is low enough, though all samples are taken before the next look. */
   private def isLow(samples: Int): Boolean =
-    samples >= Goal.MinSamples &&
-      options.error.exists(most => recorder.errorAt(samples).exists(_ <= most))
+    samples >= GoalRule.MinSamples &&
+      goal.error.exists(most => recorder.errorAt(samples).exists(_ <= most))
 
   /** Whether the shortest part that there is ends nearer to the time than now, and not late. */
   private def isWorthMore(remaining: Double): Boolean =
-    remaining > step * perSample / 2 && step * perSample - remaining <= Goal.MaxLateSeconds
+    remaining > step * perSample / 2 && step * perSample - remaining <= GoalRule.MaxLateSeconds
 
   /** As many samples as the error needs, or end in time. */
   override def maxSamples: Int =
-    val inTime = options.time.filter(_ => perSample > 0).fold(Int.MaxValue): t =>
+    val inTime = goal.time.filter(_ => perSample > 0).fold(Int.MaxValue): t =>
       val remaining = t - elapsed
       val fits =
-        Math.min(remaining / perSample + 0.5, (remaining + Goal.MaxLateSeconds) / perSample)
+        Math.min(remaining / perSample + 0.5, (remaining + GoalRule.MaxLateSeconds) / perSample)
       Math.max(1, Math.min(fits, Int.MaxValue)).toInt
-    end.fold(inTime)(samples => Math.min(inTime, Math.max(1, samples - samplesDone)))
+    samplesNeeded.fold(inTime)(samples => Math.min(inTime, Math.max(1, samples - samplesDone)))
 
   /** At the time, if the rendering may end anywhere, or no sample ends any more; or else soon
     * after, if the samples take longer than expected.
     */
-  override def isOver(seconds: Double, idleSeconds: Double): Boolean =
-    val late = if step == 0 || idleSeconds > Goal.MaxIdleSeconds then 0 else Goal.MaxLateSeconds
-    val mayEnd = !isWhole || samplesDone > 0
-    if mayEnd && options.time.exists(_ + late <= seconds) then hasReached = true
-    hasReached
+  override def stopsNow(seconds: Double, idleSeconds: Double): Boolean =
+    val mayBeLate = step > 0 && idleSeconds <= GoalRule.MaxIdleSeconds
+    val late = if mayBeLate then GoalRule.MaxLateSeconds else 0
+    val mayEnd = !finishesFirstSample || samplesDone > 0
+    if mayEnd && goal.time.exists(_ + late <= seconds) then isReached = true
+    isReached
 
-  override def expectedEnd: Option[ExpectedEnd] = Option.when(options.isGiven):
-    ExpectedEnd(options.time, options.error.isDefined, expected)
+  override def expectedEnd: Option[ExpectedEnd] =
+    Some(ExpectedEnd(goal.time, goal.error.isDefined, samplesNeededRange))
 
   override def errorAt(samples: Double): Option[Double] = recorder.errorAt(samples)
 
   /** Whether the rendering ended before its goal, because all samples were taken. */
   def isMissed(rendering: Rendering): Boolean =
-    val isEarly = options.time.forall(rendering.seconds < Goal.Nearly * _)
-    options.isGiven && !hasReached && isEarly && rendering.samplesDone >= planned
+    val isEarly = goal.time.forall(rendering.seconds < GoalRule.Nearly * _)
+    !isReached && isEarly && rendering.samplesDone >= planned
 
-object Goal:
+object GoalRule:
   /** Of a time; what ends later was asked for. */
   private val Nearly = 0.9
 
