@@ -13,7 +13,7 @@ object SettingsTable:
   private def display(s: S)(f: DisplayTransform => DisplayTransform): S =
     write(s)(o => o.copy(display = f(o.display)))
   private def parse(s: S)(f: ReadSettings => ReadSettings): S = s.copy(reading = f(s.reading))
-  private def end(s: S)(f: RenderGoal => RenderGoal): S = s.copy(goal = f(s.goal))
+  private def aim(s: S)(f: RenderGoal => RenderGoal): S = s.copy(goal = f(s.goal))
 
   private type Layers = Vector[(Layer, Option[Boolean])]
 
@@ -46,7 +46,7 @@ object SettingsTable:
       "time",
       "TIME",
       "end after this rendering time, e.g. 90s, 10m or 2h; --spp N is then a maximum"
-    )(_.goal.time)((s, t) => end(s)(_.copy(time = Some(t))))(using TextForm.seconds).withoutIdentity
+    )(_.goal.time)((s, t) => aim(s)(_.copy(time = Some(t))))(using TextForm.seconds).withoutIdentity
       .explained(
         "Reading and building the scene don't count. With `--error`, whichever comes first ends " +
           "it: [time and error](NOISE.md#time-and-error)."
@@ -54,9 +54,10 @@ object SettingsTable:
     option(
       "error",
       "X",
-      "end when the relative error, estimated from the noise, is below X, e.g. 2% or 0.02; " +
-        "--spp N is then a maximum"
-    )(_.goal.error)((s, x) => end(s)(_.copy(error = Some(x))))(using TextForm.share).withoutIdentity
+      "end when the relative error is expected to be below X, e.g. 2% or 0.02; the error is " +
+        "estimated from the noise, or measured with --report and --reference; --spp N is then a " +
+        "maximum"
+    )(_.goal.error)((s, x) => aim(s)(_.copy(error = Some(x))))(using TextForm.share).withoutIdentity
       .explained("[How the error is estimated](NOISE.md)."),
     value("seed", "N", "random seed (default 0)")(_.seed)((s, n) => s.copy(seed = n))(using
       TextForm.int
