@@ -11,15 +11,15 @@ import candela.scene.Scene
   *
   * @param volumes what attenuates light between surfaces, if anything does
   * @param steps   their step size towards lights, in units of that towards the camera
-  * @param crosses do shadow rays pass interfaces?
+  * @param passesInterfaces do shadow rays pass interfaces?
   */
 final class LightConnection(
     scene: Scene,
     volumes: VolumeMarch | Null = null,
     steps: Float = VolumeMarch.StepsToLights,
-    crosses: Boolean = true
+    passesInterfaces: Boolean = true
 ):
-  private val examines = crosses && scene.hasInterfaces
+  private val examines = passesInterfaces && scene.hasInterfaces
   private val choice = LightChoice()
   private val ray = Ray()
   private val hit = Hit()
@@ -92,7 +92,7 @@ final class LightConnection(
   /** Traces the shadow ray from a surface. */
   def isBlocked(at: ShadingPoint): Boolean = isBlocked(at.offsetOrigin(wi))
 
-  /** Traces the shadow ray from `origin`, through interfaces where it crosses them. */
+  /** Traces the shadow ray from `origin`, through interfaces where it passes them. */
   def isBlocked(origin: Vec3): Boolean =
     aim(origin)
     rays += 1
@@ -111,25 +111,26 @@ final class LightConnection(
   /** What volumes leave of the light along the shadow ray traced last. */
   def transmittance(march: VolumeMarch): Rgb = march.transmittance(ray, steps)
 
-  /** What [[scatters]] has found, not yet weighted with the path's throughput. */
+  /** What [[computeArrived]] has computed, not yet weighted with the path's throughput. */
   val arrived: MutableRgb = MutableRgb()
 
-  /** Does `vertex` scatter light of the sample to its `wo`?
+  /** Traces the shadow ray, and computes what `vertex` scatters of the sample to its `wo`; false if
+    * none arrives.
     *
     * @param weight of multiple importance sampling, given the local direction to the light;
     *               evaluated only if the sample is visible and BSDF sampling can find the light,
     *               else 1
     */
-  inline def scatters(vertex: SurfaceVertex, inline weight: Vec3 => Float): Boolean =
+  inline def computeArrived(vertex: SurfaceVertex, inline weight: Vec3 => Float): Boolean =
     vertex.point.frame.toLocal(wi, localWi)
     val f = vertex.received(wi, localWi)
     val arrives = !f.isBlack && !isBlocked(vertex.point)
     if arrives then arrive(f, Math.abs(localWi.z) * (if isDelta then 1f else weight(localWi)) / pdf)
     arrives
 
-  /** The light that [[scatters]] finds. */
+  /** [[arrived]], or black. */
   inline def scattered(vertex: SurfaceVertex, inline weight: Vec3 => Float): Rgb =
-    if scatters(vertex, weight) then arrived.toRgb else Rgb.Black
+    if computeArrived(vertex, weight) then arrived.toRgb else Rgb.Black
 
   /** f · radiance · factor, attenuated by volumes. */
   def arrive(f: Rgb, factor: Float): Unit =

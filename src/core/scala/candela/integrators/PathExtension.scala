@@ -18,8 +18,10 @@ class PathExtension:
   /** The ray was traced to the next surface. */
   def travel(sampler: Sampler): Unit = ()
 
-  /** Likewise, in a medium; true if the path goes straight through it, attenuated. */
-  def crosses(medium: Int): Boolean = false
+  /** Called before a distance is sampled in the medium. True if photons bring all the light that it
+    * scatters: the path was then attenuated up to the surface, and no distance is sampled.
+    */
+  def goStraightThrough(medium: Int): Boolean = false
 
   /** Factor of what the path has met of a light: of how much of it is left to other techniques. */
   def emissionFactor(index: Int, light: EnvironmentLight): Float = 1f
@@ -42,8 +44,9 @@ class PathExtension:
   def arrive(isGuided: Boolean = true): Unit = ()
   def arriveInMedium(p: Vec3, wo: Vec3, medium: Int): Unit = ()
 
-  /** Is the light sample of the connection left to the path? */
-  def samples: Boolean = true
+  /** Does the path take the light sample of the connection itself? False: photons bring its light.
+    */
+  def takesLightSample: Boolean = true
 
   /** Solid-angle density with which the path takes the direction of the light sample.
     *
@@ -61,12 +64,12 @@ class PathExtension:
   def addCaustics(): Unit = ()
 
   /** Samples the next direction in place of the BSDF or phase function; false: it doesn't. */
-  def scatters(sampler: Sampler): Boolean = false
+  def sampleDirectionInstead(sampler: Sampler): Boolean = false
 
-  /** Does light that was refracted into the surface emerge elsewhere? The vertex is there then, as
-    * part of the same scattering event.
+  /** Moves the vertex to where light that was refracted into the surface emerges, as part of the
+    * same scattering event; false: none does.
     */
-  def emerges(sampler: Sampler): Boolean = false
+  def moveToExit(sampler: Sampler): Boolean = false
 
   /** The path is about to leave the vertex.
     *

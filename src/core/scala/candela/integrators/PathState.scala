@@ -22,15 +22,19 @@ import candela.media.PathWeights
   *     densities, but a ray that meets an emitter has left the vertex where the emitter could have
   *     been sampled. So the path remembers the density of its direction, and the position and
   *     normal of that vertex.
-  *   - In media, β also has T·σs/p of a sampled distance, where T is the transmittance, or T/P of
-  *     passing the medium with the probability P. Phase functions are sampled exactly: their f/p
-  *     is 1.
+  *   - A light that isn't sampled, as a uniform sky may be, is chosen with probability 0: the path
+  *     that meets it has the weight 1.
+  *   - In a homogeneous medium, β also has T·σs/p of a sampled distance, where T is the
+  *     transmittance, or T/P of passing it with the probability P. In a varying one T is not known:
+  *     [[candela.media.VaryingMedium]] samples collisions with a majorant m, and β has σs/m over
+  *     the probability of scattering, or (m − σt)/m over that of going on. Phase functions are
+  *     sampled exactly: their f/p is 1.
   *
   * Between surfaces one density is enough ([[SurfacePath]]). In media each colour has its own
   * ([[VolumePath]]).
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9.2 and §10; PBRT 4th
-  * ed., §13.2 and §14.2, whose names these are.
+  * ed., §13.2 and §14.2, which calls them β, r_u and r_l.
   */
 abstract class PathState:
   /** Scattering events so far. */
@@ -66,9 +70,9 @@ abstract class PathState:
   def carried(radiance: Rgb, weight: Float = 1f): Rgb
 
   /** Does light sampling miss what the current direction meets? So it does if the direction is
-    * specular, or the camera's.
+    * specular, or the camera's, or if lights aren't sampled.
     */
-  def specularBounce: Boolean
+  def lightSamplingMisses: Boolean
 
   /** Weight of light that the path meets, if light sampling may sample it, too: the path's own
     * density against that of light sampling. Power heuristic.
@@ -83,12 +87,12 @@ abstract class PathState:
     * @param n   normal for the choice of lights there
     * @param pdf solid-angle density of the direction; 0 if light sampling misses what it meets
     */
-  final def turn(p: Vec3, n: Vec3, pdf: Float): Unit =
+  final def startSegment(p: Vec3, n: Vec3, pdf: Float): Unit =
     lastP.set(p)
     lastN.set(n)
-    turn(pdf)
+    startSegment(pdf)
 
-  protected def turn(pdf: Float): Unit
+  protected def startSegment(pdf: Float): Unit
 
   /** Does the path carry its hero wavelength only? */
   def isAlone: Boolean
@@ -129,12 +133,12 @@ final class SurfacePath extends PathState:
   def absorb(): Unit = beta.set(Rgb.Black)
   def isBlack: Boolean = beta.isBlack
   def carried(radiance: Rgb, weight: Float): Rgb = beta.toRgb * radiance * weight
-  def specularBounce: Boolean = bsdfPdf == 0f
+  def lightSamplingMisses: Boolean = bsdfPdf == 0f
 
   def emissionWeight(choice: Float, pdf: Float): Float =
     if bsdfPdf > 0f then LightTransport.powerHeuristic(bsdfPdf, choice * pdf) else 0f
 
-  protected def turn(pdf: Float): Unit = bsdfPdf = pdf
+  protected def startSegment(pdf: Float): Unit = bsdfPdf = pdf
 
   /** Passes an interface. If light samples end there, either the path alone finds what is behind
     * it, or nothing does.
@@ -174,7 +178,7 @@ private object SurfacePath:
   * Media scatter colours at different distances, so a path that one colour has sampled is weighted
   * against those of the others ([[candela.media.PathWeights]]). Mutable.
   *
-  * @param weights which media change on the way
+  * @param weights which media change on the way, and [[candela.media.MediumWork]] starts
   */
 final class VolumePath(val weights: PathWeights = PathWeights()) extends PathState:
 
@@ -187,13 +191,13 @@ final class VolumePath(val weights: PathWeights = PathWeights()) extends PathSta
   def absorb(): Unit = weights.scale(0f)
   def isBlack: Boolean = weights.isDead
   def carried(radiance: Rgb, weight: Float): Rgb = weights.throughput * (radiance * weight)
-  def specularBounce: Boolean = !(weights.lightDensity > 0f)
+  def lightSamplingMisses: Boolean = !(weights.lightRatio > 0f)
 
   /** Densities are in units of the path's own. */
   def emissionWeight(choice: Float, pdf: Float): Float =
-    LightTransport.powerHeuristic(1f, weights.lightDensity * choice * pdf)
+    LightTransport.powerHeuristic(1f, weights.lightRatio * choice * pdf)
 
-  protected def turn(pdf: Float): Unit = weights.turn(pdf)
+  protected def startSegment(pdf: Float): Unit = weights.startSegment(pdf)
 
   def isAlone: Boolean = weights.isAlone
   def terminateSecondary(): Unit = weights.keepHero()

@@ -63,7 +63,7 @@ private final class PathTechniques(
         path.scale(march.transmitted)
       else path.scale(march.transmittance(tracer.ray, VolumeMarch.StepsToLights))
 
-  override def crosses(medium: Int): Boolean =
+  override def goStraightThrough(medium: Int): Boolean =
     val ofRay = segment
     photons != null && ofRay != null && {
       ofRay.start(tracer.ray, medium)
@@ -120,7 +120,7 @@ private final class PathTechniques(
     if weights != null then weights.arriveInMedium(eye, p, history)
     isBoundary = false
 
-  override def samples: Boolean =
+  override def takesLightSample: Boolean =
     photons == null || !photons.covers(connection.index, vertex, tracer.ray, hit, history)
 
   override def directionPdf(localWi: Vec3, pdf: Float): Float =
@@ -138,13 +138,13 @@ private final class PathTechniques(
   override def addCaustics(): Unit =
     if photons != null then tracer.L.add(path.carried(photons.reflected(vertex, history)))
 
-  override def scatters(sampler: Sampler): Boolean =
+  override def sampleDirectionInstead(sampler: Sampler): Boolean =
     guiding != null && {
       guiding.scatter(sampler)
       true
     }
 
-  override def emerges(sampler: Sampler): Boolean =
+  override def moveToExit(sampler: Sampler): Boolean =
     val inside = if probe == null || path.isBlack then null else vertex.beneath
     inside != null && probe != null && {
       if guiding != null then guiding.leaveAlone()

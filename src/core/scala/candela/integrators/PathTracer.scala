@@ -47,7 +47,7 @@ abstract class CameraPath(
   def leaveVertex(): Unit =
     extension.leaveVertex()
     val bounce = vertex.bounce
-    path.turn(
+    path.startSegment(
       vertex.point.p,
       vertex.lightNormal,
       pdf = if bounce.isSpecular then 0f else bounce.pdf
@@ -75,7 +75,7 @@ abstract class CameraPath(
     * @param pdf solid-angle density with which light sampling would have sampled the point
     */
   private inline def emissionWeight(light: Int, inline pdf: Float): Float =
-    if path.specularBounce then 1f
+    if path.lightSamplingMisses then 1f
     else path.emissionWeight(scene.selection.probability(path.lastP, path.lastN, light), pdf)
 
   /** Radiance of the environment along the ray, weighted against light sampling. */
@@ -93,7 +93,7 @@ abstract class CameraPath(
   protected final def surfaceWeight(light: SurfaceLight): Float =
     val point = vertex.point
     val misWeight =
-      if light.isShownOnly && !path.specularBounce then 0f
+      if light.isShownOnly && !path.lightSamplingMisses then 0f
       else emissionWeight(point.areaLight, light.pdf(path.lastP, point))
     misWeight * extension.emissionFactor(point.areaLight, light)
 
@@ -150,14 +150,15 @@ final class PathTracer private (
           vertex.evaluate()
           extension.arrive()
           // Scatter, and once more where light emerges from beneath the surface
-          while
+          var isAtVertex = true
+          while isAtVertex do
             // Sample direct light
             if hasLights && !vertex.bsdf.isSpecular then
               val u = sampler.next1D(matters = lights.isRandom)
               sampler.next2D()
               if lights.choose(point.p, vertex.lightNormal, u) &&
-                lights.samplePoint(point.p, sampler.x, sampler.y) && extension.samples &&
-                lights.scatters(
+                lights.samplePoint(point.p, sampler.x, sampler.y) && extension.takesLightSample &&
+                lights.computeArrived(
                   vertex,
                   weight = wi =>
                     val bsdfPdf = extension.directionPdf(wi, vertex.localPdf(wi))
@@ -169,11 +170,10 @@ final class PathTracer private (
                 extension.recordSample(beta.toRgb * lights.arrived.toRgb)
             extension.addCaustics()
             // Sample the BSDF for the next direction
-            if !extension.scatters(sampler) then
+            if !extension.sampleDirectionInstead(sampler) then
               vertex.draw(sampler)
               beta.scale(vertex.bounce.weight)
-            extension.emerges(sampler)
-          do ()
+            isAtVertex = extension.moveToExit(sampler)
           leaveVertex()
           roulette(surfacePath, limits, sampler)
     L.toRgb
@@ -200,7 +200,7 @@ object PathTracer:
       guide: Guide | Null = null,
       parts: LightParts | Null = null
   ): PathTracer =
-    val crosses = !options.interfaces.stopsLight
-    val lights = LightConnection(scene, volumes, crosses = crosses)
+    val passesInterfaces = !options.interfaces.stopsLight
+    val lights = LightConnection(scene, volumes, passesInterfaces = passesInterfaces)
     val extend = PathTechniques.of(scene, options, limits.seesThrough, guide, parts, volumes)
     new PathTracer(scene, limits, options, SurfacePath(), lights, extend)

@@ -35,7 +35,7 @@ final class SimplePathTracer(
     startPath(cameraRay, sampler)
     while goesOn do
       val isHit = intersect()
-      val isSampled = !path.specularBounce
+      val isSampled = !path.lightSamplingMisses
       if isHit then
         if !isSampled then addEmission()
         val isLast = path.depth + path.passed == maxDepth
@@ -52,7 +52,7 @@ final class SimplePathTracer(
               scatterUniformly(vertex.bsdf.isTransmissive, sampler)
             case Onward.Sphere => scatterUniformly(bothSides = true, sampler)
           leaveVertex()
-          if !samplesLights then path.turn(path.lastP, path.lastN, pdf = 0f)
+          if !samplesLights then path.startSegment(path.lastP, path.lastN, pdf = 0f)
       else if isSampled then end()
       else addEnvironment()
     L.toRgb

@@ -28,7 +28,7 @@ abstract class SurfaceWalk(
 ) extends CameraPath(
       scene,
       surfacePath,
-      LightConnection(scene, volumes, steps, crosses = !interfaces.stopsLight),
+      LightConnection(scene, volumes, steps, passesInterfaces = !interfaces.stopsLight),
       PathTechniques.of(scene, PathOptions(), seesThrough = false, null, null)
     ):
   /** Its users divide light only if they say so. */
@@ -106,7 +106,7 @@ abstract class SurfaceWalk(
     * @param weight of multiple importance sampling, as in [[LightConnection.scattered]]
     */
   protected inline def connectBy(inline weight: Vec3 => Float): Unit =
-    if connection.scatters(vertex, weight) then addArrived()
+    if connection.computeArrived(vertex, weight) then addArrived()
 
   protected final def addArrived(): Unit =
     L.addProduct(surfacePath.beta, connection.arrived)

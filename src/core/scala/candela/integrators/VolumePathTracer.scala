@@ -84,22 +84,22 @@ final class VolumePathTracer private (
           vertex.evaluate()
           extension.arrive(isGuided = !isPane)
           // Scatter, and once more where light emerges from beneath the surface
-          while
+          var isAtVertex = true
+          while isAtVertex do
             // Sample direct light. Random numbers are drawn at all surfaces but panes
             val isSampled = !vertex.bsdf.isSpecular && volumePath.depth <= limits.maxDepth
             if isSampled || !isPane then
               val u = sampler.next1D(matters = lights.isRandom)
               sampler.next2D()
               if isSampled && hasLights && lights.choose(point.p, vertex.lightNormal, u) &&
-                lights.samplePoint(point.p, sampler.x, sampler.y) && extension.samples
+                lights.samplePoint(point.p, sampler.x, sampler.y) && extension.takesLightSample
               then addDirect()
             extension.addCaustics()
             // Sample the BSDF for the next direction
-            if !extension.scatters(sampler) then
+            if !extension.sampleDirectionInstead(sampler) then
               vertex.draw(sampler)
               volumePath.scale(vertex.bounce.weight)
-            extension.emerges(sampler)
-          do ()
+            isAtVertex = extension.moveToExit(sampler)
           // What goes straight through a pane is no scattering event
           if isPane && vertex.isStraight then
             volumePath.depth -= 1
@@ -118,7 +118,7 @@ final class VolumePathTracer private (
     * @return the ray's parameter of a scattering event; −1: none
     */
   private def sampleMedium(sampler: Sampler): Float =
-    if extension.crosses(volumePath.medium) then -1f
+    if extension.goStraightThrough(volumePath.medium) then -1f
     else
       // The last event may be in a medium that shines, if paths find light only where they meet it
       val emits = volumePath.depth < limits.maxDepth || !samplesLights
@@ -141,7 +141,7 @@ final class VolumePathTracer private (
         if visibility.reaches(p, lights.sample, volumePath.medium) then
           val arriving = sampled(extension.directionPdf(Vec3.Z, f)) * f
           addSample(arriving)
-    if extension.scatters(sampler) then leaveVertex()
+    if extension.sampleDirectionInstead(sampler) then leaveVertex()
     else
       sampler.next2D()
       // f/p is 1: phase functions are sampled exactly
@@ -157,12 +157,12 @@ final class VolumePathTracer private (
       leaveInMedium(vertex.point.p, vertex.point.frame.toWorld(bounce.wi), bounce.pdf)
     else
       super.leaveVertex()
-      if !samplesLights then volumePath.weights.turn(0f)
+      if !samplesLights then volumePath.weights.startSegment(0f)
       volumePath.medium = media.beyond(vertex.point, ray.direction, volumePath.medium)
 
   /** @param pdf solid-angle density of the direction */
   private def leaveInMedium(p: Vec3, wi: Vec3, pdf: Float): Unit =
-    volumePath.turn(p, Vec3.Zero, if samplesLights then pdf else 0f)
+    volumePath.startSegment(p, Vec3.Zero, if samplesLights then pdf else 0f)
     ray.set(p, wi, Float.PositiveInfinity)
     ray.differential.isKnown = false
     goesOn = !volumePath.isBlack

@@ -11,7 +11,8 @@ abstract class Light:
     */
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit
 
-  /** Whether `sample` is useful; false if the light is black, or BSDF sampling finds it as well.
+  /** Whether `sample` is useful; false if the light is black, or if it is left to the path alone,
+    * which meets it with as little noise.
     */
   def isSampled: Boolean = true
 

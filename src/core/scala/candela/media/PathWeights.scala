@@ -6,9 +6,10 @@ import candela.math.*
 /** Weights of a path through media, in three colours. Mutable, one per worker and purpose.
   *
   * In chromatic media, one colour (the hero) drives all random decisions, and the path is weighted
-  * as if each of the three might have done so: the balance heuristic over the three. All numbers
-  * are those of each colour over the hero's pdf, scaled to a mean of 1 for the pdfs `u`: the
-  * throughput is then that of the combined estimator.
+  * as if each of the three might have done so: the balance heuristic over the three. Each number is
+  * divided by the density with which the hero samples this path. [[balance]] then scales all nine
+  * so that the mean of `ur`, `ug` and `ub` is 1: `r`, `g`, `b` are then the throughput of the
+  * balance heuristic.
   *
   * Sources: Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014; Miller, Georgiev,
   * Jarosz, "A null-scattering path integral formulation of light transport", TOG 38(4), 2019; PBRT
@@ -24,20 +25,20 @@ final class PathWeights:
   /** Pdf of this path by each colour (`r_u`). */
   var ur, ug, ub = 1f
 
-  /** Pdf of this path by light sampling (`r_l`), without that of the point on the light; 0 if light
-    * sampling could not generate it.
+  /** Density of light sampling over the path's own (`r_l`), without that of choosing the point on
+    * the light; 0: light sampling can't sample this path.
     */
   var lr, lg, lb = 0f
 
   /** Does the path carry the first colour only? */
   var isAlone: Boolean = false
 
-  def start(colour: Int, lightDensity: Float): Unit =
+  def start(colour: Int, lightRatio: Float): Unit =
     hero = colour
     isAlone = false
     setThroughput(1f, 1f, 1f)
     setDensity(1f, 1f, 1f)
-    setLight(lightDensity, lightDensity, lightDensity)
+    setLight(lightRatio, lightRatio, lightRatio)
 
   /** Becomes those of another path. */
   def set(from: PathWeights): Unit =
@@ -73,7 +74,7 @@ final class PathWeights:
 
   def throughput: Rgb = Rgb(r, g, b)
   def brightest: Float = Math.max(r, Math.max(g, b))
-  def lightDensity: Float = (lr + lg + lb) * (1f / 3f)
+  def lightRatio: Float = (lr + lg + lb) * (1f / 3f)
 
   /** Goes on with the first colour, a hero wavelength, in place of all three. Whichever drove
     * sampling so far, from here on the first does.
@@ -108,10 +109,8 @@ final class PathWeights:
     scaleDensity(sr, sg, sb)
     scaleLight(sr, sg, sb)
 
-  /** Starts a new segment in a direction of this pdf (0 if light sampling does not compete with
-    * it).
-    */
-  def turn(pdf: Float): Unit =
+  /** Starts a segment in a direction of this pdf; 0: light sampling misses what it meets. */
+  def startSegment(pdf: Float): Unit =
     val l = if pdf > 0f then 1f / pdf else 0f
     setLight(ur * l, ug * l, ub * l)
 

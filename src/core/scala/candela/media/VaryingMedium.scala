@@ -36,15 +36,15 @@ abstract class VaryingMedium(
         u = work.random.next()
         current
       ,
-      collide = (t, mr, mg, mb, mh, unit) =>
-        if glows then addGlow(work, mr, mg, mb, unit)
-        val chance = unit * w.ofHero(point.scatterR, point.scatterG, point.scatterB) / mh
+      collide = (t, rateR, rateG, rateB, heroRate, unit) =>
+        if glows then addGlow(work, rateR, rateG, rateB, unit)
+        val chance = unit * w.ofHero(point.scatterR, point.scatterG, point.scatterB) / heroRate
         val scatters = work.random.next() < chance
         if scatters then
           scattered = t
           scatter(w, point)
         else
-          collideUnscattered(w, point, mr, mg, mb, unit, 1f - chance)
+          collideUnscattered(w, point, rateR, rateG, rateB, unit, 1f - chance)
           if w.brightest < VaryingMedium.Faint then w.roulette(work.random.next(), 0.5f)
         !scatters
     )
@@ -55,9 +55,9 @@ abstract class VaryingMedium(
     val w = work.shadow
     track(ray, w, work)(
       sample = work.random.next(),
-      collide = (_, mr, mg, mb, _, unit) =>
-        collideUnscattered(w, work.point, mr, mg, mb, unit, 1f)
-        if w.brightest < VaryingMedium.Faint * w.lightDensity then
+      collide = (_, rateR, rateG, rateB, _, unit) =>
+        collideUnscattered(w, work.point, rateR, rateG, rateB, unit, 1f)
+        if w.brightest < VaryingMedium.Faint * w.lightRatio then
           w.roulette(work.random.next(), 0.5f)
         true
     )
@@ -65,7 +65,7 @@ abstract class VaryingMedium(
   /** Delta tracking: visits the collisions along the ray, real and null ones.
     *
     * @param sample  uniform in [0, 1): the next distance
-    * @param collide what happens at parameter t of the ray, whose point `work` has, given the pdf
+    * @param collide what happens at parameter t of the ray, whose point `work` has, given the rate
     *                of collisions per unit of t, for the three colours and the hero, and the length
     *                of that unit; false if the path turns there
     */
@@ -79,23 +79,23 @@ abstract class VaryingMedium(
       var stepsLeft = VaryingMedium.MostSteps
       var isStraight = true
       while isStraight && !w.isDead && !w.isLost && walk.next() do
-        val mr = extinction.r * walk.majorant * unit
-        val mg = extinction.g * walk.majorant * unit
-        val mb = extinction.b * walk.majorant * unit
-        val mh = w.ofHero(mr, mg, mb)
+        val rateR = extinction.r * walk.majorant * unit
+        val rateG = extinction.g * walk.majorant * unit
+        val rateB = extinction.b * walk.majorant * unit
+        val heroRate = w.ofHero(rateR, rateG, rateB)
         var t = walk.start
         while t < walk.end do
           val remaining = walk.end - t
-          val step = if mh > 0f then -log(1f - sample) / mh else Float.PositiveInfinity
+          val step = if heroRate > 0f then -log(1f - sample) / heroRate else Float.PositiveInfinity
           if !(step < remaining) then
-            w.pass(mr * remaining, mg * remaining, mb * remaining)
+            w.pass(rateR * remaining, rateG * remaining, rateB * remaining)
             t = walk.end
           else
-            w.pass(mr * step, mg * step, mb * step)
+            w.pass(rateR * step, rateG * step, rateB * step)
             t += step
             stepsLeft -= 1
             evaluate(walk, t, work.point)
-            if collide(t, mr, mg, mb, mh, unit) then
+            if collide(t, rateR, rateG, rateB, heroRate, unit) then
               if stepsLeft == 0 then w.discard()
               if w.isDead || w.isLost then t = walk.end
             else
@@ -118,35 +118,41 @@ abstract class VaryingMedium(
 
   /** A null or absorbing collision: absorption is a weight.
     *
-    * @param mr, mg, mb pdf of collisions, per unit of the ray's parameter
+    * @param rateR,rateG,rateB of collisions, per unit of the ray's parameter
     * @param chance     the hero's probability of continuing; light sampling always continues
     */
   private def collideUnscattered(
       w: PathWeights,
       p: MediumPoint,
-      mr: Float,
-      mg: Float,
-      mb: Float,
+      rateR: Float,
+      rateG: Float,
+      rateB: Float,
       unit: Float,
       chance: Float
   ): Unit =
-    val inverse = 1f / (w.ofHero(mr, mg, mb) * chance)
-    val kr = Math.max(0f, mr - unit * p.scatterR) * inverse
-    val kg = Math.max(0f, mg - unit * p.scatterG) * inverse
-    val kb = Math.max(0f, mb - unit * p.scatterB) * inverse
+    val inverse = 1f / (w.ofHero(rateR, rateG, rateB) * chance)
+    val kr = Math.max(0f, rateR - unit * p.scatterR) * inverse
+    val kg = Math.max(0f, rateG - unit * p.scatterG) * inverse
+    val kb = Math.max(0f, rateB - unit * p.scatterB) * inverse
     w.scale(
       Math.max(0f, kr - unit * p.absorbR * inverse),
       Math.max(0f, kg - unit * p.absorbG * inverse),
       Math.max(0f, kb - unit * p.absorbB * inverse)
     )
     w.scaleDensity(kr, kg, kb)
-    w.scaleLight(mr * inverse, mg * inverse, mb * inverse)
+    w.scaleLight(rateR * inverse, rateG * inverse, rateB * inverse)
 
-  /** Adds the emission at a collision of any kind, over the pdf of such collisions. */
-  private def addGlow(work: MediumWork, mr: Float, mg: Float, mb: Float, unit: Float): Unit =
+  /** Adds the emission at a collision of any kind, over the rate of such collisions. */
+  private def addGlow(
+      work: MediumWork,
+      rateR: Float,
+      rateG: Float,
+      rateB: Float,
+      unit: Float
+  ): Unit =
     val w = work.weights
     val p = work.point
-    val density = w.ur * mr + w.ug * mg + w.ub * mb
+    val density = w.ur * rateR + w.ug * rateG + w.ub * rateB
     if density > 0f then
       val weight = 3f * unit / density
       work.glowR += w.r * p.glowR * weight

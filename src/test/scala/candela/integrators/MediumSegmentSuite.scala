@@ -22,7 +22,7 @@ final class MediumSegmentSuite extends AnyFunSuite:
     val media = SceneMedia(Array(medium), borders, camera = 0, Array.empty, Vec3.Zero, reach = 9f)
     val work = MediumWork()
     work.start(hero = 1)
-    work.weights.turn(0.5f)
+    work.weights.startSegment(0.5f)
     val ray = Ray()
     ray.set(Vec3.Zero, Vec3.Z, 2f)
     val made = MediumSegment(media, work)

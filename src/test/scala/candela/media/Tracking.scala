@@ -37,7 +37,7 @@ object Tracking:
       work.shadow.start(i % 3, 1f)
       medium.attenuate(ray, work)
       if !work.shadow.isDead then
-        dimmed.add(work.shadow.throughput * (1f / work.shadow.lightDensity))
+        dimmed.add(work.shadow.throughput * (1f / work.shadow.lightRatio))
     Means(passed.mean(n), scattered.mean(n), glow.mean(n), dimmed.mean(n))
 
   def isNear(a: Rgb, b: Rgb, tolerance: Float): Boolean =
