@@ -31,12 +31,23 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int, isInverted: Boole
     soup.surface(triangle, hit, centroid)
     if isInverted then -centroid.geometricNormal else centroid.geometricNormal
 
+  // Of the vertex normals to `normal`, whose sides are those that rays see
+  private val cosines =
+    val all = soup.vertexCosines(triangle, normal)
+    if isInverted then -all else all
+
+  /** Whether the vertex normals lie on both sides: then [[TriangleSoup.surface]] orients normals
+    * point by point.
+    */
+  val isTwisted: Boolean =
+    Math.min(cosines.x, Math.min(cosines.y, cosines.z)) < 0f &&
+      Math.max(cosines.x, Math.max(cosines.y, cosines.z)) > 0f
+
   def vertices: Seq[Vec3] = Seq(p0, p1, p2)
   val bounds: Bounds3 = Bounds3.of(vertices)
 
   override def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     val angle = out.triangle.set(from, p0, p1, p2)
-    out.n = normal
     if SurfaceSampler.isByAngle(angle) then
       setPoint(from, out.triangle.sample(u1, u2), out)
       out.pdf = (1 / angle).toFloat
@@ -52,7 +63,6 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int, isInverted: Boole
 
   def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
     placeByArea(u1, u2, out)
-    out.n = normal
     out.pError = TriangleSoup.error(out.p, p0, p1, p2)
     out.pdf = 1f / area
 
@@ -99,3 +109,5 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int, isInverted: Boole
       (b0 * p0.y + b1 * p1.y + b2 * p2.y).toFloat,
       (b0 * p0.z + b1 * p1.z + b2 * p2.z).toFloat
     )
+    val isAway = isTwisted && b0 * cosines.x + b1 * cosines.y + b2 * cosines.z < 0.0
+    out.n = if isAway then -normal else normal

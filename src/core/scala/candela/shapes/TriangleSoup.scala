@@ -192,6 +192,15 @@ final class TriangleSoup(
     val length2 = sum.lengthSquared
     if length2 > 0f && length2 < Float.PositiveInfinity then out.set(sum * (1f / sqrt(length2)))
 
+  /** Products of the normals at the vertices with `n`; zero if those don't orient the triangle. */
+  def vertexCosines(triangle: Int, n: Vec3): Vec3 =
+    val mesh = meshes(meshOf(triangle))
+    def cosine(corner: Int) =
+      val j = (indices(3 * triangle + corner) - mesh.firstVertex) * 3
+      Vec3(mesh.normals(j), mesh.normals(j + 1), mesh.normals(j + 2)) dot n
+    if mesh.normals.length == 0 || mesh.facesFacet then Vec3.Zero
+    else Vec3(cosine(0), cosine(1), cosine(2))
+
   private def uv(
       mesh: Mesh,
       i0: Int,

@@ -51,7 +51,8 @@ final class AreaLightPlan(
     * @param contrary see [[candela.lights.Light.isContrary]]
     */
   def ofTriangle(triangle: TriangleSampler, contrary: Boolean): SurfaceLight =
-    light(triangle, triangle.bounds, triangle.normal, 1f, contrary && !twoSided)
+    val cosSpread = if triangle.isTwisted then -1f else 1f
+    light(triangle, triangle.bounds, triangle.normal, cosSpread, contrary && !twoSided)
 
   /** Light of two triangles that form a rectangle. */
   def ofRectangle(rectangle: RectangleSampler): SurfaceLight =

@@ -17,15 +17,16 @@ private[build] object Rectangles:
       def corners(t: Int, data: Array[Float]) =
         Vector.tabulate(3)(k => vector(data, mesh.indices(3 * t + k)))
 
-      /** Does the given normal decide that the triangle is turned over? */
-      def isTurned(t: Int): Boolean =
+      /** By vertex: does the normal there turn the triangle over? */
+      def turns(t: Int): Vector[Boolean] =
         val Vector(a, b, c) = corners(t, mesh.positions): @unchecked
-        mesh.normals.length > 0 &&
-        (((b - a) cross (c - a)) dot corners(t, mesh.normals).reduce(_ + _)) < 0f
+        val facet = (b - a) cross (c - a)
+        if mesh.normals.length == 0 then Vector(false)
+        else corners(t, mesh.normals).map(n => (facet dot n) < 0f)
 
       val rectangles = Iterator.range(0, triangles, 2).map: t =>
         RectangleSampler
           .of(corners(t, points), corners(t + 1, points))
-          .filter(_ => isTurned(t) == isTurned(t + 1))
+          .filter(_ => (turns(t) ++ turns(t + 1)).distinct.size == 1)
       val samplers = rectangles.takeWhile(_.isDefined).flatten.toVector
       if 2 * samplers.size == triangles then samplers else Vector.empty
