@@ -1,5 +1,6 @@
 package candela.accel
 
+import candela.base.loop
 import candela.geometry.{Bounds3, Frame, Ray, ShadingPoint}
 import candela.math.*
 
@@ -66,17 +67,24 @@ object Placement:
     if box.isEmpty then Bounds3.Empty
     else
       val m = new Array[Double](Motion.Work)
-      val moments = Array.tabulate(Moments + 1): k =>
+      var swept = Bounds3.Empty
+      var (earlier, previous) = (Array.empty[Vec3], Array.empty[Vec3])
+      var difference = Vec3.Zero
+      loop(Moments + 1): k =>
         motion.write(lerp(k.toFloat / Moments, open, close), m, 0)
-        (bounds(m, 0, box), Array.tabulate(8)(c => point(m, 0, box.corner(c))))
-      val swept = moments.map(_._1).reduce(_.union(_))
-      val bends =
-        for k <- 1 until Moments; c <- 0 until 8 yield
-          val secondDifference = moments(k - 1)._2(c) + moments(k + 1)._2(c) - moments(k)._2(c) * 2f
-          absolute(secondDifference) * 0.5f
-      val pad = bends.reduce((a, b) =>
-        Vec3(Math.max(a.x, b.x), Math.max(a.y, b.y), Math.max(a.z, b.z))
-      )
+        swept = swept.union(bounds(m, 0, box))
+        val corners = Array.tabulate(8)(c => point(m, 0, box.corner(c)))
+        if k > 1 then
+          loop(8): c =>
+            val d = absolute(earlier(c) + corners(c) - previous(c) * 2f)
+            difference = Vec3(
+              Math.max(difference.x, d.x),
+              Math.max(difference.y, d.y),
+              Math.max(difference.z, d.z)
+            )
+        earlier = previous
+        previous = corners
+      val pad = difference * 0.5f
       Bounds3(swept.min - pad, swept.max + pad)
 
   /** Samples a rotation by 180 degrees in steps of 2.8 degrees. */
