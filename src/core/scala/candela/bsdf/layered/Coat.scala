@@ -4,7 +4,8 @@ import candela.base.loop
 import java.util.concurrent.ConcurrentHashMap
 
 import candela.bsdf.{Fresnel, Hemisphere}
-import candela.bsdf.microfacet.{MicrofacetDistribution, TrowbridgeReitz}
+import candela.bsdf.microfacet.{MicrofacetDistribution, Roughness, RoughnessModel, TrowbridgeReitz}
+import candela.geometry.ShadingPoint
 import candela.math.*
 
 /** Transmittance and internal reflectance of a clear coat over a diffuse base.
@@ -171,6 +172,8 @@ private object LowDiscrepancy:
 /** Creates and caches the [[Coat]]s of a scene. Thread-safe. */
 final class Coats:
   private val coats = ConcurrentHashMap[(TrowbridgeReitzKey, Float, Float), Coat]
+  private val clearCoats =
+    ConcurrentHashMap[((RoughnessModel, Boolean, Float, Float), Float), Coat]
   private val families = ConcurrentHashMap[(Float, Float), IArray[Coat]]
 
   private type TrowbridgeReitzKey = (Float, Float)
@@ -196,6 +199,16 @@ final class Coats:
         val (_, eta, thickness) = key
         if top.isSmooth || eta == 1f then SmoothCoat(eta, thickness)
         else RoughCoat(top, eta, thickness)
+    )
+
+  /** The cached coat that absorbs nothing, with the roughness at (0, 0). */
+  def clear(roughness: Roughness, eta: Float): Coat =
+    val point = ShadingPoint()
+    clearCoats.computeIfAbsent(
+      (roughness.key(point), eta),
+      _ =>
+        val top = roughness(point)
+        if top.isSmooth then SmoothCoat(eta, 0f) else RoughCoat(top, eta, 0f)
     )
 
   /** Cached coats of isotropic roughnesses from 0 to 1, denser towards 0: [[Coats.interpolate]]. */

@@ -150,11 +150,10 @@ final class CoatingMaterial(
     eta: Float,
     absorption: RgbTexture,
     thickness: Float,
-    specular: RgbTexture
+    specular: RgbTexture,
+    coats: Coats
 ) extends JoinedMaterial(inner, inner, roughness, absorption, specular):
-  private lazy val coat: Coat =
-    val reference = roughness(ShadingPoint())
-    if reference.isSmooth then SmoothCoat(eta, 0f) else RoughCoat(reference, eta, 0f)
+  private lazy val coat: Coat = coats.clear(roughness, eta)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val (top, depth) = (roughness(at), absorption.positive(at) * thickness)

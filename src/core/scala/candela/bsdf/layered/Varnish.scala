@@ -28,13 +28,13 @@ final class VarnishMaterial(
     specular: RgbTexture,
     under: Varnish,
     roughness: Roughness,
-    eta: Float
+    eta: Float,
+    coats: Coats
 ) extends Material,
       Textured(reflectance, specular, roughness):
   private val reference = roughness(ShadingPoint())
   private val coat: Coat =
-    if reference.isSmooth || under == Varnish.Once then SmoothCoat(eta, 0f)
-    else RoughCoat(reference, eta, 0f)
+    coats.clear(if under == Varnish.Once then Roughness.Smooth else roughness, eta)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val albedo = reflectance.albedo(at)

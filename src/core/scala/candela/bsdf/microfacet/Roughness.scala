@@ -89,6 +89,10 @@ final class Roughness(
   def apply(at: ShadingPoint): MicrofacetDistribution =
     if isConstant then fixed else evaluate(u(at), v(at))
 
+  /** Equal for equal distributions at the point. */
+  def key(at: ShadingPoint): (RoughnessModel, Boolean, Float, Float) =
+    (model, smoothAtZero, u(at), v(at))
+
   /** The Trowbridge–Reitz distribution, for surfaces that support no other. */
   def trowbridgeReitz(at: ShadingPoint): TrowbridgeReitz =
     if isConstant then fixedTrowbridgeReitz else model.trowbridgeReitz(u(at), v(at))

@@ -98,7 +98,7 @@ object RoughPlasticRecipe
       if !interreflection() then Varnish.Once
       else if nonlinear() then Varnish.Colored
       else Varnish.Plain
-    VarnishMaterial(reflectance(), specular(), varnish, rough, eta())
+    VarnishMaterial(reflectance(), specular(), varnish, rough, eta(), site.resources.coats)
 
 object CoatedConductorRecipe
     extends MaterialRecipe("coatedconductor", "conductor under a dielectric coating", onlyV4)

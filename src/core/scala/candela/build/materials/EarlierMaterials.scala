@@ -74,7 +74,8 @@ object CoatingRecipe
       eta(),
       sigmaA(),
       thickness(),
-      specular()
+      specular(),
+      site.resources.coats
     )
 
 object ScatteringLayerRecipe

@@ -16,7 +16,7 @@ class VarnishSuite extends BsdfLaws:
       specular: Rgb = Rgb.White,
       eta: Float = 1.5f
   ): Bsdf =
-    VarnishMaterial(ConstantRgb(color), ConstantRgb(specular), under, top, eta)
+    VarnishMaterial(ConstantRgb(color), ConstantRgb(specular), under, top, eta, Coats())
       .bsdf(ShadingPoint())
 
   private val smooth = Roughness.Smooth
