@@ -1,9 +1,7 @@
 package candela.mitsuba
 
-import candela.base.loop
+import candela.base.{FloatBuffer, IntBuffer, loop}
 import candela.math.*
-
-import scala.collection.mutable.ArrayBuffer
 
 /** Meshes of Mitsuba's curves, which are round tubes. */
 object Tubes:
@@ -93,17 +91,21 @@ private[mitsuba] object Spline:
   /** The circle at `t`, 0 to 1, of the segment that begins with the control point `first`. */
   def ring(c: CurvePoints, segment: Int, t: Double): Ring =
     val s = 1 - t
-    def blended(w: Seq[Double]) = w.zip(c.points.slice(segment, segment + 4))
-      .map((w, p) => p * w.toFloat).reduce(_ + _)
-    def radius(w: Seq[Double]) = w.zip(c.radii.slice(segment, segment + 4)).map(_ * _).sum.toFloat
-    val value = Seq(
-      s * s * s,
-      3 * t * t * t - 6 * t * t + 4,
-      -3 * t * t * t + 3 * t * t + 3 * t + 1,
-      t * t * t
-    ).map(_ / 6)
-    val slope = Seq(-s * s, 3 * t * t - 4 * t, -3 * t * t + 2 * t + 1, t * t).map(_ / 2)
-    val bend = Seq(s, 3 * t - 2, 1 - 3 * t, t)
+    def blended(w: Array[Double]) =
+      def weighted(i: Int) = c.points(segment + i) * w(i).toFloat
+      weighted(0) + weighted(1) + weighted(2) + weighted(3)
+    def radius(w: Array[Double]) =
+      def weighted(i: Int) = w(i) * c.radii(segment + i)
+      (weighted(0) + weighted(1) + weighted(2) + weighted(3)).toFloat
+    val value = Array(
+      s * s * s / 6,
+      (3 * t * t * t - 6 * t * t + 4) / 6,
+      (-3 * t * t * t + 3 * t * t + 3 * t + 1) / 6,
+      t * t * t / 6
+    )
+    val slope =
+      Array(-s * s / 2, (3 * t * t - 4 * t) / 2, (-3 * t * t + 2 * t + 1) / 2, t * t / 2)
+    val bend = Array(s, 3 * t - 2, 1 - 3 * t, t)
     val (d, r) = (blended(slope), radius(value))
     val length2 = d.lengthSquared
     // Where the tube widens, its normal leans back (the derivative of the radius)
@@ -133,8 +135,8 @@ private[mitsuba] final class TubeBuilder(segments: Int, ringsOfSegment: Int):
   // Seen from the side, the polygon is as wide as the circle, on average
   private val swell = (Math.PI / sides / Math.sin(Math.PI / sides)).toFloat
 
-  private val positions, normals, uvs = ArrayBuffer.empty[Float]
-  private val indices = ArrayBuffer.empty[Int]
+  private val positions, normals, uvs = FloatBuffer()
+  private val indices = IntBuffer()
   private var side, tangent = Vec3.Zero
   private var turn = 0.0
   private var rings = 0
@@ -164,18 +166,27 @@ private[mitsuba] final class TubeBuilder(segments: Int, ringsOfSegment: Int):
       // The normal of a bent tube leans by the radius
       val lean = 1f - r.radius * (outward dot r.bend)
       push(normals, (outward * (r.across * lean) + r.along).normalized)
-      uvs ++= Seq((turn + k.toDouble / sides).toFloat, v)
+      uvs += (turn + k.toDouble / sides).toFloat
+      uvs += v
     if !isFirst then
       loop(sides): k =>
         val (a, b) = ((rings - 1) * (sides + 1) + k, rings * (sides + 1) + k)
-        indices ++= Seq(a, a + 1, b, b, a + 1, b + 1)
+        triangle(a, a + 1, b)
+        triangle(b, a + 1, b + 1)
     rings += 1
     isFirst = false
 
-  private def push(to: ArrayBuffer[Float], v: Vec3): Unit =
-    to ++= Seq(v.x, v.y, v.z)
+  private def push(to: FloatBuffer, v: Vec3): Unit =
+    to += v.x
+    to += v.y
+    to += v.z
 
-  def mesh: Mesh = Mesh(positions.toArray, normals.toArray, uvs.toArray, indices.toArray)
+  private def triangle(a: Int, b: Int, c: Int): Unit =
+    indices += a
+    indices += b
+    indices += c
+
+  def mesh: Mesh = Mesh(positions.take(), normals.take(), uvs.take(), indices.take())
 
 private[mitsuba] object TubeBuilder:
   /** Triangles, about. */
