@@ -1,5 +1,6 @@
 package candela.mitsuba
 
+import candela.base.NumberedNames
 import candela.diagnostics.{Code, SourcePos}
 import candela.color.Rgb
 import candela.math.{Transform, Vec3}
@@ -11,6 +12,7 @@ import scala.collection.mutable
 final class Media(session: Session, colors: Colors):
   private val volumes = Volumes(session)
   private val media = mutable.LinkedHashMap.empty[Plugin, MediumDescription]
+  private val numberedNames = NumberedNames()
 
   def result(): Vector[MediumDescription] = media.values.toVector
 
@@ -18,10 +20,7 @@ final class Media(session: Session, colors: Colors):
   def apply(p: Plugin): String =
     media.getOrElseUpdate(p, session.translate(p)(translated)).name
 
-  private def fresh(in: Properties): String =
-    val wanted = in.plugin.id.getOrElse("medium")
-    val usedNames = media.values.map(_.name).toSet
-    (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!usedNames(_)).get
+  private def name(in: Properties): String = numberedNames(in.plugin.id.getOrElse("medium"))
 
   private def translated(in: Properties): MediumDescription =
     val phase = in.nested("phase").headOption.fold(Phase.Isotropic)(phaseOf)
@@ -87,7 +86,7 @@ final class Media(session: Session, colors: Colors):
     )
     val scattering = coefficients(in, sigmaT * (Rgb.White - albedo), sigmaT * albedo, phase, scale)
     MediumDescription(
-      fresh(in),
+      name(in),
       session.declare("Medium", "uniformgrid", position, scattering ++ gridParams),
       GraphicsState.Identity
     )
@@ -135,7 +134,7 @@ final class Media(session: Session, colors: Colors):
 
   private def described(in: Properties, a: Rgb, s: Rgb, phase: Phase, scale: Float) =
     MediumDescription(
-      fresh(in),
+      name(in),
       session.declare("Medium", "homogeneous", in.pos, coefficients(in, a, s, phase, scale)),
       GraphicsState.Identity
     )
@@ -209,7 +208,7 @@ final class Media(session: Session, colors: Colors):
       at: SourcePos
   ): MediumDescription =
     MediumDescription(
-      fresh(in),
+      name(in),
       session.declare("Medium", kind, in.pos, params ++ grid.params(at)),
       GraphicsState.constant(grid.toWorld)
     )

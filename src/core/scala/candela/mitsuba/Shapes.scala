@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.loop
+import candela.base.{NumberedNames, loop}
 import candela.diagnostics.Code
 import candela.io.InputFile
 import candela.build.shapes.PlyFile
@@ -13,6 +13,7 @@ import scala.collection.mutable
 final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, media: Media):
   private val world = Vector.newBuilder[ShapeDescription]
   private val groups = mutable.LinkedHashMap.empty[Plugin, (String, Vector[ShapeDescription])]
+  private val groupNames = NumberedNames()
   private val placed = InstanceList.newBuilder
 
   private val oldShapes = OldShapes(session, fileOf, params)
@@ -75,10 +76,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   private def group(p: Plugin): String =
     groups.getOrElseUpdate(
       p, {
-        val usedNames = groups.values.map(_._1).toSet
-        val wanted = p.id.getOrElse("group")
-        val name =
-          (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!usedNames(_)).get
+        val name = groupNames(p.id.getOrElse("group"))
         val inner = session.translate(p)(_.nested("shape"))
         val flat = inner.filterNot: s =>
           val isNested = s.name == "instance" || s.name == "shapegroup"

@@ -1,5 +1,6 @@
 package candela.mitsuba
 
+import candela.base.NumberedNames
 import candela.color.Rgb
 import candela.diagnostics.{Code, SourcePos}
 import candela.scenefile.{Declaration, MaterialRef, Param, ParamType}
@@ -28,6 +29,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   private val cache = mutable.HashMap.empty[(Plugin, Option[MeshAttributes]), Surface]
   private val named = mutable.LinkedHashMap.empty[String, Declaration]
   private val names = mutable.HashMap.empty[Declaration, String]
+  private val numberedNames = NumberedNames()
   private val basic = BasicSurfaces(session, colors, textures)
   private val earlier = EarlierSurfaces(session, colors, textures, basic)
   private val kinds = SurfaceKinds(named.get)
@@ -80,10 +82,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   private def name(wanted: String, material: Declaration): String =
     names.getOrElseUpdate(
       material, {
-        val unique =
-          (Iterator(
-            wanted
-          ) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!named.contains(_)).get
+        val unique = numberedNames(wanted)
         named(unique) = material
         unique
       }

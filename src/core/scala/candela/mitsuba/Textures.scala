@@ -1,5 +1,6 @@
 package candela.mitsuba
 
+import candela.base.NumberedNames
 import candela.diagnostics.{Code, SourcePos, Suggest}
 import candela.color.Rgb
 import candela.scenefile.{
@@ -17,7 +18,7 @@ final class Textures(session: Session, colors: Colors):
   private val descriptions = Vector.newBuilder[TextureDescription]
   private val names =
     mutable.HashMap.empty[(Plugin, String, Float, Option[MeshAttributes]), Option[String]]
-  private val usedNames = mutable.HashSet.empty[String]
+  private val numberedNames = NumberedNames()
   private val volumes = Volumes(session)
   private var depth = 0
 
@@ -127,7 +128,7 @@ final class Textures(session: Session, colors: Colors):
       t: Declaration,
       toWorld: AnimatedTransform = GraphicsState.Identity
   ): String =
-    val unique = (Iterator(name) ++ Iterator.from(2).map(i => s"$name $i")).find(usedNames.add).get
+    val unique = numberedNames(name)
     descriptions += TextureDescription(unique, valueType, t, toWorld)
     unique
 
