@@ -22,7 +22,7 @@ object BakedTextures:
   ): Option[String] =
     for
       baking <- s.run.baking
-      dependencies = closure(texture, s.run.scene)
+      dependencies = s.run.textureUses.closure(texture)
       window <- Window.of(dependencies.map(_.texture))
       value <- baking.values(SceneDescription(s.run.pass.from, textures = dependencies))
     yield
@@ -36,18 +36,21 @@ object BakedTextures:
         textureToWorld = GraphicsState.Identity
       ))
 
+/** Which textures of a scene others use. */
+final class TextureUses(textures: Vector[TextureDescription]):
+  private val named = textures.zipWithIndex.groupBy(_._1.name)
+
   /** The textures that one needs, in statement order, with itself last. */
-  def closure(texture: TextureDescription, scene: SceneDescription): Vector[TextureDescription] =
-    val named = scene.textures.groupBy(_.name)
-    val visited = mutable.LinkedHashSet.empty[TextureDescription]
+  def closure(texture: TextureDescription): Vector[TextureDescription] =
+    val visited = mutable.TreeSet.empty[Int]
     def visit(t: TextureDescription): Unit =
       for
         p <- t.texture.params if p.paramType == ParamType.Texture
         name <- p.strings
-        needed <- named.getOrElse(name, Vector.empty) if needed != texture && visited.add(needed)
+        (needed, i) <- named.getOrElse(name, Vector.empty) if needed != texture && visited.add(i)
       do visit(needed)
     visit(texture)
-    scene.textures.filter(visited) :+ texture
+    visited.iterator.map(textures).toVector :+ texture
 
 /** Part of the texture plane that a baked image shows: u = (s − du) / su, and v likewise.
   *

@@ -1,5 +1,6 @@
 package candela.convert
 
+import candela.base.NumberedNames
 import candela.diagnostics.{Code, Problem, SourcePos}
 import candela.io.SceneFolder
 import scala.collection.mutable
@@ -42,8 +43,10 @@ final class PassRun(
   private val textures = mutable.LinkedHashMap.from(
     scene.textures.map(t => (t.name, t.valueType) -> t)
   )
+  lazy val textureUses: TextureUses = TextureUses(scene.textures)
   private val added = mutable.ArrayBuffer.empty[TextureDescription]
-  private val usedNames = mutable.HashSet.from(scene.textures.map(_.name))
+  private val textureNames = NumberedNames((name, number) => s"$name ($number)")
+  for t <- scene.textures do textureNames(t.name): Unit
   private val shared = mutable.HashMap.empty[Declaration, Option[Declaration]]
   private var currentTransform = GraphicsState.Identity
 
@@ -67,8 +70,7 @@ final class PassRun(
 
   /** Adds a texture to the output; returns its unique name. */
   def define(t: TextureDescription): String =
-    val names = Iterator(t.name) ++ Iterator.from(2).map(i => s"${t.name} ($i)")
-    val name = names.find(usedNames.add).get
+    val name = textureNames(t.name)
     added += t.copy(name = name)
     name
 

@@ -21,10 +21,14 @@ final class SolidBaking(
   private val added = mutable.ArrayBuffer.empty[TextureDescription]
   private val bakedNames = mutable.HashMap.empty[(Declaration, Transform, String), Option[String]]
 
+  private val uses = TextureUses(scene.textures)
+  private val names = mutable.HashSet.from(scene.textures.map(_.name))
+  private val numbers = mutable.HashMap.empty[String, Int]
+
   private val solids: Map[String, TextureDescription] =
     scene.textures
       .filter(t => t.valueType == "spectrum")
-      .filter(t => BakedTextures.closure(t, scene).exists(_.texture.name == "marble"))
+      .filter(t => uses.closure(t).exists(_.texture.name == "marble"))
       .map(t => t.name -> t)
       .toMap
   private val named = scene.namedMaterials.toMap
@@ -70,7 +74,7 @@ final class SolidBaking(
       texture: TextureDescription,
       points: UvPoints
   ): Option[String] =
-    val dependencies = BakedTextures.closure(texture, scene)
+    val dependencies = uses.closure(texture)
     for value <- baking.values(SceneDescription(scene.dialect, textures = dependencies)) yield
       val toWorld = s.objectToWorld.start
       val file = baking.write(files, samplesAcross = 2): (x, y) =>
@@ -83,15 +87,20 @@ final class SolidBaking(
           texture.texture.pos,
           "v4 clamps reflectances to 1, which the colours that pbrt-v3 extrapolates may exceed"
         )
-      val name = Iterator.from(1).map(i => s"${texture.name} baked $i").find: n =>
-        !(scene.textures ++ added).exists(_.name == n)
+      val name = nameOfImage(texture.name)
       val image = points.window.image(texture.texture, file, scene.dialect)
       added += texture.copy(
-        name = name.get,
+        name = name,
         texture = image,
         textureToWorld = GraphicsState.Identity
       )
-      name.get
+      name
+
+  private def nameOfImage(texture: String): String =
+    val number =
+      Iterator.from(numbers.getOrElse(texture, 1)).find(i => names.add(s"$texture baked $i")).get
+    numbers(texture) = number + 1
+    s"$texture baked $number"
 
   /** Without materials and textures that have been replaced. */
   private def withoutUnused(converted: SceneDescription): SceneDescription =
@@ -101,13 +110,14 @@ final class SolidBaking(
     val byName = shapes.map(_.material).collect { case MaterialRef.Named(name, _) => name } ++
       converted.namedMaterials.flatMap(_._2.params).filter(_.paramType == ParamType.String)
         .flatMap(_.strings)
+    val usedNames = byName.toSet
     val materials = converted.namedMaterials.filter: (name, d) =>
-      byName.contains(name) || !d.params.exists(isSolid)
+      usedNames(name) || !d.params.exists(isSolid)
     val declarations = materials.map(_._2) ++ shapes.map(_.shape) ++
       shapes.map(_.material).collect { case MaterialRef.Inline(d) => d }
     val referenced = declarations.flatMap(textures).toSet
     val live = converted.textures.filter(t => referenced(t.name))
-      .flatMap(BakedTextures.closure(_, converted)).map(_.name).toSet
+      .flatMap(TextureUses(converted.textures).closure).map(_.name).toSet
     converted.copy(
       namedMaterials = materials,
       textures = converted.textures.filter(t => live(t.name) || !solids.contains(t.name))

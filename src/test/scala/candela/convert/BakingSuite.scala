@@ -22,7 +22,7 @@ class BakingSuite extends AnyFunSuite:
 
   private def value(scene: SceneDescription, name: String): TextureValue =
     val t = scene.textures.find(_.name == name).get
-    val parts = BakedTextures.closure(t, scene)
+    val parts = TextureUses(scene.textures).closure(t)
     baking.values(scene.copy(textures = parts)).get
 
   /** Name of the texture of a parameter of the first material. */
