@@ -185,10 +185,24 @@ lazy val bench: Project = (project in file("bench"))
     libraryDependencies += "com.typesafe" % "config" % "1.4.3"
   )
 
-/** What is run, staged, tested and distributed: the program with its benchmarks. */
+/** Readers of models, such as glTF, as scenes. The program looks for them at run time. The tests are
+  * among the root's.
+  */
+lazy val models: Project = (project in file("models"))
+  .dependsOn(core)
+  .settings(
+    name := "candela-models",
+    description := "A physically based renderer for pbrt and Mitsuba scenes: models",
+    target := (ThisBuild / baseDirectory).value / "target" / "models",
+    compiled,
+    Publishing.withoutDocumentation,
+    libraryDependencies += "com.lihaoyi" %% "ujson" % "4.1.0"
+  )
+
+/** What is run, staged, tested and distributed: the program with its benchmarks and models. */
 lazy val root: Project = (project in file("."))
-  .dependsOn(program, bench)
-  .aggregate(core, program, bench, LocalProject("cluster"))
+  .dependsOn(program, bench, models)
+  .aggregate(core, program, bench, models, LocalProject("cluster"))
   .enablePlugins(UniversalPlugin)
   .settings(
     name := "candela-all",
@@ -264,7 +278,9 @@ lazy val cluster: Project = (project in file("cluster"))
     ), // Spark's is 2.13's
     sparkJar := {
       val own = (Runtime / fullClasspathAsJars).value
-      val jars = (own ++ (program / Runtime / fullClasspathAsJars).value).map(_.data).distinct
+      val programs = (program / Runtime / fullClasspathAsJars).value ++
+        (models / Runtime / fullClasspathAsJars).value
+      val jars = (own ++ programs).map(_.data).distinct
       val jar = (root / target).value / "universal" / "stage" / "lib" / "candela-spark.jar"
       val make = FileFunction.cached(streams.value.cacheDirectory / "jar") { _ =>
         ProgramJar.write(jars, jar, Some("candela.cli.SparkMain"))
@@ -317,6 +333,7 @@ lazy val site = (project in file("site")).settings(
 def programFiles = Def.task {
   val jars = (program / Runtime / fullClasspathAsJars).value.map(_.data)
   val benchJars = (bench / Runtime / fullClasspathAsJars).value.map(_.data).filterNot(jars.toSet)
+  val modelJars = (models / Runtime / fullClasspathAsJars).value.map(_.data).filterNot(jars.toSet)
   val folder = target.value / "program"
   val options = jvmOptions ++ memory
   val ofNewest = options ++ withoutProfiles ++ builtOnce
@@ -324,12 +341,13 @@ def programFiles = Def.task {
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))
     val jar = folder / "candela.jar"
-    val modules = Seq(folder / "candela-bench.jar")
-    ProgramJar.write(classes, jar, Some(mainOfProgram), modules.map(_.getName))
-    ProgramJar.write(benchJars, modules.head)
-    ProgramJar.unpackNatives(natives, folder / "natives").toSet ++ modules + jar
+    val modules =
+      Seq(benchJars -> folder / "candela-bench.jar", modelJars -> folder / "candela-models.jar")
+    ProgramJar.write(classes, jar, Some(mainOfProgram), modules.map(_._2.getName))
+    for ((own, to) <- modules) ProgramJar.write(own, to)
+    ProgramJar.unpackNatives(natives, folder / "natives").toSet ++ modules.map(_._2) + jar
   }
-  val files = make((jars ++ benchJars).toSet)
+  val files = make((jars ++ benchJars ++ modelJars).toSet)
   def written(name: String, lines: Seq[String]) = {
     IO.write(folder / name, lines.mkString("", "\n", "\n"))
     folder / name
@@ -366,7 +384,7 @@ def packages = Def.task {
     program,
     (base / "packaging" / "python" / "candela").toPath,
     JavaRuntime.jdk(sys.env, file(sys.props("java.home")).toPath, facts.value.bestJava),
-    Seq("candela_3", "candela-bench_3").map(m => s"${organization.value}:$m:${version.value}"),
+    Seq("candela_3", "candela-bench_3", "candela-models_3").map(m => s"${organization.value}:$m:${version.value}"),
     jvmOptions ++ memory,
     (target.value / "dist").toPath
   )

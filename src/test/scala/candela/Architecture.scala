@@ -69,6 +69,7 @@ object Architecture:
   private val convert =
     measure ++ Set("bsdf", "bsdf.microfacet", "lights", "sampling", "scenefile")
   private val mitsuba = common ++ Set("scenefile", "build.shapes")
+  private val models = common ++ Set("geometry", "scenefile", "settings", "job")
   private val towers = (runtime ++ file).toSet
   private val job = towers ++ bridge ++ Set("mitsuba", "measure")
 
@@ -90,6 +91,7 @@ object Architecture:
       "mitsuba" -> mitsuba,
       "job" -> job,
       "api" -> (job + "job"),
+      "models" -> models,
       "report" -> report,
       "watch" -> (report ++ Set("film", "aov", "render", "report"))
     ) ++ below(program).map((room, lower) =>
@@ -105,7 +107,7 @@ object Architecture:
     "scopt" -> Set("cli.options", "bench"),
     "sun" -> Set("cli", "cli.terminal"),
     "scalatags" -> Set("report", "bench.report"),
-    "ujson" -> Set("report", "cli", "bench.report"),
+    "ujson" -> Set("report", "cli", "bench.report", "models"),
     "com" -> Set("bench.suite"),
     "jdk" -> Set("accel.tracing")
   )

@@ -85,18 +85,24 @@ final class SlopeBumpMaterial(inner: Material, height: FloatTexture, step: Float
   *
   * @param mapping to the image, whose t begins at the bottom
   * @param faces   whether normals are kept on the side of the geometric one
+  * @param scale   of the components along u and v
+  * @param sides   whether the component along v follows the tangent of v, which mirrored u and v
+  *                turn over
   */
 final class NormalMapMaterial(
     inner: Material,
     map: MipLevel,
     mapping: Mapping2D,
-    faces: Boolean = true
+    faces: Boolean = true,
+    scale: Float = 1f,
+    sides: Boolean = false
 ) extends DisplacedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
     val texCoord = mapping(at)
     val c = map.bilinear(texCoord.s, 1f - texCoord.t)
     val frame = Frame.along(at.frame.n, at.tangentU)
-    val n = frame.toWorld(Vec3(2f * c.r - 1f, 2f * c.g - 1f, 2f * c.b - 1f))
+    val turn = if sides && (frame.t dot at.tangentV) < 0f then -scale else scale
+    val n = frame.toWorld(Vec3((2f * c.r - 1f) * scale, (2f * c.g - 1f) * turn, 2f * c.b - 1f))
     if n.lengthSquared > 0f then
       val unit = n.normalized
       val shadingNormal = if faces then unit.facing(at.geometricNormal) else unit

@@ -112,7 +112,7 @@ private[build] object BuildContext:
       settings.seed,
       mayBeSpectral = mode != ColorMode.Rgb,
       effective.copy(unfiltered = effective.unfiltered || !rules.filters),
-      rules = Option.when(description.dialect == Dialect.Mitsuba)(rules),
+      rules = Option.when(Dialect.ofOthers(description.dialect))(rules),
       origin = origin.position,
       description.folder.allowance,
       TextureStore.of(description, control.textures, pool, control.cache),
@@ -155,4 +155,5 @@ private[build] object Defaults:
   def apply(dialect: Dialect): Defaults = dialect match
     case Dialect.V2 => Defaults("image", "box", "lowdiscrepancy", "directlighting")
     case Dialect.V3 => Defaults("image", "box", "halton", "path")
-    case Dialect.V4 | Dialect.Mitsuba => Defaults("rgb", "gaussian", "zsobol", "volpath")
+    case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf =>
+      Defaults("rgb", "gaussian", "zsobol", "volpath")

@@ -276,13 +276,13 @@ private[build] final class SurfaceBuilder(
     private def isContrary(mesh: ShapeGeometry.Triangles): Boolean = context.dialect match
       case Dialect.V3 => isReversed && mesh.normals.nonEmpty
       case Dialect.V2 => toWorld.swapsHandedness
-      case Dialect.V4 | Dialect.Mitsuba => false
+      case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf => false
 
     private def isUniform(emitter: Declaration): Boolean =
       holes == EmitterHoles.Ignored && context.emission(emitter).exists(_.isUniform)
 
     private def bumps: BumpTangents = context.dialect match
-      case Dialect.V4 | Dialect.Mitsuba =>
+      case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf =>
         val skews = dressed.shape.copied.filter(_.uniformScale.isEmpty)
         BumpTangents.Along.copy(within = skews.orNull)
       case Dialect.V2 => BumpTangents.ofV2(isReversed != toWorld.swapsHandedness)

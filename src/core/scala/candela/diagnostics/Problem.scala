@@ -2,8 +2,9 @@ package candela.diagnostics
 
 import scala.math.Ordering.Implicits.seqOrdering
 
-/** A position in a text file; lines and columns count from 1. `includedFrom` is the statement that
-  * included the file, unless it is the main scene file.
+/** A position in a text file; lines and columns count from 1. Line 0: a place that `file` alone
+  * tells, such as `model.glb#/meshes/0`. `includedFrom` is the statement that included the file,
+  * unless it is the main scene file.
   */
 final case class SourcePos(
     file: String,
@@ -11,7 +12,7 @@ final case class SourcePos(
     column: Int,
     includedFrom: Option[SourcePos] = None
 ):
-  override def toString: String = s"$file:$line:$column"
+  override def toString: String = if line == 0 then file else s"$file:$line:$column"
 
   /** None if it is nowhere. */
   private[candela] def toOption: Option[SourcePos] = Option.when(this != SourcePos.Nowhere)(this)

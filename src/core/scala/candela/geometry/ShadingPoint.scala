@@ -42,6 +42,9 @@ final class ShadingPoint(val wantsPartials: Boolean = false, always: Boolean = f
   /** Surface parameters, for textures. */
   var u, v: Float = 0f
 
+  /** A second set of these, and a colour, of meshes that have them; else of another point. */
+  var u2, v2, red, green, blue, alpha: Float = 0f
+
   /** Partial derivatives of the point and of the normal `frame.n` by `u` and `v`; for meshes with
     * normals, those of the interpolated normal before normalisation.
     */

@@ -86,7 +86,7 @@ object ImageFiles:
     val note =
       if !Remarkable(suffix) then None
       else
-        val size = Files.size(file.path)
+        val size = file.size
         val (start, end) = Using.resource(file.again()): in =>
           val beginning = in.readNBytes(1 << 16)
           in.skipNBytes(Math.max(0, size - beginning.length - (1 << 12)))

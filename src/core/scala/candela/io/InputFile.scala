@@ -1,6 +1,8 @@
 package candela.io
 
-import java.io.{BufferedInputStream, FilterInputStream, InputStream, IOException}
+import java.io.{
+  BufferedInputStream, ByteArrayInputStream, FilterInputStream, InputStream, IOException
+}
 import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.ISO_8859_1
@@ -13,11 +15,12 @@ import scala.util.{Try, Using}
 /** A file that exists, to be read. What a scene names is opened by its [[SceneFolder]]; `named` is
   * for what users name.
   *
-  * @param path     as named, for messages
+  * @param path  as named, for messages
   * @param location where it is opened
-  * @param gate     counts what is read
-  * @param isShown  whether messages may quote it
-  * @param reads    receives the digest of what is read
+  * @param gate  counts what is read
+  * @param isShown whether messages may quote it
+  * @param reads receives the digest of what is read
+  * @param content in memory, of a file within another one, which was counted
   */
 final class InputFile private[candela] (
     val path: Path,
@@ -25,25 +28,28 @@ final class InputFile private[candela] (
     gate: Long => Unit,
     mayBePipe: Boolean,
     shown: => Boolean,
-    reads: ReadFiles = ReadFiles()
+    reads: ReadFiles = ReadFiles(),
+    private val content: Option[ByteBuffer] = None
 ):
   lazy val isShown: Boolean = shown
 
   /** A file that has an end: what the kernel makes as it is read might have none. */
-  def isRegular: Boolean = Files.isRegularFile(location) && obstacle.isEmpty
+  def isRegular: Boolean =
+    content.nonEmpty || Files.isRegularFile(location) && obstacle.isEmpty
 
   /** Why it is not to be opened, unless its user named it as a stream. */
-  private[candela] def obstacle: Option[String] = InputFile.obstacle(location)
+  private[candela] def obstacle: Option[String] =
+    if content.nonEmpty then None else InputFile.obstacle(location)
   def isFolder: Boolean = Files.isDirectory(location)
 
   /** Whether it is a pipe that may be read, once. */
   def isPipe: Boolean =
     mayBePipe && Files.exists(location) && InputFile.endless(location).nonEmpty && !isFolder
-  def size: Long = Files.size(location)
+  def size: Long = content.fold(Files.size(location))(_.remaining)
   def isSame(other: InputFile): Boolean = location == other.location || identity == other.identity
 
   /** Which file it is, whatever its name; asked for once. */
-  private lazy val identity: AnyRef =
+  private lazy val identity: AnyRef = content.getOrElse:
     val key = attributes.fileKey
     if key != null then key else location.toRealPath()
 
@@ -51,11 +57,13 @@ final class InputFile private[candela] (
   def unpacks(bytes: Long): Unit = gate(bytes)
 
   /** All bytes. A file of 2 GB or more is an OutOfMemoryError. */
-  def bytes(): Array[Byte] =
-    gate(Files.size(readable))
-    val content = Files.readAllBytes(readable)
-    if isRegular then note(Sha256.of(ByteBuffer.wrap(content)))
-    content
+  def bytes(): Array[Byte] = content match
+    case Some(part) => InputFile.read(part, part.remaining)
+    case None =>
+      gate(Files.size(readable))
+      val content = Files.readAllBytes(readable)
+      if isRegular then note(Sha256.of(ByteBuffer.wrap(content)))
+      content
 
   /** The file as Latin-1, in which no byte is wrong. */
   def text(): String = String(bytes(), ISO_8859_1)
@@ -66,7 +74,9 @@ final class InputFile private[candela] (
   def words(): Vector[String] =
     lines().flatMap(_.takeWhile(_ != '#').split("\\s+")).filter(_.nonEmpty)
 
-  def stream(): InputStream =
+  def stream(): InputStream = if content.nonEmpty then again() else counted()
+
+  private def counted(): InputStream =
     val plain = Files.newInputStream(readable)
     // The rest of a pipe may never come
     val raw = if isRegular then Digesting(plain, Sha256.Bytes(), note) else plain
@@ -74,17 +84,19 @@ final class InputFile private[candela] (
 
   /** As `stream`, for those that note a digest of what they read from it. */
   private[candela] def undigested(): InputStream =
-    BufferedInputStream(Gated(Files.newInputStream(readable), gate))
+    if content.nonEmpty then again()
+    else BufferedInputStream(Gated(Files.newInputStream(readable), gate))
 
   /** Its first bytes, to look at in passing: they are not counted, since they are read again. */
-  def beginning(most: Int): Array[Byte] =
-    Using.resource(Files.newInputStream(readable))(_.readNBytes(most))
+  def beginning(most: Int): Array[Byte] = Using.resource(again())(_.readNBytes(most))
 
   /** Its bytes, not counted: who has read it reads it again.
     *
     * @throws IOException if it can't be read
     */
-  def again(): InputStream = Files.newInputStream(readable)
+  def again(): InputStream = content match
+    case Some(part) => ByteArrayInputStream(InputFile.read(part, part.remaining))
+    case None => Files.newInputStream(readable)
 
   /** Digest of its content. Its bytes are not counted, as they are read again.
     *
@@ -96,25 +108,30 @@ final class InputFile private[candela] (
     sum
 
   /** What is read of its content is what has this digest. */
-  private[candela] def note(digest: String): Unit = reads.note(path, digest)
+  private[candela] def note(digest: String): Unit =
+    if content.isEmpty then reads.note(path, digest)
 
   /** Changes when the file changes; None if the system has no such stamp, or if the file has
     * changed so recently that another change would go unnoticed.
     */
   private[candela] def stamp(rest: Long = FileStamp.RestMillis): Option[FileStamp] =
-    FileStamp.of(location, rest)
+    if content.isEmpty then FileStamp.of(location, rest) else None
 
   /** Where it is, whatever the user's folder. */
   private[candela] def absolutePath: Path = location.toAbsolutePath.normalize
 
   /** Tells whether the file is surely as it is now. */
-  def watch(): () => Boolean =
+  def watch(): () => Boolean = if content.nonEmpty then () => true else watched()
+
+  private def watched(): () => Boolean =
     val isTimed = FileDigests.isTimed(absolutePath.getParent)
     val current = stamp().filter(_ => isTimed)
     () => current.nonEmpty && stamp() == current
 
   /** In memory as the system sees fit. Its whole size is counted. */
-  def map(): ByteBuffer = Using.resource(channel()): channel =>
+  def map(): ByteBuffer = content.fold(mapped())(_.duplicate)
+
+  private def mapped(): ByteBuffer = Using.resource(channel()): channel =>
     if channel.size > Int.MaxValue then throw IOException("larger than 2 GB")
     val content = channel.map(FileChannel.MapMode.READ_ONLY, 0, channel.size)
     note(Sha256.of(content.duplicate))
@@ -122,6 +139,7 @@ final class InputFile private[candela] (
 
   /** For reading. Its whole size is counted. What is read is not digested: `digest` does that. */
   def channel(): FileChannel =
+    if content.nonEmpty then throw IOException("it is within another file")
     val opened = FileChannel.open(readable, StandardOpenOption.READ)
     try
       gate(opened.size)
@@ -147,6 +165,18 @@ final class InputFile private[candela] (
 
 object InputFile:
   private val Folder = "it is a folder"
+
+  /** A file within another one.
+    *
+    * @param path in messages
+    */
+  private[io] def part(path: Path, content: ByteBuffer): InputFile =
+    InputFile(path, path, _ => (), mayBePipe = false, shown = true, content = Some(content))
+
+  private def read(part: ByteBuffer, count: Int): Array[Byte] =
+    val bytes = new Array[Byte](count)
+    val _ = part.get(part.position(), bytes)
+    bytes
 
   /** Why an existing file is not to be opened, unless its user named it as a stream. */
   def obstacle(file: Path): Option[String] = endless(file).orElse(pointer(file))

@@ -1,6 +1,7 @@
 package candela.io
 
 import candela.diagnostics.{Allowance, Code, Refusal, SourcePos, Suggest}
+import java.nio.ByteBuffer
 import java.nio.file.{Files, InvalidPathException, LinkOption, Path}
 import java.util.concurrent.ConcurrentHashMap
 
@@ -11,8 +12,13 @@ import scala.util.{Try, Using}
   *
   * @param path  what names are relative to
   * @param guard decides what may be opened
+  * @param parts contents of files within the scene's own, by name
   */
-final class SceneFolder private (val path: Path, guard: FileGuard):
+final class SceneFolder private (
+    val path: Path,
+    guard: FileGuard,
+    parts: Map[String, ByteBuffer] = Map.empty
+):
 
   def isConfined: Boolean = guard.isConfined
   def allowance: Allowance = guard.allowance
@@ -22,6 +28,15 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
 
   /** Another folder, whose files are guarded as those of this one. */
   def at(other: Path): SceneFolder = new SceneFolder(other, guard)
+
+  /** The same, with files that other files contain: they are in memory, and found by these names.
+    */
+  def withParts(contents: Map[String, ByteBuffer]): SceneFolder =
+    new SceneFolder(path, guard, parts ++ contents)
+
+  /** A file within another one. */
+  def part(name: String): Option[InputFile] =
+    parts.get(name).map(InputFile.part(path.resolve(name), _))
 
   /** The scene file itself, which the user has named: a pipe, too, unless it is confined. */
   def scene(file: Path): InputFile =
@@ -44,7 +59,7 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
       name: String,
       at: Option[SourcePos],
       folders: Seq[Path] = Vector(path)
-  ): Option[InputFile] = candidates(folders, name, at).find(_.isRegular)
+  ): Option[InputFile] = part(name).orElse(candidates(folders, name, at).find(_.isRegular))
 
   /** The file of this name in the first of several folders, regular or not. */
   def existing(folders: Seq[Path], name: String, at: Option[SourcePos]): Option[InputFile] =
@@ -73,7 +88,7 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
 
   /** As `belonging`, for a look without counting. */
   def glance(name: String): Option[InputFile] =
-    belonging(name).flatMap(_ => locate(name, None))
+    part(name).orElse(belonging(name).flatMap(_ => locate(name, None)))
 
   /** A similar name in the folder, after `locate` has found nothing. */
   def suggestion(name: String): Option[String] =

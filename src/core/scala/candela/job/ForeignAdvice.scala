@@ -21,6 +21,7 @@ private[job] object ForeignAdvice:
   private def problem(file: Path, source: Source): Option[Problem] =
     try
       source.foreign(file) match
+        case Some(found) if SceneFormat.named(file).exists(_.owns(found.kind)) => None
         case Some(found) =>
           val message = s"`$file` is ${found.what}, not a scene"
           Some(Problem.general(Code.NoScene, message, advice(found.kind, file)))

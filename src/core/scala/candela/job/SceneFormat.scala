@@ -1,13 +1,16 @@
 package candela.job
 
+import candela.base.Services
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
-import candela.io.{FileName, SceneFolder}
+import candela.io.{FileName, ForeignKind, SceneFolder}
 import candela.build.DialectChoice
 import candela.mitsuba.{MitsubaScene, XmlFile}
 import candela.scenefile.{Defines, Parser, SceneDescription, TokenDigest}
 import candela.settings.{ReadSettings, Sensors}
 
 import java.nio.file.{Files, Path}
+
+import scala.annotation.unused
 
 /** A format of scene files; all are listed in [[SceneFormat.all]].
   *
@@ -18,6 +21,9 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
 
   /** Whether the dialect may be asked for. */
   def hasDialects: Boolean
+
+  /** Whether files of a kind that is foreign to others are its own. */
+  def owns(@unused kind: ForeignKind): Boolean = false
 
   /** Whether its meshes usually come from other files. */
   def keepsMeshesApart: Boolean
@@ -58,7 +64,9 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
   def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]]
 
 object SceneFormat:
-  val all: Vector[SceneFormat] = Vector(Pbrt, Mitsuba)
+  /** Those of the core, and those that other modules bring. */
+  lazy val all: Vector[SceneFormat] =
+    Vector(Pbrt, Mitsuba) ++ Services.installed(classOf[SceneFormat])
 
   /** The format that a file has by its name, if it is one's. */
   def named(file: Path): Option[SceneFormat] =

@@ -15,11 +15,15 @@ enum Fade:
   /** Linear in the angle: Mitsuba. */
   case Linear
 
+  /** Square of the distance from the edge, in cosines: glTF. */
+  case Square
+
   /** Evaluates the falloff for `t` from 0 (edge) to 1, in the unit of the falloff. */
   def apply(t: Float): Float = this match
     case Quartic => square(square(t))
     case Cubic => t * t * (3f - 2f * t)
     case Linear => t
+    case Square => square(t)
 
 /** Spotlight along `axis` (unit, in light space).
   *

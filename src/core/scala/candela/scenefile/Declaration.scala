@@ -13,12 +13,18 @@ enum Dialect:
   /** Mitsuba 3's, whose files are described by the statements of pbrt-v4, and more. */
   case Mitsuba
 
+  /** That of glTF models, likewise. */
+  case Gltf
+
   /** The dialect whose statements describe it. */
-  def base: Dialect = if this == Mitsuba then V4 else this
+  def base: Dialect = if Dialect.ofOthers(this) then V4 else this
 
 object Dialect:
   /** Those of pbrt's files, oldest first. */
   val ofPbrt: Vector[Dialect] = Vector(V2, V3, V4)
+
+  /** Those of formats that statements of pbrt-v4, and more, describe. */
+  val ofOthers: Set[Dialect] = Set(Mitsuba, Gltf)
 
 /** Element type of a parameter, with its dialects' spellings unified. */
 enum ParamType(val spelling: String):

@@ -37,7 +37,7 @@ final case class DialectClue(what: String, pos: Option[SourcePos], v2: Int, v3: 
     case Dialect.V2 => v2
     case Dialect.V3 => v3
     case Dialect.V4 => v4
-    case Dialect.Mitsuba => 0
+    case Dialect.Mitsuba | Dialect.Gltf => 0
 
 /** Weight of any of these names for each dialect, counted once: 20 is decisive, 6 is known to no
   * other dialect, 1 to 3 are conventions.

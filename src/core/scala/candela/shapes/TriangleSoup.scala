@@ -19,6 +19,7 @@ import candela.math.*
   * @param readsPartials may its material or light read partial derivatives or footprints?
   * @param facesFacet    whether its geometric normals follow the corners alone, not `normals`
   * @param turned        whether its shading tangent is −∂p/∂u, if it has normals
+  * @param attributes    what else its vertices have
   */
 final class Mesh(
     val firstVertex: Int,
@@ -34,8 +35,12 @@ final class Mesh(
     val readsPartials: Boolean = true,
     val facesFacet: Boolean = false,
     val turned: Boolean = false,
-    val content: Option[String] = None
+    val content: Option[String] = None,
+    attributes: VertexAttributes = VertexAttributes.Empty
 ):
+  private[shapes] val extras: VertexAttributes | Null =
+    if attributes.isEmpty then null else attributes
+
   /** Where the u of a vertex of the soup is in `uvs`, unless these are empty. */
   private[shapes] def uvAt(vertex: Int): Int =
     if uvs.length == 2 then 0 else (vertex - firstVertex) * 2
@@ -105,6 +110,10 @@ final class TriangleSoup(
       if !mesh.facesFacet && (at.geometricNormal dot n) < 0f then
         at.geometricNormal = -at.geometricNormal
     uv(mesh, i0, i1, i2, b1, b2, at)
+    val extras = mesh.extras
+    if extras != null then
+      val first = mesh.firstVertex
+      extras.fill(i0 - first, i1 - first, i2 - first, b1, b2, at)
     at.hasPartials = at.wantsPartials && (mesh.readsPartials || at.keepsPartials)
     if !tangents && !at.hasPartials then at.frame.alignToNormal()
     else
@@ -114,17 +123,31 @@ final class TriangleSoup(
       e1.set(vertex(triangle, 1) - p0)
       e2.set(vertex(triangle, 2) - p0)
       if tangents then
-        val along = dpdu(mesh, i0, i1, i2, e1, e2)
+        val stored = storedTangent(mesh, i0, i1, i2, b1, b2)
+        val along = if stored.isZero then dpdu(mesh, i0, i1, i2, e1, e2) else stored
         val isTurned = mesh.turned && mesh.normals.length > 0
         at.frame.set(Frame.along(n, if isTurned then -along else along))
       else at.frame.alignToNormal()
-      if at.hasPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, relief, at)
+      if at.hasPartials then
+        TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, relief, at)
+        val stored = storedTangent(mesh, i0, i1, i2, b1, b2)
+        if !stored.isZero then
+          at.tangentU = stored
+          at.tangentV = (n cross stored) * mesh.extras.nn.sign(i0 - mesh.firstVertex)
     at.material = mesh.material
     at.areaLight =
       if mesh.firstLight < 0 then -1
       else
         val i = triangle - mesh.firstTriangle
         mesh.firstLight + (if mesh.paired then i >> 1 else i)
+
+  /** The tangent that the vertices have; zero without any. */
+  private def storedTangent(mesh: Mesh, i0: Int, i1: Int, i2: Int, b1: Float, b2: Float): Vec3 =
+    val extras = mesh.extras
+    if extras == null then Vec3.Zero
+    else
+      val first = mesh.firstVertex
+      extras.tangent(i0 - first, i1 - first, i2 - first, b1, b2)
 
   /** Computes the point and its error bound; `j0` … are the offsets of the corners' coordinates.
     */

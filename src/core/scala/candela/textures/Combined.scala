@@ -81,3 +81,20 @@ object MixRgb:
 final class RebasedTexture(texture: RgbTexture, convert: Rgb => Rgb) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb = convert(texture(at))
   override def maximum: Rgb = texture.maximum
+
+/** 1 where a texture is at least `from`, else 0. */
+final class StepFloat private (texture: FloatTexture, from: Float) extends FloatTexture:
+  def apply(at: ShadingPoint): Float = if texture(at) >= from then 1f else 0f
+
+object StepFloat:
+  def of(texture: FloatTexture, from: Float): FloatTexture = texture.constant match
+    case Some(x) => ConstantFloat(if x >= from then 1f else 0f)
+    case None => new StepFloat(texture, from)
+
+/** The colour of the vertices of a mesh. */
+object VertexRgb extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb = Rgb(at.red, at.green, at.blue)
+
+/** Their alpha. */
+object VertexAlpha extends FloatTexture:
+  def apply(at: ShadingPoint): Float = at.alpha

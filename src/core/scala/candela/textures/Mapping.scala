@@ -49,6 +49,21 @@ final class AffineUvMapping(
       tu * at.dudy + tv * at.dvdy
     )
 
+/** The same of a second set of parameters. */
+final class SecondUvMapping(
+    su: Float,
+    sv: Float,
+    ds: Float,
+    tu: Float,
+    tv: Float,
+    dt: Float
+) extends Mapping2D:
+  def apply(at: ShadingPoint): TexCoord =
+    TexCoord(su * at.u2 + sv * at.v2 + ds, tu * at.u2 + tv * at.v2 + dt)
+
+  /** Unknown: only textures that are not filtered have a second set. */
+  def footprint(at: ShadingPoint): TexFootprint = Mapping2D.Unknown
+
 object AffineUvMapping:
   /** @param rows s and t by u, v and 1; without them, u and v as they are */
   def of(rows: Array[Float]): Mapping2D = rows match

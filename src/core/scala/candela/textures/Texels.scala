@@ -110,6 +110,16 @@ object Texels:
     else if isGray(image, channels) then single(image, channels(0), decode)
     else combined(image, channels)((r, g, b) => (decode(r) + decode(g) + decode(b)) * (1f / 3f))
 
+  /** The values of one channel of red, green, blue and alpha; 1 if there is no alpha. */
+  def channel(image: ImageBands, name: String, decode: Float => Float): TexelBands =
+    val index =
+      if name == "A" then image.channelNames.indexOf(name)
+      else channelsOf(image)(Image.RgbNames.indexOf(name))
+    if index >= 0 then single(image, index, decode)
+    else
+      TexelBands(image, 1, Array.emptyFloatArray): band =>
+        FloatTexels(band.width, band.height, 1, Array.fill(band.width * band.height)(1f))
+
   /** As [[StoredImage.colorChannels]]. */
   private def channelsOf(image: ImageBands): Array[Int] =
     StoredImage.colorChannels(image.channelNames).toArray

@@ -44,13 +44,13 @@ object Converter:
   ): Converted =
     if toPly.nonEmpty && to == Dialect.V2 then
       throw SceneError(Problem.general(Code.NoConversion, "v2 has no PLY meshes; remove --to-ply"))
-    val isMitsubas = scene.dialect == Dialect.Mitsuba
+    val isOfOthers = Dialect.ofOthers(scene.dialect)
     val from = scene.dialect.base
     val translated =
-      if isMitsubas then ofMitsuba(scene, to, files) else Converted(scene, Vector.empty)
+      if isOfOthers then ofOthers(scene, to, files) else Converted(scene, Vector.empty)
     val relocated = Declarations.map(translated.scene)(FileNames(files.folder).moved)
     val images =
-      if isMitsubas then MitsubaInV4.images(relocated, files)
+      if isOfOthers then MitsubaInV4.images(relocated, files)
       else Converted(relocated, Vector.empty)
     val moved = images.scene
     val hasSpaces = to == Dialect.V4 || from != Dialect.V4
@@ -75,6 +75,13 @@ object Converter:
     val bounded = withoutBacks(converted)
     val plain = if to == Dialect.V4 then forV4(bounded, from) else bounded
     plain.copy(scene = toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)))
+
+  private def ofOthers(scene: SceneDescription, to: Dialect, files: SideFiles): Converted =
+    if scene.dialect == Dialect.Mitsuba then ofMitsuba(scene, to, files)
+    else
+      val plain = FromGltf.converted(scene, files)
+      if to != Dialect.V4 then plain
+      else plain.copy(warnings = plain.warnings ++ SpectralColors.warning(plain.scene, "glTF"))
 
   private def ofMitsuba(scene: SceneDescription, to: Dialect, files: SideFiles): Converted =
     val skies = SunskyLights.converted(scene, files)

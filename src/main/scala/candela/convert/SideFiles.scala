@@ -102,7 +102,7 @@ object RewrittenImages:
     */
   def file(s: Statement, p: Param): InputFile = file(s.declaration.folder, p)
 
-  private def file(folder: SceneFolder, p: Param): InputFile =
+  def file(folder: SceneFolder, p: Param): InputFile =
     folder.locate(p.strings.head, Some(p.valuesAt)).getOrElse:
       if SceneFolder.isName(p.strings.head) then
         throw ImageError(Code.NoSuchFile, s"${folder.path.resolve(name(p))}: there is no such file")

@@ -38,7 +38,7 @@ class ForeignSceneSuite extends AnyFunSuite:
         val file = Files.write(folder.resolve(name), bytes)
         val what = s"`$file` is a PLY mesh, not a scene"
         assert(refusal("check", s"$file").head == s"error: $what [E0102]")
-      val model = Files.writeString(folder.resolve("a.gltf"), "{\"asset\": {}}")
+      val model = Files.writeString(folder.resolve("a.json"), "{\"asset\": {}}")
       val lines = refusal(s"$model")
       assert(lines(0).endsWith("is a glTF model, not a scene [E0102]"))
       assert(lines(1).contains("export it"))
@@ -51,7 +51,10 @@ class ForeignSceneSuite extends AnyFunSuite:
       for command <- commands do
         val lines = refusal(command, s"$model")
         assert(lines(0) == s"error: `$model` is an OBJ mesh, not a scene [E0102]")
-        assert(lines(1).contains("a scene of pbrt (.pbrt) or Mitsuba (.xml)"), lines(1))
+        assert(
+          lines(1).contains("a scene of pbrt (.pbrt), Mitsuba (.xml) or glTF (.glb, .gltf)"),
+          lines(1)
+        )
 
   test("a text by another name is a scene if it begins as one"):
     TempFolder.use: folder =>
@@ -59,7 +62,7 @@ class ForeignSceneSuite extends AnyFunSuite:
       for command <- commands do
         assert(refusal(command, s"$notes") == Vector(
           s"error: `$notes` is not a scene: its first word is not a pbrt directive [E0102]",
-          " supported scene formats: pbrt (.pbrt) or Mitsuba (.xml)"
+          " supported scene formats: pbrt (.pbrt), Mitsuba (.xml) or glTF (.glb, .gltf)"
         ))
       val scene = "# mine\nCamera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
       val file = Files.writeString(folder.resolve("scene.txt"), scene)

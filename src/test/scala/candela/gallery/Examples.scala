@@ -62,4 +62,5 @@ object Examples:
     shown(texts.map((name, rest) => name -> s"Texture \"shown\" \"$kind\" \"$name\" $rest")) +
       ("ptex" -> Unseen("input files are produced by other programs")) +
       ("grid" -> Unseen("of Mitsuba's scenes")) +
-      ("lines" -> Unseen("of Mitsuba's scenes"))
+      ("lines" -> Unseen("of Mitsuba's scenes")) +
+      ("vertexcolor" -> Unseen("of glTF models"))

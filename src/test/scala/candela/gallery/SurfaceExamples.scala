@@ -31,6 +31,7 @@ private object SurfaceExamples:
   private val foreign = "input files are produced by other programs"
   private val clear = "invisible: rays pass through unscattered"
   val unseen: Map[String, Example] = Map(
+    "gltf" -> Unseen("of glTF models"),
     "principled" -> Unseen("of Mitsuba's scenes"),
     "roughplastic" -> Unseen("of Mitsuba's scenes"),
     "twosided" -> Unseen("of Mitsuba's scenes"),

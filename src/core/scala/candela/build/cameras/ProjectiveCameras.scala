@@ -43,11 +43,11 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
 
   private val near =
     float(
-      "nearclip", "near clipping distance", onlyMitsuba, "scene units", range = Range.above(0f)
+      "nearclip", "near clipping distance", onlyOthers, "scene units", range = Range.above(0f)
     )(0.01f)
   private val far =
     float(
-      "farclip", "far clipping distance", onlyMitsuba, "scene units", range = Range.above(0f)
+      "farclip", "far clipping distance", onlyOthers, "scene units", range = Range.above(0f)
     )(1e4f)
 
   /** The camera, which clips if it is to. */

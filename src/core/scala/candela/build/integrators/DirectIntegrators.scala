@@ -112,7 +112,7 @@ object AmbientOcclusionRecipe
           white * Pi,
           Beyond.Black
         )
-      case Dialect.V4 | Dialect.Mitsuba =>
+      case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf =>
         val beyond = if site.rules.dialect == Dialect.Mitsuba then Beyond.Open else Beyond.Black
         Occlusion(1, 0f, distanceV4(), cosine(), weighs = true, white, beyond)
     // Below 0, Mitsuba 0.6 takes a quarter of the scene's diameter; in pbrt, nothing occludes

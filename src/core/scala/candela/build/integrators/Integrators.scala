@@ -108,7 +108,7 @@ object IntegratorPlan:
   def interfaces(using site: Site): Interfaces = site.dialect match
     case Dialect.V2 => Interfaces.Open
     case Dialect.V3 => Interfaces.Lossy
-    case Dialect.V4 | Dialect.Mitsuba => Interfaces.Closed
+    case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf => Interfaces.Closed
 
 /** More than any path has, and fewer than overflow. */
 private[build] val PathDepths = Range(0f, 1e9f).limited
@@ -153,7 +153,7 @@ trait Choosing extends Recipe[IntegratorPlan]:
 
   protected final def lightStrategy()(using site: Site): LightStrategy =
     val choice = site.dialect match
-      case Dialect.V4 | Dialect.Mitsuba => sampler()
+      case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf => sampler()
       case Dialect.V3 => strategy()
       case _ => ""
     choice match

@@ -98,26 +98,28 @@ final class DiffuseLightRecipe(
     )
   private val filename =
     string("filename", "image over the surface's uv, instead of `L`", onlyV4, shown = "none")("")
+  private val tint =
+    color("tint", "colour that scales the image", SpectrumRole.Reflectance, onlyGltf)(Rgb.White)
   private val wrap =
     oneOf(
       "wrap",
       "wrap mode outside the image",
       Vector("clamp", "repeat", "mirror"),
-      onlyMitsuba
+      onlyOthers
     )("clamp")
   private val filter =
     oneOf(
       "filter",
       "filter of the image",
       Vector("bilinear", "point"),
-      onlyMitsuba
+      onlyOthers
     )("bilinear")
   private val imageUv =
     numbers(
       "imageuv",
       "float[6]",
       "s and t of the image, by u, v and 1",
-      onlyMitsuba
+      onlyOthers
     )
 
   private def lookup(using Site): PictureLookup =
@@ -136,7 +138,7 @@ final class DiffuseLightRecipe(
       )
     val picture = if isPicture then LightImages.picture("filename", lookup) else None
     val unit = if isPicture then Spectra.white else radiance()
-    val emitted = unit * colored() * scale()
+    val emitted = unit * colored() * tint() * scale()
     val perUnit = picture.fold(1f)(LightImages.luminance("filename", _))
     val shines = site.resources.basis.isSpectral || (emitted.isFinite && emitted.max > 0f)
     if isPicture && picture.isEmpty then None

@@ -12,7 +12,7 @@ import candela.color.{Encoding, Rgb}
 import candela.image.ImageBands
 import candela.scenefile.{Declaration, Dialect, Param}
 import candela.textures.{
-  AffineUvMapping, FloatTexture, MadeTexels, Mapping2D, MipLevel, Texels, Wrap
+  AffineUvMapping, FloatTexture, MadeTexels, Mapping2D, MipLevel, SecondUvMapping, Texels, Wrap
 }
 
 /** Recipes of materials. */
@@ -55,7 +55,8 @@ object Materials:
       NestedRecipe,
       InterfaceRecipe("", sinceV3),
       InterfaceRecipe("none", sinceV3),
-      InterfaceRecipe("interface", onlyV4)
+      InterfaceRecipe("interface", onlyV4),
+      GltfRecipe
     )
   )
 
@@ -97,13 +98,17 @@ abstract class MaterialRecipe(
       "normalmapuv",
       "float[6]",
       "s and t of the normal map, by u, v and 1",
-      onlyMitsuba
+      onlyOthers
     )
   private val pyramid = Once[MipLevel]()
+  private val strength: Option[Field[Float]] = Option.when(bumps):
+    float("normalscale", "scale of the normal map's tangential components", onlyGltf)(1f)
+  private val second: Option[Field[Boolean]] = Option.when(bumps):
+    bool("normaluv2", "use the second set of u and v for the normal map", onlyGltf)(false)
   private val edges: Option[Field[Boolean]] = Option.when(bumps):
-    bool("softedges", "soften the terminator on bumps", onlyMitsuba)(true)
+    bool("softedges", "soften the terminator on bumps", onlyOthers)(true)
   private val turns: Option[Field[Boolean]] = Option.when(bumps):
-    bool("turnednormals", "flip normals that face away", onlyMitsuba)(true)
+    bool("turnednormals", "flip normals that face away", onlyOthers)(true)
 
   override protected def assemble(site: Site): Material =
     given Site = site
@@ -113,7 +118,9 @@ abstract class MaterialRecipe(
         site.resources.askForRelief("normal maps")
         // What faces away is turned for each viewer, or at once
         val faces = site.rules.bumps == Bumps.Displaced
-        raised(smooth, NormalMapMaterial(_, picture, uvMapping(), faces))
+        val sides = Dialect.Gltf == site.rules.dialect
+        val scale = strength.fold(1f)(_())
+        raised(smooth, NormalMapMaterial(_, picture, uvMapping(), faces, scale, sides))
       case None =>
         val height = if site.dialect == Dialect.V4 then displacements else heights
         height.fold(smooth)(field => bumped(smooth, field()))
@@ -140,7 +147,12 @@ abstract class MaterialRecipe(
       )
 
   private def uvMapping()(using Site): Mapping2D =
-    AffineUvMapping.of(normalMapUv.fold(Array.emptyFloatArray)(_()))
+    val rows = normalMapUv.fold(Array.emptyFloatArray)(_())
+    if !second.exists(_()) then AffineUvMapping.of(rows)
+    else
+      rows match
+        case Array(su, sv, ds, tu, tv, dt) => SecondUvMapping(su, sv, ds, tu, tv, dt)
+        case _ => SecondUvMapping(1f, 0f, 0f, 0f, 1f, 0f)
 
   private def normalMap()(using site: Site): Option[MipLevel] =
     for
@@ -210,7 +222,7 @@ abstract class RoughRecipe(
       case Dialect.V2 => RoughnessModel.BlinnExponent
       case Dialect.V3 =>
         if remap() then RoughnessModel.PolynomialAlpha else RoughnessModel.BoundedAlpha
-      case Dialect.V4 | Dialect.Mitsuba =>
+      case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf =>
         if site.rules.separates then
           distribution() match
             case "ggx" => RoughnessModel.SeparableGgx

@@ -59,7 +59,7 @@ abstract class BssrdfRecipe(
       val model = if remap() then RoughnessModel.PolynomialAlpha else RoughnessModel.BoundedAlpha
       val rough = Roughness(alongV3(), acrossV3(), model, smoothAtZero = true)
       new DielectricMaterial(kr(), kt(), ConstantFloat(eta()), rough)
-    case Dialect.V4 | Dialect.Mitsuba =>
+    case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf =>
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
       val across = acrossV4.given_().getOrElse(isotropic())
       DielectricMaterial(eta(), Roughness(alongV4.given_().getOrElse(isotropic()), across, model))
@@ -105,7 +105,7 @@ object SubsurfaceRecipe
     val measured = measuredName.given_().filter(_.nonEmpty).flatMap(named)
     site.dialect match
       case Dialect.V4 if measuredName.given_().exists(_.nonEmpty) => measuredInterior(measured)
-      case Dialect.V4 | Dialect.Mitsuba => ofColors()
+      case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf => ofColors()
       case Dialect.V3 =>
         // Measured coefficients are reduced, so scattering is isotropic
         val asymmetry = if measured.isDefined then 0f else g()

@@ -10,6 +10,8 @@ private[build] val onlyV4: Set[Dialect] = Set(Dialect.V4)
 private[build] val untilV3: Set[Dialect] = Set(Dialect.V2, Dialect.V3)
 private[build] val sinceV3: Set[Dialect] = Set(Dialect.V3, Dialect.V4)
 private[build] val onlyMitsuba: Set[Dialect] = Set(Dialect.Mitsuba)
+private[build] val onlyGltf: Set[Dialect] = Set(Dialect.Gltf)
+private[build] val onlyOthers: Set[Dialect] = Dialect.ofOthers
 
 /** Display names of dialects. */
 object Dialects:

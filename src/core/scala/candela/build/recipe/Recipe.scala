@@ -52,12 +52,13 @@ abstract class Recipe[A](
   /** All parameters. A name may denote different parameters in different dialects. */
   final def fields: Vector[Field[?]] = declared.toVector
 
-  /** The dialects in which this type has the parameter; Mitsuba only if v4's has not. */
+  /** The dialects in which this type has the parameter; others than pbrt's only if v4's has not.
+    */
   final def dialectsOf(field: Field[?]): Set[Dialect] =
-    if dialects(Dialect.Mitsuba) then
+    if dialects.exists(Dialect.ofOthers) then
       dialects.filter(d => field.dialects(d) || field.dialects(d.base))
     else
-      val supported = if dialects(Dialect.V4) then dialects + Dialect.Mitsuba else dialects
+      val supported = if dialects(Dialect.V4) then dialects ++ Dialect.ofOthers else dialects
       supported.intersect(field.dialects)
 
   final def hasParameter(parameter: String, dialect: Dialect): Boolean =
@@ -140,7 +141,7 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
   private lazy val byName = all.groupBy(_.name)
 
   /** Finds the recipe of this name, preferably of this dialect. pbrt's scenes may have types of
-    * another pbrt, but not of Mitsuba.
+    * another pbrt, but not of other formats.
     */
   def lookUp(name: String, dialect: Dialect): Option[Recipe[A]] =
     lookUp(name, (r: Recipe[A]) => r.dialects(dialect))

@@ -8,7 +8,7 @@ import candela.shapes.DiskU
 import candela.textures.{TexelBands, Texels}
 
 /** How a program renders what scenes of its dialect say, where the programs differ and the words
-  * don't: one value for each dialect. Mitsuba's holds for all statements of its scenes.
+  * don't: one value for each dialect. Mitsuba's and glTF's hold for all statements of their scenes.
   *
   * @param dialect   whose rules these are
   * @param program   the name of the program, in messages
@@ -81,6 +81,7 @@ object Rules:
     case Dialect.V3 => v3
     case Dialect.V4 => v4
     case Dialect.Mitsuba => mitsuba
+    case Dialect.Gltf => gltf
 
   private val v2 = Rules(Dialect.V2, "pbrt-v2", gridEdge = GridEdge.Clamped)
   private val v3 = Rules(Dialect.V3, "pbrt-v3", goesBeneath = true)
@@ -119,4 +120,20 @@ object Rules:
     goesBeneath = true,
     skyCovers = true,
     defaultsToIndependent = true
+  )
+
+  private val gltf = Rules(
+    Dialect.Gltf,
+    "glTF",
+    filters = false,
+    toNumber = Texels.decodedLuminance,
+    decodesAll = true,
+    decodesNormals = false,
+    decodesLights = true,
+    flatMaps = true,
+    bumps = Bumps.Sloped,
+    plainMetals = true,
+    clips = true,
+    fade = Fade.Square,
+    facesEmitters = true
   )

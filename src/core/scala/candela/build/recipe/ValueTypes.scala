@@ -28,7 +28,7 @@ private[build] object ValueTypes:
         dialect match
           case Dialect.V2 => given_ == Float
           case Dialect.V3 => given_ == Point2 || given_ == Float
-          case Dialect.V4 | Dialect.Mitsuba => given_ == Point2
+          case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf => given_ == Point2
       case "float texture" => given_ == Float || given_ == Texture
       case "spectrum texture" => given_ == Texture || Spectra(given_)
       // pbrt-v4's indices of refraction may be plain numbers

@@ -11,7 +11,7 @@ import candela.geometry.ShadingPoint
 import candela.image.Image
 import candela.math.{Position, Transform, Vec3}
 import candela.scenefile.Dialect
-import candela.shapes.{DisplacedMesh, LoopSubdivision, MeshError, SubdividedMesh}
+import candela.shapes.{DisplacedMesh, LoopSubdivision, MeshError, SubdividedMesh, VertexAttributes}
 
 object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle mesh"):
   private val indices =
@@ -20,8 +20,14 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
   private val normals = numbers("N", "normal[]", "shading normals, one per vertex")
   private val uv = numbers("uv", "point2[]", "texture coordinates, one pair per vertex")
   private val st = numbers("st", "point2[]", "alias of `uv`", untilV3)
+  private val secondUv =
+    numbers("uv2", "point2[]", "second set of texture coordinates", onlyGltf)
+  private val colors =
+    numbers("colors", "float[]", "red, green, blue and alpha of each vertex", onlyGltf)
+  private val tangents =
+    numbers("tangents", "float[]", "tangent of each vertex, and the sign of the other", onlyGltf)
   private val culls =
-    bool("cullbackfaces", "rays from behind pass", onlyMitsuba)(false)
+    bool("cullbackfaces", "rays from behind pass", onlyOthers)(false)
   unsupported("tangents follow uv; only anisotropic materials show the difference")(
     numbers("S", "vector3[]", "tangents, one per vertex")
   )
@@ -48,7 +54,15 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
     else if p.isEmpty || index.isEmpty then
       site.unusable(Code.MissingParameter, "a \"trianglemesh\" needs `P` and `indices`")
       None
-    else MeshArrays.checked(p, normals(), uvs, index)
+    else
+      MeshArrays.checked(p, normals(), uvs, index).map:
+        case mesh: ShapeGeometry.Triangles =>
+          def whole(values: Array[Float], each: Int) =
+            if values.length == p.length / 3 * each then values else Array.emptyFloatArray
+          val extras =
+            VertexAttributes(whole(secondUv(), 2), whole(colors(), 4), whole(tangents(), 4))
+          if extras.isEmpty then mesh else mesh.copy(attributes = extras)
+        case other => other
 
 object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY file", sinceV3):
   private val Meshes = Keep.Shelf(Some(PlyMeshForm))

@@ -5,8 +5,8 @@ import candela.build.recipe.*
 import candela.lights.{HiddenLight, Light, PerforatedLight, SurfaceLight}
 import candela.math.{Position, Transform}
 import candela.scenefile.Dialect
-import candela.shapes.{BezierCurve, Shape, SurfaceSampler}
-import candela.textures.{ConstantFloat, FloatTexture}
+import candela.shapes.{BezierCurve, Shape, SurfaceSampler, VertexAttributes}
+import candela.textures.{ConstantFloat, FloatTexture, StepFloat}
 
 /** Recipes of shapes. */
 object Shapes:
@@ -61,6 +61,16 @@ abstract class ShapeRecipe(
         shadowAlphaIn
       )(1f)
     )
+  private val cutoff =
+    Option.when(alphaIn.exists(dialects))(
+      float(
+        "alphacutoff",
+        "alpha from which on the surface is opaque; below, it is open",
+        onlyGltf
+      )(
+        0f
+      )
+    )
 
   protected def geometry()(using Site): Option[ShapeGeometry]
 
@@ -83,7 +93,11 @@ abstract class ShapeRecipe(
   /** Alpha texture, unless fully opaque. */
   private def holesOf(field: Option[Field[FloatTexture]])(using site: Site): Option[FloatTexture] =
     val hasHoles = (a: Float) => if site.dialect == Dialect.V4 then a < 1f else a == 0f
-    field.map(_()).filter(_.constant.forall(hasHoles))
+    field.map(f => cut(f())).filter(_.constant.forall(hasHoles))
+
+  private def cut(alpha: FloatTexture)(using Site): FloatTexture =
+    val least = cutoff.fold(0f)(_())
+    if least > 0f then StepFloat.of(alpha, least) else alpha
 
   private def emitter(holes: Option[FloatTexture]): EmitterHoles = holes match
     case None => EmitterHoles.Ignored
@@ -102,13 +116,15 @@ enum ShapeGeometry:
     * (x y z) and uvs may be empty.
     *
     * @param content tells these positions and indices from others, if it is known
+    * @param attributes what else vertices have
     */
   case Triangles(
       positions: Array[Float],
       normals: Array[Float],
       uvs: Array[Float],
       indices: Array[Int],
-      content: Option[String] = None
+      content: Option[String] = None,
+      attributes: VertexAttributes = VertexAttributes.Empty
   )
 
   /** A single surface, created from its transform and whether its orientation is reversed.

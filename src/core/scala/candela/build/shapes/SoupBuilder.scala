@@ -61,7 +61,8 @@ final class SoupBuilder:
       readsPartials = readsPartials,
       facesFacet = facesFacet,
       turned = turned,
-      content = mesh.content.map(c => s"$c ${toWorld.m.mkString(" ")}")
+      content = mesh.content.map(c => s"$c ${toWorld.m.mkString(" ")}"),
+      attributes = mesh.attributes.placed(toWorld)
     )
     vertices += mesh.positions.length / 3
     triangles += mesh.indices.length / 3

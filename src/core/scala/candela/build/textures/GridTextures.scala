@@ -41,3 +41,15 @@ object RgbGridRecipe extends GridRecipe[RgbTexture]("colours in a box", 3):
     grids().fold(StandIns.color(basis)): (mapping, grids) =>
       val texture = RgbGridTexture(mapping, grids(0), grids(1), grids(2))
       if basis.isSrgb then texture else RebasedTexture(texture, basis.lookUp)
+
+/** The alpha of the colours that the vertices of a mesh have. */
+object FloatVertexRecipe
+    extends Recipe[FloatTexture]("vertexcolor", "alpha of the vertices' colours", onlyGltf):
+  protected def make()(using Site): FloatTexture = VertexAlpha
+
+/** These colours. */
+object RgbVertexRecipe
+    extends Recipe[RgbTexture]("vertexcolor", "colours of the vertices", onlyGltf):
+  protected def make()(using site: Site): RgbTexture =
+    val basis = site.resources.basis
+    if basis.isSrgb then VertexRgb else RebasedTexture(VertexRgb, basis.lookUp)

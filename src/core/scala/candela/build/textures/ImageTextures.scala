@@ -16,12 +16,12 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     string("filename", "image file: exr, pfm, hdr, png, qoi, tga, jpg …", shown = "none")("")
   private val wrapOfPbrt =
     oneOf("wrap", "wrap mode outside the image", ImageMapRecipe.Wraps)("repeat")
-  private val wrapOfMitsuba =
+  private val wrapOfOthers =
     oneOf(
       "wrap",
       "wrap mode outside the image",
       ImageMapRecipe.Wraps :+ "mirror",
-      onlyMitsuba
+      onlyOthers
     )("repeat")
   private val pyramid = Once[ImageLookup]()
   protected val scale = float("scale", "scale of the values")(1f)
@@ -98,7 +98,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
       )
 
   /** Whether texels are these channels as they are. */
-  protected def isPicked(channels: Vector[Int]): Boolean
+  protected def isPicked(channels: Vector[Int])(using Site): Boolean
 
   /** The image with levels that are made. */
   private def generated(p: Param)(using site: Site): Option[ImageLookup] =
@@ -138,9 +138,12 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     val decoding = site.dialect match
       case Dialect.V2 => s"${scale()} ${gammaNumber()}"
       case Dialect.V3 => s"${gammaFlag.given_()}"
-      case Dialect.V4 | Dialect.Mitsuba => encoding()
-    s"$category ${site.dialect} of ${site.rules.program} $suffix $decoding $wrapping " +
+      case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf => encoding()
+    s"$category $choice${site.dialect} of ${site.rules.program} $suffix $decoding $wrapping " +
       (if isPlain then "plain" else "levels")
+
+  /** What of the image is read. */
+  protected def choice(using Site): String = ""
 
   private def wrapping(using Site): Wrap = wrap match
     case "black" => Wrap.Black
@@ -186,7 +189,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
           site.warn(Code.IdleParameter, "`gamma` must be a bool in v3; the number is ignored")
         val flag = if isNumber then None else gammaFlag.given_()
         if flag.getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
-      case Dialect.V4 | Dialect.Mitsuba =>
+      case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf =>
         // Floating-point images are linear; in pbrt, `encoding` applies to PNG, all else is sRGB
         val isOpen = site.rules.decodesAll && stored != Encoding.Linear
         if isOpen || filename().toLowerCase.endsWith(".png") then encoded()
@@ -209,7 +212,7 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
         identity
 
   private def wrap(using site: Site): String =
-    if site.rules.dialect == Dialect.Mitsuba then wrapOfMitsuba() else wrapOfPbrt()
+    if Dialect.ofOthers(site.rules.dialect) then wrapOfOthers() else wrapOfPbrt()
 
   /** With which the image repeats. */
   protected def period(using Site): Double = wrap match
@@ -221,18 +224,29 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
     if site.dialect == Dialect.V2 then 1f else scale()
 
 object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "numbers"):
+  private val channel = oneOf(
+    "channel",
+    "channel of the image whose values these are, instead of the luminance",
+    Vector("all", "r", "g", "b", "a"),
+    onlyGltf
+  )("all")
+
+  override protected def choice(using Site): String = channel()
   protected def create()(using site: Site): FloatTexture =
     lookup().fold(StandIns.number)(FloatImageTexture(mapped(period), _, outerScale, invert()))
 
   protected def texels(image: ImageBands, decode: Float => Float)(using site: Site): TexelBands =
-    site.rules.toNumber(image, decode)
+    channel() match
+      case "all" => site.rules.toNumber(image, decode)
+      case name => Texels.channel(image, name.toUpperCase, decode)
 
   protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels =
     val _ = stored.colorChannels // an error without any
     () => texels(ImageBands.of(stored), decode).inMemory
 
   protected def colors(texels: TexelBands): Option[ColorChoice] = None
-  protected def isPicked(channels: Vector[Int]): Boolean = channels.distinct.size == 1
+  protected def isPicked(channels: Vector[Int])(using Site): Boolean =
+    channels.distinct.size == 1 && channel() == "all"
   protected def note(colors: => Vector[Rgb])(using Site): Unit = ()
 
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "colours"):
@@ -251,7 +265,7 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas, "
     Option.when(texels.channels == 3):
       ColorCensus.choiceOf(texels.width.toLong * texels.height)
 
-  protected def isPicked(channels: Vector[Int]): Boolean = true
+  protected def isPicked(channels: Vector[Int])(using Site): Boolean = true
 
   protected def note(colors: => Vector[Rgb])(using site: Site): Unit =
     site.resources.counting.foreach(_.addColors(colors, SpectrumRole.Reflectance))

@@ -15,7 +15,8 @@ abstract class MappedRecipe[A](name: String, meaning: String, dialects: Set[Dial
   private val udelta = float("udelta", "offset of u")(0f)
   private val vdelta = float("vdelta", "offset of v")(0f)
   private val cross = Vector("u" -> "v", "v" -> "u").map: (of, by) =>
-    float(s"${of}skew", s"what $by adds to $of", onlyMitsuba)(0f)
+    float(s"${of}skew", s"what $by adds to $of", onlyOthers)(0f)
+  private val second = bool("uv2", "use the second set of u and v of meshes", onlyGltf)(false)
   private val axis1 = vector("v1", "direction of s in a \"planar\" mapping")(Vec3.X)
   private val axis2 = vector("v2", "direction of t in a \"planar\" mapping")(Vec3.Y)
 
@@ -43,6 +44,8 @@ abstract class MappedRecipe[A](name: String, meaning: String, dialects: Set[Dial
           offset(axis1(), udelta()),
           offset(axis2(), vdelta())
         )
+    case _ if second() =>
+      SecondUvMapping(uscale(), cross(0)(), udelta(), cross(1)(), vscale(), vdelta())
     case _ if cross.exists(_() != 0f) =>
       AffineUvMapping(uscale(), cross(0)(), udelta(), cross(1)(), vscale(), vdelta())
     case _ => UvMapping(uscale(), vscale(), udelta(), vdelta())

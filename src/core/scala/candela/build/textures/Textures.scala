@@ -13,7 +13,7 @@ object Textures:
       FloatConstantRecipe, FloatScaleRecipe, FloatMixRecipe, FloatDirectionMixRecipe,
       FloatBilerpRecipe, FloatCheckerboardRecipe, FloatDotsRecipe, FloatImageMapRecipe,
       FloatPtexRecipe, FloatFbmRecipe, FloatWrinkledRecipe, FloatWindyRecipe,
-      FloatLinesRecipe, FloatGridRecipe
+      FloatLinesRecipe, FloatGridRecipe, FloatVertexRecipe
     )
   )
 
@@ -22,7 +22,9 @@ object Textures:
     Vector(
       RgbConstantRecipe, RgbScaleRecipe, RgbMixRecipe, RgbDirectionMixRecipe, RgbBilerpRecipe,
       RgbCheckerboardRecipe, RgbDotsRecipe, RgbImageMapRecipe, RgbPtexRecipe, RgbFbmRecipe,
-      RgbWrinkledRecipe, RgbWindyRecipe, RgbMarbleRecipe, RgbUvRecipe, RgbLinesRecipe, RgbGridRecipe
+      RgbWrinkledRecipe, RgbWindyRecipe, RgbMarbleRecipe, RgbUvRecipe, RgbLinesRecipe,
+      RgbGridRecipe,
+      RgbVertexRecipe
     )
   )
 

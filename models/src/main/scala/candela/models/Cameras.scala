@@ -1,0 +1,85 @@
+package candela.models
+
+import candela.diagnostics.SourcePos
+import candela.math.Transform
+import candela.scenefile.{Declaration, GraphicsState, Param, SceneDescription}
+
+/** Translates cameras. */
+private[models] final class Cameras(file: GltfFile, session: Session):
+  private val entries = file.root.list("cameras")
+
+  /** The scene as the camera of a node sees it. */
+  def seen(scene: SceneDescription, p: PlacedNode): SceneDescription =
+    val entry = p.node.need("camera").element(entries, "cameras")
+    entry.need("type").text match
+      case "perspective" =>
+        val view = entry.need("perspective")
+        val aspect = view.number("aspectRatio", View.Aspect)
+        val height = view.need("yfov").number
+        if !(height > 0 && height < Math.PI) then
+          view.need("yfov").fail(s"expected an angle between 0 and π, found $height")
+        checkAspect(view, aspect)
+        val shorter =
+          if aspect >= 1 then height else 2 * Math.atan(Math.tan(height / 2) * aspect)
+        val params = Param.float("fov", entry.at, Math.toDegrees(shorter).toFloat) +: clips(view)
+        View.seen(scene, session, p.toWorld, aspect, "perspective", params, entry.at)
+      case "orthographic" =>
+        val view = entry.need("orthographic")
+        val (x, y) = (Math.abs(view.need("xmag").number), Math.abs(view.need("ymag").number))
+        if x == 0 || y == 0 then view.fail("`xmag` and `ymag` must not be 0")
+        checkAspect(view, x / y)
+        val window = Param.float("screenwindow", entry.at, Seq(-x, x, -y, y).map(_.toFloat)*)
+        View.seen(scene, session, p.toWorld, x / y, "orthographic", window +: clips(view), entry.at)
+      case other =>
+        entry.need("type").fail(s"expected perspective or orthographic, found `$other`")
+
+  private def checkAspect(view: Json, aspect: Double): Unit =
+    if !(aspect > 1e-3 && aspect < 1e3) then view.fail(s"the aspect ratio is $aspect")
+
+  private def clips(view: Json): Vector[Param] =
+    val near = view.number("znear", 0)
+    val far = view("zfar").map(_.number)
+    for z <- far if z <= near do view.fail(s"expected `zfar` above `znear`, found $z")
+    Vector(Param.float("nearclip", view.at, Math.max(near, 1e-9).toFloat)) ++
+      far.map(z => Param.float("farclip", view.at, z.toFloat)).orElse:
+        Some(Param.float("farclip", view.at, View.FarAway))
+
+/** Views of scenes, with film, sampler and integrator. */
+private[models] object View:
+  val Aspect: Double = 4.0 / 3
+  val FarAway: Float = 1e30f
+  private val LongerSide = 720
+  private val Samples = 64
+  private val MaxDepth = 16
+
+  /** @param toWorld of a camera that looks along −z */
+  def seen(
+      scene: SceneDescription,
+      session: Session,
+      toWorld: Transform,
+      aspect: Double,
+      kind: String,
+      params: Vector[Param],
+      at: SourcePos
+  ): SceneDescription =
+    val (width, height) =
+      if aspect >= 1 then (LongerSide, Math.max(1, Math.rint(LongerSide / aspect).toInt))
+      else (Math.max(1, Math.rint(LongerSide * aspect).toInt), LongerSide)
+    // pbrt's z points forward
+    val axes = Transform.scale(1, 1, -1).get
+    val toCamera = (Nodes.rigid(toWorld) * axes).inverse
+    def declare(category: String, name: String, params: Param*): Declaration =
+      session.declare(category, name, at, params)
+    val integrator = if scene.media.isEmpty then "path" else "volpath"
+    scene.copy(
+      camera = Some(session.declare("Camera", kind, at, params)),
+      worldToCamera = GraphicsState.still(toCamera),
+      film = Some(declare(
+        "Film",
+        "rgb",
+        Param.int("xresolution", at, width),
+        Param.int("yresolution", at, height)
+      )),
+      sampler = Some(declare("Sampler", "zsobol", Param.int("pixelsamples", at, Samples))),
+      integrator = Some(declare("Integrator", integrator, Param.int("maxdepth", at, MaxDepth)))
+    )

@@ -1,0 +1,163 @@
+package candela.models
+
+import candela.diagnostics.Code
+import candela.io.{InputFile, IoReason, SceneFolder}
+
+import java.io.IOException
+import java.net.URLDecoder
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.{ByteBuffer, ByteOrder}
+import java.util.Base64
+
+import scala.collection.mutable
+
+/** The JSON of a model, its buffers, and the images that they contain.
+  *
+  * Source: glTF 2.0 specification, §3.6 on buffers, §4.4 on the binary format.
+  */
+private[models] final class GltfFile private (session: Session, json: Array[Byte], bin: ByteBuffer):
+  val root: Json = Json.parse(json, session)
+  private val views = root.list("bufferViews")
+  private val buffers = root.list("buffers")
+  private val opened = mutable.HashMap.empty[Int, ByteBuffer]
+
+  private def buffer(index: Json): ByteBuffer =
+    val entry = index.element(buffers, "buffers")
+    opened.getOrElseUpdate(
+      index.size, {
+        val length = entry.need("byteLength").size
+        val all = entry("uri").fold(bin)(bytes)
+        if all.remaining < length then
+          entry.fail(s"`byteLength` is $length, but there are ${all.remaining} bytes")
+        all.duplicate.order(ByteOrder.LITTLE_ENDIAN).limit(all.position() + length)
+      }
+    )
+
+  /** The bytes of a buffer view. */
+  def view(index: Json): ByteBuffer =
+    val entry = index.element(views, "buffer views")
+    for e <- entry("extensions").toVector.flatMap(_.names).headOption do
+      Session.fail(entry.at, s"the compression `$e` is not supported", Code.Unsupported)
+    val all = buffer(entry.need("buffer"))
+    val (from, length) = (entry.size("byteOffset", 0), entry.need("byteLength").size)
+    if from.toLong + length > all.remaining then
+      entry.fail(
+        s"bytes $from to ${from.toLong + length} are not in the buffer, of ${all.remaining} bytes"
+      )
+    all.slice(all.position() + from, length).order(ByteOrder.LITTLE_ENDIAN)
+
+  /** Bytes from one element of a buffer view to the next, if it says so. */
+  def stride(index: Json): Option[Int] =
+    index.element(views, "buffer views")("byteStride").map(_.size)
+
+  private def bytes(uri: Json): ByteBuffer = data(uri) match
+    case Some(bytes) => ByteBuffer.wrap(bytes)
+    case None => file(uri).fold(ByteBuffer.allocate(0))(GltfFile.mapped(_, uri))
+
+  /** The file of a URI. */
+  private def file(uri: Json): Option[InputFile] =
+    val name = fileName(uri)
+    val there = session.folder.find(name, Some(uri.at))
+    there match
+      case Some(file) => session.note(file.path)
+      case None =>
+        val (message, help) =
+          session.folder.absence(name, Some(uri.at), s"no such file: `$name`")
+        session.missing(uri.at, message, "using nothing", help)
+    there
+
+  private def fileName(uri: Json): String =
+    val text = uri.text
+    if GltfFile.Scheme.findPrefixOf(text).isDefined && !text.startsWith("data:") then
+      Session.fail(
+        uri.at,
+        "addresses of other schemes than files are not supported",
+        Code.Unsupported
+      )
+    val name =
+      try URLDecoder.decode(text.replace("+", "%2B"), UTF_8)
+      catch case _: IllegalArgumentException => text
+    if SceneFolder.isName(name) then name else uri.fail(s"`$name` is not a valid file name")
+
+  private def data(uri: Json): Option[Array[Byte]] =
+    val text = uri.text
+    Option.when(text.startsWith("data:")):
+      val comma = text.indexOf(',')
+      if comma < 0 || !text.take(comma).endsWith(";base64") then
+        uri.fail("expected data in base64")
+      try Base64.getDecoder.decode(text.drop(comma + 1))
+      catch case _: IllegalArgumentException => uri.fail("the base64 of the data is damaged")
+
+  private val contents = mutable.LinkedHashMap.empty[String, ByteBuffer]
+
+  /** Files within the model, by the names of [[imageName]]. */
+  def parts: Map[String, ByteBuffer] = contents.toMap
+
+  /** The name of an image file; None if it is missing. */
+  def imageName(image: Json): Option[String] = image("uri") match
+    case Some(uri) =>
+      data(uri).map(bytes => part(image, ByteBuffer.wrap(bytes)))
+        .orElse(file(uri).map(_ => fileName(uri)))
+    case None =>
+      image("bufferView") match
+        case Some(index) => Some(part(image, view(index)))
+        case None => image.fail("an image must have `uri` or `bufferView`")
+
+  private def part(image: Json, bytes: ByteBuffer): String =
+    val isPng = bytes.remaining > 4 && bytes.get(bytes.position() + 1) == 'P'
+    val suffix = if isPng then "png" else "jpg"
+    val name = s"${session.file.getFileName}#${image.pointer}.$suffix"
+    contents(name) = bytes
+    name
+
+private[models] object GltfFile:
+  private val Scheme = "[A-Za-z][A-Za-z0-9+.-]+:".r
+  private inline val Magic = 0x46546c67
+  private inline val JsonChunk = 0x4e4f534a
+  private inline val BinaryChunk = 0x004e4942
+
+  /** A `.glb` or `.gltf` file. */
+  def read(session: Session): GltfFile =
+    val at = session.at("")
+    try
+      val all = session.folder.scene(session.file).map().order(ByteOrder.LITTLE_ENDIAN)
+      if all.remaining >= 12 && all.getInt(all.position()) == Magic then binary(session, all)
+      else of(session, all)
+    catch
+      case e: IOException =>
+        Session.fail(at, s"can't read the model: ${IoReason(e)}", Code.Unreadable)
+
+  private def of(session: Session, text: ByteBuffer): GltfFile =
+    new GltfFile(session, array(text), ByteBuffer.allocate(0))
+
+  def ofText(session: Session, text: String): GltfFile =
+    of(session, ByteBuffer.wrap(text.getBytes(UTF_8)))
+
+  private def array(bytes: ByteBuffer): Array[Byte] =
+    val all = new Array[Byte](bytes.remaining)
+    val _ = bytes.duplicate.get(all)
+    all
+
+  private def binary(session: Session, all: ByteBuffer): GltfFile =
+    def fail(message: String) = Session.fail(session.at(""), message)
+    val version = all.getInt(4)
+    if version != 2 then fail(s"expected glTF 2, found version $version")
+    var json, bin = Option.empty[ByteBuffer]
+    var from = 12L
+    while from + 8 <= all.limit do
+      val length = all.getInt(from.toInt)
+      if length < 0 || from + 8 + length > all.limit then fail("the file ends early")
+      val chunk = all.slice(from.toInt + 8, length)
+      all.getInt(from.toInt + 4) match
+        case JsonChunk if json.isEmpty => json = Some(chunk)
+        case BinaryChunk if bin.isEmpty => bin = Some(chunk)
+        case _ => ()
+      from += 8L + length
+    val text = json.getOrElse(fail("the file has no JSON"))
+    new GltfFile(session, array(text), bin.getOrElse(ByteBuffer.allocate(0)))
+
+  private def mapped(file: InputFile, uri: Json): ByteBuffer =
+    try file.map()
+    catch
+      case e: IOException =>
+        Session.fail(uri.at, s"can't read `$file`: ${IoReason(e)}", Code.Unreadable)

@@ -1,0 +1,46 @@
+package candela.models
+
+import candela.diagnostics.{Code, Problem, SceneError}
+import candela.io.{ForeignKind, SceneFolder}
+import candela.job.SceneFormat
+import candela.scenefile.SceneDescription
+import candela.settings.ReadSettings
+
+import java.nio.file.Path
+
+/** Models in glTF 2.0, as scenes. */
+final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
+  def hasDialects: Boolean = false
+  override def owns(kind: ForeignKind): Boolean = kind == ForeignKind.Model
+  def keepsMeshesApart: Boolean = true
+  def worlds: String = "scenes"
+  def firstWorld: Int = 0
+
+  def read(
+      file: Path,
+      within: SceneFolder,
+      reading: ReadSettings,
+      world: Option[Int]
+  ): SceneDescription = readable(file, within, reading, None)
+
+  def readText(
+      name: Path,
+      text: String,
+      within: SceneFolder,
+      reading: ReadSettings
+  ): SceneDescription = readable(name, within, reading, Some(text))
+
+  private def readable(
+      file: Path,
+      within: SceneFolder,
+      reading: ReadSettings,
+      text: Option[String]
+  ): SceneDescription =
+    if reading.sensors.nonEmpty then
+      val help = "--sensor chooses among those of Mitsuba's XML files"
+      val message = s"`$file` has no sensors"
+      throw SceneError(Problem.general(Code.OptionMisfit, message, Some(help)))
+    GltfScene.readable(file, within, reading.keepGoing, text)
+
+  def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
+    Some(None)

@@ -1,0 +1,228 @@
+package candela.models
+
+import candela.color.Rgb
+import candela.diagnostics.{Code, Severity}
+import candela.io.SceneFolder
+import candela.math.Transform
+import candela.scenefile.{
+  Declaration, Dialect, Excerpts, GraphicsState, InstanceDescription, InstanceList,
+  LightDescription, Param, SceneDescription, ShapeDescription
+}
+
+import java.nio.file.Path
+
+import scala.collection.mutable
+
+/** Reads models in glTF 2.0. */
+private[models] object GltfScene:
+
+  /** The model, with what it lacks to be shown: see [[Studio]].
+    *
+    * @param text what is read instead of the file
+    * @throws SceneError if the file contains no model at all
+    */
+  def readable(
+      file: Path,
+      within: SceneFolder,
+      keepGoing: Boolean,
+      text: Option[String]
+  ): SceneDescription =
+    val session = Session(file, within, keepGoing)
+    val opened = text.fold(GltfFile.read(session))(GltfFile.ofText(session, _))
+    val scene = Studio.around(GltfScene(opened, session).result(), session)
+    val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
+    scene.copy(
+      warnings = warnings,
+      errors = errors,
+      sources = file +: session.filesRead,
+      folder = session.folder
+    )
+
+  /** Those that are read, beside materials. */
+  private[models] val Extensions: Set[String] = Set(
+    "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing", "KHR_materials_unlit", "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_volume",
+    "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_anisotropy",
+    "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness"
+  )
+
+private final class GltfScene(file: GltfFile, session: Session):
+  checkVersion()
+  private val textures = Textures(file, session)
+  private val materials = Materials(file, session, textures)
+  private val primitives = Primitives(file, session)
+  private val meshes = file.root.list("meshes")
+  private val skins = file.root.list("skins")
+  private val nodes = Nodes(file, session)
+  private val lights = Lights(file, session)
+
+  private val shapes = Vector.newBuilder[ShapeDescription]
+  private val objects = mutable.LinkedHashMap.empty[String, Vector[ShapeDescription]]
+  private val instances = InstanceList.newBuilder
+
+  private def checkVersion(): Unit =
+    val version = file.root.need("asset").need("version").text
+    if !version.startsWith("2.") then
+      Session.fail(session.at("/asset/version"), s"expected glTF 2, found version $version")
+    for name <- file.root.list("extensionsRequired") if !GltfScene.Extensions(name.text) do
+      session.warn(name.at, s"the model requires `${name.text}`, which is not supported")
+
+  def result(): SceneDescription =
+    val users = nodes.placed.filter(p => p.node("mesh").isDefined)
+    val uses = users.groupBy(p => (p.node.need("mesh").int, weights(p.node)))
+    for p <- users do
+      session.attempt(place(
+        p,
+        isShared = uses((p.node.need("mesh").int, weights(p.node))).size > 1
+      ))
+    val lit = nodes.placed.flatMap(p => session.attempt(lights(p)).flatten)
+    val scene = SceneDescription(
+      Dialect.Gltf,
+      textures = textures.result(),
+      namedMaterials = materials.result(),
+      lights = lit,
+      shapes = shapes.result(),
+      objects = objects.toMap,
+      instances = instances.result(),
+      media = materials.interiors
+    )
+    val cameras = nodes.placed.filter(_.node("camera").isDefined)
+    if cameras.size > 1 then
+      session.warn(cameras(1).node.at, "only the first camera is rendered", Code.Unsupported)
+    cameras.headOption.flatMap(c => session.attempt(Cameras(file, session).seen(scene, c)))
+      .getOrElse(scene)
+
+  private def weights(node: Json): Vector[Double] =
+    val mesh = node.need("mesh").element(meshes, "meshes")
+    node("weights").orElse(mesh("weights")).fold(Vector.empty)(_.items.map(_.number))
+
+  private def place(p: PlacedNode, isShared: Boolean): Unit =
+    val skin = p.node.element("skin", skins, "skins").map(jointsOf)
+    val many = p.node.extension("EXT_mesh_gpu_instancing").map(several(p, _))
+    // Skinned vertices are in world space
+    val places = many.getOrElse(Vector(if skin.isEmpty then p.toWorld else Transform.Identity))
+    val index = p.node.need("mesh")
+    val mesh = index.element(meshes, "meshes")
+    def parts(toWorld: Transform) =
+      mesh.list("primitives").flatMap(described(_, weights(p.node), skin, toWorld))
+    // What emits light is placed by itself: lights of instances are not sampled
+    val single =
+      if isShared || places.size > 1 then local(index, p.node, skin, mesh) else Vector.empty
+    if single.isEmpty || single.exists(_.areaLight.isDefined) then
+      places.foreach(t => shapes ++= parts(t))
+    else
+      val name = objectName(index, p.node, mesh)
+      objects.getOrElseUpdate(name, single): Unit
+      for t <- places do instances += InstanceDescription(name, p.node.at, GraphicsState.still(t))
+
+  private val locals = mutable.HashMap.empty[String, Vector[ShapeDescription]]
+
+  /** The shapes of a mesh in its own space; empty if it follows joints. */
+  private def local(index: Json, node: Json, skin: Option[Skin], mesh: Json) =
+    if skin.isDefined then Vector.empty
+    else
+      locals.getOrElseUpdate(
+        objectName(index, node, mesh),
+        mesh.list("primitives").flatMap(described(_, weights(node), None, Transform.Identity))
+          .map(_.copy(inObject = true))
+      )
+
+  private def objectName(index: Json, node: Json, mesh: Json): String =
+    val name = mesh.text("name").getOrElse("mesh")
+    (s"$name ${index.size}" +: weights(node).map(_.toString)).mkString(" ")
+
+  private def described(
+      primitive: Json,
+      weights: Vector[Double],
+      skin: Option[Skin],
+      toWorld: Transform
+  ): Option[ShapeDescription] =
+    for v <- primitive.extension("KHR_materials_variants") do
+      session.warn(v.at, "variants of materials are not supported; using `material`")
+    val surface = materials(primitive("material"), primitives.hasColors(primitive))
+    primitives.shape(primitive, weights, skin, surface.shape).map: shape =>
+      ShapeDescription(
+        shape,
+        GraphicsState.still(toWorld),
+        reverseOrientation = false,
+        surface.material,
+        surface.emission,
+        insideMedium = surface.interior
+      )
+
+  private def jointsOf(skin: Json): Skin =
+    val joints = skin.list("joints")
+    val inverses = skin("inverseBindMatrices").map(primitives.matrices)
+    for all <- inverses if all.size < joints.size do
+      skin.fail(s"expected inverse matrices of ${joints.size} joints, found ${all.size}")
+    Skin(joints.zipWithIndex.map: (joint, i) =>
+      joint.element(nodes.entries, "nodes"): Unit
+      val toWorld = nodes.byIndex.getOrElse(joint.size, joint.fail("the joint is not in the scene"))
+      inverses.fold(toWorld): all =>
+        toWorld * Transform.fromColumns(all(i).map(_.toDouble).toIndexedSeq)
+          .getOrElse(Transform.Identity))
+
+  private def several(p: PlacedNode, instancing: Json): Vector[Transform] =
+    val attributes = instancing.need("attributes")
+    def numbers(name: String, each: Int) = primitives.instanceNumbers(attributes, name, each)
+    val (t, r, s) = (numbers("TRANSLATION", 3), numbers("ROTATION", 4), numbers("SCALE", 3))
+    val counts = Vector(t.map(_.length / 3), r.map(_.length / 4), s.map(_.length / 3)).flatten
+    if counts.distinct.size > 1 then attributes.fail("its accessors have different counts")
+    Vector.tabulate(counts.headOption.getOrElse(0)): i =>
+      def item(values: Option[Array[Float]], each: Int, default: Vector[Double]) =
+        values.fold(default)(_.slice(each * i, each * i + each).map(_.toDouble).toVector)
+      p.toWorld * Nodes.of(
+        item(t, 3, Vector(0, 0, 0)),
+        item(r, 4, Vector(0, 0, 0, 1)),
+        item(s, 3, Vector(1, 1, 1))
+      )
+
+/** Translates punctual lights. Candela of visible light become watts per steradian by 683 lumens
+  * per watt, and lux watts per square metre, as in Blender; emission is as it is written.
+  */
+private final class Lights(file: GltfFile, session: Session):
+  private val entries =
+    file.root.extension("KHR_lights_punctual").toVector.flatMap(_.list("lights"))
+
+  def apply(p: PlacedNode): Option[LightDescription] =
+    p.node.extension("KHR_lights_punctual").map: e =>
+      light(e.need("light").element(entries, "lights"), p)
+
+  private def light(entry: Json, p: PlacedNode): LightDescription =
+    val at = entry.at
+    val color = entry("color").fold(Rgb.White)(c => Materials.rgb(c.numbers(3)))
+    val power = color * (entry.number("intensity", 1) / Lights.LumensPerWatt).toFloat
+    for range <- entry("range") do
+      session.warn(range.at, "`range` is ignored: light falls off with the square of the distance")
+    def axis = Vector(
+      point("from", at, 0f),
+      point("to", at, -1f)
+    )
+    val d = entry.need("type").text match
+      case "point" => declare(entry, "point", Vector(Textures.rgb("I", power, at)))
+      case "directional" =>
+        declare(entry, "distant", Textures.rgb("L", power, at) +: axis)
+      case "spot" =>
+        val spot = entry.need("spot")
+        val (inner, outer) =
+          (spot.number("innerConeAngle", 0), spot.number("outerConeAngle", Math.PI / 4))
+        if !(inner >= 0 && inner < outer && outer <= Math.PI / 2 + 1e-6) then
+          spot.fail(s"expected 0 ≤ inner < outer ≤ π/2, found $inner and $outer")
+        val angles = Vector(
+          Param.float("coneangle", at, Math.toDegrees(outer).toFloat),
+          Param.float("conedeltaangle", at, Math.toDegrees(outer - inner).toFloat)
+        )
+        declare(entry, "spot", (Textures.rgb("I", power, at) +: axis) ++ angles)
+      case other =>
+        entry.need("type").fail(s"expected point, directional or spot, found `$other`")
+    LightDescription(d, GraphicsState.still(Nodes.rigid(p.toWorld)))
+
+  private def point(name: String, at: candela.diagnostics.SourcePos, z: Float): Param =
+    Param.floats(candela.scenefile.ParamType.Point3, name, at, Array(0f, 0f, z))
+
+  private def declare(entry: Json, name: String, params: Vector[Param]): Declaration =
+    session.declare("LightSource", name, entry.at, params)
+
+private object Lights:
+  private val LumensPerWatt = 683.0

@@ -1,0 +1,265 @@
+package candela.models
+
+import candela.color.Rgb
+import candela.scenefile.{
+  Declaration, GraphicsState, MaterialRef, MediumDescription, Param, ParamType
+}
+
+import scala.collection.mutable
+
+/** What a primitive of some material is made of.
+  *
+  * @param shape    parameters of the shape: its alpha, and whether it is open from behind
+  * @param interior name of the medium inside; empty: none
+  */
+private[models] final case class Surface(
+    material: MaterialRef,
+    shape: Vector[Param],
+    emission: Option[Declaration],
+    interior: String
+)
+
+/** Translates materials, each once.
+  *
+  * Source: glTF 2.0 specification, §3.9, and the extensions KHR_materials_*.
+  */
+private[models] final class Materials(file: GltfFile, session: Session, textures: Textures):
+  private val entries = file.root.list("materials")
+  private val surfaces = mutable.HashMap.empty[(Option[Int], Boolean), Surface]
+  private val named = mutable.LinkedHashMap.empty[String, Declaration]
+  private val media = mutable.LinkedHashMap.empty[String, MediumDescription]
+
+  def result(): Vector[(String, Declaration)] = named.toVector
+  def interiors: Vector[MediumDescription] = media.values.toVector
+
+  /** @param index     of the material; none: the default
+    * @param hasColors whether vertices have colours
+    */
+  def apply(index: Option[Json], hasColors: Boolean): Surface =
+    surfaces.getOrElseUpdate(
+      (index.map(_.size), hasColors), {
+        val entry = index.fold(Materials.default(session))(_.element(entries, "materials"))
+        warnOfOthers(entry)
+        if entry.extension("KHR_materials_unlit").isDefined then unlit(entry, hasColors)
+        else surface(entry, hasColors)
+      }
+    )
+
+  private def warnOfOthers(entry: Json): Unit =
+    for e <- entry("extensions"); name <- e.names if !Materials.Supported(name) do
+      e(name).foreach(x => session.warn(x.at, s"`$name` is not supported; ignored"))
+
+  private def base(entry: Json): Json =
+    entry("pbrMetallicRoughness").getOrElse(Materials.default(session))
+
+  private def surface(entry: Json, hasColors: Boolean): Surface =
+    val passes = entry.extension("KHR_materials_transmission")
+    val volume = passes.flatMap(_ => entry.extension("KHR_materials_volume"))
+      .filter(_.number("thicknessFactor", 0) > 0)
+    val old = entry.extension("KHR_materials_pbrSpecularGlossiness")
+    val params = old.fold(reflection(entry, hasColors))(glossiness(_, hasColors)) ++
+      passes.toVector.flatMap: t =>
+        Vector(
+          textures.number(
+            "transmission",
+            t.number("transmissionFactor", 0),
+            t("transmissionTexture"),
+            "r",
+            t.at
+          ),
+          Param.bool("thin", t.at, volume.isEmpty)
+        )
+    val all = params ++ coat(entry) ++ sheen(entry) ++ stretch(entry) ++ normals(entry)
+    val d = session.declare("Material", "gltf", entry.at, all)
+    val alpha = old.fold(opacity(entry, base(entry), "baseColor", hasColors)): o =>
+      opacity(entry, o, "diffuse", hasColors)
+    // What is behind a volume's boundary matters
+    val culls = !entry.flag("doubleSided") && volume.isEmpty
+    val sides = Option.when(culls)(Param.bool("cullbackfaces", entry.at, true))
+    Surface(name(entry, d), alpha ++ sides, emission(entry), volume.fold("")(interior))
+
+  private def name(entry: Json, d: Declaration): MaterialRef =
+    val wanted = entry.text("name").filter(_.nonEmpty)
+      .getOrElse(s"material ${entry.pointer.drop("/materials/".length)}".trim)
+    val unique =
+      (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!named.contains(_)).get
+    named(unique) = d
+    MaterialRef.Named(unique, entry.at)
+
+  private def reflection(entry: Json, hasColors: Boolean): Vector[Param] =
+    val pbr = base(entry)
+    val factor = pbr("baseColorFactor").fold(Vector(1.0, 1.0, 1.0, 1.0))(_.numbers(4))
+    val both = pbr("metallicRoughnessTexture")
+    val specular = entry.extension("KHR_materials_specular")
+    Vector(
+      textures.color("color", Materials.rgb(factor), pbr("baseColorTexture"), pbr.at, hasColors),
+      textures.number("metallic", pbr.number("metallicFactor", 1), both, "b", pbr.at),
+      textures.number("roughness", pbr.number("roughnessFactor", 1), both, "g", pbr.at)
+    ) ++
+      entry.extension("KHR_materials_ior")
+        .map(e => Param.float("eta", e.at, e.number("ior", 1.5).toFloat)) ++
+      specular.toVector.flatMap: s =>
+        val tint = s("specularColorFactor").fold(Rgb.White)(c => Materials.rgb(c.numbers(3)))
+        Vector(
+          textures.number(
+            "specular",
+            s.number("specularFactor", 1),
+            s("specularTexture"),
+            "a",
+            s.at
+          ),
+          textures.color("specularcolor", tint, s("specularColorTexture"), s.at)
+        )
+
+  /** A dielectric whose reflectance is the specular colour. */
+  private def glossiness(e: Json, hasColors: Boolean): Vector[Param] =
+    val factor = e("diffuseFactor").fold(Vector(1.0, 1.0, 1.0, 1.0))(_.numbers(4))
+    val specular = e("specularFactor").fold(Rgb.White)(c => Materials.rgb(c.numbers(3)))
+    val both = e("specularGlossinessTexture")
+    Vector(
+      textures.color("color", Materials.rgb(factor), e("diffuseTexture"), e.at, hasColors),
+      textures.color("specularcolor", specular, both, e.at),
+      textures.number(
+        "roughness",
+        e.number("glossinessFactor", 1),
+        both,
+        "a",
+        e.at,
+        isInverted = true
+      ),
+      Param.float("metallic", e.at, 0f),
+      Param.float("eta", e.at, 0f)
+    )
+
+  private def coat(entry: Json): Vector[Param] =
+    entry.extension("KHR_materials_clearcoat").toVector.flatMap: c =>
+      for n <- c("clearcoatNormalTexture").orElse(entry("normalTexture")) do
+        session.warn(n.at, "the clear coat has the normals of what is beneath it")
+      val factor = c.number("clearcoatFactor", 0)
+      val rough = c.number("clearcoatRoughnessFactor", 0)
+      Vector(
+        textures.number("clearcoat", factor, c("clearcoatTexture"), "r", c.at),
+        textures.number("clearcoatroughness", rough, c("clearcoatRoughnessTexture"), "g", c.at)
+      )
+
+  private def sheen(entry: Json): Vector[Param] =
+    entry.extension("KHR_materials_sheen").toVector.flatMap: s =>
+      val color = s("sheenColorFactor").fold(Rgb.Black)(c => Materials.rgb(c.numbers(3)))
+      val rough = s.number("sheenRoughnessFactor", 0)
+      Vector(
+        textures.color("sheencolor", color, s("sheenColorTexture"), s.at),
+        textures.number("sheenroughness", rough, s("sheenRoughnessTexture"), "a", s.at)
+      )
+
+  private def stretch(entry: Json): Vector[Param] =
+    entry.extension("KHR_materials_anisotropy").toVector.flatMap: a =>
+      val strength = a.number("anisotropyStrength", 0)
+      for t <- a("anisotropyTexture") do
+        session.warn(
+          t.at,
+          "directions of `anisotropyTexture` are not supported; using its strength"
+        )
+      Vector(
+        textures.number("anisotropy", strength, a("anisotropyTexture"), "b", a.at),
+        Param.float("anisotropyrotation", a.at, a.number("anisotropyRotation", 0).toFloat)
+      )
+
+  private def normals(entry: Json): Vector[Param] =
+    for
+      info <- entry("normalTexture").toVector
+      p <- textures.picture(info).toVector
+      param <- Vector(
+        Param.string("normalmap", p.at, p.file),
+        Param.bool("softedges", p.at, false)
+      ) ++
+        Option.when(p.rows != Textures.Upright):
+          Param.floats(ParamType.Float, "normalmapuv", p.at, p.rows.toArray)
+        ++ Option.when(p.second)(Param.bool("normaluv2", p.at, true)) ++
+        Some(info.number("scale", 1)).filter(_ != 1)
+          .map(s => Param.float("normalscale", p.at, s.toFloat))
+    yield param
+
+  /** @param prefix of the factor and the texture of the colour, whose alpha it is */
+  private def opacity(entry: Json, color: Json, prefix: String, hasColors: Boolean): Vector[Param] =
+    def alpha = textures.number(
+      "alpha",
+      color(s"${prefix}Factor").fold(1.0)(_.numbers(4).last),
+      color(s"${prefix}Texture"),
+      "a",
+      entry.at,
+      hasColors
+    )
+    entry.text("alphaMode").getOrElse("OPAQUE") match
+      case "OPAQUE" => Vector.empty
+      case "BLEND" => Vector(alpha)
+      case "MASK" =>
+        val cutoff = entry.number("alphaCutoff", 0.5).toFloat
+        Vector(alpha, Param.float("alphacutoff", entry.at, cutoff))
+      case other =>
+        entry.need("alphaMode").fail(s"expected OPAQUE, MASK or BLEND, found `$other`")
+
+  private def emission(entry: Json): Option[Declaration] =
+    val factor = entry("emissiveFactor").fold(Rgb.Black)(c => Materials.rgb(c.numbers(3)))
+    val strength = entry.extension("KHR_materials_emissive_strength")
+      .fold(1.0)(_.number("emissiveStrength", 1))
+    val color = factor * strength.toFloat
+    Option.when(color.max > 0f)(light(entry, color, entry("emissiveTexture")))
+
+  /** The area light of a colour times an image. */
+  private def light(entry: Json, color: Rgb, info: Option[Json]): Declaration =
+    val at = entry.at
+    val params = info.flatMap(textures.picture) match
+      case None => Vector(Textures.rgb("L", color, at))
+      case Some(p) =>
+        if p.second then session.warn(p.at, "emission has the first set of u and v")
+        Vector(
+          Param.string("filename", at, p.file),
+          Textures.rgb("tint", color * (1f / color.max), at),
+          Param.float("scale", at, color.max),
+          Param.string("wrap", at, p.wrap)
+        ) ++
+          Option.when(!p.isSmooth)(Param.string("filter", at, "point")) ++
+          Option.when(p.rows != Textures.Upright):
+            Param.floats(ParamType.Float, "imageuv", at, p.rows.toArray)
+    val sides = Option.when(entry.flag("doubleSided"))(Param.bool("twosided", at, true))
+    session.declare("AreaLightSource", "diffuse", at, params ++ sides)
+
+  /** A colour that no light changes: that of an emitter that reflects nothing. */
+  private def unlit(entry: Json, hasColors: Boolean): Surface =
+    if hasColors then
+      session.warn(entry.at, "colours of vertices of an unlit material are not supported")
+    val pbr = base(entry)
+    val factor = pbr("baseColorFactor").fold(Vector(1.0, 1.0, 1.0, 1.0))(_.numbers(4))
+    val color = Materials.rgb(factor)
+    val black = Vector(Textures.rgb("reflectance", Rgb.Black, entry.at))
+    val d = session.declare("Material", "diffuse", entry.at, black)
+    val culls = !entry.flag("doubleSided")
+    val sides = Option.when(culls)(Param.bool("cullbackfaces", entry.at, true))
+    val emitted = Option.when(color.max > 0f)(light(entry, color, pbr("baseColorTexture")))
+    Surface(name(entry, d), opacity(entry, pbr, "baseColor", hasColors) ++ sides, emitted, "")
+
+  /** The medium that absorbs light inside. */
+  private def interior(volume: Json): String =
+    val color = volume("attenuationColor").fold(Rgb.White)(c => Materials.rgb(c.numbers(3)))
+    val distance = volume.number("attenuationDistance", Double.PositiveInfinity)
+    if color == Rgb.White || distance.isInfinite then ""
+    else
+      if distance <= 0 then volume.fail(s"`attenuationDistance` must be above 0, found $distance")
+      val absorption = color.map(c => (-Math.log(Math.max(c, 1e-6)) / distance).toFloat)
+      val name = s"medium ${media.size + 1}"
+      val params = Vector(
+        Textures.rgb("sigma_a", absorption, volume.at),
+        Textures.rgb("sigma_s", Rgb.Black, volume.at)
+      )
+      val d = session.declare("Medium", "homogeneous", volume.at, params)
+      media(name) = MediumDescription(name, d, GraphicsState.Identity)
+      name
+
+private[models] object Materials:
+  def rgb(c: Vector[Double]): Rgb =
+    Rgb(c(0).toFloat, c(1).toFloat, c(2).toFloat)
+
+  def default(session: Session): Json = Json(ujson.Obj(), "", session)
+
+  private val Supported = Set("unlit", "ior", "specular", "transmission", "volume", "clearcoat",
+    "sheen", "anisotropy", "emissive_strength", "pbrSpecularGlossiness").map("KHR_materials_" + _)

@@ -1,0 +1,55 @@
+package candela.models
+
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
+import candela.io.SceneFolder
+import candela.scenefile.{Declaration, Dialect, Param, Problems}
+
+import java.nio.file.Path
+
+import scala.collection.mutable
+
+/** State of reading one model: its files, and the problems so far.
+  *
+  * @param keepGoing if true, replaces missing files
+  */
+private[models] final class Session(val file: Path, var folder: SceneFolder, keepGoing: Boolean):
+  private val collected = Problems()
+  private val reported = mutable.LinkedHashSet.empty[Problem]
+  private val files = mutable.LinkedHashSet.empty[Path]
+
+  /** The place of a JSON pointer. */
+  def at(pointer: String): SourcePos = SourcePos(s"$file#$pointer", 0, 0)
+
+  def report(p: Problem): Unit = if reported.add(p) then collected.add(p)
+  def warn(at: SourcePos, message: String, code: Code = Code.Unsupported): Unit =
+    report(Problem.warning(code, at, message))
+  def error(at: SourcePos, message: String, code: Code = Code.DamagedMesh): Unit =
+    report(Problem.error(code, at, message))
+  def missing(at: SourcePos, message: String, standIn: String, help: Option[String]): Unit =
+    report(Problem.missing(Code.NoSuchFile, at, message, standIn, keepGoing).withHelp(help))
+
+  def problems: Vector[Problem] = collected.result()
+
+  /** Files read so far, other than the model itself. */
+  def filesRead: Vector[Path] = files.toVector
+  def note(file: Path): Unit = files += file
+
+  /** As `body`, or None after reporting an error. */
+  def attempt[A](body: => A): Option[A] =
+    try Some(body)
+    catch
+      case e: SceneError =>
+        e.problems.foreach(report)
+        None
+
+  def declare(
+      category: String,
+      name: String,
+      at: SourcePos,
+      params: Seq[Param],
+      dialect: Option[Dialect] = None
+  ): Declaration = Declaration(category, name, params.toVector, at, folder, "srgb", dialect)
+
+private[models] object Session:
+  def fail(at: SourcePos, message: String, code: Code = Code.DamagedMesh): Nothing =
+    throw SceneError(Problem.error(code, at, message))

@@ -1,0 +1,172 @@
+package candela.bsdf.composite
+
+import candela.bsdf.{
+  Bsdf, CosineSampled, FullReflectance, Lobes, Material, ReflectanceCurve, SentThrough
+}
+import candela.bsdf.microfacet.{MicrofacetReflection, RoughDielectric, TrowbridgeReitz}
+import candela.color.Rgb
+import candela.geometry.{Frame, ShadingPoint}
+import candela.math.*
+import candela.textures.{FloatTexture, RgbTexture, Textured}
+
+/** Parameters of [[GltfMaterial]], in [0, 1] unless stated otherwise; those that are out of their
+  * range are clamped.
+  *
+  * @param color          base colour
+  * @param metallic       0: dielectric, 1: metal
+  * @param roughness      square root of the width of the microfacets' slopes
+  * @param eta            index of refraction; below 1: a dielectric whose reflectance at normal
+  *                       incidence is `specularColor`
+  * @param specular       strength of the dielectric's reflection
+  * @param specularColor  tint of the dielectric's reflection at normal incidence, from 0 on
+  * @param transmission   fraction of the diffuse lobe replaced by transmission
+  * @param isThin         whether what is transmitted keeps its direction, as through a thin wall
+  * @param coat           strength of the clear coat
+  * @param coatRoughness  roughness of the clear coat
+  * @param sheen          colour of the fibres above the surface
+  * @param sheenRoughness how far the fibres stray from the normal
+  * @param anisotropy     stretch of the highlights
+  * @param rotation       angle of that stretch from the tangent, in radians
+  */
+final class GltfParameters(
+    val color: RgbTexture,
+    val metallic: FloatTexture,
+    val roughness: FloatTexture,
+    val eta: Float,
+    val specular: FloatTexture,
+    val specularColor: RgbTexture,
+    val transmission: FloatTexture,
+    val isThin: Boolean,
+    val coat: FloatTexture,
+    val coatRoughness: FloatTexture,
+    val sheen: RgbTexture,
+    val sheenRoughness: FloatTexture,
+    val anisotropy: FloatTexture,
+    val rotation: Float
+) extends Textured(
+      color, metallic, roughness, specular, specularColor, transmission, coat, coatRoughness,
+      sheen, sheenRoughness, anisotropy
+    ):
+  override def isAnisotropic: Boolean = anisotropy.constant.forall(_ != 0f)
+
+/** The material of glTF 2.0: a blend of a metal and of a dielectric over a diffuse base, with the
+  * layers of its extensions. The same on both sides, unless it encloses a volume.
+  *
+  * Sources: glTF 2.0 specification, appendix B; the extensions KHR_materials_ior, specular,
+  * transmission, volume, clearcoat, sheen and anisotropy.
+  */
+final class GltfMaterial(p: GltfParameters) extends Material, Textured(p):
+  import GltfMaterial.*
+
+  /** At normal incidence. */
+  private val reflectance = square((1f - p.eta) / (1f + p.eta))
+
+  // Matched indices would bend nothing
+  private val bending = if Math.abs(p.eta - 1f) < 1e-3f then 1.001f else p.eta
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val color = p.color.albedo(at)
+    val metallic = unit(p.metallic(at))
+    val passing = unit(p.transmission(at))
+    val specular = unit(p.specular(at))
+    val normal = p.specularColor.positive(at).map(c => Math.min(c * reflectance, 1f) * specular)
+    val curve = GltfReflectance(normal, specular, color, metallic)
+    val facets = facetsAt(at)
+
+    val lobes = Lobes.Builder()
+    val broad = color * ((1f - metallic) * (1f - passing))
+    lobes.add(GltfDiffuse(broad, curve), broad.max)
+    val clear = (1f - metallic) * passing
+    val passed = color * clear
+    val glossy = Math.max(curve(1f).max, 0.04f)
+    if passed.isBlack then lobes.add(MicrofacetReflection(facets, curve), glossy)
+    else if p.isThin then
+      lobes.add(MicrofacetReflection(facets, curve), glossy)
+      lobes.add(SentThrough(MicrofacetReflection(facets, curve.passed, passed)), passed.max)
+    else
+      // One lobe, so that each microfacet reflects or refracts as often as its Fresnel term says
+      val inside = GltfInterface(curve, bending, clear)
+      lobes.add(
+        RoughDielectric(facets, bending, Rgb.White, passed, Some(inside)),
+        glossy + passed.max
+      )
+    coated(at, fibrous(at, lobes.result))
+
+  private def facetsAt(at: ShadingPoint): TrowbridgeReitz =
+    val alpha = alphaOf(p.roughness(at))
+    val strength = unit(p.anisotropy(at))
+    if strength > 0f && p.rotation != 0f then
+      val (s, t) = (at.frame.s.toVec3, at.frame.t.toVec3)
+      val turned = s * cos(p.rotation) + t * sin(p.rotation)
+      at.frame.set(Frame.along(at.frame.n.toVec3, turned))
+    TrowbridgeReitz(lerp(square(strength), alpha, 1f), alpha)
+
+  private def fibrous(at: ShadingPoint, base: Bsdf): Bsdf =
+    val sheen = p.sheen.albedo(at)
+    if sheen.isBlack then base
+    else
+      val roughness = Math.max(unit(p.sheenRoughness(at)), MinSheenRoughness)
+      Lobes.Builder()
+        .add(UnderFibres(base, sheen.max, roughness), 1f)
+        .add(CharlieSheen(sheen, square(roughness)), 0.2f * sheen.max)
+        .result
+
+  private def coated(at: ShadingPoint, base: Bsdf): Bsdf =
+    val coat = unit(p.coat(at))
+    if coat == 0f then base
+    else
+      val alpha = alphaOf(p.coatRoughness(at))
+      val layer = MicrofacetReflection(TrowbridgeReitz(alpha, alpha), FullReflectance)
+      Lobes.Builder()
+        .add(UnderCoat(base, coat), 1f)
+        .add(OfCoat(layer, coat), 0.1f * coat)
+        .result
+
+object GltfMaterial:
+  /** Narrower microfacets than these are lost in the rounding of directions. */
+  private inline val MinAlpha = 1e-3f
+
+  /** The fibres' distribution has no limit at 0. */
+  private inline val MinSheenRoughness = 0.05f
+
+  private def unit(x: Float): Float = clamp(x, 0f, 1f)
+  private def alphaOf(roughness: Float): Float = Math.max(square(unit(roughness)), MinAlpha)
+
+/** Fresnel reflectance of [[GltfMaterial]], by Schlick's approximation.
+  *
+  * @param normal   of the dielectric, at normal incidence
+  * @param grazing  of the dielectric, at grazing incidence
+  * @param color    of the metal, at normal incidence
+  */
+final class GltfReflectance(normal: Rgb, grazing: Float, color: Rgb, metallic: Float)
+    extends ReflectanceCurve:
+
+  private def dielectric(weight: Float): Rgb = normal.map(n => lerp(weight, n, grazing))
+
+  def apply(cosTheta: Float): Rgb =
+    val weight = Schlick.weight(Math.abs(cosTheta))
+    dielectric(weight) * (1f - metallic) + color.map(c => lerp(weight, c, 1f)) * metallic
+
+  /** What the dielectric doesn't reflect. */
+  def passed(cosTheta: Float): Float =
+    1f - dielectric(Schlick.weight(Math.abs(cosTheta))).max
+
+  def passed: ReflectanceCurve = new ReflectanceCurve:
+    def apply(cosTheta: Float): Rgb = Rgb.gray(passed(cosTheta))
+
+/** From inside, the reflectance of the dielectric alone, with total reflection.
+  *
+  * @param clear weight of the reflection from inside
+  */
+private final class GltfInterface(outer: ReflectanceCurve, eta: Float, clear: Float)
+    extends ReflectanceCurve:
+  def apply(cosTheta: Float): Rgb =
+    if cosTheta >= 0f then outer(cosTheta)
+    else Rgb.gray(clear * candela.bsdf.Fresnel.dielectric(cosTheta, eta))
+
+/** The diffuse base under a dielectric, which lets through what its microfacets don't reflect. */
+final class GltfDiffuse(color: Rgb, curve: GltfReflectance) extends CosineSampled:
+  protected def value(wo: Vec3, wi: Vec3): Rgb =
+    val across = wo + wi
+    val cosine = if across.isZero then 0f else wi dot across.normalized
+    color * (InvPi * curve.passed(cosine))

@@ -1,0 +1,209 @@
+package candela.models
+
+import candela.diagnostics.{Code, Refusal, SceneError, Severity}
+import candela.io.SceneFolder
+import candela.job.SceneFormat
+import candela.math.Vec3
+import candela.scenefile.{Param, SceneDescription, ShapeDescription}
+import candela.settings.ReadSettings
+
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Files, Path}
+import java.nio.{ByteBuffer, ByteOrder}
+import java.util.Base64
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class GltfFormatSuite extends AnyFunSuite:
+  private val format = SceneFormat.named(Path.of("model.glb")).get
+
+  private def read(json: String, isConfined: Boolean = false): SceneDescription =
+    val file = Path.of("models", "model.gltf")
+    format.readText(file, json, SceneFolder.of(file, isConfined), ReadSettings())
+
+  /** The first error, with its place. */
+  private def error(json: String): String =
+    val problems =
+      try read(json).errors
+      catch case e: SceneError => e.problems
+    val p = problems.find(_.severity == Severity.Error).get
+    s"${p.at.fold("")(_.file.dropWhile(_ != '#').drop(1))}: ${p.message}"
+
+  private def floats(values: Double*): Array[Byte] =
+    val bytes = ByteBuffer.allocate(4 * values.size).order(ByteOrder.LITTLE_ENDIAN)
+    values.foreach(x => bytes.putFloat(x.toFloat))
+    bytes.array
+
+  private def uri(bytes: Array[Byte]): String =
+    s"data:application/octet-stream;base64,${Base64.getEncoder.encodeToString(bytes)}"
+
+  private val square = floats(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0)
+  private val View = """{"buffer":0,"byteLength":48}"""
+  private val Position = """{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}"""
+
+  /** A model of one mesh of four vertices. */
+  private def model(
+      primitive: String = "",
+      accessors: Seq[String] = Nil,
+      views: Seq[String] = Nil,
+      data: Array[Byte] = Array.emptyByteArray,
+      nodes: String = """{"mesh":0}""",
+      roots: String = "0",
+      others: String = ""
+  ): String =
+    val bytes = square ++ data
+    s"""{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[$roots]}],"nodes":[$nodes],
+       |"meshes":[{"primitives":[{"attributes":{"POSITION":0}$primitive}]}],
+       |"accessors":[${(Position +: accessors).mkString(",")}],
+       |"bufferViews":[${(View +: views).mkString(",")}],
+       |"buffers":[{"byteLength":${bytes.length},"uri":"${uri(bytes)}"}]$others}""".stripMargin
+
+  private def shape(json: String): ShapeDescription =
+    val scene = read(json)
+    assert(scene.errors.isEmpty, scene.errors.map(_.message))
+    scene.shapes.head
+
+  private def param(s: ShapeDescription, name: String): Param = s.shape.param(name).get
+  private def indices(json: String): Vector[Int] = param(shape(json), "indices").ints.toVector
+
+  test("a model is a scene with a camera and light"):
+    val scene = read(model(primitive = ""","mode":5"""))
+    assert(scene.errors.isEmpty && scene.camera.isDefined && scene.lights.nonEmpty)
+    assert(scene.shapes.count(_.areaLight.isDefined) == 3)
+    assert(scene.dialectReason.contains("a camera") && scene.dialectReason.contains("light"))
+
+  test("strips and fans become triangles of the same side"):
+    assert(indices(model(primitive = ""","mode":5""")) == Vector(0, 1, 2, 1, 3, 2))
+    assert(indices(model(primitive = ""","mode":6""")) == Vector(1, 2, 0, 2, 3, 0))
+    // Those that are not whole are left out
+    assert(indices(model()) == Vector(0, 1, 2))
+
+  test("matrices are by columns; translation, rotation and scale in this order"):
+    def at(node: String) = shape(model(nodes = s"""{"mesh":0,$node}""")).objectToWorld.start
+      .point(Vec3(1f, 2f, 3f))
+    val moved = at(""""matrix":[2,0,0,0,0,1,0,0,0,0,1,0,5,6,7,1]""")
+    assert(moved == Vec3(7f, 8f, 10f))
+    val half = Math.sqrt(0.5)
+    val turned = at(s""""translation":[1,0,0],"rotation":[0,0,$half,$half],"scale":[2,1,1]""")
+    assert((turned - Vec3(-1f, 2f, 3f)).length < 1e-5f)
+
+  test("normalised, strided and sparse numbers are read"):
+    val colors = Array[Byte](-1, 0, 0, 127, 0, -1, 0, 0, 0, 0, -1, 0, -128, 0, 0, 0)
+    val normalized = model(
+      primitive = ""","mode":5""".replace(",\"mode\"", ",\"mode\""),
+      accessors = Seq(
+        """{"bufferView":1,"componentType":5121,"normalized":true,"count":4,"type":"VEC3"}"""
+      ),
+      views = Seq("""{"buffer":0,"byteOffset":48,"byteLength":16,"byteStride":4}"""),
+      data = colors
+    ).replace("\"POSITION\":0", "\"POSITION\":0,\"COLOR_0\":1")
+    val values = param(shape(normalized), "colors").floats
+    assert(values.take(8).toVector == Vector(1f, 0f, 0f, 1f, 0f, 1f, 0f, 1f))
+    assert(Math.abs(values(12) - 128 / 255f) < 1e-6f)
+
+    val sparse = """"sparse":{"count":1,"indices":{"bufferView":1,"componentType":5121},
+      "values":{"bufferView":2}}"""
+    val changed = model(
+      primitive = ""","mode":5""",
+      views = Seq(
+        """{"buffer":0,"byteOffset":48,"byteLength":1}""",
+        """{"buffer":0,"byteOffset":52,"byteLength":12}"""
+      ),
+      data = Array[Byte](2, 0, 0, 0) ++ floats(9, 8, 7)
+    ).replace(Position, s"${Position.dropRight(1)},$sparse}")
+    val p = param(shape(changed), "P").floats.toVector
+    assert(p.slice(3, 9) == Vector(1f, 0f, 0f, 9f, 8f, 7f))
+
+  test("a mesh of several nodes is instanced, but not one that emits light"):
+    val nodes = """{"mesh":0},{"mesh":0,"translation":[2,0,0]}"""
+    val strip = ""","mode":5,"material":0"""
+    val plain = read(model(strip, nodes = nodes, roots = "0,1", others = ""","materials":[{}]"""))
+    assert(plain.instances.size == 2 && plain.objects.size == 1)
+    val glowing = ""","materials":[{"emissiveFactor":[1,1,1]}]"""
+    val lit = read(model(strip, nodes = nodes, roots = "0,1", others = glowing))
+    assert(lit.instances.isEmpty && lit.shapes.size == 2)
+
+  test("cameras look along -z, and keep their angle in tall images"):
+    val cameras = """,
+      "cameras":[{"type":"perspective","perspective":{"yfov":1,"aspectRatio":0.5,"znear":0.1}}]"""
+    val nodes = """{"mesh":0},{"camera":0,"translation":[0,0,5]}"""
+    val scene = read(model(""","mode":5""", nodes = nodes, roots = "0,1", others = cameras))
+    val p = scene.worldToCamera.start.point(Vec3(1f, 0f, 0f))
+    assert(p == Vec3(1f, 0f, 5f))
+    val fov = Math.toRadians(scene.camera.get.param("fov").get.floats.head)
+    assert(Math.abs(Math.tan(fov / 2) - Math.tan(0.5) * 0.5) < 1e-6)
+
+  test("a model that is wrong is an error with a JSON pointer"):
+    def replaced(from: String, to: String) = error(model(""","mode":5""").replace(from, to))
+    assert(error("{").contains("not valid JSON"))
+    assert(error("[]").startsWith(": expected an object"))
+    assert(error("""{"asset":{"version":"1.0"}}""").startsWith("/asset/version: "))
+    assert(replaced("\"count\":4", "\"count\":5").startsWith("/accessors/0: 5 elements end at"))
+    assert(replaced("\"count\":4", "\"count\":2000000000").startsWith("/accessors/0: "))
+    assert(replaced("\"count\":4", "\"count\":-1").startsWith("/accessors/0/count: "))
+    assert(replaced("\"byteLength\":48}", "\"byteLength\":49}").startsWith("/bufferViews/0: "))
+    assert(replaced("5126", "5127").startsWith("/accessors/0/componentType: "))
+    assert(replaced("\"mesh\":0", "\"mesh\":1").startsWith("/nodes/0/mesh: "))
+    assert(replaced("VEC3", "VEC9").startsWith("/accessors/0/type: "))
+    assert(replaced("\"mode\":5", "\"mode\":7").startsWith("/meshes/0/primitives/0/mode: "))
+    assert(replaced("base64,", "base64,*").startsWith("/buffers/0/uri: "))
+    val circle = model(nodes = """{"children":[1]},{"children":[0]}""")
+    assert(error(circle).startsWith("/nodes/1/children/0: node 0 is reached twice"))
+    val far = """,{"componentType":5126,"count":900000000,"type":"VEC3"}"""
+    val huge = model().replace(Position, Position + far).replace("\"POSITION\":0", "\"POSITION\":1")
+    assert(error(huge).startsWith("/accessors/1: "))
+
+  test("deep nesting and damaged binaries are errors, too"):
+    assert(error("[" * 200_000).nonEmpty)
+    val folder = Files.createTempDirectory("candela-models")
+    def binary(bytes: Array[Byte]) =
+      val file = Files.write(folder.resolve("model.glb"), bytes)
+      try
+        val e =
+          intercept[SceneError](format.read(file, SceneFolder.of(file), ReadSettings(), None))
+        e.problems.head.message
+      finally Files.delete(file)
+    val start = "glTF".getBytes(UTF_8) ++ Array[Byte](2, 0, 0, 0, 40, 0, 0, 0)
+    try
+      assert(binary(start).contains("no JSON"))
+      assert(binary(start ++ Array[Byte](-1, -1, -1, 127, 74, 83, 79, 78)).contains("ends early"))
+      assert(binary(start.updated(4, 1.toByte)).contains("version 1"))
+    finally Files.delete(folder)
+
+  test("a model in a sandbox reads no files beside its folder, and no devices"):
+    def refused(uri: String) =
+      val json = model().replaceAll("\"uri\":\"[^\"]*\"", s"\"uri\":\"$uri\"")
+      intercept[Refusal](read(json, isConfined = true)).problem
+    assert(refused("../../secret.bin").code == Code.Sandboxed)
+    assert(refused("/dev/zero").code == Code.Sandboxed)
+    assert(refused("%2e%2e/secret.bin").code == Code.Sandboxed)
+    val remote = model().replaceAll("\"uri\":\"[^\"]*\"", "\"uri\":\"https://example.com/a.bin\"")
+    assert(error(remote).startsWith("/buffers/0/uri: addresses of other schemes"))
+
+  test("what is not supported is a warning with its pointer"):
+    val materials = ""","materials":[{"extensions":{"KHR_materials_iridescence":{}}}]"""
+    val scene = read(model(""","mode":5,"material":0""", others = materials))
+    val at = scene.warnings.flatMap(_.at).map(_.toString)
+    assert(at.exists(_.endsWith("#/materials/0/extensions/KHR_materials_iridescence")), at)
+
+  test("transforms of textures are those of the extension, about the upper left corner"):
+    val transform =
+      """"extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":1.5707963267948966,
+        |"scale":[0.5,0.5]}}""".stripMargin
+    val png =
+      "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU" +
+        "5ErkJggg=="
+    val materials = s""",
+      |"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,$transform}}}],
+      |"textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,$png"}]""".stripMargin
+    val scene = read(model(""","mode":5,"material":0""", others = materials))
+    val t = scene.textures.head.texture
+    def number(name: String, default: Float) = t.param(name).fold(default)(_.floats.head)
+    // The lower left quadrant of the image, turned
+    def st(u: Float, v: Float) =
+      (
+        number("uscale", 1) * u + number("uskew", 0) * v + number("udelta", 0),
+        number("vskew", 0) * u + number("vscale", 1) * v + number("vdelta", 0)
+      )
+    assert(st(0, 1) == (0f, 0f) && st(1, 1) == (0f, 0.5f) && st(0, 0) == (0.5f, 0f))
+    assert(t.folder.find(t.param("filename").get.strings.head, None).exists(_.size > 0))
