@@ -131,11 +131,13 @@ final class SceneText private (out: Writer, scene: SceneDescription):
       line(s"MediumInterface ${Statements.quoted(inner)} ${Statements.quoted(outer)}")
 
   private def grouped(shapes: Vector[ShapeDescription]): Unit =
-    var remaining = shapes
-    while remaining.nonEmpty do
-      val common = Surroundings(remaining.head)
-      val (group, following) = remaining.span(s => Surroundings(s) == common)
-      remaining = following
+    var start = 0
+    while start < shapes.length do
+      val common = Surroundings(shapes(start))
+      var end = start + 1
+      while end < shapes.length && Surroundings(shapes(end)) == common do end += 1
+      val group = shapes.slice(start, end)
+      start = end
       blank()
       val isPlain = common == Surroundings.default(outside) &&
         group.forall(s => isStill(s.objectToWorld))
