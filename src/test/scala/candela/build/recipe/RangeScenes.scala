@@ -3,6 +3,8 @@ package candela.build.recipe
 import candela.build.{Category, Language}
 import candela.scenefile.{Dialect, ParamType}
 
+import java.nio.file.Path
+
 /** A scene in which one number of one parameter is as given.
   *
   * @param values of a number that is a Float, or of an integer
@@ -19,13 +21,10 @@ final case class RangeScene(
   def name: String =
     s"${category.name} \"${recipe.name}\", ${dialect.toString.toLowerCase}: ${field.name} $value"
 
-  /** Parameters that the type needs, by name. */
-  private def needed: Map[String, String] =
-    RangeScenes.Needed.getOrElse(s"${category.name} ${recipe.name}", Map.empty)
-      .filter((name, _) => recipe.fields.exists(f => f.name == name && f.dialects(dialect)))
+  private val needed = RangeScenes.needed(category, recipe, dialect)
 
   private def written: String =
-    val values = needed.get(field.name) match
+    val values = needed.find(_._1.name == field.name).map(_._2) match
       case Some(s"$_[$list]") if list.split(' ').length > 1 =>
         value +: list.trim.split(' ').toVector.tail
       case _ =>
@@ -37,9 +36,8 @@ final case class RangeScene(
     s"${RangeScenes.typeOf(field, dialect)} ${field.name}\" [${values.mkString(" ")}]"
 
   private def parameters: String =
-    val others = needed.removed(field.name).map: (name, value) =>
-      val f = recipe.fields.find(f => f.name == name && f.dialects(dialect)).get
-      s"\"${RangeScenes.typeOf(f, dialect)} $name\" $value"
+    val others = needed.filter(_._1.name != field.name).map: (f, value) =>
+      s"\"${RangeScenes.typeOf(f, dialect)} ${f.name}\" $value"
     val small = RangeScenes.Small.collect:
       case (name, value)
           if name != field.name && recipe.fields.exists(f =>
@@ -112,6 +110,17 @@ object RangeScenes:
       dialect <- Dialect.ofPbrt if recipe.dialects(dialect) && field.dialects(dialect)
     yield (category, recipe, field, dialect)
 
+  /** Parameters that a type needs, with values. */
+  def needed(
+      category: Category,
+      recipe: Recipe[?],
+      dialect: Dialect
+  ): Vector[(Field[?], String)] =
+    for
+      (name, value) <- Needed.getOrElse(s"${category.name} ${recipe.name}", Map.empty).toVector
+      field <- recipe.fields.find(f => f.name == name && f.dialects(dialect))
+    yield field -> value
+
   private def isNumber(f: Field[?]) =
     !Seq("bool", "string").exists(f.typeName.startsWith)
 
@@ -146,9 +155,14 @@ object RangeScenes:
 
   private val Square = "[-1 0 -1 1 0 -1 1 0 1]"
   private val Grid = Map("nx" -> "1", "ny" -> "1", "nz" -> "2", "p0" -> "[-1 -1 -1]")
-  private val Chart = "\"scenes/textures/chart.png\""
 
-  val Needed: Map[String, Map[String, String]] = Map(
+  /** A file of the folder `scenes`, wherever the scene is. */
+  private def file(name: String) =
+    s"\"${Path.of("scenes", name).toAbsolutePath.toString.replace('\\', '/')}\""
+
+  private val Chart = file("textures/chart.png")
+
+  private val Needed: Map[String, Map[String, String]] = Map(
     "Shape trianglemesh" -> Map(
       "P" -> Square,
       "indices" -> "[0 1 2]",
@@ -158,7 +172,7 @@ object RangeScenes:
     "Shape bilinearmesh" -> Map("P" -> "[-1 0 -1 1 0 -1 -1 0 1 1 0 1]", "indices" -> "[0 1 2 3]"),
     "Shape loopsubdiv" -> Map("P" -> Square, "indices" -> "[0 1 2]", "levels" -> "1"),
     "Shape plymesh" -> Map(
-      "filename" -> "\"scenes/geometry/sheet-quads.ply\"",
+      "filename" -> file("geometry/sheet-quads.ply"),
       "displacement" -> ".1",
       "edgelength" -> "1e9"
     ),
@@ -175,9 +189,9 @@ object RangeScenes:
     ),
     "Texture (float) imagemap" -> Map("filename" -> Chart),
     "Texture (spectrum) imagemap" -> Map("filename" -> Chart),
-    "LightSource goniometric" -> Map("filename" -> "\"scenes/textures/sky-equalarea.exr\""),
+    "LightSource goniometric" -> Map("filename" -> file("textures/sky-equalarea.exr")),
     "LightSource projection" -> Map("filename" -> Chart),
-    "Camera realistic" -> Map("lensfile" -> "\"scenes/lenses/double-gauss-50mm.dat\""),
+    "Camera realistic" -> Map("lensfile" -> file("lenses/double-gauss-50mm.dat")),
     "Material mix" -> Map(
       "materials" -> "[\"a\" \"a\"]",
       "namedmaterial1" -> "\"a\"",
@@ -187,7 +201,7 @@ object RangeScenes:
     "MakeNamedMedium uniformgrid" -> (Grid + ("density" -> "[1 1]")),
     "MakeNamedMedium rgbgrid" ->
       (Grid + ("sigma_a" -> "[1 1 1 1 1 1]") + ("sigma_s" -> "[1 1 1 1 1 1]")),
-    "MakeNamedMedium nanovdb" -> Map("filename" -> "\"scenes/volumes/smoke.nvdb\""),
+    "MakeNamedMedium nanovdb" -> Map("filename" -> file("volumes/smoke.nvdb")),
     "MakeNamedMedium cloud" -> Map("p0" -> "[-1 -1 -1]"),
     "Volume volumegrid" -> (Grid + ("density" -> "[1 1]"))
   )
