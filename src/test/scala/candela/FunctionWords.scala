@@ -20,11 +20,11 @@ object FunctionWords:
       without worn worth yet""".split("\\s+").toSet
 
   /** Those that are a usual name of a thing, or half of a usual pair: `mean`, `Spectrum.of`, the
-    * `next` of an iterator, received and `sent`, the `parts` of an EXR file, the `leaves` of a tree,
-    * `from` and `to`.
+    * `next` of an iterator, received and `sent`, the `parts` of an EXR file, the `leaves` of a
+    * tree, `from` and `to`.
     */
   val terms: Set[String] =
-    """all at by first from get in last leaves left long mean near next none of open out
+    """all at by first from between get in last leaves left long mean near next none of open out
       part parts sent set take this up""".split("\\s+").toSet
 
   def contains(name: String): Boolean = words(name.toLowerCase)

@@ -40,18 +40,19 @@ private[api] object SceneEdits:
       at: SourcePos,
       scene: SceneDescription
   ): Option[Found] =
-    val old = setting match
+    val previous = setting match
       case SceneSetting.Camera => scene.camera
       case SceneSetting.Film => scene.film
       case SceneSetting.Sampler => scene.sampler
       case SceneSetting.Filter => scene.filter
       case SceneSetting.Integrator => scene.integrator
-    val names = old.toVector.flatMap(_.params.map(_.name)).filterNot(params.map(_.name).contains)
+    val names =
+      previous.toVector.flatMap(_.params.map(_.name)).filterNot(params.map(_.name).contains)
     Option.when(names.nonEmpty):
-      val what = setting.toString.toLowerCase
+      val word = setting.toString.toLowerCase
       val verb = if names.size == 1 then "has its default" else "have their defaults"
       val message =
-        s"the new $what replaces the scene's: ${names.map(n => s"`$n`").mkString(", ")} $verb"
+        s"the new $word replaces the scene's: ${names.map(n => s"`$n`").mkString(", ")} $verb"
       val help = s"change(SceneSetting.$setting, …) keeps what it doesn't name"
       Found.warning(Code.IdleParameter, at, message, Some(help))
 

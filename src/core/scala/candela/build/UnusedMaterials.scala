@@ -29,8 +29,9 @@ private[build] object UnusedMaterials:
       if !isFatal then context.problems.warnOf(findings)
 
   private def unusedNames(scene: SceneDescription, shapes: Vector[ShapeDescription]) =
-    val used = shapes.iterator.map(_.material).collect { case MaterialRef.Named(name, _) => name }
-    val names = if scene.namedMaterials.isEmpty then Set.empty else used.toSet
+    val shapeMaterials =
+      shapes.iterator.map(_.material).collect { case MaterialRef.Named(name, _) => name }
+    val names = if scene.namedMaterials.isEmpty then Set.empty else shapeMaterials.toSet
     scene.namedMaterials.filterNot((name, _) => names(name))
 
   /** Of objects without instances. */

@@ -12,17 +12,20 @@ private[candela] trait ContentDigest:
 /** Digests the whole content, also what its reader leaves.
   *
   * @param digest takes it in
-  * @param note   receives the digest when the stream is closed, unless the rest can't be read
+  * @param note   receives the digest when the stream is closed, unless a part of it can't be read
   */
 private[candela] final class Digesting(in: InputStream, digest: ContentDigest, note: String => Unit)
     extends InputStream:
   private val single = new Array[Byte](1)
   private var isOpen = true
+  private var hasFailed = false
 
   override def read(): Int = if read(single, 0, 1) < 0 then -1 else single(0) & 0xff
 
   override def read(into: Array[Byte], from: Int, length: Int): Int =
+    hasFailed = true
     val n = in.read(into, from, length)
+    hasFailed = false
     if n > 0 then digest.add(into, from, n)
     n
 
@@ -32,7 +35,8 @@ private[candela] final class Digesting(in: InputStream, digest: ContentDigest, n
     if isOpen then
       isOpen = false
       try
-        transferTo(OutputStream.nullOutputStream): Unit
-        note(digest.result())
+        if !hasFailed then
+          transferTo(OutputStream.nullOutputStream): Unit
+          note(digest.result())
       catch case _: IOException => () // who needs the digest reads the file again
       finally in.close()

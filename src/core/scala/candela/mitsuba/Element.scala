@@ -29,11 +29,11 @@ final case class Element(
   def apply(attribute: String): Option[String] = attributes.get(attribute)
 
   /** SHA-256 of what it says: comments, space and the order of attributes have no part in it. */
-  def digest: String = Sha256.ofLines(said)
+  def digest: String = Sha256.ofLines(tokens)
 
-  private def said: Iterator[String] =
+  private def tokens: Iterator[String] =
     val named = attributes.toVector.sorted.iterator.map((name, value) => s"$name=$value")
-    Iterator(s"<$tag") ++ named ++ children.iterator.flatMap(_.said) ++ Iterator(">")
+    Iterator(s"<$tag") ++ named ++ children.iterator.flatMap(_.tokens) ++ Iterator(">")
 
 /** Reads XML files. Document types, and thereby entities, are refused. */
 object XmlFile:

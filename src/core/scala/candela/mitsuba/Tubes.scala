@@ -186,7 +186,7 @@ private[mitsuba] final class TubeBuilder(segments: Int, ringsOfSegment: Int):
     indices += b
     indices += c
 
-  def mesh: Mesh = Mesh(positions.take(), normals.take(), uvs.take(), indices.take())
+  def mesh: Mesh = Mesh(positions.drain(), normals.drain(), uvs.drain(), indices.drain())
 
 private[mitsuba] object TubeBuilder:
   /** Triangles, about. */

@@ -15,7 +15,7 @@ private[scenefile] final class IdleMaterials:
       count += 1
       numbers.put(material, count): Unit
 
-  def use(material: MaterialRef): Unit =
+  def markUsed(material: MaterialRef): Unit =
     if !numbers.isEmpty then numbers.remove(material): Unit
 
   def clear(): Unit = numbers.clear()

@@ -211,7 +211,7 @@ final class SceneWriter(
       state.insideMedium,
       state.outsideMedium
     )
-    idle.use(state.material)
+    idle.markUsed(state.material)
     inObject match
       case Some((_, group)) => group += described
       case None => shapes += described

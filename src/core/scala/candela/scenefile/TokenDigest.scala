@@ -29,24 +29,27 @@ private[candela] final class TokenDigest extends ContentDigest:
   /** The state after a byte. */
   private def next(c: Byte): State = state match
     case State.Comment => if isBreak(c) then State.Blank else State.Comment
-    case State.Escape => within(c, State.Text)
+    case State.Escape => continueToken(c, State.Text)
     case State.Text =>
-      within(c, if c == '"' then State.Blank else if c == '\\' then State.Escape else State.Text)
+      continueToken(
+        c,
+        if c == '"' then State.Blank else if c == '\\' then State.Escape else State.Text
+      )
     case _ =>
       c match
         case ' ' | '\t' | ',' | '\n' | '\r' => State.Blank
         case '#' => State.Comment
-        case '[' | ']' => begin(c, State.Blank)
-        case '"' => begin(c, State.Text)
-        case _ if state == State.Word => within(c, State.Word)
-        case _ => begin(c, State.Word)
+        case '[' | ']' => startToken(c, State.Blank)
+        case '"' => startToken(c, State.Text)
+        case _ if state == State.Word => continueToken(c, State.Word)
+        case _ => startToken(c, State.Word)
 
-  private def begin(c: Byte, after: State): State =
+  private def startToken(c: Byte, after: State): State =
     write(' ')
     write(c)
     after
 
-  private def within(c: Byte, after: State): State =
+  private def continueToken(c: Byte, after: State): State =
     write(c)
     // A string that is not closed ends with its line
     if isBreak(c) then State.Blank else after

@@ -74,13 +74,13 @@ private[convert] object FromGltf:
       d.copy(params = d.params.map: p =>
         if p.name != "alpha" then p
         else if p.paramType != ParamType.Texture then
-          Param.float("alpha", p.at, if p.floats.head >= from then 1f else 0f)
+          Param.float("alpha", p.pos, if p.floats.head >= from then 1f else 0f)
         else
           textures.get(p.strings.head).filter(_.name == "imagemap") match
             case Some(t) =>
               val name = s"${p.strings.head} from ${NumberText.of(from)}"
               add(name, channel(extracted(t), _ >= from))
-              Param.texture("alpha", p.at, name)
+              Param.texture("alpha", p.pos, name)
             case None =>
               warn(p, "pbrt has no threshold of this alpha; it is used as it is")
               p)
@@ -90,7 +90,7 @@ private[convert] object FromGltf:
 
     private def texture(d: Declaration): Declaration =
       if d.name == "vertexcolor" then
-        Declaration("Texture", "constant", Vector.empty, d.at, d.folder)
+        Declaration("Texture", "constant", Vector.empty, d.pos, d.folder)
       else
         val single = if d.param("channel").isEmpty then d else channel(d, x => x)
         val first = withoutParams(single, "using the first set of u and v", "uv2")
@@ -101,7 +101,7 @@ private[convert] object FromGltf:
         if p.name != "wrap" || !p.strings.contains("mirror") then p
         else
           warn(p, "pbrt has no wrap `mirror`; using `repeat`")
-          Param.string("wrap", p.at, "repeat"))
+          Param.string("wrap", p.pos, "repeat"))
 
     /** A channel of an image, as an image of its own. */
     private def channel(d: Declaration, change: Float => Float | Boolean): Declaration =
@@ -115,13 +115,13 @@ private[convert] object FromGltf:
             files.add("image", "png", ImageFiles.png(gray(image, names.toUpperCase, change)))
           }
         )
-        val rest = d.params.filterNot(p => Set("filename", "channel")(p.name))
-        d.copy(params = Param.string("filename", at.at, relative(d, name)) +: rest)
+        val otherParams = d.params.filterNot(p => Set("filename", "channel")(p.name))
+        d.copy(params = Param.string("filename", at.pos, relative(d, name)) +: otherParams)
       catch
         case e: ImageError =>
           problems += Problem.warning(
             Code.UnconvertedImage,
-            at.at,
+            at.pos,
             s"can't read the image, leaving it unchanged: ${e.getMessage}"
           )
           d.copy(params = d.params.filterNot(_.name == "channel"))
@@ -131,8 +131,8 @@ private[convert] object FromGltf:
       case b: Boolean => if b then 1f else 0f
 
     private def gray(image: Image, name: String, change: Float => Float | Boolean): Image =
-      val found = image.channelNames.indexOf(name)
-      val c = if found >= 0 || name == "A" then found else image.colorChannels.head
+      val channelIndex = image.channelNames.indexOf(name)
+      val c = if channelIndex >= 0 || name == "A" then channelIndex else image.colorChannels.head
       val data = Array.tabulate(image.width * image.height): i =>
         numberOf(change(if c < 0 then 1f else image.data(i * image.channels + c)))
       Image(image.width, image.height, Vector("Y"), data, image.encoding)
@@ -165,7 +165,7 @@ private[convert] object FromGltf:
           case _ =>
             val (first, second) = (s"$name, dielectric", s"$name, metal")
             val blend = Vector(
-              Param.string("materials", d.at, first, second),
+              Param.string("materials", d.pos, first, second),
               metallic.get.renamed("amount")
             )
             Vector(
@@ -188,7 +188,7 @@ private[convert] object FromGltf:
         else d.copy(name = "dielectric", params = eta ++ roughness(d) ++ bumps(d))
       else
         val color = d.param("color").map(_.renamed("reflectance")).toVector
-        val layer = Vector(Param.float("thickness", d.at, 0f), Param.int("maxdepth", d.at, 100))
+        val layer = Vector(Param.float("thickness", d.pos, 0f), Param.int("maxdepth", d.pos, 100))
         d.copy(name = "coateddiffuse", params = color ++ eta ++ roughness(d) ++ layer ++ bumps(d))
 
     private def bumps(d: Declaration): Vector[Param] =
@@ -201,11 +201,11 @@ private[convert] object FromGltf:
     private def roughness(d: Declaration): Vector[Param] =
       val squared = d.param("roughness").map: p =>
         if p.paramType != ParamType.Texture then
-          Param.float("roughness", p.at, p.floats.head * p.floats.head)
+          Param.float("roughness", p.pos, p.floats.head * p.floats.head)
         else
           val name = s"${p.strings.head} squared"
-          val both = Vector("tex", "scale").map(Param.texture(_, p.at, p.strings.head))
-          add(name, Declaration("Texture", "scale", both, p.at, d.folder))
-          Param.texture("roughness", p.at, name)
-      .getOrElse(Param.float("roughness", d.at, 1f))
-      Vector(squared, Param.bool("remaproughness", d.at, false))
+          val square = Vector("tex", "scale").map(Param.texture(_, p.pos, p.strings.head))
+          add(name, Declaration("Texture", "scale", square, p.pos, d.folder))
+          Param.texture("roughness", p.pos, name)
+      .getOrElse(Param.float("roughness", d.pos, 1f))
+      Vector(squared, Param.bool("remaproughness", d.pos, false))

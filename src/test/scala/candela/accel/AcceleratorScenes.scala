@@ -18,9 +18,9 @@ object AcceleratorScenes:
   def instances(draws: Draws, count: Int, size: Float)(centre: => Vec3): Instances =
     def near = draws.vec(-1, 1)
     val objects = Array[Accelerator](
-      Bvh(mixed(Soups.around(draws, 60, 0.3f)(near))),
+      Bvh(mixed(Soups.randomTriangles(draws, 60, 0.3f)(near))),
       BruteForce(mixed(Nil, Soups.shapes(draws, 5, 1)(near))),
-      Grid(mixed(Soups.around(draws, 20, 0.5f)(near), Soups.shapes(draws, 5, 0.5f)(near)))
+      Grid(mixed(Soups.randomTriangles(draws, 20, 0.5f)(near), Soups.shapes(draws, 5, 0.5f)(near)))
     )
     val places =
       Vector.tabulate(count): i =>
@@ -42,13 +42,13 @@ object AcceleratorScenes:
     val far = Vec3(10000f, -5000f, 20000f)
     Seq(
       "nothing" -> mixed(Nil),
-      "one triangle" -> mixed(Soups.around(draws, 1, 1)(Vec3.Zero)),
-      "a few" -> mixed(Soups.around(draws, 5, 0.7f)(anywhere)),
-      "uniform" -> mixed(Soups.around(draws, 300, 0.3f)(anywhere)),
+      "one triangle" -> mixed(Soups.randomTriangles(draws, 1, 1)(Vec3.Zero)),
+      "a few" -> mixed(Soups.randomTriangles(draws, 5, 0.7f)(anywhere)),
+      "uniform" -> mixed(Soups.randomTriangles(draws, 300, 0.3f)(anywhere)),
       "clustered" -> mixed:
         Seq.fill(6)(anywhere).flatMap(c =>
-          Soups.around(draws, 50, 0.01f)(c + draws.direction() * 0.02f)
-        ) ++ Soups.around(draws, 3, 1)(anywhere)
+          Soups.randomTriangles(draws, 50, 0.01f)(c + draws.direction() * 0.02f)
+        ) ++ Soups.randomTriangles(draws, 3, 1)(anywhere)
       ,
       "long and thin" -> mixed:
         Seq.fill(200):
@@ -61,7 +61,7 @@ object AcceleratorScenes:
       ,
       "in one plane" -> mixed(Soups.latticeQuads(draws, 150, 8)(2).map(flatten)),
       "one on the other" -> mixed:
-        val triangle = Soups.around(draws, 1, 1)(Vec3.Zero).head
+        val triangle = Soups.randomTriangles(draws, 1, 1)(Vec3.Zero).head
         Seq.fill(40)(triangle)
       ,
       "spheres and disks, each several times" -> mixed(
@@ -70,13 +70,13 @@ object AcceleratorScenes:
       ),
       "spheres and disks" -> mixed(Nil, Soups.shapes(draws, 60, 0.5f)(anywhere)),
       "triangles, spheres and disks" -> mixed(
-        Soups.around(draws, 200, 0.3f)(anywhere),
+        Soups.randomTriangles(draws, 200, 0.3f)(anywhere),
         Soups.shapes(draws, 40, 0.3f)(anywhere)
       ),
       "instances" ->
         Primitives(Soups.Empty, Array.empty, instances(draws, 60, 0.1f)(anywhere)),
       "triangles, spheres, disks and instances" -> Primitives(
-        Soups.of(Soups.around(draws, 100, 0.3f)(anywhere)),
+        Soups.of(Soups.randomTriangles(draws, 100, 0.3f)(anywhere)),
         Soups.shapes(draws, 20, 0.3f)(anywhere).toArray,
         instances(draws, 20, 0.2f)(anywhere)
       ),
@@ -86,7 +86,7 @@ object AcceleratorScenes:
         instances(draws, 40, 0.1f)(far + anywhere)
       ),
       "far from the origin" -> mixed(
-        Soups.around(draws, 200, 0.3f)(far + anywhere),
+        Soups.randomTriangles(draws, 200, 0.3f)(far + anywhere),
         Soups.shapes(draws, 20, 0.3f)(far + anywhere)
       ),
       "at voxel faces, far from the origin" -> mixed:
@@ -95,7 +95,7 @@ object AcceleratorScenes:
       ,
       // The grid has 64 voxels a side, each some 16 Floats wide
       "many small ones, far from the origin" -> mixed:
-        Soups.around(draws, 10000, 0.03f)(far + anywhere)
+        Soups.randomTriangles(draws, 10000, 0.03f)(far + anywhere)
     )
 
   private def flatten(t: Soups.Triangle): Soups.Triangle =
@@ -133,9 +133,13 @@ object AcceleratorScenes:
         val size = draws.magnitude(1e-6, 1e4)
         val c = anywhere * draws.magnitude(1e-3, 1e3)
         (c + draws.vec(-size, size), c + draws.vec(-size, size), c + draws.vec(-size, size))),
-      "beyond the squares of Floats" -> of(Soups.around(draws, 50, 3e24f)(anywhere * 1e25f)),
-      "tiny" -> of(Soups.around(draws, 50, 3e-18f)(anywhere * 1e-17f)),
-      "one" -> of(Soups.around(draws, 1, 1f)(Vec3.Zero))
+      "beyond the squares of Floats" -> of(Soups.randomTriangles(
+        draws,
+        50,
+        3e24f
+      )(anywhere * 1e25f)),
+      "tiny" -> of(Soups.randomTriangles(draws, 50, 3e-18f)(anywhere * 1e-17f)),
+      "one" -> of(Soups.randomTriangles(draws, 1, 1f)(Vec3.Zero))
     ) ++ all.filter(s => s._2.shapes.isEmpty && s._2.instances.count == 0)
 
   /** A torus with bumps: 2·`sides`² triangles in the order of a mesh. */

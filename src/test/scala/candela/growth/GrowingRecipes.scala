@@ -85,7 +85,7 @@ object GrowingRecipes:
       Seq("spectrum", "rgb").exists(f.typeName.takeWhile(_ != ' ') == _) && !Paired(f.name)
     val share = Growing.share(i, count)
     def number(f: Field[?]) =
-      f.shown(dialect).toDoubleOption.filter(x => x > 0 && f.typeName.startsWith("float"))
+      f.defaultText(dialect).toDoubleOption.filter(x => x > 0 && f.typeName.startsWith("float"))
     val varied = free.find(isColor).map(_ -> s"[$share .3 .2]").orElse:
       free.find(number(_).nonEmpty).map(f => f -> s"${number(f).get * (1 - 1e-3 * share)}")
     val written = needed ++ varied

@@ -27,7 +27,7 @@ class GltfFormatSuite extends AnyFunSuite:
       try read(json).errors
       catch case e: SceneError => e.problems
     val p = problems.find(_.severity == Severity.Error).get
-    s"${p.at.fold("")(_.file.dropWhile(_ != '#').drop(1))}: ${p.message}"
+    s"${p.pos.fold("")(_.file.dropWhile(_ != '#').drop(1))}: ${p.message}"
 
   private def floats(values: Double*): Array[Byte] =
     val bytes = ByteBuffer.allocate(4 * values.size).order(ByteOrder.LITTLE_ENDIAN)
@@ -182,9 +182,11 @@ class GltfFormatSuite extends AnyFunSuite:
 
   test("what is not supported is a warning with its pointer"):
     val materials = ""","materials":[{"extensions":{"KHR_materials_iridescence":{}}}]"""
-    val scene = read(model(""","mode":5,"material":0""", others = materials))
-    val at = scene.warnings.flatMap(_.at).map(_.toString)
+    val animations = ""","animations":[{"channels":[],"samplers":[]}]"""
+    val scene = read(model(""","mode":5,"material":0""", others = materials + animations))
+    val at = scene.warnings.flatMap(_.pos).map(_.toString)
     assert(at.exists(_.endsWith("#/materials/0/extensions/KHR_materials_iridescence")), at)
+    assert(at.exists(_.endsWith("#/animations/0")), at)
 
   test("transforms of textures are those of the extension, about the upper left corner"):
     val transform =
@@ -206,4 +208,4 @@ class GltfFormatSuite extends AnyFunSuite:
         number("vskew", 0) * u + number("vscale", 1) * v + number("vdelta", 0)
       )
     assert(st(0, 1) == (0f, 0f) && st(1, 1) == (0f, 0.5f) && st(0, 0) == (0.5f, 0f))
-    assert(t.folder.find(t.param("filename").get.strings.head, None).exists(_.size > 0))
+    assert(t.folder.locate(t.param("filename").get.strings.head, None).exists(_.size > 0))

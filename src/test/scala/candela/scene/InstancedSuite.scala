@@ -36,7 +36,7 @@ class InstancedSuite extends AnyFunSuite:
 
   test("a mesh is hit where its copy would be, with the same normals, tangent and parameters"):
     val draws = Draws(1)
-    val facets = Soups.around(draws, 30, 0.5f)(draws.vec(-1, 1))
+    val facets = Soups.randomTriangles(draws, 30, 0.5f)(draws.vec(-1, 1))
     val (other, otherHit) = (Ray(), Hit())
     val there = ShadingPoint()
     var hits = 0
@@ -96,7 +96,7 @@ class InstancedSuite extends AnyFunSuite:
 
   test("a triangle of an instance is not met again, on either side"):
     neverMetAgain(2)(draws =>
-      Surfaces(Soups.of(Soups.around(draws, 1, 1)(draws.vec(-3, 3))), ShapeTable.Empty)
+      Surfaces(Soups.of(Soups.randomTriangles(draws, 1, 1)(draws.vec(-3, 3))), ShapeTable.Empty)
     )(_.direction())
 
   test("a disk of an instance is not met again, on either side"):

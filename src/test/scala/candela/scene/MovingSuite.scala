@@ -35,7 +35,7 @@ class MovingSuite extends AnyFunSuite:
   test("bounds contain the surface whenever the shutter is open", Slow):
     val draws = Draws(1)
     for _ <- 0 until 60 do
-      val soup = Soups.of(Soups.around(draws, 20, 1)(draws.vec(-1, 1)))
+      val soup = Soups.of(Soups.randomTriangles(draws, 20, 1)(draws.vec(-1, 1)))
       val way = motion(draws)
       val box = placed(Surfaces(soup, ShapeTable.Empty), way).instances.bounds(0)
       for _ <- 0 until 100 do
@@ -59,7 +59,7 @@ class MovingSuite extends AnyFunSuite:
 
   test("it is met where it is at the ray's time, and its hit points lie there"):
     val draws = Draws(2)
-    val soup = Soups.of(Soups.around(draws, 30, 0.6f)(draws.vec(-1, 1)))
+    val soup = Soups.of(Soups.randomTriangles(draws, 30, 0.6f)(draws.vec(-1, 1)))
     val surfaces = Surfaces(soup, ShapeTable.Empty)
     val (at, there) = (ShadingPoint(), ShadingPoint())
     val (other, otherHit) = (Ray(), Hit())
@@ -92,7 +92,7 @@ class MovingSuite extends AnyFunSuite:
     val at = ShadingPoint()
     var spawned = 0
     while spawned < 10000 do
-      val soup = Soups.of(Soups.around(draws, 1, 1)(draws.vec(-3, 3)))
+      val soup = Soups.of(Soups.randomTriangles(draws, 1, 1)(draws.vec(-3, 3)))
       val moving = placed(Surfaces(soup, ShapeTable.Empty), motion(draws))
       val box = moving.instances.bounds(0)
       for _ <- 0 until 30 do

@@ -43,7 +43,7 @@ class SpawnedRaySuite extends AnyFunSuite:
     while spawned < Tries do
       val size = draws.magnitude(1e-3, 1e4)
       val centre = draws.direction() * (size * draws.magnitude(1e-3, 300))
-      val soup = Soups.of(Soups.around(draws, 1, size)(centre))
+      val soup = Soups.of(Soups.randomTriangles(draws, 1, size)(centre))
       System.arraycopy(soup.positions, 0, corners, 0, 9)
       val b = draws.unit()
       hit.u = b * draws.unit()

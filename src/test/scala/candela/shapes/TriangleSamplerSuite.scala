@@ -56,7 +56,7 @@ class TriangleSamplerSuite extends AnyFunSuite:
       val sides = Seq.fill(100):
         lamp.sample(eye, draws.unit(), draws.unit(), out)
         ray.set(eye, out.p - eye, Float.PositiveInfinity)
-        assert(lamp.meets(ray, hit, at))
+        assert(lamp.intersectSurface(ray, hit, at))
         assert(out.n == (if isInverted then -at.geometricNormal else at.geometricNormal))
         out.n.z > 0f
       assert(sides.distinct.size == 2)

@@ -43,7 +43,7 @@ class TriangleSoupSuite extends AnyFunSuite:
     val draws = Draws(1)
     for _ <- 0 until 100000 do
       val size = draws.magnitude(1e-3, 1e4)
-      val (a, b, c) = Soups.around(draws, 1, size)(draws.vec(-9, 9) * size).head
+      val (a, b, c) = Soups.randomTriangles(draws, 1, size)(draws.vec(-9, 9) * size).head
       val s = draws.unit()
       val at = look(Soups.of(Seq((a, b, c))), s * 0.5f, s * 0.3f, triangle = 0)
       def sub(p: Vec3) = Array(p.x.toDouble - a.x, p.y.toDouble - a.y, p.z.toDouble - a.z)

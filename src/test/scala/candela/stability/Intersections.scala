@@ -121,7 +121,7 @@ private object OddRays:
   private def oddRays(count: Long): Unit =
     val draws = Draws(6)
     def number() = if draws.below(3) == 0 then draws.between(-1, 1) else odd(draws.below(odd.size))
-    val near = Soups.around(draws, 200, 0.3f)(draws.vec(-1, 1))
+    val near = Soups.randomTriangles(draws, 200, 0.3f)(draws.vec(-1, 1))
     val solids = Soups.shapes(draws, 20, 0.5f)(draws.vec(-1, 1)) ++
       Seq.tabulate(8)(k => Quadrics.random(draws, k, 1f).placed(Transform.Identity)) ++
       Seq.fill(4)(BilinearPatches.of(BilinearPatches.corners(draws)))
@@ -166,7 +166,7 @@ private object OddRays:
     val (ray, hit, other) = (Ray(), Hit(), Hit())
     var i = 0L
     while i < count do
-      val one = Soups.around(draws, 1, 1f)(draws.vec(-1, 1)).head
+      val one = Soups.randomTriangles(draws, 1, 1f)(draws.vec(-1, 1)).head
       val alone = Bvh(Primitives(Soups.of(Seq(one)), Array.empty))
       val all = Primitives(Soups.of(Seq(one, one, one)), Array.empty)
       val o = draws.vec(-3, 3)

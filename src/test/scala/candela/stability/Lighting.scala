@@ -69,7 +69,7 @@ private object Lit:
     var i = 0L
     while i < count do
       val size = draws.magnitude(1e-6, 1e6)
-      val soup = Soups.of(Soups.around(draws, 1, size)(Vec3.Zero))
+      val soup = Soups.of(Soups.randomTriangles(draws, 1, size)(Vec3.Zero))
       val t = TriangleSampler(soup, 0)
       val from = draws.direction() * (size * draws.magnitude(1e4, 1e6))
       val emitter = AreaLight(t, emitted, true, t.bounds, t.normal, 1f)

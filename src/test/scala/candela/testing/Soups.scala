@@ -6,7 +6,9 @@ import candela.shapes.{Disk, Shape, Sphere}
 /** Triangles and shapes to test with, made from a few words. */
 object Soups:
 
-  export candela.bench.robustness.Solids.{around, icosphere, indexed, of, sphere, Empty, Triangle}
+  export candela.bench.robustness.Solids.{
+    randomTriangles, icosphere, indexed, of, sphere, Empty, Triangle
+  }
 
   /** Quads across the given axis, their corners on a lattice of `cells` per unit. */
   def latticeQuads(draws: Draws, count: Int, cells: Int)(axis: => Int): Seq[Triangle] =

@@ -46,7 +46,8 @@ final class RobustnessCommand(options: Options, terminal: Terminal, report: Repo
       if cancellation.isRequested then ExitCode.Interrupted else code
 
   private def measured(scratch: Path): RobustnessReport =
-    val chosen = RobustnessRun.all.filter(m => settings.only.isEmpty || settings.only.contains(m.key))
+    val chosen =
+      RobustnessRun.all.filter(m => settings.only.isEmpty || settings.only.contains(m.key))
     val run = RobustnessRun(
       settings.rays, chosen, cores, settings.python, scratch, commandLine, cancellation, printRow
     )
@@ -99,7 +100,8 @@ final class RobustnessCommand(options: Options, terminal: Terminal, report: Repo
     case "json" => RobustnessData.json(results)
     case _ =>
       val table = RobustnessText.markdown(results)
-      if Files.isRegularFile(path) then RobustnessCommand.replaceTable(Files.readString(path), table)
+      if Files.isRegularFile(path) then
+        RobustnessCommand.replaceTable(Files.readString(path), table)
       else table
 
 object RobustnessCommand:

@@ -20,13 +20,13 @@ private[models] final class Accessors(file: GltfFile, session: Session):
 
   /** Components of each element. */
   def components(index: Json): Int =
-    val kind = entry(index).need("type")
+    val kind = entry(index).required("type")
     Accessors.Components.getOrElse(kind.text, kind.fail(s"unknown type `${kind.text}`"))
 
   /** The numbers of vectors of so many components. */
   def floats(index: Json, each: Int): Array[Float] =
-    val is = components(index)
-    if is != each then entry(index).fail(s"expected $each components, found $is")
+    val count = components(index)
+    if count != each then entry(index).fail(s"expected $each components, found $count")
     floats(index)
 
   def floats(index: Json): Array[Float] =
@@ -38,7 +38,8 @@ private[models] final class Accessors(file: GltfFile, session: Session):
         read(a, components(index)): (i, bytes, offset, kind) =>
           val x = kind.number(bytes, offset)
           out(i) =
-            (if isNormalized && kind.most > 0 then Math.max(x / kind.most, -1.0) else x).toFloat
+            (if isNormalized && kind.maxValue > 0 then Math.max(x / kind.maxValue, -1.0)
+             else x).toFloat
         out.indexWhere(x => !java.lang.Float.isFinite(x)) match
           case -1 => ()
           case i => a.fail(s"number $i is ${out(i)}")
@@ -61,7 +62,7 @@ private[models] final class Accessors(file: GltfFile, session: Session):
 
   /** Numbers in all, which must be in the file or of a reasonable count. */
   private def checkedSize(a: Json, each: Int): Int =
-    val size = a.need("count").size.toLong * each
+    val size = a.required("count").size.toLong * each
     session.folder.allowance.check(Limit.Triangles, size / 9, Some(a.at))(s"$size numbers")
     if a("bufferView").isEmpty && size > Accessors.MaxImplied then
       Session.fail(a.at, s"$size numbers that are in no buffer", Code.TooLarge)
@@ -69,7 +70,7 @@ private[models] final class Accessors(file: GltfFile, session: Session):
     for index <- a("bufferView") do
       val kind = kindOf(a)
       val stride = strideOf(a, index, each * kind.bytes)
-      val elements = a.need("count").size.toLong
+      val elements = a.required("count").size.toLong
       val end = a.size("byteOffset", 0) + (elements - 1) * stride + each * kind.bytes
       val bytes = file.view(index).remaining
       if elements > 0 && end > bytes then
@@ -78,7 +79,7 @@ private[models] final class Accessors(file: GltfFile, session: Session):
     size.toInt
 
   private def kindOf(a: Json): Number =
-    val code = a.need("componentType")
+    val code = a.required("componentType")
     Number.all.find(_.code == code.int).getOrElse(code.fail(s"unknown component type ${code.int}"))
 
   private def strideOf(a: Json, view: Json, element: Int): Int =
@@ -90,26 +91,26 @@ private[models] final class Accessors(file: GltfFile, session: Session):
   private def read(a: Json, each: Int)(visit: (Int, ByteBuffer, Int, Number) => Unit): Unit =
     val kind = kindOf(a)
     val element = each * kind.bytes
-    val count = a.need("count").size
+    val count = a.required("count").size
     for index <- a("bufferView") do
       val (bytes, stride) = (file.view(index), strideOf(a, index, element))
       val start = a.size("byteOffset", 0)
       loop(count): i =>
         loop(each)(c => visit(i * each + c, bytes, start + i * stride + c * kind.bytes, kind))
     for sparse <- a("sparse") do
-      val changed = sparse.need("count").size
-      val (indices, values) = (sparse.need("indices"), sparse.need("values"))
+      val changed = sparse.required("count").size
+      val (indices, values) = (sparse.required("indices"), sparse.required("values"))
       val indexKind = kindOf(indices)
-      val places = part(indices, changed.toLong * indexKind.bytes)
+      val changedIndices = part(indices, changed.toLong * indexKind.bytes)
       val numbers = part(values, changed.toLong * element)
       loop(changed): k =>
-        val i = indexKind.number(places, k * indexKind.bytes)
+        val i = indexKind.number(changedIndices, k * indexKind.bytes)
         if i < 0 || i >= count then indices.fail(s"index $k is ${i.toLong}, of $count elements")
         loop(each): c =>
           visit(i.toInt * each + c, numbers, k * element + c * kind.bytes, kind)
 
   private def part(a: Json, length: Long): ByteBuffer =
-    val bytes = file.view(a.need("bufferView"))
+    val bytes = file.view(a.required("bufferView"))
     val from = a.size("byteOffset", 0)
     if from + length > bytes.remaining then
       a.fail(s"bytes $from to ${from + length} of a buffer view of ${bytes.remaining} bytes")
@@ -132,9 +133,9 @@ private object Accessors:
 
 /** Types of numbers in buffers.
   *
-  * @param most what stands for 1 if it is normalised; 0: it can't be
+  * @param maxValue what stands for 1 if it is normalised; 0: it can't be
   */
-private[models] enum Number(val code: Int, val bytes: Int, val most: Double):
+private[models] enum Number(val code: Int, val bytes: Int, val maxValue: Double):
   case Int8 extends Number(5120, 1, 127)
   case UInt8 extends Number(5121, 1, 255)
   case Int16 extends Number(5122, 2, 32767)

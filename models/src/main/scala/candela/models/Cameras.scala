@@ -9,29 +9,38 @@ private[models] final class Cameras(file: GltfFile, session: Session):
   private val entries = file.root.list("cameras")
 
   /** The scene as the camera of a node sees it. */
-  def seen(scene: SceneDescription, p: PlacedNode): SceneDescription =
-    val entry = p.node.need("camera").element(entries, "cameras")
-    entry.need("type").text match
+  def addCamera(scene: SceneDescription, p: PlacedNode): SceneDescription =
+    val entry = p.node.required("camera").element(entries, "cameras")
+    entry.required("type").text match
       case "perspective" =>
-        val view = entry.need("perspective")
+        val view = entry.required("perspective")
         val aspect = view.number("aspectRatio", View.Aspect)
-        val height = view.need("yfov").number
+        val height = view.required("yfov").number
         if !(height > 0 && height < Math.PI) then
-          view.need("yfov").fail(s"expected an angle between 0 and π, found $height")
+          view.required("yfov").fail(s"expected an angle between 0 and π, found $height")
         checkAspect(view, aspect)
         val shorter =
           if aspect >= 1 then height else 2 * Math.atan(Math.tan(height / 2) * aspect)
         val params = Param.float("fov", entry.at, Math.toDegrees(shorter).toFloat) +: clips(view)
-        View.seen(scene, session, p.toWorld, aspect, "perspective", params, entry.at)
+        View.addCamera(scene, session, p.toWorld, aspect, "perspective", params, entry.at)
       case "orthographic" =>
-        val view = entry.need("orthographic")
-        val (x, y) = (Math.abs(view.need("xmag").number), Math.abs(view.need("ymag").number))
+        val view = entry.required("orthographic")
+        val (x, y) =
+          (Math.abs(view.required("xmag").number), Math.abs(view.required("ymag").number))
         if x == 0 || y == 0 then view.fail("`xmag` and `ymag` must not be 0")
         checkAspect(view, x / y)
         val window = Param.float("screenwindow", entry.at, Seq(-x, x, -y, y).map(_.toFloat)*)
-        View.seen(scene, session, p.toWorld, x / y, "orthographic", window +: clips(view), entry.at)
+        View.addCamera(
+          scene,
+          session,
+          p.toWorld,
+          x / y,
+          "orthographic",
+          window +: clips(view),
+          entry.at
+        )
       case other =>
-        entry.need("type").fail(s"expected perspective or orthographic, found `$other`")
+        entry.required("type").fail(s"expected perspective or orthographic, found `$other`")
 
   private def checkAspect(view: Json, aspect: Double): Unit =
     if !(aspect > 1e-3 && aspect < 1e3) then view.fail(s"the aspect ratio is $aspect")
@@ -53,7 +62,7 @@ private[models] object View:
   private val MaxDepth = 16
 
   /** @param toWorld of a camera that looks along −z */
-  def seen(
+  def addCamera(
       scene: SceneDescription,
       session: Session,
       toWorld: Transform,
@@ -73,7 +82,7 @@ private[models] object View:
     val integrator = if scene.media.isEmpty then "path" else "volpath"
     scene.copy(
       camera = Some(session.declare("Camera", kind, at, params)),
-      worldToCamera = GraphicsState.still(toCamera),
+      worldToCamera = GraphicsState.constant(toCamera),
       film = Some(declare(
         "Film",
         "rgb",

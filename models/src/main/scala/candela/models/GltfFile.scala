@@ -25,7 +25,7 @@ private[models] final class GltfFile private (session: Session, json: Array[Byte
     val entry = index.element(buffers, "buffers")
     opened.getOrElseUpdate(
       index.size, {
-        val length = entry.need("byteLength").size
+        val length = entry.required("byteLength").size
         val all = entry("uri").fold(bin)(bytes)
         if all.remaining < length then
           entry.fail(s"`byteLength` is $length, but there are ${all.remaining} bytes")
@@ -38,8 +38,8 @@ private[models] final class GltfFile private (session: Session, json: Array[Byte
     val entry = index.element(views, "buffer views")
     for e <- entry("extensions").toVector.flatMap(_.names).headOption do
       Session.fail(entry.at, s"the compression `$e` is not supported", Code.Unsupported)
-    val all = buffer(entry.need("buffer"))
-    val (from, length) = (entry.size("byteOffset", 0), entry.need("byteLength").size)
+    val all = buffer(entry.required("buffer"))
+    val (from, length) = (entry.size("byteOffset", 0), entry.required("byteLength").size)
     if from.toLong + length > all.remaining then
       entry.fail(
         s"bytes $from to ${from.toLong + length} are not in the buffer, of ${all.remaining} bytes"
@@ -57,14 +57,14 @@ private[models] final class GltfFile private (session: Session, json: Array[Byte
   /** The file of a URI. */
   private def file(uri: Json): Option[InputFile] =
     val name = fileName(uri)
-    val there = session.folder.find(name, Some(uri.at))
-    there match
+    val located = session.folder.locate(name, Some(uri.at))
+    located match
       case Some(file) => session.note(file.path)
       case None =>
         val (message, help) =
           session.folder.absence(name, Some(uri.at), s"no such file: `$name`")
         session.missing(uri.at, message, "using nothing", help)
-    there
+    located
 
   private def fileName(uri: Json): String =
     val text = uri.text

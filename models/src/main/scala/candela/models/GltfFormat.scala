@@ -1,7 +1,7 @@
 package candela.models
 
 import candela.diagnostics.{Code, Problem, SceneError}
-import candela.io.{ForeignKind, SceneFolder}
+import candela.io.{ForeignKind, SceneFolder, Sha256}
 import candela.job.SceneFormat
 import candela.scenefile.SceneDescription
 import candela.settings.ReadSettings
@@ -29,6 +29,8 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
       within: SceneFolder,
       reading: ReadSettings
   ): SceneDescription = readable(name, within, reading, Some(text))
+
+  def digest(text: String): String = Sha256.of(text)
 
   private def readable(
       file: Path,

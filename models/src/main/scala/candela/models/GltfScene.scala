@@ -29,7 +29,7 @@ private[models] object GltfScene:
   ): SceneDescription =
     val session = Session(file, within, keepGoing)
     val opened = text.fold(GltfFile.read(session))(GltfFile.ofText(session, _))
-    val scene = Studio.around(GltfScene(opened, session).result(), session)
+    val scene = Studio.complete(GltfScene(opened, session).result(), session)
     val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
     scene.copy(
       warnings = warnings,
@@ -62,19 +62,21 @@ private final class GltfScene(file: GltfFile, session: Session):
   private val instances = InstanceList.newBuilder
 
   private def checkVersion(): Unit =
-    val version = file.root.need("asset").need("version").text
+    val version = file.root.required("asset").required("version").text
     if !version.startsWith("2.") then
       Session.fail(session.at("/asset/version"), s"expected glTF 2, found version $version")
     for name <- file.root.list("extensionsRequired") if !GltfScene.Extensions(name.text) do
       session.warn(name.at, s"the model requires `${name.text}`, which is not supported")
+    for animation <- file.root.list("animations").headOption do
+      session.warn(animation.at, "animations are not supported; the model is shown at rest")
 
   def result(): SceneDescription =
     val users = nodes.placed.filter(p => p.node("mesh").isDefined)
-    val uses = users.groupBy(p => (p.node.need("mesh").int, weights(p.node)))
+    val uses = users.groupBy(p => (p.node.required("mesh").int, weights(p.node)))
     for p <- users do
-      session.attempt(place(
+      session.attempt(addShapes(
         p,
-        isShared = uses((p.node.need("mesh").int, weights(p.node))).size > 1
+        isShared = uses((p.node.required("mesh").int, weights(p.node))).size > 1
       ))
     val lit = nodes.placed.flatMap(p => session.attempt(lights(p)).flatten)
     val scene = SceneDescription(
@@ -90,31 +92,33 @@ private final class GltfScene(file: GltfFile, session: Session):
     val cameras = nodes.placed.filter(_.node("camera").isDefined)
     if cameras.size > 1 then
       session.warn(cameras(1).node.at, "only the first camera is rendered", Code.Unsupported)
-    cameras.headOption.flatMap(c => session.attempt(Cameras(file, session).seen(scene, c)))
+    cameras.headOption.flatMap(c => session.attempt(Cameras(file, session).addCamera(scene, c)))
       .getOrElse(scene)
 
   private def weights(node: Json): Vector[Double] =
-    val mesh = node.need("mesh").element(meshes, "meshes")
+    val mesh = node.required("mesh").element(meshes, "meshes")
     node("weights").orElse(mesh("weights")).fold(Vector.empty)(_.items.map(_.number))
 
-  private def place(p: PlacedNode, isShared: Boolean): Unit =
+  private def addShapes(p: PlacedNode, isShared: Boolean): Unit =
     val skin = p.node.element("skin", skins, "skins").map(jointsOf)
-    val many = p.node.extension("EXT_mesh_gpu_instancing").map(several(p, _))
+    val instanceTransforms = p.node.extension("EXT_mesh_gpu_instancing").map(several(p, _))
     // Skinned vertices are in world space
-    val places = many.getOrElse(Vector(if skin.isEmpty then p.toWorld else Transform.Identity))
-    val index = p.node.need("mesh")
+    val transforms =
+      instanceTransforms.getOrElse(Vector(if skin.isEmpty then p.toWorld else Transform.Identity))
+    val index = p.node.required("mesh")
     val mesh = index.element(meshes, "meshes")
     def parts(toWorld: Transform) =
       mesh.list("primitives").flatMap(described(_, weights(p.node), skin, toWorld))
     // What emits light is placed by itself: lights of instances are not sampled
     val single =
-      if isShared || places.size > 1 then local(index, p.node, skin, mesh) else Vector.empty
+      if isShared || transforms.size > 1 then local(index, p.node, skin, mesh) else Vector.empty
     if single.isEmpty || single.exists(_.areaLight.isDefined) then
-      places.foreach(t => shapes ++= parts(t))
+      transforms.foreach(t => shapes ++= parts(t))
     else
       val name = objectName(index, p.node, mesh)
       objects.getOrElseUpdate(name, single): Unit
-      for t <- places do instances += InstanceDescription(name, p.node.at, GraphicsState.still(t))
+      for t <- transforms do
+        instances += InstanceDescription(name, p.node.at, GraphicsState.constant(t))
 
   private val locals = mutable.HashMap.empty[String, Vector[ShapeDescription]]
 
@@ -144,7 +148,7 @@ private final class GltfScene(file: GltfFile, session: Session):
     primitives.shape(primitive, weights, skin, surface.shape).map: shape =>
       ShapeDescription(
         shape,
-        GraphicsState.still(toWorld),
+        GraphicsState.constant(toWorld),
         reverseOrientation = false,
         surface.material,
         surface.emission,
@@ -164,7 +168,7 @@ private final class GltfScene(file: GltfFile, session: Session):
           .getOrElse(Transform.Identity))
 
   private def several(p: PlacedNode, instancing: Json): Vector[Transform] =
-    val attributes = instancing.need("attributes")
+    val attributes = instancing.required("attributes")
     def numbers(name: String, each: Int) = primitives.instanceNumbers(attributes, name, each)
     val (t, r, s) = (numbers("TRANSLATION", 3), numbers("ROTATION", 4), numbers("SCALE", 3))
     val counts = Vector(t.map(_.length / 3), r.map(_.length / 4), s.map(_.length / 3)).flatten
@@ -187,7 +191,7 @@ private final class Lights(file: GltfFile, session: Session):
 
   def apply(p: PlacedNode): Option[LightDescription] =
     p.node.extension("KHR_lights_punctual").map: e =>
-      light(e.need("light").element(entries, "lights"), p)
+      light(e.required("light").element(entries, "lights"), p)
 
   private def light(entry: Json, p: PlacedNode): LightDescription =
     val at = entry.at
@@ -199,12 +203,12 @@ private final class Lights(file: GltfFile, session: Session):
       point("from", at, 0f),
       point("to", at, -1f)
     )
-    val d = entry.need("type").text match
+    val d = entry.required("type").text match
       case "point" => declare(entry, "point", Vector(Textures.rgb("I", power, at)))
       case "directional" =>
         declare(entry, "distant", Textures.rgb("L", power, at) +: axis)
       case "spot" =>
-        val spot = entry.need("spot")
+        val spot = entry.required("spot")
         val (inner, outer) =
           (spot.number("innerConeAngle", 0), spot.number("outerConeAngle", Math.PI / 4))
         if !(inner >= 0 && inner < outer && outer <= Math.PI / 2 + 1e-6) then
@@ -215,8 +219,8 @@ private final class Lights(file: GltfFile, session: Session):
         )
         declare(entry, "spot", (Textures.rgb("I", power, at) +: axis) ++ angles)
       case other =>
-        entry.need("type").fail(s"expected point, directional or spot, found `$other`")
-    LightDescription(d, GraphicsState.still(Nodes.rigid(p.toWorld)))
+        entry.required("type").fail(s"expected point, directional or spot, found `$other`")
+    LightDescription(d, GraphicsState.constant(Nodes.rigid(p.toWorld)))
 
   private def point(name: String, at: candela.diagnostics.SourcePos, z: Float): Param =
     Param.floats(candela.scenefile.ParamType.Point3, name, at, Array(0f, 0f, z))

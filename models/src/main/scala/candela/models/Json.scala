@@ -19,7 +19,7 @@ private[models] final class Json(val value: ujson.Value, val pointer: String, se
       case _: ujson.Obj => "an object"
       case _: ujson.Arr => "an array"
       case _: ujson.Str => "a string"
-      case _: ujson.Num => "the number " + Json.shown(value.num)
+      case _: ujson.Num => "the number " + Json.numberText(value.num)
       case ujson.Null => "null"
       case _ => "a bool"
     fail(s"expected $expected, found $kind")
@@ -34,7 +34,7 @@ private[models] final class Json(val value: ujson.Value, val pointer: String, se
   def apply(name: String): Option[Json] =
     fields.get(name).map(Json(_, s"$pointer/${Json.escaped(name)}", session))
 
-  def need(name: String): Json = apply(name).getOrElse(fail(s"`$name` is missing"))
+  def required(name: String): Json = apply(name).getOrElse(fail(s"`$name` is missing"))
 
   def items: Vector[Json] = value match
     case a: ujson.Arr =>
@@ -80,8 +80,8 @@ private[models] final class Json(val value: ujson.Value, val pointer: String, se
   /** The element of a list whose index this is. */
   def element(of: Vector[Json], what: String): Json =
     of.lift(size).getOrElse:
-      val there = if of.isEmpty then "there are none" else s"they are 0 to ${of.size - 1}"
-      fail(s"there are no $what with the index $size; $there")
+      val validIndices = if of.isEmpty then "there are none" else s"they are 0 to ${of.size - 1}"
+      fail(s"there are no $what with the index $size; $validIndices")
 
   /** That of a member, if there is one. */
   def element(name: String, of: Vector[Json], what: String): Option[Json] =
@@ -102,4 +102,5 @@ private[models] object Json:
     Json(value, "", session)
 
   private def escaped(name: String): String = name.replace("~", "~0").replace("/", "~1")
-  private def shown(x: Double): String = if x == x.toLong then x.toLong.toString else x.toString
+  private def numberText(x: Double): String =
+    if x == x.toLong then x.toLong.toString else x.toString

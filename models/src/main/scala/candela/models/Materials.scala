@@ -56,8 +56,8 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
     val passes = entry.extension("KHR_materials_transmission")
     val volume = passes.flatMap(_ => entry.extension("KHR_materials_volume"))
       .filter(_.number("thicknessFactor", 0) > 0)
-    val old = entry.extension("KHR_materials_pbrSpecularGlossiness")
-    val params = old.fold(reflection(entry, hasColors))(glossiness(_, hasColors)) ++
+    val specularGlossiness = entry.extension("KHR_materials_pbrSpecularGlossiness")
+    val params = specularGlossiness.fold(reflection(entry, hasColors))(glossiness(_, hasColors)) ++
       passes.toVector.flatMap: t =>
         Vector(
           textures.number(
@@ -71,7 +71,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         )
     val all = params ++ coat(entry) ++ sheen(entry) ++ stretch(entry) ++ normals(entry)
     val d = session.declare("Material", "gltf", entry.at, all)
-    val alpha = old.fold(opacity(entry, base(entry), "baseColor", hasColors)): o =>
+    val alpha = specularGlossiness.fold(opacity(entry, base(entry), "baseColor", hasColors)): o =>
       opacity(entry, o, "diffuse", hasColors)
     // What is behind a volume's boundary matters
     val culls = !entry.flag("doubleSided") && volume.isEmpty
@@ -89,12 +89,12 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
   private def reflection(entry: Json, hasColors: Boolean): Vector[Param] =
     val pbr = base(entry)
     val factor = pbr("baseColorFactor").fold(Vector(1.0, 1.0, 1.0, 1.0))(_.numbers(4))
-    val both = pbr("metallicRoughnessTexture")
+    val metallicRoughness = pbr("metallicRoughnessTexture")
     val specular = entry.extension("KHR_materials_specular")
     Vector(
       textures.color("color", Materials.rgb(factor), pbr("baseColorTexture"), pbr.at, hasColors),
-      textures.number("metallic", pbr.number("metallicFactor", 1), both, "b", pbr.at),
-      textures.number("roughness", pbr.number("roughnessFactor", 1), both, "g", pbr.at)
+      textures.number("metallic", pbr.number("metallicFactor", 1), metallicRoughness, "b", pbr.at),
+      textures.number("roughness", pbr.number("roughnessFactor", 1), metallicRoughness, "g", pbr.at)
     ) ++
       entry.extension("KHR_materials_ior")
         .map(e => Param.float("eta", e.at, e.number("ior", 1.5).toFloat)) ++
@@ -115,14 +115,14 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
   private def glossiness(e: Json, hasColors: Boolean): Vector[Param] =
     val factor = e("diffuseFactor").fold(Vector(1.0, 1.0, 1.0, 1.0))(_.numbers(4))
     val specular = e("specularFactor").fold(Rgb.White)(c => Materials.rgb(c.numbers(3)))
-    val both = e("specularGlossinessTexture")
+    val specularGlossinessTexture = e("specularGlossinessTexture")
     Vector(
       textures.color("color", Materials.rgb(factor), e("diffuseTexture"), e.at, hasColors),
-      textures.color("specularcolor", specular, both, e.at),
+      textures.color("specularcolor", specular, specularGlossinessTexture, e.at),
       textures.number(
         "roughness",
         e.number("glossinessFactor", 1),
-        both,
+        specularGlossinessTexture,
         "a",
         e.at,
         isInverted = true
@@ -196,7 +196,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         val cutoff = entry.number("alphaCutoff", 0.5).toFloat
         Vector(alpha, Param.float("alphacutoff", entry.at, cutoff))
       case other =>
-        entry.need("alphaMode").fail(s"expected OPAQUE, MASK or BLEND, found `$other`")
+        entry.required("alphaMode").fail(s"expected OPAQUE, MASK or BLEND, found `$other`")
 
   private def emission(entry: Json): Option[Declaration] =
     val factor = entry("emissiveFactor").fold(Rgb.Black)(c => Materials.rgb(c.numbers(3)))

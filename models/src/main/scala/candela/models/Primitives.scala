@@ -25,7 +25,7 @@ private[models] final class Primitives(file: GltfFile, session: Session):
   def hasColors(primitive: Json): Boolean = attribute(primitive, "COLOR_0").isDefined
 
   private def attribute(primitive: Json, name: String): Option[Json] =
-    primitive.need("attributes")(name)
+    primitive.required("attributes")(name)
 
   /** The shape of a primitive; None if it has no surface.
     *
@@ -38,10 +38,10 @@ private[models] final class Primitives(file: GltfFile, session: Session):
       extra: Vector[Param]
   ): Option[Declaration] =
     for e <- primitive("extensions"); name <- e.names do
-      val what = s"`$name` of a primitive is not supported"
+      val message = s"`$name` of a primitive is not supported"
       if name == "KHR_draco_mesh_compression" then
-        Session.fail(e.at, what, candela.diagnostics.Code.Unsupported)
-      else session.warn(e.at, s"$what; ignored")
+        Session.fail(e.at, message, candela.diagnostics.Code.Unsupported)
+      else session.warn(e.at, s"$message; ignored")
     val position = attribute(primitive, "POSITION")
     val mode = primitive.size("mode", Primitives.Triangles)
     if position.isEmpty then
@@ -88,8 +88,8 @@ private[models] final class Primitives(file: GltfFile, session: Session):
 
   private def colors(primitive: Json, count: Int): Option[Array[Float]] =
     attribute(primitive, "COLOR_0").map: index =>
-      val each = accessors.components(index)
-      if each == 4 then counted(index, count, 4)
+      val componentCount = accessors.components(index)
+      if componentCount == 4 then counted(index, count, 4)
       else
         val rgb = counted(index, count, 3)
         Array.tabulate(4 * count)(i => if i % 4 == 3 then 1f else rgb(i / 4 * 3 + i % 4))
@@ -135,7 +135,7 @@ private[models] final class Primitives(file: GltfFile, session: Session):
           out(3 * i + 1) = order(i + 2)
           out(3 * i + 2) = order(0)
         out
-      case other => primitive.need("mode").fail(s"expected a mode from 0 to 6, found $other")
+      case other => primitive.required("mode").fail(s"expected a mode from 0 to 6, found $other")
 
   private def morphed(primitive: Json, count: Int, weights: Vector[Double]): Vertices =
     val normals = vertexFloats(primitive, "NORMAL", count, 3)
@@ -170,7 +170,7 @@ private[models] final class Primitives(file: GltfFile, session: Session):
     if skin.isEmpty || sets.isEmpty then v
     else
       val bones = skin.get.joints
-      val index = primitive.need("attributes")
+      val index = primitive.required("attributes")
       for (indices, _) <- sets; j <- indices.find(j => j < 0 || j >= bones.size) do
         index.fail(s"expected joints of a skin of ${bones.size}, found $j")
       val (p, n, t) = (v.positions.clone, v.normals.clone, v.tangents.clone)

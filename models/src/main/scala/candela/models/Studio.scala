@@ -13,7 +13,7 @@ import candela.scenefile.{
 private[models] object Studio:
 
   /** The scene with a camera if it has none, and in a studio if nothing lights it. */
-  def around(scene: SceneDescription, session: Session): SceneDescription =
+  def complete(scene: SceneDescription, session: Session): SceneDescription =
     val bounds = ModelBounds.of(scene)
     if bounds.isEmpty then
       session.error(session.at(""), "the model has no surface", candela.diagnostics.Code.NoSurface)
@@ -49,9 +49,9 @@ private final class Studio(bounds: Bounds3, scene: SceneDescription, session: Se
     else Math.atan2(d.x.toDouble, d.z.toDouble)
 
   private def isInside: Boolean =
-    def within(lo: Float, x: Float, hi: Float) = lo < x && x < hi
-    within(bounds.min.x, eye.x, bounds.max.x) && within(bounds.min.y, eye.y, bounds.max.y) &&
-    within(bounds.min.z, eye.z, bounds.max.z)
+    def isBetween(lo: Float, x: Float, hi: Float) = lo < x && x < hi
+    isBetween(bounds.min.x, eye.x, bounds.max.x) && isBetween(bounds.min.y, eye.y, bounds.max.y) &&
+    isBetween(bounds.min.z, eye.z, bounds.max.z)
 
   def lit: SceneDescription =
     if isInside then scene.copy(lights = scene.lights :+ everywhere(1f))
@@ -108,8 +108,8 @@ private final class Studio(bounds: Bounds3, scene: SceneDescription, session: Se
 
   private def backdrop: ShapeDescription =
     import Backdrop.*
-    val back = -direction(0, 0)
-    val side = (Vec3.Y cross back) * (Width * radius)
+    val towardsCamera = -direction(0, 0)
+    val side = (Vec3.Y cross towardsCamera) * (Width * radius)
     val foot = Vec3(center.x, bounds.min.y, center.z)
     // Along the floor, up a quarter of a circle, and up the wall: distance, height, slope
     val arc = (0 to Steps).map: k =>
@@ -117,10 +117,11 @@ private final class Studio(bounds: Bounds3, scene: SceneDescription, session: Se
       (Depth + Bend * Math.sin(a), Bend * (1 - Math.cos(a)), a)
     val profile = ((-Width.toDouble, 0.0, 0.0) +: arc) :+ (Depth + Bend, Height, Math.PI / 2)
     val points = profile.toVector.flatMap: (distance, height, _) =>
-      val p = foot + back * (distance * radius).toFloat + Vec3.Y * (height * radius).toFloat
+      val p =
+        foot + towardsCamera * (distance * radius).toFloat + Vec3.Y * (height * radius).toFloat
       Vector(p - side, p + side)
     val normals = profile.toVector.flatMap: (_, _, a) =>
-      val n = Vec3.Y * Math.cos(a).toFloat - back * Math.sin(a).toFloat
+      val n = Vec3.Y * Math.cos(a).toFloat - towardsCamera * Math.sin(a).toFloat
       Vector(n, n)
     val indices = (0 until profile.size - 1).toVector.flatMap: k =>
       val i = 2 * k
@@ -172,26 +173,26 @@ private[models] object Framing:
 
   def of(bounds: Bounds3, scene: SceneDescription, session: Session): SceneDescription =
     val (c, s) = (Math.cos(Elevation), Math.sin(Elevation))
-    val back = Vec3(
+    val towardsViewer = Vec3(
       (Math.sin(Azimuth) * c).toFloat,
       s.toFloat,
       (Math.cos(Azimuth) * c).toFloat
     )
-    val x = (Vec3.Y cross back).normalized
-    val y = back cross x
+    val x = (Vec3.Y cross towardsViewer).normalized
+    val y = towardsViewer cross x
     val center = (bounds.min + bounds.max) * 0.5f
     val halfHeight = HalfWidth / View.Aspect
     val distance = (0 to 7).map: k =>
       val p = bounds.corner(k) - center
       val wide = Math.abs(p dot x) / HalfWidth
       val high = Math.abs(p dot y) / halfHeight
-      (p dot back) + Math.max(wide, high) / Share
+      (p dot towardsViewer) + Math.max(wide, high) / Share
     .max
-    val eye = center + back * Math.max(distance, 1e-6).toFloat
+    val eye = center + towardsViewer * Math.max(distance, 1e-6).toFloat
     val rows = Vector(
-      x.x, y.x, back.x, eye.x,
-      x.y, y.y, back.y, eye.y,
-      x.z, y.z, back.z, eye.z,
+      x.x, y.x, towardsViewer.x, eye.x,
+      x.y, y.y, towardsViewer.y, eye.y,
+      x.z, y.z, towardsViewer.z, eye.z,
       0f, 0f, 0f, 1f
     ).map(_.toDouble)
     val at = session.at("")
@@ -201,7 +202,7 @@ private[models] object Framing:
       Param.float("farclip", at, View.FarAway)
     )
     val toWorld = Transform.fromRows(rows).getOrElse(Transform.Identity)
-    View.seen(scene, session, toWorld, View.Aspect, "perspective", params, at)
+    View.addCamera(scene, session, toWorld, View.Aspect, "perspective", params, at)
 
 /** The box around a model. */
 private object ModelBounds:

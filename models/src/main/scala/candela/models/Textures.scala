@@ -30,8 +30,8 @@ private[models] final class Textures(file: GltfFile, session: Session):
 
   /** Names of the files of images that textures use. */
   private val files: Map[Int, String] =
-    val used = entries.flatMap(source).map(_.size).distinct.filter(images.indices.contains)
-    used.flatMap(i => session.attempt(file.imageName(images(i))).flatten.map(i -> _)).toMap
+    val imageIndices = entries.flatMap(source).map(_.size).distinct.filter(images.indices.contains)
+    imageIndices.flatMap(i => session.attempt(file.imageName(images(i))).flatten.map(i -> _)).toMap
 
   session.folder = session.folder.withParts(file.parts)
 
@@ -42,7 +42,7 @@ private[models] final class Textures(file: GltfFile, session: Session):
 
   /** What a `textureInfo` refers to. */
   def picture(info: Json): Option[Picture] =
-    val texture = info.need("index").element(entries, "textures")
+    val texture = info.required("index").element(entries, "textures")
     for e <- texture("extensions").toVector.flatMap(_.names) do
       session.warn(texture.at, s"images of `$e` are not supported; using `source`")
     if source(texture).isEmpty then session.warn(texture.at, "the texture has no image; ignored")
@@ -102,8 +102,8 @@ private[models] final class Textures(file: GltfFile, session: Session):
     if factors.isEmpty then Textures.rgb(name, factor, at)
     else
       val product = factors.reduce((a, b) => scaled(at, Param.texture("tex2", at, b), a))
-      val whole = tint.fold(product)(c => scaled(at, Textures.rgb("tex2", c, at), product))
-      Param.texture(name, at, whole)
+      val tinted = tint.fold(product)(c => scaled(at, Textures.rgb("tex2", c, at), product))
+      Param.texture(name, at, tinted)
 
   /** A number times a channel of an image and the alpha of the vertices, if there are such. */
   def number(

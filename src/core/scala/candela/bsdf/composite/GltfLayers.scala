@@ -35,8 +35,8 @@ private final class OfCoat(inner: Bsdf, coat: Float) extends Dimmed(inner):
   */
 private final class UnderFibres(inner: Bsdf, sheen: Float, roughness: Float) extends Dimmed(inner):
   protected def passed(wo: Vec3, wi: Vec3): Float =
-    val most = Math.max(SheenAlbedo(wo.z, roughness), SheenAlbedo(wi.z, roughness))
-    Math.max(0f, 1f - sheen * most)
+    val maxAlbedo = Math.max(SheenAlbedo(wo.z, roughness), SheenAlbedo(wi.z, roughness))
+    Math.max(0f, 1f - sheen * maxAlbedo)
   override def regularized: Bsdf = UnderFibres(inner.regularized, sheen, roughness)
 
 /** Fibres that stand on a surface.

@@ -1,7 +1,7 @@
 package candela.bsdf.composite
 
 import candela.bsdf.{
-  Bsdf, CosineSampled, FullReflectance, Lobes, Material, ReflectanceCurve, SentThrough
+  Bsdf, CosineSampled, Fresnel, FullReflectance, Lobes, Material, ReflectanceCurve, SentThrough
 }
 import candela.bsdf.microfacet.{MicrofacetReflection, RoughDielectric, TrowbridgeReitz}
 import candela.color.Rgb
@@ -85,9 +85,9 @@ final class GltfMaterial(p: GltfParameters) extends Material, Textured(p):
       lobes.add(SentThrough(MicrofacetReflection(facets, curve.passed, passed)), passed.max)
     else
       // One lobe, so that each microfacet reflects or refracts as often as its Fresnel term says
-      val inside = GltfInterface(curve, bending, clear)
+      val interface = GltfInterface(normal, specular, curve, bending, clear, metallic)
       lobes.add(
-        RoughDielectric(facets, bending, Rgb.White, passed, Some(inside)),
+        RoughDielectric(facets, bending, Rgb.White, passed, Some(interface)),
         glossy + passed.max
       )
     coated(at, fibrous(at, lobes.result))
@@ -145,7 +145,11 @@ final class GltfReflectance(normal: Rgb, grazing: Float, color: Rgb, metallic: F
 
   def apply(cosTheta: Float): Rgb =
     val weight = Schlick.weight(Math.abs(cosTheta))
-    dielectric(weight) * (1f - metallic) + color.map(c => lerp(weight, c, 1f)) * metallic
+    dielectric(weight) * (1f - metallic) + metal(cosTheta) * metallic
+
+  def metal(cosTheta: Float): Rgb =
+    val weight = Schlick.weight(Math.abs(cosTheta))
+    color.map(c => lerp(weight, c, 1f))
 
   /** What the dielectric doesn't reflect. */
   def passed(cosTheta: Float): Float =
@@ -154,15 +158,28 @@ final class GltfReflectance(normal: Rgb, grazing: Float, color: Rgb, metallic: F
   def passed: ReflectanceCurve = new ReflectanceCurve:
     def apply(cosTheta: Float): Rgb = Rgb.gray(passed(cosTheta))
 
-/** From inside, the reflectance of the dielectric alone, with total reflection.
+/** Fresnel reflectance of the boundary of a volume: by the exact equations, scaled between the
+  * reflectances at normal and grazing incidence. From inside, that of the dielectric alone.
   *
+  * @param outer that of the surface of a thin wall
   * @param clear weight of the reflection from inside
   */
-private final class GltfInterface(outer: ReflectanceCurve, eta: Float, clear: Float)
-    extends ReflectanceCurve:
+private final class GltfInterface(
+    normal: Rgb,
+    grazing: Float,
+    outer: GltfReflectance,
+    eta: Float,
+    clear: Float,
+    metallic: Float
+) extends ReflectanceCurve:
+  private val f0 = Schlick.normal(eta)
+
   def apply(cosTheta: Float): Rgb =
-    if cosTheta >= 0f then outer(cosTheta)
-    else Rgb.gray(clear * candela.bsdf.Fresnel.dielectric(cosTheta, eta))
+    val exact = Fresnel.dielectric(cosTheta, eta)
+    if cosTheta < 0f then Rgb.gray(clear * exact)
+    else
+      val weight = clamp((exact - f0) / (1f - f0), 0f, 1f)
+      normal.map(n => lerp(weight, n, grazing)) * (1f - metallic) + outer.metal(cosTheta) * metallic
 
 /** The diffuse base under a dielectric, which lets through what its microfacets don't reflect. */
 final class GltfDiffuse(color: Rgb, curve: GltfReflectance) extends CosineSampled:

@@ -35,8 +35,8 @@ private[build] trait LayerFields extends Fields:
     if site.rules.dialect == Dialect.V4 && spreads && !coat.isSmooth && eta != 1f then
       site.warn(
         Code.UnlikePbrt,
-        "where pbrt-v4 samples lights, it overestimates rough coats, by 1 to 20 %; under small " +
-          "lights, its image is brighter here"
+        "pbrt-v4 overestimates rough coats by 1 to 20 % where it samples lights: its image is " +
+          "brighter"
       )
 
   protected final def layerParameters(): LayerParameters = LayerParameters(

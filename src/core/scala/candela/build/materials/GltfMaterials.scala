@@ -11,7 +11,7 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
   private val metallic = floatTexture("metallic", "0: dielectric, 1: metal")(1f)
   private val roughness =
     floatTexture("roughness", "roughness; the slopes' width is its square")(1f)
-  private val eta = float("eta", "index of refraction", range = Range.atLeast(0f).told)(1.5f)
+  private val eta = float("eta", "index of refraction", range = Range.atLeast(0f).deferred)(1.5f)
   private val specular = floatTexture("specular", "strength of the dielectric's reflection")(1f)
   private val specularColor = rgbTexture(
     "specularcolor",
@@ -29,7 +29,7 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
   private val rotation =
     float("anisotropyrotation", "angle of that stretch from the tangent", unit = "radians")(0f)
 
-  protected def make()(using Site): Material =
+  protected def create()(using Site): Material =
     GltfMaterial(GltfParameters(
       color(),
       metallic(),

@@ -63,7 +63,7 @@ final case class Range(
         s"within ±${DefaultText.number(Range.Largest)}"
       else s"$text$measure"
     val value = if odd.isNaN then "NaN" else DefaultText.number(odd)
-    def message(verb: String) = s"`${p.name}` $verb be $words, value $value"
+    def message(verb: String) = s"`${p.name}` $verb be $words, found $value"
     def nearest(x: Float): Float =
       if holds(x) then x
       else if outside == Outside.Limited then Math.max(least, Math.min(most, x))
@@ -74,8 +74,8 @@ final case class Range(
       Option.unless(isOne)(p.mapped(x => if holds(x) then x else 0f))
     else
       if nearest(odd) == odd then
-        val used = s"${message("should")}, which is used"
-        site.problems.warn(Code.ParameterValue, p.valuesAt, used)
+        val warning = s"${message("should")}, which is used"
+        site.problems.warn(Code.ParameterValue, p.valuesAt, warning)
       else
         val instead = if isOne then DefaultText.number(nearest(odd)) else "the nearest that is"
         site.problems.warn(Code.CorrectedValue, p.valuesAt, s"${message("must")}; using $instead")

@@ -57,10 +57,14 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
     else
       MeshArrays.checked(p, normals(), uvs, index).map:
         case mesh: ShapeGeometry.Triangles =>
-          def whole(values: Array[Float], each: Int) =
+          def perVertex(values: Array[Float], each: Int) =
             if values.length == p.length / 3 * each then values else Array.emptyFloatArray
           val extras =
-            VertexAttributes(whole(secondUv(), 2), whole(colors(), 4), whole(tangents(), 4))
+            VertexAttributes(
+              perVertex(secondUv(), 2),
+              perVertex(colors(), 4),
+              perVertex(tangents(), 4)
+            )
           if extras.isEmpty then mesh else mesh.copy(attributes = extras)
         case other => other
 

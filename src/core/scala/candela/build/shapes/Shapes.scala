@@ -96,8 +96,8 @@ abstract class ShapeRecipe(
     field.map(f => cut(f())).filter(_.constant.forall(hasHoles))
 
   private def cut(alpha: FloatTexture)(using Site): FloatTexture =
-    val least = cutoff.fold(0f)(_())
-    if least > 0f then StepFloat.of(alpha, least) else alpha
+    val minAlpha = cutoff.fold(0f)(_())
+    if minAlpha > 0f then StepFloat.of(alpha, minAlpha) else alpha
 
   private def emitter(holes: Option[FloatTexture]): EmitterHoles = holes match
     case None => EmitterHoles.Ignored

@@ -45,11 +45,11 @@ object RgbGridRecipe extends GridRecipe[RgbTexture]("colours in a box", 3):
 /** The alpha of the colours that the vertices of a mesh have. */
 object FloatVertexRecipe
     extends Recipe[FloatTexture]("vertexcolor", "alpha of the vertices' colours", onlyGltf):
-  protected def make()(using Site): FloatTexture = VertexAlpha
+  protected def create()(using Site): FloatTexture = VertexAlpha
 
 /** These colours. */
 object RgbVertexRecipe
     extends Recipe[RgbTexture]("vertexcolor", "colours of the vertices", onlyGltf):
-  protected def make()(using site: Site): RgbTexture =
+  protected def create()(using site: Site): RgbTexture =
     val basis = site.resources.basis
     if basis.isSrgb then VertexRgb else RebasedTexture(VertexRgb, basis.lookUp)

@@ -59,8 +59,8 @@ object CommandLine:
     val first = args.headOption.getOrElse("")
     val named = commandOf(first)
     def mistyped(word: String) =
-      val known = Command.values.map(_.word) ++ Vector("help", "version")
-      val nearest = Synonyms.get(word).orElse(Suggest.nearest(word, known))
+      val commandWords = Command.values.map(_.word) ++ Vector("help", "version")
+      val nearest = Synonyms.get(word).orElse(Suggest.nearest(word, commandWords))
       nearest.map(n => noCommand(s"`$word` is not a command; did you mean `$n`?"))
     if args.exists(HelpWords) then Some(helpAnswer(named))
     else if args.exists(VersionWords) || (first == "version" && args.size == 1) then

@@ -6,6 +6,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.aov.Layer
 import candela.build.SceneBuilder
+import candela.diagnostics.Code
 import candela.image.Image
 import candela.render.{RenderPlan, Renderer}
 import candela.scenefile.{Dialect, Parser}
@@ -176,6 +177,7 @@ final class LightLayersSuite extends AnyFunSuite:
     def problems(text: String, grouping: LightGrouping, layer: Layer = Layer.Lights) =
       val options = RenderSettings(layers = Vector(layer), lightGroups = Some(grouping))
       SceneTexts.problems(text, Dialect.V4, options = options)
+        .filter(_.code != Code.UnlikePbrt)
         .map(p => p.message + p.help.fold("")(h => s" ($h)"))
     val wrong = LightGrouping.Named(Vector("key" -> Vector("point_11")))
     assert(problems(box(path), wrong) ==

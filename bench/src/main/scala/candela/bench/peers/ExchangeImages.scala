@@ -43,9 +43,9 @@ private[peers] object ExchangeImages:
       files: SideFiles,
       values: ExchangeValues
   )(change: Image => Image): String =
-    val found =
+    val imageFile =
       name.flatMap(p => p.strings.headOption.flatMap(d.folder.locate(_, Some(p.valuesAt))))
-    found match
+    imageFile match
       case None =>
         values.reject(s"image of ${values.statement(d)}")
         ""

@@ -21,7 +21,8 @@ private[peers] final class ExchangeMaterials(
 ):
   private val named = scene.namedMaterials.toMap
   private val textures = scene.textures.map(t => t.name -> t.texture).toMap
-  private val converted = mutable.LinkedHashMap.empty[Option[Declaration], (ExchangeMaterial, String)]
+  private val converted =
+    mutable.LinkedHashMap.empty[Option[Declaration], (ExchangeMaterial, String)]
 
   def of(ref: MaterialRef): ExchangeMaterial =
     val declared = ref.declared(named)
@@ -77,7 +78,8 @@ private[peers] final class ExchangeMaterials(
 
   private def rough(d: Declaration, kind: String, id: String)(inner: String): String =
     val isotropic = values.number(d, "roughness", 0f)
-    val (u, v) = (values.number(d, "uroughness", isotropic), values.number(d, "vroughness", isotropic))
+    val (u, v) =
+      (values.number(d, "uroughness", isotropic), values.number(d, "vroughness", isotropic))
     if u != v then values.reject("anisotropic roughness")
     val isRaw = d.param("remaproughness").exists(_.bools.contains(false))
     val alpha = if isRaw then u else sqrt(u)
@@ -107,8 +109,10 @@ private[peers] final class ExchangeMaterials(
       ""
 
   private def image(d: Declaration): String =
-    values.rejectOthers(d, "filename", "encoding", "filter", "maxanisotropy", "wrap", "scale", "invert",
-      "mapping", "uscale", "vscale", "udelta", "vdelta")
+    values.rejectOthers(
+      d, "filename", "encoding", "filter", "maxanisotropy", "wrap", "scale", "invert",
+      "mapping", "uscale", "vscale", "udelta", "vdelta"
+    )
     def word(name: String, default: String) =
       d.param(name).flatMap(_.strings.headOption).getOrElse(default)
     if word("mapping", "uv") != "uv" then values.reject("textures that are not by u and v")

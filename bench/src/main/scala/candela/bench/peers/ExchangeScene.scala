@@ -68,7 +68,8 @@ final class ExchangeScene(scene: SceneDescription, files: SideFiles):
 
   private def areaLight(d: Declaration): String =
     values.rejectOthers(d, "L", "scale", "twosided")
-    if d.param("twosided").exists(_.bools.contains(true)) then values.reject("two-sided area lights")
+    if d.param("twosided").exists(_.bools.contains(true)) then
+      values.reject("two-sided area lights")
     s"""<emitter type="area">${values.rgbElement("radiance", values.light(d, "L"))}</emitter>"""
 
   private def lights: Vector[String] = scene.lights.map: l =>

@@ -94,7 +94,9 @@ final class PeerPrograms(environment: Map[String, String], folder: Path):
     Some(installed.mitsuba.map(mitsubaOf(_, "scalar_rgb", "mitsuba", 5)))
 
   private def mitsubaLlvm: Peer =
-    installed.mitsubaLlvm.map(present => Right(mitsubaOf(present, "llvm_ad_rgb", "mitsuba-llvm", 6)))
+    installed.mitsubaLlvm.map(present =>
+      Right(mitsubaOf(present, "llvm_ad_rgb", "mitsuba-llvm", 6))
+    )
 
   private def mitsubaOf(present: Present, variant: String, name: String, color: Int): Program =
     val command = present.words ++ Vector("-m", variant, "-t", "{threads}", "-D", "spp={spp}", "-D",

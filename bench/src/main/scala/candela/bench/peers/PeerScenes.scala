@@ -78,7 +78,8 @@ object PeerScenes:
     val exchangeFolder = folder.resolve(Exchange)
     Files.createDirectories(exchangeFolder): Unit
     val files = SideFiles(exchangeFolder)
-    val moved = candela.convert.Declarations.map(scene)(candela.convert.FileNames(exchangeFolder).moved)
+    val moved =
+      candela.convert.Declarations.map(scene)(candela.convert.FileNames(exchangeFolder).moved)
     try
       files.completing:
         ExchangeScene.write(moved, depth(scene), files) match

@@ -46,7 +46,9 @@ object PeerSuite:
           val peerFiles = PeerScenes.of(file, folder)
           val reference = scene.reference.filter(_ => peerFiles.isSame)
           val failures = programs.flatMap: p =>
-            p.kinds.headOption.filterNot(peerFiles.files.contains).flatMap(peerFiles.failures.get).map: why =>
+            p.kinds.headOption.filterNot(
+              peerFiles.files.contains
+            ).flatMap(peerFiles.failures.get).map: why =>
               s"${p.title} on ${scene.title}" -> why
           val dropped = Option.when(scene.reference.isDefined && reference.isEmpty):
             s"reference of ${scene.title}" -> "it has another filter or integrator"

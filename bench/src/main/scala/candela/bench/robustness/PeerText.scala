@@ -56,7 +56,9 @@ object PeerXml:
   def of(s: PeerScene): (String, Map[String, String]) =
     val meshes = s.things.zipWithIndex.collect:
       case ((mesh: Form.Facets, _), k) => s"mesh-$k.obj" -> obj(mesh)
-    val things = s.things.zipWithIndex.map { case ((form, surface), k) => shapeXml(form, surface, k) }
+    val things = s.things.zipWithIndex.map { case ((form, surface), k) =>
+      shapeXml(form, surface, k)
+    }
     val sky = Option.when(s.sky > 0):
       s"""<emitter type="constant"><rgb name="radiance" value="${s.sky}"/></emitter>"""
     val sun = s.sun.map: from =>

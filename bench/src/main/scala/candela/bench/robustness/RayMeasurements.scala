@@ -54,7 +54,8 @@ object Distances extends Measurement(
         "must be right to a millionth of itself."
     ):
   def rows(by: Equipment): Iterator[RobustRow] =
-    val kernelCells = by.kernels.map(k => k.key -> by.counted(by.rays)(HitDistances.tally(k.create, _)))
+    val kernelCells =
+      by.kernels.map(k => k.key -> by.counted(by.rays)(HitDistances.tally(k.create, _)))
     val embree = by.embree.map: e =>
       val aim = HitDistances.Aim(Trials(by.rays, 0))
       e.tally("squares", HitDistances.soup, by.rays)(aim.next)

@@ -31,7 +31,8 @@ final class RobustnessRun(
   private val commands = Commands(Vector.empty, scratch, () => cancellation.isRequested)
   private val kernels = Kernel.all
   private val installed = Installed(sys.env ++ python.map(Installed.Python -> _))
-  private val (otherPainters, absentPainters) = OtherPainter.detect(scratch, commands, threads, installed)
+  private val (otherPainters, absentPainters) =
+    OtherPainter.detect(scratch, commands, threads, installed)
   private val painters = OwnPainter(threads, cancellation) +: otherPainters
   private val noEmbree = installed.library("Embree", "embreex", "numpy")
   private val embree =

@@ -44,7 +44,8 @@ object ErrorInterval:
       val imageSpread = Spread.of(Vector(parts.map(_.sum)), seeds)
       val partSpread = Spread.of(parts.head.indices.map(i => parts.map(_(i))), seeds)
       val spread =
-        if imageSpread.variance > partSpread.variance * chance(seeds - 1) then imageSpread else partSpread
+        if imageSpread.variance > partSpread.variance * chance(seeds - 1) then imageSpread
+        else partSpread
       limits(mean, partSpread, spread, seeds)
 
   private def limits(mean: Double, partSpread: Spread, spread: Spread, seeds: Int): ErrorInterval =

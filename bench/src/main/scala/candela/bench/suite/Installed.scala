@@ -54,7 +54,8 @@ final class Installed(environment: Map[String, String]):
     Option.unless(packages.forall(hasPackage)):
       val names = packages.mkString(" ")
       val install = s"`pip install $names`, for the Python that $Python names or `python3`"
-      val missing = if installedPackages.isEmpty then s"`$python` is not installed; after that, " else ""
+      val missing =
+        if installedPackages.isEmpty then s"`$python` is not installed; after that, " else ""
       Absent(title, missing + install)
 
   private def hasPackage(name: String): Boolean = installedPackages.contains(s"'$name'")

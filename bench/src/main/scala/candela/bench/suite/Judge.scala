@@ -79,7 +79,8 @@ private[suite] final class SeedJudge(suite: Suite, scratch: Path) extends Judge:
       val file = scratch.resolve(s"${job.entry.scene.name}-$files.exr")
       files += 1
       ImageFiles.write(file, image)
-      storedImages = storedImages.filterNot(_.job.isInPlaceOf(job)) :+ Kept(job, seconds, memory, file)
+      storedImages =
+        storedImages.filterNot(_.job.isInPlaceOf(job)) :+ Kept(job, seconds, memory, file)
       pooled = None
     "error known after all seeds"
 

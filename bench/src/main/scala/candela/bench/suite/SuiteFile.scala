@@ -37,7 +37,9 @@ object SuiteFile:
       case e: SceneError =>
         val absolutePath = path.toAbsolutePath.toString
         throw SceneError(e.problems.map: p =>
-          p.copy(pos = p.pos.map(at => if at.file == absolutePath then at.copy(file = s"$path") else at)))
+          p.copy(pos =
+            p.pos.map(at => if at.file == absolutePath then at.copy(file = s"$path") else at)
+          ))
 
   private val suiteKeys = Set("title", "samples", "seconds", "seeds", "timeout") ++
     Set("programs", "scenes")
@@ -113,7 +115,10 @@ object SuiteFile:
   /** Rejects unknown placeholders, because programs would get them as they are. */
   private def filled(c: Config, key: String, where: String, placeholders: Vector[String]): Unit =
     if c.hasPath(key) then
-      for placeholder <- Placeholder.findAllIn(c.getString(key)) if !placeholders.contains(placeholder) do
+      for
+        placeholder <- Placeholder.findAllIn(c.getString(key))
+        if !placeholders.contains(placeholder)
+      do
         val message = s"unknown placeholder `$placeholder` in $where"
         throw unknown(message, placeholder, placeholders, c.getValue(key).origin)
 
@@ -141,7 +146,8 @@ object SuiteFile:
         index = Some(lines.indexWhere(_.contains(name), first)).filter(_ >= 0).getOrElse(first)
         text <- lines.lift(index)
       yield (SourcePos(file, index + 1, math.max(text.indexOf(name), 0) + 1), text)
-    val problem = Problem.error(Code.SuiteFile, text.map(_._1), message, Suggest.help(name, candidates))
+    val problem =
+      Problem.error(Code.SuiteFile, text.map(_._1), message, Suggest.help(name, candidates))
     SceneError(problem.copy(excerpt = text.map(_._2)))
 
   private def scene(name: String, c: Config, folder: Path): SuiteScene =
@@ -173,7 +179,8 @@ object SuiteFile:
       if counts.isEmpty || counts.head < 1 then throw wrong("`samples` must be at least 1")
       Some(Work.Samples(counts))
     else if c.hasPath("seconds") then
-      val budgets = unique("seconds", c.getDoubleList("seconds").asScala.toVector.map(_.doubleValue))
+      val budgets =
+        unique("seconds", c.getDoubleList("seconds").asScala.toVector.map(_.doubleValue))
       if budgets.isEmpty || budgets.head <= 0 then throw wrong("`seconds` must be greater than 0")
       Some(Work.Seconds(budgets))
     else None
