@@ -222,6 +222,15 @@ class InMemory(unittest.TestCase):
             scene.render(spp=4, progress=lambda p: scene.render(spp=1))
         scene.render(spp=1)
 
+    def test_problems_of_a_model_have_its_pointer(self):
+        with tempfile.TemporaryDirectory() as folder:
+            model = Path(folder, "model.gltf")
+            model.write_text('{"asset": {"version": "1.0"}}')
+            (problem,) = candela.check(str(model))
+        self.assertEqual(problem.severity, "error")
+        self.assertEqual(problem.file, str(model))
+        self.assertEqual((problem.key, problem.line), ("/asset/version", None))
+
     def test_messages_have_keywords(self):
         with self.assertRaises(candela.UsageError) as caught:
             candela.load_dict(mitsuba()).render(spp=-1)

@@ -13,7 +13,8 @@ class Problem:
 
     ``text`` is the whole of it, with the line of the scene and the advice below it; ``number``
     is that which ``candela explain`` explains, such as ``E0401``. In a scene of a dict, ``key``
-    names its place, such as ``ball.bsdf``; in others, ``file``, ``line`` and ``column`` do.
+    names its place, such as ``ball.bsdf``; in a model, ``file`` and ``key``, a JSON pointer such as
+    ``/materials/0``; in others, ``file``, ``line`` and ``column``.
     """
 
     severity: str
@@ -63,7 +64,7 @@ class CandelaWarning(UserWarning):
 
 
 _FIRST = re.compile(
-    r"^(?:(?P<file>.+?):(?P<line>\d+):(?P<column>\d+): )?"
+    r"^(?:(?P<file>.+?)(?::(?P<line>\d+):(?P<column>\d+)|#(?P<pointer>(?:/\S*?)?)): )?"
     r"(?P<severity>error|warning): (?P<message>.*?)(?: \[(?P<number>E\d{4})\])?$"
 )
 
@@ -98,9 +99,9 @@ def _problem(lines: List[str], keys: Optional[List[str]]) -> Problem:
     first = _FIRST.match(lines[0])
     assert first is not None
     place = first["file"]
-    line = int(first["line"]) if place else None
-    column = int(first["column"]) if place else None
-    key = None
+    line = int(first["line"]) if first["line"] else None
+    column = int(first["column"]) if first["column"] else None
+    key = first["pointer"]
     if keys is not None and line is not None:
         # The user has seen no text
         key = keys[line - 1] if line <= len(keys) else ""
