@@ -9,7 +9,7 @@ import candela.image.{ImageEdits, ImageFiles, WriteOptions}
 final class AverageCommand(options: Options, terminal: Terminal, report: Report):
 
   def run(): ExitCode = report.guarded:
-    val outputs = OutputFiles.requested(options.outfiles)
+    val outputs = OutputFiles.ofImages(options.outfiles)
     outputs.check(options.files, "mean")
     val images = options.files.iterator.map: name =>
       name -> ImageFiles.read(OutputFiles.path(name)).linear

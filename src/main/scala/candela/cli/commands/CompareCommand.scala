@@ -28,7 +28,7 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     if compareOptions.bias then a.checkApart(b)
     register.read(files)
     for (kind, name, option) <- pictures do
-      val file = OutputFiles.requested(Vector(name))
+      val file = OutputFiles.ofImages(Vector(name))
       file.check()
       register.write(Output(file.paths, kind, options.files.head, option))
     val code =

@@ -15,7 +15,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
   private val imageOptions = options.image
 
   def run(): ExitCode = report.guarded:
-    val outputs = OutputFiles.requested(options.outfiles)
+    val outputs = OutputFiles.ofImages(options.outfiles)
     outputs.check(options.files, "image")
     val path = OutputFiles.path(options.files.head)
     val source = ImageFiles.read(path).linear

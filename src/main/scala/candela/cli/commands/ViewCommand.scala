@@ -15,7 +15,7 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
   private val display = options.display
 
   def run(): ExitCode = report.guarded:
-    val outputs = OutputFiles.requested(options.outfiles)
+    val outputs = OutputFiles.ofImages(options.outfiles)
     outputs.check(options.files, "picture")
     for path <- outputs.paths if !OutputFormat.of(path).exists(_.contents == Contents.Display) do
       val pictures = OutputFormat.listed(Contents.Display)

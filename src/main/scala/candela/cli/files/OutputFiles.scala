@@ -96,8 +96,11 @@ object OutputFiles:
 
   /** Exactly the requested images. */
   def requested(names: Vector[String]): OutputFiles =
-    val paths = names.filterNot(FilmOptions.isFilm).map(path)
-    OutputFiles(paths.distinctBy(_.toAbsolutePath.normalize), Vector.empty)
+    ofImages(names.filterNot(FilmOptions.isFilm))
+
+  /** For commands that write no films. */
+  def ofImages(names: Vector[String]): OutputFiles =
+    OutputFiles(names.map(path).distinctBy(_.toAbsolutePath.normalize), Vector.empty)
 
   /** The file named by the scene's Film, or else after the scene: all scenes without a name would
     * write pbrt's `pbrt.exr`.

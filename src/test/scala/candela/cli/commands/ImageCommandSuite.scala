@@ -125,6 +125,14 @@ class ImageCommandSuite extends AnyFunSuite:
     assert(refusal(sky, "--scale", "0").contains("--scale must be above 0"))
     assert(refusal("nowhere.exr").contains("nowhere.exr: there is no such file"))
 
+  test("an image is not written as a film"):
+    TempFolder.use: folder =>
+      val film = folder.resolve("out.film").toString
+      for words <- Vector(Vector("image", sky), Vector("average", sky, sky), Vector("view", sky)) do
+        val (code, captured) = run(words ++ Vector("--outfile", film)*)
+        assert(code == 1 && captured.err.contains("[E0106]"), captured.err)
+        assert(!Files.exists(Path.of(film)))
+
   test("average is the mean of images"):
     TempFolder.use: folder =>
       val files = Vector(1f, 2f, 6f).map: v =>
