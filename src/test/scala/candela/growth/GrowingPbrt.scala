@@ -209,7 +209,7 @@ object GrowingPbrt:
         s"Translate ${spot(i, n)}",
         Sphere
       ),
-    row("mixtures of mixtures", head = named(0, 1)): (i, _) =>
+    row("mixtures of mixtures", head = named(0, 1), size = 125): (i, _) =>
       s"MakeNamedMaterial \"m${i + 1}\" \"string type\" \"mix\" " +
         s"\"string materials\" [\"m$i\" \"m0\"]",
     row("textures of textures", head = "Texture \"t0\" \"spectrum\" \"checkerboard\""): (i, n) =>

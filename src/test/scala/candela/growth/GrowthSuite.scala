@@ -5,6 +5,7 @@ import candela.testing.TempFolder
 import java.lang.management.ManagementFactory
 import java.util.function.BiFunction
 
+import org.scalatest.Outcome
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tags.Slow
 
@@ -18,6 +19,14 @@ final class GrowthSuite extends AnyFunSuite:
   private val threads = ManagementFactory.getThreadMXBean match
     case bean: com.sun.management.ThreadMXBean => bean
     case _ => cancel("this JVM does not count the bytes of threads")
+
+  /** Services, such as the formats of other modules, are classes of the same loader. */
+  override protected def withFixture(test: NoArgTest): Outcome =
+    val thread = Thread.currentThread
+    val previous = thread.getContextClassLoader
+    thread.setContextClassLoader(loader)
+    try super.withFixture(test)
+    finally thread.setContextClassLoader(previous)
 
   private def entry(name: String): BiFunction[Array[String], Integer, Runnable] =
     loader.loadClass(name).getDeclaredConstructor().newInstance()
