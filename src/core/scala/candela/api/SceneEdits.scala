@@ -16,22 +16,25 @@ private[api] object SceneEdits:
 
   /** @throws SceneError if there is none */
   def setting(setting: SceneSetting, params: Vector[Param]): Edit = scene =>
-    def changed(old: Option[Declaration]): Option[Declaration] =
-      if old.isEmpty then
-        val settingName = setting.toString.toLowerCase
-        fail(
-          Code.Undefined,
-          params,
-          s"the scene has no $settingName to change",
-          Some(s"call $settingName(…) to give it one")
-        )
-      old.map(withParams(_, params))
+    val previous = current(setting, scene).getOrElse:
+      val word = setting.toString.toLowerCase
+      val help = s"call $word(…) to give it one"
+      fail(Code.Undefined, params, s"the scene has no $word to change", Some(help))
+    val changed = Some(withParams(previous, params))
     setting match
-      case SceneSetting.Camera => scene.copy(camera = changed(scene.camera))
-      case SceneSetting.Film => scene.copy(film = changed(scene.film))
-      case SceneSetting.Sampler => scene.copy(sampler = changed(scene.sampler))
-      case SceneSetting.Filter => scene.copy(filter = changed(scene.filter))
-      case SceneSetting.Integrator => scene.copy(integrator = changed(scene.integrator))
+      case SceneSetting.Camera => scene.copy(camera = changed)
+      case SceneSetting.Film => scene.copy(film = changed)
+      case SceneSetting.Sampler => scene.copy(sampler = changed)
+      case SceneSetting.Filter => scene.copy(filter = changed)
+      case SceneSetting.Integrator => scene.copy(integrator = changed)
+
+  private def current(setting: SceneSetting, scene: SceneDescription): Option[Declaration] =
+    setting match
+      case SceneSetting.Camera => scene.camera
+      case SceneSetting.Film => scene.film
+      case SceneSetting.Sampler => scene.sampler
+      case SceneSetting.Filter => scene.filter
+      case SceneSetting.Integrator => scene.integrator
 
   /** What a scene's statement no longer says once a new one replaces it. */
   def dropped(
@@ -40,14 +43,8 @@ private[api] object SceneEdits:
       at: SourcePos,
       scene: SceneDescription
   ): Option[Found] =
-    val previous = setting match
-      case SceneSetting.Camera => scene.camera
-      case SceneSetting.Film => scene.film
-      case SceneSetting.Sampler => scene.sampler
-      case SceneSetting.Filter => scene.filter
-      case SceneSetting.Integrator => scene.integrator
-    val names =
-      previous.toVector.flatMap(_.params.map(_.name)).filterNot(params.map(_.name).contains)
+    val names = current(setting, scene).toVector.flatMap(_.params.map(_.name))
+      .filterNot(params.map(_.name).contains)
     Option.when(names.nonEmpty):
       val word = setting.toString.toLowerCase
       val verb = if names.size == 1 then "has its default" else "have their defaults"

@@ -63,6 +63,16 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
     */
   def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]]
 
+  /** For formats without sensors.
+    *
+    * @throws SceneError if one is asked for
+    */
+  protected final def checkSensors(file: Path, reading: ReadSettings): Unit =
+    if reading.sensors.nonEmpty then
+      val help = "--sensor chooses among those of Mitsuba's XML files"
+      val message = s"`$file` has no sensors"
+      throw SceneError(Problem.general(Code.OptionMisfit, message, Some(help)))
+
 object SceneFormat:
   /** Those of the core, and those that other modules bring. */
   lazy val all: Vector[SceneFormat] =
@@ -134,12 +144,6 @@ object SceneFormat:
       DialectChoice.of(read, dialect)
 
     def digest(text: String): String = TokenDigest.of(text)
-
-    private def checkSensors(file: Path, reading: ReadSettings): Unit =
-      if reading.sensors.nonEmpty then
-        val help = "--sensor chooses among those of Mitsuba's XML files"
-        val message = s"`$file` has no sensors"
-        throw SceneError(Problem.general(Code.OptionMisfit, message, Some(help)))
 
     def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
       if !Files.isRegularFile(file) then None // it can be read once

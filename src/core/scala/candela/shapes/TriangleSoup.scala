@@ -122,15 +122,14 @@ final class TriangleSoup(
       val e2 = at.secondEdge
       e1.set(vertex(triangle, 1) - p0)
       e2.set(vertex(triangle, 2) - p0)
+      val stored = storedTangent(mesh, i0, i1, i2, b1, b2)
       if tangents then
-        val stored = storedTangent(mesh, i0, i1, i2, b1, b2)
         val along = if stored.isZero then dpdu(mesh, i0, i1, i2, e1, e2) else stored
         val isTurned = mesh.turned && mesh.normals.length > 0
         at.frame.set(Frame.along(n, if isTurned then -along else along))
       else at.frame.alignToNormal()
       if at.hasPartials then
         TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, relief, at)
-        val stored = storedTangent(mesh, i0, i1, i2, b1, b2)
         if !stored.isZero then
           at.tangentU = stored
           at.tangentV = (n cross stored) * mesh.extras.nn.sign(i0 - mesh.firstVertex)

@@ -2,6 +2,7 @@ package candela.convert
 
 import candela.diagnostics.{Code, Problem}
 import candela.image.{Image, ImageError, ImageFiles}
+import candela.io.FileName
 import candela.scenefile.{
   Declaration, Dialect, GraphicsState, Param, ParamType, SceneDescription, TextureDescription
 }
@@ -47,7 +48,7 @@ private[convert] object FromGltf:
       d.copy(params = d.params.map: p =>
         val part = if p.paramType == ParamType.String then p.strings.headOption else None
         part.flatMap(d.folder.part).fold(p): file =>
-          val suffix = candela.io.FileName.suffix(file.path)
+          val suffix = FileName.suffix(file.path)
           p.withStrings(Vector(relative(d, files.add("image", suffix, file.bytes())))))
 
     /** A file beside the scene, as the declaration names it. */

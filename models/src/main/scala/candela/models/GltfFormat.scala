@@ -1,6 +1,5 @@
 package candela.models
 
-import candela.diagnostics.{Code, Problem, SceneError}
 import candela.io.{ForeignKind, SceneFolder, Sha256}
 import candela.job.SceneFormat
 import candela.scenefile.SceneDescription
@@ -38,10 +37,7 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
       reading: ReadSettings,
       text: Option[String]
   ): SceneDescription =
-    if reading.sensors.nonEmpty then
-      val help = "--sensor chooses among those of Mitsuba's XML files"
-      val message = s"`$file` has no sensors"
-      throw SceneError(Problem.general(Code.OptionMisfit, message, Some(help)))
+    checkSensors(file, reading)
     GltfScene.readable(file, within, reading.keepGoing, text)
 
   def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =

@@ -1,12 +1,12 @@
 package candela.models
 
 import candela.color.Rgb
-import candela.diagnostics.{Code, Severity}
+import candela.diagnostics.{Code, Severity, SourcePos}
 import candela.io.SceneFolder
 import candela.math.Transform
 import candela.scenefile.{
   Declaration, Dialect, Excerpts, GraphicsState, InstanceDescription, InstanceList,
-  LightDescription, Param, SceneDescription, ShapeDescription
+  LightDescription, Param, ParamType, SceneDescription, ShapeDescription
 }
 
 import java.nio.file.Path
@@ -195,7 +195,7 @@ private final class Lights(file: GltfFile, session: Session):
 
   private def light(entry: Json, p: PlacedNode): LightDescription =
     val at = entry.at
-    val color = entry("color").fold(Rgb.White)(c => Materials.rgb(c.numbers(3)))
+    val color = Materials.rgb(entry, "color", Rgb.White)
     val power = color * (entry.number("intensity", 1) / Lights.LumensPerWatt).toFloat
     for range <- entry("range") do
       session.warn(range.at, "`range` is ignored: light falls off with the square of the distance")
@@ -222,8 +222,8 @@ private final class Lights(file: GltfFile, session: Session):
         entry.required("type").fail(s"expected point, directional or spot, found `$other`")
     LightDescription(d, GraphicsState.constant(Nodes.rigid(p.toWorld)))
 
-  private def point(name: String, at: candela.diagnostics.SourcePos, z: Float): Param =
-    Param.floats(candela.scenefile.ParamType.Point3, name, at, Array(0f, 0f, z))
+  private def point(name: String, at: SourcePos, z: Float): Param =
+    Param.floats(ParamType.Point3, name, at, Array(0f, 0f, z))
 
   private def declare(entry: Json, name: String, params: Vector[Param]): Declaration =
     session.declare("LightSource", name, entry.at, params)

@@ -1,5 +1,6 @@
 package candela.models
 
+import candela.base.NumberedNames
 import candela.color.Rgb
 import candela.scenefile.{
   Declaration, GraphicsState, MaterialRef, MediumDescription, Param, ParamType
@@ -26,6 +27,7 @@ private[models] final case class Surface(
 private[models] final class Materials(file: GltfFile, session: Session, textures: Textures):
   private val entries = file.root.list("materials")
   private val surfaces = mutable.HashMap.empty[(Option[Int], Boolean), Surface]
+  private val unusedNames = NumberedNames()
   private val named = mutable.LinkedHashMap.empty[String, Declaration]
   private val media = mutable.LinkedHashMap.empty[String, MediumDescription]
 
@@ -74,32 +76,33 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
     val alpha = specularGlossiness.fold(opacity(entry, base(entry), "baseColor", hasColors)): o =>
       opacity(entry, o, "diffuse", hasColors)
     // What is behind a volume's boundary matters
-    val culls = !entry.flag("doubleSided") && volume.isEmpty
-    val sides = Option.when(culls)(Param.bool("cullbackfaces", entry.at, true))
+    val sides = if volume.isEmpty then culling(entry) else None
     Surface(name(entry, d), alpha ++ sides, emission(entry), volume.fold("")(interior))
+
+  private def culling(entry: Json): Option[Param] =
+    Option.unless(entry.flag("doubleSided"))(Param.bool("cullbackfaces", entry.at, true))
 
   private def name(entry: Json, d: Declaration): MaterialRef =
     val wanted = entry.text("name").filter(_.nonEmpty)
       .getOrElse(s"material ${entry.pointer.drop("/materials/".length)}".trim)
-    val unique =
-      (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!named.contains(_)).get
+    val unique = unusedNames(wanted)
     named(unique) = d
     MaterialRef.Named(unique, entry.at)
 
   private def reflection(entry: Json, hasColors: Boolean): Vector[Param] =
     val pbr = base(entry)
-    val factor = pbr("baseColorFactor").fold(Vector(1.0, 1.0, 1.0, 1.0))(_.numbers(4))
+    val color = Materials.rgb(pbr, "baseColorFactor", Rgb.White, 4)
     val metallicRoughness = pbr("metallicRoughnessTexture")
     val specular = entry.extension("KHR_materials_specular")
     Vector(
-      textures.color("color", Materials.rgb(factor), pbr("baseColorTexture"), pbr.at, hasColors),
+      textures.color("color", color, pbr("baseColorTexture"), pbr.at, hasColors),
       textures.number("metallic", pbr.number("metallicFactor", 1), metallicRoughness, "b", pbr.at),
       textures.number("roughness", pbr.number("roughnessFactor", 1), metallicRoughness, "g", pbr.at)
     ) ++
       entry.extension("KHR_materials_ior")
         .map(e => Param.float("eta", e.at, e.number("ior", 1.5).toFloat)) ++
       specular.toVector.flatMap: s =>
-        val tint = s("specularColorFactor").fold(Rgb.White)(c => Materials.rgb(c.numbers(3)))
+        val tint = Materials.rgb(s, "specularColorFactor", Rgb.White)
         Vector(
           textures.number(
             "specular",
@@ -113,11 +116,11 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
 
   /** A dielectric whose reflectance is the specular colour. */
   private def glossiness(e: Json, hasColors: Boolean): Vector[Param] =
-    val factor = e("diffuseFactor").fold(Vector(1.0, 1.0, 1.0, 1.0))(_.numbers(4))
-    val specular = e("specularFactor").fold(Rgb.White)(c => Materials.rgb(c.numbers(3)))
+    val color = Materials.rgb(e, "diffuseFactor", Rgb.White, 4)
+    val specular = Materials.rgb(e, "specularFactor", Rgb.White)
     val specularGlossinessTexture = e("specularGlossinessTexture")
     Vector(
-      textures.color("color", Materials.rgb(factor), e("diffuseTexture"), e.at, hasColors),
+      textures.color("color", color, e("diffuseTexture"), e.at, hasColors),
       textures.color("specularcolor", specular, specularGlossinessTexture, e.at),
       textures.number(
         "roughness",
@@ -144,7 +147,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
 
   private def sheen(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_sheen").toVector.flatMap: s =>
-      val color = s("sheenColorFactor").fold(Rgb.Black)(c => Materials.rgb(c.numbers(3)))
+      val color = Materials.rgb(s, "sheenColorFactor", Rgb.Black)
       val rough = s.number("sheenRoughnessFactor", 0)
       Vector(
         textures.color("sheencolor", color, s("sheenColorTexture"), s.at),
@@ -199,7 +202,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         entry.required("alphaMode").fail(s"expected OPAQUE, MASK or BLEND, found `$other`")
 
   private def emission(entry: Json): Option[Declaration] =
-    val factor = entry("emissiveFactor").fold(Rgb.Black)(c => Materials.rgb(c.numbers(3)))
+    val factor = Materials.rgb(entry, "emissiveFactor", Rgb.Black)
     val strength = entry.extension("KHR_materials_emissive_strength")
       .fold(1.0)(_.number("emissiveStrength", 1))
     val color = factor * strength.toFloat
@@ -229,18 +232,20 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
     if hasColors then
       session.warn(entry.at, "colours of vertices of an unlit material are not supported")
     val pbr = base(entry)
-    val factor = pbr("baseColorFactor").fold(Vector(1.0, 1.0, 1.0, 1.0))(_.numbers(4))
-    val color = Materials.rgb(factor)
+    val color = Materials.rgb(pbr, "baseColorFactor", Rgb.White, 4)
     val black = Vector(Textures.rgb("reflectance", Rgb.Black, entry.at))
     val d = session.declare("Material", "diffuse", entry.at, black)
-    val culls = !entry.flag("doubleSided")
-    val sides = Option.when(culls)(Param.bool("cullbackfaces", entry.at, true))
     val emitted = Option.when(color.max > 0f)(light(entry, color, pbr("baseColorTexture")))
-    Surface(name(entry, d), opacity(entry, pbr, "baseColor", hasColors) ++ sides, emitted, "")
+    Surface(
+      name(entry, d),
+      opacity(entry, pbr, "baseColor", hasColors) ++ culling(entry),
+      emitted,
+      ""
+    )
 
   /** The medium that absorbs light inside. */
   private def interior(volume: Json): String =
-    val color = volume("attenuationColor").fold(Rgb.White)(c => Materials.rgb(c.numbers(3)))
+    val color = Materials.rgb(volume, "attenuationColor", Rgb.White)
     val distance = volume.number("attenuationDistance", Double.PositiveInfinity)
     if color == Rgb.White || distance.isInfinite then ""
     else
@@ -256,8 +261,10 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
       name
 
 private[models] object Materials:
-  def rgb(c: Vector[Double]): Rgb =
-    Rgb(c(0).toFloat, c(1).toFloat, c(2).toFloat)
+  /** The colour of a member, or a default: the first three of `count` numbers. */
+  def rgb(entry: Json, member: String, default: Rgb, count: Int = 3): Rgb =
+    entry(member).map(_.numbers(count)).fold(default): c =>
+      Rgb(c(0).toFloat, c(1).toFloat, c(2).toFloat)
 
   def default(session: Session): Json = Json(ujson.Obj(), "", session)
 

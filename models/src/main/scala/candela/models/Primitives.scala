@@ -1,6 +1,7 @@
 package candela.models
 
 import candela.base.loop
+import candela.diagnostics.Code
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{Declaration, Param, ParamType}
 
@@ -40,7 +41,7 @@ private[models] final class Primitives(file: GltfFile, session: Session):
     for e <- primitive("extensions"); name <- e.names do
       val message = s"`$name` of a primitive is not supported"
       if name == "KHR_draco_mesh_compression" then
-        Session.fail(e.at, message, candela.diagnostics.Code.Unsupported)
+        Session.fail(e.at, message, Code.Unsupported)
       else session.warn(e.at, s"$message; ignored")
     val position = attribute(primitive, "POSITION")
     val mode = primitive.size("mode", Primitives.Triangles)

@@ -2,6 +2,7 @@ package candela.models
 
 import candela.base.loop
 import candela.color.Rgb
+import candela.diagnostics.Code
 import candela.geometry.Bounds3
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{
@@ -16,7 +17,7 @@ private[models] object Studio:
   def complete(scene: SceneDescription, session: Session): SceneDescription =
     val bounds = ModelBounds.of(scene)
     if bounds.isEmpty then
-      session.error(session.at(""), "the model has no surface", candela.diagnostics.Code.NoSurface)
+      session.error(session.at(""), "the model has no surface", Code.NoSurface)
       scene
     else
       val framed = if scene.camera.isDefined then scene else Framing.of(bounds, scene, session)

@@ -85,7 +85,7 @@ final class GltfMaterial(p: GltfParameters) extends Material, Textured(p):
       lobes.add(SentThrough(MicrofacetReflection(facets, curve.passed, passed)), passed.max)
     else
       // One lobe, so that each microfacet reflects or refracts as often as its Fresnel term says
-      val interface = GltfInterface(normal, specular, curve, bending, clear, metallic)
+      val interface = GltfInterface(curve, bending, clear)
       lobes.add(
         RoughDielectric(facets, bending, Rgb.White, passed, Some(interface)),
         glossy + passed.max
@@ -141,15 +141,17 @@ object GltfMaterial:
 final class GltfReflectance(normal: Rgb, grazing: Float, color: Rgb, metallic: Float)
     extends ReflectanceCurve:
 
-  private def dielectric(weight: Float): Rgb = normal.map(n => lerp(weight, n, grazing))
+  /** By the weight of grazing incidence. */
+  private[composite] def dielectric(weight: Float): Rgb = normal.map(n => lerp(weight, n, grazing))
 
   def apply(cosTheta: Float): Rgb =
-    val weight = Schlick.weight(Math.abs(cosTheta))
-    dielectric(weight) * (1f - metallic) + metal(cosTheta) * metallic
+    blend(dielectric(Schlick.weight(Math.abs(cosTheta))), cosTheta)
 
-  def metal(cosTheta: Float): Rgb =
+  /** Of the reflectances of the dielectric and of the metal. */
+  private[composite] def blend(dielectric: Rgb, cosTheta: Float): Rgb =
     val weight = Schlick.weight(Math.abs(cosTheta))
-    color.map(c => lerp(weight, c, 1f))
+    val metal = color.map(c => lerp(weight, c, 1f))
+    dielectric * (1f - metallic) + metal * metallic
 
   /** What the dielectric doesn't reflect. */
   def passed(cosTheta: Float): Float =
@@ -164,14 +166,8 @@ final class GltfReflectance(normal: Rgb, grazing: Float, color: Rgb, metallic: F
   * @param outer that of the surface of a thin wall
   * @param clear weight of the reflection from inside
   */
-private final class GltfInterface(
-    normal: Rgb,
-    grazing: Float,
-    outer: GltfReflectance,
-    eta: Float,
-    clear: Float,
-    metallic: Float
-) extends ReflectanceCurve:
+private final class GltfInterface(outer: GltfReflectance, eta: Float, clear: Float)
+    extends ReflectanceCurve:
   private val f0 = Schlick.normal(eta)
 
   def apply(cosTheta: Float): Rgb =
@@ -179,7 +175,7 @@ private final class GltfInterface(
     if cosTheta < 0f then Rgb.gray(clear * exact)
     else
       val weight = clamp((exact - f0) / (1f - f0), 0f, 1f)
-      normal.map(n => lerp(weight, n, grazing)) * (1f - metallic) + outer.metal(cosTheta) * metallic
+      outer.blend(outer.dielectric(weight), cosTheta)
 
 /** The diffuse base under a dielectric, which lets through what its microfacets don't reflect. */
 final class GltfDiffuse(color: Rgb, curve: GltfReflectance) extends CosineSampled:
