@@ -49,12 +49,28 @@ abstract class Arguments(directive: Directive, val pos: SourcePos, val report: P
   /** One of the keywords `choices`. */
   def word(choices: String*): String
 
-  def params(): Vector[Param]
+  protected def params(): ParamsRead
+
+  private var faultsSoFar = Vector.empty[Problem]
+
+  /** What is wrong with parameters: the statement is run without them. */
+  final def faults: Vector[Problem] = faultsSoFar
 
   /** A quoted name and parameters. */
   final def named(expected: String = "a name"): Named =
     val (name, at) = quoted(expected)
-    Named(name, at, params())
+    val read = params()
+    faultsSoFar = read.faults
+    Named(name, at, read.params, isFaulty = read.faults.nonEmpty)
+
+  /** Runs the directive.
+    *
+    * @throws SceneError with all that is wrong
+    */
+  final def run(scene: SceneWriter): Unit =
+    try directive.run(this, scene)
+    catch case e: SceneError => throw SceneError(faults ++ e.problems)
+    if faults.nonEmpty then throw SceneError(faults)
 
   /** One value without a preceding `"type name"`. */
   def value(paramType: ParamType, name: String): Param
@@ -113,5 +129,16 @@ private[scenefile] final class WrittenArguments(
     in.advance()
     text
 
-  def params(): Vector[Param] = parameters.list(in)
+  protected def params(): ParamsRead = parameters.list(in)
   def value(paramType: ParamType, name: String): Param = parameters.value(paramType, name, in)
+
+/** A quoted name with its position, and the parameters after it.
+  *
+  * @param isFaulty whether some could not be read
+  */
+final case class Named(
+    name: String,
+    pos: SourcePos,
+    params: Vector[Param],
+    isFaulty: Boolean = false
+)

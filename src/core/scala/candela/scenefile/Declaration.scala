@@ -175,6 +175,7 @@ object Param:
   * @param colorSpace v4's name for the colour space of the parameters
   * @param dialect its dialect, if not that of the scene: a scene of another format is described by
   *   the nearest types of any
+  * @param isFaulty whether some parameters could not be read: only its type is checked
   */
 final case class Declaration(
     category: String,
@@ -183,7 +184,8 @@ final case class Declaration(
     pos: SourcePos,
     folder: SceneFolder,
     colorSpace: String = "srgb",
-    dialect: Option[Dialect] = None
+    dialect: Option[Dialect] = None,
+    isFaulty: Boolean = false
 ):
   def param(name: String): Option[Param] =
     // Millions of shapes are asked for each of their parameters
@@ -222,7 +224,8 @@ final case class Declaration(
 
   private def isOfType(d: Declaration): Boolean =
     name == d.name && category == d.category && colorSpace == d.colorSpace &&
-      dialect == d.dialect && (folder eq d.folder) && params.size == d.params.size
+      dialect == d.dialect && (folder eq d.folder) && params.size == d.params.size &&
+      isFaulty == d.isFaulty
 
   /** Of what tells statements apart; there may be as many materials as shapes. */
   override def hashCode: Int =

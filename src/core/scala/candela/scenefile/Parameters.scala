@@ -36,8 +36,10 @@ final class Parameters(
     * grids are often included as separate files, with the medium's other parameters after the
     * Include. A list may also begin or continue in an included file, as pbrt-v2 allows:
     * `Shape "trianglemesh" Include "vertices.pbrt"`.
+    *
+    * A parameter that can't be read is left out.
     */
-  def list(in: Tokenizer): Vector[Param] =
+  def list(in: Tokenizer): ParamsRead =
     val params = ParamList()
     withIncluded(in, params)
     var further = if in.current == Token.End then outer else Nil
@@ -57,19 +59,35 @@ final class Parameters(
 
   private def parametersHere(in: Tokenizer, params: ParamList): Unit =
     while in.current == Token.Text do
-      val position = in.pos
-      val key = keys.getOrElseUpdate(in.text, keyHere(in))
-      in.advance()
-      val param = values.read(key.paramType, key.name, position, in)
-      params.lookup(param.name) match
-        case None => params.add(param)
-        case Some(earlier) =>
-          val (ignored, effective) =
-            if isTexture(earlier) && !isTexture(param) && !isV4() then (param, earlier)
-            else (earlier, param)
-          val message = s"`${param.name}` is repeated at ${effective.pos}; this value is ignored"
-          warn(Problem.warning(Code.Redefined, ignored.pos, message))
-          params.replace(earlier, effective)
+      try parameterHere(in, params)
+      catch
+        case e: SceneError =>
+          params.faults ++= e.problems
+          skipToParameter(in)
+
+  private def parameterHere(in: Tokenizer, params: ParamList): Unit =
+    val position = in.pos
+    val key = keys.getOrElseUpdate(in.text, keyHere(in))
+    in.advance()
+    val param = values.read(key.paramType, key.name, position, in)
+    params.lookup(param.name) match
+      case None => params.add(param)
+      case Some(earlier) =>
+        val (ignored, effective) =
+          if isTexture(earlier) && !isTexture(param) && !isV4() then (param, earlier)
+          else (earlier, param)
+        val message = s"`${param.name}` is repeated at ${effective.pos}; this value is ignored"
+        warn(Problem.warning(Code.Redefined, ignored.pos, message))
+        params.replace(earlier, effective)
+
+  /** Skips what is left of a faulty value: all up to a type and a name, or to a directive. Skips
+    * unreadable text, too.
+    */
+  private def skipToParameter(in: Tokenizer): Unit =
+    def isParameter = in.current == Token.Text && Parameters.isKey(in.text)
+    while in.current != Token.End && !in.startsName && !isParameter do
+      try in.advance()
+      catch case _: SceneError => ()
 
   private def isTexture(param: Param): Boolean = param.paramType == ParamType.Texture
 
@@ -81,7 +99,7 @@ final class Parameters(
     def fail(message: String, help: String) =
       throw SceneError(Problem.error(Code.ParameterSyntax, in.pos, message, Some(help)))
     val types = Parameters.Types
-    in.text.split("[ \t]+").filter(_.nonEmpty) match
+    Parameters.words(in.text) match
       case Array(spelling, name, _*) if types.contains(spelling) =>
         evidence.uses("type", spelling, in.pos)
         Parameters.Key(types(spelling), name)
@@ -96,6 +114,13 @@ final class Parameters(
 object Parameters:
   private final case class Key(paramType: ParamType, name: String)
 
+  private def words(text: String): Array[String] = text.split("[ \t]+").filter(_.nonEmpty)
+
+  /** Whether it is a type and a name. */
+  private def isKey(text: String): Boolean = words(text) match
+    case Array(spelling, _, _*) => Types.contains(spelling)
+    case _ => false
+
   /** The spellings of all dialects. */
   private val Types: Map[String, ParamType] =
     ParamType.values.map(t => t.spelling -> t).toMap ++ Map(
@@ -105,8 +130,15 @@ object Parameters:
       "color" -> ParamType.Rgb
     )
 
+/** The parameters of a statement.
+  *
+  * @param faults what is wrong with those that are left out
+  */
+final case class ParamsRead(params: Vector[Param], faults: Vector[Problem])
+
 /** Parameters, of each name one. */
 private final class ParamList:
+  var faults: Vector[Problem] = Vector.empty
   private var params = Vector.empty[Param]
   private var table: mutable.LinkedHashMap[String, Param] | Null = null
 
@@ -130,9 +162,9 @@ private final class ParamList:
       byName.remove(effective.name): Unit
       byName(effective.name) = effective
 
-  def result: Vector[Param] =
+  def result: ParamsRead =
     val byName = table
-    if byName == null then params else byName.values.toVector
+    ParamsRead(if byName == null then params else byName.values.toVector, faults)
 
 private object ParamList:
   /** Up to this number, a linear search is faster than a table. */

@@ -166,7 +166,7 @@ private[scenefile] final class ParserRun(
 
   private def run(directive: Directive, at: SourcePos, in: Tokenizer): Unit =
     val arguments = WrittenArguments(directive, at, in, parameters, doubts.add, include(in))
-    try losing(directive.name)(directive.run(arguments, scene))
+    try losing(directive.name)(arguments.run(scene))
     catch
       case e: SceneError =>
         // A skipped block statement would make its counterpart look unbalanced.

@@ -101,7 +101,16 @@ final class SceneWriter(
       if inherited.isEmpty then from.params
       else from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
     val params = state.scope.resolve(combined)
-    Declaration(category, from.name, params, from.pos, folder, state.colorSpace, foreign)
+    Declaration(
+      category,
+      from.name,
+      params,
+      from.pos,
+      folder,
+      state.colorSpace,
+      foreign,
+      from.isFaulty
+    )
 
   /** A declaration named by the value of its "string type". */
   private def declareByType(category: String, from: Named, defaults: String): Declaration =
@@ -110,9 +119,13 @@ final class SceneWriter(
     declared.param("type").filter(_.strings.size == 1) match
       case Some(t) =>
         evidence.uses(category, t.strings.head, t.valuesAt)
-        val params = declared.params.filterNot(_ eq t)
-        val name = t.strings.head
-        Declaration(category, name, params, t.valuesAt, folder, state.colorSpace, foreign)
+        declared.copy(
+          category = category,
+          name = t.strings.head,
+          params = declared.params.filterNot(_ eq t),
+          pos = t.valuesAt
+        )
+      case None if from.isFaulty => throw SceneError(Vector.empty) // it may be what is faulty
       case None => fail(
           Code.MissingParameter,
           from.pos,
@@ -378,6 +391,3 @@ object SceneWriter:
   /** Far more than there are parameters; each statement takes as long as there are defaults. */
   private val MaxDefaults = 1000
   private val Examples = Map("Material" -> "diffuse", "Medium" -> "homogeneous")
-
-/** A quoted name with its position, and the parameters after it. */
-final case class Named(name: String, pos: SourcePos, params: Vector[Param])

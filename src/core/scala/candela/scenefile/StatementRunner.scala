@@ -40,7 +40,7 @@ final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] 
       val misplacement = if base.isEmpty then directive.misplaced(scene.worldBegin) else None
       for message <- misplacement do
         throw SceneError(Problem.error(Code.WrongPlace, statement.pos, message))
-      directive.run(GivenArguments(directive, statement, problems.add, values), scene)
+      GivenArguments(directive, statement, problems.add, values).run(scene)
     catch
       case e: SceneError =>
         failedKinds ++= NameKind.definedBy(statement.directive)
@@ -59,11 +59,9 @@ final class StatementRunner(folder: SceneFolder, base: Option[SceneDescription] 
 
   /** Parameters as a statement has them. */
   def checked(params: Vector[Param]): Vector[Param] =
-    try GivenParameters.checked(params, values, problems.add)
-    catch
-      case e: SceneError =>
-        e.problems.foreach(problems.add)
-        Vector.empty
+    val checked = GivenParameters.checked(params, values, problems.add)
+    checked.faults.foreach(problems.add)
+    checked.params
 
   /** Where the camera is, by the current transform. */
   def placeCamera(): Unit = scene.placeCamera()
@@ -114,7 +112,7 @@ private final class GivenArguments(
     keyword.filter(choices.contains).getOrElse:
       notOneOf(pos, choices, keyword.fold("nothing")(f => s"`$f`"))
 
-  def params(): Vector[Param] = GivenParameters.checked(statement.params, values, report)
+  protected def params(): ParamsRead = GivenParameters.checked(statement.params, values, report)
 
   def value(paramType: ParamType, name: String): Param =
     val param = statement.params.headOption.getOrElse(fail(pos, s"`$name` must have a value"))
@@ -126,17 +124,22 @@ private final class GivenArguments(
 private object GivenParameters:
 
   /** Of each name one; values as many as its type has, and finite. */
-  def checked(written: Vector[Param], values: ValueReader, report: Problem => Unit): Vector[Param] =
+  def checked(written: Vector[Param], values: ValueReader, report: Problem => Unit): ParamsRead =
     val byName = mutable.LinkedHashMap.empty[String, Param]
+    val faults = Vector.newBuilder[Problem]
     for p <- written do
-      for x <- p.floats.find(!_.isFinite) do
-        throw SceneError(Problem.error(
-          Code.ParameterValue,
-          p.pos,
-          s"values of `${p.name}` must be numbers, found $x"
-        ))
       for earlier <- byName.remove(p.name) do
         val message = s"`${p.name}` is repeated; the earlier value is ignored"
         report(Problem.warning(Code.Redefined, earlier.pos, message))
-      byName(p.name) = values.checkCount(p)
-    byName.values.toVector
+      try byName(p.name) = valid(p, values)
+      catch case e: SceneError => faults ++= e.problems
+    ParamsRead(byName.values.toVector, faults.result())
+
+  private def valid(p: Param, values: ValueReader): Param =
+    for x <- p.floats.find(!_.isFinite) do
+      throw SceneError(Problem.error(
+        Code.ParameterValue,
+        p.pos,
+        s"values of `${p.name}` must be numbers, found $x"
+      ))
+    values.checkCount(p)

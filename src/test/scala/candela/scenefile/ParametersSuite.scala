@@ -14,7 +14,8 @@ class ParametersSuite extends AnyFunSuite:
     def warn(problem: Problem) = warnings = warnings :+ problem
     val read = Parameters(DialectGuess(), warn, isV4 = () => isV4).list(in)
     assert(in.current == Token.End)
-    read
+    if read.faults.nonEmpty then throw SceneError(read.faults)
+    read.params
 
   private def one(text: String): Param =
     val all = params(text)

@@ -159,6 +159,8 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     if site.resources.isPlain then site.allowance.checkTime(Some(site.declaration.pos))
     val name = site.declaration.name
     lookUp(name, (r: Recipe[A]) => site.speaks(r.dialects)) match
+      // Parameters that could not be read would seem to be missing
+      case Some(_) if site.declaration.isFaulty => None
       case Some(recipe) =>
         for instead <- recipe.substitute do
           site.warn(Code.OtherDialect, s"$category \"$name\" is substituted: $instead")
