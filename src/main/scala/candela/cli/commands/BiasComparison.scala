@@ -53,8 +53,8 @@ private[commands] final class BiasComparison(
       case None =>
         throw ImageError(
           Code.DifferentImages,
-          s"$file: a single image needs its variance, as `candela reference` or `--aov " +
-            "variance,samples` stores it; or name images of several seeds: a folder, " +
+          s"$file: a single image needs its own error, which `candela reference` stores" +
+            PixelNoise.lack(image) + "; or name images of several seeds: a folder, " +
             "A.exr,B.exr or 'NAME*.exr'"
         )
 
@@ -185,22 +185,13 @@ private[commands] object PixelNoise:
       Option.when(layerChannels.forall(image.channelNames.contains)):
         Image(image.width, image.height, channels, ImageEdits.select(image, layerChannels).data)
     def count(name: String) = facts.get(name).flatMap(_.toIntOption).filter(_ >= 2)
-    def ofMean =
-      for variance <- layer(ErrorLayer.Name); runs <- count(ReferenceFile.Runs) yield
-        val correlation =
-          facts.get(ReferenceFile.Correlation).flatMap(_.toDoubleOption).getOrElse(1.0)
-        PixelNoise(variance, runs - 1, correlation)
-    def ofSamples =
-      for variance <- layer("Variance"); n <- samples(image, count) yield
-        val values =
-          Array.tabulate(variance.data.length)(i => variance.data(i) / n(i / channels.size))
-        val meanVariance = Image(image.width, image.height, channels, values)
-        PixelNoise(meanVariance, Math.max(1, n.min - 1), correlation = 1)
-    ofMean.orElse(ofSamples)
+    for variance <- layer(ErrorLayer.Name); runs <- count(ReferenceFile.Runs) yield
+      val correlation =
+        facts.get(ReferenceFile.Correlation).flatMap(_.toDoubleOption).getOrElse(1.0)
+      PixelNoise(variance, runs - 1, correlation)
 
-  /** Of each pixel. */
-  private def samples(image: Image, count: String => Option[Int]): Option[Array[Float]] =
-    val pixels = image.width * image.height
-    image.channelNames.indexOf("samples") match
-      case -1 => count("samplesPerPixel").map(n => Array.fill(pixels)(n.toFloat))
-      case at => Some(Array.tabulate(pixels)(i => Math.max(1, image.data(i * image.channels + at))))
+  /** Why a layer that an image has is not its noise. */
+  def lack(image: Image): String =
+    val hasVariance = image.channelNames.exists(_.startsWith("Variance."))
+    if hasVariance then " (its layer variance leaves out samples of the sky, as pbrt-v4's does)"
+    else ""
