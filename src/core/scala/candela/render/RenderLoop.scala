@@ -33,8 +33,9 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   def run(): Rendering =
     listener.started(live)
     listener.begins(earlierSamples, job.film)
-    for endWave <- pauses if schedule.firstSample(endWave) > earlierSamples && continues do
-      renderUntil(endWave)
+    // A rendering that a goal ends has millions of waves, which nobody looks through after its end
+    pauses.dropWhile(schedule.firstSample(_) <= earlierSamples).takeWhile(_ => continues)
+      .foreach(renderUntil)
     keepOn()
     reportProgress()
     for c <- checkpointer do

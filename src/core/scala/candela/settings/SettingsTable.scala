@@ -48,8 +48,8 @@ object SettingsTable:
       "end after this rendering time, e.g. 90s, 10m or 2h; --spp N is then a maximum"
     )(_.goal.time)((s, t) => aim(s)(_.copy(time = Some(t))))(using TextForm.seconds).withoutIdentity
       .explained(
-        "Reading and building the scene don't count. With `--error`, whichever comes first ends " +
-          "it: [time and error](NOISE.md#time-and-error)."
+        "Starting, preparing the scene and writing don't count. With `--error`, whichever comes " +
+          "first ends it: [time and error](NOISE.md#time-and-error)."
       ),
     option(
       "error",

@@ -3,7 +3,9 @@ package candela.job
 import candela.color.Rgb
 import candela.film.{Development, Film}
 import candela.image.Image
-import candela.render.{RenderControl, Pass, Renderer, Rendering, TinyPlan}
+import candela.render.{
+  Looks, Pass, RenderControl, Renderer, Rendering, RenderPlan, StoppingRule, TinyPlan
+}
 import candela.settings.RenderGoal
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -58,6 +60,17 @@ class GoalRuleSuite extends AnyFunSuite:
     val timed = GoalRule(RenderGoal(time = Some(1)), 16, recorder, finishesFirstSample = true)
     assert(!timed.stopsNow(99, 99))
     assert(GoalRule(RenderGoal(time = Some(1)), 16, recorder).stopsNow(99, 99))
+
+  test("nothing is asked of a rendering that has ended, however many waves it might have had"):
+    var asked = 0
+    val rule = new StoppingRule:
+      override def frequency: Looks = Looks.Waves
+      override def stopsAfterPass: Boolean =
+        asked += 1
+        asked > 5
+    val endless = plan(1000).copy(samples = Some(RenderPlan.Endless))
+    assert(Renderer.render(endless, RenderControl(2, rule = rule)).samplesDone >= 1)
+    assert(asked < 100)
 
   private val film = Film(0, 0, 1, 1)
 
