@@ -101,7 +101,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     val path = file.toAbsolutePath
     val header = FilmHeaders.of(prepared.settings, scene.name, prepared, path)
     val filmOptions = FilmKeeper.How(control.every.map(_.toNanos * 1e-9), problems += _)
-    FilmKeeper.of(path, header, plan, filmOptions)(FilmKeeper.locked(path))
+    FilmKeeper.of(path, header, filmOptions)(FilmKeeper.locked(path))
 
   private def rendered(
       control: RenderControl,
@@ -114,7 +114,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     val goal = recorder.filter(_ => target.isGiven).map(GoalRule(target, plan.samplesPerPixel, _))
     val estimating = recorder.filter(_ => goal.isEmpty)
     val followed = Followed(control.listener, r => image(r, r.image(plan.development), None))
-    val checkpoints = keeper.map(_.checkpointer(() => goal.exists(_.stopsAfterPass)))
+    val checkpoints = keeper.map(_.checkpointer())
     val coreControl = CoreControl(
       control.threads,
       CoreCancellation(control.cancellation.core, closing),

@@ -20,7 +20,6 @@ final class FilmKeeper private (
     val path: Path,
     header: FilmHeader,
     val start: Option[FilmFile],
-    mayEndEarly: Boolean,
     lock: Option[FilmLock],
     how: FilmKeeper.How
 ) extends AutoCloseable:
@@ -32,20 +31,12 @@ final class FilmKeeper private (
   /** Samples that every pixel has already. */
   def samplesDone: Int = start.fold(0)(_.header.done)
 
-  /** @param isEnough whether the rendering ended because its goal was reached
-    * @param error    relative MSE of the image with so many samples per pixel, if it is known
-    */
-  def checkpointer(
-      isEnough: () => Boolean,
-      error: Int => Option[Interval] = _ => None
-  ): Checkpoints =
+  /** @param error relative MSE of the image with so many samples per pixel, if it is known */
+  def checkpointer(error: Int => Option[Interval] = _ => None): Checkpoints =
     def of(done: Int) =
-      val isEarly = mayEndEarly && isEnough()
-      val planned = if isEarly then Math.min(done, header.samples) else header.samples
       val noise = error(done).orElse(savedError(done))
       header.copy(
         done = done,
-        samples = planned,
         // A film without images may be one of several parts: their sum has no error
         error = noise.filter(_ => header.outfiles.nonEmpty)
           .map(i => FilmError(i.estimate, i.low, i.high))
@@ -71,11 +62,11 @@ object FilmKeeper:
     * @param lock takes the file, for this rendering alone
     * @throws SceneError if the file is of another rendering
     */
-  def of(path: Path, now: FilmHeader, plan: RenderPlan, how: How)(lock: => FilmLock): FilmKeeper =
+  def of(path: Path, now: FilmHeader, how: How)(lock: => FilmLock): FilmKeeper =
     val heldLock = lock
     try
       val start = existing(path, now, how.warn)
-      FilmKeeper(path, now, start, now.obstacle(plan).isEmpty, Some(heldLock), how)
+      FilmKeeper(path, now, start, Some(heldLock), how)
     catch
       case e: Throwable =>
         heldLock.close()
@@ -86,9 +77,8 @@ object FilmKeeper:
     * @throws SceneError if it can't
     */
   def resumed(film: FilmFile, now: FilmHeader, plan: RenderPlan, how: How): FilmKeeper =
-    val obstacle = film.header.obstacle(plan)
-    val next = continued(film, now, plan.samplesPerPixel, obstacle)
-    FilmKeeper(film.path, next, Some(film), obstacle.isEmpty, None, how)
+    val next = continued(film, now, plan.samplesPerPixel, film.header.obstacle(plan))
+    FilmKeeper(film.path, next, Some(film), None, how)
 
   /** @throws SceneError if another rendering writes this film file, or none can */
   def locked(path: Path): FilmLock =

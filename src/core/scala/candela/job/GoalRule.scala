@@ -20,7 +20,7 @@ final class GoalRule(
     recorder: ErrorRecorder,
     finishesFirstSample: Boolean = false
 ) extends StoppingRule:
-  private var isReached = false
+  private var ending = Option.empty[GoalRule.Ending]
   private var samplesDone, step, passCount = 0
   private var elapsed, perSample = 0.0
 
@@ -28,7 +28,14 @@ final class GoalRule(
   private var samplesNeeded = Option.empty[Int]
   private var samplesNeededRange = Option.empty[SampleRange]
 
-  override def stopsAfterPass: Boolean = isReached
+  /** What ended a rendering. */
+  def endedBy(rendering: Rendering): GoalRule.Ending =
+    val isCut = rendering.samplesDone < planned
+    ending.filter(_ == GoalRule.Ending.Error || isCut).getOrElse(GoalRule.Ending.Samples)
+
+  private def end(by: GoalRule.Ending): Unit = ending = ending.orElse(Some(by))
+
+  override def stopsAfterPass: Boolean = ending.isDefined
   override def frequency: Looks = Looks.Waves
 
   override def begins(samples: Int, film: Film): Unit =
@@ -48,7 +55,7 @@ final class GoalRule(
       samplesNeeded = samples.map(s => GoalRule.roundedUp(s.estimate))
       samplesNeededRange = samples.flatMap(GoalRule.range)
     val hasSamples = samplesNeeded.exists(_ <= pass.samples)
-    if hasSamples || pass.isLast && isLow(pass.samples) then isReached = true
+    if hasSamples || pass.isLast && isLow(pass.samples) then end(GoalRule.Ending.Error)
     val measured = (pass.endSeconds - pass.beginSeconds) / Math.max(1, pass.samples - samplesDone)
     // The first ones are slow: the JVM compiles meanwhile
     perSample = measured * GoalRule.Warm(Math.min(passCount, GoalRule.Warm.size - 1))
@@ -56,8 +63,9 @@ final class GoalRule(
     samplesDone = pass.samples
     step = pass.step
     elapsed = clock
-    if goal.time.exists(t => !isWorthMore(t - elapsed)) then isReached = true
-    if isReached && !pass.isUnshortened then recorder.passed(watched.copy(isLast = true), film)
+    if goal.time.exists(t => !isWorthMore(t - elapsed)) then end(GoalRule.Ending.Time)
+    if ending.isDefined && !pass.isUnshortened then
+      recorder.passed(watched.copy(isLast = true), film)
 
   /** Whether the error is low enough, though all samples are taken before the next look. */
   private def isLow(samples: Int): Boolean =
@@ -84,8 +92,8 @@ final class GoalRule(
     val mayBeLate = step > 0 && idleSeconds <= GoalRule.MaxIdleSeconds
     val late = if mayBeLate then GoalRule.MaxLateSeconds else 0
     val mayEnd = !finishesFirstSample || samplesDone > 0
-    if mayEnd && goal.time.exists(_ + late <= seconds) then isReached = true
-    isReached
+    if mayEnd && goal.time.exists(_ + late <= seconds) then end(GoalRule.Ending.Time)
+    ending.isDefined
 
   override def expectedEnd: Option[ExpectedEnd] =
     Some(ExpectedEnd(goal.time, goal.error.isDefined, samplesNeededRange))
@@ -95,9 +103,15 @@ final class GoalRule(
   /** Whether the rendering ended before its goal, because all samples were taken. */
   def isMissed(rendering: Rendering): Boolean =
     val isEarly = goal.time.forall(rendering.seconds < GoalRule.Nearly * _)
-    !isReached && isEarly && rendering.samplesDone >= planned
+    ending.isEmpty && isEarly && rendering.samplesDone >= planned
 
 object GoalRule:
+  /** @param setting by which it is asked for */
+  enum Ending(val setting: String):
+    case Time extends Ending("time")
+    case Error extends Ending("error")
+    case Samples extends Ending("spp")
+
   /** Of a time; what ends later was asked for. */
   private val Nearly = 0.9
 

@@ -72,6 +72,16 @@ class GoalRuleSuite extends AnyFunSuite:
     assert(Renderer.render(endless, RenderControl(2, rule = rule)).samplesDone >= 1)
     assert(asked < 100)
 
+  test("it says what ended the rendering"):
+    val byError = goal(RenderGoal(time = Some(1e6), error = Some(0.2)))
+    val rendering = rendered(byError)
+    assert(byError.endedBy(rendering) == GoalRule.Ending.Error)
+    val timed = goal(RenderGoal(time = Some(1), error = Some(1e-9)))
+    timed.begins(0, film)
+    timed.passed(Pass(1, 0, 1, Vector.empty, clock = 1), film)
+    assert(timed.endedBy(rendering) == GoalRule.Ending.Time)
+    assert(timed.endedBy(rendering.copy(samplesDone = 1000)) == GoalRule.Ending.Samples)
+
   private val film = Film(0, 0, 1, 1)
 
   /** When a rendering ends whose samples take a second each, the first one, and then `actual`

@@ -102,18 +102,13 @@ final class ReferenceCommand(
     def warn(problem: Problem) = report.warnings(Vector(problem), all = true)
     val keeperOptions = FilmKeeper.How(options.film.every, warn)
     val progress = ProgressLine(terminal.err, terminal.isInteractive, terminal.isReadByProgram)
-    Using.resource(FilmKeeper.of(
-      film,
-      header,
-      prepared.plan,
-      keeperOptions
-    )(FilmKeeping.locked(film))): keeper =>
+    Using.resource(FilmKeeper.of(film, header, keeperOptions)(FilmKeeping.locked(film))): keeper =>
       val progressListener = Option.when(!options.quiet)(RenderListener.onProgress(progress.update))
       val control = RenderControl(
         options.control.threads,
         cancellation,
         RenderListener.all(progressListener),
-        checkpointer = Some(keeper.checkpointer(() => false))
+        checkpointer = Some(keeper.checkpointer())
       )
       val rendering =
         try Render.render(prepared, control)

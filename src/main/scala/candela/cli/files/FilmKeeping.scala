@@ -52,7 +52,7 @@ private[cli] object FilmKeeping:
       val keeperOptions = FilmKeeper.How(options.film.every, warn)
       resumed match
         case Some(film) => FilmKeeper.resumed(film, header, loaded.plan, keeperOptions)
-        case None => FilmKeeper.of(path, header, loaded.plan, keeperOptions)(locked(path))
+        case None => FilmKeeper.of(path, header, keeperOptions)(locked(path))
 
   /** @throws SceneError if another rendering writes this film file */
   def locked(path: Path): FilmLock =

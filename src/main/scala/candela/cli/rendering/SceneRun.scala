@@ -43,8 +43,7 @@ private[cli] final class SceneRun(
 
   def run(): ExitCode = terminal.interrupts.during(cancellation):
     val progress = ProgressLine(terminal.err, terminal.isInteractive, terminal.isReadByProgram)
-    val checkpoints = keeping.map:
-      _.checkpointer(() => goal.exists(_.stopsAfterPass), n => recorder.flatMap(_.relativeMse(n)))
+    val checkpoints = keeping.map(_.checkpointer(n => recorder.flatMap(_.relativeMse(n))))
     val watching = Option.when(options.isWatched)(watched())
     try
       val rendering = rendered(progress, checkpoints, watching)
@@ -141,7 +140,19 @@ private[cli] final class SceneRun(
             val saved = keeping.flatMap(_.savedError(samples))
             Summary.noise(samples, saved.map(i => Math.sqrt(i.estimate)), saved)
           case known => Summary.noise(samples, known, r.interval(samples))
-    Summary.print(options, terminal, files, prepared, rendering, after, isLate, noise.getOrElse(""))
+    val ending =
+      goal.filter(_ => rendering.isComplete && !isPreview).map(_.endedBy(rendering).setting)
+    Summary.print(
+      options,
+      terminal,
+      files,
+      prepared,
+      rendering,
+      after,
+      isLate,
+      noise.getOrElse(""),
+      ending
+    )
     writer.warnIfEmpty(rendering, image)
     // A preview has neither goals nor options of its own to reach them
     if !isPreview then goal.flatMap(MissedGoal.warning(_, rendering)).foreach(terminal.err.println)

@@ -20,6 +20,7 @@ object Summary:
     * @param isLate   whether its time was over
     * @param noise    what is said of the error, if it was estimated
     * @param shards   number of renderings that share the samples
+    * @param ending   option that ended it, if it had a goal
     */
   def result(
       written: Vector[Path],
@@ -27,10 +28,12 @@ object Summary:
       standIns: Int = 0,
       isLate: Boolean = false,
       noise: String = "",
-      shards: Int = 1
+      shards: Int = 1,
+      ending: Option[String] = None
   ): String =
     val noiseNote = if noise.isEmpty then "" else s", $noise"
-    val missing = noiseNote + placeholders(standIns) + darkness(r)
+    val endNote = ending.fold("")(option => s"; ended by --$option")
+    val missing = noiseNote + placeholders(standIns) + darkness(r) + endNote
     val names = written.mkString(", ")
     if r.isComplete && r.seconds == 0 then
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
@@ -80,7 +83,9 @@ object Summary:
 
   /** The seconds are those of this run alone. */
   private def ofThisRun(r: Rendering): String =
-    if r.earlier == 0 then "" else s" (${r.samplesDone - r.earlier} in this run)"
+    if r.earlier == 0 then ""
+    else if r.samplesDone == r.earlier then " (none added)"
+    else s" (${r.samplesDone - r.earlier} in this run)"
 
   private def placeholders(count: Int): String =
     if count > 0 then s", ${Figures.count(count, "placeholder")}" else ""
@@ -112,6 +117,7 @@ object Summary:
     * @param after   the phases after rendering, with their seconds
     * @param isLate  whether its time was over
     * @param noise   what is said of the error, if it was estimated
+    * @param ending  option that ended it, if it had a goal
     */
   def print(
       options: Options,
@@ -121,7 +127,8 @@ object Summary:
       rendering: Rendering,
       after: Vector[(String, Double)] = Vector.empty,
       isLate: Boolean = false,
-      noise: String = ""
+      noise: String = "",
+      ending: Option[String] = None
   ): Unit =
     for r <- rendering.refused do
       terminal.err.println(refused(r, isTraceable = !options.settings.preview))
@@ -135,7 +142,8 @@ object Summary:
         prepared.standIns,
         isLate,
         noise,
-        options.film.shard.count
+        options.film.shard.count,
+        ending
       ))
       terminal.out.flush()
 

@@ -1,6 +1,8 @@
 package candela.cli.rendering
 
 import candela.cli.Captured
+import candela.film.Film
+import candela.render.Rendering
 import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
@@ -39,6 +41,23 @@ class LastLineSuite extends AnyFunSuite:
       assert(resumed.matches(".*, error [0-9.]+ %.*"), resumed)
       val goal = said(file, "--error", "5%", "--outfile", image)
       assert(goal.matches(".*, error [0-9.]+ %.*"), goal)
+
+  test("it names the goal that ended the rendering, if there was one"):
+    TempFolder.use: folder =>
+      val file = scene(folder)
+      val image = s"$folder/a.exr"
+      def end(words: String*) = said((file +: words) ++ Seq("--outfile", image)*).split("; ").last
+      assert(end("--error", "5%", "--time", "1h") == "ended by --error")
+      assert(end("--spp", "8", "--time", "1h") == "ended by --spp")
+      assert(!end("--spp", "8").contains("ended"))
+
+  test("a resumed rendering without a new sample says so"):
+    def line(earlier: Int) =
+      val film = Film(0, 0, 2, 2)
+      val r = Rendering(film, 16, 16, 64, 64, seconds = 1, refused = None, earlier = earlier)
+      Summary.result(Vector(Path.of("a.exr")), r, ending = Some("time"))
+    assert(line(16).contains("16 spp (none added), ") && line(16).endsWith("; ended by --time"))
+    assert(line(12).contains("16 spp (4 in this run), "))
 
   test("fewer than four samples say too little"):
     TempFolder.use: folder =>
