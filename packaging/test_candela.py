@@ -444,6 +444,11 @@ class Scenes(unittest.TestCase):
             candela.render(self.folder / "missing.pbrt")
         self.assertIn("missing.pbrt", str(caught.exception))
 
+    def test_a_resolution_takes_the_place_of_the_films(self):
+        for resolution, shape in [((12, 20), (20, 12)), (12, (8, 12)), ("50%", (8, 12))]:
+            image = candela.load_string(SCENE).render(spp=1, resolution=resolution)
+            self.assertEqual(image.rgb.shape[:2], shape)
+
     def test_options_that_do_not_exist_are_usage_errors(self):
         with self.assertRaisesRegex(candela.UsageError, "sppp"):
             candela.render(self.scene(), sppp=3)

@@ -4,15 +4,15 @@ import candela.build.integrators.IntegratorPlan
 import candela.color.Rgb
 import candela.integrators.Headlight
 import candela.render.RenderMethod
+import candela.scenefile.Resolution
 
 /** A first look at a scene, whatever its lights, media and integrator. */
 private[build] object Preview:
   /** Largest number of pixels. */
   private val Pixels = 160_000
 
-  /** By how much the width and the height of an image are divided. */
-  def reduction(width: Int, height: Int): Int =
-    Math.ceil(Math.sqrt(width.toDouble * height / Pixels)).toInt
+  def resolution(width: Int, height: Int): Resolution =
+    Resolution.Percent(100 * Math.min(1, Math.sqrt(Pixels / (width.toDouble * height))))
 
   def integrator(context: BuildContext): IntegratorPlan =
     val white = context.resources.basis.fromSrgb(Rgb.White)

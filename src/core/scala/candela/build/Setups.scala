@@ -10,11 +10,12 @@ import candela.cameras.{Camera, FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.film.{Filter, PixelBounds}
 import candela.math.*
 import candela.sampling.Sampler
+import candela.scenefile.Resolution
 import candela.settings.{RenderRegion, RenderSettings}
 
 /** The image to render.
   *
-  * @param width  width of the full image in pixels: that of the film, or less if `quick`
+  * @param width  width of the full image in pixels: that of the film, unless another is asked for
   * @param layers requested AOVs
   */
 private[build] final case class ImageSetup(
@@ -35,7 +36,8 @@ private[build] final case class ImageSetup(
     * @param window the integrator's window of the full image, if any
     */
   def crop(window: Option[PixelBounds], settings: RenderSettings): PixelBounds =
-    // The image may be smaller than the film. In Double: a pixel's number must not be rounded up
+    // The image may have another size than the film. In Double, as a pixel's number must not be
+    // rounded up
     def x(at: Double) = Math.ceil(at * width / film.width).toInt
     def y(at: Double) = Math.ceil(at * height / film.height).toInt
     def clipped(p: PixelBounds) = PixelBounds(
@@ -87,17 +89,12 @@ private[build] object ImageSetup:
     val filter = context.build(context.description.filter, Filters.all, context.defaults.filter)
     val layers =
       if settings.preview then Vector.empty else (film.layers ++ settings.layers).distinct
-    val divisor =
-      if settings.preview then Preview.reduction(film.width, film.height)
-      else if settings.quick then 4
-      else 1
-    ImageSetup(
-      film,
-      Math.max(1, film.width / divisor),
-      Math.max(1, film.height / divisor),
-      filter,
-      layers
-    )
+    val resolution = settings.reading.resolution.orElse:
+      if settings.preview then Some(Preview.resolution(film.width, film.height))
+      else Option.when(settings.quick)(Resolution.Percent(25))
+    val (width, height) =
+      resolution.fold((film.width, film.height))(_.of(film.width, film.height))
+    ImageSetup(film, width, height, filter, layers)
 
 /** Settings of sampling.
   *

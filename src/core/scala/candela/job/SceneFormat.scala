@@ -179,7 +179,8 @@ object SceneFormat:
         reading.defines,
         reading.keepGoing,
         Some(within),
-        sensor = sensor
+        sensor = sensor,
+        resolution = reading.resolution
       )
       if reading.sensors.contains(Sensors.All) then scene else scene.copy(isFollowed = false)
 
@@ -189,7 +190,14 @@ object SceneFormat:
         within: SceneFolder,
         reading: ReadSettings
     ): SceneDescription =
-      MitsubaScene.readable(name, reading.defines, reading.keepGoing, Some(within), Some(text))
+      MitsubaScene.readable(
+        name,
+        reading.defines,
+        reading.keepGoing,
+        Some(within),
+        Some(text),
+        resolution = reading.resolution
+      )
 
     def digest(text: String): String = XmlFile.ofText("", text).digest
 

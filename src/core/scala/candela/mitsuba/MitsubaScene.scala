@@ -2,7 +2,9 @@ package candela.mitsuba
 
 import candela.diagnostics.{Code, SceneError, Severity, SourcePos}
 import candela.io.{FileName, SceneFolder}
-import candela.scenefile.{Declaration, Dialect, Param, Excerpts, InstanceList, SceneDescription}
+import candela.scenefile.{
+  Declaration, Dialect, Param, Excerpts, InstanceList, Resolution, SceneDescription
+}
 
 import java.nio.file.Path
 
@@ -17,6 +19,7 @@ object MitsubaScene:
     * @param text      what is read instead of the file
     * @param sensor    index of the sensor that sees the scene; none: the first, and a warning of
     *                  others
+    * @param resolution of the image; none: that of the film
     * @throws SceneError if the file contains no scene at all
     */
   def readable(
@@ -25,13 +28,14 @@ object MitsubaScene:
       keepGoing: Boolean,
       within: Option[SceneFolder] = None,
       text: Option[String] = None,
-      sensor: Option[Int] = None
+      sensor: Option[Int] = None,
+      resolution: Option[Resolution] = None
   ): SceneDescription =
     val folder = within.getOrElse(SceneFolder.of(file))
     val expanded =
       try Expansion(file, folder, defines, text).result()
       catch case e: SceneError => throw SceneError(Excerpts.fill(e.problems))
-    val session = Session(expanded, folder, keepGoing, sensor)
+    val session = Session(expanded, folder, keepGoing, sensor, resolution)
     val scene = Translation(session, file).result()
     val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
     scene.copy(

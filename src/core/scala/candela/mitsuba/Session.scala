@@ -3,7 +3,9 @@ package candela.mitsuba
 import candela.diagnostics.{Allowance, Code, Problem, SceneError, SourcePos, Suggest}
 import candela.io.{InputFile, SceneFolder}
 import candela.math.{Interpolation, Transform, Vec3}
-import candela.scenefile.{AnimatedTransform, Declaration, Dialect, GraphicsState, Param, Problems}
+import candela.scenefile.{
+  AnimatedTransform, Declaration, Dialect, GraphicsState, Param, Problems, Resolution
+}
 
 import java.nio.file.Path
 import java.util.regex.Matcher
@@ -14,12 +16,14 @@ import scala.collection.mutable
   * found so far.
   *
   * @param sensor which of the scene's sensors is asked for, from 0, if any is
+  * @param resolution of the image, if not that of the film
   */
 final class Session(
     expanded: Expanded,
     folder: SceneFolder,
     keepGoing: Boolean,
-    val sensor: Option[Int] = None
+    val sensor: Option[Int] = None,
+    val resolution: Option[Resolution] = None
 ):
   private val collected = Problems()
   private val files = mutable.LinkedHashSet.empty[Path]

@@ -16,6 +16,8 @@ final class Views(session: Session, media: Media, image: String):
       val (width, height, film) = in.nested("film").headOption match
         case Some(f) => session.translate(f)(filmOf)
         case None => filmOf(Properties(plain("film", "hdrfilm", in.pos), session))
+      val (seenWidth, seenHeight) =
+        session.resolution.fold((width, height))(_.of(width, height))
       val filter = in.nested("film").headOption
         .flatMap(f => Properties(f, session).nested("rfilter").headOption)
         .getOrElse(plain("rfilter", "gaussian", in.pos))
@@ -27,7 +29,7 @@ final class Views(session: Session, media: Media, image: String):
       val axes = if p.name == "spherical" then Views.PanoramaAxes else Views.Axes
       val toCamera = GraphicsState.inverse(toWorld.after(GraphicsState.constant(axes)))
       from.copy(
-        camera = Some(camera(in, width, height)),
+        camera = Some(camera(in, seenWidth, seenHeight)),
         worldToCamera = toCamera,
         cameraMedium = medium,
         film = Some(film),

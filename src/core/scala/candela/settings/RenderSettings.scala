@@ -5,14 +5,15 @@ import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.{GuideSettings, GuidingMode}
 import candela.image.DisplayTransform
 import candela.integrators.CausticsMode
-import candela.scenefile.Dialect
+import candela.scenefile.{Dialect, Resolution}
 
 /** Settings that affect the image. With the scene's files, they identify a rendering:
   * [[SettingsCodec]] stores each of them.
   *
   * @param samples     per pixel, instead of the scene's
   * @param goal        what ends the rendering before its samples do
-  * @param quick       if true, renders a sixteenth of the pixels with one sample each
+  * @param quick       if true, renders a sixteenth of the pixels with one sample each, where no
+  *                    other numbers are asked for
   * @param preview     if true, reduces the image and shades it by a headlight, whatever the scene's
   *                    integrator, lights and film
   * @param region      part of the image to render, instead of the scene's
@@ -134,12 +135,14 @@ enum RenderRegion:
   * @param defines   parameters of a Mitsuba scene, by name
   * @param keepGoing whether to replace missing items by placeholders
   * @param sensors   of a Mitsuba scene; none: the first
+  * @param resolution in place of the film's: some formats' views depend on its aspect ratio
   */
 final case class ReadSettings(
     dialect: Option[Dialect] = None,
     defines: Map[String, String] = Map.empty,
     keepGoing: Boolean = false,
-    sensors: Option[Sensors] = None
+    sensors: Option[Sensors] = None,
+    resolution: Option[Resolution] = None
 )
 
 /** The sensors of a scene that are rendered. */

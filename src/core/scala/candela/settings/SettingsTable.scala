@@ -225,6 +225,14 @@ object SettingsTable:
     )(_.reading.sensors)((s, all) => parse(s)(_.copy(sensors = Some(all))))
       .explained("The images are `SCENE-0.exr`, `SCENE-1.exr` …, or `%d` in `--outfile` is N."),
     option(
+      "resolution",
+      "WxH|W|P%",
+      "image size in place of the scene's: 640x360, 640 (the height follows) or 50%"
+    )(_.reading.resolution)((s, r) => parse(s)(_.copy(resolution = Some(r)))).explained(
+      "The scene is rendered as if its film had this size: crop windows show the same part, and " +
+        "another aspect ratio changes the view as it does in the scene's own program."
+    ),
+    option(
       "mse-reference-image",
       "FILE",
       "reference image for --mse-reference-out, which it needs"

@@ -7,7 +7,7 @@ import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.image.Exposure
-import candela.scenefile.Dialect
+import candela.scenefile.{Dialect, Resolution}
 
 import scala.util.Try
 
@@ -161,6 +161,29 @@ object TextForm:
       case Sensors.One(index) => index.toString
     }
   )
+
+  /** Between commas, as Python writes pairs, too. */
+  private val Size = raw"(\d{1,8})[x×,](\d{1,8})".r
+  private val MaxAcross = 1 << 24
+  private val MaxPercent = 10000.0
+
+  given TextForm[Resolution] =
+    def isAcross(pixels: Int) = pixels >= 1 && pixels <= MaxAcross
+    TextForm(
+      "a size, a width or a percentage, e.g. 640x360, 640 or 50%",
+      _.toLowerCase match
+        case Size(w, h) =>
+          Option.when(isAcross(w.toInt) && isAcross(h.toInt))(Resolution.Size(w.toInt, h.toInt))
+        case s"$number%" =>
+          Decimal.double(number).filter(p => p > 0 && p <= MaxPercent).map(Resolution.Percent(_))
+        case number => number.toIntOption.filter(isAcross).map(Resolution.Width(_))
+      ,
+      {
+        case Resolution.Size(w, h) => s"${w}x$h"
+        case Resolution.Width(w) => w.toString
+        case Resolution.Percent(p) => s"$p%"
+      }
+    )
 
   given window: TextForm[RenderRegion.Window] = TextForm(
     "x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5",

@@ -4,7 +4,7 @@ import candela.diagnostics.{Code, Refusal, SceneError, Severity}
 import candela.io.SceneFolder
 import candela.job.SceneFormat
 import candela.math.Vec3
-import candela.scenefile.{Param, SceneDescription, ShapeDescription}
+import candela.scenefile.{Param, Resolution, SceneDescription, ShapeDescription}
 import candela.settings.ReadSettings
 
 import java.nio.charset.StandardCharsets.UTF_8
@@ -17,9 +17,13 @@ import org.scalatest.funsuite.AnyFunSuite
 class GltfFormatSuite extends AnyFunSuite:
   private val format = SceneFormat.named(Path.of("model.glb")).get
 
-  private def read(json: String, isConfined: Boolean = false): SceneDescription =
+  private def read(
+      json: String,
+      isConfined: Boolean = false,
+      reading: ReadSettings = ReadSettings()
+  ): SceneDescription =
     val file = Path.of("models", "model.gltf")
-    format.readText(file, json, SceneFolder.of(file, isConfined), ReadSettings())
+    format.readText(file, json, SceneFolder.of(file, isConfined), reading)
 
   /** The first error, with its place. */
   private def error(json: String): String =
@@ -65,6 +69,32 @@ class GltfFormatSuite extends AnyFunSuite:
 
   private def param(s: ShapeDescription, name: String): Param = s.shape.param(name).get
   private def indices(json: String): Vector[Int] = param(shape(json), "indices").ints.toVector
+
+  test("another aspect ratio keeps the vertical field of view, and all of a model in a studio"):
+    def camera(json: String, resolution: Resolution, name: String) =
+      val scene = read(json, reading = ReadSettings(resolution = Some(resolution)))
+      scene.camera.get.param(name).get.floats.toVector
+    def seen(view: String) = model(
+      nodes = """{"mesh":0},{"camera":0}""",
+      roots = "0,1",
+      others = s""","cameras":[$view]"""
+    )
+    val perspective =
+      seen("""{"type":"perspective","perspective":{"yfov":1,"aspectRatio":1.5,"znear":0.1}}""")
+    // pbrt's angle is that of the shorter side
+    val wide = camera(perspective, Resolution.Size(300, 100), "fov").head
+    assert(Math.abs(wide - Math.toDegrees(1)) < 1e-4)
+    val tall = camera(perspective, Resolution.Size(100, 200), "fov").head
+    assert(Math.abs(tall - Math.toDegrees(2 * Math.atan(Math.tan(0.5) / 2))) < 1e-4)
+    val flat = """{"type":"orthographic","orthographic":{"xmag":3,"ymag":2,"znear":0,"zfar":9}}"""
+    assert(camera(
+      seen(flat),
+      Resolution.Size(100, 200),
+      "screenwindow"
+    ) == Vector(-1f, 1f, -2f, 2f))
+    assert(camera(seen(flat), Resolution.Percent(10), "screenwindow") == Vector(-3f, 3f, -2f, 2f))
+    val studio = camera(model(), Resolution.Size(90, 180), "fov").head
+    assert(Math.abs(studio - Math.toDegrees(2 * Math.atan(9.0 / 35))) < 1e-4)
 
   test("a model is a scene with a camera and light"):
     val scene = read(model(primitive = ""","mode":5"""))

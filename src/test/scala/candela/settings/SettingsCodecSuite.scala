@@ -6,7 +6,7 @@ import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
 import candela.image.{DisplayTransform, Exposure}
-import candela.scenefile.Dialect
+import candela.scenefile.{Dialect, Resolution}
 
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
@@ -59,7 +59,10 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       defines <- Gen.mapOf(Gen.zip(name, Gen.alphaNumStr))
       keepGoing <- flag
       sensors <- Gen.option(Gen.oneOf(Sensors.All, Sensors.One(0), Sensors.One(3)))
-    yield ReadSettings(dialect, defines, keepGoing, sensors)
+      resolution <- Gen.option(
+        Gen.oneOf(Resolution.Size(640, 360), Resolution.Width(7), Resolution.Percent(12.5))
+      )
+    yield ReadSettings(dialect, defines, keepGoing, sensors, resolution)
 
   /** Precisions are of layers that are there. */
   private def outputs(layers: Vector[Layer]): Gen[OutputSettings] =
@@ -124,7 +127,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   test("the settings of these tests have every field"):
     val fields = Vector(RenderSettings(), RenderGoal(), ReadSettings(), OutputSettings())
-    assert(fields.map(_.productArity) == Vector(22, 2, 4, 6), "`settings` must make the new field")
+    assert(fields.map(_.productArity) == Vector(22, 2, 5, 6), "`settings` must make the new field")
 
   test("settings are read from words as they were written, all of them", Slow):
     forAll(settings, minSuccessful(500)): s =>
@@ -174,6 +177,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     assert(wrong("--seed") == "wrong value of `--seed`")
     for text <- Vector(
         "--seed x", "--bits 9", "--cropwindow 1,0,0,1", "--pixel -1,2", "--guiding directions",
+        "--resolution 0x5", "--resolution x5", "--resolution -1", "--resolution 0%",
         "--fireflies clamp:0", "--aov depth,nothing", "--define x", "--exposure 1000"
       )
     do assert(wrong(text).startsWith("wrong value of `--"), text)

@@ -14,11 +14,12 @@ private[models] final class Cameras(file: GltfFile, session: Session):
     entry.required("type").text match
       case "perspective" =>
         val view = entry.required("perspective")
-        val aspect = view.number("aspectRatio", View.Aspect)
+        val natural = view.number("aspectRatio", View.Aspect)
+        checkAspect(view, natural)
+        val aspect = session.aspect(natural)
         val height = view.required("yfov").number
         if !(height > 0 && height < Math.PI) then
           view.required("yfov").fail(s"expected an angle between 0 and π, found $height")
-        checkAspect(view, aspect)
         val shorter =
           if aspect >= 1 then height else 2 * Math.atan(Math.tan(height / 2) * aspect)
         val params = Param.float("fov", entry.at, Math.toDegrees(shorter).toFloat) +: clips(view)
@@ -29,12 +30,15 @@ private[models] final class Cameras(file: GltfFile, session: Session):
           (Math.abs(view.required("xmag").number), Math.abs(view.required("ymag").number))
         if x == 0 || y == 0 then view.fail("`xmag` and `ymag` must not be 0")
         checkAspect(view, x / y)
-        val window = Param.float("screenwindow", entry.at, Seq(-x, x, -y, y).map(_.toFloat)*)
+        val aspect = session.aspect(x / y)
+        val across = if aspect == x / y then x else y * aspect
+        val window =
+          Param.float("screenwindow", entry.at, Seq(-across, across, -y, y).map(_.toFloat)*)
         View.addCamera(
           scene,
           session,
           p.toWorld,
-          x / y,
+          aspect,
           "orthographic",
           window +: clips(view),
           entry.at
@@ -61,6 +65,11 @@ private[models] object View:
   private val Samples = 64
   private val MaxDepth = 16
 
+  /** Width and height of the film, in pixels. */
+  def size(aspect: Double): (Int, Int) =
+    if aspect >= 1 then (LongerSide, Math.max(1, Math.rint(LongerSide / aspect).toInt))
+    else (Math.max(1, Math.rint(LongerSide * aspect).toInt), LongerSide)
+
   /** @param toWorld of a camera that looks along −z */
   def addCamera(
       scene: SceneDescription,
@@ -71,9 +80,7 @@ private[models] object View:
       params: Vector[Param],
       at: SourcePos
   ): SceneDescription =
-    val (width, height) =
-      if aspect >= 1 then (LongerSide, Math.max(1, Math.rint(LongerSide / aspect).toInt))
-      else (Math.max(1, Math.rint(LongerSide * aspect).toInt), LongerSide)
+    val (width, height) = size(aspect)
     // pbrt's z points forward
     val axes = Transform.scale(1, 1, -1).get
     val toCamera = (Nodes.rigid(toWorld) * axes).inverse

@@ -38,7 +38,7 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
       text: Option[String]
   ): SceneDescription =
     checkSensors(file, reading)
-    GltfScene.readable(file, within, reading.keepGoing, text)
+    GltfScene.readable(file, within, reading, text)
 
   def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
     Some(None)

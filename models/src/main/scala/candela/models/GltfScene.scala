@@ -8,6 +8,7 @@ import candela.scenefile.{
   Declaration, Dialect, Excerpts, GraphicsState, InstanceDescription, InstanceList,
   LightDescription, Param, ParamType, SceneDescription, ShapeDescription
 }
+import candela.settings.ReadSettings
 
 import java.nio.file.Path
 
@@ -24,10 +25,10 @@ private[models] object GltfScene:
   def readable(
       file: Path,
       within: SceneFolder,
-      keepGoing: Boolean,
+      reading: ReadSettings,
       text: Option[String]
   ): SceneDescription =
-    val session = Session(file, within, keepGoing)
+    val session = Session(file, within, reading.keepGoing, reading.resolution)
     val opened = text.fold(GltfFile.read(session))(GltfFile.ofText(session, _))
     val scene = Studio.complete(GltfScene(opened, session).result(), session)
     val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)

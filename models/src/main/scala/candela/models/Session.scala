@@ -2,7 +2,7 @@ package candela.models
 
 import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
 import candela.io.SceneFolder
-import candela.scenefile.{Declaration, Dialect, Param, Problems}
+import candela.scenefile.{Declaration, Dialect, Param, Problems, Resolution}
 
 import java.nio.file.Path
 
@@ -10,9 +10,15 @@ import scala.collection.mutable
 
 /** State of reading one model: its files, and the problems so far.
   *
-  * @param keepGoing if true, replaces missing files
+  * @param keepGoing  if true, replaces missing files
+  * @param resolution of the image, if one is asked for
   */
-private[models] final class Session(val file: Path, var folder: SceneFolder, keepGoing: Boolean):
+private[models] final class Session(
+    val file: Path,
+    var folder: SceneFolder,
+    keepGoing: Boolean,
+    resolution: Option[Resolution] = None
+):
   private val collected = Problems()
   private val reported = mutable.LinkedHashSet.empty[Problem]
   private val files = mutable.LinkedHashSet.empty[Path]
@@ -27,6 +33,15 @@ private[models] final class Session(val file: Path, var folder: SceneFolder, kee
     report(Problem.error(code, at, message))
   def missing(at: SourcePos, message: String, standIn: String, help: Option[String]): Unit =
     report(Problem.missing(Code.NoSuchFile, at, message, standIn, keepGoing).withHelp(help))
+
+  /** The aspect ratio of the image.
+    *
+    * @param natural that of the model's camera
+    */
+  def aspect(natural: Double): Double = resolution.fold(natural): asked =>
+    val (width, height) = View.size(natural)
+    val (askedWidth, askedHeight) = asked.of(width, height)
+    askedWidth.toDouble / askedHeight
 
   def problems: Vector[Problem] = collected.result()
 

@@ -166,8 +166,8 @@ private[models] object Framing:
   val Azimuth: Double = Math.toRadians(30)
   private val Elevation = Math.toRadians(15)
 
-  /** Half of the width of a film of 36 mm over a focal length of 35 mm. */
-  private val HalfWidth = 18.0 / 35
+  /** Half of the longer side of a film of 36 mm over a focal length of 35 mm. */
+  private val HalfLonger = 18.0 / 35
 
   /** Share of the image that the model may take. */
   private val Share = 0.9
@@ -182,10 +182,12 @@ private[models] object Framing:
     val x = (Vec3.Y cross towardsViewer).normalized
     val y = towardsViewer cross x
     val center = (bounds.min + bounds.max) * 0.5f
-    val halfHeight = HalfWidth / View.Aspect
+    val aspect = session.aspect(View.Aspect)
+    val halfWidth = HalfLonger * Math.min(1, aspect)
+    val halfHeight = HalfLonger / Math.max(1, aspect)
     val distance = (0 to 7).map: k =>
       val p = bounds.corner(k) - center
-      val wide = Math.abs(p dot x) / HalfWidth
+      val wide = Math.abs(p dot x) / halfWidth
       val high = Math.abs(p dot y) / halfHeight
       (p dot towardsViewer) + Math.max(wide, high) / Share
     .max
@@ -198,12 +200,16 @@ private[models] object Framing:
     ).map(_.toDouble)
     val at = session.at("")
     val params = Vector(
-      Param.float("fov", at, Math.toDegrees(2 * Math.atan(halfHeight)).toFloat),
+      Param.float(
+        "fov",
+        at,
+        Math.toDegrees(2 * Math.atan(Math.min(halfWidth, halfHeight))).toFloat
+      ),
       Param.float("nearclip", at, (1e-4 * distance).toFloat),
       Param.float("farclip", at, View.FarAway)
     )
     val toWorld = Transform.fromRows(rows).getOrElse(Transform.Identity)
-    View.addCamera(scene, session, toWorld, View.Aspect, "perspective", params, at)
+    View.addCamera(scene, session, toWorld, aspect, "perspective", params, at)
 
 /** The box around a model. */
 private object ModelBounds:

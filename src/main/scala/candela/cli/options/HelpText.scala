@@ -64,7 +64,7 @@ private[cli] object HelpText:
 
   /** Options in the overview. */
   private val Usual =
-    Vector("outfile", "spp", "time", "error", "quick", "cropwindow", "denoise", "watch")
+    Vector("outfile", "resolution", "spp", "time", "error", "cropwindow", "denoise", "watch")
 
   private val More = "`candela help COMMAND` lists the options of a command. Some of render's:"
 
@@ -151,11 +151,26 @@ private[cli] object UsageErrors:
       val otherRows = CommandTable.rows.filter(r => r != row && r.option(name).isDefined)
       val nearest = Suggest.nearest(name, "help" +: options.map(_.name))
       val hint =
-        if otherRows.nonEmpty then
+        if Synonyms.get(name).exists(s => options.exists(_.name == s)) then
+          s"; did you mean `--${Synonyms(name)}`?"
+        else if otherRows.nonEmpty then
           val words = otherRows.map(r => s"`${r.command.word}`")
           s"; ${listed(words)} ${if words.size == 1 then "has" else "have"} it"
         else nearest.fold("")(k => s"; did you mean `--$k`?")
       s"`candela ${row.command.word}` has no option `${option.stripSuffix("=")}`$hint"
+
+  /** Options by the words that other programs have for them. */
+  private val Synonyms = Map(
+    "width" -> "resolution",
+    "height" -> "resolution",
+    "size" -> "resolution",
+    "res" -> "resolution",
+    "r" -> "resolution",
+    "w" -> "resolution",
+    "samples" -> "spp",
+    "output" -> "outfile",
+    "threads" -> "nthreads"
+  )
 
   private def listed(words: Vector[String]): String =
     if words.size < 2 then words.mkString else s"${words.init.mkString(", ")} and ${words.last}"

@@ -185,9 +185,12 @@ private[candela] object OptionTable extends OptionRows:
     opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
       .text("picture to write (default: the scene's name with -preview.png, in this folder)")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
-    threads,
-    setting("cropwindow")
-  ) ++ parsing ++ Vector(explain, quiet, verbose("")) ++ DisplayTable.options ++
+    threads
+  ) ++ settings("resolution", "cropwindow") ++ parsing ++ Vector(
+    explain,
+    quiet,
+    verbose("")
+  ) ++ DisplayTable.options ++
     LimitTable.options
 
   val image: Vector[Row] = (ImageTable.options :+ quiet) ++ DisplayTable.imageRows
@@ -195,6 +198,9 @@ private[candela] object OptionTable extends OptionRows:
   val average: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.imageRows
 
   val reference: Vector[Row] =
-    ReferenceTable.options ++ TextureTable.options ++ Vector(threads, setting("cropwindow")) ++
-      parsing ++ settings("keep-going", "color", "sampler") ++
+    ReferenceTable.options ++ TextureTable.options ++ Vector(threads) ++
+      settings(
+        "resolution",
+        "cropwindow"
+      ) ++ parsing ++ settings("keep-going", "color", "sampler") ++
       Vector(FilmTable.every, quiet, verbose(", and what --explain prints")) ++ LimitTable.options

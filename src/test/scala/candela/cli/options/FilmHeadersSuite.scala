@@ -20,6 +20,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "define" -> Vector("spp=16"),
     "keep-going" -> Vector(""),
     "sensor" -> Vector("0", "3", "all"),
+    "resolution" -> Vector("640x360", "640", "50%"),
     "color" -> Vector("rgb", "spectral"),
     "sampler" -> Vector("scene", "progressive", "halton", "stratified"),
     "fireflies" -> Vector("reweight", "clamp:2.5"),
