@@ -50,6 +50,7 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
   private def hair(in: Properties): Surface =
     val scale = in.number("scale", 1).toFloat
     val pigments = Seq("eumelanin" -> 1.3, "pheomelanin" -> 0.2)
+    in.note("sigma_a", Colors.Kind)
     val absorption =
       if !in.contains("sigma_a") then
         pigments.map((name, default) => Param.float(name, in.pos, in.number(name, default).toFloat))
@@ -97,7 +98,9 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     in.ignore("sample_visible")
     val perAxis =
       for
-        (axis, name) <- Vector("u" -> "alpha_u", "v" -> "alpha_v") if in.contains(name)
+        (axis, name) <- Vector("u" -> "alpha_u", "v" -> "alpha_v")
+        _ = in.note(name, Textures.NumberKind, "0.1")
+        if in.contains(name)
       yield textures.number(s"${axis}roughness", in, name, 0.1)
     val roughnesses = if perAxis.nonEmpty then perAxis else isotropic(in)
     roughnesses ++ Vector(
@@ -146,6 +149,7 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     val material = in.text("material", if in.plugin.isOld then "Cu" else "none")
     val tint = scales(in, "specular_reflectance" -> "scale")
     in.ignore("ext_eta")
+    for name <- Seq("eta", "k") do in.note(name, Colors.Kind)
     val params =
       if material == "none" && (in.plugin.isOld || !in.contains("eta")) then
         // A perfect mirror, of which roughness is a blur
@@ -181,9 +185,12 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
         val index = in.number("eta").getOrElse:
           2 / (1 - Math.sqrt(0.08 * in.number("specular", 0.5))) - 1
         Param.float("eta", in.pos, index.toFloat)
-    val numbers = BasicSurfaces.Principled
-      .filter((property, _, default) => in.contains(property) || default.isDefined)
-      .map((property, name, default) => textures.number(name, in, property, default.getOrElse(0.0)))
+    val numbers =
+      for
+        (property, name, default, differs) <- BasicSurfaces.Principled
+        _ = in.note(property, Textures.NumberKind, Properties.text(default))
+        if differs || in.contains(property)
+      yield textures.number(name, in, property, default)
     in.ignore(
       "main_specular_sampling_rate", "clearcoat_sampling_rate",
       "diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
@@ -195,17 +202,17 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     )
 
 private object BasicSurfaces:
-  /** Mitsuba's name, pbrt's, and Mitsuba's default where pbrt's differs. */
+  /** Mitsuba's name, pbrt's, Mitsuba's default, and whether pbrt's differs. */
   private val Principled = Vector(
-    ("roughness", "roughness", None),
-    ("anisotropic", "anisotropic", None),
-    ("metallic", "metallic", None),
-    ("spec_trans", "spectrans", None),
-    ("spec_tint", "speculartint", None),
-    ("sheen", "sheen", None),
-    ("sheen_tint", "sheentint", Some(0.0)),
-    ("flatness", "flatness", None),
-    ("clearcoat", "clearcoat", None),
-    ("clearcoat_gloss", "clearcoatgloss", Some(0.0)),
-    ("diff_trans", "difftrans", Some(0.0))
+    ("roughness", "roughness", 0.5, false),
+    ("anisotropic", "anisotropic", 0.0, false),
+    ("metallic", "metallic", 0.0, false),
+    ("spec_trans", "spectrans", 0.0, false),
+    ("spec_tint", "speculartint", 0.0, false),
+    ("sheen", "sheen", 0.0, false),
+    ("sheen_tint", "sheentint", 0.0, true),
+    ("flatness", "flatness", 0.0, false),
+    ("clearcoat", "clearcoat", 0.0, false),
+    ("clearcoat_gloss", "clearcoatgloss", 0.0, true),
+    ("diff_trans", "difftrans", 0.0, true)
   )

@@ -38,9 +38,11 @@ enum Shade:
 final class Colors(session: Session):
 
   def shade(in: Properties, name: String, default: Rgb, role: Role): Shade =
+    in.note(name, Colors.Kind, Colors.text(default))
     givenShade(in, name, role).getOrElse(Shade.Constant(default))
 
   def givenShade(in: Properties, name: String, role: Role): Option[Shade] =
+    in.note(name, Colors.Kind)
     in.property(name).flatMap: p =>
       p.value match
         case Value.Number(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
@@ -122,12 +124,15 @@ final class Colors(session: Session):
       fixed(in, "value", default, role)
 
   /** A number or three. */
-  private def raw(in: Properties): Rgb = in.property("value").map(_.value) match
-    case Some(Value.Triple(x, y, z)) => Rgb(x.toFloat, y.toFloat, z.toFloat)
-    case None =>
-      session.error(Code.MissingParameter, in.pos, s"${in.plugin.description} must have a `value`")
-      Rgb.White
-    case _ => Rgb.gray(in.number("value", 1).toFloat)
+  private def raw(in: Properties): Rgb =
+    in.note("value", "float, vector")
+    in.property("value").map(_.value) match
+      case Some(Value.Triple(x, y, z)) => Rgb(x.toFloat, y.toFloat, z.toFloat)
+      case None =>
+        val message = s"${in.plugin.description} must have a `value`"
+        session.error(Code.MissingParameter, in.pos, message)
+        Rgb.White
+      case _ => Rgb.gray(in.number("value", 1).toFloat)
 
   /** A constant colour. */
   def fixed(in: Properties, name: String, default: Rgb, role: Role): Rgb =
@@ -208,3 +213,11 @@ final class Colors(session: Session):
     val (c, h, k) = (299792458.0, 6.62607015e-34, 1.380649e-23)
     val radiance = 2 * h * c * c / Math.pow(peak, 5) / Math.expm1(h * c / (peak * k * kelvin))
     Role.Emission.color(relative) * (radiance * 1e-9).toFloat
+
+private object Colors:
+  /** Elements by which colours are given. */
+  val Kind = "rgb, spectrum, texture"
+
+  def text(c: Rgb): String =
+    if c.r == c.g && c.g == c.b then Properties.text(c.r)
+    else Vector(c.r, c.g, c.b).map(x => Properties.text(x)).mkString(", ")

@@ -134,7 +134,7 @@ final class Emitters(
 
   private def directional(in: Properties): LightDescription =
     val c = colors.uniform(in, "irradiance", Rgb.White, Role.Emission)
-    val (x, y, z) = in.triple("direction").getOrElse((0.0, 0.0, 1.0))
+    val (x, y, z) = in.triple("direction", (0, 0, 1))
     val endpoints = Seq("from" -> Array(0f, 0f, 0f), "to" -> Array(x.toFloat, y.toFloat, z.toFloat))
     light(in, "distant", in.transform("to_world"), "")(
       (colors.light("L", c, in.pos) ++

@@ -12,6 +12,7 @@ private[mitsuba] object FieldOfView:
   def shorter(in: Properties, aspect: Double): Double =
     val axis = in.word("fov_axis", "x", "x", "y", "diagonal", "smaller", "larger")
     import in.session
+    in.note("focal_length", "string", "50mm")
     val focal = in.property("focal_length").map(p => (p.value, p.pos))
     val diagonal = Math.sqrt(1 + 1 / (aspect * aspect))
     def tan(degrees: Double) = Math.tan(Math.toRadians(degrees) / 2)

@@ -91,6 +91,7 @@ object Indices:
 
   /** A property that is a number or the name of a material. */
   def index(in: Properties, name: String, default: String): Double =
+    in.note(name, "float, string", default)
     in.property(name).map(_.value) match
       case Some(Value.Text(material)) =>
         dielectrics.getOrElse(

@@ -45,6 +45,14 @@ object MitsubaScene:
       folder = folder
     )
 
+  /** Reads a text for what it asks of its objects. */
+  private[mitsuba] def observe(file: Path, folder: SceneFolder, text: String)(
+      observe: Properties => Unit
+  ): Unit =
+    val expanded = Expansion(file, folder, Map.empty, Some(text)).result()
+    val session = Session(expanded, folder, keepGoing = true, observe = observe)
+    val _ = Translation(session, file).result()
+
 private final class Translation(session: Session, file: Path):
   import session.{sensor, sensors}
 

@@ -8,13 +8,28 @@ import scala.collection.mutable
 
 /** The properties of an object, and which of them have been queried. */
 final class Properties(val plugin: Plugin, val session: Session):
-  private val names = mutable.LinkedHashSet.empty[String]
+  private val entries = mutable.LinkedHashMap.empty[String, Query]
   private val queried = mutable.HashSet.empty[Property]
 
   def pos: SourcePos = plugin.pos
 
+  /** What was asked of the object. */
+  def queries: Vector[Query] = entries.values.toVector
+
+  /** Notes that it may contain something: what is said first of kind and default counts. */
+  def note(name: String, kind: => String, default: => String = ""): Unit =
+    val entry = entries.getOrElse(name, Query(name, "", ""))
+    if entry.kind.isEmpty || entry.default.isEmpty then
+      entries(name) = Query(
+        name,
+        if entry.kind.isEmpty then kind else entry.kind,
+        if entry.default.isEmpty then default else entry.default
+      )
+
+  private def names = entries.keySet.filter(!_.startsWith("<"))
+
   def property(name: String): Option[Property] =
-    names += name
+    note(name, "")
     val matches = plugin.properties.filter(_.name == name)
     matches.foreach(queried.add)
     if matches.size > 1 then
@@ -28,7 +43,10 @@ final class Properties(val plugin: Plugin, val session: Session):
   def contains(name: String): Boolean = property(name).isDefined
   def posOf(name: String): SourcePos = property(name).fold(pos)(_.pos)
 
-  private def value[A](name: String, expected: String)(read: PartialFunction[Value, A]): Option[A] =
+  private def value[A](name: String, kind: String, expected: String)(
+      read: PartialFunction[Value, A]
+  ): Option[A] =
+    note(name, kind)
     property(name).flatMap: p =>
       val converted = read.lift(p.value)
       if converted.isEmpty then
@@ -40,28 +58,38 @@ final class Properties(val plugin: Plugin, val session: Session):
       converted
 
   def number(name: String): Option[Double] =
-    value(name, "a number"):
+    value(name, "float", "a number"):
       case Value.Number(x) => x
       case Value.Flat(x) => x
-  def number(name: String, default: Double): Double = number(name).getOrElse(default)
+  def number(name: String, default: Double): Double =
+    note(name, "float", Properties.text(default))
+    number(name).getOrElse(default)
 
   def integer(name: String, default: Int): Int =
+    note(name, "integer", default.toString)
     number(name).fold(default): x =>
       if x != Math.rint(x) || Math.abs(x) > Int.MaxValue then
         session.error(Code.ParameterType, posOf(name), s"`$name` must be a whole number")
       x.toInt
 
   def flag(name: String, default: Boolean): Boolean =
-    value(name, "a boolean") { case Value.Flag(b) => b }.getOrElse(default)
+    note(name, "boolean", default.toString)
+    value(name, "boolean", "a boolean") { case Value.Flag(b) => b }.getOrElse(default)
   def text(name: String): Option[String] =
-    value(name, "a string") { case Value.Text(t) => t }
-  def text(name: String, default: String): String = text(name).getOrElse(default)
+    value(name, "string", "a string") { case Value.Text(t) => t }
+  def text(name: String, default: String): String =
+    note(name, "string", default)
+    text(name).getOrElse(default)
   def triple(name: String): Option[(Double, Double, Double)] =
-    value(name, "a vector") { case Value.Triple(x, y, z) => (x, y, z) }
+    value(name, "vector", "a vector") { case Value.Triple(x, y, z) => (x, y, z) }
+
+  def triple(name: String, default: (Double, Double, Double)): (Double, Double, Double) =
+    note(name, "vector", default.toList.map(Properties.text).mkString(", "))
+    triple(name).getOrElse(default)
 
   /** A transform that may move. */
   def motion(name: String): Option[AnimatedTransform] =
-    value(name, "a transform"):
+    value(name, "transform", "a transform"):
       case Value.Placed(t) => GraphicsState.constant(t)
       case Value.Moving(keys) => session.motion(keys, posOf(name))
 
@@ -78,6 +106,7 @@ final class Properties(val plugin: Plugin, val session: Session):
 
   /** One of the words. */
   def word(name: String, default: String, choices: String*): String =
+    note(name, choices.mkString("|"), default)
     val choice = text(name, default)
     if choices.contains(choice) then choice
     else
@@ -91,7 +120,7 @@ final class Properties(val plugin: Plugin, val session: Session):
 
   /** Nested and referenced objects of a kind; all of them if no name is given. */
   def nested(kind: String, name: String = ""): Vector[Plugin] =
-    if name.nonEmpty then names += name
+    if name.nonEmpty then note(name, kind) else note(s"<$kind>", kind)
     named(kind).collect { case (of, child) if name.isEmpty || of == name => child }
 
   /** The same of any name, with their names. */
@@ -117,7 +146,7 @@ final class Properties(val plugin: Plugin, val session: Session):
   /** Properties that do not affect the image. */
   def ignore(ignored: String*): Unit =
     for name <- ignored do
-      names += name
+      note(name, "")
       plugin.properties.filter(_.name == name).foreach(queried.add)
 
   /** Properties without effect here: each use is a warning. */
@@ -154,3 +183,7 @@ final class Properties(val plugin: Plugin, val session: Session):
             s"`${p.name}` is not a parameter of ${plugin.description}; it is ignored",
             Suggest.help(inFile(p.name), names.map(inFile))
           )
+
+private[mitsuba] object Properties:
+  /** A number without needless digits. */
+  def text(x: Double): String = x.toFloat.toString.stripSuffix(".0")

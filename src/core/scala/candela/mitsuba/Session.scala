@@ -17,13 +17,15 @@ import scala.collection.mutable
   *
   * @param sensor which of the scene's sensors is asked for, from 0, if any is
   * @param resolution of the image, if not that of the film
+  * @param observe    is told of each object that was read
   */
 final class Session(
     expanded: Expanded,
     folder: SceneFolder,
     keepGoing: Boolean,
     val sensor: Option[Int] = None,
-    val resolution: Option[Resolution] = None
+    val resolution: Option[Resolution] = None,
+    observe: Properties => Unit = _ => ()
 ):
   private val collected = Problems()
   private val files = mutable.LinkedHashSet.empty[Path]
@@ -187,7 +189,9 @@ final class Session(
   def translate[A](p: Plugin)(body: Properties => A): A =
     allowance.checkTime(Some(p.pos))
     val properties = Properties(p, this)
-    val result = body(properties)
+    val result =
+      try body(properties)
+      finally observe(properties)
     properties.finish()
     result
 

@@ -183,7 +183,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
           Transform.Identity,
           isFlipped != toWorld.swapsHandedness
         ))
-      case "cube" => Some(meshForm(in, Mesh.cube, isFlipped, toWorld))
+      case "cube" => Some(meshForm(in, isFlipped, toWorld)(Mesh.cube))
       case "obj" =>
         val isUp = in.flag("flip_tex_coords", true)
         in.ignore("collapse")
@@ -213,8 +213,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
 
   /** The place and length of a cylinder along z. */
   private def axis(in: Properties, toWorld: Transform): Option[(Transform, Double)] =
-    val (x0, y0, z0) = in.triple("p0").getOrElse((0.0, 0.0, 0.0))
-    val (x1, y1, z1) = in.triple("p1").getOrElse((0.0, 0.0, 1.0))
+    val (x0, y0, z0) = in.triple("p0", (0, 0, 0))
+    val (x1, y1, z1) = in.triple("p1", (0, 0, 1))
     val (dx, dy, dz) = (x1 - x0, y1 - y0, z1 - z0)
     val length = Math.sqrt(dx * dx + dy * dy + dz * dz)
     if !(length > 0) then
@@ -232,7 +232,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       read: InputFile => Mesh
   ): Option[Form] =
     in.ignore("optimize_meshes", "use_inverse_transform", "is_alembic")
-    fileOf(in).map(file => meshForm(in, read(file), isFlipped, toWorld, attributes))
+    val formed = meshForm(in, isFlipped, toWorld, attributes)
+    fileOf(in).map(file => formed(read(file)))
 
   private def fileOf(in: Properties): Option[InputFile] = in.text("filename") match
     case None =>
@@ -272,19 +273,20 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
 
   private def meshForm(
       in: Properties,
-      mesh: Mesh,
       isFlipped: Boolean,
       toWorld: Transform,
       attributes: Option[MeshAttributes] = None
-  ): Form =
-    val inWorld = mesh.placed(toWorld)
+  ): Mesh => Form =
     val isFaceted = in.flag("face_normals", false)
-    val withNormals = in.number("max_smooth_angle") match
-      case Some(degrees) if !isFaceted && attributes.isEmpty => inWorld.smoothBelow(degrees)
-      case _ => if isFaceted then inWorld.faceted else inWorld.smooth
-    val laid = attributes.fold(withNormals)(_.laidOut(withNormals))
-    val shaded = if in.nested("bsdf").headOption.exists(isMapped) then laid.onTriangles else laid
-    Form("trianglemesh", params(shaded, in), Transform.Identity, isFlipped)
+    val smoothAngle = in.number("max_smooth_angle").filter(_ => !isFaceted && attributes.isEmpty)
+    mesh =>
+      val inWorld = mesh.placed(toWorld)
+      val withNormals = smoothAngle match
+        case Some(degrees) => inWorld.smoothBelow(degrees)
+        case None => if isFaceted then inWorld.faceted else inWorld.smooth
+      val laid = attributes.fold(withNormals)(_.laidOut(withNormals))
+      val shaded = if in.nested("bsdf").headOption.exists(isMapped) then laid.onTriangles else laid
+      Form("trianglemesh", params(shaded, in), Transform.Identity, isFlipped)
 
   /** Does the look of the surface depend on u and v? */
   private def isMapped(bsdf: Plugin): Boolean =

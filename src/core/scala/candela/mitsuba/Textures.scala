@@ -36,6 +36,7 @@ final class Textures(session: Session, colors: Colors):
 
   /** A number or texture. */
   def number(name: String, in: Properties, property: String, default: Double): Param =
+    in.note(property, Textures.NumberKind, Properties.text(default))
     number(
       name,
       colors.shade(in, property, Rgb.gray(default.toFloat), Role.Reflectance),
@@ -311,6 +312,9 @@ final class Textures(session: Session, colors: Colors):
     Vector(su, skewU, du, across, up, shift).map(_.toFloat)
 
 object Textures:
+  /** Elements by which numbers that may vary are given. */
+  val NumberKind = "float, texture"
+
   /** Parameters of bitmaps of Mitsuba 0.6. */
   val OldOptions: Vector[String] =
     Vector("gamma", "cache", "max_anisotropy", "wrap_mode_u", "wrap_mode_v")

@@ -41,10 +41,13 @@ final class Views(session: Session, media: Media, image: String):
     Plugin(kind, name, None, at, Vector.empty)
 
   private def camera(in: Properties, width: Int, height: Int): Declaration =
-    val shutter = Seq("shutter_open" -> "shutteropen", "shutter_close" -> "shutterclose").flatMap:
-      (name, ours) => in.number(name).map(x => Param.float(ours, in.posOf(name), x.toFloat))
-    val clips = Seq("near_clip" -> "nearclip", "far_clip" -> "farclip").flatMap: (name, ours) =>
-      in.number(name).map(x => Param.float(ours, in.posOf(name), x.toFloat))
+    def asWritten(name: String, ours: String, default: String): Vector[Param] =
+      in.note(name, "float", default)
+      in.number(name).map(x => Param.float(ours, in.posOf(name), x.toFloat)).toVector
+    val shutter = asWritten("shutter_open", "shutteropen", "0") ++
+      asWritten("shutter_close", "shutterclose", "0")
+    val clips =
+      asWritten("near_clip", "nearclip", "0.01") ++ asWritten("far_clip", "farclip", "10000")
     val always = shutter ++ clips
     val aspect = width.toDouble / height
     val dx = in.number("principal_point_offset_x", 0)

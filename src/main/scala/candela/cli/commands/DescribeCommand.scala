@@ -9,12 +9,19 @@ import candela.build.recipe.{Dialects, Field, Recipe, Support}
 import candela.cli.files.{FileRegister, Output, OutputFiles}
 import candela.cli.options.{CommandsPage, ManPage, Options, Page, PbrtOptions}
 import candela.cli.terminal.{ExitCode, Report, Terminal, TextTable}
+import candela.mitsuba.{DescribedPlugin, TypeReference}
 import candela.scenefile.Dialect
 
 /** `candela describe`: prints the scene reference, generated from the recipes that build scenes. */
 final class DescribeCommand(options: Options, terminal: Terminal, report: Report):
-  private val described =
-    Described(options.settings.reading.dialect.fold(Dialect.values.toSet)(Set(_)))
+  private val dialect = options.settings.reading.dialect
+
+  /** Of Mitsuba's types, their own names and not those that scenes are described by. */
+  private val described = Described(dialect.fold(Dialect.ofPbrt.toSet)(Set(_)))
+  private val categories =
+    if dialect.contains(Dialect.Mitsuba) then Vector.empty else Language.categories
+  private val elements =
+    if dialect.forall(_ == Dialect.Mitsuba) then TypeReference.elements else Vector.empty
   private val text = ReferenceText(described, terminal.columns)
 
   def run(): ExitCode = report.guarded:
@@ -23,7 +30,8 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
     val lines =
       options.pages.lastOption match
         case Some(Page.PbrtOptions) => PbrtOptions.page.linesIterator.toVector
-        case Some(Page.Reference) => ReferenceMarkdown(described).page
+        case Some(Page.Reference) =>
+          ReferenceMarkdown(Described(dialect.fold(Dialect.values.toSet)(Set(_)))).page
         case Some(Page.Commands) => CommandsPage.lines
         case Some(Page.Manual) => ManPage.lines
         case Some(Page.Problems) => ProblemsPage.lines
@@ -38,36 +46,53 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
     ExitCode.Done
 
   private def answer(words: Vector[String]): Vector[String] = words match
-    case Vector() => text.categories
+    case Vector() => text.categories(categories, elements)
     case Vector(word) =>
-      val categories = Language.categories.filter(isCalled(_, word))
-      if categories.nonEmpty then separated(categories.map(text.category))
-      else of(Language.categories, word, Language.categories.flatMap(c => c.name +: c.aliases))
+      val (named, inMitsuba) = called(word)
+      val lists = named.map(text.category) ++ inMitsuba.map(text.element)
+      if lists.nonEmpty then separated(lists)
+      else of(categories, elements, word, categories.flatMap(c => c.name +: c.aliases) ++ elements)
     case Vector(category, name) =>
-      val categories = Language.categories.filter(isCalled(_, category))
-      if categories.isEmpty then
-        unknown("category", category, Language.categories.flatMap(c => c.name +: c.aliases))
-      else of(categories, name, Vector.empty)
+      val (named, inMitsuba) = called(category)
+      if named.isEmpty && inMitsuba.isEmpty then
+        unknown("category", category, categories.flatMap(c => c.name +: c.aliases) ++ elements)
+      else of(named, inMitsuba, name, Vector.empty)
     case _ => throw SceneError(Problem.general(
         Code.UnknownEntry,
         "describe expects a category, a type, or both"
       ))
 
+  /** Categories of pbrt's types, and elements of Mitsuba's, of this name. */
+  private def called(word: String): (Vector[Category], Vector[String]) =
+    (categories.filter(isCalled(_, word)), elements.filter(_.equalsIgnoreCase(word)))
+
   /** The types called `name`, or else those that have a parameter called so. */
-  private def of(in: Vector[Category], name: String, others: Vector[String]): Vector[String] =
+  private def of(
+      in: Vector[Category],
+      inMitsuba: Vector[String],
+      name: String,
+      others: Vector[String]
+  ): Vector[String] =
     val types = in.flatMap(described.types)
-    types.filter(_.name.equalsIgnoreCase(name)) match
-      case Vector() =>
-        val having = types.flatMap(_.withParameter(name))
-        if having.nonEmpty then separated(having.map(text.parameters))
-        else
-          val candidates = types.map(_.name).filter(_.nonEmpty) ++ others
-          unknown(
-            if in.size == 1 then in.head.name else "type",
-            name,
-            candidates ++ types.flatMap(_.parameters.map(_.name)).distinct
-          )
-      case found => separated(found.map(text.parameters))
+    val plugins = inMitsuba.flatMap(e => TypeReference.types(e).map(e -> _))
+    val named = types.filter(_.name.equalsIgnoreCase(name)).map(text.parameters) ++
+      plugins.filter(_._2.equalsIgnoreCase(name)).map(TypeReference.describe).map(text.plugin)
+    if named.nonEmpty then separated(named)
+    else
+      val all = plugins.map(TypeReference.describe)
+      val having = types.flatMap(_.withParameter(name)).map(text.parameters) ++
+        all.flatMap(_.withParameter(name)).map(text.plugin)
+      if having.nonEmpty then separated(having)
+      else
+        val candidates = types.map(_.name).filter(_.nonEmpty) ++ plugins.map(_._2) ++ others
+        val parameters = types.flatMap(_.parameters.map(_.name)) ++
+          all.flatMap(_.parameters.map(_.name))
+        val kinds = in.map(_.name) ++ inMitsuba
+        unknown(
+          if kinds.size == 1 then kinds.head else "type",
+          name,
+          candidates ++ parameters.distinct
+        )
 
   private def isCalled(c: Category, word: String): Boolean =
     (c.name +: c.aliases).exists(n => n.equalsIgnoreCase(word) || (n + "s").equalsIgnoreCase(word))
@@ -188,13 +213,15 @@ final class ReferenceText(described: Described, columns: Int):
   private val table = TextTable(columns)
 
   /** Lists all categories. */
-  def categories: Vector[String] =
-    val rows =
-      for c <- Language.categories; types = described.types(c) if types.nonEmpty
+  def categories(ofPbrt: Vector[Category], ofMitsuba: Vector[String]): Vector[String] =
+    val pbrtRows =
+      for c <- ofPbrt; types = described.types(c) if types.nonEmpty
       yield
         val counted = types.map(_.name).distinct.size
         Vector(c.name, if counted > 1 then s"$counted types" else "", c.meaning)
-    table.lines(rows, indent = 0) ++
+    val mitsubaRows = ofMitsuba.map: e =>
+      Vector(e, s"${TypeReference.types(e).size} types", s"<$e> in Mitsuba's scenes")
+    table.lines(pbrtRows ++ mitsubaRows, indent = 0) ++
       Vector(
         "",
         "`candela describe CATEGORY` lists types, `candela describe TYPE` parameters,",
@@ -210,6 +237,19 @@ final class ReferenceText(described: Described, columns: Int):
           val substituteNote = t.substitute.fold("")(instead => s"; substituted: $instead")
           Vector(s"\"${t.name}\"", t.dialects, t.meaning + substituteNote)
         s"${c.name}: ${c.meaning}" +: "" +: table.lines(rows)
+
+  /** Lists the types of an element of Mitsuba's. */
+  def element(name: String): Vector[String] =
+    s"<$name> in Mitsuba's scenes:" +: "" +:
+      TextTable.wrap(TypeReference.types(name).mkString(", "), columns)
+
+  def plugin(p: DescribedPlugin): Vector[String] =
+    val rows = p.parameters.map: a =>
+      Vector(a.name, a.kind, if a.default.isEmpty then "none" else a.default)
+    val body =
+      if rows.isEmpty then Vector("  no parameters")
+      else table.lines(Vector("name", "type", "default") +: rows)
+    s"<${p.element} type=\"${p.name}\"> (mitsuba)" +: "" +: body
 
   def parameters(t: DescribedType): Vector[String] =
     val head = TextTable.wrap(s"${t.title} (${t.dialects}): ${t.meaning}", columns)
@@ -310,7 +350,8 @@ private object ReferenceMarkdown:
     """# Scene reference
       |
       |All types and parameters of pbrt-v2, v3 and v4, and Candela's support for them. Scenes of
-      |Mitsuba are described by those of v4, and by those marked `mitsuba`, which no pbrt has. This
+      |Mitsuba are described by those of v4, and by those marked `mitsuba`, which no pbrt has;
+      |`candela describe --dialect mitsuba` has the names that these scenes use themselves. This
       |page is generated: `./sbt "run describe --markdown --outfile docs/REFERENCE.md"`.
       |
       |A parameter's type precedes its name: `"float radius" 2`. `float texture` and `spectrum

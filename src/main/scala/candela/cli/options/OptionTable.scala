@@ -3,7 +3,7 @@ package candela.cli.options
 import candela.convert.Baking
 import candela.image.{Contents, OutputFormat}
 import candela.scenefile.Dialect
-import candela.settings.{RenderRegion, SettingsTable}
+import candela.settings.{RenderRegion, SettingsTable, TextForm}
 import candela.watch.{TevDisplay, WatchAddress}
 
 import scopt.{OParser, Read}
@@ -125,6 +125,10 @@ private[candela] object OptionTable extends OptionRows:
     parsing ++ settings("keep-going", "color") ++
       Vector(explain, quiet, verbose(", and what --explain prints")) ++ LimitTable.options
 
+  private val describable: TextForm[Dialect] =
+    val all = Dialect.ofPbrt :+ Dialect.Mitsuba
+    TextForm("v2, v3, v4 or mitsuba", t => all.find(_.toString.equalsIgnoreCase(t)), _.toString)
+
   val describe: Vector[Row] = Vector(
     opt[Unit]("pbrt-options")
       .text("print pbrt's options and their equivalents as a Markdown page")
@@ -138,7 +142,9 @@ private[candela] object OptionTable extends OptionRows:
     opt[Unit]("problems")
       .text("print all problems that `explain` explains, as a Markdown page")
       .action((_, o) => o.copy(pages = o.pages :+ Page.Problems)),
-    setting("dialect", "only types and parameters of this pbrt version"),
+    opt[Dialect]("dialect")(using reading(describable)).valueName("v2|v3|v4|mitsuba")
+      .text("only types and parameters of this pbrt version, or of Mitsuba")
+      .action((d, o) => o.setting(s => s.copy(reading = s.reading.copy(dialect = Some(d))))),
     opt[Unit]("markdown")
       .text("print the whole reference as a Markdown page, docs/REFERENCE.md")
       .action((_, o) => o.copy(pages = o.pages :+ Page.Reference)),
