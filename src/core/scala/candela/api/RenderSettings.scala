@@ -79,7 +79,8 @@ final class RenderSettings private (private[api] val core: CoreSettings):
     val text = value.getOrElse("")
     setting.change(text) match
       case Some(changed) => change(changed)
-      case None => Problems.fail(Code.OptionValue, s"wrong value of `$name`: `$text`")
+      case None =>
+        Problems.fail(Code.OptionValue, s"wrong value of `$name`: `${setting.wrong(text)}`")
 
   private def positive(what: String, value: Double): Double =
     if value > 0 && !value.isInfinite then value

@@ -9,6 +9,7 @@ package candela.settings
   * @param texts        its values as text; none: the default
   * @param read         what a value's text changes; None: it is no such value
   * @param wanted       what messages say of such a text, after "must be"
+  * @param wrong        the part of such a text that is wrong
   * @param isIdentity   whether two films that differ in it are of different images
   * @param isRepeatable whether command lines may have it several times
   * @param letter       of its short option
@@ -21,6 +22,7 @@ final case class Setting private (
     texts: RenderSettings => Vector[String],
     read: String => Option[RenderSettings => RenderSettings],
     wanted: String => String,
+    wrong: String => String,
     more: String = "",
     isIdentity: Boolean = true,
     isRepeatable: Boolean = false,
@@ -70,10 +72,10 @@ private[settings] object Setting:
       put: (S, A) => S
   )(using form: TextForm[A]): Setting =
     def read(text: String) = form.read(text).map(a => put(_: S, a))
-    Setting(name, valueName, help, of(_).map(form.format), read, form.wanted)
+    Setting(name, valueName, help, of(_).map(form.format), read, form.wanted, form.wrong)
 
   def flag(name: String, help: String)(of: S => Boolean)(put: S => S): Setting =
-    Setting(name, "", help, s => Option.when(of(s))("").toVector, _ => Some(put), _ => "")
+    Setting(name, "", help, s => Option.when(of(s))("").toVector, _ => Some(put), _ => "", identity)
 
   def region[R <: RenderRegion: TextForm](name: String, valueName: String, help: String)(
       of: PartialFunction[RenderRegion, R]

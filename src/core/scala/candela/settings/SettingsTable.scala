@@ -20,14 +20,13 @@ object SettingsTable:
   private def storedLayers(s: S): Layers =
     s.layers.map(layer => layer -> s.output.precisions.get(layer))
 
-  private given TextForm[Layers] = TextForm(
-    TextForm.layer.expected,
-    text =>
-      val layers = text.split(",", -1).toVector.map(TextForm.layer.read)
-      Option.when(layers.forall(_.isDefined))(layers.flatten)
-    ,
-    _.map(TextForm.layer.format).mkString(",")
-  )
+  private given TextForm[Layers] =
+    val layer = TextForm.layer
+    TextForm.ofItems(
+      layer.expected,
+      layer.read,
+      (all: Layers) => all.map(layer.format).mkString(",")
+    ) { case all => all }
 
   /** Of pbrt-v4's films. */
   private val filmLayers: TextForm[Vector[Layer]] =

@@ -17,22 +17,25 @@ import scala.util.Try
   * @param read     None: it is no such value
   * @param format   what `read` reads as the same value
   * @param wanted   what messages say of a text that is no such value, after "must be"
+  * @param wrong    the part of such a text that is wrong
   */
 final class TextForm[A] private (
     val expected: String,
     val read: String => Option[A],
     val format: A => String,
-    val wanted: String => String
+    val wanted: String => String,
+    val wrong: String => String = identity
 ):
   def map[B](to: A => B)(from: B => A): TextForm[B] =
-    new TextForm[B](expected, read(_).map(to), b => format(from(b)), wanted)
+    new TextForm[B](expected, read(_).map(to), b => format(from(b)), wanted, wrong)
 
   def filter(rule: String)(fits: A => Boolean): TextForm[A] =
     new TextForm[A](
       rule,
       read(_).filter(fits),
       format,
-      text => if read(text).isDefined then rule else wanted(text)
+      text => if read(text).isDefined then rule else wanted(text),
+      wrong
     )
 
 object TextForm:
@@ -47,17 +50,30 @@ object TextForm:
 
   private def lower(value: Any): String = value.toString.toLowerCase
 
-  /** Numbers between commas: all of the text's, or none. */
-  private def numbers[N](read: String => Option[N])(text: String): Option[Vector[N]] =
-    val parsed = text.split(",", -1).toVector.map(n => read(n.trim))
-    Option.when(parsed.forall(_.isDefined))(parsed.flatten)
+  /** Values of items between commas. */
+  private[settings] def ofItems[I, A](
+      expected: String,
+      item: String => Option[I],
+      format: A => String
+  )(value: PartialFunction[Vector[I], A]): TextForm[A] =
+    def items(text: String) = text.split(",", -1).toVector.map(_.trim)
+    new TextForm(
+      expected,
+      text =>
+        val parsed = items(text).map(item)
+        Option.when(parsed.forall(_.isDefined))(parsed.flatten).flatMap(value.lift)
+      ,
+      format,
+      _ => expected,
+      text => items(text).find(item(_).isEmpty).getOrElse(text)
+    )
 
   val int: TextForm[Int] = new TextForm(
-    "a number",
+    "a whole number",
     _.toIntOption,
     _.toString,
     text =>
-      Try(BigInt(text)).toOption.fold("a number"): n =>
+      Try(BigInt(text)).toOption.fold("a whole number"): n =>
         if n > 0 then s"at most ${Int.MaxValue}" else s"at least ${Int.MinValue}"
   )
   val float: TextForm[Float] = TextForm("a number", Decimal.float(_), _.toString)
@@ -185,32 +201,29 @@ object TextForm:
       }
     )
 
-  given window: TextForm[RenderRegion.Window] = TextForm(
+  given window: TextForm[RenderRegion.Window] = ofItems(
     "x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5",
-    numbers(Decimal.float)(_).collect:
-      case Vector(x0, x1, y0, y1)
-          if 0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1 =>
-        new RenderRegion.Window(x0, x1, y0, y1)
-    ,
-    w => s"${w.x0},${w.x1},${w.y0},${w.y1}"
-  )
+    Decimal.float(_),
+    (w: RenderRegion.Window) => s"${w.x0},${w.x1},${w.y0},${w.y1}"
+  ):
+    case Vector(x0, x1, y0, y1)
+        if 0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1 =>
+      new RenderRegion.Window(x0, x1, y0, y1)
 
-  given pixels: TextForm[RenderRegion.Pixels] = TextForm(
+  given pixels: TextForm[RenderRegion.Pixels] = ofItems(
     "x0,x1,y0,y1 with x0 < x1 and y0 < y1, in pixels",
-    numbers(_.toIntOption)(_).collect:
-      case Vector(x0, x1, y0, y1) if x0 < x1 && y0 < y1 =>
-        new RenderRegion.Pixels(PixelBounds(x0, y0, x1, y1))
-    ,
-    p => s"${p.bounds.x0},${p.bounds.x1},${p.bounds.y0},${p.bounds.y1}"
-  )
+    _.toIntOption,
+    (p: RenderRegion.Pixels) => s"${p.bounds.x0},${p.bounds.x1},${p.bounds.y0},${p.bounds.y1}"
+  ):
+    case Vector(x0, x1, y0, y1) if x0 < x1 && y0 < y1 =>
+      new RenderRegion.Pixels(PixelBounds(x0, y0, x1, y1))
 
-  given pixel: TextForm[RenderRegion.Pixel] = TextForm(
+  given pixel: TextForm[RenderRegion.Pixel] = ofItems(
     "x,y in pixels, e.g. 12,40",
-    numbers(_.toIntOption)(_).collect:
-      case Vector(x, y) if x >= 0 && y >= 0 => new RenderRegion.Pixel(x, y)
-    ,
-    p => s"${p.x},${p.y}"
-  )
+    _.toIntOption,
+    (p: RenderRegion.Pixel) => s"${p.x},${p.y}"
+  ):
+    case Vector(x, y) if x >= 0 && y >= 0 => new RenderRegion.Pixel(x, y)
 
   /** A layer, with a precision if given: whether it is half. */
   given layer: TextForm[(Layer, Option[Boolean])] =
@@ -229,28 +242,35 @@ object TextForm:
 
   given TextForm[LightGrouping] =
     val name = "[A-Za-z0-9_]+"
-    def parsed(text: String): Option[LightGrouping] =
-      val groups = text.split(",", -1).toVector.map:
-        case s"$group=$lights" => (group, lights.split("\\+", -1).toVector)
-        case _ => ("", Vector.empty)
-      val isValid = groups.forall((group, lights) => (group +: lights).forall(_.matches(name)))
-      Option.when(isValid):
-        val merged = groups.map(_._1).distinct
-        LightGrouping.Named(merged.map(n => n -> groups.filter(_._1 == n).flatMap(_._2)))
-    TextForm(
+    def group(text: String): Option[(String, Vector[String])] = text match
+      case s"$group=$lights" =>
+        val parsed = (group, lights.split("\\+", -1).toVector)
+        Option.when((group +: parsed._2).forall(_.matches(name)))(parsed)
+      case _ => None
+    val named = ofItems[(String, Vector[String]), LightGrouping](
       "statement, type, or names of letters, digits and _, such as " +
         "key=point_12+spot_14,sky=infinite",
-      {
-        case "statement" => Some(LightGrouping.Statements)
-        case "type" => Some(LightGrouping.Types)
-        case text => parsed(text)
-      },
+      group,
       {
         case LightGrouping.Statements => "statement"
         case LightGrouping.Types => "type"
         case LightGrouping.Named(groups) =>
           groups.map((group, lights) => s"$group=${lights.mkString("+")}").mkString(",")
       }
+    ):
+      case groups =>
+        val merged = groups.map(_._1).distinct
+        LightGrouping.Named(merged.map(n => n -> groups.filter(_._1 == n).flatMap(_._2)))
+    new TextForm(
+      named.expected,
+      {
+        case "statement" => Some(LightGrouping.Statements)
+        case "type" => Some(LightGrouping.Types)
+        case text => named.read(text)
+      },
+      named.format,
+      named.wanted,
+      named.wrong
     )
 
   given TextForm[ToneCurve] =

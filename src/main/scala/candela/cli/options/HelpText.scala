@@ -84,6 +84,13 @@ private[cli] final case class UsageError(code: Code, message: String)
   */
 private[cli] object UsageErrors:
 
+  /** What scopt shall say of a value.
+    *
+    * @param item the part of it that is wrong
+    */
+  def unread(expected: String, item: String): IllegalArgumentException =
+    IllegalArgumentException(s"expected $expected\n$item")
+
   /** The texts of errors.
     *
     * @param errors as scopt words them
@@ -96,10 +103,12 @@ private[cli] object UsageErrors:
 
   private def usageError(error: String, row: CommandRow): UsageError =
     val command = s"`candela ${row.command.word}`"
-    def invalid(name: String, what: String, found: String) = UsageError(
+    def invalid(name: String, what: String, found: String, whole: String = "") = UsageError(
       Code.OptionValue,
-      if found.isEmpty then s"--$name needs a value: ${valueOf(name, row)}"
-      else s"--$name must be $what, found `$found`${suggestion(what, found)}"
+      if found.isEmpty && whole.isEmpty then s"--$name needs a value: ${valueOf(name, row)}"
+      else
+        val list = if whole.isEmpty || whole == found then "" else s" in `$whole`"
+        s"--$name must be $what, found `$found`$list${suggestion(what, found)}"
     )
     def missing(what: String) = UsageError(Code.MissingArgument, s"$command needs $what")
     error match
@@ -118,6 +127,8 @@ private[cli] object UsageErrors:
         invalid(name, "", "")
       case s"Option --$name expects a number but was given '$found'" =>
         invalid(name, number(found), found)
+      case s"Option --$name failed when given '$whole'. expected $what\n$found" =>
+        invalid(name, what, found, whole)
       case s"Option --$name failed when given '$found'. expected $what" =>
         invalid(name, what, found)
       case s"--$_ must be $_" => UsageError(Code.OptionValue, error)
@@ -125,7 +136,7 @@ private[cli] object UsageErrors:
 
   private def number(found: String): String =
     scala.util.Try(BigInt(found)).fold(
-      _ => "a number",
+      _ => "a whole number",
       n => if n > 0 then s"at most ${Int.MaxValue}" else s"at least ${Int.MinValue}"
     )
 

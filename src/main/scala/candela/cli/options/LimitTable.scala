@@ -15,7 +15,7 @@ private[cli] object LimitTable:
   private given Read[Changed] = Read.reads: text =>
     val (name, value) = text.trim.span(_ != '=')
     val limit = Limit.values.find(_.word.equalsIgnoreCase(name)).getOrElse:
-      throw IllegalArgumentException(s"`$name` is none of ${names}")
+      throw UsageErrors.unread(s"NAME=N with a NAME of $names", text)
     val amount = value.drop(1).trim
     if amount.equalsIgnoreCase("none") then Changed(limit, None)
     else
@@ -25,9 +25,7 @@ private[cli] object LimitTable:
         case _ => TextForm.count.read(amount)
       Changed(
         limit,
-        Some(bound.getOrElse(
-          throw IllegalArgumentException(s"expected ${expected(limit)}")
-        ))
+        Some(bound.getOrElse(throw UsageErrors.unread(expected(limit), text)))
       )
 
   private def names: String = Limit.values.map(_.word).mkString(", ")

@@ -18,7 +18,7 @@ private[candela] trait OptionRows:
   protected final given read[A](using form: TextForm[A]): Read[A] = reading(form)
 
   protected final def reading[A](form: TextForm[A]): Read[A] = Read.reads: text =>
-    form.read(text).getOrElse(throw IllegalArgumentException(s"expected ${form.wanted(text)}"))
+    form.read(text).getOrElse(throw UsageErrors.unread(form.wanted(text), form.wrong(text)))
 
   /** The row of a setting.
     *
@@ -33,8 +33,7 @@ private[candela] trait OptionRows:
     val text = if help.isEmpty then OptionText(of.help, of.more) else help
     if of.takesValue then
       val read: Read[RenderSettings => RenderSettings] = Read.reads: value =>
-        of.change(value).getOrElse:
-          throw IllegalArgumentException(s"expected ${of.wanted(value)}")
+        of.change(value).getOrElse(throw UsageErrors.unread(of.wanted(value), of.wrong(value)))
       val plain = b.opt[RenderSettings => RenderSettings](of.name)(using read)
         .valueName(of.valueName).text(text).action((change, o) => o.setting(change))
       val lettered = of.letter.fold(plain)(letter => plain.abbr(letter.toString))

@@ -1,6 +1,11 @@
 package candela.cli.options
 
+import candela.job.SceneFormat
 import candela.watch.{TevDisplay, WatchAddress}
+
+import java.nio.file.{Files, Path}
+
+import scala.util.Try
 
 /** The value of `--watch`: `8642`, `192.168.0.7:8642`, `[::1]:8642`. */
 private[cli] object WatchAddresses:
@@ -19,9 +24,11 @@ private[cli] object WatchAddresses:
       case None if text.nonEmpty && !text.contains(':') => Some((text, TevDisplay.DefaultPort))
       case _ => None
 
-  /** Whether a word of the command line is one, or a wrong one, rather than a scene. */
+  /** Whether a word of the command line is one, or a wrong one: neither a scene nor an option. */
   def isOne(text: String): Boolean =
-    parse(text).isDefined || (text.nonEmpty && text.forall(c => c >= '0' && c <= '9'))
+    def isScene = Try(Path.of(text)).toOption.exists: file =>
+      SceneFormat.named(file).isDefined || Files.exists(file)
+    parse(text).isDefined || (text.nonEmpty && !text.startsWith("-") && !isScene)
 
   private def port(digits: String): Option[Int] =
     digits.toIntOption.filter(p => p >= 0 && p < 65536)

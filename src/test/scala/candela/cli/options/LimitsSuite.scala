@@ -219,7 +219,7 @@ class LimitsSuite extends AnyFunSuite:
     )
     assert(!limits("--sandbox", "--limit", "time=none").contains(Limit.Time))
     for (text, expected) <- Vector(
-        "byte=1" -> "`byte` is none of files, bytes, triangles",
+        "byte=1" -> "must be NAME=N with a NAME of files, bytes, triangles",
         "files=many" -> "must be a number, e.g. files=1000",
         "bytes=" -> "must be a size, e.g. bytes=500MB",
         "time=0" -> "must be a duration, e.g. time=90s",
