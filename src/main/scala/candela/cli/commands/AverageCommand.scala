@@ -15,8 +15,9 @@ final class AverageCommand(options: Options, terminal: Terminal, report: Report)
       name -> ImageFiles.read(OutputFiles.path(name)).linear
     val mean = ImageEdits.mean(images)
     val writeOptions = WriteOptions(isHalf = options.image.isHalf, display = options.display)
+    val about = OutputFiles.sources(options.files.map(OutputFiles.path))
     OutputFiles.writeAll(outputs.paths): out =>
-      ImageFiles.write(out, mean, Vector("images" -> options.files.mkString(", ")), writeOptions)
+      ImageFiles.write(out, mean, Vector(about), writeOptions)
       if !options.quiet then
         val count = Figures.count(options.files.size, "image")
         terminal.out.println(s"wrote $out  ${mean.width}x${mean.height}, mean of $count")

@@ -38,7 +38,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
         if OutputFormat.of(out).exists(_.contents == Contents.Display) then
           options.display.describe(written)
         else Vector.empty
-      ImageFiles.write(out, written, ("image" -> path.toString) +: metadata, writeOptions)
+      ImageFiles.write(out, written, OutputFiles.sources(Vector(path)) +: metadata, writeOptions)
       if !options.quiet then terminal.out.println(s"wrote $out  ${result.width}x${result.height}")
     terminal.out.flush()
     ExitCode.Done

@@ -25,15 +25,16 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
       ))
     val images = options.files.map(OutputFiles.path).map: path =>
       path -> ImageFiles.colored(path, ImageFiles.read(path))
+    val about = OutputFiles.sources(images.map(_._1))
     images match
-      case Vector((path, image)) =>
-        write(outputs.paths, image, display, ("image" -> path.toString) +: display.describe(image))
+      case Vector((_, image)) =>
+        write(outputs.paths, image, display, about +: display.describe(image))
       case several =>
         // Each image has an exposure of its own.
         val cells = several.map((path, image) => path.getFileName.toString -> display(image))
         val sheet = ContactSheet(options.columns).of(cells)
         val asItIs = DisplayTransform(bits = display.bits, dithers = display.dithers)
-        write(outputs.paths, sheet, asItIs, Vector("images" -> options.files.mkString(", ")))
+        write(outputs.paths, sheet, asItIs, Vector(about))
     ExitCode.Done
 
   private def write(

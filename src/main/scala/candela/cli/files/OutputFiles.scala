@@ -149,6 +149,10 @@ object OutputFiles:
   private def withPreview(path: Path): Vector[Path] =
     Vector(path, FileName.withSuffix(path, OutputFormat.preview.suffix))
 
+  /** What an image says of those that it was made of: it is the same, wherever they are. */
+  def sources(paths: Vector[Path]): (String, String) =
+    (if paths.size == 1 then "image" else "images") -> paths.map(_.getFileName).mkString(", ")
+
   /** `name` as a path. */
   def path(name: String): Path =
     try Path.of(name)

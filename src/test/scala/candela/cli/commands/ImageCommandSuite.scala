@@ -46,6 +46,21 @@ class ImageCommandSuite extends AnyFunSuite:
       val factor = if values.max > 1.5f then 1.5f / values.max else 1f
       for c <- 0 until 3 do assert(Math.abs(part(x, y, c) - values(c) * factor) < 1e-6f): Unit
 
+  test("images of equal images are equal, in whatever folder these are"):
+    TempFolder.use: folder =>
+      def bytes(command: String, suffix: String, place: String) =
+        val source = folder.resolve(place).resolve("sky.exr")
+        Files.createDirectories(source.getParent)
+        Files.copy(Path.of(sky), source)
+        val out = folder.resolve(s"$place.$suffix")
+        assert(run(command, s"$source", "--outfile", s"$out")._1 == 0)
+        Files.delete(source)
+        Files.readAllBytes(out).toVector
+      for
+        command <- Vector("image", "average", "view")
+        suffix <- Vector("png", "jpg", "exr") if command != "view" || suffix != "exr"
+      do assert(bytes(command, suffix, "a") == bytes(command, suffix, "b"), s"$command $suffix")
+
   test("image stores the place of a crop in .exr"):
     TempFolder.use: folder =>
       val out = folder.resolve("crop.exr")
@@ -115,7 +130,7 @@ class ImageCommandSuite extends AnyFunSuite:
       val whole = ImageFiles.read(Path.of(sky)).toRgb
       // Half floats have 11 bits: they are off by up to 5e-4 of the value
       assert(Math.abs(exr.toRgb(3, 31, 2) - whole(3, 0, 2)) < 1e-3f)
-      assert(ImageFiles.facts(Path.of(files(3))).toMap.apply("image") == sky)
+      assert(ImageFiles.facts(Path.of(files(3))).toMap.apply("image") == "sky-latlong.exr")
 
   test("image refuses what can't be, and says why"):
     assert(refusal(sky, "--crop", "0,100,0,10").contains(s"$sky: window x 0 to 100"))
