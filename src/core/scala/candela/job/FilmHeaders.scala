@@ -41,7 +41,8 @@ object FilmHeaders:
       done = 0,
       plan.differentialScale,
       Set(shard.index),
-      shard.count
+      shard.count,
+      text = prepared.description.text
     )
 
   /** The settings of a saved rendering, which keeps its choices with any goal.

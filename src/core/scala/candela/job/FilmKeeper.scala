@@ -156,7 +156,11 @@ object FilmKeeper:
         try open(path, warn)
         catch case e: SceneError => fail(Code.OtherRendering, e.problems.head.message, Remove)
       for difference <- now.difference(film.header) do
-        fail(Code.OtherRendering, s"`$path` belongs to another rendering: $difference", Remove)
+        val isLonger = now.copy(samples = film.header.samples).difference(film.header).isEmpty &&
+          now.samples > film.header.samples
+        val resuming = s"`candela resume $path --spp ${now.samples}` adds samples; or "
+        val help = if isLonger then resuming + Remove else Remove
+        fail(Code.OtherRendering, s"`$path` belongs to another rendering: $difference", help)
       if film.header.shards != now.shards then
         fail(Code.OtherRendering, s"`$path` belongs to another shard: ${film.header.label}", Remove)
       film

@@ -48,8 +48,9 @@ object Render:
       control: BuildControl
   ): SceneDescription =
     val format = SceneFormat.of(name, text)
-    val read = format.readText(name, text, control.limits.folder(name), reading)
-    read.copy(unfiled = Vector(s"$name, a text" -> format.digest(text)))
+    val scene =
+      format.read(name, control.limits.folder(name), reading, control.world, Some(text))
+    scene.copy(text = Some(text), unfiled = Vector("the scene's text" -> format.digest(text)))
 
   /** Builds the objects that render the scene, each the simplest that does, and chooses the method.
     *

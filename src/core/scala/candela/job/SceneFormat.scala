@@ -35,23 +35,14 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
   /** The readable part of a scene; see [[SceneDescription.errors]].
     *
     * @param world as [[candela.settings.BuildControl]] has it
+    * @param text  what is read instead of the file
     */
   def read(
       file: Path,
       within: SceneFolder,
       reading: ReadSettings,
-      world: Option[Int]
-  ): SceneDescription
-
-  /** The readable part of a scene in a string.
-    *
-    * @param name in messages
-    */
-  def readText(
-      name: Path,
-      text: String,
-      within: SceneFolder,
-      reading: ReadSettings
+      world: Option[Int],
+      text: Option[String] = None
   ): SceneDescription
 
   /** SHA-256 of what a text of this format says. */
@@ -113,35 +104,21 @@ object SceneFormat:
         file: Path,
         within: SceneFolder,
         reading: ReadSettings,
-        world: Option[Int]
+        world: Option[Int],
+        text: Option[String]
     ): SceneDescription =
       checkSensors(file, reading)
-      val read = Parser.readable(
-        file,
-        reading.dialect,
-        reading.keepGoing,
-        world.getOrElse(0),
-        Some(within),
-        Defines(reading.defines)
-      )
-      val scene = DialectChoice.of(read, reading.dialect)
+      val (dialect, defines) = (reading.dialect, Defines(reading.defines))
+      val (keepGoing, n) = (reading.keepGoing, world.getOrElse(0))
+      val read = text match
+        case Some(text) =>
+          Parser.readableText(file.toString, text, within, dialect, keepGoing, defines, n)
+        case None => Parser.readable(file, dialect, keepGoing, n, Some(within), defines)
+      val scene = DialectChoice.of(read, dialect)
       if !scene.isFollowed || world.isDefined then scene
       else
-        scene.copy(warnings =
-          scene.warnings :+ Problem(Code.SeveralWorlds, Severity.Warning, None, FirstOnly)
-        )
-
-    def readText(
-        name: Path,
-        text: String,
-        within: SceneFolder,
-        reading: ReadSettings
-    ): SceneDescription =
-      val dialect = reading.dialect
-      val defines = Defines(reading.defines)
-      val read =
-        Parser.readableText(name.toString, text, within, dialect, reading.keepGoing, defines)
-      DialectChoice.of(read, dialect)
+        val firstOnly = Problem(Code.SeveralWorlds, Severity.Warning, None, FirstOnly)
+        scene.copy(isFollowed = false, warnings = scene.warnings :+ firstOnly)
 
     def digest(text: String): String = TokenDigest.of(text)
 
@@ -169,7 +146,8 @@ object SceneFormat:
         file: Path,
         within: SceneFolder,
         reading: ReadSettings,
-        world: Option[Int]
+        world: Option[Int],
+        text: Option[String]
     ): SceneDescription =
       val sensor = reading.sensors.map:
         case Sensors.One(index) => index
@@ -179,25 +157,12 @@ object SceneFormat:
         reading.defines,
         reading.keepGoing,
         Some(within),
-        sensor = sensor,
-        resolution = reading.resolution
+        text,
+        sensor,
+        reading.resolution
       )
-      if reading.sensors.contains(Sensors.All) then scene else scene.copy(isFollowed = false)
-
-    def readText(
-        name: Path,
-        text: String,
-        within: SceneFolder,
-        reading: ReadSettings
-    ): SceneDescription =
-      MitsubaScene.readable(
-        name,
-        reading.defines,
-        reading.keepGoing,
-        Some(within),
-        Some(text),
-        resolution = reading.resolution
-      )
+      val hasNext = scene.isFollowed && world.isDefined && reading.sensors.contains(Sensors.All)
+      scene.copy(isFollowed = hasNext)
 
     def digest(text: String): String = XmlFile.ofText("", text).digest
 

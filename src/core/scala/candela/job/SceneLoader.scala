@@ -52,6 +52,19 @@ object SceneLoader:
       val folder = if sceneFolder.isConfined then sceneFolder.path else Path.of("")
       SceneFormat.of(file).imageName(file, sceneFolder, reading).map(ImageName(_, folder))
 
+  /** Loads a scene that is no file.
+    *
+    * @param name  of the scene, in whose folder the files are that its text names
+    * @param files loads all others
+    */
+  final class OfText(name: String, text: String, files: SceneLoader) extends SceneLoader:
+    def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
+      if scene != name then files.load(scene, settings, control)
+      else
+        Render.withinLimits:
+          val description = Render.readText(Path.of(name), text, settings.reading, control)
+          Render.build(description, settings, control)
+
 /** Names of scene files. */
 object SceneName:
 
@@ -66,8 +79,10 @@ object SceneName:
             s"`$scene` is not a valid file name: ${e.getReason}"
           ))
     if Files.isDirectory(file) then
-      val help = "name a scene file in it".concat(scenesIn(file).mkString(": ", ", ", ""))
-      throw SceneError(Problem.general(Code.NoSuchScene, s"`$scene` is a folder", Some(help)))
+      val scenes = scenesIn(file)
+      val help =
+        Option.when(scenes.nonEmpty)(scenes.mkString("name a scene file in it: ", ", ", ""))
+      throw SceneError(Problem.general(Code.NoSuchScene, s"`$scene` is a folder", help))
     else if !Files.exists(file) then
       val folder = Option(file.toAbsolutePath.getParent)
       val nearest = folder.flatMap(f => Suggest.nearest(file.getFileName.toString, scenesIn(f)))

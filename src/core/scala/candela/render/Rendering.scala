@@ -17,11 +17,15 @@ final case class Progress(
     seconds: Double,
     outlook: Outlook = Outlook()
 ):
-  /** How much of the rendering is done, in [0, 1]; of one that a goal ends, of its time. */
-  def fraction: Double =
-    if outlook.hasGoal then outlook.left.fold(0.0)(l => seconds / Math.max(seconds + l, 1e-9))
-    else if total == 0 then 1
-    else done.toDouble / total
+  /** How much of the rendering is done, in [0, 1]; of one that a goal ends, of its time, if that is
+    * known.
+    */
+  def knownFraction: Option[Double] =
+    if outlook.hasGoal then outlook.left.map(l => seconds / Math.max(seconds + l, 1e-9))
+    else Some(if total == 0 then 1 else done.toDouble / total)
+
+  /** Likewise; 0 if it is unknown. */
+  def fraction: Double = knownFraction.getOrElse(0)
 
 /** What is known about the rest of a rendering.
   *

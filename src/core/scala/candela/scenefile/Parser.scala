@@ -77,9 +77,7 @@ object Parser:
       keepGoing: Boolean = false,
       world: Int = 0
   ): SceneDescription =
-    val sceneFolder = SceneFolder(folder)
-    val source = Source.fromText(name, text)
-    validated(read(source, sceneFolder, None, dialect, keepGoing, world, Defines.Nothing))
+    validated(readableText(name, text, SceneFolder(folder), dialect, keepGoing, world = world))
 
   /** The readable part of a scene in a string; see [[SceneDescription.errors]]. */
   def readableText(
@@ -88,10 +86,11 @@ object Parser:
       within: SceneFolder,
       dialect: Option[Dialect],
       keepGoing: Boolean,
-      defines: Defines = Defines.Nothing
+      defines: Defines = Defines.Nothing,
+      world: Int = 0
   ): SceneDescription =
     val source = defines.substitute(Source.fromText(name, text))
-    read(source, within, None, dialect, keepGoing, world = 0, defines)
+    read(source, within, None, dialect, keepGoing, world, defines)
 
   /** The scene, if it has no errors. */
   def validated(scene: SceneDescription): SceneDescription =

@@ -103,6 +103,7 @@ final case class TextureDescription(
   * @param dialectReason why it is that dialect, for the user
   * @param isFollowed whether the file has another world, another image, after this one
   * @param folder the folder of the scene file, through which its files are opened
+  * @param text what was read, if that is no file
   * @param idleMaterials materials that are written in place, and that no shape has
   * @param unfiled SHA-256 of its parts that are in no file, by name
   */
@@ -137,6 +138,7 @@ final case class SceneDescription(
     isFollowed: Boolean = false,
     folder: SceneFolder = SceneFolder.Nowhere,
     unfiled: Vector[(String, String)] = Vector.empty,
+    text: Option[String] = None,
     idleMaterials: Vector[Declaration] = Vector.empty
 ):
   /** Whether the camera sees no area lights and no sky. */

@@ -2,7 +2,7 @@ package candela.cli
 
 import candela.cli.terminal.{ExitCode, Interrupts, ProgressLine, Terminal}
 import candela.io.Keep
-import candela.job.{Prepared, Render, SceneLoader}
+import candela.job.{Prepared, SceneLoader}
 import candela.render.{Cancellation, Progress}
 import candela.settings.{BuildControl, RenderSettings}
 
@@ -21,6 +21,9 @@ import scala.util.Try
   * {{{
   * {"run": ["render", "scene.xml", "--outfile", "a.npz"], "scene": "scene.xml", "text": "<scene…"}
   * }}}
+  * If `image` is one of its output files, the rendering is of a single image, which is there only
+  * until the program has read it.
+  *
   * The answer is any number of `{"message": …}`, a line for standard error, and
   * `{"progress": {"done": 0.5, …}}`; the last has the exit code: `{"code": 0, "output": …}`.
   * `{"cancel": true}` ends the rendering early, as Ctrl-C does. The end of input ends the process.
@@ -56,7 +59,7 @@ private[cli] final class Session(input: InputStream, terminal: Terminal, loader:
     queue.put(None)
 
   private def answer(request: Request, asked: Asked): Unit = request match
-    case Request.Run(words, scene) if !words.headOption.contains(Name) =>
+    case Request.Run(words, scene, image) if !words.headOption.contains(Name) =>
       val output = java.io.ByteArrayOutputStream()
       val inner = Terminal(
         PrintStream(output, false, UTF_8),
@@ -64,9 +67,11 @@ private[cli] final class Session(input: InputStream, terminal: Terminal, loader:
         isInteractive = false,
         asked,
         environment = terminal.environment,
-        follow = Some(p => send("progress" -> fields(p)))
+        follow = Some(p => send("progress" -> fields(p))),
+        passing = image
       )
-      val code = Main.run(words, inner, Scenes(scene, cache, loader))
+      val scenes = scene.fold(loader)(s => SceneLoader.OfText(s.name, s.text, loader))
+      val code = Main.run(words, inner, Caching(scenes, cache))
       inner.out.flush()
       inner.err.flush()
       send("code" -> code, "output" -> output.toString(UTF_8))
@@ -84,7 +89,7 @@ private[cli] object Session:
   /** The numbers of a rendering's progress that are known. */
   private def fields(p: Progress): ujson.Value =
     val figures = Vector(
-      Some("done" -> p.fraction),
+      p.knownFraction.map("done" -> _),
       Some("seconds" -> p.seconds),
       Some("samples" -> p.done.toDouble),
       p.outlook.rate.map("samplesPerSecond" -> _),
@@ -96,7 +101,7 @@ private[cli] object Session:
 
   private enum Request:
     case Cancel
-    case Run(words: Vector[String], scene: Option[SceneText])
+    case Run(words: Vector[String], scene: Option[SceneText], image: Option[Path])
     case Unreadable
 
   private object Request:
@@ -107,7 +112,8 @@ private[cli] object Session:
         val scene =
           for name <- fields.get("scene"); text <- fields.get("text")
           yield SceneText(name.str, text.str)
-        Run(fields("run").arr.map(_.str).toVector, scene)
+        val image = fields.get("image").map(file => Path.of(file.str))
+        Run(fields("run").arr.map(_.str).toVector, scene, image)
     .getOrElse(Unreadable)
 
   /** A scene that is no file.
@@ -117,15 +123,10 @@ private[cli] object Session:
   private final case class SceneText(name: String, text: String)
 
   /** Loads scenes with what those before them have in common with them. */
-  private final class Scenes(text: Option[SceneText], keep: Keep, files: SceneLoader)
-      extends SceneLoader:
+  private final class Caching(scenes: SceneLoader, cache: Keep) extends SceneLoader:
     def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
-      val shared = if control.cache.isKeeping then control else control.copy(cache = keep)
-      text.filter(_.name == scene) match
-        case None => files.load(scene, settings, shared)
-        case Some(SceneText(name, text)) => Render.withinLimits:
-            val description = Render.readText(Path.of(name), text, settings.reading, shared)
-            Render.build(description, settings, shared)
+      val isCached = control.cache.isKeeping
+      scenes.load(scene, settings, if isCached then control else control.copy(cache = cache))
 
   /** Requests to end a rendering, from the program. */
   private final class Asked extends Interrupts:

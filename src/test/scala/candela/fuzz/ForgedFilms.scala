@@ -176,6 +176,8 @@ private[candela] object FilmValues:
     all += Real(in.getFloat())
     number()
     for _ <- 0 until number() do number()
+    // The error, the scene's text
+    for _ <- 0 until 2 do text()
     val rest = new Array[Byte](in.remaining)
     in.get(rest)
     all += State(rest)

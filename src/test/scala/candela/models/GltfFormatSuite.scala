@@ -23,7 +23,7 @@ class GltfFormatSuite extends AnyFunSuite:
       reading: ReadSettings = ReadSettings()
   ): SceneDescription =
     val file = Path.of("models", "model.gltf")
-    format.readText(file, json, SceneFolder.of(file, isConfined), reading)
+    format.read(file, SceneFolder.of(file, isConfined), reading, None, Some(json))
 
   /** The first error, with its place. */
   private def error(json: String): String =

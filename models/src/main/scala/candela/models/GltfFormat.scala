@@ -19,26 +19,13 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
       file: Path,
       within: SceneFolder,
       reading: ReadSettings,
-      world: Option[Int]
-  ): SceneDescription = readable(file, within, reading, None)
-
-  def readText(
-      name: Path,
-      text: String,
-      within: SceneFolder,
-      reading: ReadSettings
-  ): SceneDescription = readable(name, within, reading, Some(text))
-
-  def digest(text: String): String = Sha256.of(text)
-
-  private def readable(
-      file: Path,
-      within: SceneFolder,
-      reading: ReadSettings,
+      world: Option[Int],
       text: Option[String]
   ): SceneDescription =
     checkSensors(file, reading)
     GltfScene.readable(file, within, reading, text)
+
+  def digest(text: String): String = Sha256.of(text)
 
   def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
     Some(None)

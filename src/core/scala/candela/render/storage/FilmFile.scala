@@ -40,7 +40,7 @@ final class FilmFile private (
         ))
 
 object FilmFile:
-  private[storage] val Mark = "Candela film 2\n"
+  private[storage] val Mark = "Candela film 3\n"
 
   /** File extension. */
   val Suffix = "film"

@@ -18,6 +18,7 @@ import candela.render.{RenderPlan, RenderState}
   * @param footprint size of a sample's footprint, in pixels; 0: not used
   * @param shards   numbers of the parts, of `count`
   * @param error    of the image so far, if it is known
+  * @param text     of the scene, if it is no file
   */
 final case class FilmHeader(
     version: String,
@@ -32,7 +33,8 @@ final case class FilmHeader(
     footprint: Float,
     shards: Set[Int],
     count: Int,
-    error: Option[FilmError] = None
+    error: Option[FilmError] = None,
+    text: Option[String] = None
 ):
   def isWhole: Boolean = shards.size == count
   def isComplete: Boolean = done >= samples
@@ -103,6 +105,7 @@ final case class FilmHeader(
     to.int(shards.size)
     shards.toVector.sorted.foreach(to.int)
     to.text(error.fold("")(_.words))
+    to.text(text.getOrElse(""))
 
 /** The estimated relative MSE of an image, with its 95 % interval; limits that are NaN are unknown.
   */
@@ -151,6 +154,7 @@ object FilmHeader:
     val (samples, done, footprint, count) = (from.int(), from.int(), from.float(), from.int())
     val shards = Vector.fill(from.count(bytes = 4))(from.int()).toSet
     val error = Some(from.text()).filter(_.nonEmpty).map(FilmError.of)
+    val text = Some(from.text()).filter(_.nonEmpty)
     val digests = files.grouped(2).map(pair => (pair(0), pair(1))).toVector
     require(samples > 0 && done >= 0, s"it has $done of $samples samples per pixel")
     require(
@@ -159,5 +163,5 @@ object FilmHeader:
     )
     FilmHeader(
       version, scene, folder, words, outfiles, digests, size, samples, done, footprint, shards,
-      count, error
+      count, error, text
     )

@@ -35,7 +35,8 @@ final class MergeCommand(
         merged.map(Output.film(_, first.path.toString))
       outputs.foreach(register.check)
       val saved = FilmInput.options(first, options)
-      Using.resource(loader.load(saved.files.head, saved.sceneSettings, saved.building)): loaded =>
+      val scenes = FilmInput.loader(first, loader)
+      Using.resource(scenes.load(saved.files.head, saved.sceneSettings, saved.building)): loaded =>
         merge(films, loaded, saved, outfiles, outputs, register)
 
   private def merge(

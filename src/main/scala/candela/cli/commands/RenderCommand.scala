@@ -85,7 +85,11 @@ final class RenderCommand(
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
     val stages = if options.quiet then BuildStages.Silent else StageLine(terminal)
-    val control = options.building.copy(world = Some(world), cache = cache, stages = stages)
+    val control = options.building.copy(
+      world = Option.when(terminal.passing.isEmpty)(world),
+      cache = cache,
+      stages = stages
+    )
     val prepared = loader.load(scene, options.sceneSettings, control)
     // A first look ignores most of what warnings are about.
     val isBrief = options.settings.preview && !options.verbose
@@ -111,7 +115,8 @@ final class RenderCommand(
     val options = frame.options
     val paths = files.images(frame.scene, prepared, outfiles)
     val name = resumed.fold(frame.scene)(_.header.scene)
-    val keeping = FilmKeeping.of(options, report, name, prepared, outfiles, paths, resumed)
+    val lasting = paths.filterNot(terminal.passing.contains)
+    val keeping = FilmKeeping.of(options, report, name, prepared, outfiles, lasting, resumed)
     try
       val writer = this.writer(options, name, prepared, paths)
       if isDone(writer, keeping) then

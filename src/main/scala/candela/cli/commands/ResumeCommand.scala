@@ -43,4 +43,4 @@ final class ResumeCommand(
       case None =>
         val footprint = Option(header.footprint).filter(_ > 0)
         saved.controlling(_.copy(samples = Some(sampleLimit), footprint = footprint))
-    RenderCommand(resumed, terminal, report, loader, Some(film)).run()
+    RenderCommand(resumed, terminal, report, FilmInput.loader(film, loader), Some(film)).run()

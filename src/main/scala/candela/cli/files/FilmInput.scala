@@ -4,7 +4,7 @@ import candela.diagnostics.Code
 import candela.io.{InputFile, SceneFolder}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
-import candela.job.{FilmHeaders, FilmKeeper, Render}
+import candela.job.{FilmHeaders, FilmKeeper, Render, SceneLoader}
 import candela.render.storage.FilmFile
 
 import java.nio.file.Path
@@ -30,7 +30,7 @@ private[cli] object FilmInput:
       val folder = SceneFolder.of(film.path, isConfined = true)
       val _ = Render.withinLimits(folder.scene(file))
     // The film names it, and its user may not know it
-    for why <- InputFile.obstacle(file) do
+    for why <- InputFile.obstacle(file) if film.header.text.isEmpty do
       FilmKeeper.fail(Code.Unreadable, s"can't read `$scene`, the scene of `${film.path}`: $why")
     Options(
       files = Vector(scene),
@@ -42,6 +42,10 @@ private[cli] object FilmInput:
       verbose = now.verbose,
       film = now.film
     )
+
+  /** Loads the scene of the rendering, which may be no file. */
+  def loader(film: FilmFile, files: SceneLoader): SceneLoader =
+    film.header.text.fold(files)(SceneLoader.OfText(resolve(film, film.header.scene), _, files))
 
   /** A file named by the rendering, as found from here. */
   def resolve(film: FilmFile, name: String): String =

@@ -21,6 +21,7 @@ import scala.util.Try
   * @param lost why output was lost, if it is known
   * @param isSeen whether results are shown by a terminal, instead of going to a file or program
   * @param follow receives the progress of renderings, instead of lines on `err`
+  * @param passing image file of a single image, which is there only until a program has read it
   */
 final class Terminal(
     stdout: PrintStream,
@@ -31,7 +32,8 @@ final class Terminal(
     val environment: Map[String, String] = Map.empty,
     lost: () => Option[IOException] = () => None,
     isSeen: Boolean = false,
-    val follow: Option[Progress => Unit] = None
+    val follow: Option[Progress => Unit] = None,
+    val passing: Option[Path] = None
 ):
   val out: Printer = Printer(stdout)
   val err: Printer = Printer(stderr)
@@ -54,7 +56,8 @@ final class Terminal(
       columns,
       environment,
       lost,
-      follow = follow
+      follow = follow,
+      passing = passing
     )
 
   /** Whether `err` shows colours. Source: "NO_COLOR", no-color.org. */
