@@ -1,5 +1,7 @@
 """Tests of the installed module: python -m unittest packaging/test_candela.py"""
 
+import contextlib
+import io
 import os
 import signal
 import subprocess
@@ -10,6 +12,7 @@ import time
 import unittest
 import warnings
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -170,6 +173,112 @@ class InMemory(unittest.TestCase):
         a = candela.load_dict(scene).render(spp=1)
         np.testing.assert_array_equal(a.rgb, candela.load_dict(mitsuba()).render(spp=1).rgb)
 
+    def test_numpys_values_and_paths_are_options(self):
+        scene = candela.load_string(XML.replace('"24"', '"$width"'))
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            image = scene.render(
+                spp=np.float64(2),
+                seed=np.array(3),
+                nthreads=np.uint8(1),
+                exposure=np.float32(0.5),
+                quick=np.bool_(False),
+                aov=np.array(["albedo"]),
+                cropwindow=np.array([0, 0.5, 0, 1]),
+                define={"width": np.int16(24)},
+                report=Path(folder) / "x.html",
+                outfile=[Path(folder) / "x.exr", Path(folder) / "x.png"],
+            )
+            self.assertTrue((Path(folder) / "x.html").exists())
+            self.assertIn("24x16", candela.run("info", Path(folder) / "x.exr"))
+            printed = candela.run("render", "--help", np.int64(3))
+        self.assertEqual(image.rgb.shape, (16, 12, 3))
+        self.assertEqual(image.metadata["seed"], "3")
+        self.assertIn("candela render", printed)
+        with self.assertRaisesRegex(candela.UsageError, "cropwindow can't be <object"):
+            scene.render(cropwindow=object())
+
+    def test_numpys_values_make_the_same_scene(self):
+        T = Transform()
+        plain = T.look_at([0, 0, -5], [0, 0, 0], [0, 1, 0]).scale(2).translate([1, 2, 3])
+        a = T.look_at(np.array([0, 0, -5]), np.zeros(3), np.array([0, 1, 0]))
+        a = a.scale(np.array(2)) @ np.array(T.translate(np.array([1, 2, 3])).matrix)
+        self.assertEqual(a, plain)
+        self.assertEqual(Transform([np.array(row) for row in plain.matrix]), plain)
+        scene = mitsuba()
+        scene["sensor"]["to_world"] = [np.array(row) for row in scene["sensor"]["to_world"].matrix]
+        scene["red"]["reflectance"]["value"] = np.array(0.5)
+        scene["ball"]["radius"] = np.array([1.0])
+        values = candela.load_dict(scene).parameters()
+        self.assertEqual(values["red.reflectance.value"], [0.5, 0.5, 0.5])
+        self.assertEqual(values["ball.radius"], 1)
+        self.assertEqual(values["sensor.to_world"], mitsuba()["sensor"]["to_world"])
+        values["red.reflectance"] = np.array([0.8, 0.2, 0.1])
+        self.assertEqual(values["red.reflectance.value"], [0.8, 0.2, 0.1])
+
+        class Point(list):
+            matrix = [1, 1, 1]  # Mitsuba's have an attribute of any letters
+
+        scene["ball"]["center"] = Point([0, 0, 1])
+        self.assertEqual(candela.load_dict(scene).parameters()["ball.center"], [0, 0, 1])
+        scene["ball"]["to_world"] = np.zeros((2, 2))
+        with self.assertRaisesRegex(candela.SceneError, "ball.to_world: error: a transform needs"):
+            candela.load_dict(scene)
+
+    def test_one_of_several_sensors_is_rendered(self):
+        scene = mitsuba()
+        scene["other"] = {**scene["sensor"], "film": {"type": "hdrfilm", "width": 8, "height": 8}}
+        sensor = XML[XML.index("<sensor") : XML.index("<bsdf")].replace('"24"', '"8"')
+        text = XML.replace("<bsdf", f"{sensor}<bsdf", 1)
+        for loaded in (candela.load_dict(scene), candela.load_string(text)):
+            with self.assertWarnsRegex(candela.CandelaWarning, "sensor=1 the second"):
+                self.assertEqual(loaded.render(spp=1).width, 24)
+            self.assertEqual([loaded.render(spp=1, sensor=i).width for i in (0, 1)], [24, 8])
+            with self.assertRaisesRegex(candela.SceneError, "there is no sensor 2"):
+                loaded.render(spp=1, sensor=2)
+            with self.assertRaisesRegex(candela.UsageError, "returns one image"):
+                loaded.render(sensor="all")
+
+    def test_films_of_scenes_in_memory_go_on(self):
+        scene = candela.load_dict(mitsuba())
+        whole = scene.render(spp=8).rgb
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            film, image = Path(folder) / "x.film", Path(folder) / "x.exr"
+            scene.render(spp=4, outfile=[film, image])
+            with self.assertRaisesRegex(candela.SceneError, "`candela resume .* --spp 8` adds"):
+                scene.render(spp=8, outfile=film)
+            candela.run("resume", film, "--spp", 8)
+            pfm = Path(folder) / "x.pfm"
+            candela.run("merge", film, "--outfile", pfm)
+            self.assertNotIn("candela-", candela.run("info", film).replace(folder, ""))
+            values = np.frombuffer(pfm.read_bytes()[-4 * whole.size :], "<f4")
+            np.testing.assert_array_equal(values.reshape(whole.shape)[::-1], whole)
+            np.testing.assert_array_equal(scene.render(spp=8, outfile=film).rgb, whole)
+
+    def test_what_the_program_prints_is_printed(self):
+        scene = mitsuba()
+        scene["red"]["reflectanc"] = 0.5
+
+        def printed(**options):
+            with contextlib.redirect_stderr(io.StringIO()) as err, warnings.catch_warnings(
+                record=True
+            ) as caught:
+                warnings.simplefilter("always")
+                candela.load_dict(scene).render(spp=1, **options)
+            self.assertEqual(len(caught), 1)
+            self.assertNotIn("integrator", str(caught[0].message))
+            return err.getvalue()
+
+        self.assertEqual(printed(), "")
+        self.assertIn("  integrator ", printed(explain=True))
+        self.assertIn("parse ", printed(verbose=True))
+        self.assertRegex(printed(watch=True), "watch at http://")
+        with contextlib.redirect_stderr(io.StringIO()) as err:
+            candela.load_dict(scene).check(explain=True)
+        self.assertIn("  integrator ", err.getvalue())
+        for refused in ({"thumbnail": "blocks"}, {"checkpoint": True}, {"sample": 3}):
+            with self.assertRaisesRegex(candela.UsageError, "does not go with"):
+                candela.load_dict(scene).render(**refused)
+
     def test_faults_of_a_dict_are_all_told_with_their_keys(self):
         scene = mitsuba()
         scene["red"]["type"] = "difuse"
@@ -181,6 +290,18 @@ class InMemory(unittest.TestCase):
         keys = [p.key for p in caught.exception.problems]
         self.assertEqual(keys, ["red", "ball.radius", "sky.radiance", "width"])
         self.assertIn("did you mean `diffuse`?", str(caught.exception))
+
+    def test_arrays_and_names_that_no_scene_takes_are_faults(self):
+        scene = mitsuba()
+        scene["red"]["reflectance"] = {"type": "bitmap", "data": np.ones((2, 2, 3))}
+        scene["ball"][1] = 2
+        scene[3] = {"type": "sphere"}
+        with self.assertRaises(candela.SceneError) as caught:
+            candela.render(scene)
+        told = {p.key: p.message for p in caught.exception.problems}
+        self.assertIn("write it to a file", told["red.reflectance.data"])
+        self.assertEqual(told["ball.1"], "a name must be a text, found 1")
+        self.assertEqual(told["3"], "a name must be a text, found 3")
 
     def test_wrong_types_and_wrong_values_of_a_dict_are_told_at_once(self):
         scene = mitsuba()
@@ -215,6 +336,10 @@ class InMemory(unittest.TestCase):
         self.assertEqual((seen[-1].done, seen[-1].samples), (1, 24 * 16 * 4))
         self.assertGreater(seen[-1].seconds, 0)
         self.assertIn("samples/s", seen[-1].line)
+        seen.clear()
+        candela.load_dict(mitsuba()).render(spp=100_000, error="5%", progress=seen.append)
+        for p in seen:
+            self.assertEqual(p.done is None, p.seconds_left is None)
 
     def test_a_progress_that_renders_is_told_so(self):
         scene = candela.load_string(XML)
@@ -268,6 +393,8 @@ class Images(unittest.TestCase):
             np.testing.assert_array_equal(values.reshape(image.rgb.shape)[::-1], image.rgb)
             for picture in (png.read_bytes(), image._repr_png_()):
                 self.assertTrue(picture.startswith(b"\x89PNG"))
+            with self.assertRaises(FileNotFoundError):
+                candela.load(Path(folder) / "missing.npz")
             with self.assertRaisesRegex(candela.CandelaError, "x.tiff"):
                 image.save(Path(folder) / "x.tiff")
 
@@ -285,6 +412,17 @@ print(image.rgb[8, 12, 0])
         self.assertEqual(done.returncode, 0, done.stderr)
         expected = candela.load_string(XML).render(spp=1).rgb[8, 12, 0]
         self.assertAlmostEqual(float(done.stdout), float(expected), places=6)
+
+
+    def test_equal_images_are_equal_files(self):
+        image = candela.load_dict(mitsuba()).render(spp=1)
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            for suffix in ("exr", "png", "jpg", "npz", "pfm", "tga", "qoi"):
+                files = [Path(folder) / f"{name}.{suffix}" for name in "ab"]
+                image.save(files[0])
+                with mock.patch("time.time", return_value=2e9):
+                    image.save(files[1])
+                self.assertEqual(files[0].read_bytes(), files[1].read_bytes(), suffix)
 
 
 class Processes(unittest.TestCase):
@@ -334,6 +472,54 @@ class Processes(unittest.TestCase):
             self.assertTrue(Path("here.png").exists())
             os.chdir(before)
         candela.close()
+
+    def test_closing_ends_a_rendering_of_another_thread(self):
+        scene = candela.load_string(XML)
+        started, caught = threading.Event(), []
+
+        def render():
+            try:
+                scene.render(spp=100_000_000, progress=lambda p: started.set())
+            except candela.InternalError as e:
+                caught.append(str(e))
+
+        thread = threading.Thread(target=render)
+        thread.start()
+        started.wait()
+        candela.close()
+        thread.join()
+        self.assertIn("the next call starts another one", caught[0])
+        with self.assertRaisesRegex(candela.InternalError, "the next call"):
+            scene.render(spp=100_000_000, progress=lambda p: candela.close())
+        scene.render(spp=1)
+
+    def test_an_image_is_saved_by_several_threads(self):
+        image = candela.load_string(XML).render(spp=1)
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            files = [Path(folder) / f"{i}.png" for i in range(4)]
+            threads = [threading.Thread(target=image.save, args=(file,)) for file in files]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(len({file.read_bytes() for file in files}), 1)
+
+    def test_the_program_has_the_packages_of_this_python(self):
+        with mock.patch("subprocess.Popen") as popen:
+            candela._session.start(["--version"])
+        self.assertEqual(popen.call_args[1]["env"]["VIRTUAL_ENV"], sys.prefix)
+
+    def test_python_ends_though_a_daemon_renders(self):
+        code = f"""
+import threading, candela
+started = threading.Event()
+def render():
+    candela.load_string({XML!r}).render(spp=100_000_000, progress=lambda p: started.set())
+threading.Thread(target=render, daemon=True).start()
+started.wait()
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=60)
+        self.assertEqual(done.returncode, 0)
 
     def test_threads_wait_for_each_other(self):
         scene, images = candela.load_string(XML), {}

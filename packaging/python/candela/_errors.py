@@ -69,20 +69,34 @@ _FIRST = re.compile(
 )
 
 
-_OPTION = re.compile(r"(?<![\w-])--([a-z][a-z0-9-]*)(?: (?=[A-Z]+\b))?")
+_OPTION = re.compile(r"`candela [^`]*`|(?<![\w-])--([a-z][a-z0-9-]*)(?: (?=[A-Z]+\b|\d))?")
+_HELP = re.compile("`candela help (render|check)` says")
 _EXCERPT = re.compile(r"^ +\d* \|")
+_BELOW = re.compile(r"^ (?! )|" + _EXCERPT.pattern)  # the first line of a problem
+_COUNT = re.compile(r"^(and )?\d+ (more )?errors?$")
+
+
+def is_note(line: str) -> bool:
+    """Whether a message tells of no problem."""
+    return not any(p.match(line) for p in (_FIRST, _BELOW, _COUNT))
 
 
 def in_python(line: str) -> str:
     """A line of a message, with keywords instead of the command line's options."""
     if _EXCERPT.match(line):
         return line
-    line = line.replace("`candela help render` says", "`help(candela.render)` and COMMANDS.md say")
-    return _OPTION.sub(lambda o: o[1].replace("-", "_") + ("=" if o[0].endswith(" ") else ""), line)
+    line = _HELP.sub(r"`help(candela.\1)` and COMMANDS.md say", line)
+
+    def keyword(option: "re.Match[str]") -> str:
+        if option[1] is None:  # a command of a shell
+            return option[0]
+        return option[1].replace("-", "_") + ("=" if option[0].endswith(" ") else "")
+
+    return _OPTION.sub(keyword, line)
 
 
 def problems_in(lines: Iterable[str], keys: Optional[List[str]] = None) -> List[Problem]:
-    """The problems in the program's messages; lines that begin with a blank belong to the last.
+    """The problems in the program's messages; the lines below each belong to it.
 
     :param keys: of the lines of the scene, if it is a dict's
     """
@@ -90,7 +104,7 @@ def problems_in(lines: Iterable[str], keys: Optional[List[str]] = None) -> List[
     for line in lines:
         if _FIRST.match(line):
             found.append([line])
-        elif line.startswith(" ") and found:
+        elif _BELOW.match(line) and found:
             found[-1].append(line)
     return [_problem([in_python(line) for line in each], keys) for each in found]
 

@@ -154,6 +154,7 @@ def _joined(image: Image, names: List[str]) -> Any:
 def load(path: PathLike) -> Image:
     """Reads an image that the program has written as ``.npz``."""
     if not zipfile.is_zipfile(path):
+        open(path, "rb").close()  # raises an error if there is none
         help = "candela.load reads .npz files; NumPy, OpenEXR or imageio read others"
         raise UsageError(f"{os.fspath(path)} is not an .npz file: {help}")
     with zipfile.ZipFile(path) as archive:
@@ -190,8 +191,9 @@ def _write_npz(image: Image, path: str) -> None:
             text = f"{{'descr': '<f4', 'fortran_order': False, 'shape': {tuple(values.shape)}, }}"
             length = -(-(len(text) + 11) // 64) * 64 - 10
             header = _NPY + struct.pack("<H", length) + text.ljust(length - 1).encode() + b"\n"
-            archive.writestr(f"{name}.npy", header + _flat(values).tobytes())
-        archive.writestr("metadata.json", json.dumps(about))
+            data = header + _flat(values).tobytes()
+            archive.writestr(zipfile.ZipInfo(f"{name}.npy"), data)  # of no time
+        archive.writestr(zipfile.ZipInfo("metadata.json"), json.dumps(about))
 
 
 def _flat(values: Any) -> "array[float]":

@@ -7,26 +7,33 @@ import sys
 import tempfile
 import warnings
 from pathlib import Path
-from typing import Dict, Iterable, List, Optional, Union
+from typing import Any, Dict, Iterable, List, Optional, Union
 
-from ._errors import CandelaWarning, Problem, SceneError, UsageError
+from ._errors import CandelaWarning, Problem, SceneError, UsageError, in_python
 from ._image import Image, load
-from ._scene import Scene, load_file
+from ._scene import Scene, load_dict, load_file
 from ._session import Listener, execute
+from ._values import plain
 
 PathLike = Union[str, "os.PathLike[str]"]
-Plain = Union[str, int, float]
-Value = Union[Plain, bool, None, Iterable[Plain], Dict[str, Plain]]
+Plain = Union[str, int, float, "os.PathLike[str]"]
+Value = Union[Plain, bool, None, Iterable[Plain], Dict[str, Plain], Any]  # and those of NumPy
 
 # What names no option of a rendering that returns one image
 _OTHERS = {
     "checkpoint", "shard", "watch_after", "debug", "skip_done", "frames", "help", "pixelmaterial",
-    "spark",
+    "spark", "thumbnail", "sample",
 }
+_INSTEAD = {
+    "checkpoint": "outfile='x.film' saves the rendering",
+    "thumbnail": "notebooks show the image",
+    "sample": "spp is the number of samples",
+}
+_REPEATED = ("aov", "define", "outfile")
 
 
 def render(
-    scene: Union[PathLike, Scene],
+    scene: Union[PathLike, Scene, Dict[str, Any]],
     *,
     spp: Optional[int] = None,
     aov: Iterable[str] = (),
@@ -36,7 +43,7 @@ def render(
 ) -> Image:
     """Renders a scene and returns the image.
 
-    :param scene: a file in pbrt's or Mitsuba's format, or a ``Scene``
+    :param scene: a file in pbrt's or Mitsuba's format, a ``Scene``, or a dict of ``load_dict``
     :param spp: samples per pixel, instead of the scene's
     :param aov: layers beside the colours, such as ``"albedo"``, ``"normal"``, ``"depth"``
     :param outfile: image files to write, too, such as ``"x.exr"``
@@ -44,36 +51,42 @@ def render(
         ends the rendering
     :param options: all other options of ``candela help render``, with ``_`` for ``-``:
         ``seed=1``, ``time="90s"``, ``denoise=True``, ``cropwindow=(0, 0.5, 0, 0.5)``,
-        ``define={"name": 3}`` for ``$name`` in the scene
+        ``define={"name": 3}`` for ``$name`` in the scene, ``sensor=1`` for its second sensor
 
     Errors are exceptions: ``SceneError`` with the place in the scene, ``UsageError`` for
     options. Warnings are Python's, of the class ``CandelaWarning``. ``KeyboardInterrupt`` ends
     the rendering.
     """
     for name in sorted(_OTHERS.intersection(options)):
-        raise UsageError(f"`{name}` does not go with `render`; candela.run takes any option")
+        instead = _INSTEAD.get(name, "candela.run takes any option")
+        raise UsageError(f"`{name}` does not go with `render`; {instead}")
+    if options.get("sensor") == "all":
+        raise UsageError(
+            "`render` returns one image: call it with sensor=0, sensor=1, …; or "
+            "candela.run(\"render\", file, \"--sensor\", \"all\") writes a file of each"
+        )
     with tempfile.TemporaryDirectory(prefix="candela-") as folder:
         file = Path(folder) / "image.npz"
         name, text, keys = _scene(scene).source()
-        words = ["render", name]
-        for path in [file, *_paths(outfile)]:
-            words += ["--outfile", os.fspath(path)]
-        for layer in [aov] if isinstance(aov, str) else aov:
-            words += ["--aov", layer]
-        words += _words({"spp": spp, **options})
-        _, problems = execute(words, None if text is None else (name, text), keys, progress)
+        files = {"outfile": [file, *_items(outfile)], "aov": aov, "spp": spp}
+        words = ["render", name, *_words({**files, **options})]
+        given = None if text is None else (name, text)
+        _, problems = execute(words, given, keys, progress, file)
         _warn(problems)
         return load(file)
 
 
-def check(scene: Union[PathLike, Scene], **options: Value) -> List[Problem]:
+def check(scene: Union[PathLike, Scene, Dict[str, Any]], **options: Value) -> List[Problem]:
     """Parses and builds a scene without rendering it, and returns its errors and warnings."""
     name, text, keys = _scene(scene).source()
     try:
         given = None if text is None else (name, text)
-        return execute(["check", name, *_words(options)], given, keys)[1]
+        printed, problems = execute(["check", name, *_words(options)], given, keys)
     except SceneError as error:
         return list(error.problems)
+    if options.get("explain") or options.get("verbose"):
+        print(in_python(printed), end="", file=sys.stderr)
+    return problems
 
 
 def version() -> str:
@@ -81,33 +94,45 @@ def version() -> str:
     return execute(["--version"])[0].rstrip("\n")
 
 
-def _scene(scene: Union[PathLike, Scene]) -> Scene:
+def _scene(scene: Union[PathLike, Scene, Dict[str, Any]]) -> Scene:
+    if isinstance(scene, dict):
+        return load_dict(scene)
     return scene if isinstance(scene, Scene) else load_file(scene)
-
-
-def _paths(outfile: Union[None, PathLike, Iterable[PathLike]]) -> List[PathLike]:
-    if outfile is None:
-        return []
-    if isinstance(outfile, (str, os.PathLike)):
-        return [outfile]
-    return list(outfile)
 
 
 def _words(options: "dict[str, Value]") -> List[str]:
     words: List[str] = []
-    for name, value in options.items():
+    for name, given in options.items():
         option = "--" + name.replace("_", "-")
+        value = plain(given)
         if value is True:
             words.append(option)
         elif value is None or value is False:
             continue
-        elif isinstance(value, (str, int, float)):
-            words.append(f"{option}={value}")
         elif isinstance(value, dict):
-            words += [f"{option}={key}={each}" for key, each in value.items()]
+            words += [f"{option}={key}={_word(each)}" for key, each in value.items()]
         else:
-            words.append(f"{option}={','.join(str(v) for v in value)}")
+            try:
+                items = [_word(item) for item in _items(value)]
+            except TypeError:
+                message = f"{name} can't be {value!r:.80}: expected a number, a text or a list"
+                raise UsageError(message) from None
+            words += [f"{option}={x}" for x in (items if name in _REPEATED else [",".join(items)])]
     return words
+
+
+def _items(value: Any) -> List[Any]:
+    """Those of a list; a value itself."""
+    if value is None:
+        return []
+    return [value] if isinstance(value, (str, int, float, os.PathLike)) else list(value)
+
+
+def _word(value: Any) -> str:
+    value = plain(value)
+    if isinstance(value, float) and value.is_integer():
+        return str(int(value))  # what counts may come of a computation
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _user_frame() -> int:

@@ -15,19 +15,28 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, Callable, Dict, List, Optional, Sequence, Tuple
 
-from ._errors import InternalError, Problem, UsageError, error_of, problems_in
+from ._errors import (
+    InternalError,
+    Problem,
+    UsageError,
+    error_of,
+    in_python,
+    is_note,
+    problems_in,
+)
+from ._values import plain
 
 
 @dataclass(frozen=True)
 class Progress:
     """How far a rendering is.
 
-    ``done`` is the fraction of the samples, or of the time if a goal ends it; ``samples`` counts
-    camera samples of all pixels; ``error`` is the relative error (RMSE, 0.01 is 1 %). What is not
-    known yet is ``None``. ``line`` tells all of it in words.
+    ``done`` is the fraction of the samples, or of the time if a goal ends it (``None`` until the
+    time left is known); ``samples`` counts camera samples of all pixels; ``error`` is the relative
+    error (RMSE, 0.01 is 1 %). What is not known yet is ``None``. ``line`` tells all of it in words.
     """
 
-    done: float
+    done: Optional[float]
     line: str
     seconds: float = 0.0
     samples: int = 0
@@ -63,8 +72,9 @@ def start(words: Sequence[str], **streams: Any) -> "subprocess.Popen[str]":
         if sys.platform == "win32"
         else {"start_new_session": True}
     )
-    # The program ends when its input does, even if this process is killed
-    environment = dict(os.environ, CANDELA_PARENT="stdin")
+    # The program ends when its input does, even if this process is killed; and it looks for
+    # libraries in the packages of this Python, which no shell may have activated
+    environment = dict(os.environ, CANDELA_PARENT="stdin", VIRTUAL_ENV=sys.prefix)
     return subprocess.Popen(
         [str(program()), *words],
         stdin=subprocess.PIPE,
@@ -82,6 +92,7 @@ class Session:
     def __init__(self) -> None:
         self.key = _key()
         self._is_running = False
+        self._closing = threading.Lock()
         self._errors: IO[bytes] = tempfile.TemporaryFile()
         self._child = start(["session"], stdout=subprocess.PIPE, stderr=self._errors)
         self._answers: "queue.Queue[Optional[Dict[str, Any]]]" = queue.Queue()
@@ -139,23 +150,20 @@ class Session:
         )
 
     def run(
-        self, words: Sequence[str], text: Optional[Text] = None, progress: Optional[Listener] = None
+        self, request: Dict[str, Any], progress: Optional[Listener] = None
     ) -> Tuple[int, str, List[str]]:
-        """The exit code of a command line, what it prints, and its messages."""
+        """The exit code of a request, what it prints, and its messages."""
         if self._is_running:
             raise UsageError("a rendering's `progress` can't call candela: the rendering goes on")
         self._is_running = True
         try:
-            return self._run(words, text, progress)
+            return self._run(request, progress)
         finally:
             self._is_running = False
 
     def _run(
-        self, words: Sequence[str], text: Optional[Text], progress: Optional[Listener]
+        self, request: Dict[str, Any], progress: Optional[Listener]
     ) -> Tuple[int, str, List[str]]:
-        request: Dict[str, Any] = {"run": list(words)}
-        if text is not None:
-            request["scene"], request["text"] = text
         messages: List[str] = []
         self._send(request)
         try:
@@ -163,6 +171,8 @@ class Session:
                 answer = self._answer()
                 if "message" in answer:
                     messages.append(answer["message"])
+                    if is_note(messages[-1]):
+                        print(in_python(messages[-1]), file=sys.stderr, flush=True)
                 elif "code" in answer:
                     return answer["code"], answer["output"], messages
                 elif progress is not None:
@@ -186,24 +196,25 @@ class Session:
             self.close()
 
     def close(self, seconds: float = 5.0) -> None:
-        """Ends the process."""
-        if self._errors.closed:
-            return
-        assert self._child.stdin is not None and self._child.stdout is not None
-        try:
-            self._child.stdin.close()
-        except OSError:
-            pass
-        try:
-            self._child.wait(seconds)
-        except subprocess.TimeoutExpired:
-            self._child.kill()
-            self._child.wait()
-        self._reader.join()
-        self._child.stdout.close()
-        self._errors.seek(0)
-        self._printed = self._errors.read().decode("utf-8", "replace").strip()
-        self._errors.close()
+        """Ends the process, whatever it does."""
+        with self._closing:
+            if self._errors.closed:
+                return
+            assert self._child.stdin is not None and self._child.stdout is not None
+            try:
+                self._child.stdin.close()
+            except OSError:
+                pass
+            try:
+                self._child.wait(seconds)
+            except subprocess.TimeoutExpired:
+                self._child.kill()
+                self._child.wait()
+            self._reader.join()
+            self._child.stdout.close()
+            self._errors.seek(0)
+            self._printed = self._errors.read().decode("utf-8", "replace").strip()
+            self._errors.close()
 
 
 def _key() -> Tuple[int, str, Optional[str]]:
@@ -213,7 +224,7 @@ def _key() -> Tuple[int, str, Optional[str]]:
 
 def _progress(fields: Dict[str, Any]) -> Progress:
     return Progress(
-        done=fields["done"],
+        done=fields.get("done"),
         line=fields["line"],
         seconds=fields["seconds"],
         samples=int(fields["samples"]),
@@ -238,14 +249,16 @@ def session() -> Session:
 
 
 def close() -> None:
-    """Ends the Java process, and frees its memory; the next call starts another one."""
+    """Ends the Java process, with a rendering of another thread, and frees its memory; the next
+    call starts another one.
+    """
     global _session
-    with _lock:
-        if _session is not None and _session.key[0] == os.getpid():
-            _session.close()
-        _session = None
+    ended, _session = _session, None
+    if ended is not None and ended.key[0] == os.getpid():
+        ended.close()
 
 
+# Waits for no thread that renders
 atexit.register(close)
 
 
@@ -254,26 +267,34 @@ def execute(
     text: Optional[Text] = None,
     keys: Optional[List[str]] = None,
     progress: Optional[Listener] = None,
+    image: Optional[Path] = None,
 ) -> Tuple[str, List[Problem]]:
     """What a command line prints, and its warnings; threads wait for each other.
 
     :param keys: of the lines of the text, if it is a dict's
+    :param image: that of its files which is there only until it is read
     """
+    request: Dict[str, Any] = {"run": list(words)}
+    if text is not None:
+        request["scene"], request["text"] = text
+    if image is not None:
+        request["image"] = str(image)
     with _lock:
-        code, output, messages = session().run(words, text, progress)
+        code, output, messages = session().run(request, progress)
     if code != 0:
         raise error_of(code, messages, keys)
     return output, problems_in(messages, keys)
 
 
-def run(*words: "str | os.PathLike[str]") -> str:
-    """Runs the program with these words, in a process of its own, and returns what it prints.
+def run(*words: Any) -> str:
+    """Runs the program with these words, paths and numbers, in a process of its own, and returns
+    what it prints.
 
     >>> print(candela.run("compare", "a.exr", "b.exr"))
 
     Raises ``CandelaError`` if its exit code is not 0. ``KeyboardInterrupt`` ends it, too.
     """
-    child = start([os.fspath(w) for w in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    child = start([str(plain(word)) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     outputs: Dict[str, str] = {}
 
     def drain(name: str, stream: IO[str]) -> None:

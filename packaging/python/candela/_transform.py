@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any, List, Sequence, Union
 
+from ._values import plain
+
 Matrix = List[List[float]]
 
 
@@ -20,8 +22,8 @@ class Transform:
     def __init__(self, matrix: Any = None) -> None:
         self.matrix: Matrix = _identity() if matrix is None else rows(matrix)
 
-    def __matmul__(self, other: "Transform") -> "Transform":
-        a, b = self.matrix, other.matrix
+    def __matmul__(self, other: Any) -> "Transform":
+        a, b = self.matrix, rows(other)
         size = range(4)
         return Transform([[sum(a[i][k] * b[k][j] for k in size) for j in size] for i in size])
 
@@ -30,6 +32,7 @@ class Transform:
         return self @ Transform([[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]])
 
     def scale(self, v: Union[float, Sequence[float]]) -> "Transform":
+        v = plain(v)
         x, y, z = v if hasattr(v, "__len__") else (v, v, v)  # type: ignore[misc]
         return self @ Transform([[x, 0, 0, 0], [0, y, 0, 0], [0, 0, z, 0], [0, 0, 0, 1]])
 
@@ -64,11 +67,16 @@ class Transform:
         return f"candela.Transform({self.matrix})"
 
 
+def is_transform(value: Any) -> bool:
+    """Whether it is one of Candela or Mitsuba; their points take any letters as components."""
+    return hasattr(value, "matrix") and not hasattr(value, "__len__")
+
+
 def rows(matrix: Any) -> Matrix:
     """The rows of a 4 × 4 matrix, or of a 3 × 3 one: lists, NumPy's, or those of Mitsuba."""
-    inner = getattr(matrix, "matrix", matrix)
+    inner = plain(matrix.matrix if is_transform(matrix) else matrix)
     try:
-        if isinstance(inner, (list, tuple)):
+        if isinstance(inner, list):
             found = [[float(x) for x in row] for row in inner]
         else:
             size = len(inner)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import difflib
 import math
 import numbers
-import os
 import xml.etree.ElementTree as ET
 from collections.abc import MutableMapping
 from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple
 
 from ._errors import Problem, SceneError
 from ._plugins import ELEMENTS
-from ._transform import Transform, rows
+from ._transform import Transform, is_transform, rows
+from ._values import plain
 
 Keys = List[str]  # of the elements that begin in each line of a text, from line 1
 
@@ -26,7 +26,7 @@ def of_dict(scene: Dict[str, Any]) -> Tuple[ET.Element, List[Problem]]:
     for name, value in scene.items():
         if name == "type":
             continue
-        element = _element(name, value, name, faults)
+        element = _element(name, value, str(name), faults)
         if element is None:
             continue
         if element.tag not in _OBJECTS and element.tag != "ref":
@@ -46,27 +46,34 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
     def wrong(message: str) -> None:
         faults.append(_fault(key, message))
 
-    def plain(tag: str, text: str) -> ET.Element:
+    def leaf(tag: str, text: str) -> ET.Element:
         return ET.Element(tag, name=name, value=text)
 
-    if getattr(value, "shape", None) == () and hasattr(value, "item"):
-        value = value.item()  # one of NumPy
+    if not isinstance(name, str):
+        wrong(f"a name must be a text, found {name!r:.80}")
+        return None
+    value = plain(value)
     if isinstance(value, dict):
         return _object(name, value, key, faults)
     if isinstance(value, bool):
-        return plain("boolean", "true" if value else "false")
-    if isinstance(value, (str, os.PathLike)):
-        return plain("string", os.fspath(value))
+        return leaf("boolean", "true" if value else "false")
+    if isinstance(value, str):
+        return leaf("string", value)
     if isinstance(value, numbers.Integral):
-        return plain("integer", str(int(value)))
+        return leaf("integer", str(int(value)))
     if isinstance(value, numbers.Real):
         if math.isfinite(value):
-            return plain("float", repr(float(value)))
+            return leaf("float", repr(float(value)))
         wrong(f"expected a number, found {value}")
         return None
     if _is_transform(value):
+        try:
+            matrix = rows(value)
+        except ValueError as e:
+            wrong(str(e))
+            return None
         element = ET.Element("transform", name=name)
-        element.append(ET.Element("matrix", value=_numbers(sum(rows(value), []))))
+        element.append(ET.Element("matrix", value=_numbers(sum(matrix, []))))
         return element
     try:
         items = [float(x) for x in value]
@@ -75,8 +82,8 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
         wrong(f"expected a number, a text, a dict or a transform, found {value!r:.80}{hint}")
         return None
     if len(items) == 1:
-        return plain("float", repr(items[0]))
-    return plain("vector" if len(items) == 3 else "string", _numbers(items))
+        return leaf("float", repr(items[0]))
+    return leaf("vector" if len(items) == 3 else "string", _numbers(items))
 
 
 def _object(
@@ -103,7 +110,10 @@ def _object(
     if isinstance(value.get("id"), str):
         tree.set("id", value["id"])
     for inner, each in value.items():
-        if inner not in ("type", "id"):
+        if kind == "bitmap" and inner in ("data", "bitmap"):
+            message = "a bitmap of an array can't be passed: write it to a file, its `filename`"
+            faults.append(_fault(f"{key}.{inner}", message))
+        elif inner not in ("type", "id"):
             child = _element(inner, each, f"{key}.{inner}", faults)
             if child is not None:
                 tree.append(child)
@@ -114,9 +124,9 @@ def _color(
     name: str, kind: str, value: Dict[str, Any], key: str, faults: List[Problem]
 ) -> Optional[ET.Element]:
     element = ET.Element(kind, name=name)
-    given: Any = value.get("value")
+    given: Any = plain(value.get("value"))
     if kind == "spectrum" and "filename" in value:
-        element.set("filename", os.fspath(value["filename"]))
+        element.set("filename", str(plain(value["filename"])))
         return element
     try:
         if isinstance(given, str):
@@ -138,9 +148,8 @@ def _color(
 
 
 def _is_transform(value: Any) -> bool:
-    shape = getattr(value, "shape", None)
-    nested = isinstance(value, (list, tuple)) and any(isinstance(x, (list, tuple)) for x in value)
-    return hasattr(value, "matrix") or nested or (shape is not None and len(shape) == 2)
+    nested = isinstance(value, list) and any(isinstance(x, list) for x in value)
+    return is_transform(value) or nested
 
 
 def _numbers(values: List[float]) -> str:
@@ -245,7 +254,7 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
     def __setitem__(self, key: str, value: Any) -> None:
         parent, old = self._path(key)
         faults: List[Problem] = []
-        new = _element(old.get("name", ""), _like(old, value), key, faults)
+        new = _element(old.get("name", ""), _like(old, plain(value)), key, faults)
         if faults or new is None:
             raise error_of_faults(faults)
         new.tail = old.tail

@@ -163,7 +163,7 @@ object Summary:
   def refused(r: Refused, isTraceable: Boolean): String =
     val material = if r.material < 0 then "" else s", material ${r.material}"
     val options = s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
-    val advice = if isTraceable then s"; trace it with candela render $options" else ""
+    val advice = if isTraceable then s"; trace it with `candela render $options`" else ""
     val message = s"warning: ${Figures.count(r.count, "sample")} discarded: NaN or infinite, " +
       s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material$advice"
     ProblemText.numbered(message, Code.DiscardedSamples)

@@ -319,7 +319,7 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(captured.err.contains(
         "warning: 27 samples discarded: NaN or infinite, " +
           "the first at pixel (3, 0), sample 2; " +
-          "trace it with candela render --pixel 3,0 --sample 2 --debug"
+          "trace it with `candela render --pixel 3,0 --sample 2 --debug`"
       ))
       // 27 of the image's samples are more than one in a thousand
       assert(captured.out.trim.linesIterator.toVector.last.contains("the image is too dark: "))
