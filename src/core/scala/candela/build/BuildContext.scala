@@ -31,13 +31,10 @@ private[build] final class BuildContext(
   def isV4: Boolean = dialect == Dialect.V4
   def defaults: Defaults = Defaults(dialect)
 
-  /** The same scene in another colour basis; textures are defined once one is asked for.
-    *
-    * @param textures defines them
-    */
-  def in(basis: ColorBasis)(textures: BuildContext => Unit): BuildContext =
+  /** The same scene in another colour basis; textures are defined once they are asked for. */
+  def in(basis: ColorBasis)(textures: SceneTextures): BuildContext =
     val context = in(resources.in(basis))
-    context.resources.defineLater(() => textures(context))
+    context.resources.defineLater(textures.in(context))
     context
 
   /** The same scene with other resources. */

@@ -13,7 +13,7 @@ private[build] object UnusedMaterials:
     * @param textures defines textures
     */
   def check(context: BuildContext, shapes: Vector[ShapeDescription])(
-      textures: BuildContext => Unit
+      textures: SceneTextures
   ): Unit =
     val scene = context.description
     val (named, inPlace) = (unusedNames(scene, shapes), scene.idleMaterials ++ ofObjects(scene))
@@ -21,7 +21,7 @@ private[build] object UnusedMaterials:
       val isFatal = context.isV4
       val findings = if isFatal then context.problems else Findings(lost = scene.failedKinds)
       val aside = context.aside(findings)
-      aside.resources.defineLater(() => textures(aside))
+      aside.resources.defineLater(textures.in(aside))
       MaterialTable.define(aside)
       for (name, d) <- named do
         aside.resources.materials(name, d.pos, aside.resources, findings): Unit

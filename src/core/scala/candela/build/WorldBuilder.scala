@@ -8,7 +8,6 @@ import candela.aov.Cryptomatte
 import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{LightPlan, Lights, SkySampling}
 import candela.build.options.{AcceleratorPlan, Accelerators, BvhRecipe}
-import candela.build.textures.Textures
 import candela.cameras.Shutter
 import candela.color.{CameraSensor, ColorBasis}
 import candela.integrators.CausticsMode
@@ -79,15 +78,17 @@ private[build] final class WorldBuilder(
     memory.estimate(uses)
     memory.during(build(uses, footprints))
 
+  private val textures = SceneTextures(description.textures)
+
   private def build(uses: ObjectUses, footprints: => Footprints): World =
-    clock.during(CostKind.Textures)(defineTextures(context))
+    clock.during(CostKind.Textures)(textures.define(context))
     for l <- description.lights.headOption do
       context.resources.allowance.countShapes(description.lights.size, Some(l.light.pos))
     val media = MediaBuilder(context, integrator)
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
     val materials =
       clock.during(CostKind.Materials)(MaterialTable.of(context, integrator, media, shapes))
-    UnusedMaterials.check(context, shapes)(defineTextures)
+    UnusedMaterials.check(context, shapes)(textures)
 
     var lightCount = 0
     var shapeIndex = 0
@@ -145,7 +146,7 @@ private[build] final class WorldBuilder(
     val colorPlan = ColorPlan.of(context, mode, sensor)
     val color = if context.resources.settings.oneColorSet then colorPlan.ofOneSet else colorPlan
     if color.isSpectral then context.resources.census.sayOfSpectral()
-    def inBasis(basis: ColorBasis) = context.in(basis)(defineTextures)
+    def inBasis(basis: ColorBasis) = context.in(basis)(textures)
     val disperses = color.bases.headOption.map(inBasis).exists: first =>
       materials.disperses(first, integratorIn(first))
     def recolored(basis: ColorBasis): RenderMethod =
@@ -200,10 +201,6 @@ private[build] final class WorldBuilder(
     methods(0) = make(bases(0))
     context.resources.pool.forEach(bases.size - 1)(i => methods(i + 1) = make(bases(i + 1)))
     methods.toVector
-
-  private def defineTextures(context: BuildContext): Unit =
-    for t <- description.textures do
-      Textures.define(t, context.stillSite(t.texture, t.textureToWorld, "a texture"))
 
   /** Of the world's shapes, then of instances: static ones come first. */
   private def objectNames(world: LitSurfaces, objects: Vector[PlacedObject]): Vector[String] =

@@ -88,16 +88,33 @@ final class Resources private (
   // within each other: evaluation goes as deep into the stack, for which threads have room
   private val sizes = Compositions(16384, deepest = shared.allowance.capped(Limit.Depth, 16384))
 
-  private var define: (() => Unit) | Null = null
+  private var undefined = Option.empty[LaterTextures]
 
-  /** Defines the textures once one is asked for: few of many colour bases see any. */
-  def defineLater(textures: () => Unit): Unit = define = textures
+  /** Defines textures once they are asked for: few of many colour bases see many of them. */
+  def defineLater(textures: LaterTextures): Unit = undefined = Some(textures)
 
-  private def defineNow(): Unit =
-    val waiting = define
-    if waiting != null then
-      define = null
-      waiting()
+  // Textures see those before them
+  private val defined = mutable.BitSet.empty
+  private var visibleCount = Int.MaxValue
+  private var depth = 0
+
+  private def defineNow(kind: String, name: String): Unit =
+    for
+      textures <- undefined
+      i = textures.indexOf(kind, name)
+      if i >= 0 && i < visibleCount
+    do
+      def define(i: Int): Unit = if defined.add(i) then
+        val outer = visibleCount
+        visibleCount = i
+        depth += 1
+        try textures.define(i)
+        finally
+          depth -= 1
+          visibleCount = outer
+      // The stack has no room for thousands that each ask for another
+      if depth == Resources.MaxDepth then (0 until i).foreach(define)
+      define(i)
 
   /** Builds a texture and gives it a name. A texture of too many others is an error. */
   def defineFloat(name: String, at: SourcePos, problems: Findings)(make: => FloatTexture): Unit =
@@ -119,35 +136,51 @@ final class Resources private (
 
   /** Returns the texture that a parameter names, or a fallback after reporting a problem. */
   def floatTexture(p: Param, problems: Findings): Option[FloatTexture] =
-    val texture = lookUp(p, floats, colors.keySet, "float", "spectrum", StandIns.Ones, problems)
+    val texture = lookUp(p, floats, colors, "float", "spectrum", StandIns.Ones, problems)
     Some(texture.getOrElse(StandIns.number))
 
   /** As above. */
   def rgbTexture(p: Param, problems: Findings): Option[RgbTexture] =
-    val texture = lookUp(p, colors, floats.keySet, "spectrum", "float", StandIns.Magentas, problems)
+    val texture = lookUp(p, colors, floats, "spectrum", "float", StandIns.Magentas, problems)
     Some(texture.getOrElse(StandIns.color(basis)))
 
   private def lookUp[T](
       p: Param,
       in: mutable.Map[String, T],
-      others: collection.Set[String],
+      others: mutable.Map[String, ?],
       kind: String,
       otherKind: String,
       standIn: String,
       problems: Findings
   ): Option[T] =
-    defineNow()
     val name = p.strings.headOption.getOrElse("")
     sizes.refer(kind, name)
+    if !in.contains(name) then defineNow(kind, name)
     in.get(name).orElse {
-      val isOther = others(name)
+      defineNow(otherKind, name)
+      val isOther = others.contains(name)
       val message =
         if isOther then s"`${p.name}` must be a $kind texture, but `$name` is a $otherKind texture"
         else s"$kind texture `$name` is not defined"
-      def help = if isOther then None else Suggest.help(name, in.keys)
+      def names = undefined.fold(in.keys)(_.names(kind))
+      def help = if isOther then None else Suggest.help(name, names)
       problems.unnamed(Code.Undefined, NameKind.Texture, p.valuesAt, message, standIn, help)
       None
     }
+
+private[build] object Resources:
+  /** Textures within each other that are defined when they are asked for. */
+  private val MaxDepth = 50
+
+/** Textures by their numbers, which are in the order of their statements. */
+trait LaterTextures:
+  /** −1: there is none.
+    *
+    * @param kind "float" or "spectrum"
+    */
+  def indexOf(kind: String, name: String): Int
+  def define(index: Int): Unit
+  def names(kind: String): Iterable[String]
 
 /** Materials by the names that `MakeNamedMaterial` gave them, each built on first use.
   *

@@ -28,12 +28,15 @@ object Textures:
     )
   )
 
+  /** Whether a texture has numbers, or colours. */
+  def kind(t: TextureDescription): String = if t.valueType == "float" then "float" else "spectrum"
+
   /** Builds a texture and registers its name for the statements that follow.
     *
     * @param site site with the texture's own transform
     */
   def define(t: TextureDescription, site: Site): Unit =
-    if t.valueType == "float" then
+    if kind(t) == "float" then
       site.resources.defineFloat(t.name, site.declaration.pos, site.problems):
         floats.build(site).getOrElse(StandIns.number)
     else
