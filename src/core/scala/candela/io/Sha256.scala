@@ -25,14 +25,16 @@ object Sha256:
     *
     * @throws java.io.IOException if it can't be read
     */
-  def ofAll(stream: => InputStream): String =
+  def ofAll(stream: => InputStream): String = Using.resource(stream)(ofRest)
+
+  /** Of a stream that stays open. */
+  def ofRest(in: InputStream): String =
     val sum = start()
-    Using.resource(stream): in =>
-      val buffer = new Array[Byte](1 << 16)
-      var count = in.read(buffer)
-      while count >= 0 do
-        sum.update(buffer, 0, count)
-        count = in.read(buffer)
+    val buffer = new Array[Byte](1 << 16)
+    var count = in.read(buffer)
+    while count >= 0 do
+      sum.update(buffer, 0, count)
+      count = in.read(buffer)
     hex(sum.digest)
 
   /** Of texts that end each with a line break. */

@@ -28,7 +28,6 @@ private[convert] object FromGltf:
   private final class Run(scene: SceneDescription, files: SideFiles) extends MitsubaLosses:
     private val textures = scene.textures.map(t => t.name -> t.texture).toMap
     private val added = mutable.LinkedHashMap.empty[String, TextureDescription]
-    private val written = mutable.HashMap.empty[(String, String, Float), String]
     def addedTextures: Vector[TextureDescription] = added.values.toVector
 
     def plain(d: Declaration): Declaration =
@@ -110,12 +109,9 @@ private[convert] object FromGltf:
       val at = d.param("filename").get
       val key = (at.strings.head, names, numberOf(change(0.4f)) + 2 * numberOf(change(0.6f)))
       try
-        val name = written.getOrElseUpdate(
-          key, {
-            val image = ImageFiles.load(RewrittenImages.file(d.folder, at)).toImage
-            files.add("image", "png", ImageFiles.png(gray(image, names.toUpperCase, change)))
-          }
-        )
+        val name = files.reused(key):
+          val image = ImageFiles.load(RewrittenImages.file(d.folder, at)).toImage
+          files.add("image", "png", ImageFiles.png(gray(image, names.toUpperCase, change)))
         val otherParams = d.params.filterNot(p => Set("filename", "channel")(p.name))
         d.copy(params = Param.string("filename", at.pos, relative(d, name)) +: otherParams)
       catch

@@ -83,7 +83,8 @@ object FromV2Surfaces:
           if scale != 1f then s.addFloat("scale", scale)
         else
           val decoded = (x: Float, _: Int) => pow(Math.max(scale * x, 0f), power)
-          s.addString("filename", RewrittenImages.baked(s, file)(decoded))(using file.pos)
+          val baked = RewrittenImages.baked(s, file, (power, scale))(decoded)
+          s.addString("filename", baked)(using file.pos)
 
   /** v2 flips only TGA files vertically. */
   private val upright =

@@ -7,6 +7,7 @@ import java.nio.file.{Files, Path}
 import java.security.MessageDigest
 import java.util.Arrays
 
+import scala.collection.mutable
 import scala.util.Try
 
 import candela.color.{Encoding, Rgb}
@@ -21,6 +22,7 @@ import candela.scenefile.{Dialect, Param}
   */
 final class SideFiles(val folder: Path, check: Path => Unit = _ => ()):
   private var created = Vector.empty[Path]
+  private val rewritten = mutable.HashMap.empty[Any, String]
 
   /** Writes the bytes to a file atomically; returns its name. */
   def add(kind: String, extension: String, bytes: Array[Byte]): String =
@@ -35,11 +37,15 @@ final class SideFiles(val folder: Path, check: Path => Unit = _ => ()):
       throw SceneError(Problem.general(Code.SideFile, s"`$path` exists with different content"))
     name
 
+  /** The name of what `make` adds, which is made once for equal keys. */
+  def reused(key: Any)(make: => String): String = rewritten.getOrElseUpdate(key, make)
+
   /** Deletes what has been created. */
   def undo(): Unit =
     for path <- created do
       val _ = Files.deleteIfExists(path)
     created = Vector.empty
+    rewritten.clear()
 
   /** Deletes what has been created if `body` fails. */
   def completing[A](body: => A): A =
@@ -59,7 +65,7 @@ object RewrittenImages:
     * pixels, v4 does not; so a small image is enlarged, as its own dialect shows it.
     */
   def slide(s: Statement, p: Param, lookup: PictureLookup, tint: Rgb = Rgb.White): String =
-    written(s, p): image =>
+    written(s, p, (lookup, tint)): image =>
       val picture = Picture(lightImage(image, name(p), s), lookup)
       val times = Math.max(1, SlideSize / Math.max(image.width, image.height))
       val enlarged = Image.rgb(image.width * times, image.height * times)
@@ -110,9 +116,11 @@ object RewrittenImages:
 
   /** The image with `change` applied to its stored values (8 bits: 0 to 1) and their channel,
     * in sRGB.
+    *
+    * @param way what `change` depends on
     */
-  def baked(s: Statement, p: Param)(change: (Float, Int) => Float): String =
-    written(s, p): stored =>
+  def baked(s: Statement, p: Param, way: Any)(change: (Float, Int) => Float): String =
+    written(s, p, way): stored =>
       val image = if stored.colorSpace.isSrgb then stored else stored.toReflectances
       val sources = image.colorChannels.toArray
       val result = Image.rgb(image.width, image.height)
@@ -139,12 +147,14 @@ object RewrittenImages:
   private def plain(i: Image): Image = Image(i.width, i.height, i.channelNames, i.data)
 
   /** Name of the new file; of the old one, after a warning, if it can't be read. */
-  private def written(s: Statement, p: Param)(change: Image => Image): String =
+  private def written(s: Statement, p: Param, way: Any)(change: Image => Image): String =
     val name = p.strings.head
     def failed(reason: String) =
       s.warn(Code.UnconvertedImage, p.pos, s"can't read the image, leaving it unchanged: $reason")
       name
     try
-      val image = ImageFiles.load(file(s, p)).toImage
-      s.run.files.add("image", "exr", ImageFiles.exr(change(image)))
+      val from = file(s, p)
+      s.run.files.reused((from.path, s.run.pass.from, way)):
+        val image = ImageFiles.load(from).toImage
+        s.run.files.add("image", "exr", ImageFiles.exr(change(image)))
     catch case e: ImageError => failed(e.getMessage)

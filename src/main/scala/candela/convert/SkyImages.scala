@@ -3,6 +3,7 @@ package candela.convert
 import candela.base.loop
 import candela.diagnostics.Code
 import candela.color.Rgb
+import candela.io.InputFile
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.lights.{EqualAreaMap, IesError, IesFile, LatLongMap, SphereMap}
 import candela.scenefile.Param
@@ -18,30 +19,11 @@ object SkyImages:
     val name = p.strings.head
     try
       val file = RewrittenImages.file(s, p)
-      val isPhotometry = IesFile.isNamed(name)
-      val source =
-        if isPhotometry then IesFile.read(file).photometry.image
-        else RewrittenImages.lightImage(ImageFiles.load(file).toImage, name, s)
-      val environment =
-        if isPhotometry && !toSquare then
-          resampled(
-            source,
-            LatLongMap,
-            Math.max(source.width, 360),
-            source.height,
-            LatLongMap,
-            true
-          )
-        else if toSquare then
-          val side = Math.min(Math.max(2 * source.height, 64), 4096)
-          resampled(source, LatLongMap, side, side, EqualAreaMap, smooth = true)
-        else if source.width == 2 * source.height then source
-        else
-          val height = Math.min(source.height, 4096)
-          resampled(source, EqualAreaMap, 2 * height, height, LatLongMap, smooth = false)
-      val tinted = if tint == Rgb.White then environment else times(environment, tint)
       val kind = if toSquare then "equalarea" else "latlong"
-      Some(s.run.files.add(kind, "exr", ImageFiles.exr(tinted)))
+      Some(s.run.files.reused((file.path, s.run.pass.from, toSquare, tint)):
+        val image = environment(file, name, s, toSquare)
+        val tinted = if tint == Rgb.White then image else times(image, tint)
+        s.run.files.add(kind, "exr", ImageFiles.exr(tinted)))
     catch
       case e: (ImageError | IesError) =>
         s.warn(
@@ -50,6 +32,22 @@ object SkyImages:
           s"can't convert the image, ignoring it: ${e.getMessage}"
         )
         None
+
+  private def environment(file: InputFile, name: String, s: Statement, toSquare: Boolean): Image =
+    val isPhotometry = IesFile.isNamed(name)
+    val source =
+      if isPhotometry then IesFile.read(file).photometry.image
+      else RewrittenImages.lightImage(ImageFiles.load(file).toImage, name, s)
+    if isPhotometry && !toSquare then
+      val width = Math.max(source.width, 360)
+      resampled(source, LatLongMap, width, source.height, LatLongMap, smooth = true)
+    else if toSquare then
+      val side = Math.min(Math.max(2 * source.height, 64), 4096)
+      resampled(source, LatLongMap, side, side, EqualAreaMap, smooth = true)
+    else if source.width == 2 * source.height then source
+    else
+      val height = Math.min(source.height, 4096)
+      resampled(source, EqualAreaMap, 2 * height, height, LatLongMap, smooth = false)
 
   /** Each pixel averages the source over the pixel's directions.
     *

@@ -34,7 +34,9 @@ object ToV3Textures:
           if isPng && encoding == "linear" then s.addBool("gamma", false)
         else
           val decoded = (x: Float, _: Int) => if inverts then 1f - decode(x) else decode(x)
-          s.addString("filename", RewrittenImages.baked(s, p)(decoded))(using p.pos)
+          s.addString("filename", RewrittenImages.baked(s, p, (encoding, inverts))(decoded))(using
+            p.pos
+          )
 
   private val filter: Step = Step("`filter`", "`trilinear`, for all but \"ewa\""): s =>
     val p = s.take("filter")

@@ -26,7 +26,7 @@ object ToV4Textures:
           s.addString("encoding", "linear")
         else
           val decoded = (x: Float, _: Int) => if decodes then Srgb.decode(x) else x
-          s.addString("filename", RewrittenImages.baked(s, p)(decoded))(using p.pos)
+          s.addString("filename", RewrittenImages.baked(s, p, decodes)(decoded))(using p.pos)
 
   private val filter: Step = Step("`trilinear`", "`filter`: \"ewa\", or \"trilinear\""): s =>
     s.addString("filter", if s.takeBool("trilinear", false) then "trilinear" else "ewa")
@@ -105,7 +105,7 @@ object ToV4Textures:
       val isBytes = name.endsWith(".png") || name.endsWith(".tga")
       val decodes = t.texture.param("gamma").flatMap(_.bools.headOption).getOrElse(isBytes)
       val factors = Array(by.r, by.g, by.b)
-      val written = RewrittenImages.baked(s, file): (x, c) =>
+      val written = RewrittenImages.baked(s, file, (by, decodes)): (x, c) =>
         factors(c) * (if decodes then Srgb.decode(x) else x)
       val remaining = t.texture.params.filterNot(q => q.name == "gamma" || q.name == "filename")
       val image = Param(ParamType.String, "filename", file.pos, file.pos, strings = Vector(written))

@@ -1,6 +1,7 @@
 package candela.growth
 
 import candela.scenefile.Dialect
+import candela.testing.{NanoVdb, VdbGrid}
 
 import java.awt.image.BufferedImage
 import java.nio.file.{Files, Path}
@@ -89,7 +90,7 @@ object GrowingPbrt:
 
   /** Statements about one picture. */
   private def pictured(name: String)(line: (Int, Int) => String): Growing =
-    Growing(name, V4, 30): (folder, count) =>
+    Growing(name, V4, 100): (folder, count) =>
       picture(folder, "a.png", 32, 32)
       scene(V4, Vector.tabulate(count)(line(_, count)))
 
@@ -315,6 +316,10 @@ object GrowingPbrt:
       picture(folder, "a.png", side, side)
       scene(V4, Seq("LightSource \"infinite\" \"string filename\" \"a.png\""))
     ,
+    Growing("projectors of a picture", V4, 16): (folder, n) =>
+      picture(folder, "a.png", 1024, n)
+      scene(V4, Vector.fill(n)("LightSource \"projection\" \"string filename\" \"a.png\""))
+    ,
     pixels("pixels of a projector")("LightSource \"projection\" \"string filename\" \"a.png\""),
     row("lights that emit textures", V3, head = "Texture \"a\" \"float\" \"checkerboard\""):
       (i, n) =>
@@ -361,6 +366,13 @@ object GrowingPbrt:
     row("lights in media"): (i, n) =>
       s"MakeNamedMedium \"m$i\" \"string type\" \"homogeneous\"\n" +
         block(s"MediumInterface \"\" \"m$i\"", s"Translate ${spot(i, n)}", "LightSource \"point\""),
+    Growing("media of a file", V4, 50): (folder, n) =>
+      val grid = VdbGrid("density", Vector.tabulate(n)(i => (8 * i, 0, 0) -> 1f).toMap)
+      Files.write(folder.resolve("a.nvdb"), NanoVdb.file(Seq(grid))): Unit
+      def medium(i: Int) =
+        s"MakeNamedMedium \"m$i\" \"string type\" \"nanovdb\" \"string filename\" \"a.nvdb\""
+      scene(V4, Vector.tabulate(n)(medium))
+    ,
     numbers("numbers of a grid"): n =>
       "MakeNamedMedium \"m\" \"string type\" \"uniformgrid\" " +
         "\"integer nx\" 10 \"integer ny\" 10 " +

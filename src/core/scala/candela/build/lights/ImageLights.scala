@@ -44,7 +44,7 @@ object GoniometricLightRecipe
       case None => LightPlan.nothing
       case Some(image) =>
         def light(i: Rgb) = sphere(image, LatLongMap, i, smooth = true)
-        val mean = means(light(Rgb.White).meanOfMax)
+        val mean = means.of(image)(light(Rgb.White).meanOfMax)
         val i = scaled(intensity(), power(), 4f * Pi * mean)
         shining(i, light(i))
 
@@ -113,7 +113,7 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     val tanHalf = Math.tan(Math.toRadians(fov() / 2.0)).toFloat / narrow
     val basis = site.resources.basis
     val perUnit = slide.fold(1f): s =>
-      powers:
+      powers.of((site.declaration.folder, given_, lookup, tanHalf)):
         ProjectionLight.power(s, tanHalf, basis.toSrgb(_).luminance)
     def isBlack = slide.exists(s => !(s.meanOfMax > 0f))
     val scaling = scaled(intensity(), power(), perUnit)

@@ -10,7 +10,6 @@ import candela.textures.{FloatTexels, MadeTexels, TexelBands, TileCache, Wrap}
 /** Loads the images of lights. */
 private[build] object LightImages:
 
-  /** The photometry of a statement, which has one at most. */
   private val photometries = Once[Option[Image]]()
 
   private val images = Once[Either[ImageError, Image]]()
@@ -86,20 +85,20 @@ private[build] object LightImages:
     * equirectangular image. Reports files that can't be used.
     */
   def photometry(name: String)(using site: Site): Option[Image] =
-    photometries:
-      for
-        p <- site.declaration.param(name)
-        file <- site.resources.file(p, site.declaration, site.problems, StandIns.LeftOut)
-        image <-
-          try
-            val light = IesFile.read(file)
-            light.notes.foreach(site.problems.warn(Code.ImageContents, p.valuesAt, _))
-            Some(light.photometry.image)
-          catch
-            case e: IesError =>
-              site.problems.missing(Code.MeasuredFile, p.valuesAt, e.getMessage, StandIns.LeftOut)
-              None
-      yield image
+    site.declaration.param(name).flatMap: p =>
+      photometries.of((site.declaration.folder, p.strings)):
+        for
+          file <- site.resources.file(p, site.declaration, site.problems, StandIns.LeftOut)
+          image <-
+            try
+              val light = IesFile.read(file)
+              light.notes.foreach(site.problems.warn(Code.ImageContents, p.valuesAt, _))
+              Some(light.photometry.image)
+            catch
+              case e: IesError =>
+                site.problems.missing(Code.MeasuredFile, p.valuesAt, e.getMessage, StandIns.LeftOut)
+                None
+        yield image
 
   private def loaded(stored: StoredImage, name: String)(using site: Site) =
     usable(stored.toImage, name).map: image =>

@@ -1,7 +1,8 @@
 package candela.build.media
 
-import candela.io.{InputFile, IoReason}
+import candela.io.{InputFile, IoReason, Sha256}
 import java.io.IOException
+import java.nio.channels.Channels
 import java.nio.charset.StandardCharsets.UTF_8
 
 import scala.collection.mutable
@@ -45,6 +46,7 @@ object NanoVdbFile:
   def read(input: InputFile, name: String): Either[Vector[String], NanoVdbGrid] =
     try
       Using.resource(input.channel()): channel =>
+        input.note(Sha256.ofRest(Channels.newInputStream(channel)))
         val file = FileBytes(channel, 0, channel.size)
         entries(file) match
           case all if all.exists(_.name == name) =>

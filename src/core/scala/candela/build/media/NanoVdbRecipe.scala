@@ -28,9 +28,10 @@ object NanoVdbRecipe
         site.error(Code.MissingParameter, "a \"nanovdb\" medium needs `filename`")
         None
       case Some(p) =>
-        val voxels = stored:
-          site.resources.file(p, site.declaration, site.problems, Ignored).flatMap(read(_, p))
-        voxels.flatMap(medium)
+        val file = site.resources.file(p, site.declaration, site.problems, Ignored)
+        file.flatMap(f => stored.of((f.path, gridName(), temperatureName()))(read(f, p))).flatMap(
+          medium
+        )
 
   private def medium(voxels: Voxels)(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
@@ -67,7 +68,6 @@ object NanoVdbRecipe
       )
       None
     try
-      file.digest(): Unit
       NanoVdbFile.read(file, gridName()) match
         case Left(names) =>
           val available = names.distinct.sorted.mkString("`", "`, `", "`")
