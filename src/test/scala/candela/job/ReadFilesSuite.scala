@@ -1,15 +1,17 @@
 package candela.job
 
 import candela.io.Sha256
-import candela.scenefile.TokenDigest
+import candela.scenefile.{SceneFiles, TokenDigest}
 import candela.settings.{BuildControl, RenderSettings}
-import candela.testing.{TempFolder, VdbGrid, NanoVdb}
+import candela.testing.{NanoVdb, TempFolder, TiledExr, VdbGrid}
 
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
-import scala.util.Using
+import scala.jdk.CollectionConverters.*
+import scala.util.{Try, Using}
 
 /** What a film says of its scene's files is what was rendered. */
 class ReadFilesSuite extends AnyFunSuite:
@@ -38,6 +40,9 @@ class ReadFilesSuite extends AnyFunSuite:
       |Texture "t" "spectrum" "imagemap" "string filename" "image.pgm"
       |Material "diffuse" "texture reflectance" "t"
       |Shape "sphere"
+      |Texture "l" "spectrum" "imagemap" "string filename" "levels.exr"
+      |Material "diffuse" "texture reflectance" "l"
+      |Shape "sphere"
       |MakeNamedMedium "smoke" "string type" "nanovdb" "string filename" "smoke.nvdb"
       |""".stripMargin
 
@@ -51,6 +56,9 @@ class ReadFilesSuite extends AnyFunSuite:
     "image.pgm" -> "P2 1 1 255 7\n"
   )
 
+  private def load(scene: Path): Prepared =
+    SceneLoader.FromFile.load(scene.toString, RenderSettings(), BuildControl())
+
   private def digests(prepared: Prepared, film: Path): Map[String, String] =
     FilmHeaders.of(RenderSettings(), "s.pbrt", prepared, film).files.toMap
 
@@ -58,22 +66,28 @@ class ReadFilesSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       for (name, text) <- texts do Files.writeString(folder.resolve(name), text): Unit
       Files.write(folder.resolve("smoke.nvdb"), NanoVdb.file(Vector(grid))): Unit
+      TiledExr(64, 64, 16, 16)((_, _, _, _) => 0.5f).write(folder.resolve("levels.exr"))
       val film = folder.resolve("a.film")
-      def load() =
-        SceneLoader.FromFile.load(
-          folder.resolve("s.pbrt").toString,
-          RenderSettings(),
-          BuildControl()
-        )
-      val names = texts.keySet + "smoke.nvdb"
+      val names = texts.keySet ++ Set("smoke.nvdb", "levels.exr")
       val before = names.map: name =>
         val file = folder.resolve(name)
         val isScene = name.endsWith(".pbrt")
         name -> (if isScene then TokenDigest.of(texts(name))
                  else Sha256.ofAll(Files.newInputStream(file)))
-      Using.resource(load()): prepared =>
+      Using.resource(load(folder.resolve("s.pbrt"))): prepared =>
         for name <- names do Files.writeString(folder.resolve(name), "another"): Unit
         assert(digests(prepared, film) == before.toMap)
+
+  test("every file that a scene names is digested while it is read", Slow):
+    for
+      file <- Using.resource(Files.walk(Path.of("scenes")))(_.iterator.asScala.toVector)
+      if SceneFormat.all.exists(_.suffixes.exists(s => file.toString.endsWith(s".$s")))
+      prepared <- Try(load(file)).toOption
+    do
+      Using.resource(prepared): p =>
+        val scene = p.description
+        for read <- SceneFiles.of(scene) do
+          assert(scene.folder.reads.digest(read).isDefined, s"$file: $read")
 
   test("a file that is read twice with two contents has the digest of neither"):
     TempFolder.use: folder =>

@@ -267,7 +267,7 @@ final class SharedResources(
       accept: ExrLevels => Either[Option[String], Vector[Int]]
   )(colors: Texels => Vector[Rgb]): Option[CachedImage] =
     toRead(p, site.declaration, site.problems, standIn).flatMap: file =>
-      opened.computeIfAbsent(file.path, _ => ExrLevels.of(file)).flatMap: found =>
+      opened.computeIfAbsent(file.path, _ => levelsOf(file, p.valuesAt)).flatMap: found =>
         // Each use has a warning of its own
         found.left.map(Some(_)).flatMap(levels => accept(levels).map(levels -> _)) match
           case Right((levels, channels)) =>
@@ -279,6 +279,14 @@ final class SharedResources(
               val message = s"$file: the levels in the file are not used: $why"
               site.problems.warn(Code.ImageContents, p.valuesAt, message)
             None
+
+  /** Its tiles may be read while the scene is rendered: a film is of the file as it is now. */
+  private def levelsOf(file: InputFile, at: SourcePos): Option[Either[String, ExrLevels]] =
+    val levels = ExrLevels.of(file)
+    try
+      if levels.exists(_.isRight) then Refusal.placed(at)(textures.digest(file)): Unit
+      levels
+    catch case _: IOException => None
 
   /** None if the file is damaged: reading it as a whole tells. */
   private def inLevels(
