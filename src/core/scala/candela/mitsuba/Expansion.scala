@@ -85,6 +85,8 @@ final class Expansion(
           val name = required(e, "value")
           if !SceneFolder.isName(name) then
             fail(Code.NoSuchFile, e, s"`$name` is not a valid file name")
+          if paths.size + pathsOfIncludes.size >= Expansion.MaxFolders then
+            fail(Code.IncludeCircle, e, s"more than ${Expansion.MaxFolders} folders are named")
           val added = folder.existing(foldersFrom(files), name, Some(e.pos)).map(_.path)
           if files.sizeIs > 1 then pathsOfIncludes = added ++: pathsOfIncludes
           else paths = added ++: paths
@@ -184,6 +186,9 @@ object Expansion:
   private val Variable = raw"\$$(\w++)(?!\[)".r
   private val MaxIncludes = 15
   private val MaxFiles = 10_000
+
+  /** Each file is looked for in all of them. */
+  private val MaxFolders = 100
 
   /** Put in place of names; values of values may be exponentially long. */
   private val MaxTextLength = 20_000_000

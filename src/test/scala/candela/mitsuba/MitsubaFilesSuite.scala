@@ -61,6 +61,12 @@ class MitsubaFilesSuite extends AnyFunSuite:
     try read(body).errors.map(_.message)
     catch case e: SceneError => e.problems.map(_.message)
 
+  test("files are looked for in a hundred folders at most"):
+    def paths(count: Int) = "<path value=\"p\"/>" * count + ball("1")
+    assert(read(paths(100), "p/a" -> "").errors.isEmpty)
+    val problem = intercept[SceneError](read(paths(101), "p/a" -> "")).problems.head
+    assert(problem.message == "more than 100 folders are named")
+
   test("numbers are decimal, and integers have neither point nor sign"):
     for text <- Seq("1e3f", "0.0f", "1d", "0x1p3") do
       assert(errors(ball(text)) == Vector(s"expected a number, found `$text`"))
