@@ -97,6 +97,8 @@ object SceneBuilder:
     checkSize(context, renderPlan)
     for why <- control.cache.save() do
       context.problems.warn(Code.Unwritable, None, s"$why; the scene cache gets no more files")
+    for remark <- control.cache.remark do
+      context.problems.warn(Code.OutputConflict, None, remark)
     (renderPlan, context.problems.result)
 
   private def footprint(context: BuildContext, sampling: SamplingSetup): Float =

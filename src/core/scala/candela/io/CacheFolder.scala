@@ -64,6 +64,13 @@ final class CacheFolder(val path: Path, maxBytes: Long):
     */
   private var bytesLeft = -1L
 
+  @volatile private var otherCount = 0
+
+  /** Says that the folder has files of others, if it was listed. */
+  def remark: Option[String] = Option.when(otherCount > 0):
+    s"the cache folder `$path` has $otherCount files that are not Candela's; they stay, and do " +
+      "not count"
+
   private lazy val owner: Option[String] = Try(Files.getOwner(path).getName).toOption
 
   /** @throws IOException if all users can write in the folder */
@@ -86,8 +93,10 @@ final class CacheFolder(val path: Path, maxBytes: Long):
     * @param last the file that stays
     */
   private def shrink(last: Option[Path]): Unit =
-    val files = Try(Using.resource(Files.list(path))(_.iterator.asScala.filter(isOurs).toVector))
-    val sizes = files.getOrElse(Vector.empty).flatMap: file =>
+    val files = Try(Using.resource(Files.list(path))(_.iterator.asScala.toVector))
+    val (ours, others) = files.getOrElse(Vector.empty).partition(isOurs)
+    otherCount = others.count(!_.getFileName.toString.startsWith(".candela-"))
+    val sizes = ours.flatMap: file =>
       Try((file, Files.size(file), Files.getLastModifiedTime(file))).toOption
     val room = maxBytes / UnlistedShare
     var sum = sizes.map(_._2).sum

@@ -71,6 +71,9 @@ final class Keep private (val isKeeping: Boolean, files: Option[PartFiles], rest
     digests.save()
     files.flatMap(_.trouble())
 
+  /** As of the folder of files. */
+  def remark: Option[String] = files.flatMap(_.remark)
+
   /** As `apply`, of what is made from a file, and in which way.
     *
     * @return also the file's digest, unless nothing is kept or the file was written meanwhile

@@ -28,6 +28,9 @@ final class PartFiles(folder: CacheFolder):
     if message.nonEmpty then isTold = true
     message
 
+  /** As of the folder. */
+  def remark: Option[String] = folder.remark
+
   /** The value in the file of this key; None if the file is missing or damaged. */
   def read[A](form: PartForm[A], key: String): Option[A] =
     val file = folder.file(mark(form, key), form.suffix)

@@ -41,13 +41,14 @@ class CacheFolderSuite extends AnyFunSuite:
       val cache = CacheFolder(folder, 150)
       val first = cache.file("a", CacheFolder.Parts)
       cache.write(first)(_.write(content(100)): Unit)
+      assert(cache.remark.isEmpty)
       val film = Files.write(folder.resolve("holiday-film.mkv.part"), content(900).array)
       val named = Files.write(cache.file("x", CacheFolder.Tiles), new Array[Byte](900))
       val target = Files.write(folder.resolve("target"), content(900).array)
       val link = Files.createSymbolicLink(cache.file("y", CacheFolder.Digests), target)
-      CacheFolder(folder, 150).write(cache.file("b", CacheFolder.Parts))(
-        _.write(content(100)): Unit
-      )
+      val next = CacheFolder(folder, 150)
+      next.write(cache.file("b", CacheFolder.Parts))(_.write(content(100)): Unit)
+      assert(next.remark.exists(_.contains("has 4 files that are not Candela's")))
       assert(!Files.exists(first) && Seq(film, named, target, link).forall(Files.exists(_)))
 
   test("a planted link is not followed, neither to read nor to write"):

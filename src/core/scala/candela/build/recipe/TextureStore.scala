@@ -27,7 +27,7 @@ final class TextureStore private (
     val tiles: Option[TileCache],
     val lightTiles: Option[TileCache],
     images: String,
-    folder: Option[Path],
+    folder: Option[CacheFolder],
     val bytes: Long,
     files: Vector[InputFile],
     pool: Parallel,
@@ -46,7 +46,7 @@ final class TextureStore private (
       else "in their own files"
     val exceptions =
       if tiles.exists(_.trouble.nonEmpty) then ", but for those that can't be written" else ""
-    val location = folder.map: f =>
+    val location = folder.map(_.path).map: f =>
       if prepared < files.size then s", $whose $f$exceptions" else s", $whose"
     Option.when(images.nonEmpty)(images + location.getOrElse(""))
 
@@ -96,6 +96,8 @@ final class TextureStore private (
 
   /** Says, once, that files of tiles or tables can't be written. */
   def warn(problems: Findings): Unit =
+    for remark <- folder.flatMap(_.remark) do
+      problems.warn(Code.OutputConflict, None, remark)
     def report(why: String, effect: String) =
       problems.warn(Code.Unwritable, None, s"$why; $effect")
     tiles.flatMap(_.trouble) match
@@ -172,7 +174,7 @@ object TextureStore:
             // What is kept in files has a table of its own
             val digests = FileDigests(Option.unless(keep.isFiled)(PartFiles(folder)))
             new TextureStore(
-              cache, lights, summary, Some(path), limit, files, pool, keep, tables, digests
+              cache, lights, summary, Some(folder), limit, files, pool, keep, tables, digests
             )
 
   private def sizeOf(files: Vector[InputFile])(bytes: ImageSize => Long): Long =
