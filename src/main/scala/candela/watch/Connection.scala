@@ -22,7 +22,7 @@ private final class Connection(socket: Socket) extends AutoCloseable:
 
   private lazy val input = BufferedInputStream(socket.getInputStream, Request.MaxBytes)
   @volatile private var activity = Activity(Phase.Idle)
-  @volatile private var isServed = false
+  @volatile private var answers = 0
   @volatile private var content = Array.emptyByteArray
 
   def address: InetAddress = socket.getInetAddress
@@ -32,18 +32,17 @@ private final class Connection(socket: Socket) extends AutoCloseable:
 
   def isBusy: Boolean = activity.phase == Phase.Answering || activity.phase == Phase.Sending
 
-  /** Connections of low standing are closed first if there are too many, the oldest of equals:
-    * incomplete requests, then clients that have had no answer yet, then idle ones.
+  /** Connections of low standing are closed first if there are too many: clients that keep the
+    * server waiting, then those that have had few answers, the oldest of equals.
     */
-  def standing: (Int, Long) =
+  def standing: (Int, Int, Long) =
     val Activity(phase, start) = activity
     val rank = phase match
       case Phase.Closing => 0
-      case Phase.Receiving if seconds(start) > IncompleteSeconds => 0
-      case Phase.Idle | Phase.Receiving => if isServed then 2 else 1
-      case Phase.Sending => 3
-      case Phase.Answering => 4
-    (rank, start)
+      case Phase.Receiving | Phase.Sending if seconds(start) > SlowSeconds => 0
+      case Phase.Answering => 2
+      case _ => 1
+    (rank, answers, start)
 
   /** Whether the client has kept the server waiting for so long. */
   def isLate(timeoutSeconds: Double): Boolean =
@@ -62,7 +61,8 @@ private final class Connection(socket: Socket) extends AutoCloseable:
     activity = Activity(Phase.Answering)
     Option.when(byte >= 0)(text.toString)
 
-  def send(head: Array[Byte], body: Array[Byte]): Unit =
+  /** @param isGranted whether the client has asked for something that there is */
+  def send(head: Array[Byte], body: Array[Byte], isGranted: Boolean): Unit =
     content = body
     activity = Activity(Phase.Sending)
     socket.getOutputStream.write(head)
@@ -70,7 +70,7 @@ private final class Connection(socket: Socket) extends AutoCloseable:
       activity = Activity(Phase.Sending)
       socket.getOutputStream.write(body, start, Math.min(PieceBytes, body.length - start))
     content = Array.emptyByteArray
-    isServed = true
+    if isGranted then answers += 1
     activity = Activity(Phase.Idle)
 
   /** Waits for the client's end: closed at once, what the client still sends would destroy the
@@ -89,8 +89,8 @@ private object Connection:
 
   private def seconds(start: Long): Double = (System.nanoTime - start) * 1e-9
 
-  /** Requests arrive within this time, but for those of very slow clients. */
-  private val IncompleteSeconds = 1.0
+  /** Requests arrive, and pieces of answers leave, within this time, but for very slow clients. */
+  private val SlowSeconds = 1.0
 
   /** Sent at once. */
   private val PieceBytes = 65536

@@ -24,7 +24,7 @@ private[watch] final class HttpServer(
 ) extends AutoCloseable:
   import HttpServer.*
 
-  private val listener = ServerSocket(requestedPort, MaxConnections, address)
+  private val listener = ServerSocket(requestedPort, MaxWaiting, address)
   private val threads = Background.pool("viewers", MaxConnections)
   private val connections = ConcurrentHashMap.newKeySet[Connection]()
   private var loops = Vector.empty[Background.Repeated]
@@ -89,7 +89,8 @@ private[watch] final class HttpServer(
     val hasBody = !request.exists(_.method == "HEAD")
     connection.send(
       reply.head(policy, keepsOpen),
-      if hasBody then reply.body else Array.emptyByteArray
+      if hasBody then reply.body else Array.emptyByteArray,
+      isGranted = reply.code == 200
     )
     if !keepsOpen then connection.awaitEnd()
     keepsOpen
@@ -106,6 +107,9 @@ private[watch] final class HttpServer(
 private object HttpServer:
   /** Connections at the same time; a browser has up to six. */
   val MaxConnections = 64
+
+  /** Connections that the system keeps until they are accepted: others try again after a second. */
+  private val MaxWaiting = 1024
 
   /** Of one address, which may be that of a tunnel for several viewers. */
   val MaxPerAddress: Int = MaxConnections / 2

@@ -92,6 +92,34 @@ class HttpServerSuite extends AnyFunSuite:
         finally crowd.foreach(_.close())
       finally viewers.foreach(_.close())
 
+  private def others(kind: String)(first: Socket => Unit): Unit =
+    test(s"a viewer keeps its connection while others $kind, again and again"):
+      serving(): port =>
+        val viewer = connected(port)
+        def ask(): Unit =
+          send(viewer, "GET /a HTTP/1.1\r\nHost: a\r\n\r\n")
+          assert(received(viewer.getInputStream).code == 200): Unit
+        try
+          for _ <- 1 to 3 do ask()
+          for _ <- 1 to 4 do
+            val crowd = Vector.fill(HttpServer.MaxConnections)(connected(port))
+            try
+              crowd.foreach(c => Try(first(c)))
+              ask()
+            finally crowd.foreach(_.close())
+        finally viewer.close()
+
+  others("ask once, and wait"): socket =>
+    send(socket, "GET /a HTTP/1.1\r\nHost: a\r\n\r\n")
+    received(socket.getInputStream): Unit
+
+  others("ask for much, and don't read it"): socket =>
+    send(socket, "GET /large HTTP/1.1\r\nHost: a\r\n\r\n")
+
+  others("ask once, and begin another request"): socket =>
+    send(socket, "GET /a HTTP/1.1\r\nHost: a\r\n\r\nGET /b HTTP/1.1\r\n")
+    received(socket.getInputStream): Unit
+
   test("requests that are still incomplete after a second give way first"):
     serving(): port =>
       val slow = connected(port)
