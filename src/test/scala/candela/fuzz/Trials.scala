@@ -1,7 +1,8 @@
 package candela.fuzz
 
-import candela.diagnostics.{SceneError, Severity}
-import candela.io.InputFile
+import candela.diagnostics.{Refusal, SceneError, Severity}
+import candela.io.{InputFile, SceneFolder}
+import candela.job.SceneFormat
 import java.awt.image.BufferedImage
 import java.io.ByteArrayOutputStream
 import java.nio.{ByteBuffer, ByteOrder}
@@ -16,7 +17,7 @@ import candela.build.shapes.PlyFile
 import candela.image.{Image, ImageError, ImageFiles, OutputFormat}
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.Parser
-import candela.settings.RenderSettings
+import candela.settings.{ReadSettings, RenderSettings}
 import candela.testing.{NanoVdb, VdbGrid}
 
 /** Broken files, each read in its own way.
@@ -30,6 +31,7 @@ enum FileKind(val name: String, val short: Int):
   case Pictures extends FileKind("pictures", 500)
   case Volumes extends FileKind("volumes", 200)
   case Mitsuba extends FileKind("mitsuba", 400)
+  case Models extends FileKind("models", 400)
 
 /** Reads broken files, all of them written into `folder`. Each must give an answer or a clean
   * refusal; whatever else happens is a finding.
@@ -71,6 +73,7 @@ final class Trials(from: Path, folder: Path, random: Random):
   private val documents = Mutator(files(".xml") ++ Trials.documents, random)
   private val quilts = Mutator(Vector(Trials.quilt), random)
   private val curves = Mutator(Vector(Trials.curves), random)
+  private lazy val models = Models(Files.createDirectories(folder.resolve("models")), random)
   private val objects = Mutator(files(".obj") ++ files(".serialized"), random)
 
   /** The next broken file; `judge` reads it. */
@@ -97,6 +100,9 @@ final class Trials(from: Path, folder: Path, random: Random):
           case 1 => documents.meaning()
           case _ => Trials.documents.last
         (bytes, "mitsuba/self.xml")
+      case FileKind.Models =>
+        val (bytes, isBinary) = models.next()
+        (bytes, if isBinary then "models/broken.glb" else "models/broken.gltf")
     Files.write(folder.resolve(name), bytes)
 
   /** One in eight compressed, and one in eight a broken archive. */
@@ -119,6 +125,16 @@ final class Trials(from: Path, folder: Path, random: Random):
           val scene = Parser.validated(MitsubaScene.readable(file, Map.empty, keepGoing = false))
           val _ = SceneBuilder.build(scene, RenderSettings(samples = Some(1), quick = true))
           None
+        case FileKind.Models =>
+          val format = SceneFormat.named(file).get
+          val scene =
+            format.read(file, SceneFolder.of(file, isConfined = true), ReadSettings(), None)
+          val _ =
+            SceneBuilder.build(
+              Parser.validated(scene),
+              RenderSettings(samples = Some(1), quick = true)
+            )
+          Option.unless(scene.sources.forall(_.startsWith(file.getParent)))("a file of elsewhere")
         case FileKind.Meshes =>
           val mesh = PlyFile.read(InputFile.named(file))
           val vertices = mesh.positions.length / 3
@@ -134,6 +150,7 @@ final class Trials(from: Path, folder: Path, random: Random):
           Option.when(all.exists(_.tree.maximum.isNaN))("an unsound volume")
     catch
       case e: SceneError => unclear(e)
+      case e: Refusal => unclear(SceneError(e.problem))
       case e: NanoVdbError => Option.when(e.getMessage.isBlank)("an error without a message")
       case e: ImageError => Option.when(e.getMessage.isBlank)("an error without a message")
       case e: Throwable =>
@@ -143,7 +160,8 @@ final class Trials(from: Path, folder: Path, random: Random):
   private def unclear(e: SceneError): Option[String] =
     val errors = e.problems.filter(_.severity == Severity.Error)
     val bad = errors.find(p => p.message.isBlank || p.message.exists(c => c == '\n' || c == '\r'))
-    val lost = errors.find(p => p.pos.nonEmpty && p.pos.exists(a => a.line < 1 || a.column < 1))
+    val lost =
+      errors.find(p => p.pos.exists(a => (a.line < 1 || a.column < 1) && !a.file.contains('#')))
     if errors.isEmpty then Some("an error without errors")
     else bad.orElse(lost).map(p => s"an unclear message: $p")
 

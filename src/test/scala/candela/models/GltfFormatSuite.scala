@@ -102,6 +102,12 @@ class GltfFormatSuite extends AnyFunSuite:
     assert(scene.shapes.count(_.areaLight.isDefined) == 3)
     assert(scene.dialectReason.contains("a camera") && scene.dialectReason.contains("light"))
 
+  test("numbers of instances are in a buffer"):
+    val zeros = """{"componentType":5126,"count":22000000,"type":"VEC3"}"""
+    val several = """{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":
+      {"attributes":{"TRANSLATION":1}}}}"""
+    assert(error(model(accessors = Seq(zeros), nodes = several)).endsWith("in a buffer view"))
+
   test("strips and fans become triangles of the same side"):
     assert(indices(model(primitive = ""","mode":5""")) == Vector(0, 1, 2, 1, 3, 2))
     assert(indices(model(primitive = ""","mode":6""")) == Vector(1, 2, 0, 2, 3, 0))

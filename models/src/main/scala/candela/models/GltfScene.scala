@@ -73,12 +73,9 @@ private final class GltfScene(file: GltfFile, session: Session):
 
   def result(): SceneDescription =
     val users = nodes.placed.filter(p => p.node("mesh").isDefined)
-    val uses = users.groupBy(p => (p.node.required("mesh").int, weights(p.node)))
-    for p <- users do
-      session.attempt(addShapes(
-        p,
-        isShared = uses((p.node.required("mesh").int, weights(p.node))).size > 1
-      ))
+    def meshUse(p: PlacedNode) = (p.node.required("mesh").int, givenWeights(p.node))
+    val uses = users.groupBy(meshUse)
+    for p <- users do session.attempt(addShapes(p, isShared = uses(meshUse(p)).size > 1))
     val lit = nodes.placed.flatMap(p => session.attempt(lights(p)).flatten)
     val scene = SceneDescription(
       Dialect.Gltf,
@@ -96,9 +93,19 @@ private final class GltfScene(file: GltfFile, session: Session):
     cameras.headOption.flatMap(c => session.attempt(Cameras(file, session).addCamera(scene, c)))
       .getOrElse(scene)
 
+  private def givenWeights(of: Json): Option[Vector[Double]] =
+    of("weights").map(_.items.map(_.number))
+
+  /** By index: each mesh may be that of many nodes. */
+  private val weightsOfMeshes = mutable.HashMap.empty[Int, Vector[Double]]
+
   private def weights(node: Json): Vector[Double] =
-    val mesh = node.required("mesh").element(meshes, "meshes")
-    node("weights").orElse(mesh("weights")).fold(Vector.empty)(_.items.map(_.number))
+    givenWeights(node).getOrElse:
+      val index = node.required("mesh")
+      weightsOfMeshes.getOrElseUpdate(
+        index.size,
+        givenWeights(index.element(meshes, "meshes")).getOrElse(Vector.empty)
+      )
 
   private def addShapes(p: PlacedNode, isShared: Boolean): Unit =
     val skin = p.node.element("skin", skins, "skins").map(jointsOf)
@@ -135,7 +142,7 @@ private final class GltfScene(file: GltfFile, session: Session):
 
   private def objectName(index: Json, node: Json, mesh: Json): String =
     val name = mesh.text("name").getOrElse("mesh")
-    (s"$name ${index.size}" +: weights(node).map(_.toString)).mkString(" ")
+    (s"$name ${index.size}" +: givenWeights(node).getOrElse(Vector.empty)).mkString(" ")
 
   private def described(
       primitive: Json,

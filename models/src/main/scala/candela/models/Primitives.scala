@@ -209,7 +209,11 @@ private[models] final class Primitives(file: GltfFile, session: Session):
 
   /** Translations, rotations and scales of instances. */
   def instanceNumbers(attributes: Json, name: String, each: Int): Option[Array[Float]] =
-    attributes(name).map(accessors.floats(_, each))
+    attributes(name).map: index =>
+      // Zeros that are in no buffer would be millions of instances in a file of some bytes
+      if accessors.entry(index)("bufferView").isEmpty then
+        index.fail("numbers of instances must be in a buffer view")
+      accessors.floats(index, each)
 
 private[models] object Primitives:
   private val Triangles = 4
