@@ -2,12 +2,14 @@ package candela.cli
 
 import candela.cli.terminal.ExitCode
 import candela.image.{Image, ImageFiles}
-import candela.testing.{Gzip, TempFolder}
+import candela.media.SampledGrid
+import candela.testing.{Gzip, NanoVdb, TempFolder, VdbGrid}
 
 import java.nio.file.{Files, Path}
 
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
+import org.scalatest.tagobjects.Slow
 
 /** A damaged file that a scene names is a message with the place in the scene, the file and the
   * cause in words.
@@ -233,3 +235,19 @@ class DamagedFilesSuite extends AnyFunSuite:
       val (code, captured) = Captured.run("check", "--explain", s"$scene")
       assert(code == 0 && captured.out.contains(", 3 lights (of 2 in the file)"), captured.out)
       assert(captured.out.contains("3 lights, sampled"), captured.out)
+
+  test(
+    "with the densest volume that is read, --time ends the rendering, and nothing has failed",
+    Slow
+  ):
+    TempFolder.use: folder =>
+      val grid = VdbGrid("density", Map((0, 0, 0) -> SampledGrid.MaxValue))
+      Files.write(folder.resolve("a.nvdb"), NanoVdb.file(Seq(grid))): Unit
+      val volume = "MakeNamedMedium \"m\" \"string type\" \"nanovdb\" \"string filename\" " +
+        "\"a.nvdb\" \"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [1 1 1]\nMaterial \"interface\"\n" +
+        "MediumInterface \"m\" \"\"\nTranslate 0 0 5 Shape \"sphere\" \"float radius\" 4\n"
+      val text = s"Integrator \"volpath\" \"integer maxdepth\" 1000000\n$head$volume"
+      val scene = Files.writeString(folder.resolve("a.pbrt"), text)
+      val (code, captured) =
+        Captured.run(s"$scene", "--time", "1s", "--outfile", s"${folder.resolve("a.exr")}")
+      assert(code == 0, captured.err)

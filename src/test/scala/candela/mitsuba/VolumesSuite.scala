@@ -39,6 +39,11 @@ class VolumesSuite extends AnyFunSuite:
       assert(read.values.toVector == Vector(0f, 0.2f, 1f))
     finally Files.delete(file)
 
+  test("a volume whose values are no densities is refused"):
+    for value <- Seq(1e30f, Float.NaN, Float.PositiveInfinity) do
+      val problem = intercept[SceneError](read(Seq(1, 1, 1), 1, value)).problems.head
+      assert(problem.message.endsWith(s"its value $value is damaged"))
+
   private val unit = Array(0f, 0f, 0f, 1f, 1f, 1f)
 
   test("a volume has one or three channels"):
