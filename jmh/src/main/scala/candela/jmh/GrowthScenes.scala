@@ -62,6 +62,13 @@ object GrowthScenes:
         case "depth" => growing.depth(size)
         case "blocks" => growing.blocks(size)
         case "film" => growing.film(size)
+        case "media" => growing.media(size)
+        case "screens" => growing.screens(size)
+        case "checkers" => growing.checkers(size)
+        case "movers" => growing.movers(size)
+        case "shifted" => growing.shifted(size)
+        case "sky" => growing.sky(size)
+        case "singles" => growing.singles(size)
       // All is written with this question
       if out.checkError() then throw IOException("its device takes no more")
 
@@ -71,17 +78,17 @@ object GrowthScenes:
   */
 private final class GrowingScene(out: PrintWriter, folder: Path):
   private val random = SplittableRandom(1)
-  private val sky = "LightSource \"infinite\" \"rgb L\" [.6 .7 .9]"
+  private val daylight = "LightSource \"infinite\" \"rgb L\" [.6 .7 .9]"
   private val grey = "Material \"diffuse\""
 
   private def between(low: Double, high: Double): Double = random.nextDouble(low, high)
   private def words(numbers: Double*): String = numbers.map(number).mkString(" ")
   private def number(x: Double): String = "%.4f".formatLocal(Locale.ROOT, x)
 
-  private def head(width: Int = 128, height: Int = 96): Unit =
+  private def head(integrator: String = "path", width: Int = 128, height: Int = 96): Unit =
     out.println(s"Film \"rgb\" \"integer xresolution\" $width \"integer yresolution\" $height")
     out.println("Sampler \"zsobol\" \"integer pixelsamples\" 1")
-    out.println("Integrator \"path\" \"integer maxdepth\" 3")
+    out.println(s"Integrator \"$integrator\" \"integer maxdepth\" 3")
     out.println("LookAt 0 -5 3  0 0 0  0 0 1")
     out.println("Camera \"perspective\" \"float fov\" 40")
     out.println("WorldBegin")
@@ -102,11 +109,11 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
 
   def triangles(count: Int): Unit =
     head()
-    for line <- Seq(sky, grey, mesh(count)) do out.println(line)
+    for line <- Seq(daylight, grey, mesh(count)) do out.println(line)
 
   def instances(count: Int): Unit =
     head()
-    for line <- Seq(sky, grey, "ObjectBegin \"o\"", mesh(50_000), "ObjectEnd") do out.println(line)
+    for line <- Seq(daylight, grey, "ObjectBegin \"o\"", mesh(50_000), "ObjectEnd") do out.println(line)
     for _ <- 0 until count do
       block(
         s"Translate ${place()}",
@@ -117,7 +124,7 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
 
   def objects(count: Int): Unit =
     head()
-    for line <- Seq(sky, grey) do out.println(line)
+    for line <- Seq(daylight, grey) do out.println(line)
     val shape = mesh(100)
     for i <- 0 until count do
       out.println(s"ObjectBegin \"o$i\"\n$shape\nObjectEnd")
@@ -137,12 +144,12 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
 
   def spheres(count: Int): Unit =
     head()
-    for line <- Seq(sky, grey) do out.println(line)
+    for line <- Seq(daylight, grey) do out.println(line)
     for _ <- 0 until count do block(s"Translate ${place()}", sphere(.01))
 
   def curves(count: Int): Unit =
     head()
-    for line <- Seq(sky, "Material \"hair\" \"float eumelanin\" 1.3") do out.println(line)
+    for line <- Seq(daylight, "Material \"hair\" \"float eumelanin\" 1.3") do out.println(line)
     for _ <- 0 until count do
       val (x, y, lean) = (between(-2, 2), between(-2, 2), between(0, 2 * Math.PI))
       val points =
@@ -153,7 +160,7 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
 
   def materials(count: Int): Unit =
     head()
-    out.println(sky)
+    out.println(daylight)
     for _ <- 0 until count do
       val color = words(between(0, 1), between(0, 1), between(0, 1))
       block(
@@ -164,7 +171,7 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
 
   def textures(count: Int): Unit =
     head()
-    out.println(sky)
+    out.println(daylight)
     val across = Math.ceil(Math.sqrt(count)).toInt
     def spot(i: Int) = 4 * (i + .5) / across - 2
     for i <- 0 until count do
@@ -174,7 +181,7 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
 
   def texels(count: Int): Unit =
     head()
-    out.println(sky)
+    out.println(daylight)
     val side = Math.sqrt(count).round.toInt
     val name = s"grey-$side.png"
     picture(name, side, BufferedImage.TYPE_BYTE_GRAY, 1)
@@ -212,7 +219,7 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
 
   def includes(count: Int): Unit =
     head()
-    for line <- Seq(sky, grey) do out.println(line)
+    for line <- Seq(daylight, grey) do out.println(line)
     val within = folder.resolve("includes")
     Files.createDirectories(within): Unit
     for i <- 0 until count do
@@ -222,7 +229,7 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
 
   def depth(count: Int): Unit =
     head()
-    for line <- Seq(sky, grey) do out.println(line)
+    for line <- Seq(daylight, grey) do out.println(line)
     val within = folder.resolve(s"depth-$count")
     Files.createDirectories(within): Unit
     for i <- 0 until count do
@@ -233,13 +240,86 @@ private final class GrowingScene(out: PrintWriter, folder: Path):
 
   def blocks(count: Int): Unit =
     head()
-    for line <- Seq(sky, grey) do out.println(line)
+    for line <- Seq(daylight, grey) do out.println(line)
     for _ <- 0 until count do
       out.println(s"AttributeBegin Translate ${words(between(-.01, .01), between(-.01, .01), 0)}")
       out.println(sphere(.03))
     for _ <- 0 until count do out.println("AttributeEnd")
 
+  def media(count: Int): Unit =
+    head("volpath")
+    out.println(daylight)
+    for i <- 0 until count do
+      out.println(s"MakeNamedMedium \"m$i\" \"string type\" \"homogeneous\"")
+      out.println(s"  \"rgb sigma_s\" [${number(between(0, 9))} 3 2] \"rgb sigma_a\" [.1 .2 .1]")
+      block(
+        s"MediumInterface \"m$i\" \"\"",
+        "Material \"interface\"",
+        s"Translate ${place()}",
+        sphere(.06)
+      )
+
+  /** Area lights of one image. */
+  def screens(count: Int): Unit =
+    head()
+    picture("screen.png", 1024, BufferedImage.TYPE_3BYTE_BGR, 1)
+    for line <- Seq(daylight, grey) do out.println(line)
+    for _ <- 0 until count do
+      block(
+        "AreaLightSource \"diffuse\" \"string filename\" \"screen.png\" \"float scale\" 5",
+        s"Translate ${place(.1, 1.5)}",
+        "Shape \"bilinearmesh\" \"point3 P\" [-.05 -.05 0 .05 -.05 0 -.05 .05 0 .05 .05 0]"
+      )
+
+  def checkers(count: Int): Unit =
+    head()
+    out.println(daylight)
+    for i <- 0 until count do
+      out.println(s"Texture \"t$i\" \"spectrum\" \"checkerboard\" \"float vscale\" 4")
+      out.println(s"  \"float uscale\" ${number(between(0, 9))} \"rgb tex2\" [.8 .7 .6]")
+      out.println(s"  \"rgb tex1\" [${number(between(0, 1))} .2 .3]")
+      block(
+        s"Material \"diffuse\" \"texture reflectance\" \"t$i\"",
+        s"Translate ${place()}",
+        sphere(.03)
+      )
+
+  private def moving(turn: String, shape: String): Unit =
+    block(
+      s"Translate ${place()}",
+      s"ActiveTransform EndTime\nTranslate .1 0 .1\n${turn}ActiveTransform All",
+      shape
+    )
+
+  def movers(count: Int): Unit =
+    head()
+    for line <- Seq(daylight, grey) do out.println(line)
+    for _ <- 0 until count do moving("Rotate 30 0 0 1\n", sphere(.05))
+
+  def shifted(count: Int): Unit =
+    head()
+    for line <- Seq(daylight, grey, "ObjectBegin \"o\"", square, "ObjectEnd") do out.println(line)
+    for _ <- 0 until count do moving("", "ObjectInstance \"o\"")
+
+  def sky(texels: Int): Unit =
+    head()
+    val side = Math.sqrt(texels).round.toInt
+    picture(s"sky-$side.png", side, BufferedImage.TYPE_3BYTE_BGR, 1)
+    out.println(s"LightSource \"infinite\" \"string filename\" \"sky-$side.png\"")
+    out.println(s"$grey\n${sphere(1)}")
+
+  /** Objects of an instance each. */
+  def singles(count: Int): Unit =
+    head()
+    for line <- Seq(daylight, grey) do out.println(line)
+    for i <- 0 until count do
+      out.println(s"ObjectBegin \"o$i\"\n$square\nObjectEnd")
+      block(s"Translate ${place()}", s"ObjectInstance \"o$i\"")
+
+  private val square = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] " +
+    "\"point3 P\" [-.05 -.05 0 .05 -.05 0 .05 .05 0 -.05 .05 0]"
+
   def film(pixels: Int): Unit =
     val height = Math.sqrt(pixels * 9.0 / 16).round.toInt
-    head(pixels / height, height)
-    for line <- Seq(sky, grey, mesh(100_000)) do out.println(line)
+    head(width = pixels / height, height = height)
+    for line <- Seq(daylight, grey, mesh(100_000)) do out.println(line)

@@ -55,7 +55,7 @@ class SuiteFileSuite extends AnyFunSuite:
   test("the suite of growing scenes has three sizes of each at least"):
     val scenes = SuiteFile.read(Path.of("bench/suites/growth.conf")).scenes
     val sizes = scenes.groupMap(_.growth.get.quantity)(_.growth.get.size)
-    assert(sizes.size == 13 && sizes.values.forall(_.sizeIs >= 3))
+    assert(sizes.size == 20 && sizes.values.forall(_.sizeIs >= 3))
     assert(sizes.values.forall(s => s.lazyZip(s.tail).forall((a, b) => b >= 3 * a)))
     assert(scenes.forall(s => s.name.endsWith(f"-${s.growth.get.size}%.0f")))
     assert(scenes.forall(s => s.files("v4").getFileName.toString == s"${s.name}.pbrt"))
