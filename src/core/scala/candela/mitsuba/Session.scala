@@ -94,6 +94,8 @@ final class Session(
       case _ => ()
     plugins.toMap
 
+  private var missingThings = 0
+
   /** Names of properties in the file, by position and by Mitsuba's name of today. */
   private lazy val formerNames: Map[(SourcePos, String), String] =
     def of(e: Element): Vector[((SourcePos, String), String)] =
@@ -120,6 +122,7 @@ final class Session(
       standIn: String,
       help: => Option[String]
   ): Unit =
+    missingThings += 1
     report(Problem.missing(code, at, message, standIn, keepGoing).withHelp(limitedHelp(help)))
 
   /** Not looked for in scenes where everything is missing. */
@@ -185,14 +188,17 @@ final class Session(
       dialect: Option[Dialect] = None
   ): Declaration = Declaration(category, name, params.toVector, at, folder, "srgb", dialect)
 
-  /** Runs `body` on the properties of an object, then reports those that it did not query. */
+  /** Runs `body` on the properties of an object, then reports those that it did not query, unless
+    * something was missing that it needed to go on.
+    */
   def translate[A](p: Plugin)(body: Properties => A): A =
     allowance.checkTime(Some(p.pos))
     val properties = Properties(p, this)
+    val earlierCount = missingThings
     val result =
       try body(properties)
       finally observe(properties)
-    properties.finish()
+    if missingThings == earlierCount then properties.finish()
     result
 
   /** As `body`, or None after reporting an error. */

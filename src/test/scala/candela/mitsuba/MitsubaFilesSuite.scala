@@ -113,3 +113,12 @@ class MitsubaFilesSuite extends AnyFunSuite:
       Vector("`vertex_color` has integers above 1, which are used as they are, as in Mitsuba"))
     assert(warnings("0 1 1", "")._2.isEmpty)
     assert(warnings("131 242 37", "<float name=\"scale\" value=\".004\"/>")._2.isEmpty)
+
+  test("a file that is missing makes no other parameter useless"):
+    val scene = read("<emitter type=\"envmap\"><string name=\"filename\" value=\"a.exr\"/>" +
+      "<transform name=\"to_world\"><rotate y=\"1\" angle=\"9\"/></transform></emitter>" +
+      "<shape type=\"ply\"><string name=\"filename\" value=\"a.ply\"/>" +
+      "<boolean name=\"face_normals\" value=\"true\"/></shape>")
+    assert(scene.warnings.isEmpty, scene.warnings)
+    val files = Vector("a.exr", "a.ply")
+    assert(scene.errors.map(_.message).sorted == files.map(f => s"no such file: `$f`"))
