@@ -19,8 +19,14 @@ final class Emitters(
   /** Those of shapes, which may stand outside of them and have an id. */
   private val ofShapes = mutable.HashSet.empty[Plugin]
 
+  private val besideShapes = Vector.newBuilder[LightDescription]
+
+  /** Emitters of shapes that aren't area lights: they light the scene from their own places. */
+  def ofNoSurface: Vector[LightDescription] = besideShapes.result()
+
   /** The area light of a shape. */
   def area(p: Plugin): Option[Declaration] =
+    if Emitters.Placed(p.name) then besideShapes ++= apply(p)
     ofShapes += p
     p.name match
       case "area" => session.translate(p)(diffuse)
@@ -31,6 +37,7 @@ final class Emitters(
       case name if Plugins.unsupportedTypes("emitter").contains(name) =>
         Plugins.unsupported(p, "ignored", session)
         None
+      case name if Emitters.Placed(name) => None
       case _ =>
         session.error(
           Code.Nesting,
@@ -219,3 +226,7 @@ final class Emitters(
     in.ignore("filter_type", "wrap_mode")
     in.warnUnsupported("ignored", "to_uv")
     Seq.empty
+
+private object Emitters:
+  /** Types with a place or a direction of their own, which shapes may contain. */
+  private val Placed = Set("directional", "point", "projector", "spot")

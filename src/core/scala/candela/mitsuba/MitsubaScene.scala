@@ -73,7 +73,7 @@ private final class Translation(session: Session, file: Path):
     // Those that need a mesh are translated with it
     objectsOf("bsdf").filterNot(surfaces.textureTypes(_).exists(MeshAttributes.Types))
       .foreach(p => session.attempt(surfaces(p)))
-    val lights = objectsOf("emitter").flatMap(emitters(_))
+    val lights = objectsOf("emitter").flatMap(emitters(_)) ++ emitters.ofNoSurface
     val (open, close) = session.shutter
     val start = SourcePos(file.toString, 1, 1)
     val times = if close > open then (open.toFloat, close.toFloat) else (0f, 1f)

@@ -70,3 +70,19 @@ class MitsubaFeaturesSuite extends MitsubaPictures:
     assert(mean(lit).r == 2f)
     val lone = s"${view(10, 4)}<emitter type=\"area\"/><shape type=\"rectangle\"/>"
     using(lone)(scene => assert(scene.warnings.map(_.message).exists(_.contains("emits nothing"))))
+
+  test("other emitters of a shape than area lights are where they would be without it"):
+    def scene(inside: String, outside: String) = view(60, 16) + outside +
+      "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"3\"/></transform>" +
+      s"</shape><shape type=\"sphere\"><point name=\"center\" x=\"1\" y=\"0\" z=\"1\"/>" +
+      s"<float name=\"radius\" value=\".5\"/>$inside</shape>"
+    val black = "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0\"/></bsdf>"
+    val kinds = Seq(
+      "<emitter type=\"point\"><point name=\"position\" value=\"0,0,3\"/></emitter>",
+      "<emitter type=\"spot\"><transform name=\"to_world\"><lookat origin=\"0,0,4\" " +
+        "target=\"0,0,0\" up=\"0,1,0\"/></transform></emitter>",
+      "<emitter type=\"directional\"><vector name=\"direction\" value=\"0,0,-1\"/></emitter>"
+    )
+    for emitter <- kinds do
+      val inside = mean(scene(emitter, ""))
+      assert(inside.r > 0 && inside == mean(scene(black, emitter)), emitter)
