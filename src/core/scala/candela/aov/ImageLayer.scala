@@ -31,10 +31,17 @@ trait ImageLayer:
 
 /** A property of the first surface, under a name that the scene gives: averaged over all samples,
   * in world space, as by Mitsuba's integrator "aov".
+  *
+  * @param inColors whether its channels are named as colours, as by 0.6's integrator "field"
   */
-final case class NamedLayer(name: String, value: HitValue) extends ImageLayer:
+final case class NamedLayer(name: String, value: HitValue, inColors: Boolean = false)
+    extends ImageLayer:
   def word: String = s"$name:${value.word}"
   def channelsOf(groups: Vector[String]): Vector[String] =
-    value.components.map(c => s"$name.$c").toVector
+    val letters = if inColors then value.components.map(NamedLayer.InColors) else value.components
+    letters.map(c => s"$name.$c").toVector
   private[aov] def statisticOf(groups: Vector[String]): Statistic = value.statistic
   override def needsFootprints: Boolean = value.needsPartials
+
+object NamedLayer:
+  private val InColors: Char => Char = "XYZUVT".zip("RGBRGY").toMap.withDefault(identity)

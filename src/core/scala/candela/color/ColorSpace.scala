@@ -55,7 +55,7 @@ final class ColorSpace private (
     val meaning: String,
     val primaries: Primaries,
     val illuminant: Spectrum,
-    private[color] val xyzOfRgb: Matrix3,
+    val xyzOfRgb: Matrix3,
     private[color] val rgbOfXyz: Matrix3
 ):
   def isSrgb: Boolean = this eq ColorSpace.Srgb

@@ -3,7 +3,7 @@ package candela.film
 import candela.base.loop
 import candela.concurrency.{GivenUp, Parallel}
 import candela.color.{ColorResponse, ColorSpace}
-import candela.image.Image
+import candela.image.{Image, PixelFormat}
 
 /** Post-processing from pixel averages to image values.
   *
@@ -16,6 +16,7 @@ import candela.image.Image
   * @param isHalf        whether values are written with 16 bits instead of 32
   * @param bands         wavelength bands written as additional channels, if any
   * @param space         colour space of the output values
+  * @param format        channels of image files for the colours
   */
 final case class Development(
     scale: Float = 1f,
@@ -24,7 +25,8 @@ final case class Development(
     clipsNegative: Boolean = false,
     isHalf: Boolean = false,
     bands: Option[SpectralBands] = None,
-    space: ColorSpace = ColorSpace.Srgb
+    space: ColorSpace = ColorSpace.Srgb,
+    format: PixelFormat = PixelFormat.Colors
 ):
 
   /** Parameters as of [[Film.toImage]]. */

@@ -44,7 +44,8 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
     )
     val (written, last) = ImageFile.picture(path, image, alpha) match
       case Some(picture) => (picture, output.display.describe(picture))
-      case None => (image, plan.layers.fold(Vector.empty)(_.metadata(image)))
+      case None =>
+        (ImageFile.file(path, image, plan), plan.layers.fold(Vector.empty)(_.metadata(image)))
     ImageFiles.write(path, written, about ++ last, writeOptions)
 
   /** Writes a mean of renderings with its error, in the precision of its values.
@@ -110,6 +111,11 @@ object ImageFile:
     val channel = image.channelNames.indexOf("A")
     Option.when(channel >= 0 && plan.layers.exists(_.layers.contains(Layer.Alpha))):
       Array.tabulate(image.width * image.height)(i => image.data(i * image.channels + channel))
+
+  /** What a file of channels holds. */
+  private def file(path: Path, image: Image, plan: RenderPlan): Image =
+    if OutputFormat.of(path).exists(_.contents == Contents.Radiance) then image
+    else plan.development.format(image)
 
   /** What a display format shows, its colours divided by alpha if it keeps that. */
   private def picture(path: Path, image: Image, alpha: Option[Array[Float]]): Option[Image] =

@@ -39,7 +39,7 @@ final class Integrators(session: Session, sampleCount: => Int):
         val position = in.posOf("ray_length")
         val distance = Param.float("maxdistance", position, in.number("ray_length", -1).toFloat)
         session.declare("Integrator", "ambientocclusion", in.pos, Seq(distance))
-      case "adaptive" | "irrcache" | "multichannel" => innerIntegrator(in)
+      case "adaptive" | "irrcache" => innerIntegrator(in)
       case "ptracer" =>
         in.warnUnsupported("area lights are visible", "hide_emitters")
         limited(in, "lightpath")
@@ -49,9 +49,9 @@ final class Integrators(session: Session, sampleCount: => Int):
           in.pos,
           Param.int("maxdepth", in.pos, 1) +: hiding(in)
         )
-      case "aov" | "moment" | "stokes" =>
+      case "aov" | "moment" | "multichannel" | "stokes" =>
         in.ignore("aovs")
-        val integrators = in.nested("integrator")
+        val integrators = in.nested("integrator").filter(_.name != "field")
         for surplus <- integrators.drop(1) do
           session.warn(
             Code.Unsupported,
@@ -88,17 +88,14 @@ final class Integrators(session: Session, sampleCount: => Int):
       )
     )
 
-  /** Renders the first image among those within. */
   private def innerIntegrator(in: Properties): Declaration =
     val help = in.plugin.name match
       case "adaptive" => "--error ends a rendering at an error"
-      case "irrcache" => "the integrator within has no bias"
-      case _ => "--aov writes layers: depth, normal, albedo and others"
+      case _ => "the integrator within has no bias"
     val message = s"${in.plugin.description} is not supported; using the integrator within"
     session.warn(Code.Unsupported, in.pos, message, Some(help))
     in.ignore(in.plugin.properties.map(_.name).filter(_.nonEmpty)*)
-    val inner = in.nested("integrator")
-    inner.find(_.name != "field").orElse(inner.headOption)
+    in.nested("integrator").find(_.name != "field")
       .fold(Integrators.default(session, in.pos))(apply)
 
   /** Mitsuba counts the edges of a path, pbrt the surfaces between. */

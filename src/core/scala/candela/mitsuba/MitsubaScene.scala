@@ -81,7 +81,9 @@ private final class Translation(session: Session, file: Path):
     def sampleCount = framed.sampler.fold(1)(Views.sampleCount)
     val integrator = objectsOf("integrator").headOption
       .flatMap(p => session.attempt(Integrators(session, sampleCount)(p)))
-    val aovs = objectsOf("integrator").headOption.fold(Vector.empty)(Aovs(session)(_))
+    val pictured = sensors.lift(sensor.getOrElse(0))
+      .flatMap(Properties(_, session).nested("film").headOption)
+    val aovs = objectsOf("integrator").headOption.fold(Vector.empty)(Aovs(session, pictured)(_))
     val tracer = integrator.getOrElse(Integrators.default(session, start))
     val complete = framed.copy(
       integrator = Some(tracer),

@@ -30,8 +30,9 @@ private[mitsuba] final class OldNames(minor: Int):
     val plain = Element(tag, attributes, inner, e.pos, formerName, isOld = true)
     tag match
       case "srgb" => decoded(plain)
-      // Often `nan`, and not used
-      case "spectrum" if parent == "integrator field" => text("undefined", "", plain)
+      // Often `nan`
+      case "spectrum" if parent == "integrator field" =>
+        text("undefined", e("value").getOrElse(""), plain)
       case "spectrum" if isWhite(plain, parent) => plain.copy(tag = "rgb")
       case "boolean" if minor < 4 && attributes.get("name").contains("map_smaller_side") =>
         val axis = if e("value").contains("false") then "larger" else "smaller"

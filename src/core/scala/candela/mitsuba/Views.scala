@@ -127,7 +127,7 @@ final class Views(session: Session, media: Media, image: String):
         s"unknown `pixel_format` `$format`",
         candela.diagnostics.Suggest.help(format, Views.PixelFormats)
       )
-    else if !format.startsWith("rgb") then
+    else if !Views.Channels.exists(format.startsWith) then
       session.warn(
         Code.Unsupported,
         formatPosition,
@@ -135,6 +135,8 @@ final class Views(session: Session, media: Media, image: String):
       )
     val alpha =
       Option.when(format.endsWith("a"))(Param.bool("alpha", formatPosition, true))
+    val channels = Views.Channels.filter(c => c != "rgb" && format.startsWith(c))
+      .map(Param.string("pixelformat", formatPosition, _))
     val edges = in.flag("high_quality_edges", false)
     val samplesBorder = in.flag("sample_border", edges)
     val isHalf = in.text("component_format", "float16").toLowerCase == "float16"
@@ -144,7 +146,7 @@ final class Views(session: Session, media: Media, image: String):
       Param.string("filename", in.pos, s"$image.exr"),
       Param.bool("savefp16", in.pos, isHalf),
       Param.bool("sampleborder", in.posOf("sample_border"), samplesBorder)
-    ) ++ bounds ++ alpha ++ in.number("exposure").filter(_ != 0).map: stops =>
+    ) ++ channels ++ bounds ++ alpha ++ in.number("exposure").filter(_ != 0).map: stops =>
       Param.float("exposure", in.posOf("exposure"), stops.toFloat)
     (width, height, session.declare("Film", "rgb", in.pos, params))
 
@@ -207,6 +209,9 @@ private[mitsuba] object Views:
   private val PixelFormats =
     Vector("luminance", "luminance_alpha", "luminancealpha", "rgb", "rgba", "xyz", "xyza",
       "spectrum", "spectrumalpha", "multichannel")
+
+  /** Channels of colours that are written. */
+  private val Channels = Vector("rgb", "luminance", "xyz")
 
   private val Perspective = Set("perspective", "perspective_rdist", "thinlens")
 

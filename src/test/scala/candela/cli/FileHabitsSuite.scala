@@ -116,3 +116,22 @@ class FileHabitsSuite extends AnyFunSuite:
       val written = ImageFiles.read(image)
       val at = written.channelNames.indexOf("Variance.R")
       assert((0 until 16).exists(i => written.data(i * written.channels + at) > 65504f))
+
+  test("images of Mitsuba's films have the channels of `pixel_format`, pictures their colours"):
+    TempFolder.use: folder =>
+      def channels(format: String, name: String): Vector[String] =
+        val scene = Files.writeString(
+          folder.resolve("scene.xml"),
+          s"""<scene version="3.0.0"><integrator type="path"/><sensor type="perspective">
+            <film type="hdrfilm"><string name="pixel_format" value="$format"/>
+            <integer name="width" value="2"/><integer name="height" value="2"/></film></sensor>
+            <emitter type="constant"><rgb name="radiance" value=".2 .5 .9"/></emitter></scene>"""
+        )
+        val image = folder.resolve(name)
+        val rendered = run(scene.toString, "--outfile", image.toString)
+        assert(!rendered.err.contains("pixel_format"), rendered.err)
+        ImageFiles.read(image).channelNames
+      assert(channels("luminance", "a.exr") == Vector("Y"))
+      assert(channels("xyza", "b.exr").toSet == Set("X", "Y", "Z", "A"))
+      assert(channels("rgb", "c.exr") == Image.RgbNames)
+      assert(channels("luminance", "d.png") == Image.RgbNames)

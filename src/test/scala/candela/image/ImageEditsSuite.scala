@@ -65,3 +65,14 @@ class ImageEditsSuite extends AnyFunSuite:
     for c <- 0 until 2 do assert(Math.abs(mean(small, c) / mean(light, c) - 1) < 1e-5): Unit
     val large = Resample(Image(2, 1, Vector("Y"), Array(0f, 1f)), 4, 1)
     assert(large.data.zip(Array(0f, 0.25f, 0.75f, 1f)).forall((a, b) => Math.abs(a - b) < 1e-6f))
+
+  test("formats of pixels hold CIE's X, Y and Z, or Y, beside all other channels"):
+    // Mitsuba 3.9.1's
+    def isNear(image: Image, expected: Float*) =
+      for (a, b) <- image.data.toVector.zip(expected) do assert(Math.abs(a - b) < 2e-4f, image.data)
+    val xyz = PixelFormat.Tristimulus(image(0.2f, 0.5f, 0.9f, 0.4f))
+    assert(xyz.channelNames == Vector("X", "Y", "Z", "A"))
+    isNear(xyz, 0.42366f, 0.46507f, 0.91867f, 0.4f)
+    val luminance = PixelFormat.Luminance(image(0.2f, 0.5f, 0.9f, 0.4f))
+    assert(luminance.channelNames == Vector("Y", "A"))
+    isNear(luminance, 0.46507f, 0.4f)

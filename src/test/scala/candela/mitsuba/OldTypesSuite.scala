@@ -2,7 +2,8 @@ package candela.mitsuba
 
 import candela.build.SceneBuilder
 import candela.color.Rgb
-import candela.image.{DisplayTransform, Exposure}
+import candela.image.{DisplayTransform, Exposure, Image}
+import candela.render.Renderer
 import candela.settings.{OutputSettings, RenderSettings}
 
 /** Types and parameters of Mitsuba 0.6, by its manual. */
@@ -17,8 +18,8 @@ class OldTypesSuite extends OldScenes:
       assert(found.size == (if replaced.contains(kind) then 1 else 0), s"$kind: $found")
       assert(found.forall(_.contains("is not supported; using \"")), found)
 
-  test("`adaptive`, `irrcache` and `multichannel` render the integrator within"):
-    for kind <- Seq("adaptive", "irrcache", "multichannel") do
+  test("`adaptive` and `irrcache` render the integrator within"):
+    for kind <- Seq("adaptive", "irrcache") do
       val body = s"""${sensor(more = fov)}<integrator type="$kind"><float name="quality" value="2"/>
         <integrator type="field">
           <string name="field" value="uv"/><spectrum name="undefined" value="nan"/>
@@ -31,6 +32,38 @@ class OldTypesSuite extends OldScenes:
           Vector(s"integrator \"$kind\" is not supported; using the integrator within"))
         assert(scene.integrator.get.name == "bdpt")
         assert(scene.integrator.get.param("maxdepth").get.ints.head == 2)
+
+  test("`multichannel` has the layers of `field`, as colours under the film's names"):
+    def fields(names: String*) = names.map: name =>
+      s"<integrator type=\"field\"><string name=\"field\" value=\"$name\"/></integrator>"
+    def scene(within: String, names: String) =
+      val film = s"<string name=\"channelNames\" value=\"$names\"/>" +
+        "<string name=\"pixelFormat\" value=\"rgb, rgb, luminance\"/>"
+      s"<integrator type=\"multichannel\">$within</integrator>" +
+        sensor(more = fov, film = film) +
+        "<shape type=\"rectangle\"/><emitter type=\"constant\"/>"
+    val within = fields("shNormal").mkString + "<integrator type=\"direct\"/>" +
+      fields("distance", "uv").mkString
+    val body = scene(within, "n, color, t, st")
+    assert(warnings(body) == Vector.empty)
+    val image = using(body, "0.6.0"): description =>
+      val plan = SceneBuilder.build(description, RenderSettings())._1
+      Renderer.render(plan, threads = 1).image(plan.development)
+    val channels = "n.R n.G n.B color.R color.G color.B color.A t.Y st.R st.G".split(" ")
+    assert(image.channelNames.toSet == (Image.RgbNames ++ channels).toSet)
+    val center = (image.width / 2, image.height / 2)
+    def value(name: String) = image(center._1, center._2, image.channelNames.indexOf(name))
+    assert(value("n.B") == 1)
+    assert(Math.abs(value("t.Y") - 5) < 0.1)
+    assert(value("color.R") == value("R"))
+    val others = fields("relPosition").mkString +
+      "<integrator type=\"path\"/><integrator type=\"ao\"/>"
+    assert(warnings(scene(others, "")).sorted == Vector(
+      "`field` of integrator \"field\" is not supported; `relPosition` is not written",
+      "only the first integrator of integrator \"multichannel\" is rendered; this one is ignored"
+    ))
+    using(scene(fields("normal").mkString, ""), "0.6.0"): description =>
+      assert(description.errors.map(_.message) == Vector("unknown `field` `normal`"))
 
   test("parameters that change time and noise alone are read, others are named as in the file"):
     assert(warnings(s"""${sensor(more = fov)}<integrator type="bdpt">

@@ -6,7 +6,7 @@ import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
 import candela.scenefile.Dialect
 import candela.film.{Development, SampleLimit, SpectralBands}
-import candela.image.Exposure
+import candela.image.{Exposure, PixelFormat}
 
 object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
   private val scale =
@@ -37,9 +37,16 @@ object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image"):
   private val named = strings(
     "aovs",
     "string[]",
-    "layers of the first surface, each a name and a quantity: `a:depth` is the channel `a.T`",
+    "layers of the first surface, each a name and a quantity: `a:depth` is the channel `a.T`, " +
+      "`a:field_depth` is `a.Y`",
     onlyMitsuba
   )
+  private val format = oneOf(
+    "pixelformat",
+    "channels of image files",
+    PixelFormat.values.map(_.word).toVector,
+    onlyMitsuba
+  )(PixelFormat.Colors.word)
   private val exposure =
     float("exposure", "scale of the light in pictures", onlyMitsuba, unit = "stops")(0f)
 
@@ -60,8 +67,15 @@ object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image"):
     val layers = Option.when(alpha())(Layer.Alpha) ++
       named().flatMap: text =>
         val (name, word) = (text.take(text.lastIndexOf(':')), text.drop(text.lastIndexOf(':') + 1))
-        HitValue.values.find(_.word == word).map(NamedLayer(name, _))
-    super.create().copy(layers = layers.toVector, samplesBorder = border())
+        HitValue.values.find(v => word == v.word || word == s"field_${v.word}").map: value =>
+          NamedLayer(name, value, inColors = word != value.word)
+    val base = super.create()
+    val channels = PixelFormat.values.find(_.word == format()).getOrElse(PixelFormat.Colors)
+    base.copy(
+      development = base.development.copy(format = channels),
+      layers = layers.toVector,
+      samplesBorder = border()
+    )
 
 object GBufferFilmRecipe
     extends SensorFilmRecipe("gbuffer", "RGB image with AOVs: positions, normals, albedo and more"):
