@@ -260,6 +260,7 @@ private[build] final class SurfaceBuilder(
         meshStatements += dressed.declared
         val isShownOnly = dressed.shape.inObject
         for emitter <- emitter do
+          if contrary then warnOfSides(emitter)
           if isPaired then
             addLights(
               corners.size,
@@ -271,6 +272,15 @@ private[build] final class SurfaceBuilder(
             addLights(count, emitter, isShownOnly)(
               MeshLights.ofTriangles(holes, first, count, contrary, site).of
             )
+
+    /** Both programs weigh the two estimates of this light as if they saw the same. */
+    private def warnOfSides(emitter: Declaration): Unit =
+      if !emitter.param("twosided").exists(_.bools.contains(true)) then
+        site.warn(
+          Code.UnlikePbrt,
+          "this light is seen on one side and lights the other, as in pbrt; how bright it makes " +
+            "what is near depends on how it is sampled, and differs from pbrt's image"
+        )
 
     /** pbrt-v3 turns a reversed mesh with normals over for rays only, pbrt-v2 a mirrored one. */
     private def isContrary(mesh: ShapeGeometry.Triangles): Boolean = context.dialect match

@@ -95,3 +95,18 @@ class UnlikePbrtSuite extends AnyFunSuite:
   do
     test(s"a coat of $material"):
       assert(isWarned(scene(s"Material $material"), Dialect.V4, Path.of("")) == isOther)
+
+  // Near the first light, surfaces are 4 % darker in pbrt-v3's image
+  for
+    (lines, isOther) <- Seq(
+      "ReverseOrientation AreaLightSource \"diffuse\"" -> true,
+      "ReverseOrientation AreaLightSource \"diffuse\" \"bool twosided\" \"true\"" -> false,
+      "AreaLightSource \"diffuse\"" -> false,
+      "ReverseOrientation" -> false
+    )
+  do
+    test(s"a mesh with normals, in v3: $lines"):
+      val mesh = "Shape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 0] " +
+        "\"integer indices\" [0 1 2] \"normal N\" [0 0 1 0 0 1 0 0 1]"
+      val text = scene(s"AttributeBegin $lines $mesh AttributeEnd")
+      assert(isWarned(text, Dialect.V3, Path.of("")) == isOther)
