@@ -67,7 +67,9 @@ object Architecture:
   private val measure = common + "image"
   private val report = measure + "measure"
   private val convert =
-    measure ++ Set("bsdf", "bsdf.microfacet", "lights", "sampling", "scenefile")
+    measure ++ "bsdf bsdf.composite bsdf.layered bsdf.microfacet lights sampling scenefile".split(
+      ' '
+    )
   private val mitsuba = common ++ Set("scenefile", "build.shapes")
   private val models = common ++ Set("geometry", "scenefile", "settings", "job")
   private val towers = (runtime ++ file).toSet

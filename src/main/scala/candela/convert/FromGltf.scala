@@ -1,8 +1,10 @@
 package candela.convert
 
+import candela.color.Rgb
 import candela.diagnostics.{Code, Problem}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.io.FileName
+import candela.math.{clamp, lerp, square}
 import candela.scenefile.{
   Declaration, Dialect, GraphicsState, Param, ParamType, SceneDescription, TextureDescription
 }
@@ -20,7 +22,7 @@ private[convert] object FromGltf:
     val named = plain.namedMaterials.flatMap(run.material)
     val result = plain.copy(
       dialect = Dialect.V4,
-      textures = plain.textures ++ run.addedTextures,
+      textures = plain.textures.filter(_.valueType == "float") ++ run.addedTextures,
       namedMaterials = named
     )
     Converted(result, run.warnings)
@@ -28,6 +30,7 @@ private[convert] object FromGltf:
   private final class Run(scene: SceneDescription, files: SideFiles) extends MitsubaLosses:
     private val textures = scene.textures.map(t => t.name -> t.texture).toMap
     private val added = mutable.LinkedHashMap.empty[String, TextureDescription]
+    private val bases = mutable.HashMap.empty[(Float, Float), DielectricBase]
     def addedTextures: Vector[TextureDescription] = added.values.toVector
 
     def plain(d: Declaration): Declaration =
@@ -85,8 +88,8 @@ private[convert] object FromGltf:
               warn(p, "pbrt has no threshold of this alpha; it is used as it is")
               p)
 
-    private def add(name: String, texture: Declaration): Unit =
-      added(name) = TextureDescription(name, "float", texture, GraphicsState.Identity)
+    private def add(name: String, texture: Declaration, kind: String = "float"): Unit =
+      added(name) = TextureDescription(name, kind, texture, GraphicsState.Identity)
 
     private def texture(d: Declaration): Declaration =
       if d.name == "vertexcolor" then
@@ -105,15 +108,30 @@ private[convert] object FromGltf:
 
     /** A channel of an image, as an image of its own. */
     private def channel(d: Declaration, change: Float => Float | Boolean): Declaration =
-      val names = d.param("channel").fold("a")(_.strings.head)
+      val key = (channelOf(d), numberOf(change(0.4f)) + 2 * numberOf(change(0.6f)))
+      val single = rewritten(d, key): image =>
+        val data = grays(d, image).map(x => numberOf(change(x)))
+        Image(image.width, image.height, Vector("Y"), data, image.encoding)
+      single.copy(params = single.params.filterNot(_.name == "channel"))
+
+    private def channelOf(d: Declaration): String = d.param("channel").fold("a")(_.strings.head)
+
+    /** The declaration with another image, which is written once for each key. */
+    private def rewritten(d: Declaration, key: Any)(change: Image => Image): Declaration =
       val at = d.param("filename").get
-      val key = (at.strings.head, names, numberOf(change(0.4f)) + 2 * numberOf(change(0.6f)))
-      try
-        val name = files.reused(key):
-          val image = ImageFiles.load(RewrittenImages.file(d.folder, at)).toImage
-          files.add("image", "png", ImageFiles.png(gray(image, names.toUpperCase, change)))
-        val otherParams = d.params.filterNot(p => Set("filename", "channel")(p.name))
-        d.copy(params = Param.string("filename", at.pos, relative(d, name)) +: otherParams)
+      readable(at):
+        files.reused((RewrittenImages.file(d.folder, at).path, key)):
+          files.add("image", "png", ImageFiles.png(change(load(d, at))))
+      .fold(d): name =>
+        d.copy(params = d.params.map: p =>
+          if p.name == "filename" then Param.string("filename", at.pos, relative(d, name)) else p)
+
+    private def load(d: Declaration, at: Param): Image =
+      ImageFiles.load(RewrittenImages.file(d.folder, at)).toImage
+
+    /** What is made of an image; none, after a warning, if it can't be read. */
+    private def readable[A](at: Param)(use: => A): Option[A] =
+      try Some(use)
       catch
         case e: ImageError =>
           problems += Problem.warning(
@@ -121,31 +139,29 @@ private[convert] object FromGltf:
             at.pos,
             s"can't read the image, leaving it unchanged: ${e.getMessage}"
           )
-          d.copy(params = d.params.filterNot(_.name == "channel"))
+          None
 
     private def numberOf(x: Float | Boolean): Float = x match
       case f: Float => f
       case b: Boolean => if b then 1f else 0f
 
-    private def gray(image: Image, name: String, change: Float => Float | Boolean): Image =
+    /** The values of the channel that a texture reads. */
+    private def grays(d: Declaration, image: Image): Array[Float] =
+      val name = channelOf(d).toUpperCase
       val channelIndex = image.channelNames.indexOf(name)
       val c = if channelIndex >= 0 || name == "A" then channelIndex else image.colorChannels.head
-      val data = Array.tabulate(image.width * image.height): i =>
-        numberOf(change(if c < 0 then 1f else image.data(i * image.channels + c)))
-      Image(image.width, image.height, Vector("Y"), data, image.encoding)
+      Array.tabulate(image.width * image.height): i =>
+        if c < 0 then 1f else image.data(i * image.channels + c)
 
     private def areaLight(d: Declaration): Declaration =
-      val isGray = d.param("tint").forall(p => p.floats.distinct.length == 1)
-      if !isGray then warn(d, "pbrt has no tint of an area light's image; it is left out")
-      withoutParams(
-        withoutParams(d, "the image is mapped by u and v directly", "imageuv"),
-        "",
-        "wrap",
-        "filter",
-        "tint"
-      )
+      val tinted = d.param("tint").map(rgb).filter(_ != Rgb.White).fold(d): tint =>
+        rewritten(d, tint)(_.toReflectances.mapped(_ * tint))
+      val placed = withoutParams(tinted, "the image is mapped by u and v directly", "imageuv")
+      withoutParams(placed, "", "wrap", "filter", "tint")
 
-    /** A material of glTF as one of pbrt's, or as a blend of two. */
+    private def rgb(p: Param): Rgb = Rgb(p.floats(0), p.floats(1), p.floats(2))
+
+    /** A material of glTF as one of pbrt's, or as a blend of several. */
     def material(name: String, d: Declaration): Vector[(String, Declaration)] =
       if d.name != "gltf" then Vector(name -> d)
       else
@@ -158,35 +174,122 @@ private[convert] object FromGltf:
         val metallic = d.param("metallic")
         metallic.flatMap(_.floats.headOption).orElse(metallic.fold(Some(1f))(_ => None)) match
           case Some(1f) => Vector(name -> metal(d))
-          case Some(0f) => Vector(name -> dielectric(d))
+          case Some(0f) => dielectric(name, d)
           case _ =>
             val (first, second) = (s"$name, dielectric", s"$name, metal")
-            val blend = Vector(
-              Param.string("materials", d.pos, first, second),
-              metallic.get.renamed("amount")
-            )
-            Vector(
-              first -> dielectric(d),
-              second -> metal(d),
-              name -> d.copy(name = "mix", params = blend)
-            )
+            dielectric(first, d) :+ (second -> metal(d)) :+
+              (name -> blend(d, first, second, metallic.get.renamed("amount")))
+
+    private def blend(d: Declaration, first: String, second: String, amount: Param): Declaration =
+      d.copy(
+        name = "mix",
+        params = Vector(Param.string("materials", d.pos, first, second), amount)
+      )
 
     private def metal(d: Declaration): Declaration =
-      val color = d.param("color").map(_.renamed("reflectance"))
-      d.copy(name = "conductor", params = color.toVector ++ roughness(d) ++ bumps(d))
+      val color = reflectance(d, "of metal", metalColor)
+      d.copy(name = "conductor", params = color +: (roughness(d) ++ bumps(d)))
 
-    private def dielectric(d: Declaration): Declaration =
+    /** The colour for which pbrt-v4's metal reflects as much light from all sides. */
+    private def metalColor(c: Float): Float =
+      val x = clamp(c, 0f, 1f) * (metalColors.length - 1)
+      val i = Math.min(x.toInt, metalColors.length - 2)
+      lerp(x - i, metalColors(i), metalColors(i + 1))
+
+    // By Schlick's approximation, whose weight of grazing incidence has a mean of 1 / 21
+    private lazy val metalColors = Array.tabulate(257): i =>
+      val c = i / 256f
+      ConductorAlbedo.normal(c + (1f - c) / 21f)
+
+    private def dielectric(name: String, d: Declaration): Vector[(String, Declaration)] =
       val passing = d.param("transmission").flatMap(_.floats.headOption).getOrElse(0f)
       val isThin = !d.param("thin").exists(_.bools.contains(false))
       val eta = d.param("eta").filter(_.floats.exists(_ >= 1f)).toVector
       if passing >= 0.5f then
         warn(d, "pbrt's glass has no colour; it is left out")
-        if isThin then d.copy(name = "thindielectric", params = eta)
-        else d.copy(name = "dielectric", params = eta ++ roughness(d) ++ bumps(d))
+        if isThin then Vector(name -> d.copy(name = "thindielectric", params = eta))
+        else
+          Vector(name -> d.copy(name = "dielectric", params = eta ++ roughness(d) ++ bumps(d)))
       else
-        val color = d.param("color").map(_.renamed("reflectance")).toVector
-        val layer = Vector(Param.float("thickness", d.pos, 0f), Param.int("maxdepth", d.pos, 100))
-        d.copy(name = "coateddiffuse", params = color ++ eta ++ roughness(d) ++ layer ++ bumps(d))
+        val index = eta.headOption.fold(1.5f)(_.floats.head)
+        val alpha = meanAlpha(d)
+        val base = bases.getOrElseUpdate((index, alpha), DielectricBase(index, alpha))
+        val brightest = colorOf(d).fold(c => c.max, (_, tint) => tint.max)
+        if base.fitsUnderCoat(brightest) then
+          val layer =
+            Vector(Param.float("thickness", d.pos, 0f), Param.int("maxdepth", d.pos, 100))
+          val color = reflectance(d, s"under a coat of $index, $alpha", base.underCoat)
+          Vector(name -> d.copy(
+            name = "coateddiffuse",
+            params = color +: (eta ++ roughness(d) ++ layer ++ bumps(d))
+          ))
+        else
+          // Rough coats of pbrt lose light that glTF's keep
+          val share = base.highlights(brightest)
+          val (first, second) = (s"$name, base", s"$name, highlights")
+          val color = reflectance(d, s"beside $share", base.beside(share, _))
+          val white = Vector.fill(3)(Math.min(base.normal / share, 1f)).toArray
+          val mirror = Param.floats(ParamType.Rgb, "reflectance", d.pos, white)
+          Vector(
+            first -> d.copy(name = "diffuse", params = color +: bumps(d)),
+            second ->
+              d.copy(name = "conductor", params = mirror +: (roughness(d) ++ bumps(d))),
+            name -> blend(d, first, second, Param.float("amount", d.pos, share))
+          )
+
+    /** The base colour: constant, or an image times a colour. */
+    private def colorOf(d: Declaration): Either[Rgb, (Declaration, Rgb)] =
+      def factors(p: Param): Either[Rgb, (Declaration, Rgb)] =
+        if p.paramType != ParamType.Texture then Left(rgb(p))
+        else
+          val t = textures(p.strings.head)
+          t.name match
+            case "imagemap" => Right((t, Rgb.White))
+            case "scale" => t.params.map(factors).reduce(product)
+            case _ => Left(Rgb.White)
+      def product(
+          a: Either[Rgb, (Declaration, Rgb)],
+          b: Either[Rgb, (Declaration, Rgb)]
+      ): Either[Rgb, (Declaration, Rgb)] = (a, b) match
+        case (Left(x), Left(y)) => Left(x * y)
+        case (Left(x), Right((t, y))) => Right((t, x * y))
+        case (Right((t, x)), other) => Right((t, x * other.fold(c => c, _._2)))
+      d.param("color").fold(Left(Rgb.White))(factors)
+
+    /** The base colour, changed, as a parameter of a material of pbrt.
+      *
+      * @param label of the change
+      */
+    private def reflectance(d: Declaration, label: String, change: Float => Float): Param =
+      def changed(c: Rgb) = Rgb(change(c.r), change(c.g), change(c.b))
+      colorOf(d) match
+        case Left(c) =>
+          val result = changed(c)
+          Param.floats(
+            ParamType.Rgb,
+            "reflectance",
+            d.pos,
+            Array(result.r, result.g, result.b)
+          )
+        case Right((image, tint)) =>
+          val name = s"texture ${added.size + 1} $label"
+          val result = rewritten(extracted(image), (label, tint)): image =>
+            image.toReflectances.mapped(c => changed(c * tint))
+          add(name, texture(result), "spectrum")
+          Param.texture("reflectance", d.pos, name)
+
+    /** The width of the slopes; of a texture, its mean. */
+    private def meanAlpha(d: Declaration): Float =
+      d.param("roughness").fold(1f): p =>
+        if p.paramType != ParamType.Texture then p.floats.head * p.floats.head
+        else
+          val t = extracted(textures(p.strings.head))
+          val scale = t.param("scale").fold(1f)(_.floats.head)
+          val invert = t.param("invert").exists(_.bools.contains(true))
+          val at = t.param("filename").get
+          readable(at)(load(t, at)).fold(1f): image =>
+            val x = grays(t, image).map(v => square(scale * (if invert then 1f - v else v)))
+            x.sum / x.length
 
     private def bumps(d: Declaration): Vector[Param] =
       for p <- d.param("normalscale") do warn(p, "pbrt has no scale of normal maps; using 1")

@@ -1,0 +1,74 @@
+package candela.convert
+
+import candela.base.loop
+import candela.build.SceneBuilder
+import candela.color.Rgb
+import candela.image.{Image, ImageFiles}
+import candela.render.Renderer
+import candela.scenefile.{Dialect, SceneDescription}
+import candela.settings.{ColorMode, RenderSettings}
+import candela.testing.{SceneTexts, TempFolder}
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class FromGltfSuite extends AnyFunSuite:
+
+  /** A ball in uniform light, seen from afar: its mean is that over all directions. */
+  private def ball(material: String, textures: String = ""): String =
+    s"""Transform [ 1 0 0 0  0 1 0 0  0 0 -1 0  0 0 5 1 ]
+       |Camera "orthographic" "float screenwindow" [-1 1 -1 1]
+       |Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+       |PixelFilter "box"
+       |WorldBegin
+       |LightSource "infinite" "rgb L" [1 1 1]
+       |$textures
+       |MakeNamedMaterial "surface" "string type" "gltf" $material
+       |NamedMaterial "surface"
+       |Shape "sphere"""".stripMargin
+
+  private def mean(scene: SceneDescription): Rgb =
+    val settings = RenderSettings(samples = Some(256), quick = true, color = ColorMode.Rgb)
+    val (plan, _) = SceneBuilder.build(scene, settings)
+    val image = Renderer.render(plan, 1).image(plan.development).toRgb
+    var sum = Rgb.Black
+    loop(image.width * image.height): i =>
+      sum += Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2))
+    sum * (1f / (image.width * image.height))
+
+  /** Coats colour light by spectra in pbrt-v4, and by three numbers in glTF. */
+  private val Tolerance = 0.04f
+
+  private def assertAlike(text: String, folder: Path): Unit =
+    val parsed = SceneTexts.parse(text, Dialect.V4, folder)
+    // Products of colours are pbrt-v3's, as the reader writes them
+    val scene = parsed.copy(
+      dialect = Dialect.Gltf,
+      textures = parsed.textures.map: t =>
+        if t.texture.name == "scale" then
+          t.copy(texture = t.texture.copy(dialect = Some(Dialect.V3)))
+        else t
+    )
+    val converted = Converter.convert(scene, Dialect.V4, folder).scene
+    val again = Descriptions.read(Descriptions.text(converted), folder)
+    val (before, after) = (mean(scene), mean(again))
+    for (a, b) <- Vector(before.r -> after.r, before.g -> after.g, before.b -> after.b) do
+      assert(Math.abs(b / a - 1f) < Tolerance, s"$before, $after")
+
+  for roughness <- Vector(0.0, 0.25, 0.5, 1.0); metallic <- Vector(0, 1) do
+    test(s"colours are as bright at roughness $roughness, metallic $metallic"):
+      val color = """"rgb color" [0.8 0.4 0.1]"""
+      val numbers = s""""float roughness" $roughness "float metallic" $metallic"""
+      TempFolder.use(folder => assertAlike(ball(s"$color $numbers"), folder))
+
+  test("images are as bright, times the colour"):
+    TempFolder.use: folder =>
+      val image = Image.rgb(2, 1)
+      Array(0.9f, 0.2f, 0.5f, 0.1f, 0.6f, 0.5f).copyToArray(image.data): Unit
+      Files.write(folder.resolve("a.png"), ImageFiles.png(image)): Unit
+      val textures = """Texture "a" "spectrum" "imagemap" "string filename" "a.png"
+                       |Texture "b" "spectrum" "scale" "texture tex1" "a" "rgb tex2" [1 0.5 0.9]
+                       |""".stripMargin
+      val material = """"texture color" "b" "float roughness" 0.7 "float metallic" 0.2"""
+      assertAlike(ball(material, textures), folder)
