@@ -188,7 +188,7 @@ object SceneBuilder:
 
   private def dialect(scene: SceneDescription): String =
     val reason = if scene.dialectReason.isEmpty then "" else s", ${scene.dialectReason}"
-    scene.dialect.toString.toLowerCase + reason
+    scene.dialect.toString.toLowerCase + reason + scene.additions.fold("")(", " + _)
 
   private def dimsLight(settings: RenderSettings): Boolean = settings.fireflies match
     case Fireflies.Clamped(_) => !settings.preview

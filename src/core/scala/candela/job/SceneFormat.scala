@@ -6,7 +6,7 @@ import candela.io.{FileName, ForeignKind, SceneFolder}
 import candela.build.DialectChoice
 import candela.mitsuba.{MitsubaScene, XmlFile}
 import candela.scenefile.{Defines, Parser, SceneDescription, TokenDigest}
-import candela.settings.{ReadSettings, Sensors}
+import candela.settings.{ModelSettings, ReadSettings, Sensors}
 
 import java.nio.file.{Files, Path}
 
@@ -54,15 +54,23 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
     */
   def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]]
 
-  /** For formats without sensors.
+  /** Checks that scenes of the format have what is asked for.
     *
-    * @throws SceneError if one is asked for
+    * @throws SceneError if they don't
     */
-  protected final def checkSensors(file: Path, reading: ReadSettings): Unit =
-    if reading.sensors.nonEmpty then
-      val help = "--sensor chooses among those of Mitsuba's XML files"
-      val message = s"`$file` has no sensors"
+  protected final def checkOptions(
+      file: Path,
+      reading: ReadSettings,
+      hasSensors: Boolean = false,
+      isModel: Boolean = false
+  ): Unit =
+    def refuse(message: String, help: String) =
       throw SceneError(Problem.general(Code.OptionMisfit, message, Some(help)))
+    if !hasSensors && reading.sensors.nonEmpty then
+      val help = "--sensor chooses among those of Mitsuba's XML files and cameras of models"
+      refuse(s"`$file` has no sensors", help)
+    if !isModel && reading.model != ModelSettings() then
+      refuse(s"`$file` is no model", "--light, --background and --turntable are for models")
 
 object SceneFormat:
   /** Those of the core, and those that other modules bring. */
@@ -107,7 +115,7 @@ object SceneFormat:
         world: Option[Int],
         text: Option[String]
     ): SceneDescription =
-      checkSensors(file, reading)
+      checkOptions(file, reading)
       val (dialect, defines) = (reading.dialect, Defines(reading.defines))
       val (keepGoing, n) = (reading.keepGoing, world.getOrElse(0))
       val read = text match
@@ -149,6 +157,7 @@ object SceneFormat:
         world: Option[Int],
         text: Option[String]
     ): SceneDescription =
+      checkOptions(file, reading, hasSensors = true)
       val sensor = reading.sensors.map:
         case Sensors.One(index) => index
         case Sensors.All => world.getOrElse(0)

@@ -101,6 +101,7 @@ final case class TextureDescription(
   * @param sources the scene file and the files that it includes
   * @param clues what the dialect was estimated from; see [[DialectGuess]]
   * @param dialectReason why it is that dialect, for the user
+  * @param additions     what a model lacked and was given, for the user
   * @param isFollowed whether the file has another world, another image, after this one
   * @param folder the folder of the scene file, through which its files are opened
   * @param text what was read, if that is no file
@@ -135,6 +136,7 @@ final case class SceneDescription(
     sources: Vector[Path] = Vector.empty,
     clues: Vector[DialectClue] = Vector.empty,
     dialectReason: String = "",
+    additions: Option[String] = None,
     isFollowed: Boolean = false,
     folder: SceneFolder = SceneFolder.Nowhere,
     unfiled: Vector[(String, String)] = Vector.empty,

@@ -1,6 +1,7 @@
 package candela.settings
 
 import candela.aov.Layer
+import candela.color.Rgb
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.{GuideSettings, GuidingMode}
 import candela.image.DisplayTransform
@@ -134,16 +135,49 @@ enum RenderRegion:
   * @param dialect   instead of the one that they seem to be of
   * @param defines   parameters of a Mitsuba scene, by name
   * @param keepGoing whether to replace missing items by placeholders
-  * @param sensors   of a Mitsuba scene; none: the first
+  * @param sensors   of a scene that may have several; none: the first
   * @param resolution in place of the film's: some formats' views depend on its aspect ratio
+  * @param model     how a model is shown
   */
 final case class ReadSettings(
     dialect: Option[Dialect] = None,
     defines: Map[String, String] = Map.empty,
     keepGoing: Boolean = false,
     sensors: Option[Sensors] = None,
-    resolution: Option[Resolution] = None
+    resolution: Option[Resolution] = None,
+    model: ModelSettings = ModelSettings()
 )
+
+/** How a model is shown, instead of as it is.
+  *
+  * @param light      what lights it
+  * @param background what is behind and below it
+  * @param turntable  number of images, between which it turns around once
+  */
+final case class ModelSettings(
+    light: Option[ModelLight] = None,
+    background: Option[ModelGround] = None,
+    turntable: Option[Int] = None
+)
+
+/** What lights a model. */
+enum ModelLight:
+  case Studio, Sky
+
+  /** @param file an image of all directions */
+  case Surroundings(file: String)
+
+  /** Whether the model stands on something below it. */
+  def hasGround: Boolean = this match
+    case Studio | Sky => true
+    case Surroundings(_) => false
+
+/** What is behind and below a model. */
+enum ModelGround:
+  case Empty
+
+  /** A ground of a linear colour of sRGB. */
+  case Colored(color: Rgb)
 
 /** The sensors of a scene that are rendered. */
 enum Sensors:

@@ -13,6 +13,8 @@ object SettingsTable:
   private def display(s: S)(f: DisplayTransform => DisplayTransform): S =
     write(s)(o => o.copy(display = f(o.display)))
   private def parse(s: S)(f: ReadSettings => ReadSettings): S = s.copy(reading = f(s.reading))
+  private def model(s: S)(f: ModelSettings => ModelSettings): S =
+    parse(s)(r => r.copy(model = f(r.model)))
   private def aim(s: S)(f: RenderGoal => RenderGoal): S = s.copy(goal = f(s.goal))
 
   private type Layers = Vector[(Layer, Option[Boolean])]
@@ -220,7 +222,8 @@ object SettingsTable:
     option(
       "sensor",
       "N|all",
-      "render sensor N of a Mitsuba scene, from 0 on, or all, one image each (default: the first)"
+      "render sensor N of a Mitsuba scene, or camera N of a model, from 0 on, or all, one image " +
+        "each (default: the first)"
     )(_.reading.sensors)((s, all) => parse(s)(_.copy(sensors = Some(all))))
       .explained("The images are `SCENE-0.exr`, `SCENE-1.exr` …, or `%d` in `--outfile` is N."),
     option(
@@ -231,6 +234,25 @@ object SettingsTable:
       "The scene is rendered as if its film had this size: crop windows show the same part, and " +
         "another aspect ratio changes the view as it does in the scene's own program."
     ),
+    option(
+      "light",
+      "studio|sky|FILE",
+      "light a model by a studio, by the sky and the sun, or by an image of all directions, " +
+        "instead of by its own lights"
+    )(_.reading.model.light)((s, x) => model(s)(_.copy(light = Some(x)))),
+    option(
+      "background",
+      "none|r,g,b",
+      "the ground of the studio or below the sky: nothing, or of this linear colour"
+    )(_.reading.model.background)((s, x) => model(s)(_.copy(background = Some(x))))
+      .explained("With `--film rgba`, `none` leaves all transparent but the model."),
+    option(
+      "turntable",
+      "N",
+      "render N images of a model, which turns around once"
+    )(_.reading.model.turntable)((s, n) => model(s)(_.copy(turntable = Some(n))))(using
+      TextForm.int.filter("from 1 to 10000")(n => n >= 1 && n <= 10000)
+    ).explained("The images are `MODEL-0.exr`, `MODEL-1.exr` …, or `%d` in `--outfile` is N."),
     option(
       "mse-reference-image",
       "FILE",

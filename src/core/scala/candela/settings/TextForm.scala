@@ -2,7 +2,7 @@ package candela.settings
 
 import candela.base.Decimal
 import candela.aov.Layer
-import candela.color.ToneCurve
+import candela.color.{Rgb, ToneCurve}
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
@@ -198,6 +198,38 @@ object TextForm:
         case Resolution.Size(w, h) => s"${w}x$h"
         case Resolution.Width(w) => w.toString
         case Resolution.Percent(p) => s"$p%"
+      }
+    )
+
+  given TextForm[ModelLight] = TextForm(
+    "studio, sky or the file of an image of all directions",
+    {
+      case "studio" => Some(ModelLight.Studio)
+      case "sky" => Some(ModelLight.Sky)
+      case "" => None
+      case file => Some(ModelLight.Surroundings(file))
+    },
+    {
+      case ModelLight.Surroundings(file) => file
+      case named => lower(named)
+    }
+  )
+
+  given TextForm[ModelGround] =
+    val color = ofItems(
+      "none, or a colour as r,g,b with numbers from 0 to 1",
+      Decimal.float(_),
+      (c: Rgb) => s"${c.r},${c.g},${c.b}"
+    ):
+      case Vector(r, g, b) if Vector(r, g, b).forall(x => x >= 0f && x <= 1f) => Rgb(r, g, b)
+    TextForm(
+      color.expected,
+      text =>
+        if text == "none" then Some(ModelGround.Empty)
+        else color.read(text).map(ModelGround.Colored(_)),
+      {
+        case ModelGround.Empty => "none"
+        case ModelGround.Colored(c) => color.format(c)
       }
     )
 

@@ -77,20 +77,16 @@ object Converter:
     plain.copy(scene = toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)))
 
   private def ofOthers(scene: SceneDescription, to: Dialect, files: SideFiles): Converted =
-    if scene.dialect == Dialect.Mitsuba then ofMitsuba(scene, to, files)
-    else
-      val plain = FromGltf.converted(scene, files)
-      if to != Dialect.V4 then plain
-      else plain.copy(warnings = plain.warnings ++ SpectralColors.warning(plain.scene, "glTF"))
-
-  private def ofMitsuba(scene: SceneDescription, to: Dialect, files: SideFiles): Converted =
     val skies = SunskyLights.converted(scene, files)
-    val plain = FromMitsuba.converted(skies.scene)
+    val plain =
+      if scene.dialect == Dialect.Mitsuba then FromMitsuba.converted(skies.scene)
+      else FromGltf.converted(skies.scene, files)
     val warnings = skies.warnings ++ plain.warnings
     if to != Dialect.V4 then plain.copy(warnings = warnings)
-    else
+    else if scene.dialect == Dialect.Mitsuba then
       val done = MitsubaInV4.converted(plain.scene)
       done.copy(warnings = warnings ++ done.warnings)
+    else plain.copy(warnings = warnings ++ SpectralColors.warning(plain.scene, "glTF"))
 
   /** pbrt has no surfaces that are black from behind. */
   private def withoutBacks(from: Converted): Converted =

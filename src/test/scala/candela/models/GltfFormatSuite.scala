@@ -1,11 +1,13 @@
 package candela.models
 
+import candela.color.Rgb
 import candela.diagnostics.{Code, Refusal, SceneError, Severity}
 import candela.io.SceneFolder
 import candela.job.SceneFormat
 import candela.math.Vec3
 import candela.scenefile.{Param, Resolution, SceneDescription, ShapeDescription}
-import candela.settings.ReadSettings
+import candela.settings.{ModelGround, ModelLight, ModelSettings, ReadSettings, Sensors}
+import candela.testing.TempFolder
 
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
@@ -100,7 +102,64 @@ class GltfFormatSuite extends AnyFunSuite:
     val scene = read(model(primitive = ""","mode":5"""))
     assert(scene.errors.isEmpty && scene.camera.isDefined && scene.lights.nonEmpty)
     assert(scene.shapes.count(_.areaLight.isDefined) == 3)
-    assert(scene.dialectReason.contains("a camera") && scene.dialectReason.contains("light"))
+    assert(scene.additions.exists(a => a.contains("a camera") && a.contains("light")))
+
+  private def shown(settings: ReadSettings, json: String, world: Int = 0): SceneDescription =
+    TempFolder.use: folder =>
+      val file = folder.resolve("model.gltf")
+      Files.writeString(file, json): Unit
+      val scene = format.read(file, SceneFolder.of(file, false), settings, Some(world), None)
+      assert(scene.errors.isEmpty, scene.errors.map(_.message))
+      scene
+
+  private def lit(light: ModelLight, background: Option[ModelGround] = None) =
+    shown(
+      ReadSettings(model = ModelSettings(Some(light), background)),
+      model(primitive = ""","mode":5""")
+    )
+
+  test("the light that is asked for replaces a model's own, and the ground is of a colour"):
+    val names = Vector(ModelLight.Studio, ModelLight.Sky, ModelLight.Surroundings("a.exr"))
+      .map(lit(_).lights.map(_.light.name))
+    assert(names == Vector(Vector("infinite"), Vector("sunsky"), Vector("infinite")))
+    val red = Rgb(0.5f, 0f, 0f)
+    val ground = lit(ModelLight.Sky, Some(ModelGround.Colored(red))).shapes.last.material
+    assert(ground.declared(Map.empty).get.param("reflectance").get.floats.toVector ==
+      Vector(0.5f, 0f, 0f))
+    assert(lit(ModelLight.Sky, Some(ModelGround.Empty)).shapes.size == 1)
+    val lone = intercept[SceneError]:
+      lit(ModelLight.Surroundings("a.exr"), Some(ModelGround.Colored(red)))
+    assert(lone.problems.head.code == Code.OptionMisfit)
+
+  test("on a turntable, the camera goes around the model and keeps its distance"):
+    val settings = ReadSettings(model = ModelSettings(turntable = Some(4)))
+    val images = Vector.tabulate(4)(shown(settings, model(primitive = ""","mode":5"""), _))
+    assert(images.map(_.isFollowed) == Vector(true, true, true, false))
+    val eyes = images.map(_.worldToCamera.start.inverse.point(Vec3.Zero))
+    val center = Vec3(0.5f, 0.5f, 0f)
+    for (a, b) <- eyes.zip(eyes.tail) do
+      val (u, v) = (a - center, b - center)
+      assert(Math.abs(u.length - v.length) < 1e-4 && Math.abs(u.y - v.y) < 1e-4)
+      assert(Math.abs(u.x * v.x + u.z * v.z) < 1e-4)
+
+  test("a model's cameras are its sensors"):
+    val camera =
+      """{"type":"perspective","perspective":{"yfov":0.5,"znear":1}},
+        |{"type":"perspective","perspective":{"yfov":1,"znear":1}}""".stripMargin
+    val json = model(
+      primitive = ""","mode":5""",
+      nodes = """{"mesh":0},{"camera":0},{"camera":1}""",
+      roots = "0,1,2",
+      others = s""","cameras":[$camera]"""
+    )
+    def angle(sensors: Option[Sensors], world: Int = 0) =
+      val scene = shown(ReadSettings(sensors = sensors), json, world)
+      (Math.toRadians(scene.camera.get.param("fov").get.floats.head), scene.isFollowed)
+    assert(Math.abs(angle(None)._1 - 0.5) < 1e-5)
+    assert(Math.abs(angle(Some(Sensors.One(1)))._1 - 1) < 1e-5)
+    assert(angle(Some(Sensors.All))._2 && !angle(Some(Sensors.All), 1)._2)
+    val absent = intercept[SceneError](angle(Some(Sensors.One(2))))
+    assert(absent.problems.head.message.contains("0 to 1"))
 
   test("numbers of instances are in a buffer"):
     val zeros = """{"componentType":5126,"count":22000000,"type":"VEC3"}"""

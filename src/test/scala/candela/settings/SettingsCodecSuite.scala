@@ -1,7 +1,7 @@
 package candela.settings
 
 import candela.aov.Layer
-import candela.color.ToneCurve
+import candela.color.{Rgb, ToneCurve}
 import candela.film.{Fireflies, PixelBounds}
 import candela.guiding.GuidingMode
 import candela.integrators.CausticsMode
@@ -62,7 +62,18 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       resolution <- Gen.option(
         Gen.oneOf(Resolution.Size(640, 360), Resolution.Width(7), Resolution.Percent(12.5))
       )
-    yield ReadSettings(dialect, defines, keepGoing, sensors, resolution)
+      light <- Gen.option(Gen.oneOf(
+        ModelLight.Studio,
+        ModelLight.Sky,
+        ModelLight.Surroundings("a b.exr")
+      ))
+      ground <- Gen.option(Gen.oneOf(
+        ModelGround.Empty,
+        ModelGround.Colored(Rgb(0.1f, 0f, 1f))
+      ))
+      turntable <- Gen.option(Gen.choose(1, 10000))
+      model = ModelSettings(light, ground, turntable)
+    yield ReadSettings(dialect, defines, keepGoing, sensors, resolution, model)
 
   /** Precisions are of layers that are there. */
   private def outputs(layers: Vector[Layer]): Gen[OutputSettings] =
@@ -127,7 +138,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   test("the settings of these tests have every field"):
     val fields = Vector(RenderSettings(), RenderGoal(), ReadSettings(), OutputSettings())
-    assert(fields.map(_.productArity) == Vector(22, 2, 5, 6), "`settings` must make the new field")
+    assert(fields.map(_.productArity) == Vector(22, 2, 6, 6), "`settings` must make the new field")
 
   test("settings are read from words as they were written, all of them", Slow):
     forAll(settings, minSuccessful(500)): s =>

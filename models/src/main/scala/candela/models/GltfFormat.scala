@@ -12,7 +12,7 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
   def hasDialects: Boolean = false
   override def owns(kind: ForeignKind): Boolean = kind == ForeignKind.Model
   def keepsMeshesApart: Boolean = true
-  def worlds: String = "scenes"
+  def worlds: String = "images"
   def firstWorld: Int = 0
 
   def read(
@@ -22,8 +22,9 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
       world: Option[Int],
       text: Option[String]
   ): SceneDescription =
-    checkSensors(file, reading)
-    GltfScene.readable(file, within, reading, text)
+    checkOptions(file, reading, hasSensors = true, isModel = true)
+    val scene = GltfScene.readable(file, within, reading, text, world.getOrElse(0))
+    scene.copy(isFollowed = scene.isFollowed && world.isDefined)
 
   def digest(text: String): String = Sha256.of(text)
 

@@ -8,7 +8,7 @@ import candela.scenefile.{
   Declaration, Dialect, Excerpts, GraphicsState, InstanceDescription, InstanceList,
   LightDescription, Param, ParamType, SceneDescription, ShapeDescription
 }
-import candela.settings.ReadSettings
+import candela.settings.{ReadSettings, Sensors}
 
 import java.nio.file.Path
 
@@ -19,18 +19,21 @@ private[models] object GltfScene:
 
   /** The model, with what it lacks to be shown: see [[Studio]].
     *
-    * @param text what is read instead of the file
+    * @param text  what is read instead of the file
+    * @param world of several images, from 0 on
     * @throws SceneError if the file contains no model at all
     */
   def readable(
       file: Path,
       within: SceneFolder,
       reading: ReadSettings,
-      text: Option[String]
+      text: Option[String],
+      world: Int
   ): SceneDescription =
     val session = Session(file, within, reading.keepGoing, reading.resolution)
     val opened = text.fold(GltfFile.read(session))(GltfFile.ofText(session, _))
-    val scene = Studio.complete(GltfScene(opened, session).result(), session)
+    val model = GltfScene(opened, session).result(reading.sensors, world)
+    val scene = Studio.complete(model, session, reading.model, world)
     val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
     scene.copy(
       warnings = warnings,
@@ -71,7 +74,7 @@ private final class GltfScene(file: GltfFile, session: Session):
     for animation <- file.root.list("animations").headOption do
       session.warn(animation.at, "animations are not supported; the model is shown at rest")
 
-  def result(): SceneDescription =
+  def result(sensors: Option[Sensors], world: Int): SceneDescription =
     val users = nodes.placed.filter(p => p.node("mesh").isDefined)
     def meshUse(p: PlacedNode) = (p.node.required("mesh").int, givenWeights(p.node))
     val uses = users.groupBy(meshUse)
@@ -88,10 +91,25 @@ private final class GltfScene(file: GltfFile, session: Session):
       media = materials.interiors
     )
     val cameras = nodes.placed.filter(_.node("camera").isDefined)
-    if cameras.size > 1 then
-      session.warn(cameras(1).node.at, "only the first camera is rendered", Code.Unsupported)
-    cameras.headOption.flatMap(c => session.attempt(Cameras(file, session).addCamera(scene, c)))
-      .getOrElse(scene)
+    val index = sensors match
+      case None =>
+        if cameras.size > 1 then
+          val message = "this camera is not rendered; --sensor 1 or --sensor all renders it"
+          session.warn(cameras(1).node.at, message, Code.Unsupported)
+        0
+      case Some(Sensors.All) => world
+      case Some(Sensors.One(index)) =>
+        if index >= Math.max(cameras.size, 1) then
+          val range = if cameras.size < 2 then "0" else s"0 to ${cameras.size - 1}"
+          Session.fail(
+            session.at("/nodes"),
+            s"no camera $index; cameras: $range",
+            Code.OptionMisfit
+          )
+        index
+    val isFollowed = sensors.contains(Sensors.All) && index + 1 < cameras.size
+    cameras.lift(index).flatMap(c => session.attempt(Cameras(file, session).addCamera(scene, c)))
+      .getOrElse(scene).copy(isFollowed = isFollowed)
 
   private def givenWeights(of: Json): Option[Vector[Double]] =
     of("weights").map(_.items.map(_.number))

@@ -2,44 +2,87 @@ package candela.models
 
 import candela.base.loop
 import candela.color.Rgb
-import candela.diagnostics.Code
+import candela.diagnostics.{Code, Problem, SceneError}
 import candela.geometry.Bounds3
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{
-  Declaration, GraphicsState, LightDescription, MaterialRef, Param, ParamType, SceneDescription,
+  Declaration, GraphicsState, LightDescription, MaterialRef, Param, ParamType,
+  SceneDescription,
   ShapeDescription
 }
+import candela.settings.{ModelGround, ModelLight, ModelSettings}
+
+import java.nio.file.Path
 
 /** What a model lacks to be shown: a view of it, and light. */
 private[models] object Studio:
 
-  /** The scene with a camera if it has none, and in a studio if nothing lights it. */
-  def complete(scene: SceneDescription, session: Session): SceneDescription =
+  /** The scene with a camera if it has none, and in a studio if nothing lights it, or as asked.
+    *
+    * @param world number of the image of a turntable
+    */
+  def complete(
+      scene: SceneDescription,
+      session: Session,
+      asked: ModelSettings,
+      world: Int
+  ): SceneDescription =
     val bounds = ModelBounds.of(scene)
     if bounds.isEmpty then
       session.error(session.at(""), "the model has no surface", Code.NoSurface)
       scene
     else
-      val framed = if scene.camera.isDefined then scene else Framing.of(bounds, scene, session)
-      val parts = Vector(
+      val images = asked.turntable.getOrElse(1)
+      val framed =
+        if scene.camera.isDefined then scene else Framing.of(bounds, scene, session, images)
+      val turn = world * 360.0 / images
+      val turned = framed.copy(
+        worldToCamera = GraphicsState.constant(
+          framed.worldToCamera.start * turning(bounds.center, -turn)
+        ),
+        isFollowed = framed.isFollowed || world + 1 < images
+      )
+      val light = asked.light.orElse(Option.when(!isLit(scene))(ModelLight.Studio))
+      if asked.background.nonEmpty && !light.exists(_.hasGround) then
+        val help = "--light studio and --light sky have one"
+        throw SceneError(Problem.general(
+          Code.OptionMisfit,
+          s"`${session.file}` is shown without a ground, which --background changes",
+          Some(help)
+        ))
+      val dark = if asked.light.isEmpty then turned else turned.copy(lights = Vector.empty)
+      val lit = light.fold(dark)(Surroundings(bounds, dark, session, asked.background, turn).lit)
+      val missing = Vector(
         Option.when(scene.camera.isEmpty)("a camera that sees all of it"),
-        Option.when(!isLit(scene))("light")
+        Option.when(asked.light.isEmpty && !isLit(scene))("a studio with light")
       ).flatten
-      val lit = if isLit(scene) then framed else Studio(bounds, framed, session).lit
-      if parts.isEmpty then lit
-      else lit.copy(dialectReason = s"with ${parts.mkString(" and ")}, which the model lacks")
+      lit.copy(additions =
+        Option.when(missing.nonEmpty)(s"shown by ${missing.mkString(" and ")}, which it lacks")
+      )
+
+  private def turning(p: Vec3, degrees: Double): Transform =
+    val (x, y, z) = (p.x.toDouble, p.y.toDouble, p.z.toDouble)
+    val turn = Transform.rotate(degrees, 0, 1, 0).getOrElse(Transform.Identity)
+    Transform.translate(x, y, z) * turn * Transform.translate(-x, -y, -z)
 
   /** Whether there are lights. Images that glow on a surface, such as displays, are none. */
   private def isLit(scene: SceneDescription): Boolean =
     def shines(s: ShapeDescription) = s.areaLight.exists(_.param("filename").isEmpty)
     scene.lights.nonEmpty || (scene.shapes ++ scene.objects.values.flatten).exists(shines)
 
-/** A neutral studio: a backdrop that rises behind the model, a large light before it, a fainter one
-  * on the other side, one behind it, and dim light from everywhere.
+/** What surrounds a model.
+  *
+  * @param turn of a turntable, in degrees
   */
-private final class Studio(bounds: Bounds3, scene: SceneDescription, session: Session):
+private final class Surroundings(
+    bounds: Bounds3,
+    scene: SceneDescription,
+    session: Session,
+    background: Option[ModelGround],
+    turn: Double
+):
   private val at = session.at("")
-  private val center = (bounds.min + bounds.max) * 0.5f
+  private val center = bounds.center
   private val radius = Math.max(0.5f * (bounds.max - bounds.min).length, 1e-6f)
   private val eye = scene.worldToCamera.start.inverse.point(Vec3.Zero)
 
@@ -54,18 +97,58 @@ private final class Studio(bounds: Bounds3, scene: SceneDescription, session: Se
     isBetween(bounds.min.x, eye.x, bounds.max.x) && isBetween(bounds.min.y, eye.y, bounds.max.y) &&
     isBetween(bounds.min.z, eye.z, bounds.max.z)
 
-  def lit: SceneDescription =
-    if isInside then scene.copy(lights = scene.lights :+ everywhere(1f))
-    else
-      val panels = Vector(
-        panel(-Math.PI / 4, Math.PI / 4, 4f, 1f, 8f),
-        panel(Math.PI / 3, Math.PI / 7, 5f, 1.5f, 1.6f),
-        panel(Math.PI * 0.9, Math.PI * 0.3, 4f, 1f, 3f)
+  def lit(light: ModelLight): SceneDescription = light match
+    case ModelLight.Studio =>
+      if isInside then scene.copy(lights = scene.lights :+ everywhere(1f)) else inStudio
+    case ModelLight.Sky =>
+      val ground = if isInside then None else onGround(flat(_))
+      scene.copy(lights = scene.lights :+ sky, shapes = scene.shapes ++ ground)
+    case ModelLight.Surroundings(file) =>
+      val params = Vector(Param.string("filename", at, Path.of(file).toAbsolutePath.toString))
+      val image = session.declare("LightSource", "infinite", at, params)
+      val toWorld = Transform.rotate(turn, 0, 1, 0).fold(upright)(_ * upright)
+      scene.copy(lights =
+        scene.lights :+ LightDescription(image, GraphicsState.constant(toWorld))
       )
-      scene.copy(
-        lights = scene.lights :+ everywhere(0.4f),
-        shapes = scene.shapes ++ panels :+ backdrop
-      )
+
+  /** From pbrt's and Mitsuba's z, which points up, to y. */
+  private val upright = Transform.rotate(-90, 1, 0, 0).getOrElse(Transform.Identity)
+
+  /** A neutral studio: a backdrop that rises behind the model, a large light before it, a fainter
+    * one on the other side, one behind it, and dim light from everywhere.
+    */
+  private def inStudio: SceneDescription =
+    val panels = Vector(
+      panel(-Math.PI / 4, Math.PI / 4, 4f, 1f, 8f),
+      panel(Math.PI / 3, Math.PI / 7, 5f, 1.5f, 1.6f),
+      panel(Math.PI * 0.9, Math.PI * 0.3, 4f, 1f, 3f)
+    )
+    scene.copy(
+      lights = scene.lights :+ everywhere(0.4f),
+      shapes = scene.shapes ++ panels ++ onGround(backdrop)
+    )
+
+  private def onGround(shape: Rgb => ShapeDescription): Option[ShapeDescription] =
+    background.getOrElse(ModelGround.Colored(Rgb.gray(Backdrop.Gray))) match
+      case ModelGround.Empty => None
+      case ModelGround.Colored(color) => Some(shape(color))
+
+  /** Sun and clear sky, the sun to the left of the camera. */
+  private def sky: LightDescription =
+    val d = upright.inverse.vector(direction(-Math.PI / 4, Math.PI / 4))
+    val params = Vector(
+      Param.floats(ParamType.Vector3, "sun", at, Array(d.x, d.y, d.z)),
+      Param.float("skyscale", at, Sky.Scale),
+      Param.float("sunscale", at, Sky.Scale)
+    )
+    val light = session.declare("LightSource", "sunsky", at, params)
+    LightDescription(light, GraphicsState.constant(upright))
+
+  private def flat(color: Rgb): ShapeDescription =
+    val (w, y) = (Sky.Width * radius, bounds.min.y)
+    val corners = Vector((-w, w), (w, w), (w, -w), (-w, -w))
+      .map((x, z) => Vec3(center.x + x, y, center.z + z))
+    shape(corners, Vector.empty, Vector(0, 1, 2, 0, 2, 3), color)
 
   private def everywhere(radiance: Float): LightDescription =
     val params = Vector(Textures.rgb("L", Rgb.gray(radiance), at))
@@ -105,9 +188,11 @@ private final class Studio(bounds: Bounds3, scene: SceneDescription, session: Se
       at,
       Vector(Textures.rgb("L", Rgb.gray(radiance), at))
     )
-    shape(corners, Vector.empty, Vector(0, 1, 2, 0, 2, 3), 0f).copy(areaLight = Some(emission))
+    shape(corners, Vector.empty, Vector(0, 1, 2, 0, 2, 3), Rgb.Black).copy(areaLight =
+      Some(emission)
+    )
 
-  private def backdrop: ShapeDescription =
+  private def backdrop(color: Rgb): ShapeDescription =
     import Backdrop.*
     val towardsCamera = -direction(0, 0)
     val side = (Vec3.Y cross towardsCamera) * (Width * radius)
@@ -127,13 +212,13 @@ private final class Studio(bounds: Bounds3, scene: SceneDescription, session: Se
     val indices = (0 until profile.size - 1).toVector.flatMap: k =>
       val i = 2 * k
       Vector(i, i + 1, i + 3, i, i + 3, i + 2)
-    shape(points, normals, indices, Gray)
+    shape(points, normals, indices, color)
 
   private def shape(
       points: Vector[Vec3],
       normals: Vector[Vec3],
       indices: Vector[Int],
-      gray: Float
+      color: Rgb
   ): ShapeDescription =
     def triples(kind: ParamType, name: String, all: Vector[Vec3]) =
       Param.floats(kind, name, at, all.flatMap(p => Vector(p.x, p.y, p.z)).toArray)
@@ -141,7 +226,7 @@ private final class Studio(bounds: Bounds3, scene: SceneDescription, session: Se
       triples(ParamType.Point3, "P", points),
       Param.int("indices", at, indices*)
     ) ++ Option.when(normals.nonEmpty)(triples(ParamType.Normal, "N", normals))
-    val reflectance = Vector(Textures.rgb("reflectance", Rgb.gray(gray), at))
+    val reflectance = Vector(Textures.rgb("reflectance", color, at))
     ShapeDescription(
       session.declare("Shape", "trianglemesh", at, params),
       GraphicsState.Identity,
@@ -149,6 +234,13 @@ private final class Studio(bounds: Bounds3, scene: SceneDescription, session: Se
       MaterialRef.Inline(session.declare("Material", "diffuse", at, reflectance)),
       None
     )
+
+  private object Sky:
+    /** A white ground has about a radiance of 1. */
+    val Scale = 2.8f
+
+    /** Half of the ground, in radii of the model. */
+    val Width = 1e4f
 
   private object Backdrop:
     // In radii of the model
@@ -172,7 +264,13 @@ private[models] object Framing:
   /** Share of the image that the model may take. */
   private val Share = 0.9
 
-  def of(bounds: Bounds3, scene: SceneDescription, session: Session): SceneDescription =
+  /** @param images of a turntable; the model fits into each */
+  def of(
+      bounds: Bounds3,
+      scene: SceneDescription,
+      session: Session,
+      images: Int
+  ): SceneDescription =
     val (c, s) = (Math.cos(Elevation), Math.sin(Elevation))
     val towardsViewer = Vec3(
       (Math.sin(Azimuth) * c).toFloat,
@@ -181,16 +279,19 @@ private[models] object Framing:
     )
     val x = (Vec3.Y cross towardsViewer).normalized
     val y = towardsViewer cross x
-    val center = (bounds.min + bounds.max) * 0.5f
+    val center = bounds.center
     val aspect = session.aspect(View.Aspect)
     val halfWidth = HalfLonger * Math.min(1, aspect)
     val halfHeight = HalfLonger / Math.max(1, aspect)
-    val distance = (0 to 7).map: k =>
-      val p = bounds.corner(k) - center
+    def distanceFor(p: Vec3) =
       val wide = Math.abs(p dot x) / halfWidth
       val high = Math.abs(p dot y) / halfHeight
       (p dot towardsViewer) + Math.max(wide, high) / Share
-    .max
+    val turns =
+      (0 until images).map(k => Transform.rotate(k * 360.0 / images, 0, 1, 0).get)
+    val distance = turns.map(t =>
+      (0 to 7).map(k => distanceFor(t.vector(bounds.corner(k) - center))).max
+    ).max
     val eye = center + towardsViewer * Math.max(distance, 1e-6).toFloat
     val rows = Vector(
       x.x, y.x, towardsViewer.x, eye.x,

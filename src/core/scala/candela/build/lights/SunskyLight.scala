@@ -6,7 +6,7 @@ import candela.lights.{LightFrame, SkyModel, SunAndSky}
 import candela.math.*
 
 object SunskyLightRecipe
-    extends LightRecipe("sunsky", "clear sky and sun", onlyMitsuba):
+    extends LightRecipe("sunsky", "clear sky and sun", onlyOthers):
   private val turbidity = float("turbidity", "turbidity of the air", range = Range(1f, 10f))(3f)
   private val albedo =
     numbers(

@@ -48,7 +48,9 @@ final class CheckCommand(
     val loaded = read.copy(warnings = read.warnings ++ film)
     report.warnings(loaded.warnings, all = options.verbose)
     if loaded.warnings.nonEmpty then warned += 1
-    if !options.quiet then terminal.out.println(s"$scene: ${contents(loaded)}")
+    if !options.quiet then
+      terminal.out.println(s"$scene: ${contents(loaded)}")
+      for added <- read.description.additions do terminal.out.println(s"$scene: $added")
     if options.explain || (options.verbose && !options.quiet) then
       Explanation.print(loaded.plan, terminal.out)
     terminal.out.flush()

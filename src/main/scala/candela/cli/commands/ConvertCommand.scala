@@ -53,7 +53,9 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
           WholeFile.write(path): channel =>
             val stream = Channels.newOutputStream(channel)
             write(converted.scene, OutputStreamWriter(stream, StandardCharsets.UTF_8))
-          if !options.quiet then terminal.out.println(s"wrote $path  ${summary(to, warnings)}")
+          if !options.quiet then
+            for added <- scene.additions do terminal.err.println(s"${options.files.head}: $added")
+            terminal.out.println(s"wrote $path  ${summary(to, warnings)}")
         case None => write(converted.scene, terminal.data)
       terminal.out.flush()
     ExitCode.Done

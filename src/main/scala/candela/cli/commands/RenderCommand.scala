@@ -96,6 +96,8 @@ final class RenderCommand(
     val reported =
       if isBrief then prepared.warnings.filter(_.standIn.nonEmpty) else prepared.warnings
     report.warnings(reported, all = options.verbose)
+    if !options.quiet && world == 0 then
+      for added <- prepared.description.additions do terminal.err.println(s"$scene: $added")
     if options.explain || options.verbose then Explanation.print(prepared.plan, terminal.err)
     prepared
 

@@ -44,7 +44,8 @@ private[candela] object OptionTable extends OptionRows:
       else failure(s"--nthreads must be at most $MostThreads, found `$n`")
     .action((n, o) => o.controlling(_.copy(threads = n)))
 
-  private def parsing: Vector[Row] = settings("dialect", "define")
+  private def parsing: Vector[Row] =
+    settings("dialect", "define", "sensor", "light", "background")
 
   /** The command `preview` sets that of its name. */
   private def allSettings: Vector[Row] =
