@@ -28,6 +28,7 @@ class NamedCommandsSuite extends AnyFunSuite:
 
   /** Words for the placeholders of texts. */
   private val words = Map(
+    "${now.samples}" -> "9",
     "IN" -> "in.pfm",
     "OUT" -> "out.exr",
     "FILE" -> "a.exr",
@@ -47,8 +48,7 @@ class NamedCommandsSuite extends AnyFunSuite:
         found <- "`candela ([^`\\n]*)`".r.findAllMatchIn(Files.readString(file)).map(_.group(1))
         if !found.contains("...") && !found.startsWith("$")
       yield found.split(' ').toVector.map: word =>
-        if word.startsWith("$") then "a.film"
-        else words.getOrElse(word, word.replace("x,y", "1,2"))
+        words.getOrElse(word, if word.startsWith("$") then "a.film" else word.replace("x,y", "1,2"))
     named.distinct
 
   test("each is one that the program has, with its options"):

@@ -61,8 +61,8 @@ class HeadlightSuite extends AnyFunSuite:
       val plan = SceneTexts.plan(text, Dialect.V4, asked)
       (plan.width, plan.height)
     assert(size(400, 400) == (400, 400))
-    assert(size(401, 400) == (200, 200))
-    assert(size(3840, 2160) == (480, 270))
+    assert(size(401, 400) == (400, 399))
+    assert(size(3840, 2160) == (533, 300))
 
   test("films of layers and of wavelengths show a plain image"):
     for film <- Vector("gbuffer", "spectral") do
