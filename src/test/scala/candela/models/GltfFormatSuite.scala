@@ -275,6 +275,16 @@ class GltfFormatSuite extends AnyFunSuite:
     val remote = model().replaceAll("\"uri\":\"[^\"]*\"", "\"uri\":\"https://example.com/a.bin\"")
     assert(error(remote).startsWith("/buffers/0/uri: addresses of other schemes"))
 
+  test("an extension that is required must be known, unless rendering goes on"):
+    val json = model(
+      primitive = ""","mode":5""",
+      others = ""","extensionsRequired":["KHR_texture_transform","KHR_draco_mesh_compression"]"""
+    )
+    val problem = read(json).errors.head
+    assert(problem.pos.exists(_.file.endsWith("#/extensionsRequired/1")))
+    assert(problem.message.contains("KHR_draco_mesh_compression"))
+    assert(read(json, reading = ReadSettings(keepGoing = true)).errors.isEmpty)
+
   test("what is not supported is a warning with its pointer"):
     val materials = ""","materials":[{"extensions":{"KHR_materials_iridescence":{}}}]"""
     val animations = ""","animations":[{"channels":[],"samplers":[]}]"""

@@ -70,7 +70,8 @@ private final class GltfScene(file: GltfFile, session: Session):
     if !version.startsWith("2.") then
       Session.fail(session.at("/asset/version"), s"expected glTF 2, found version $version")
     for name <- file.root.list("extensionsRequired") if !GltfScene.Extensions(name.text) do
-      session.warn(name.at, s"the model requires `${name.text}`, which is not supported")
+      val message = s"the model requires `${name.text}`, which is not supported"
+      session.missing(name.at, message, "the model without it", code = Code.Unsupported)
     for animation <- file.root.list("animations").headOption do
       session.warn(animation.at, "animations are not supported; the model is shown at rest")
 

@@ -31,8 +31,13 @@ private[models] final class Session(
     report(Problem.warning(code, at, message))
   def error(at: SourcePos, message: String, code: Code = Code.DamagedMesh): Unit =
     report(Problem.error(code, at, message))
-  def missing(at: SourcePos, message: String, standIn: String, help: Option[String]): Unit =
-    report(Problem.missing(Code.NoSuchFile, at, message, standIn, keepGoing).withHelp(help))
+  def missing(
+      at: SourcePos,
+      message: String,
+      standIn: String,
+      help: Option[String] = None,
+      code: Code = Code.NoSuchFile
+  ): Unit = report(Problem.missing(code, at, message, standIn, keepGoing).withHelp(help))
 
   /** The aspect ratio of the image.
     *
