@@ -78,11 +78,12 @@ final class GoalRule(
 
   /** As many samples as the error needs, or end in time. */
   override def maxSamples: Int =
-    val inTime = goal.time.filter(_ => perSample > 0).fold(Int.MaxValue): t =>
+    val inTime = goal.time.fold(Int.MaxValue): t =>
       val remaining = t - elapsed
       val fits =
         Math.min(remaining / perSample + 0.5, (remaining + GoalRule.MaxLateSeconds) / perSample)
-      Math.max(1, Math.min(fits, Int.MaxValue)).toInt
+      // The first one tells how long they take, also where a film has many
+      if perSample == 0 then 1 else Math.max(1, Math.min(fits, Int.MaxValue)).toInt
     samplesNeeded.fold(inTime)(samples => Math.min(inTime, Math.max(1, samples - samplesDone)))
 
   /** At the time, if the rendering may end anywhere, or no sample ends any more; or else soon

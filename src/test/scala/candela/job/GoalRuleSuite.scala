@@ -114,6 +114,11 @@ class GoalRuleSuite extends AnyFunSuite:
     // Another sample would end late
     assert(ended(20.55, 1) == 20)
 
+  test("a film is continued by a sample that tells how long they take"):
+    val timed = goal(RenderGoal(time = Some(4)))
+    timed.begins(64, film)
+    assert(timed.maxSamples == 1)
+
   test("a slow start does not end a rendering before its time"):
     val timed = goal(RenderGoal(time = Some(1.2)))
     timed.begins(0, film)

@@ -126,7 +126,8 @@ private[cli] object UsageErrors:
         val name = row.options.find(_.shortOpt.contains(word)).fold(word)(_.name)
         invalid(name, "", "")
       case s"Option --$name expects a number but was given '$found'" =>
-        invalid(name, number(found), found)
+        val isDecimal = row.option(name).exists(_.valueName.contains("X"))
+        invalid(name, if isDecimal then "a number" else number(found), found)
       case s"Option --$name failed when given '$whole'. expected $what\n$found" =>
         invalid(name, what, found, whole)
       case s"Option --$name failed when given '$found'. expected $what" =>
