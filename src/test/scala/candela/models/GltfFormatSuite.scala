@@ -131,10 +131,25 @@ class GltfFormatSuite extends AnyFunSuite:
       lit(ModelLight.Surroundings("a.exr"), Some(ModelGround.Colored(red)))
     assert(lone.problems.head.code == Code.OptionMisfit)
 
+  test("a map is seen from within, not mirrored, with its middle ahead"):
+    val map = lit(ModelLight.Surroundings("a.exr")).lights.head
+    val toWorld = map.lightToWorld.start
+    // pbrt-v3 has the middle at -x, what is right of it towards -y, and the top at z
+    assert(toWorld.vector(Vec3(-1, 0, 0)) == Vec3(0, 0, -1))
+    assert(toWorld.vector(Vec3(0, -1, 0)) == Vec3(1, 0, 0))
+    assert(toWorld.vector(Vec3(0, 0, 1)) == Vec3(0, 1, 0))
+
   test("on a turntable, the camera goes around the model and keeps its distance"):
     val settings = ReadSettings(model = ModelSettings(turntable = Some(4)))
     val images = Vector.tabulate(4)(shown(settings, model(primitive = ""","mode":5"""), _))
     assert(images.map(_.isFollowed) == Vector(true, true, true, false))
+    val names = images.map(_.film.get.param("filename").get.strings.head)
+    assert(names == Vector.tabulate(4)(i => s"model-$i.exr"))
+    val ofAll = settings.copy(sensors = Some(Sensors.All))
+    assert(intercept[SceneError](shown(
+      ofAll,
+      model(primitive = ""","mode":5""")
+    )).problems.nonEmpty)
     val eyes = images.map(_.worldToCamera.start.inverse.point(Vec3.Zero))
     val center = Vec3(0.5f, 0.5f, 0f)
     for (a, b) <- eyes.zip(eyes.tail) do

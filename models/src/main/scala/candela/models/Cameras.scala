@@ -1,6 +1,7 @@
 package candela.models
 
 import candela.diagnostics.SourcePos
+import candela.io.FileName
 import candela.math.Transform
 import candela.scenefile.{Declaration, GraphicsState, Param, SceneDescription}
 
@@ -69,6 +70,12 @@ private[models] object View:
   def size(aspect: Double): (Int, Int) =
     if aspect >= 1 then (LongerSide, Math.max(1, Math.rint(LongerSide / aspect).toInt))
     else (Math.max(1, Math.rint(LongerSide * aspect).toInt), LongerSide)
+
+  /** With the number in the name of its image. */
+  def numbered(scene: SceneDescription, session: Session, n: Int): SceneDescription =
+    scene.copy(film = scene.film.map: f =>
+      val name = s"${FileName.stem(session.file)}-$n.exr"
+      f.copy(params = f.params :+ Param.string("filename", f.pos, name)))
 
   /** @param toWorld of a camera that looks along −z */
   def addCamera(

@@ -1,9 +1,10 @@
 package candela.models
 
+import candela.diagnostics.{Code, Problem, SceneError}
 import candela.io.{ForeignKind, SceneFolder, Sha256}
 import candela.job.SceneFormat
 import candela.scenefile.SceneDescription
-import candela.settings.ReadSettings
+import candela.settings.{ReadSettings, Sensors}
 
 import java.nio.file.Path
 
@@ -23,6 +24,13 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
       text: Option[String]
   ): SceneDescription =
     checkOptions(file, reading, hasSensors = true, isModel = true)
+    if reading.model.turntable.nonEmpty && reading.sensors.contains(Sensors.All) then
+      val help = "render a turntable of each: --sensor 0, --sensor 1 …"
+      throw SceneError(Problem.general(
+        Code.OptionMisfit,
+        "a turntable is of one camera",
+        Some(help)
+      ))
     val scene = GltfScene.readable(file, within, reading, text, world.getOrElse(0))
     scene.copy(isFollowed = scene.isFollowed && world.isDefined)
 

@@ -109,8 +109,11 @@ private final class GltfScene(file: GltfFile, session: Session):
           )
         index
     val isFollowed = sensors.contains(Sensors.All) && index + 1 < cameras.size
-    cameras.lift(index).flatMap(c => session.attempt(Cameras(file, session).addCamera(scene, c)))
-      .getOrElse(scene).copy(isFollowed = isFollowed)
+    val framed = cameras.lift(index)
+      .flatMap(c => session.attempt(Cameras(file, session).addCamera(scene, c))).getOrElse(scene)
+    val isOneOfSeveral = sensors.nonEmpty && cameras.size > 1
+    val named = if isOneOfSeveral then View.numbered(framed, session, index) else framed
+    named.copy(isFollowed = isFollowed)
 
   private def givenWeights(of: Json): Option[Vector[Double]] =
     of("weights").map(_.items.map(_.number))

@@ -6,7 +6,7 @@ import candela.diagnostics.{Code, Problem, SceneError}
 import candela.geometry.Bounds3
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{
-  Declaration, GraphicsState, LightDescription, MaterialRef, Param, ParamType,
+  Declaration, Dialect, GraphicsState, LightDescription, MaterialRef, Param, ParamType,
   SceneDescription,
   ShapeDescription
 }
@@ -36,7 +36,9 @@ private[models] object Studio:
       val framed =
         if scene.camera.isDefined then scene else Framing.of(bounds, scene, session, images)
       val turn = world * 360.0 / images
-      val turned = framed.copy(
+      val numbered =
+        if asked.turntable.isEmpty then framed else View.numbered(framed, session, world)
+      val turned = numbered.copy(
         worldToCamera = GraphicsState.constant(
           framed.worldToCamera.start * turning(bounds.center, -turn)
         ),
@@ -104,15 +106,22 @@ private final class Surroundings(
       val ground = if isInside then None else onGround(flat(_))
       scene.copy(lights = scene.lights :+ sky, shapes = scene.shapes ++ ground)
     case ModelLight.Surroundings(file) =>
-      val params = Vector(Param.string("filename", at, Path.of(file).toAbsolutePath.toString))
-      val image = session.declare("LightSource", "infinite", at, params)
-      val toWorld = Transform.rotate(turn, 0, 1, 0).fold(upright)(_ * upright)
+      val params = Vector(Param.string("mapname", at, Path.of(file).toAbsolutePath.toString))
+      // v3's maps are equirectangular, as is usual
+      val image = session.declare("LightSource", "infinite", at, params, Some(Dialect.V3))
+      val toWorld = Transform.rotate(turn, 0, 1, 0).fold(forward)(_ * forward)
       scene.copy(lights =
         scene.lights :+ LightDescription(image, GraphicsState.constant(toWorld))
       )
 
   /** From pbrt's and Mitsuba's z, which points up, to y. */
   private val upright = Transform.rotate(-90, 1, 0, 0).getOrElse(Transform.Identity)
+
+  /** From pbrt's maps, whose middle is at -x, to -z, where a model's front view looks. pbrt's axes
+    * are left-handed, a model's right-handed.
+    */
+  private val forward =
+    Transform.fromRows(Vector(0, -1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1)).get
 
   /** A neutral studio: a backdrop that rises behind the model, a large light before it, a fainter
     * one on the other side, one behind it, and dim light from everywhere.
