@@ -1,6 +1,5 @@
 package candela.bdpt
 
-import candela.bsdf.PhaseLobe
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.integrators.MediumVisibility
@@ -21,7 +20,7 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
   private val work = MediumWork()
   private val weights = work.weights
   private val visibility = MediumVisibility(scene, media, work)
-  private val lobes = media.media.map(m => PhaseLobe(m.phase))
+  private val lobes = media.lobes
   private val ahead = Ray()
   private val hit = Hit()
   private val border = ShadingPoint()
@@ -103,7 +102,7 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
     */
   def follow(ray: Ray, carried: Rgb, emits: Boolean, sampler: Sampler): Float =
     weights.scale(carried)
-    if medium < 0 then -1f else media.media(medium).follow(ray, sampler.next1D(), emits, work)
+    if medium < 0 then -1f else media(medium).follow(ray, sampler.next1D(), emits, work)
 
   /** Puts the vertex where the medium scatters. */
   def scatter(vertex: PathVertex, ray: Ray, t: Float): Unit =

@@ -17,20 +17,22 @@ private[build] final class MediaBuilder(
 ):
   import context.{description, problems}
 
-  private def site(d: Declaration, toWorld: AnimatedTransform): Site =
-    context.stillSite(d, toWorld, "a medium")
+  private def medium(m: MediumDescription, context: BuildContext): Option[Medium] =
+    Media.all.build(context.stillSite(m.medium, m.mediumToWorld, "a medium")).flatten
 
-  private val namedMedia: Vector[(String, Option[Medium])] =
-    description.media.map(m => m.name -> Media.all.build(site(m.medium, m.mediumToWorld)).flatten)
-  private val media: Array[Medium] = namedMedia.flatMap(_._2).toArray
+  private val (empty, filled): (Vector[MediumDescription], Vector[(MediumDescription, Medium)]) =
+    description.media.partitionMap(m => medium(m, context).map(m -> _).toRight(m))
+  private val media: Array[Medium] = filled.map(_._2).toArray
   private val indexOf: Map[String, Int] =
-    val indices = namedMedia.scanLeft(0)((i, named) => if named._2.isEmpty then i else i + 1)
-    namedMedia.lazyZip(indices).map((named, i) => named._1 -> named._2.fold(-1)(_ => i)).toMap
+    (empty.map(_.name -> -1) ++ filled.map(_._1.name).zipWithIndex).toMap
 
-  private val regions: Array[Region] =
+  private def regions(context: BuildContext): Array[Region] =
     description.volumes
-      .flatMap(v => Volumes.all.build(site(v.light, v.lightToWorld)).flatten)
+      .flatMap: v =>
+        Volumes.all.build(context.stillSite(v.light, v.lightToWorld, "a medium")).flatten
       .toArray
+
+  private val regions: Array[Region] = regions(context)
   private val volumeMethod: VolumeMethod =
     description.volumeIntegrator
       .flatMap(d => VolumeIntegrators.all.build(context.site(d)))
@@ -93,10 +95,24 @@ private[build] final class MediaBuilder(
       (Surroundings.Media(sceneMedia), sceneMedia.describe)
     else if regions.nonEmpty && plan.throughVolumes.isDefined then
       val volumes = Regions(regions)
-      val method = volumeMethod.copy(stepSize = stepSize(volumes))
-      def march() = VolumeMarch(scene, volumes, method.stepSize, method.scatters)
-      (Surroundings.Volumes(() => march()), s"${volumes.describe}, ${method.describe}")
+      val method = methodIn(volumes)
+      (march(scene, volumes, method), s"${volumes.describe}, ${method.describe}")
     else (Surroundings.Nothing, "none")
+
+  private def methodIn(volumes: Regions) = volumeMethod.copy(stepSize = stepSize(volumes))
+
+  private def march(scene: Scene, volumes: Regions, method: VolumeMethod) =
+    Surroundings.Volumes(() => VolumeMarch(scene, volumes, method.stepSize, method.scatters))
+
+  /** The same in another colour basis. */
+  def inBasis(surroundings: Surroundings, context: BuildContext, scene: Scene): Surroundings =
+    surroundings match
+      case Surroundings.Media(all) =>
+        Surroundings.Media(all.inBasis(i => medium(filled(i)._1, context).get))
+      case Surroundings.Volumes(_) =>
+        val volumes = Regions(regions(context))
+        march(scene, volumes, methodIn(volumes))
+      case Surroundings.Nothing => Surroundings.Nothing
 
   /** The step size that is asked for, if a ray can have so many. */
   private def stepSize(volumes: Regions): Float =

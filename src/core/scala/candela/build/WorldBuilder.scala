@@ -139,9 +139,8 @@ private[build] final class WorldBuilder(
       warnOfShadows(s)
     val reach = 2f * placed.accelerator.bounds.radius
     val samples = lights.map(_.samples).toArray
-    def surroundingsOf(media: MediaBuilder, scene: Scene) =
+    val (surroundings, inMedia) =
       media.surroundings(scene, shining.map(_._1), materials, reach)
-    val (surroundings, inMedia) = surroundingsOf(media, scene)
     val plain = integrator.methodIn(surroundings, scene, samples)
     val colorPlan = ColorPlan.of(context, mode, sensor)
     val color = if context.resources.settings.oneColorSet then colorPlan.ofOneSet else colorPlan
@@ -157,11 +156,8 @@ private[build] final class WorldBuilder(
       val otherMaterials =
         materials.inBasis(color.bases.size, disperses, plan)(() => inBasis(basis))
       val otherScene = scene.recolored(otherMaterials, otherLights.map(_.light).toArray)
-      plan.methodIn(
-        surroundingsOf(MediaBuilder(basisContext, plan), otherScene)._1,
-        otherScene,
-        samples
-      )
+      val otherSurroundings = media.inBasis(surroundings, basisContext, otherScene)
+      plan.methodIn(otherSurroundings, otherScene, samples)
     val method =
       if !color.isSpectral then plain
       else

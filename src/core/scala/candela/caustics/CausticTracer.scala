@@ -36,7 +36,7 @@ final case class CausticLight(
     * surfaces.
     */
   private[candela] def suitsPhotons: Boolean =
-    !beneath && media.exists(!_.media.exists(_.isEmissive))
+    !beneath && media.exists(!_.isEmissive)
 
   /** Is the camera in the medium that the first border before it says? Else light paths, which come
     * through borders, and the camera's find different images.

@@ -163,7 +163,7 @@ private final class MediumAround(media: SceneMedia):
   /** The ray's parameter of a scattering event; −1: none. */
   def follow(ray: Ray, sampler: Sampler): Float =
     if medium < 0 then -1f
-    else media.media(medium).follow(ray, sampler.next1D(), emits = true, work)
+    else media(medium).follow(ray, sampler.next1D(), emits = true, work)
 
   /** Does no light come through the media that the path has crossed? */
   def isDark: Boolean = work.weights.isDead

@@ -38,7 +38,7 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
     if step > 0f then
       stepRay.time = along.time
       stepRay.set(along.at(reached), along.direction, step)
-      media.media(medium).attenuate(stepRay, work)
+      media(medium).attenuate(stepRay, work)
       reached = t
     !work.shadow.isDead
 
@@ -63,7 +63,7 @@ final class MediumSegment(media: SceneMedia, work: MediumWork):
     val density = (w.ur * s.lr + w.ug * s.lg + w.ub * s.lb) * (1f / 3f)
     if density > 0f then
       val toPath = -(wx * along.dx + wy * along.dy + wz * along.dz)
-      val factor = media.media(medium).phase.value(toPath / along.direction.length) / density
+      val factor = media(medium).phase.value(toPath / along.direction.length) / density
       radiance.r += s.r * r * factor
       radiance.g += s.g * g * factor
       radiance.b += s.b * b * factor

@@ -61,7 +61,7 @@ private[candela] final class MediumVisibility(
     }
 
   private def attenuate(medium: Int): Boolean =
-    if medium >= 0 then media.media(medium).attenuate(ray, work)
+    if medium >= 0 then media(medium).attenuate(ray, work)
     !work.shadow.isDead
 
   private def passes(origin: Vec3, end: Vec3, first: Int): Boolean =

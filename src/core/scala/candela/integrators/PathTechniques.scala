@@ -37,9 +37,7 @@ private final class PathTechniques(
     within.map((media, work) => MediumSegment(media, work)).orNull
 
   /** Phase functions as the BSDFs of guided vertices. */
-  private val lobes: Array[PhaseLobe] = within match
-    case Some((media, _)) if guide != null => media.media.map(medium => PhaseLobe(medium.phase))
-    case _ => Array.empty
+  private val lobes: Array[PhaseLobe] = within.fold(Array.empty[PhaseLobe])(_._1.lobes)
 
   /** Where the camera ray began. */
   private val eye = MutableVec3()

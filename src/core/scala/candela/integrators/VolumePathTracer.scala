@@ -122,7 +122,7 @@ final class VolumePathTracer private (
     else
       // The last event may be in a medium that shines, if paths find light only where they meet it
       val emits = volumePath.depth < limits.maxDepth || !samplesLights
-      val t = media.media(volumePath.medium).follow(ray, sampler.next1D(), emits, work)
+      val t = media(volumePath.medium).follow(ray, sampler.next1D(), emits, work)
       extension.meetMedia(emitted)
       t
 
@@ -131,7 +131,7 @@ final class VolumePathTracer private (
     volumePath.depth += 1
     val p = ray.at(t)
     val wo = -ray.direction
-    val phase = media.media(volumePath.medium).phase
+    val phase = media(volumePath.medium).phase
     extension.arriveInMedium(p, wo, volumePath.medium)
     if hasLights then
       val u = sampler.next1D(matters = lights.isRandom)

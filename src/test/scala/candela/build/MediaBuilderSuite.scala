@@ -48,6 +48,21 @@ final class MediaBuilderSuite extends AnyFunSuite:
     val empty = fog.replace("\"homogeneous\"", "\"homogeneous\" \"float scale\" 0")
     assert(media(SceneTexts.plan(scene("volpath", empty), Dialect.V4)) == "none")
 
+  test("a medium may be black in some of the wavelengths of a spectral rendering"):
+    val line = "\"spectrum sigma_a\" [499 0 500 9 505 9 506 0] \"spectrum sigma_s\" [400 0 700 0]"
+    def image(coefficients: String) = SceneTexts.mean(
+      "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n" + scene(
+        "volpath",
+        s"""MakeNamedMedium "line" "string type" "homogeneous" $coefficients
+           |AttributeBegin MediumInterface "line" "" Material "interface" Translate 0 0 -9
+           |Shape "sphere" AttributeEnd
+           |MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [.3 .2 .1]
+           |MediumInterface "fog" "" Material "interface" Translate 0 0 5""".stripMargin
+      ),
+      Dialect.V4
+    )
+    assert(image(line) == image("\"rgb sigma_a\" [.1 .2 .3]"))
+
   for (space, camera) <- Seq("cameraworld" -> 5, "world" -> 0, "camera" -> 5) do
     test(s"a grid before the camera is placed where pbrt-v4 renders from: $space"):
       def grid(x: Int) = s"""MakeNamedMedium "fog" "string type" "uniformgrid" "integer nx" 1

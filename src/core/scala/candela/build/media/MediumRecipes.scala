@@ -18,10 +18,11 @@ object HomogeneousRecipe
   private val emittedScale =
     float("Lescale", "scale of the emission", onlyV4, range = Coefficients)(1f)
 
-  protected def create()(using Site): Option[Medium] =
+  protected def create()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
     val le = notNegative(emitted() * emittedScale())
-    Option.unless((absorption + scattering).isBlack)(
+    // Three wavelengths of a spectral rendering may be black in a medium that is not
+    Option.unless(site.resources.isPlain && (absorption + scattering).isBlack)(
       HomogeneousMedium(absorption, scattering, le, phase())
     )
 
