@@ -24,6 +24,9 @@ sealed abstract class StoredImage:
   def colorSpace: ColorSpace
   def toImage: Image
 
+  /** Of all, as stored. */
+  protected def number(i: Int): Float
+
   final def channels: Int = channelNames.size
 
   /** Indices of the named channels, if all are present. */
@@ -35,6 +38,27 @@ sealed abstract class StoredImage:
     * @throws ImageError if there are none of these
     */
   final def colorChannels: Vector[Int] = StoredImage.colorChannels(channelNames)
+
+  /** Linear sRGB; grey images become three equal channels, all other channels are dropped.
+    *
+    * @throws ImageError if it has neither R, G, B nor Y
+    */
+  def toRgb: Image = inSrgb(colorSpace.toSrgb)
+
+  /** As `toRgb`, of reflectances: white stays white. */
+  final def toReflectances: Image = inSrgb(colorSpace.toSrgbAdapted)
+
+  private def inSrgb(matrix: => Matrix3): Image =
+    val sources = colorChannels
+    val picked = Image.rgb(width, height)
+    loop(width * height): pixel =>
+      loop(3): c =>
+        picked.data(3 * pixel + c) = encoding.decode(number(pixel * channels + sources(c)))
+    val isGray = sources.distinct.size == 1
+    if colorSpace.isSrgb || isGray then picked
+    else
+      val change = matrix
+      picked.mapped(change * _, picked.data)
 
 object StoredImage:
   private def indicesOf(available: Vector[String], names: Vector[String]): Option[Vector[Int]] =
@@ -68,6 +92,7 @@ final class Image(
   def apply(x: Int, y: Int, channel: Int): Float = data((y * width + x) * channels + channel)
 
   def toImage: Image = this
+  protected def number(i: Int): Float = data(i)
 
   /** The same image, decoded to linear values; alpha is never encoded. */
   def linear: Image =
@@ -87,28 +112,9 @@ final class Image(
       System.arraycopy(data, y * row, turned, data.length - (y + 1) * row, row)
     Image(width, height, channelNames, turned, encoding, colorSpace)
 
-  /** Linear sRGB; grey images become three equal channels, all other channels are dropped.
-    *
-    * @throws ImageError if it has neither R, G, B nor Y
-    */
-  def toRgb: Image =
+  override def toRgb: Image =
     if encoding == Encoding.Linear && colorSpace.isSrgb && channelNames == Image.RgbNames then this
-    else inSrgb(colorSpace.toSrgb)
-
-  /** As `toRgb`, of reflectances: white stays white. */
-  def toReflectances: Image = inSrgb(colorSpace.toSrgbAdapted)
-
-  private def inSrgb(matrix: => Matrix3): Image =
-    val sources = colorChannels
-    val picked = Image.rgb(width, height)
-    loop(width * height): pixel =>
-      loop(3): c =>
-        picked.data(3 * pixel + c) = encoding.decode(data(pixel * channels + sources(c)))
-    val isGray = sources.distinct.size == 1
-    if colorSpace.isSrgb || isGray then picked
-    else
-      val change = matrix
-      picked.mapped(change * _)
+    else super.toRgb
 
   /** Three of its channels as R, G and B. */
   def selected(three: Vector[Int]): Image =
@@ -118,10 +124,15 @@ final class Image(
       loop(3)(c => picked(3 * pixel + c) = data(pixel * channels + three(c)))
     Image(width, height, Image.RgbNames, picked, encoding, colorSpace)
 
-  /** Other colours in its place; it has the channels R, G and B only. */
-  def mapped(change: Rgb => Rgb): Image =
+  /** Other colours in its place; it has the channels R, G and B only.
+    *
+    * @param changed where they are written, which may be the data of an image that nothing else has
+    */
+  def mapped(
+      change: Rgb => Rgb,
+      changed: Array[Float] = new Array[Float](data.length)
+  ): Image =
     require(channelNames == Image.RgbNames, channelNames)
-    val changed = new Array[Float](data.length)
     loop(width * height): pixel =>
       val offset = 3 * pixel
       val c = change(Rgb(data(offset), data(offset + 1), data(offset + 2)))
@@ -165,5 +176,7 @@ final class ByteImage(
   /** The values in [0, 1], still encoded. */
   def toImage: Image =
     val data = new Array[Float](bytes.length)
-    loop(bytes.length)(i => data(i) = (bytes(i) & 0xff) / 255f)
+    loop(bytes.length)(i => data(i) = number(i))
     Image(width, height, channelNames, data, encoding)
+
+  protected def number(i: Int): Float = (bytes(i) & 0xff) / 255f

@@ -67,7 +67,7 @@ private[build] object LightImages:
   private def tiled(tiles: TileCache, name: String)(using site: Site): Option[EnvironmentImage] =
     val ways = s"pixels of lights ${site.rules.decodesLights}"
     def texels(bands: ImageBands) = TexelBands(bands, 3, Array.emptyFloatArray): band =>
-      usable(band.toImage, name) match
+      usable(band, name) match
         case Right(rgb) => FloatTexels(rgb.width, rgb.height, 3, rgb.data)
         case Left(e) => throw e
     for
@@ -101,12 +101,16 @@ private[build] object LightImages:
         yield image
 
   private def loaded(stored: StoredImage, name: String)(using site: Site) =
-    usable(stored.toImage, name).map: image =>
+    usable(stored, name).map: image =>
       site.resources.counting.foreach:
         _.addImage(image.data.length / 3, SpectrumRole.Emission): i =>
           Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2))
       val upright = if isFromBelow then image.upsideDown else image
-      rebasing(site.resources.basis).fold(upright)(change => upright.mapped(change(_)))
+      // Large ones are held once
+      def target = stored match
+        case _: Image => new Array[Float](upright.data.length)
+        case _ => upright.data
+      rebasing(site.resources.basis).fold(upright)(change => upright.mapped(change(_), target))
 
   private def isFromBelow(using site: Site): Boolean =
     TextureStore.isFromBelow(site.declaration, site.dialect)
@@ -120,12 +124,12 @@ private[build] object LightImages:
       val middle = top.lazyZip(bottom).map((a, b) => 0.5f * (a + b))
       Image(image.width, 3, image.channelNames, top ++ middle ++ bottom)
 
-  private def usable(image: Image, name: String)(using site: Site): Either[ImageError, Image] =
-    val linear =
-      if site.rules.decodesLights then image.linear
-      else Image(image.width, image.height, image.channelNames, image.data)
+  private def usable(image: StoredImage, name: String)(using
+      site: Site
+  ): Either[ImageError, Image] =
+    def undecoded = Image(image.width, image.height, image.channelNames, image.toImage.data)
     try
-      val rgb = linear.toRgb
+      val rgb = if site.rules.decodesLights then image.toRgb else undecoded.toRgb
       // Sums of brighter pixels overflow
       val i = firstUnusable(rgb.data)
       def file = site.declaration.param(name).flatMap(_.strings.headOption).getOrElse("")
