@@ -50,12 +50,24 @@ object Placement:
 
   /** Bounds of the transformed object box, including the rounding of transformed rays. */
   def bounds(m: Array[Double], at: Int, box: Bounds3): Bounds3 =
-    if box.isEmpty then Bounds3.Empty
-    else
-      val slack = stretched(m, at, box.reach) * gamma(2)
-      val corners = box.mapped(point(m, at, _))
-      val pad = slack + corners.reach * gamma(2)
-      Bounds3(corners.min - pad, corners.max + pad)
+    if box.isEmpty then Bounds3.Empty else bounds(m, at, box, new Array[Float](Corners))
+
+  /** @param corners where the transformed corners of the box, which is not empty, are written */
+  private def bounds(m: Array[Double], at: Int, box: Bounds3, corners: Array[Float]): Bounds3 =
+    loop(8): c =>
+      val p = point(m, at, box.corner(c))
+      corners(3 * c) = p.x
+      corners(3 * c + 1) = p.y
+      corners(3 * c + 2) = p.z
+    inline def extreme(axis: Int)(inline of: (Float, Float) => Float): Float =
+      var value = corners(axis)
+      loop(1, 8)(c => value = of(value, corners(3 * c + axis)))
+      value
+    inline def extremes(inline of: (Float, Float) => Float) =
+      Vec3(extreme(0)(of), extreme(1)(of), extreme(2)(of))
+    val hull = Bounds3(extremes(Math.min(_, _)), extremes(Math.max(_, _)))
+    val pad = stretched(m, at, box.reach) * gamma(2) + hull.reach * gamma(2)
+    Bounds3(hull.min - pad, hull.max + pad)
 
   /** Bounds of the object's box over the shutter interval.
     *
@@ -68,24 +80,23 @@ object Placement:
     else
       val m = new Array[Double](Motion.Work)
       var swept = Bounds3.Empty
-      var (earlier, previous) = (Array.empty[Vec3], Array.empty[Vec3])
-      var difference = Vec3.Zero
+      // Without an object for each corner: there may be millions of motions
+      val corners = Array.fill(3)(new Array[Float](Corners))
+      val difference = new Array[Float](3)
       loop(Moments + 1): k =>
         motion.write(lerp(k.toFloat / Moments, open, close), m, 0)
-        swept = swept.union(bounds(m, 0, box))
-        val corners = Array.tabulate(8)(c => point(m, 0, box.corner(c)))
+        val (current, previous, earlier) =
+          (corners(k % 3), corners((k + 2) % 3), corners((k + 1) % 3))
+        swept = swept.union(bounds(m, 0, box, current))
         if k > 1 then
-          loop(8): c =>
-            val d = absolute(earlier(c) + corners(c) - previous(c) * 2f)
-            difference = Vec3(
-              Math.max(difference.x, d.x),
-              Math.max(difference.y, d.y),
-              Math.max(difference.z, d.z)
-            )
-        earlier = previous
-        previous = corners
-      val pad = difference * 0.5f
+          loop(Corners): i =>
+            val d = Math.abs(earlier(i) + current(i) - previous(i) * 2f)
+            difference(i % 3) = Math.max(difference(i % 3), d)
+      val pad = Vec3(difference(0), difference(1), difference(2)) * 0.5f
       Bounds3(swept.min - pad, swept.max + pad)
+
+  /** Coordinates of a box's corners. */
+  private inline val Corners = 24
 
   /** Samples a rotation by 180 degrees in steps of 2.8 degrees. */
   private inline val Moments = 64
