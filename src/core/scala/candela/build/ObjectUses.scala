@@ -2,7 +2,7 @@ package candela.build
 
 import candela.diagnostics.{Code, Suggest}
 import scala.collection.IndexedSeqView
-import scala.collection.mutable.ArrayBuffer
+import scala.collection.mutable.{ArrayBuffer, HashSet}
 
 import candela.build.recipe.*
 import candela.math.{Motion, MotionProduct, Position, RecentredMotion}
@@ -59,7 +59,9 @@ private[build] final class ObjectUses(
         )
       worldShapes += s
 
+  private val placedNames = HashSet.empty[String]
   for (name, uses) <- description.instances.ofEach do
+    placedNames += name
     description.objects.get(name) match
       case None =>
         for use <- uses do
@@ -76,6 +78,10 @@ private[build] final class ObjectUses(
 
   /** Shapes of the world, including copied objects. */
   val world: Vector[ShapeDescription] = worldShapes.result()
+
+  /** Shapes of objects without instances. */
+  def unplaced: Vector[ShapeDescription] =
+    description.objects.iterator.filterNot((name, _) => placedNames(name)).flatMap(_._2).toVector
 
   /** Objects with several or animated instances. */
   def shared: Vector[PlacedObject] = objects.toVector

@@ -2,7 +2,7 @@ package candela.build
 
 import candela.build.materials.Materials
 import candela.build.recipe.Findings
-import candela.scenefile.{Declaration, MaterialRef, SceneDescription, ShapeDescription}
+import candela.scenefile.{MaterialRef, SceneDescription, ShapeDescription}
 
 /** Checks materials that nothing rendered has. pbrt-v4 makes them, too, and refuses what is wrong
   * with them, as Mitsuba does; older pbrts go on.
@@ -10,13 +10,16 @@ import candela.scenefile.{Declaration, MaterialRef, SceneDescription, ShapeDescr
 private[build] object UnusedMaterials:
 
   /** @param shapes   that are rendered
+    * @param uses     of objects
     * @param textures defines textures
     */
-  def check(context: BuildContext, shapes: Vector[ShapeDescription])(
+  def check(context: BuildContext, shapes: Vector[ShapeDescription], uses: ObjectUses)(
       textures: SceneTextures
   ): Unit =
     val scene = context.description
-    val (named, inPlace) = (unusedNames(scene, shapes), scene.idleMaterials ++ ofObjects(scene))
+    val inObjects = uses.unplaced.map(_.material).distinct.collect:
+      case MaterialRef.Inline(d) => d
+    val (named, inPlace) = (unusedNames(scene, shapes), scene.idleMaterials ++ inObjects)
     if named.nonEmpty || inPlace.nonEmpty then
       val isFatal = context.isV4
       val findings = if isFatal then context.problems else Findings(lost = scene.failedKinds)
@@ -33,9 +36,3 @@ private[build] object UnusedMaterials:
       shapes.iterator.map(_.material).collect { case MaterialRef.Named(name, _) => name }
     val names = if scene.namedMaterials.isEmpty then Set.empty else shapeMaterials.toSet
     scene.namedMaterials.filterNot((name, _) => names(name))
-
-  /** Of objects without instances. */
-  private def ofObjects(scene: SceneDescription): Vector[Declaration] =
-    val placed = if scene.objects.isEmpty then Set.empty else scene.instances.ofEach.map(_._1).toSet
-    val materials = scene.objects.view.filterKeys(!placed(_)).values.flatMap(_.map(_.material))
-    materials.toVector.distinct.collect { case MaterialRef.Inline(d) => d }

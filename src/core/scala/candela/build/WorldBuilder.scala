@@ -88,7 +88,7 @@ private[build] final class WorldBuilder(
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
     val materials =
       clock.during(CostKind.Materials)(MaterialTable.of(context, integrator, media, shapes))
-    UnusedMaterials.check(context, shapes)(textures)
+    UnusedMaterials.check(context, shapes, uses)(textures)
 
     var lightCount = 0
     var shapeIndex = 0
