@@ -46,7 +46,9 @@ final class Colors(session: Session):
     in.property(name).flatMap: p =>
       p.value match
         case Value.Number(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
-        case Value.Color(c) => Some(Shade.Constant(c))
+        case Value.Color(c) =>
+          if role == Role.Reflectance then warnOfRange(c, in, p)
+          Some(Shade.Constant(c))
         case Value.Wavelengths(s) => Some(measured(s, role))
         case Value.Flat(x) if role == Role.Emission => Some(measured(flat(x), role))
         case Value.Flat(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
@@ -59,6 +61,17 @@ final class Colors(session: Session):
             s"`$name` must be a colour or a texture, found ${other.description}"
           )
           None
+
+  /** Colours of 0.6 had no limit; skies check theirs. */
+  private def warnOfRange(c: Rgb, in: Properties, p: Property): Unit =
+    if !in.plugin.isOld && in.plugin.kind != "emitter" &&
+      Vector(c.r, c.g, c.b).exists(x => x < 0f || x > 1f)
+    then
+      session.warn(
+        Code.ParameterValue,
+        p.pos,
+        s"Mitsuba rejects `${p.name}` as an <rgb> outside 0 to 1; it is used"
+      )
 
   private def ofPlugin(p: Plugin, role: Role, in: Properties, name: String): Option[Shade] =
     if p.kind != "texture" && p.kind != "spectrum" then

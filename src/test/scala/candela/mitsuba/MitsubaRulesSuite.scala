@@ -13,9 +13,10 @@ import org.scalatest.funsuite.AnyFunSuite
 /** Values are Mitsuba 3.9.1's (`scalar_rgb`). */
 class MitsubaRulesSuite extends AnyFunSuite:
 
-  private def inFile[A](body: String)(use: SceneDescription => A): A =
+  private def inFile[A](body: String, version: String = "3.0.0")(use: SceneDescription => A): A =
     val folder = Files.createTempDirectory("candela-rules")
-    val file = Files.writeString(folder.resolve("s.xml"), s"<scene version=\"3.0.0\">$body</scene>")
+    val text = s"<scene version=\"$version\">$body</scene>"
+    val file = Files.writeString(folder.resolve("s.xml"), text)
     try use(MitsubaScene.readable(file, Map.empty, keepGoing = false))
     finally
       Files.delete(file)
@@ -242,3 +243,33 @@ class MitsubaRulesSuite extends AnyFunSuite:
     assert(Math.abs(alpha(ball + emitter + sky, hides = true) - 0.1151) < 3e-3)
     assert(alpha(ball + emitter, hides = false) > 0.2)
     assert(alpha(ball + sky, hides = false) == 1)
+
+  test("an <rgb> that Mitsuba rejects is used with a word"):
+    def rejected(body: String, version: String = "3.0.0") =
+      inFile(sensor() + body, version): scene =>
+        scene.warnings.map(_.message).filter(_.startsWith("Mitsuba rejects `"))
+    def medium(value: String) =
+      s"<medium type=\"homogeneous\" name=\"interior\">$value</medium>"
+    def ball(bsdf: String, inside: String = "") =
+      s"<shape type=\"sphere\"><bsdf $bsdf</bsdf>$inside</shape>"
+    def rgb(name: String) = s"<rgb name=\"$name\" value=\".3, 4, .5\"/>"
+    def word(name: String) =
+      Vector(s"Mitsuba rejects `$name` as an <rgb> outside 0 to 1; it is used")
+    for name <- Seq("sigma_t", "albedo") do
+      assert(rejected(ball("type=\"null\">", medium(rgb(name)))) == word(name))
+    val masked = s"type=\"mask\">${rgb("opacity")}<bsdf type=\"diffuse\"/>"
+    assert(rejected(ball(masked)) == word("opacity"))
+    val low = "type=\"diffuse\"><rgb name=\"reflectance\" value=\"-.1, .5, .5\"/>"
+    assert(rejected(ball(low)) == word("reflectance"))
+    val volume = s"<volume type=\"constvolume\" name=\"sigma_t\">${rgb("value")}</volume>"
+    val metal = s"type=\"conductor\">${rgb("eta")}${rgb("k")}"
+    val taken = Seq(
+      ball("type=\"null\">", medium("<spectrum name=\"sigma_t\" value=\"4\"/>")),
+      ball("type=\"null\">", medium(volume)),
+      ball(metal),
+      s"<emitter type=\"constant\">${rgb("radiance")}</emitter>"
+    )
+    for body <- taken do assert(rejected(body).isEmpty, body)
+    // 0.6 took any
+    val old = ball("type=\"diffuse\">", medium(rgb("sigmaT") + rgb("albedo")))
+    assert(rejected(old, "0.6.0").isEmpty)
