@@ -71,7 +71,7 @@ object ImageSize:
 
   /** Of other formats, which are taken as not packed. */
   private def ofLength(file: InputFile): ImageSize =
-    val isFloat = Set("exr", "hdr", "pic", "pfm")(FileName.suffix(file.path))
+    val isFloat = FileName.isOfFloats(file.path)
     val pixels = Math.min(file.size / (if isFloat then 12 else 3), 1L << 30)
     ImageSize(Math.max(1, pixels.toInt), 1, 3, !isFloat)
 

@@ -6,6 +6,9 @@ import java.util.Locale
 /** File names, and the suffixes that determine the format. */
 object FileName:
 
+  /** Is the name that of an image whose numbers are light as it is? */
+  def isOfFloats(path: Path): Boolean = Set("exr", "hdr", "pic", "pfm")(suffix(path))
+
   /** The text after the last dot, in lower case; empty if there is no dot. */
   def suffix(path: Path): String =
     val name = last(path)

@@ -2,6 +2,7 @@ package candela.mitsuba
 
 import candela.diagnostics.Code
 import candela.color.Rgb
+import candela.io.FileName
 import candela.math.Transform
 import candela.scenefile.{Declaration, Dialect, GraphicsState, LightDescription, Param, ParamType}
 
@@ -208,19 +209,21 @@ final class Emitters(
       session.translate(p): in =>
         in.ignore("format", "accel")
         val extraParams = extra(in)
-        if in.flag("raw", false) then
-          session.warn(
-            Code.CorrectedValue,
-            in.posOf("raw"),
-            "8-bit images of emitters are always decoded from sRGB"
-          )
+        val isRaw = in.flag("raw", false)
         for
           name <- in.text("filename")
           path <- session.file(name, in.posOf("filename"), "skipped")
-        yield (
-          name,
-          Param.string("filename", in.posOf("filename"), session.named(path)) +: extraParams
-        )
+        yield
+          if isRaw && !FileName.isOfFloats(path.path) then
+            session.warn(
+              Code.CorrectedValue,
+              in.posOf("raw"),
+              "8-bit images of emitters are always decoded from sRGB"
+            )
+          (
+            name,
+            Param.string("filename", in.posOf("filename"), session.named(path)) +: extraParams
+          )
 
   private def plainParams(in: Properties): Seq[Param] =
     in.ignore("filter_type", "wrap_mode")

@@ -1,6 +1,7 @@
 package candela.mitsuba
 
 import candela.color.Rgb
+import candela.image.{Image, ImageFiles}
 
 import java.nio.file.{Files, Path}
 
@@ -46,3 +47,16 @@ final class ImagesSuite extends MitsubaPictures:
       val white = "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"1\"/></emitter>"
       agrees(view(15, 1024) + shape("obj", within) + white, Rgb(0.31189f, 0.31929f, 0.48209f))
     finally Files.delete(mesh)
+
+  test("raw images that emit are told of where they hold codes, not where they hold light"):
+    def warnings(file: String) =
+      val raw = s"<texture type=\"bitmap\" name=\"radiance\"><string name=\"filename\" " +
+        s"value=\"$file\"/><boolean name=\"raw\" value=\"true\"/></texture>"
+      read(shape("sphere", s"<emitter type=\"area\">$raw</emitter>")).warnings.map(_.message)
+    val word = "8-bit images of emitters are always decoded from sRGB"
+    assert(warnings(chart.toString).contains(word))
+    val light = Files.createTempFile("candela", ".pfm")
+    try
+      ImageFiles.write(light, Image(1, 1, Image.RgbNames, Array(1f, 1f, 1f)))
+      assert(!warnings(light.toString).contains(word))
+    finally Files.delete(light)
