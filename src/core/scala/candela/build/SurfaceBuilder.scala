@@ -6,7 +6,7 @@ import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{MaskColumn, Masks, SolidMask}
 import candela.build.integrators.IntegratorPlan
-import candela.build.lights.{AreaLightPlan, MeshLights}
+import candela.build.lights.{AreaLightPlan, MeshLights, ScaledLight, UniformScale}
 import candela.build.recipe.*
 import candela.build.shapes.{
   EmitterHoles, FarPoints, Rectangles, ShapeGeometry, ShapePlan, Shapes, SoupBuilder, UvSides
@@ -167,6 +167,8 @@ private[build] final class SurfaceBuilder(
       case mesh: ShapeGeometry.Triangles => addMesh(mesh, isTurned = false)
       case ShapeGeometry.Solid(_, _) if toWorld.isFlat => () // reported before
       case ShapeGeometry.Solid(make, turned) =>
+        if emitter.isDefined && !dressed.shape.inObject then
+          ScaledLight.warn(sinceV3, UniformScale.isOne, "samples it without the scale")(using site)
         val facesInwards = isReversed != (isConsistent && isReflected)
         // Samples of a mirrored emitter that is a cylinder lie on its other side, as in Mitsuba
         val isOdd = isConsistent && isReflected && emitter.isDefined &&

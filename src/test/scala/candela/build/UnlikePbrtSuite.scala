@@ -53,6 +53,28 @@ class UnlikePbrtSuite extends AnyFunSuite:
         val text = scene(s"AttributeBegin $transform $light AttributeEnd")
         assert(isWarned(text, dialect, folder) == isOther)
 
+  // Scaled by 2, a sphere gives a plane .0655, in pbrt's images .0245; triangles agree
+  for
+    dialect <- Seq(Dialect.V3, Dialect.V4)
+    (transform, isScaled) <- Seq(
+      "Rotate 30 1 0 0" -> false,
+      "Scale -1 1 1" -> false,
+      "Scale 2 2 2" -> true,
+      "Scale 2 1 1" -> true
+    )
+    (shape, isOther) <- Seq(
+      "\"sphere\"" -> true,
+      "\"disk\"" -> true,
+      "\"cylinder\"" -> true,
+      "\"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2]" -> false
+    )
+  do
+    test(s"an area light under a transform, in $dialect: $transform $shape"):
+      def text(light: String) = scene(s"AttributeBegin $light $transform Shape $shape AttributeEnd")
+      val light = "AreaLightSource \"diffuse\""
+      assert(isWarned(text(light), dialect, Path.of("")) == (isScaled && isOther))
+      assert(!isWarned(text(""), dialect, Path.of("")))
+
   private val move = "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All"
   private val mirror = "Scale -1 1 1"
   private val instance = "ObjectBegin \"a\" Shape \"disk\" ObjectEnd\n"

@@ -80,7 +80,7 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
     val p = Places.far("from").getOrElse(Places.exact(from()))
     val axis = Places.vectorBetween("from", from(), "to", to())
-    warnOfScale(onlyV4, _.nonEmpty, SpotLightRecipe.Cone)
+    ScaledLight.warn(onlyV4, _.nonEmpty, SpotLightRecipe.Cone)
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
     else if !(cone() > 0f) then LightPlan.leftOut(s"`coneangle` must be above 0, found ${cone()}")

@@ -58,7 +58,7 @@ object GoniometricLightRecipe
           val gray = grays.of(image)(LightImages.gray(image))
           val mean = gray.data.foldLeft(0.0)(_ + _) / gray.data.length
           val i = scaled(intensity(), power(), 4f * Pi * mean.toFloat)
-          warnOfScale(onlyV4, UniformScale.isOne, "looks up its image in wrong directions")
+          ScaledLight.warn(onlyV4, UniformScale.isOne, "looks up its image in wrong directions")
           shining(i, sphere(gray, EqualAreaMap, i, smooth = false))
     else
       val i = scaled(intensity())
@@ -117,7 +117,7 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
         ProjectionLight.power(s, tanHalf, basis.toSrgb(_).luminance)
     def isBlack = slide.exists(s => !(s.meanOfMax > 0f))
     val scaling = scaled(intensity(), power(), perUnit)
-    warnOfScale(onlyV4, _.nonEmpty, SpotLightRecipe.Cone)
+    ScaledLight.warn(onlyV4, _.nonEmpty, SpotLightRecipe.Cone)
     if isLost then LightPlan.nothing
     else if !shines(scaling) || (!basis.isSpectral && isBlack) then
       LightPlan.leftOut(LightPlan.Black)

@@ -62,7 +62,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
           val unit = if octahedral then Spectra.white else radiance()
           if portal().isEmpty then
             val dialects = Set(Dialect.V3, Dialect.V4)
-            warnOfScale(dialects, UniformScale.isOne, "weights its light by the scale")
+            ScaledLight.warn(dialects, UniformScale.isOne, "weights its light by the scale")
           def perUnit =
             if octahedral then irradiances(onThePlane(image, isEqualArea))
             else 1f

@@ -66,17 +66,21 @@ abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect]
   protected def scaled(c: Rgb, total: Float, perUnit: => Float)(using Site): Rgb =
     scaled(c) * (if total > 0f then total / perUnit else 1f)
 
+  /** At three wavelengths, a light may be black. */
+  protected def shines(c: Rgb)(using site: Site): Boolean =
+    site.resources.basis.isSpectral || (c.isFinite && c.max > 0f)
+
+private[build] object ScaledLight:
+
   /** Warns that pbrt renders a light under this transform otherwise.
     *
     * @param dialects whose programs do
     * @param isExact  whether they render it as it is, given its uniform scale, if it has one
     * @param effect   what they do
     */
-  protected def warnOfScale(
-      dialects: Set[Dialect],
-      isExact: Option[Double] => Boolean,
-      effect: String
-  )(using site: Site): Unit =
+  def warn(dialects: Set[Dialect], isExact: Option[Double] => Boolean, effect: String)(using
+      site: Site
+  ): Unit =
     if dialects(site.rules.dialect) && !site.toWorld.isFlat &&
       !isExact(site.toWorld.uniformScale)
     then
@@ -85,10 +89,6 @@ abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect]
         s"the transform of this light scales it; ${site.rules.program} $effect, so its image " +
           "differs"
       )
-
-  /** At three wavelengths, a light may be black. */
-  protected def shines(c: Rgb)(using site: Site): Boolean =
-    site.resources.basis.isSpectral || (c.isFinite && c.max > 0f)
 
 /** Number of samples of a light in v2's and v3's direct lighting. */
 trait SampleCounts extends Fields:
