@@ -26,7 +26,8 @@ import scala.util.Try
   *
   * The answer is any number of `{"message": …}`, a line for standard error, and
   * `{"progress": {"done": 0.5, …}}`; the last has the exit code: `{"code": 0, "output": …}`.
-  * `{"cancel": true}` ends the rendering early, as Ctrl-C does. The end of input ends the process.
+  * `{"cancel": true}` ends the rendering early, as Ctrl-C does. The end of input ends the process
+  * once all requests are answered; at once if `CANDELA_PARENT` says that its program has ended.
   *
   * @param terminal of the process; its `out` receives the answers
   * @param loader   of scenes that are files
@@ -54,8 +55,8 @@ private[cli] final class Session(input: InputStream, terminal: Terminal, loader:
           case request =>
             latest = Asked()
             queue.put(Some((request, latest)))
-    // Nobody waits for an answer, not even for that of a rendering in progress
-    terminal.interrupts.quit(ExitCode.Done)
+    // Then nobody waits for an answer, not even for that of a rendering in progress
+    if terminal.belongsToProgram then terminal.interrupts.quit(ExitCode.Done)
     queue.put(None)
 
   private def answer(request: Request, asked: Asked): Unit = request match

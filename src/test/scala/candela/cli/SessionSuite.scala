@@ -3,6 +3,7 @@ package candela.cli
 import candela.cli.terminal.{ExitCode, Interrupts, Terminal}
 import candela.image.ImageFiles
 import candela.job.SceneLoader
+import candela.render.Cancellation
 import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -30,10 +31,15 @@ class SessionSuite extends AnyFunSuite:
   private def lines(input: String*): Vector[ujson.Value] =
     val out = ByteArrayOutputStream()
     val printed = PrintStream(out, false, UTF_8)
-    val terminal = Terminal(printed, printed, isInteractive = false, Interrupts.Ignored)
+    var hasQuit = false
+    // As in a process, which nothing leaves afterwards
+    val interrupts = new Interrupts:
+      def during[A](cancellation: Cancellation)(body: => A): A = body
+      override def quit(code: ExitCode): Unit = hasQuit = true
+    val terminal = Terminal(printed, printed, isInteractive = false, interrupts)
     val bytes = input.map(_ + "\n").mkString.getBytes(UTF_8)
     val session = Session(ByteArrayInputStream(bytes), terminal, SceneLoader.FromFile)
-    assert(session.run() == ExitCode.Done)
+    assert(session.run() == ExitCode.Done && !hasQuit)
     out.toString(UTF_8).linesIterator.map(ujson.read(_)).toVector
 
   private def render(file: Path, spp: Int = 4)(text: String = scene): ujson.Obj =
