@@ -6,20 +6,18 @@ import java.util.Locale
 import java.util.concurrent.ConcurrentHashMap
 import java.util.function.Supplier
 
+import org.lwjgl.system.Configuration
+
 import scala.util.Try
 
 /** The native libraries of LWJGL, by which images are read and written. */
 object Natives:
 
-  /** Finds them beside the program's jar, for who starts that by itself; before their first use. */
-  def locate(): Unit =
-    quieten()
-    if sys.props.get(PathProperty).isEmpty then
-      for jar <- programsJar; folder <- beside(jar) do
-        val _ = System.setProperty(PathProperty, folder.toString)
+  /** For who starts the program's jar by itself, or has it on a class path. */
+  private lazy val besideProgram = programsJar.flatMap(beside)
 
   /** LWJGL's own advice on missing libraries is for programmers. */
-  private def quieten(): Unit =
+  def quieten(): Unit =
     if sys.props.get("org.lwjgl.util.Debug").isEmpty && sys.props.get(StreamProperty).isEmpty then
       val _ = System.setProperty(StreamProperty, classOf[NoStream].getName)
 
@@ -47,6 +45,8 @@ object Natives:
     * @throws MissingNatives if a library is not there
     */
   private[image] def require(module: String): Unit =
+    if Configuration.LIBRARY_PATH.get == null then
+      besideProgram.foreach(folder => Configuration.LIBRARY_PATH.set(folder.toString))
     for m <- Vector("", module).distinct if !loadedModules.contains(m) do
       if !isThere(m) then throw MissingNatives(m, platform)
       loadedModules.add(m): Unit
@@ -60,7 +60,8 @@ object Natives:
     val subfolder = if module.isEmpty then "" else s"$module/"
     val folder = s"${platform.replace('-', '/')}/org/lwjgl/$subfolder"
     // LWJGL itself sets the place once it has unpacked a library
-    def onPath = Vector(PathProperty, "java.library.path").flatMap(sys.props.get(_))
+    def onPath = (Option(Configuration.LIBRARY_PATH.get) ++
+      Vector(PathProperty, "java.library.path").flatMap(sys.props.get(_)))
       .flatMap(_.split(java.io.File.pathSeparator)).filter(_.nonEmpty)
     classOf[org.lwjgl.PointerBuffer].getClassLoader.getResource(folder + file) != null ||
     onPath.exists(p => Try(Files.isRegularFile(Path.of(p, file))).getOrElse(false))
@@ -80,7 +81,7 @@ object Natives:
     (String.valueOf(e.getMessage) +: e.getStackTrace.take(Frames).map(_.getClassName))
       .exists(_.contains("lwjgl"))
 
-  private val PathProperty = "org.lwjgl.librarypath"
+  private[image] val PathProperty = "org.lwjgl.librarypath"
   private val StreamProperty = "org.lwjgl.util.DebugStream"
   private val Frames = 20
 
@@ -100,7 +101,7 @@ final class MissingNatives private[image] (module: String, platform: String)
     val version = org.lwjgl.Version.getVersion.takeWhile(c => c.isDigit || c == '.')
     s"add org.lwjgl:$name:$version with the classifier $classifier to the dependencies; " +
       "EXR files need lwjgl and lwjgl-tinyexr, PNG, JPEG and TGA files that are read need lwjgl " +
-      "and lwjgl-stb"
+      s"and lwjgl-stb; or -D${Natives.PathProperty}=FOLDER, the program's lib/natives/$platform"
 
 /** What LWJGL prints is lost. */
 final class NoStream extends Supplier[PrintStream]:

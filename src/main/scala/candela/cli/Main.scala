@@ -20,7 +20,7 @@ object Main:
 
   def main(args: Array[String]): Unit =
     JavaWarnings.hush()
-    Natives.locate()
+    Natives.quieten()
     // Before the first class of AWT loads: a renderer must not open a display
     if sys.props.get(Headless).isEmpty then
       val _ = System.setProperty(Headless, "true")
