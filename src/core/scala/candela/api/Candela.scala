@@ -6,6 +6,7 @@ import candela.accel.tracing.Hierarchies
 import candela.job.{Render, SceneFormat, SceneName}
 
 import java.nio.file.Path
+import java.util.Objects
 
 /** Renders scenes of pbrt and Mitsuba. Entry point of the library:
   * {{{
@@ -28,13 +29,13 @@ object Candela:
   /** Reads a scene with non-default settings. */
   def read(file: Path, how: ReadSettings): Scene =
     Scenes.read(file.toString, how):
-      Render.withinLimits:
-        Render.read(SceneName.existing(file.toString), how.core, how.control)
+      Render.read(SceneName.existing(file.toString), how.core, how.control)
 
   /** Reads a scene from a text, of pbrt's format or Mitsuba's XML; file names in it are relative to
     * the current folder.
     */
   def parse(text: String): Scene =
+    Objects.requireNonNull(text, "text")
     val suffix = SceneFormat.of(Path.of("scene"), text).suffixes.head
     parse(text, Path.of(s"scene.$suffix"), ReadSettings())
 
@@ -45,8 +46,9 @@ object Candela:
     *             relative to its folder
     */
   def parse(text: String, name: Path, how: ReadSettings): Scene =
+    Objects.requireNonNull(text, "text")
     Scenes.read(name.toString, how):
-      Render.withinLimits(Render.readText(name, text, how.core, how.control))
+      Render.readText(name, text, how.core, how.control)
 
   /** Builds a scene in code; file names in it are relative to the current folder. */
   def build(): SceneBuilder = build(Path.of(""))

@@ -100,7 +100,7 @@ final class Scene private[api] (
     val control = reading.control.copy(threads = threads, isRendered = isRendered)
     // Lest an image be lost after all the time that it takes
     if coreSettings.output.denoise then Oidn.load(): Unit
-    Render.withinLimits(Render.build(parsed, coreSettings, control))
+    Render.build(parsed, coreSettings, control)
 
 private[api] object Scenes:
 

@@ -93,7 +93,12 @@ private[build] object BuildContext:
     // pbrt-v4 multiplies spectra, the older ones sRGB components
     val rules = Rules.of(description.dialect)
     val basis = if rules.isSpectral then ColorBasis.Sharp else ColorBasis.Srgb
-    val problems = Findings(settings.reading.keepGoing, description.failedKinds, description.errors)
+    val problems = Findings(
+      settings.reading.keepGoing,
+      description.failedKinds,
+      description.errors,
+      description.text
+    )
     if isBlind then
       problems.warn(
         Code.Transform,

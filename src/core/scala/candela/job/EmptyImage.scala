@@ -4,7 +4,7 @@ import candela.base.loop
 import candela.diagnostics.{Code, Problem, Severity}
 import candela.image.Image
 import candela.render.{FirstSurfaces, RenderPlan, Rendering, ViewSurvey}
-import candela.scenefile.Excerpts
+import candela.scenefile.{Excerpts, NamedText}
 
 import java.util.Locale
 
@@ -12,7 +12,7 @@ import java.util.Locale
 object EmptyImage:
 
   /** Before rendering: the camera looks at nothing, or stands in a dark enclosure. */
-  def foreseen(plan: RenderPlan): Option[Problem] =
+  def foreseen(plan: RenderPlan, text: Option[NamedText]): Option[Problem] =
     for
       survey <- ViewSurvey.of(plan)
       seen = survey.firstSurfaces
@@ -27,7 +27,7 @@ object EmptyImage:
       val help =
         if seen.isNothing then "turn the camera: the second point of LookAt is what it looks at"
         else "`candela preview` shows the surfaces in view"
-      warning(Code.EmptyView, plan, why, help)
+      warning(Code.EmptyView, plan, text, why, help)
 
   /** Of a rendered image.
     *
@@ -59,7 +59,7 @@ object EmptyImage:
     finding.map: (what, why) =>
       val preview = if isPreview then "" else "`candela preview` shows the surfaces in view, and "
       val help = s"$preview--pixelmaterial x,y prints what a pixel shows"
-      warning(Code.EmptyImage, plan, what + why, help)
+      warning(Code.EmptyImage, plan, prepared.description.text, what + why, help)
 
   private val Past = "the camera looks past all surfaces"
 
@@ -67,12 +67,17 @@ object EmptyImage:
   private val MinPixels = 16
 
   /** At the nearest surface, or at the camera that sees none. */
-  private def warning(code: Code, plan: RenderPlan, message: String, help: String): Problem =
+  private def warning(
+      code: Code,
+      plan: RenderPlan,
+      text: Option[NamedText],
+      message: String,
+      help: String
+  ): Problem =
     val pos = plan.sight.flatMap: sight =>
       ViewSurvey(plan, sight).firstSurfaces.statement.orElse(sight.camera)
-    Excerpts.fill(Vector(Problem(
-      code, Severity.Warning, pos.flatMap(_.toOption), message, Some(help)
-    ))).head
+    val problem = Problem(code, Severity.Warning, pos.flatMap(_.toOption), message, Some(help))
+    Excerpts.fill(Vector(problem), Excerpts.sources(text)).head
 
   private def whyBlack(plan: RenderPlan): String =
     if plan.lights == 0 then "the scene has no light"

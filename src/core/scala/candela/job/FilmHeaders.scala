@@ -42,7 +42,7 @@ object FilmHeaders:
       plan.differentialScale,
       Set(shard.index),
       shard.count,
-      text = prepared.description.text
+      text = prepared.description.text.map(_.content)
     )
 
   /** The settings of a saved rendering, which keeps its choices with any goal.

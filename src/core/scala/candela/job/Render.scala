@@ -5,7 +5,7 @@ import candela.diagnostics.{Refusal, SceneError}
 import candela.build.SceneBuilder
 import candela.image.Image
 import candela.render.{RenderControl, Renderer, RenderFailure, Rendering, RenderPlan, ThreadPool}
-import candela.scenefile.{Excerpts, SceneDescription}
+import candela.scenefile.{Excerpts, NamedText, SceneDescription}
 import candela.settings.{BuildControl, ReadSettings, RenderSettings}
 
 import java.nio.file.Path
@@ -22,10 +22,8 @@ object Render:
     * @throws SceneError if there is no such scene, or it has errors
     */
   def prepare(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
-    withinLimits:
-      val (description, seconds) =
-        timed(read(SceneName.existing(scene), settings.reading, control))
-      build(description, settings, control).copy(readSeconds = seconds)
+    val (description, seconds) = timed(read(SceneName.existing(scene), settings.reading, control))
+    build(description, settings, control).copy(readSeconds = seconds)
 
   /** Parses a file of any format, and those that it includes.
     *
@@ -33,7 +31,9 @@ object Render:
     * @throws SceneError if nothing is readable
     */
   def read(file: Path, reading: ReadSettings, control: BuildControl): SceneDescription =
-    try SceneFormat.of(file).read(file, control.limits.folder(file), reading, control.world)
+    try
+      withinLimits():
+        SceneFormat.of(file).read(file, control.limits.folder(file), reading, control.world)
     catch case e: SceneError => throw ForeignAdvice.problem(file).fold(e)(SceneError(_))
 
   /** Parses a text.
@@ -48,9 +48,10 @@ object Render:
       control: BuildControl
   ): SceneDescription =
     val format = SceneFormat.of(name, text)
-    val scene =
+    val source = Some(NamedText(name.toString, text))
+    val scene = withinLimits(source):
       format.read(name, control.limits.folder(name), reading, control.world, Some(text))
-    scene.copy(text = Some(text), unfiled = Vector("the scene's text" -> format.digest(text)))
+    scene.copy(text = source, unfiled = Vector("the scene's text" -> format.digest(text)))
 
   /** Builds the objects that render the scene, each the simplest that does, and chooses the method.
     *
@@ -60,7 +61,7 @@ object Render:
       description: SceneDescription,
       settings: RenderSettings,
       control: BuildControl
-  ): Prepared =
+  ): Prepared = withinLimits(description.text):
     val pool = ThreadPool(control.threads, worksAside = control.isRendered)
     try
       val limited = control.limited
@@ -71,7 +72,7 @@ object Render:
       // Placeholders show nothing, and were told of
       val hasAll = warnings.forall(_.standIn.isEmpty)
       val allWarnings = description.warnings ++ warnings ++
-        (if hasAll then EmptyImage.foreseen(plan) else None)
+        (if hasAll then EmptyImage.foreseen(plan, description.text) else None)
       Prepared(
         description, plan, allWarnings, buildSeconds = seconds, pool = pool, settings = settings
       )
@@ -102,7 +103,8 @@ object Render:
     denoising.fold(noisy)(_(noisy))
 
   /** Makes a [[SceneError]] of what a scene must not do. */
-  def withinLimits[A](body: => A): A = Refusal.asError(Excerpts.fill(_))(body)
+  def withinLimits[A](text: Option[NamedText] = None)(body: => A): A =
+    Refusal.asError(Excerpts.fill(_, Excerpts.sources(text)))(body)
 
   private def isOfMemory(e: Throwable): Boolean = e match
     case _: OutOfMemoryError => true

@@ -40,7 +40,7 @@ object SceneLoader:
         control: BuildControl
     ): Option[ImageName] =
       // A refusal is told when the scene is loaded
-      val name = Try(Render.withinLimits(imageName(SceneName.existing(scene), reading, control)))
+      val name = Try(Render.withinLimits()(imageName(SceneName.existing(scene), reading, control)))
       name.toOption.flatten
 
     private def imageName(
@@ -61,9 +61,8 @@ object SceneLoader:
     def load(scene: String, settings: RenderSettings, control: BuildControl): Prepared =
       if scene != name then files.load(scene, settings, control)
       else
-        Render.withinLimits:
-          val description = Render.readText(Path.of(name), text, settings.reading, control)
-          Render.build(description, settings, control)
+        val description = Render.readText(Path.of(name), text, settings.reading, control)
+        Render.build(description, settings, control)
 
 /** Names of scene files. */
 object SceneName:

@@ -1,9 +1,9 @@
 package candela.mitsuba
 
-import candela.diagnostics.{Code, SceneError, Severity, SourcePos}
+import candela.diagnostics.{Code, Problem, SceneError, Severity, SourcePos}
 import candela.io.{FileName, SceneFolder}
 import candela.scenefile.{
-  Declaration, Dialect, Param, Excerpts, InstanceList, Resolution, SceneDescription
+  Declaration, Dialect, Param, Excerpts, InstanceList, NamedText, Resolution, SceneDescription
 }
 
 import java.nio.file.Path
@@ -32,12 +32,14 @@ object MitsubaScene:
       resolution: Option[Resolution] = None
   ): SceneDescription =
     val folder = within.getOrElse(SceneFolder.of(file))
+    def excerpted(problems: Vector[Problem]) =
+      Excerpts.fill(problems, Excerpts.sources(text.map(NamedText(file.toString, _))))
     val expanded =
       try Expansion(file, folder, defines, text).result()
-      catch case e: SceneError => throw SceneError(Excerpts.fill(e.problems))
+      catch case e: SceneError => throw SceneError(excerpted(e.problems))
     val session = Session(expanded, folder, keepGoing, sensor, resolution)
     val scene = Translation(session, file).result()
-    val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
+    val (errors, warnings) = excerpted(session.problems).partition(_.severity == Severity.Error)
     scene.copy(
       warnings = warnings,
       errors = errors,

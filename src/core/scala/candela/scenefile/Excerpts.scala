@@ -10,6 +10,10 @@ object Excerpts:
   /** The problems, in order, each with an excerpt if its position is known and readable. */
   def fill(problems: Vector[Problem]): Vector[Problem] = fill(problems, read)
 
+  /** As it is read again: the text, or files. */
+  def sources(text: Option[NamedText])(name: String): Option[Source] =
+    text.filter(_.name == name).fold(read(name))(t => Some(Source.fromText(name, t.content)))
+
   /** @param open opens the source of a name, from its start */
   def fill(problems: Vector[Problem], open: String => Option[Source]): Vector[Problem] =
     val lacking = problems.filter(p => p.pos.nonEmpty && p.excerpt.isEmpty)

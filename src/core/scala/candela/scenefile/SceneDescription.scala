@@ -104,7 +104,7 @@ final case class TextureDescription(
   * @param additions     what a model lacked and was given, for the user
   * @param isFollowed whether the file has another world, another image, after this one
   * @param folder the folder of the scene file, through which its files are opened
-  * @param text what was read, if that is no file
+  * @param text what was read instead of a file
   * @param idleMaterials materials that are written in place, and that no shape has
   * @param unfiled SHA-256 of its parts that are in no file, by name
   */
@@ -140,7 +140,7 @@ final case class SceneDescription(
     isFollowed: Boolean = false,
     folder: SceneFolder = SceneFolder.Nowhere,
     unfiled: Vector[(String, String)] = Vector.empty,
-    text: Option[String] = None,
+    text: Option[NamedText] = None,
     idleMaterials: Vector[Declaration] = Vector.empty
 ):
   /** Whether the camera sees no area lights and no sky. */
@@ -148,6 +148,12 @@ final case class SceneDescription(
     dialect == Dialect.Mitsuba && integrator.exists(
       _.param("hideemitters").exists(_.bools.contains(true))
     )
+
+/** A scene that is no file.
+  *
+  * @param name in messages; file names in the text are relative to its folder
+  */
+final case class NamedText(name: String, content: String)
 
 /** Kinds of names that statements define. */
 enum NameKind:

@@ -259,8 +259,27 @@ class LibrarySuite extends AnyFunSuite:
     )
     assert(unknown.hasErrors)
 
+  test("excerpts of a text are of the text, not of a file of its name"):
+    TempFolder.use: folder =>
+      for (name, text) <- Vector(
+          "a.pbrt" -> (LibraryScenes.text() + "Shape \"sphere\" \"string alpha\" \"no\"\n"),
+          "a.xml" -> LibrarySuite.mitsuba.replace("\"sphere\"", "\"spher\"")
+        )
+      do
+        val file = folder.resolve(name)
+        val lines = text.linesIterator.toVector
+        val secret = Files.writeString(file, lines.map(_ => "secret " * 20).mkString("\n"))
+        val scene = Candela.parse(text, secret, ReadSettings())
+        val problems = scene.check(RenderSettings()).asScala
+        assert(problems.nonEmpty)
+        for p <- problems do assert(p.excerpt.get == lines(p.line - 1), p)
+
+  test("a missing text is an error of its caller"):
+    assert(intercept[NullPointerException](Candela.parse(null)).getMessage == "text")
+
+  private def refused(body: => Any): Problem = intercept[SceneException](body).problems.get(0)
+
   test("settings that mean nothing say what they may be"):
-    def refused(body: => Any): Problem = intercept[SceneException](body).problems.get(0)
     assert(refused(RenderSettings().withLayers("albdo")).help.get.contains("albedo"))
     assert(refused(RenderSettings().withOption("firefly", "keep")).message
       == "unknown setting `firefly`")

@@ -7,7 +7,7 @@ import candela.bsdf.{DiffuseMaterial, Material}
 import candela.color.{ColorBasis, ColorSpace, Rgb}
 import candela.image.{Image, StoredImage}
 import candela.math.Transform
-import candela.scenefile.{Declaration, Dialect, Excerpts, NameKind, Param, Problems}
+import candela.scenefile.{Declaration, Dialect, Excerpts, NameKind, NamedText, Param, Problems}
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
 /** Context of a recipe: the statement, the dialect and the scene's resources so far.
@@ -75,11 +75,13 @@ final class Site(
   * @param lost      kinds of names that unreadable statements may have defined: references to them
   *                  are not reported
   * @param earlier   problems found before
+  * @param text      of the scene, if it is no file
   */
 final class Findings(
     keepGoing: Boolean = false,
     lost: Set[NameKind] = Set.empty,
-    earlier: Vector[Problem] = Vector.empty
+    earlier: Vector[Problem] = Vector.empty,
+    text: Option[NamedText] = None
 ):
   private val problems = mutable.LinkedHashSet.from(earlier)
   private val messages = mutable.HashSet.empty[(Severity, Option[SourcePos], String)]
@@ -148,7 +150,7 @@ final class Findings(
       if synchronized(!messages((Severity.Error, p.pos, p.message)))
     do warn(p.code, at, p.message, p.help)
 
-  def result: Vector[Problem] = Excerpts.fill(problems.toVector)
+  def result: Vector[Problem] = Excerpts.fill(problems.toVector, Excerpts.sources(text))
   def hasErrors: Boolean = errors > 0
 
   /** Stops if there are errors: the scene can't be built.

@@ -18,7 +18,7 @@ import java.nio.file.Path
 /** `candela convert`: writes a scene in another dialect, or reformats it in its own. */
 final class ConvertCommand(options: Options, terminal: Terminal, report: Report):
 
-  def run(): ExitCode = report.guarded(Render.withinLimits(convert()))
+  def run(): ExitCode = report.guarded(Render.withinLimits()(convert()))
 
   private def convert(): ExitCode =
     val target = options.outfiles.headOption.map(OutputFiles.path)

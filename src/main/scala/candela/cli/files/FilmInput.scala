@@ -28,7 +28,7 @@ private[cli] object FilmInput:
     val file = OutputFiles.path(scene)
     if now.control.limits.sandbox then
       val folder = SceneFolder.of(film.path, isConfined = true)
-      val _ = Render.withinLimits(folder.scene(file))
+      val _ = Render.withinLimits()(folder.scene(file))
     // The film names it, and its user may not know it
     for why <- InputFile.obstacle(file) if film.header.text.isEmpty do
       FilmKeeper.fail(Code.Unreadable, s"can't read `$scene`, the scene of `${film.path}`: $why")

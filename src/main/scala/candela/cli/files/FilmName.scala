@@ -24,7 +24,7 @@ private[cli] object FilmName:
       path <- Try(Path.of(name)).toOption
       kind <- leaving(path)
       problem = pathProblem(scene, p.valuesAt, name, kind)
-    yield Excerpts.fill(Vector(problem)).head
+    yield Excerpts.fill(Vector(problem), Excerpts.sources(scene.text)).head
 
   private def leaving(path: Path): Option[String] =
     if path.isAbsolute then Some("an absolute path")

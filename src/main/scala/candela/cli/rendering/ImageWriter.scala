@@ -7,7 +7,6 @@ import candela.cli.terminal.Report
 import candela.image.Image
 import candela.job.{Denoising, EmptyImage, FilmHeaders, ImageFile, Prepared, Render}
 import candela.render.Rendering
-import candela.scenefile.Excerpts
 
 import java.nio.file.{Files, Path}
 
@@ -42,7 +41,7 @@ private[cli] final class ImageWriter(
   def warnIfEmpty(rendering: Rendering, image: Image): Unit =
     val isForeseen = prepared.warnings.exists(_.code == Code.EmptyView)
     val problem = EmptyImage.problem(prepared, rendering, image, isForeseen)
-    report.warnings(Excerpts.fill(problem.toVector), all = true)
+    report.warnings(problem.toVector, all = true)
 
   /** An image without samples must not replace another one. */
   def writable(rendering: Rendering): Vector[Path] =
