@@ -63,7 +63,8 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
   /** Renders, and returns when the image is complete, a goal is reached, or the rendering is
     * cancelled, as closing the job does. The image does not depend on the threads.
     *
-    * @throws SceneException if the film file belongs to another rendering, or can't be read
+    * @throws SceneException if the film file belongs to another rendering, or can't be read; or
+    *                        if the scene's time limit is reached
     * @throws RenderException if a sample fails
     * @throws java.util.concurrent.CancellationException if the calling thread is interrupted
     * @throws java.lang.IllegalStateException if the job is closed

@@ -1,9 +1,12 @@
 package candela.api
 
-import candela.diagnostics.Code
+import candela.diagnostics.{Code, Limit, Suggest}
 import candela.io.Keep
 import candela.scenefile.Dialect
-import candela.settings.{BuildControl, ReadSettings as CoreSettings, TextForm}
+import candela.settings.{
+  BuildControl, ReadSettings as CoreSettings, RenderSettings as CoreRendering, SceneLimits, Sensors,
+  SettingsCodec, TextForm
+}
 
 import java.time.Duration
 
@@ -42,25 +45,55 @@ final class ReadSettings private (
   def withSandbox: ReadSettings =
     controlled(control.copy(limits = control.limits.copy(sandbox = true)))
 
-  /** Ends reading and building of a scene with an error after a time, counted from now. */
+  /** Ends reading, building and rendering of a scene with an error after a time, counted from now.
+    * A sandbox alone limits no time.
+    */
   def withTimeLimit(time: Duration): ReadSettings =
-    val limits = control.limits.copy(endsAt = Some(System.nanoTime + time.toNanos))
-    controlled(control.copy(limits = limits))
+    limited(Limit.Time, Some(Math.max(1, time.toMillis)))
+
+  /** Sets a limit as `--limit` does: `withLimit("pixels", "20M")`; `none` lifts one. The names are
+    * `files`, `bytes`, `triangles`, `pixels`, `depth`, `samples` and `time` ([[withTimeLimit]]).
+    */
+  def withLimit(name: String, value: String): ReadSettings =
+    val limit = Limit.values.find(_.word == name).getOrElse:
+      val help = Suggest.help(name, Limit.values.map(_.word).toVector)
+      Problems.fail(Code.UnknownEntry, s"unknown limit `$name`", help)
+    val form = SceneLimits.form(limit)
+    def bound = form.read(value).getOrElse:
+      Problems.fail(
+        Code.OptionValue,
+        s"wrong limit of `$name`: `$value`",
+        Some(s"expected ${form.expected}, or none")
+      )
+    limited(limit, Option.unless(value == "none")(bound))
+
+  private def limited(limit: Limit, bound: Option[Long]): ReadSettings =
+    val limits = control.limits.copy(changed = control.limits.changed + (limit -> bound))
+    controlled(control.copy(limits = if limit == Limit.Time then limits.started else limits))
+
+  /** Sets a command-line option of reading scenes by its name, without `--`:
+    * `withOption("resolution", "50%")`, `sensor`, `light`, `background`.
+    */
+  def withOption(name: String, value: String): ReadSettings =
+    val changed =
+      NamedOptions.change(name, Some(value), isRead = true)(CoreRendering(reading = core)).reading
+    if changed.sensors.contains(Sensors.All) || changed.model.turntable.nonEmpty then
+      Problems.fail(Code.OptionMisfit, s"`$name` $value is for several images; a scene has one")
+    new ReadSettings(changed, control)
 
   /** Which of the worlds of a file of pbrt-v2 or v3 to read, from 0. */
   def withWorld(number: Int): ReadSettings = controlled(control.copy(world = Some(number)))
 
-  /** As `ReadSettings(dialect v3, sandbox)`: what is not the default. */
+  /** As `ReadSettings(--dialect v3, sandbox)`: what is not the default. */
   override def toString: String =
-    val defines = core.defines.toVector.sorted.map((name, value) => s"$name=$value")
+    val words = SettingsCodec.words(CoreRendering(reading = core)).mkString(" ")
     val flags = Vector(
-      core.dialect.map(d => s"dialect ${d.toString.toLowerCase}"),
-      Option.when(core.keepGoing)("placeholders"),
+      Some(words),
       Option.when(control.limits.sandbox)("sandbox"),
-      control.limits.endsAt.map(_ => "time limit"),
+      Option.when(control.limits.changed.nonEmpty)("limits"),
       control.world.map(n => s"world $n")
     )
-    Shown("ReadSettings", (defines ++ flags.flatten)*)
+    Shown("ReadSettings", flags.flatten*)
 
 object ReadSettings:
   /** The default settings. */

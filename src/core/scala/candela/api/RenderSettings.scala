@@ -2,9 +2,7 @@ package candela.api
 
 import candela.diagnostics.{Code, Suggest}
 import candela.aov.Layer
-import candela.settings.{
-  RenderGoal, RenderSettings as CoreSettings, SettingsCodec, SettingsTable, TextForm
-}
+import candela.settings.{RenderGoal, RenderSettings as CoreSettings, SettingsCodec, TextForm}
 
 import java.time.Duration
 import java.util.List as JList
@@ -35,6 +33,8 @@ final class RenderSettings private (private[api] val core: CoreSettings):
     * @param relative the root of the relative mean squared error: 0.01 is 1 %
     */
   def withError(relative: Double): RenderSettings =
+    if relative >= 1 then
+      Problems.fail(Code.OptionValue, s"the error must be below 1, which is 100 %, found $relative")
     end(_.copy(error = Some(positive("the error", relative))))
 
   /** Adds layers (AOVs) to the image: `albedo`, `normal`, `depth`, `direct`, `indirect`,
@@ -61,26 +61,15 @@ final class RenderSettings private (private[api] val core: CoreSettings):
   def withDenoising: RenderSettings = change(_.denoised)
 
   /** Sets a command-line option by its name, without `--`: `withOption("fireflies", "reweight")`.
-    * Available are the options of `candela render` that affect the image and its files.
+    * Available are the options of `candela render` that affect the image and its files, except
+    * those of reading scenes, which are [[ReadSettings.withOption]]'s.
     */
-  def withOption(name: String, value: String): RenderSettings = setOption(name, Some(value))
+  def withOption(name: String, value: String): RenderSettings =
+    change(NamedOptions.change(name, Some(value), isRead = false))
 
   /** An option without a value: `withOption("preview")`. */
-  def withOption(name: String): RenderSettings = setOption(name, None)
-
-  private def setOption(name: String, value: Option[String]): RenderSettings =
-    val setting = SettingsTable.named(name).getOrElse:
-      val help = Suggest.help(name, SettingsTable.all.map(_.name))
-      Problems.fail(Code.UnknownEntry, s"unknown setting `$name`", help)
-    if setting.takesValue != value.isDefined then
-      val actual = if value.isDefined then "found one" else "found none"
-      val wanted = if setting.takesValue then "a value" else "no value"
-      Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $actual")
-    val text = value.getOrElse("")
-    setting.change(text) match
-      case Some(changed) => change(changed)
-      case None =>
-        Problems.fail(Code.OptionValue, s"wrong value of `$name`: `${setting.wrong(text)}`")
+  def withOption(name: String): RenderSettings =
+    change(NamedOptions.change(name, None, isRead = false))
 
   private def positive(what: String, value: Double): Double =
     if value > 0 && !value.isInfinite then value

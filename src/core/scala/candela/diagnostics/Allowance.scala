@@ -88,11 +88,14 @@ final class Allowance(limits: Map[Limit, Long] = Map.empty, endsAt: Option[Long]
     files.clear()
     bytes.set(0)
 
+  /** Nanoseconds until the time is over, if it ever is. */
+  def timeLeft: Option[Long] = endsAt.map(_ - System.nanoTime)
+
   /** @param at the statement that is read or built
     * @throws Refusal if the time is over
     */
   def checkTime(at: => Option[SourcePos]): Unit =
-    for end <- endsAt if System.nanoTime - end >= 0 do
+    if timeLeft.exists(_ <= 0) then
       throw new Refusal(Allowance.outOfTime(limits.getOrElse(Limit.Time, 0)).copy(pos = at))
 
 object Allowance:

@@ -4,7 +4,9 @@ import candela.base.JavaHeap
 import candela.diagnostics.{Refusal, SceneError}
 import candela.build.SceneBuilder
 import candela.image.Image
-import candela.render.{RenderControl, Renderer, RenderFailure, Rendering, RenderPlan, ThreadPool}
+import candela.render.{
+  Cancellation, Deadline, RenderControl, Renderer, RenderFailure, Rendering, RenderPlan, ThreadPool
+}
 import candela.scenefile.{Excerpts, NamedText, SceneDescription}
 import candela.settings.{BuildControl, ReadSettings, RenderSettings}
 
@@ -89,13 +91,21 @@ object Render:
   /** Takes samples until all are taken, the rule stops them, or the rendering is cancelled.
     *
     * @throws RenderFailure if a sample fails
-    * @throws SceneError if the heap is full, with what takes it
+    * @throws SceneError if the heap is full, with what takes it, or the time limit is reached
     */
-  def render(prepared: Prepared, control: RenderControl): Rendering =
-    try Renderer.render(prepared.plan, control)
-    catch
-      case e: Throwable if isOfMemory(e) =>
-        throw SceneError(prepared.plan.costs.problem(JavaHeap.limit, None))
+  def render(prepared: Prepared, control: RenderControl): Rendering = withinLimits():
+    val allowance = prepared.description.folder.allowance
+    def rendered(control: RenderControl) =
+      try Renderer.render(prepared.plan, control)
+      catch
+        case e: Throwable if isOfMemory(e) =>
+          throw SceneError(prepared.plan.costs.problem(JavaHeap.limit, None))
+    allowance.timeLeft.fold(rendered(control)): nanos =>
+      val late = Cancellation()
+      val limited = control.copy(cancellation = Cancellation(control.cancellation, late))
+      val rendering = Deadline.during(nanos, grace = 0)(late.request(), ())(rendered(limited))
+      if !rendering.isComplete then allowance.checkTime(None)
+      rendering
 
   /** The image of the film: colours, layers, bands, and denoised colours if there is a denoiser. */
   def develop(prepared: Prepared, rendering: Rendering, denoising: Option[Denoising]): Image =

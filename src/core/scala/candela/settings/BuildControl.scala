@@ -1,5 +1,6 @@
 package candela.settings
 
+import candela.diagnostics.Limit
 import candela.io.Keep
 
 /** How a scene is read and built: none of it is an image's identity.
@@ -31,7 +32,7 @@ final case class BuildControl(
     // Untrusted scenes write nothing that their user did not ask for
     textures = textures.copy(isShared = !limits.sandbox),
     // What a limited scene may use is counted as it is made
-    cache = if limits.effective.isEmpty then cache else Keep.Nothing
+    cache = if (limits.effective - Limit.Time).isEmpty then cache else Keep.Nothing
   )
 
 /** Told of the stages before rendering that may take long. */

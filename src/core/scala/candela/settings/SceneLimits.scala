@@ -22,6 +22,17 @@ final case class SceneLimits(
       case (limits, (limit, Some(most))) => limits + (limit -> most)
       case (limits, (limit, None)) => limits - limit
 
+  /** These, whose time begins now. */
+  def started: SceneLimits =
+    copy(endsAt = effective.get(Limit.Time).map(System.nanoTime + _ * 1_000_000))
+
   /** The folder of a scene, through which it reads its files. */
   def folder(scene: Path): SceneFolder =
     SceneFolder.of(scene, sandbox, Allowance(effective, endsAt))
+
+object SceneLimits:
+  /** A limit's value as text; time is in milliseconds. */
+  def form(limit: Limit): TextForm[Long] = limit match
+    case Limit.Time => TextForm.seconds.map(s => Math.max(1L, (s * 1000).toLong))(_ / 1000.0)
+    case Limit.Bytes => TextForm.size
+    case _ => TextForm.count

@@ -17,7 +17,7 @@ private[cli] object TimeLimit:
       case Some(limit) =>
         val nanos = limit * 1_000_000
         val timed = TimedInterrupts(terminal.interrupts, Allowance.outOfTime(limit))
-        val limits = options.control.limits.copy(endsAt = Some(System.nanoTime + nanos))
+        val limits = options.control.limits.started
         def quit() =
           ProblemText.print(timed.problem, terminal.err, terminal.hasColor)
           terminal.err.flush()

@@ -259,6 +259,47 @@ class LibrarySuite extends AnyFunSuite:
     )
     assert(unknown.hasErrors)
 
+  test("a time limit ends rendering, too, and its message names it"):
+    val how = ReadSettings().withSandbox.withTimeLimit(Duration.ofMillis(1500))
+    val scene = Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), how)
+    // Longer than the limit, yet no hang without it
+    val long = RenderSettings().withTime(Duration.ofSeconds(30))
+    val late = refused(rendered(scene, long))
+    assert(late.number == "E0110" && late.message.contains("the time limit of 1.5 s"), late)
+    val over = Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), how).problems.get(0)
+    assert(over.message.contains("the time limit of 1.5 s is reached"), over)
+
+  test("limits are set as those of the program"):
+    def exceeded(name: String, value: String): Problem =
+      val how = ReadSettings().withSandbox.withLimit(name, value)
+      val scene = Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), how)
+      refused(scene.prepare(RenderSettings()))
+    assert(exceeded("pixels", "0.1k").message.contains("at most 100 are allowed"))
+    assert(exceeded("samples", "2").number == "E0110")
+    assert(refused(ReadSettings().withLimit("pixel", "2")).help.get.contains("pixels"))
+    assert(refused(ReadSettings().withLimit("bytes", "2 metres")).help.get.contains("500MB"))
+    val lifted = ReadSettings().withLimit("pixels", "1").withLimit("pixels", "none")
+    val scene = Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), lifted)
+    assert(scene.check(RenderSettings()).isEmpty)
+
+  test("options of reading scenes are set where scenes are read"):
+    for
+      (name, text) <- Vector("a.pbrt" -> LibraryScenes.text(), "a.xml" -> LibrarySuite.mitsuba)
+    do
+      def width(how: ReadSettings) =
+        val scene = Candela.parse(text, Path.of(name), how)
+        Using.resource(scene.prepare(RenderSettings(), 1))(_.width)
+      assert(width(ReadSettings().withOption("resolution", "50%")) * 2 == width(ReadSettings()))
+    for (name, value) <- Vector("resolution" -> "25%", "sensor" -> "1", "light" -> "sky") do
+      val problem = refused(RenderSettings().withOption(name, value))
+      assert(problem.help.get == "it belongs to ReadSettings", name)
+      assert(ReadSettings().withOption(name, value).toString.contains(s"--$name "))
+    assert(refused(RenderSettings().withOption("keep-going")).help.get.contains("ReadSettings"))
+    val other = refused(ReadSettings().withOption("seed", "0"))
+    assert(other.help.get == "it belongs to RenderSettings")
+    for (name, value) <- Vector("sensor" -> "all", "turntable" -> "8") do
+      assert(refused(ReadSettings().withOption(name, value)).message.contains("several images"))
+
   test("excerpts of a text are of the text, not of a file of its name"):
     TempFolder.use: folder =>
       for (name, text) <- Vector(
@@ -273,6 +314,9 @@ class LibrarySuite extends AnyFunSuite:
         val problems = scene.check(RenderSettings()).asScala
         assert(problems.nonEmpty)
         for p <- problems do assert(p.excerpt.get == lines(p.line - 1), p)
+        val limited = Candela.parse(text, secret, ReadSettings().withLimit("pixels", "1"))
+        for p <- limited.check(RenderSettings()).asScala do
+          assert(!p.excerpt.orElse("").contains("secret"), p)
 
   test("a missing text is an error of its caller"):
     assert(intercept[NullPointerException](Candela.parse(null)).getMessage == "text")
@@ -292,6 +336,7 @@ class LibrarySuite extends AnyFunSuite:
     ).message == "setting `seed` takes a value, found none")
     assert(refused(RenderSettings(samples = 0)).message.contains("`spp`"))
     assert(refused(RenderSettings().withError(0)).message == "the error must be above 0, found 0.0")
+    assert(refused(RenderSettings().withError(10)).message.contains("below 1, which is 100 %"))
     assert(refused(ReadSettings().withDialect("v5")).help.get == "expected v2, v3 or v4")
     assert(
       refused(RenderControl().withThreads(0)).message == "`threads` must be at least 1, found 0"

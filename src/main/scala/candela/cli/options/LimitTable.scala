@@ -1,7 +1,7 @@
 package candela.cli.options
 
 import candela.diagnostics.Limit
-import candela.settings.{SceneLimits, TextForm}
+import candela.settings.SceneLimits
 
 import scopt.{OParser, Read}
 
@@ -19,14 +19,8 @@ private[cli] object LimitTable:
     val amount = value.drop(1).trim
     if amount.equalsIgnoreCase("none") then Changed(limit, None)
     else
-      val bound = limit match
-        case Limit.Time => milliseconds(amount)
-        case Limit.Bytes => TextForm.size.read(amount)
-        case _ => TextForm.count.read(amount)
-      Changed(
-        limit,
-        Some(bound.getOrElse(throw UsageErrors.unread(expected(limit), text)))
-      )
+      val bound = SceneLimits.form(limit).read(amount)
+      Changed(limit, Some(bound.getOrElse(throw UsageErrors.unread(expected(limit), text))))
 
   private def names: String = Limit.values.map(_.word).mkString(", ")
 
@@ -34,9 +28,6 @@ private[cli] object LimitTable:
     case Limit.Time => "a duration, e.g. time=90s, time=10m or time=none"
     case Limit.Bytes => "a size, e.g. bytes=500MB, bytes=2GB or bytes=none"
     case other => s"a number, e.g. ${other.word}=1000, ${other.word}=20M or ${other.word}=none"
-
-  private def milliseconds(text: String): Option[Long] =
-    TextForm.seconds.read(text).map(s => Math.max(1L, (s * 1000).toLong))
 
   private def limiting(o: Options)(change: SceneLimits => SceneLimits): Options =
     o.controlling(c => c.copy(limits = change(c.limits)))

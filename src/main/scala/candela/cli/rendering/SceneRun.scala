@@ -47,7 +47,6 @@ private[cli] final class SceneRun(
     val watching = Option.when(options.isWatched)(watched())
     try
       val rendering = rendered(progress, checkpoints, watching)
-      if !rendering.isComplete then terminal.interrupts.checkTime()
       watching.foreach(_.end(rendering))
       reporting.foreach(_.recorder.ended(rendering))
       val result = results(rendering)

@@ -1,0 +1,31 @@
+package candela.api
+
+import candela.diagnostics.{Code, Suggest}
+import candela.settings.{RenderSettings as CoreSettings, SettingsTable}
+
+/** Options of command lines, by their names. */
+private[api] object NamedOptions:
+  private val default = CoreSettings()
+
+  /** What an option changes.
+    *
+    * @param isRead whether it must be, or must not be, of how scenes are read
+    * @throws SceneException if there is none, or it has no such value
+    */
+  def change(name: String, value: Option[String], isRead: Boolean): CoreSettings => CoreSettings =
+    val setting = SettingsTable.named(name).getOrElse:
+      val help = Suggest.help(name, SettingsTable.all.map(_.name))
+      Problems.fail(Code.UnknownEntry, s"unknown setting `$name`", help)
+    if setting.takesValue != value.isDefined then
+      val actual = if value.isDefined then "found one" else "found none"
+      val wanted = if setting.takesValue then "a value" else "no value"
+      Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $actual")
+    val text = value.getOrElse("")
+    val changed = setting.change(text).getOrElse:
+      Problems.fail(Code.OptionValue, s"wrong value of `$name`: `${setting.wrong(text)}`")
+    if (changed(default).reading != default.reading) != isRead then
+      val (owner, reason) =
+        if isRead then ("RenderSettings", "of rendering scenes")
+        else ("ReadSettings", "of reading scenes")
+      Problems.fail(Code.OptionMisfit, s"setting `$name` is $reason", Some(s"it belongs to $owner"))
+    changed
