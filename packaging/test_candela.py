@@ -461,6 +461,39 @@ class Processes(unittest.TestCase):
         scene.render(spp=1)
         self.assertNotEqual(self.pid(), pid)
 
+    @unittest.skipUnless(hasattr(os, "fork"), "fork")
+    def test_a_fork_renders_while_a_thread_of_its_parent_does(self):
+        scene, started = candela.load_string(XML), threading.Event()
+
+        def render():
+            with contextlib.suppress(candela.InternalError):
+                scene.render(spp=100_000_000, progress=lambda p: started.set())
+
+        thread = threading.Thread(target=render)
+        thread.start()
+        started.wait()
+        pid = self.pid()
+        child = os.fork()
+        if child == 0:
+            result = 1
+            try:
+                scene.render(spp=1)
+                result = int(self.pid() == pid)
+                candela.close()
+            finally:
+                os._exit(result)
+        status = None
+        deadline = time.monotonic() + 100
+        while status is None and time.monotonic() < deadline:
+            ended, code = os.waitpid(child, os.WNOHANG)
+            status = code if ended else None
+            time.sleep(0.1)
+        if status is None:
+            os.kill(child, signal.SIGKILL)
+        self.assertEqual((status, self.pid()), (0, pid))
+        candela.close()
+        thread.join()
+
     def test_the_current_folder_is_pythons(self):
         before = os.getcwd()
         self.addCleanup(os.chdir, before)

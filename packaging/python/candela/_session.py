@@ -105,7 +105,7 @@ class Session:
 
     @property
     def is_usable(self) -> bool:
-        """Whether it runs, for this process and its current folder."""
+        """Whether it runs, in the current folder."""
         return self._child.poll() is None and self.key == _key()
 
     def _read(self) -> None:
@@ -217,9 +217,9 @@ class Session:
             self._errors.close()
 
 
-def _key() -> Tuple[int, str, Optional[str]]:
-    """What a process belongs to: file names are relative to its folder, and a fork has its own."""
-    return os.getpid(), os.getcwd(), os.environ.get("CANDELA_PROGRAM")
+def _key() -> Tuple[str, Optional[str]]:
+    """What a process belongs to: file names are relative to its folder."""
+    return os.getcwd(), os.environ.get("CANDELA_PROGRAM")
 
 
 def _progress(fields: Dict[str, Any]) -> Progress:
@@ -242,7 +242,7 @@ def session() -> Session:
     """That of this process, which is started if there is none."""
     global _session
     if _session is None or not _session.is_usable:
-        if _session is not None and _session.key[0] == os.getpid():
+        if _session is not None:
             _session.close()
         _session = Session()
     return _session
@@ -254,12 +254,22 @@ def close() -> None:
     """
     global _session
     ended, _session = _session, None
-    if ended is not None and ended.key[0] == os.getpid():
+    if ended is not None:
         ended.close()
 
 
 # Waits for no thread that renders
 atexit.register(close)
+
+
+def _forget() -> None:
+    """In a forked process: the Java process is its parent's, as is the thread that has the lock."""
+    global _lock, _session
+    _lock, _session = threading.RLock(), None
+
+
+if sys.platform != "win32":
+    os.register_at_fork(after_in_child=_forget)
 
 
 def execute(
