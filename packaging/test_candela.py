@@ -275,7 +275,7 @@ class InMemory(unittest.TestCase):
         with contextlib.redirect_stderr(io.StringIO()) as err:
             candela.load_dict(scene).check(explain=True)
         self.assertIn("  integrator ", err.getvalue())
-        for refused in ({"thumbnail": "blocks"}, {"checkpoint": True}, {"sample": 3}):
+        for refused in ({"thumbnail": "blocks"}, {"checkpoint": True}, {"sample": 3}, {"turntable": 4}):
             with self.assertRaisesRegex(candela.UsageError, "does not go with"):
                 candela.load_dict(scene).render(**refused)
 

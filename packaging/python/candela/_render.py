@@ -22,7 +22,7 @@ Value = Union[Plain, bool, None, Iterable[Plain], Dict[str, Plain], Any]  # and 
 # What names no option of a rendering that returns one image
 _OTHERS = {
     "checkpoint", "shard", "watch_after", "debug", "skip_done", "frames", "help", "pixelmaterial",
-    "spark", "thumbnail", "sample",
+    "spark", "thumbnail", "sample", "turntable",
 }
 _INSTEAD = {
     "checkpoint": "outfile='x.film' saves the rendering",
