@@ -145,6 +145,42 @@ class InMemory(unittest.TestCase):
         self.assertIn("red.reflectance.color0", values)
         np.testing.assert_array_equal(scene.render(spp=1).rgb, np.ones((16, 24, 3)))  # the sky
 
+    def test_a_value_that_is_taken_out_may_be_set_again(self):
+        for scene in (candela.load_dict(mitsuba()), candela.load_string(XML)):
+            before = scene.render(spp=1).rgb
+            del scene.parameters()["red.reflectance"]
+            self.assertNotIn("red.reflectance", scene.parameters())
+            self.assertGreater(abs(scene.render(spp=1).rgb - before).max(), 0.01)
+            for _ in range(2):
+                scene.parameters()["red.reflectance"] = [0.8, 0.2, 0.1]
+            self.assertEqual(len(scene.parameters()), len(set(scene.parameters())))
+            np.testing.assert_array_equal(scene.render(spp=1).rgb, before)
+
+    def test_mitsubas_colours_are_colours(self):
+        color = type("Color3f", (list,), {"__module__": "mitsuba"})
+        scene = mitsuba()
+        scene["red"]["reflectance"] = color([0.8, 0.2, 0.1])
+        loaded = candela.load_dict(scene)
+        self.assertEqual(loaded.parameters()["red.reflectance.value"], [0.8, 0.2, 0.1])
+        loaded.parameters()["red.reflectance"] = color([0.1, 0.2, 0.8])
+        self.assertEqual(loaded.parameters()["red.reflectance.value"], [0.1, 0.2, 0.8])
+        scene["red"]["reflectance"] = [0.8, 0.2, 0.1]
+        (problem,) = candela.check(scene)
+        self.assertIn('a colour is {"type": "rgb", "value": […]}', problem.text)
+        scene["red"]["reflectance"], scene["ball"]["center"] = 0.5, [0, 0]
+        (problem,) = candela.check(scene)
+        self.assertIn("a vector is a list of three numbers", problem.text)
+
+    def test_a_saved_scene_is_the_same(self):
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            for i, scene in enumerate([candela.load_dict(mitsuba()), candela.load_string(SCENE)]):
+                file = Path(folder) / ("a.xml", "a.pbrt")[i]
+                scene.save(file)
+                candela.load_file(file).save(file)
+                np.testing.assert_array_equal(
+                    candela.render(file, spp=1).rgb, scene.render(spp=1).rgb
+                )
+
     def test_values_that_the_scene_has_not_are_told_of(self):
         values = candela.load_string(XML).parameters()
         with self.assertRaisesRegex(KeyError, "did you mean 'red.reflectance.value'"):

@@ -76,6 +76,13 @@ _BELOW = re.compile(r"^ (?! )|" + _EXCERPT.pattern)  # the first line of a probl
 _COUNT = re.compile(r"^(and )?\d+ (more )?errors?$")
 
 
+# What a list in a dict can be
+_LISTS = {
+    "must be a colour or a texture, found a vector": 'a colour is {"type": "rgb", "value": […]}',
+    "must be a vector, found a string": "a vector is a list of three numbers",
+}
+
+
 def is_note(line: str) -> bool:
     """Whether a message tells of no problem."""
     return not any(p.match(line) for p in (_FIRST, _BELOW, _COUNT))
@@ -125,6 +132,7 @@ def _problem(lines: List[str], keys: Optional[List[str]]) -> Problem:
         lines = [
             f"{start}{first['severity']}: {first['message']}{number}",
             *(below for below in lines[1:] if not _EXCERPT.match(below)),
+            *(f" {help}" for end, help in _LISTS.items() if first["message"].endswith(end)),
         ]
     return Problem(
         severity=first["severity"],

@@ -27,6 +27,7 @@ class Scene:
         self._text = text  # None: that of the file, or of the tree
         self._tree = tree
         self._of_dict = tree is not None
+        self._parameters: Optional[_xml.Parameters] = None
 
     @property
     def is_mitsuba(self) -> bool:
@@ -55,7 +56,8 @@ class Scene:
                 message = f"{self._name}:{line}:{column + 1}: error: {e.msg}"
                 fault = Problem("error", str(e.msg), message, self._name, line, column + 1)
                 raise SceneError(message, (fault,)) from None
-        return _xml.Parameters(self._tree, self._changed)
+        self._parameters = self._parameters or _xml.Parameters(self._tree, self._changed)
+        return self._parameters
 
     def _whole(self) -> str:
         if self._text is not None:
@@ -68,6 +70,12 @@ class Scene:
     def _changed(self) -> None:
         if not self._of_dict and self._tree is not None:
             self._text = _xml.to_text(self._tree)
+
+    def save(self, path: PathLike) -> None:
+        """Writes its text, Mitsuba's XML if it is a dict's; files that it names are not copied."""
+        text = self.source()[1] or self._whole()
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
 
     def render(self, **options: Any) -> Image:
         """The image; see ``candela.render``."""

@@ -52,7 +52,7 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
     if not isinstance(name, str):
         wrong(f"a name must be a text, found {name!r:.80}")
         return None
-    value = plain(value)
+    value = {"type": "rgb", "value": value} if _is_color(value) else plain(value)
     if isinstance(value, dict):
         return _object(name, value, key, faults)
     if isinstance(value, bool):
@@ -147,6 +147,12 @@ def _color(
     return element
 
 
+def _is_color(value: Any) -> bool:
+    """Whether it is one of Mitsuba's."""
+    kind = type(value)
+    return kind.__name__ == "Color3f" and kind.__module__.startswith("mitsuba")
+
+
 def _is_transform(value: Any) -> bool:
     nested = isinstance(value, list) and any(isinstance(x, list) for x in value)
     return is_transform(value) or nested
@@ -220,6 +226,7 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
     def __init__(self, root: ET.Element, changed: Callable[[], None]) -> None:
         self._root = root
         self._changed = changed
+        self._deleted: Dict[str, Path] = {}  # which may be set again
 
     def _all(self) -> Dict[str, Path]:
         found: Dict[str, Path] = {}
@@ -239,8 +246,8 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         collect(self._root, "")
         return found
 
-    def _path(self, key: str) -> Path:
-        found = self._all()
+    def _path(self, key: str, deleted: Optional[Dict[str, Path]] = None) -> Path:
+        found = {**(deleted or {}), **self._all()}
         path = found.get(key) or found.get(f"{key}.value")
         if path is None:
             near = difflib.get_close_matches(key, found, 1)
@@ -252,18 +259,24 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         return _value(self._path(key)[1])
 
     def __setitem__(self, key: str, value: Any) -> None:
-        parent, old = self._path(key)
+        parent, old = self._path(key, self._deleted)
         faults: List[Problem] = []
         new = _element(old.get("name", ""), _like(old, plain(value)), key, faults)
         if faults or new is None:
             raise error_of_faults(faults)
         new.tail = old.tail
-        parent[list(parent).index(old)] = new
+        if old in parent:
+            parent[list(parent).index(old)] = new
+        else:
+            parent.append(new)
+            self._deleted = {k: p for k, p in self._deleted.items() if p[1] is not old}
         self._changed()
 
     def __delitem__(self, key: str) -> None:
         """Takes its value out of the scene: the default is used."""
-        parent, old = self._path(key)
+        path = self._path(key)
+        parent, old = path
+        self._deleted.update((k, p) for k, p in self._all().items() if p == path)
         parent.remove(old)
         self._changed()
 
