@@ -557,7 +557,7 @@ class Processes(unittest.TestCase):
         started.wait()
         candela.close()
         thread.join()
-        self.assertIn("the next call starts another one", caught[0])
+        self.assertIn("by candela.close(); the next call starts another one", caught[0])
         with self.assertRaisesRegex(candela.InternalError, "the next call"):
             scene.render(spp=100_000_000, progress=lambda p: candela.close())
         scene.render(spp=1)

@@ -92,6 +92,7 @@ class Session:
     def __init__(self) -> None:
         self.key = _key()
         self._is_running = False
+        self.is_closed = False  # by the user
         self._closing = threading.Lock()
         self._errors: IO[bytes] = tempfile.TemporaryFile()
         self._child = start(["session"], stdout=subprocess.PIPE, stderr=self._errors)
@@ -144,6 +145,7 @@ class Session:
         self.close(seconds=1)
         code = self._child.returncode
         how = f"was ended by signal {-code}" if code < 0 else f"has ended with exit code {code}"
+        how = "was ended by candela.close()" if self.is_closed else how
         told = "".join(f"\n{line}" for line in self._printed.splitlines()[-20:])
         return InternalError(
             f"candela's Java process {how}; the next call starts another one{told}", (), code
@@ -255,6 +257,7 @@ def close() -> None:
     global _session
     ended, _session = _session, None
     if ended is not None:
+        ended.is_closed = True
         ended.close()
 
 
