@@ -418,9 +418,14 @@ class Images(unittest.TestCase):
                 image.save(path)
             again = candela.load(npz)
             self.assertEqual((again.window, again.metadata), (image.window, image.metadata))
+            of_exr = candela.load(exr)
+            self.assertEqual(of_exr.window, image.window)
+            self.assertEqual({**of_exr.metadata, **image.metadata}, of_exr.metadata)
             for name, values in image.layers.items():
                 np.testing.assert_array_equal(again[name], values)
+                np.testing.assert_array_equal(of_exr[name], values)
             self.assertEqual(np.load(npz)["rgb"].shape, (16, 12, 3))
+            self.assertEqual(candela.load(png).rgb.shape, (16, 12, 3))
             self.assertIn("12x16", candela.run("info", exr))
             self.assertIn("Albedo.G", candela.run("info", exr))
             pfm = Path(folder) / "x.pfm"
@@ -433,6 +438,24 @@ class Images(unittest.TestCase):
                 candela.load(Path(folder) / "missing.npz")
             with self.assertRaisesRegex(candela.CandelaError, "x.tiff"):
                 image.save(Path(folder) / "x.tiff")
+
+    def test_pictures_show_the_denoised_image_and_alpha(self):
+        rgb, alpha = np.full((2, 2, 3), 0.25, "f4"), np.full((2, 2), 0.5, "f4")
+        layers = {"rgb": rgb, "Denoised": 2 * rgb, "alpha": alpha}
+        channels = {"rgb": [*"RGB"], "alpha": ["A"]}
+        channels["Denoised"] = [f"Denoised.{c}" for c in "RGB"]
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            for names, value in ((["rgb"], 0.25), (["rgb", "Denoised"], 0.5), (layers, 1)):
+                image = candela.Image({name: layers[name] for name in names}, {}, channels)
+                for suffix in ("png", "tga"):
+                    file = Path(folder) / f"x.{suffix}"
+                    image.save(file)
+                    shown = candela.load(file)
+                    np.testing.assert_allclose(shown.rgb, value, atol=0.01)
+                    self.assertEqual(shown.alpha is None, image.alpha is None)
+                file = Path(folder) / "y.png"
+                file.write_bytes(image._repr_png_())
+                np.testing.assert_allclose(candela.load(file).rgb, value, atol=0.01)
 
     def test_without_numpy_images_are_memoryviews(self):
         code = f"""

@@ -14,8 +14,6 @@ from array import array
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Tuple, Union
 
-from ._errors import UsageError
-
 try:
     import numpy as np
 except ImportError:  # images have memoryviews
@@ -29,6 +27,7 @@ class Image:
 
     ``layers`` has an array for each layer: ``rgb`` of height × width × 3, ``alpha`` of
     height × width, and the others by the names of their channels, such as ``Albedo`` and ``Z``.
+    With ``denoise=True``, ``rgb`` is noisy, and ``Denoised`` is what pictures show.
     ``channels`` names the channels of each. ``metadata`` tells scene, seed and samples. ``window``
     is the place of a crop in the whole image: x, y, and the whole's width and height.
 
@@ -152,11 +151,15 @@ def _joined(image: Image, names: List[str]) -> Any:
 
 
 def load(path: PathLike) -> Image:
-    """Reads an image that the program has written as ``.npz``."""
+    """Reads an image file: ``.npz`` and all that ``candela image`` reads, such as ``.exr``."""
     if not zipfile.is_zipfile(path):
         open(path, "rb").close()  # raises an error if there is none
-        help = "candela.load reads .npz files; NumPy, OpenEXR or imageio read others"
-        raise UsageError(f"{os.fspath(path)} is not an .npz file: {help}")
+        from ._session import execute
+
+        with tempfile.TemporaryDirectory(prefix="candela-") as folder:
+            arrays = Path(folder) / "image.npz"
+            execute(["image", os.fspath(path), "--outfile", str(arrays)])
+            return load(arrays)
     with zipfile.ZipFile(path) as archive:
         about = json.loads(archive.read("metadata.json"))
         layers = {
@@ -232,6 +235,7 @@ def _exr(image: Image) -> bytes:
             attribute("pixelAspectRatio", "float", struct.pack("<f", 1)),
             attribute("screenWindowCenter", "v2f", struct.pack("<ff", 0, 0)),
             attribute("screenWindowWidth", "float", struct.pack("<f", 1)),
+            *(attribute(n, "string", text.encode()) for n, text in sorted(image.metadata.items())),
             b"\0",
         ]
     )

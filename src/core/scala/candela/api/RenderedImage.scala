@@ -97,4 +97,4 @@ private[api] object RenderedImages:
 
   /** Any other image. */
   def plain(image: Image): RenderedImage =
-    RenderedImage(image, DisplayTransform.Plain, ImageFiles.write(_, image))
+    RenderedImage(image, DisplayTransform.Plain, ImageFile.write(_, image))

@@ -20,7 +20,9 @@ private[image] final case class ExrChannel(
   * @param width  of the data window, as `height`
   * @param tiling present if the part is tiled
   * @param x, y   first pixel of the data window
-  * @param facts  coding, windows and texts, for people
+  * @param window where the data window lies in another display window
+  * @param coding compression, tiles and windows, for people
+  * @param texts  metadata
   * @param obstacle what the decoder can't read
   */
 private[image] final case class ExrPart(
@@ -32,7 +34,9 @@ private[image] final case class ExrPart(
     x: Int,
     y: Int,
     colorSpace: ColorSpace,
-    facts: Vector[(String, String)],
+    window: Option[ImageWindow],
+    coding: Vector[(String, String)],
+    texts: Vector[(String, String)],
     obstacle: Option[String]
 ):
   /** Uncompressed size of the finest level. */
@@ -191,18 +195,21 @@ private[image] object ExrHeader:
     val unread = obstacle(compression, channels)
     val space = value("chromaticities", "chromaticities", 32).fold(ColorSpace.Srgb)(spaceOf)
     val display = value("displayWindow", "box2i", 16).map(d => Vector.fill(4)(d.getInt()))
+      .filter(_ != Vector(x0, y0, x1, y1))
+    val placement = display.map: d =>
+      val (left, top) = (d(0), d(1))
+      ImageWindow(x0.toInt - left, y0.toInt - top, d(2) - left + 1, d(3) - top + 1)
     val coding = Vector("compression" -> Compressions(compression)) ++
       tiling.map(t => "tiles" -> s"${t.width}x${t.height}") ++
-      display.filter(_ != Vector(x0, y0, x1, y1)).map: d =>
+      display.map: d =>
         val full = s"${d(2) - d(0) + 1}x${d(3) - d(1) + 1}"
         "window" -> s"x $x0 to ${x1 + 1}, y $y0 to ${y1 + 1} of $full"
     val texts = attributes.toVector.collect:
       case (name, ("string", text)) if name != "type" && name != "name" =>
         name -> UTF_8.decode(text.duplicate).toString
-    val facts = coding ++ texts.sortBy(_._1)
     val part = ExrPart(
-      channels, compression, width.toInt, height.toInt, tiling, x0.toInt, y0.toInt, space, facts,
-      unread
+      channels, compression, width.toInt, height.toInt, tiling, x0.toInt, y0.toInt, space,
+      placement, coding, texts.sortBy(_._1), unread
     )
     // The decoder trusts this number, and a wrong one crashes the process.
     for count <- value("chunkCount", "int", 4) if count.getInt() != chunks(part) do

@@ -71,20 +71,18 @@ object ImageEdits:
       System.arraycopy(image.data, y * row, data, (image.height - 1 - y) * row, row)
     withData(image, data)
 
-  /** The same colours by other primaries.
+  /** The same colours by other primaries, those of layers too.
     *
     * @throws ImageError if the image has no R, G and B
     */
   def inColorSpace(image: Image, space: ColorSpace): Image =
-    val source = image.indicesOf(Image.RgbNames)
-      .getOrElse(throw ImageError(
-        Code.ImageEdit,
-        "only images with R, G and B have a colour space"
-      ))
-    val Vector(r, g, b) = source: @unchecked
+    val layers = image.channelNames.filter(n => n == "R" || n.endsWith(".R")).map(_.dropRight(1))
+    val colors = layers.flatMap(layer => image.indicesOf(Image.RgbNames.map(layer + _)))
+    if colors.isEmpty then
+      throw ImageError(Code.ImageEdit, "only images with R, G and B have a colour space")
     val matrix = space.ofSrgb * image.colorSpace.toSrgb
     val data = image.data.clone
-    loop(image.width * image.height): pixel =>
+    for case Vector(r, g, b) <- colors; pixel <- 0 until image.width * image.height do
       val offset = pixel * image.channels
       val c = matrix * Rgb(data(offset + r), data(offset + g), data(offset + b))
       data(offset + r) = c.r

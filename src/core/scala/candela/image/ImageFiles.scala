@@ -76,9 +76,16 @@ object ImageFiles:
 
   /** Coding, windows and metadata of an EXR file; nothing for other formats. */
   def facts(path: Path): Vector[(String, String)] =
+    part(path).fold(Vector.empty)(p => p.coding ++ p.texts)
+
+  /** The place of an EXR file's image in a larger one, and its metadata. */
+  def about(path: Path): (Option[ImageWindow], Vector[(String, String)]) =
+    part(path).fold((None, Vector.empty))(p => (p.window, p.texts))
+
+  private def part(path: Path): Option[ExrPart] =
     // A pipe is read once
     val bytes = if Files.isRegularFile(path) then Files.readAllBytes(path) else Array.emptyByteArray
-    if bytes.startsWith(ExrMark) then ExrHeader.parts(bytes).head.facts else Vector.empty
+    Option.when(bytes.startsWith(ExrMark))(ExrHeader.parts(bytes).head)
 
   /** How pbrt-v4 reads the file differently, if it does; or that pixels are missing. */
   def remark(file: InputFile): Option[String] =
@@ -137,6 +144,8 @@ object ImageFiles:
     else if begins(0x89, 'P', 'N', 'G') || begins(0xff, 0xd8) || StbMarks.exists(beginsWith) then
       StbReader.read(bytes, admit)
     else if extension == "tga" then Tga.read(bytes, admit)
+    else if OutputFormat.of(path).exists(!_.isReadable) then
+      throw ImageError(Code.UnknownFormat, s".$extension files are written, not read; $Readable")
     else
       val foreign = ForeignFile.of(path, bytes)
       throw ImageError(

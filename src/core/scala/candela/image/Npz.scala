@@ -37,7 +37,7 @@ private[image] object Npz extends OutputFormat("npz", Contents.Channels):
   override private[image] def hasEnd(file: Array[Byte]): Boolean =
     file.length > 22 && ByteBuffer.wrap(file, file.length - 22, 22).getInt == 0x504b0506
 
-  /** Names of arrays, with the indices of their channels. */
+  /** Names of arrays, with the indices of their channels; EXR files have these by the alphabet. */
   private def groups(names: Vector[String]): Vector[(String, Vector[Int])] =
     def group(name: String) =
       if Image.RgbNames.contains(name) then "rgb"
@@ -47,7 +47,10 @@ private[image] object Npz extends OutputFormat("npz", Contents.Channels):
           case -1 => name
           case dot => name.take(dot)
     val groupNames = names.map(group)
-    groupNames.distinct.map(g => g -> names.indices.filter(groupNames(_) == g).toVector)
+    val order = Image.RgbNames :+ "A"
+    groupNames.distinct.map: g =>
+      val indices = names.indices.filter(groupNames(_) == g).toVector
+      g -> indices.sortBy(i => order.indexOf(names(i).drop(names(i).lastIndexOf('.') + 1)))
 
   private def array(image: Image, channels: Vector[Int]): Array[Byte] =
     val depth = if channels.size == 1 then "" else s", ${channels.size}"

@@ -1,7 +1,6 @@
 package candela.job
 
 import candela.base.Version
-import candela.aov.Layer
 import candela.film.{Fireflies, PixelBounds, SpectralBands}
 import candela.image.{
   Contents, Image, ImageEdits, ImageFiles, ImageWindow, OutputFormat, WriteOptions
@@ -32,21 +31,18 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
       more: Vector[(String, String)] = Vector.empty,
       denoiser: Option[String] = None
   ): Unit =
-    val alpha = ImageFile.alpha(plan, image)
     val about = facts ++ more ++ sampleFacts(rendering) ++ ImageFile.bias(plan, rendering, denoiser)
     val writeOptions = WriteOptions(
       plan.development.isHalf,
       precisions,
       output.display,
       window,
-      alpha,
-      prepared.pool
+      pool = prepared.pool
     )
-    val (written, last) = ImageFile.picture(path, image, alpha) match
-      case Some(picture) => (picture, output.display.describe(picture))
-      case None =>
-        (ImageFile.file(path, image, plan), plan.layers.fold(Vector.empty)(_.metadata(image)))
-    ImageFiles.write(path, written, about ++ last, writeOptions)
+    val (written, last) =
+      if ImageFile.holds(path, Contents.Display) then (image, Vector.empty)
+      else (ImageFile.file(path, image, plan), plan.layers.fold(Vector.empty)(_.metadata(image)))
+    ImageFile.write(path, written, about ++ last, writeOptions)
 
   /** Writes a mean of renderings with its error, in the precision of its values.
     *
@@ -103,25 +99,43 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
 
 object ImageFile:
 
+  /** Writes an image in the format of its file. A picture shows the denoised colours, if there are
+    * any, and alpha if its format keeps that.
+    *
+    * @param isStraight whether the colours are not multiplied by alpha
+    */
+  def write(
+      path: Path,
+      image: Image,
+      about: Vector[(String, String)] = Vector.empty,
+      options: WriteOptions = WriteOptions(),
+      isStraight: Boolean = false
+  ): Unit =
+    if holds(path, Contents.Display) then
+      val opaque = Denoising.displayed(image)
+      val opacity = alpha(image).filter(_ => OutputFormat.of(path).exists(_.keepsAlpha))
+      val picture =
+        if isStraight then opaque else opacity.fold(opaque)(ImageEdits.divided(opaque, _))
+      val display = options.display.describe(picture)
+      ImageFiles.write(path, picture, about ++ display, options.copy(alpha = opacity))
+    else ImageFiles.write(path, image, about, options)
+
+  private def holds(path: Path, contents: Contents): Boolean =
+    OutputFormat.of(path).exists(_.contents == contents)
+
   private def withoutFolder(name: String): String =
     name.drop(name.lastIndexWhere(c => c == '/' || c == java.io.File.separatorChar) + 1)
 
-  /** The opacity of each pixel, if it is a layer. */
-  private def alpha(plan: RenderPlan, image: Image): Option[Array[Float]] =
+  /** The opacity of each pixel, if it is a layer of an image with colours. */
+  private def alpha(image: Image): Option[Array[Float]] =
     val channel = image.channelNames.indexOf("A")
-    Option.when(channel >= 0 && plan.layers.exists(_.layers.contains(Layer.Alpha))):
+    Option.when(channel >= 0 && image.channels > 1):
       Array.tabulate(image.width * image.height)(i => image.data(i * image.channels + channel))
 
   /** What a file of channels holds. */
   private def file(path: Path, image: Image, plan: RenderPlan): Image =
-    if OutputFormat.of(path).exists(_.contents == Contents.Radiance) then image
+    if holds(path, Contents.Radiance) then image
     else plan.development.format(image)
-
-  /** What a display format shows, its colours divided by alpha if it keeps that. */
-  private def picture(path: Path, image: Image, alpha: Option[Array[Float]]): Option[Image] =
-    for format <- OutputFormat.of(path) if format.contents == Contents.Display yield
-      val opaque = Denoising.displayed(image)
-      alpha.filter(_ => format.keepsAlpha).fold(opaque)(ImageEdits.divided(opaque, _))
 
   /** What makes the image biased: what was done, and the channels that it biased. */
   private def bias(

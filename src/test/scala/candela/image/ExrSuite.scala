@@ -220,7 +220,7 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val file = Exr.write(image, Vector("dataWindow of" -> "nothing"), options)
     val part = ExrHeader.parts(file).head
     assert((part.x, part.y, part.width, part.height) == (100, 20, 7, 35))
-    assert(part.facts.toMap.apply("window") == "x 100 to 107, y 20 to 55 of 640x360")
+    assert(part.coding.toMap.apply("window") == "x 100 to 107, y 20 to 55 of 640x360")
     val back = Exr.read(file)
     assert(back.data.sameElements(image.data))
     for library <- OpenExr.load() do

@@ -7,7 +7,9 @@ import candela.cli.files.OutputFiles
 import candela.cli.options.{MapShape, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.convert.SkyImages
+import candela.color.Encoding
 import candela.image.*
+import candela.job.ImageFile
 import candela.lights.{EqualAreaMap, LatLongMap}
 
 /** `candela image`: converts an image to other formats, sizes, ranges and primaries. */
@@ -18,7 +20,8 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
     val outputs = OutputFiles.ofImages(options.outfiles)
     outputs.check(options.files, "image")
     val path = OutputFiles.path(options.files.head)
-    val source = ImageFiles.read(path).linear
+    val stored = ImageFiles.read(path)
+    val source = stored.linear
     val result =
       try edited(source)
       catch
@@ -26,19 +29,22 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
     // As imgtool: a crop knows its place
     val isPlaced =
       imageOptions.size.isEmpty && imageOptions.environment.isEmpty && !imageOptions.flips
-    val window = imageOptions.crop.filter(_ => isPlaced).map: c =>
-      ImageWindow(c.x0, c.y0, source.width, source.height)
+    val (sourceWindow, texts) = ImageFiles.about(path)
+    val window = Option.when(isPlaced):
+      imageOptions.crop.fold(sourceWindow): c =>
+        Some(ImageWindow(c.x0, c.y0, source.width, source.height))
+    .flatten
     val writeOptions =
       WriteOptions(isHalf = imageOptions.isHalf, display = options.display, window = window)
+    val name = OutputFiles.sources(Vector(path))
+    val about = name +: texts.filter(_._1 != name._1)
     OutputFiles.writeAll(outputs.paths): out =>
       val hasColors = OutputFormat.of(out).exists(_.contents != Contents.Channels)
       val written =
         if hasColors then ImageFiles.colored(path, ImageEdits.layerAsColors(result)) else result
-      val metadata =
-        if OutputFormat.of(out).exists(_.contents == Contents.Display) then
-          options.display.describe(written)
-        else Vector.empty
-      ImageFiles.write(out, written, OutputFiles.sources(Vector(path)) +: metadata, writeOptions)
+      // 8-bit formats have straight alpha
+      val isStraight = stored.encoding != Encoding.Linear
+      ImageFile.write(out, written, about, writeOptions, isStraight)
       if !options.quiet then terminal.out.println(s"wrote $out  ${result.width}x${result.height}")
     terminal.out.flush()
     ExitCode.Done

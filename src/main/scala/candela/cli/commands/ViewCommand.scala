@@ -7,6 +7,7 @@ import candela.cli.files.OutputFiles
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal, Thumbnail, ThumbnailKind}
 import candela.image.*
+import candela.job.Denoising
 
 /** `candela view`: shows images in the terminal, or writes them as a picture; several become a
   * contact sheet.
@@ -24,7 +25,7 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
         s"`view` writes $pictures, found `$path`"
       ))
     val images = options.files.map(OutputFiles.path).map: path =>
-      path -> ImageFiles.colored(path, ImageFiles.read(path))
+      path -> ImageFiles.colored(path, Denoising.displayed(ImageFiles.read(path)))
     val about = OutputFiles.sources(images.map(_._1))
     images match
       case Vector((_, image)) =>

@@ -5,7 +5,7 @@ import java.nio.file.{Files, Path}
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.cli.{Captured, Main}
-import candela.image.{Image, ImageFiles}
+import candela.image.{Image, ImageFiles, ImageWindow, WriteOptions}
 import candela.testing.TempFolder
 
 /** The commands `image`, `average` and `info`. */
@@ -131,6 +131,53 @@ class ImageCommandSuite extends AnyFunSuite:
       // Half floats have 11 bits: they are off by up to 5e-4 of the value
       assert(Math.abs(exr.toRgb(3, 31, 2) - whole(3, 0, 2)) < 1e-3f)
       assert(ImageFiles.facts(Path.of(files(3))).toMap.apply("image") == "sky-latlong.exr")
+
+  /** The picture that `candela image` makes of an EXR file. */
+  private def picture(image: Image, suffix: String, words: String*): Image =
+    TempFolder.use: folder =>
+      val (file, out) = (folder.resolve("a.exr"), folder.resolve(s"out.$suffix"))
+      ImageFiles.write(file, image)
+      val (code, captured) = run(Vector("image", s"$file", "--outfile", s"$out") ++ words*)
+      assert(code == 0, captured.err)
+      // PNG and TGA again: their alpha is straight
+      val again = folder.resolve(s"again.$suffix")
+      assert(run("image", s"$out", "--outfile", s"$again")._1 == 0)
+      val made = ImageFiles.read(out)
+      assert(suffix == "jpg" || ImageFiles.read(again).data.toVector == made.data.toVector)
+      made.linear
+
+  test("a picture of an image with denoised colours shows these"):
+    val names = Image.RgbNames ++ Vector("Denoised.R", "Denoised.G", "Denoised.B")
+    val image = Image(1, 1, names, Array(1f, 1f, 1f, 0.2f, 0.5f, 0.8f))
+    def shown(r: Float, g: Float, b: Float) = Image(1, 1, Image.RgbNames, Array(r, g, b))
+    for suffix <- Vector("png", "tga", "qoi") do
+      same(picture(image, suffix), shown(0.2f, 0.5f, 0.8f), 2.3f / 510)
+      same(picture(image, suffix, "--colorspace", "rec2020"), shown(0.2f, 0.5f, 0.8f), 0.01f)
+      same(picture(image, suffix, "--channels", "R,G,B"), shown(1, 1, 1), 2.3f / 510)
+
+  test("a picture has the alpha of its image, if its format keeps that"):
+    val image = Image(1, 1, Image.RgbNames :+ "A", Array(0.1f, 0.2f, 0.4f, 0.5f))
+    val straight = Image(1, 1, image.channelNames, Array(0.2f, 0.4f, 0.8f, 0.5f))
+    for suffix <- Vector("png", "tga") do same(picture(image, suffix), straight, 2.3f / 510)
+    val opaque = Image(1, 1, Image.RgbNames, image.data.take(3))
+    same(picture(image, "qoi"), opaque, 2.3f / 510)
+
+  test("an image of an image keeps its metadata and its place"):
+    TempFolder.use: folder =>
+      val (file, out) = (folder.resolve("a.exr"), folder.resolve("out.exr"))
+      val window = Some(ImageWindow(1, 2, 30, 20))
+      val image = Image(1, 1, Image.RgbNames, Array(1f, 2f, 3f))
+      val texts = Vector("image" -> "b.exr", "seed" -> "3")
+      ImageFiles.write(file, image, texts, WriteOptions(window = window))
+      assert(run("image", s"$file", "--outfile", s"$out")._1 == 0)
+      assert(ImageFiles.about(out) == (window, Vector("image" -> "a.exr", "seed" -> "3")))
+
+  test("archives of arrays are written, not read"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.npz").toString
+      assert(run("image", sky, "--outfile", file)._1 == 0)
+      for (code, captured) <- Vector(run("compare", sky, file), run("info", file)) do
+        assert(code != 0 && captured.err.contains(".npz files are written, not read"), captured.err)
 
   test("image refuses what can't be, and says why"):
     assert(refusal(sky, "--crop", "0,100,0,10").contains(s"$sky: window x 0 to 100"))
