@@ -71,11 +71,13 @@ class KeptScenesSuite extends AnyFunSuite:
        |AttributeBegin
        |Material $material
        |Translate $at
+       |AttributeBegin
+       |AreaLightSource "diffuse" "rgb L" [3 2 1]
+       |Shape "sphere" "float radius" .15
+       |AttributeEnd
        |Scale .3 .3 .3
        |Shape "loopsubdiv" "integer levels" 2 "integer indices" [0 1 2 0 3 1 1 3 2 2 3 0]
        |  "point3 P" [1 1 1 -1 -1 1 -1 1 -1 1 -1 -1]
-       |AreaLightSource "diffuse" "rgb L" [3 2 1]
-       |Shape "sphere" "float radius" .5
        |AttributeEnd
        |ObjectBegin "o"
        |Shape "plymesh" "string filename" "$mesh"
