@@ -95,7 +95,9 @@ final class CacheFolder(val path: Path, maxBytes: Long):
   private def shrink(last: Option[Path]): Unit =
     val files = Try(Using.resource(Files.list(path))(_.iterator.asScala.toVector))
     val (ours, others) = files.getOrElse(Vector.empty).partition(isOurs)
-    otherCount = others.count(!_.getFileName.toString.startsWith(".candela-"))
+    // One that has Candela's name, and not its first bytes, is damaged
+    otherCount = others.map(_.getFileName.toString)
+      .count(name => !name.startsWith(".candela-") && !FileNames.matches(name))
     val sizes = ours.flatMap: file =>
       Try((file, Files.size(file), Files.getLastModifiedTime(file))).toOption
     val room = maxBytes / UnlistedShare
