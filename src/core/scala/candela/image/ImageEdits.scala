@@ -82,12 +82,13 @@ object ImageEdits:
       throw ImageError(Code.ImageEdit, "only images with R, G and B have a colour space")
     val matrix = space.ofSrgb * image.colorSpace.toSrgb
     val data = image.data.clone
-    for case Vector(r, g, b) <- colors; pixel <- 0 until image.width * image.height do
-      val offset = pixel * image.channels
-      val c = matrix * Rgb(data(offset + r), data(offset + g), data(offset + b))
-      data(offset + r) = c.r
-      data(offset + g) = c.g
-      data(offset + b) = c.b
+    for case Vector(r, g, b) <- colors do
+      loop(image.width * image.height): pixel =>
+        val offset = pixel * image.channels
+        val c = matrix * Rgb(data(offset + r), data(offset + g), data(offset + b))
+        data(offset + r) = c.r
+        data(offset + g) = c.g
+        data(offset + b) = c.b
     Image(image.width, image.height, image.channelNames, data, image.encoding, space)
 
   /** Mean of images of one size with the same channels, in double precision.

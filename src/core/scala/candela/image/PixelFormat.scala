@@ -1,5 +1,6 @@
 package candela.image
 
+import candela.base.loop
 import candela.color.Rgb
 
 /** How files of channels hold the colours of a rendering. */
@@ -16,18 +17,19 @@ enum PixelFormat(val word: String, names: String):
   def apply(image: Image): Image = if this == Colors then image else inXyz(image)
 
   private def inXyz(image: Image): Image =
-    val colors = image.colorChannels
-    val otherChannels = image.channelNames.indices.filterNot(colors.contains)
-    val rows = names.map("XYZ".indexOf(_))
-    val toXyz = image.colorSpace.xyzOfRgb
-    val values =
-      for
-        pixel <- Iterator.range(0, image.width * image.height)
-        at = pixel * image.channels
-        Vector(r, g, b) = colors.map(c => image.data(at + c)): @unchecked
-        xyz = toXyz * Rgb(r, g, b)
-        value <-
-          rows.map(Vector(xyz.r, xyz.g, xyz.b)(_)) ++ otherChannels.map(c => image.data(at + c))
-      yield value
+    val Vector(r, g, b) = image.colorChannels: @unchecked
+    val otherChannels = image.channelNames.indices.filterNot(Set(r, g, b)).toArray
     val channels = names.map(_.toString).toVector ++ otherChannels.map(image.channelNames)
-    Image(image.width, image.height, channels, values.toArray)
+    val toXyz = image.colorSpace.xyzOfRgb
+    val data = new Array[Float](image.width * image.height * channels.size)
+    loop(image.width * image.height): pixel =>
+      val (from, to) = (pixel * image.channels, pixel * channels.size)
+      val xyz = toXyz * Rgb(image.data(from + r), image.data(from + g), image.data(from + b))
+      if this == Luminance then data(to) = xyz.g
+      else
+        data(to) = xyz.r
+        data(to + 1) = xyz.g
+        data(to + 2) = xyz.b
+      loop(otherChannels.length): k =>
+        data(to + names.length + k) = image.data(from + otherChannels(k))
+    Image(image.width, image.height, channels, data)

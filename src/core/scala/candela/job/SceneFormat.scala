@@ -32,18 +32,39 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
   def worlds: String
   def firstWorld: Int
 
+  /** Whether scenes may have several sensors, or are models. */
+  def hasSensors: Boolean = false
+  def isModel: Boolean = false
+
   /** The readable part of a scene; see [[SceneDescription.errors]].
     *
     * @param world as [[candela.settings.BuildControl]] has it
     * @param text  what is read instead of the file
+    * @throws SceneError if nothing is readable, or scenes of the format have not what is asked for
     */
-  def read(
+  final def read(
       file: Path,
       within: SceneFolder,
       reading: ReadSettings,
       world: Option[Int],
       text: Option[String] = None
+  ): SceneDescription =
+    checkOptions(file, reading)
+    readable(file, within, reading, world, text)
+
+  protected def readable(
+      file: Path,
+      within: SceneFolder,
+      reading: ReadSettings,
+      world: Option[Int],
+      text: Option[String]
   ): SceneDescription
+
+  /** Index of the sensor that is asked for, if any is. */
+  protected final def sensor(reading: ReadSettings, world: Option[Int]): Option[Int] =
+    reading.sensors.map:
+      case Sensors.One(index) => index
+      case Sensors.All => world.getOrElse(0)
 
   /** SHA-256 of what a text of this format says. */
   def digest(text: String): String
@@ -54,16 +75,7 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
     */
   def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]]
 
-  /** Checks that scenes of the format have what is asked for.
-    *
-    * @throws SceneError if they don't
-    */
-  protected final def checkOptions(
-      file: Path,
-      reading: ReadSettings,
-      hasSensors: Boolean = false,
-      isModel: Boolean = false
-  ): Unit =
+  private def checkOptions(file: Path, reading: ReadSettings): Unit =
     def refuse(message: String, help: String) =
       throw SceneError(Problem.general(Code.OptionMisfit, message, Some(help)))
     if !hasSensors && reading.sensors.nonEmpty then
@@ -71,6 +83,9 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
       refuse(s"`$file` has no sensors", help)
     if !isModel && reading.model != ModelSettings() then
       refuse(s"`$file` is no model", "--light, --background and --turntable are for models")
+    if reading.model.turntable.nonEmpty && reading.sensors.contains(Sensors.All) then
+      val help = "render a turntable of each: --sensor 0, --sensor 1 …"
+      refuse("a turntable is of one camera", help)
 
 object SceneFormat:
   /** Those of the core, and those that other modules bring. */
@@ -108,14 +123,13 @@ object SceneFormat:
     def worlds: String = "worlds"
     def firstWorld: Int = 1
 
-    def read(
+    protected def readable(
         file: Path,
         within: SceneFolder,
         reading: ReadSettings,
         world: Option[Int],
         text: Option[String]
     ): SceneDescription =
-      checkOptions(file, reading)
       val (dialect, defines) = (reading.dialect, Defines(reading.defines))
       val (keepGoing, n) = (reading.keepGoing, world.getOrElse(0))
       val read = text match
@@ -149,25 +163,22 @@ object SceneFormat:
     def keepsMeshesApart: Boolean = true
     def worlds: String = "sensors"
     def firstWorld: Int = 0
+    override def hasSensors: Boolean = true
 
-    def read(
+    protected def readable(
         file: Path,
         within: SceneFolder,
         reading: ReadSettings,
         world: Option[Int],
         text: Option[String]
     ): SceneDescription =
-      checkOptions(file, reading, hasSensors = true)
-      val sensor = reading.sensors.map:
-        case Sensors.One(index) => index
-        case Sensors.All => world.getOrElse(0)
       val scene = MitsubaScene.readable(
         file,
         reading.defines,
         reading.keepGoing,
         Some(within),
         text,
-        sensor,
+        sensor(reading, world),
         reading.resolution
       )
       val hasNext = scene.isFollowed && world.isDefined && reading.sensors.contains(Sensors.All)

@@ -27,10 +27,11 @@ private[convert] object FromGltf:
     )
     Converted(result, run.warnings)
 
-  private final class Run(scene: SceneDescription, files: SideFiles) extends MitsubaLosses:
+  private final class Run(scene: SceneDescription, files: SideFiles) extends ForeignLosses:
     private val textures = scene.textures.map(t => t.name -> t.texture).toMap
     private val added = mutable.LinkedHashMap.empty[String, TextureDescription]
     private val bases = mutable.HashMap.empty[(Float, Float), DielectricBase]
+    private val meanAlphas = mutable.HashMap.empty[String, Float]
     def addedTextures: Vector[TextureDescription] = added.values.toVector
 
     def plain(d: Declaration): Declaration =
@@ -214,7 +215,7 @@ private[convert] object FromGltf:
         val index = eta.headOption.fold(1.5f)(_.floats.head)
         val alpha = meanAlpha(d)
         val base = bases.getOrElseUpdate((index, alpha), DielectricBase(index, alpha))
-        val brightest = colorOf(d).fold(c => c.max, (_, tint) => tint.max)
+        val brightest = colorOf(d)._2.max
         if base.fitsUnderCoat(brightest) then
           val layer =
             Vector(Param.float("thickness", d.pos, 0f), Param.int("maxdepth", d.pos, 100))
@@ -228,8 +229,7 @@ private[convert] object FromGltf:
           val share = base.highlights(brightest)
           val (first, second) = (s"$name, base", s"$name, highlights")
           val color = reflectance(d, s"beside $share", base.beside(share, _))
-          val white = Vector.fill(3)(Math.min(base.normal / share, 1f)).toArray
-          val mirror = Param.floats(ParamType.Rgb, "reflectance", d.pos, white)
+          val mirror = rgb("reflectance", Rgb.gray(Math.min(base.normal / share, 1f)), d)
           Vector(
             first -> d.copy(name = "diffuse", params = color +: bumps(d)),
             second ->
@@ -237,59 +237,50 @@ private[convert] object FromGltf:
             name -> blend(d, first, second, Param.float("amount", d.pos, share))
           )
 
-    /** The base colour: constant, or an image times a colour. */
-    private def colorOf(d: Declaration): Either[Rgb, (Declaration, Rgb)] =
-      def factors(p: Param): Either[Rgb, (Declaration, Rgb)] =
-        if p.paramType != ParamType.Texture then Left(rgb(p))
+    /** The base colour: an image, if there is one, times a colour. */
+    private def colorOf(d: Declaration): (Option[Declaration], Rgb) =
+      def factors(p: Param): (Option[Declaration], Rgb) =
+        if p.paramType != ParamType.Texture then (None, rgb(p))
         else
           val t = textures(p.strings.head)
           t.name match
-            case "imagemap" => Right((t, Rgb.White))
-            case "scale" => t.params.map(factors).reduce(product)
-            case _ => Left(Rgb.White)
-      def product(
-          a: Either[Rgb, (Declaration, Rgb)],
-          b: Either[Rgb, (Declaration, Rgb)]
-      ): Either[Rgb, (Declaration, Rgb)] = (a, b) match
-        case (Left(x), Left(y)) => Left(x * y)
-        case (Left(x), Right((t, y))) => Right((t, x * y))
-        case (Right((t, x)), other) => Right((t, x * other.fold(c => c, _._2)))
-      d.param("color").fold(Left(Rgb.White))(factors)
+            case "imagemap" => (Some(t), Rgb.White)
+            case "scale" =>
+              t.params.map(factors).reduce((a, b) => (a._1.orElse(b._1), a._2 * b._2))
+            case _ => (None, Rgb.White)
+      d.param("color").fold((None, Rgb.White))(factors)
 
     /** The base colour, changed, as a parameter of a material of pbrt.
       *
       * @param label of the change
       */
     private def reflectance(d: Declaration, label: String, change: Float => Float): Param =
-      def changed(c: Rgb) = Rgb(change(c.r), change(c.g), change(c.b))
-      colorOf(d) match
-        case Left(c) =>
-          val result = changed(c)
-          Param.floats(
-            ParamType.Rgb,
-            "reflectance",
-            d.pos,
-            Array(result.r, result.g, result.b)
-          )
-        case Right((image, tint)) =>
-          val name = s"texture ${added.size + 1} $label"
-          val result = rewritten(extracted(image), (label, tint)): image =>
-            image.toReflectances.mapped(c => changed(c * tint))
-          add(name, texture(result), "spectrum")
-          Param.texture("reflectance", d.pos, name)
+      val (image, tint) = colorOf(d)
+      image.fold(rgb("reflectance", tint.map(change), d)): t =>
+        val name = s"texture ${added.size + 1} $label"
+        val result = rewritten(extracted(t), (label, tint)): image =>
+          image.toReflectances.mapped(c => (c * tint).map(change))
+        add(name, texture(result), "spectrum")
+        Param.texture("reflectance", d.pos, name)
 
     /** The width of the slopes; of a texture, its mean. */
     private def meanAlpha(d: Declaration): Float =
       d.param("roughness").fold(1f): p =>
         if p.paramType != ParamType.Texture then p.floats.head * p.floats.head
         else
-          val t = extracted(textures(p.strings.head))
-          val scale = t.param("scale").fold(1f)(_.floats.head)
-          val invert = t.param("invert").exists(_.bools.contains(true))
-          val at = t.param("filename").get
-          readable(at)(load(t, at)).fold(1f): image =>
-            val x = grays(t, image).map(v => square(scale * (if invert then 1f - v else v)))
-            x.sum / x.length
+          // Many materials may have one image
+          meanAlphas.getOrElseUpdate(
+            p.strings.head,
+            meanAlphaOf(extracted(textures(p.strings.head)))
+          )
+
+    private def meanAlphaOf(t: Declaration): Float =
+      val scale = t.param("scale").fold(1f)(_.floats.head)
+      val invert = t.param("invert").exists(_.bools.contains(true))
+      val at = t.param("filename").get
+      readable(at)(load(t, at)).fold(1f): image =>
+        val x = grays(t, image).map(v => square(scale * (if invert then 1f - v else v)))
+        x.sum / x.length
 
     private def bumps(d: Declaration): Vector[Param] =
       for p <- d.param("normalscale") do warn(p, "pbrt has no scale of normal maps; using 1")

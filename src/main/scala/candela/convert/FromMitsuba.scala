@@ -30,7 +30,7 @@ object FromMitsuba:
     )
     Converted(converted, run.warnings)
 
-  private final class Run(named: Map[String, Declaration]) extends MitsubaLosses:
+  private final class Run(named: Map[String, Declaration]) extends ForeignLosses:
     private val added = mutable.LinkedHashMap.empty[String, TextureDescription]
     def addedTextures: Vector[TextureDescription] = added.values.toVector
 
@@ -354,9 +354,6 @@ object FromMitsuba:
             case Some(c) => rgb(name, c * fraction, d)
             case None => times(d.param("color").get.renamed(name), "spectrum", fraction)
       d.copy(name = "diffusetransmission", params = colors ++ bumpsOf(d))
-
-    private def rgb(name: String, c: Rgb, d: Declaration): Param =
-      Param.floats(ParamType.Rgb, name, d.pos, Array(c.r, c.g, c.b))
 
   private val BumpParams = Set("displacement", "bumpmap", "normalmap")
 

@@ -1,6 +1,5 @@
 package candela.models
 
-import candela.diagnostics.{Code, Problem, SceneError}
 import candela.io.{ForeignKind, SceneFolder, Sha256}
 import candela.job.SceneFormat
 import candela.scenefile.SceneDescription
@@ -15,24 +14,20 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
   def keepsMeshesApart: Boolean = true
   def worlds: String = "images"
   def firstWorld: Int = 0
+  override def hasSensors: Boolean = true
+  override def isModel: Boolean = true
 
-  def read(
+  protected def readable(
       file: Path,
       within: SceneFolder,
       reading: ReadSettings,
       world: Option[Int],
       text: Option[String]
   ): SceneDescription =
-    checkOptions(file, reading, hasSensors = true, isModel = true)
-    if reading.model.turntable.nonEmpty && reading.sensors.contains(Sensors.All) then
-      val help = "render a turntable of each: --sensor 0, --sensor 1 …"
-      throw SceneError(Problem.general(
-        Code.OptionMisfit,
-        "a turntable is of one camera",
-        Some(help)
-      ))
-    val scene = GltfScene.readable(file, within, reading, text, world.getOrElse(0))
-    scene.copy(isFollowed = scene.isFollowed && world.isDefined)
+    val scene =
+      GltfScene.readable(file, within, reading, text, sensor(reading, world), world.getOrElse(0))
+    val hasNext = reading.model.turntable.nonEmpty || reading.sensors.contains(Sensors.All)
+    scene.copy(isFollowed = scene.isFollowed && world.isDefined && hasNext)
 
   def digest(text: String): String = Sha256.of(text)
 

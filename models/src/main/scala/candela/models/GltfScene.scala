@@ -8,7 +8,7 @@ import candela.scenefile.{
   Declaration, Dialect, Excerpts, GraphicsState, InstanceDescription, InstanceList,
   LightDescription, Param, ParamType, SceneDescription, ShapeDescription
 }
-import candela.settings.{ReadSettings, Sensors}
+import candela.settings.ReadSettings
 
 import java.nio.file.Path
 
@@ -19,8 +19,9 @@ private[models] object GltfScene:
 
   /** The model, with what it lacks to be shown: see [[Studio]].
     *
-    * @param text  what is read instead of the file
-    * @param world of several images, from 0 on
+    * @param text   what is read instead of the file
+    * @param sensor index of the camera that is asked for, if any is
+    * @param world  number of the image of a turntable
     * @throws SceneError if the file contains no model at all
     */
   def readable(
@@ -28,11 +29,12 @@ private[models] object GltfScene:
       within: SceneFolder,
       reading: ReadSettings,
       text: Option[String],
+      sensor: Option[Int],
       world: Int
   ): SceneDescription =
     val session = Session(file, within, reading.keepGoing, reading.resolution)
     val opened = text.fold(GltfFile.read(session))(GltfFile.ofText(session, _))
-    val model = GltfScene(opened, session).result(reading.sensors, world)
+    val model = GltfScene(opened, session).result(sensor)
     val scene = Studio.complete(model, session, reading.model, world)
     val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
     scene.copy(
@@ -75,7 +77,7 @@ private final class GltfScene(file: GltfFile, session: Session):
     for animation <- file.root.list("animations").headOption do
       session.warn(animation.at, "animations are not supported; the model is shown at rest")
 
-  def result(sensors: Option[Sensors], world: Int): SceneDescription =
+  def result(sensor: Option[Int]): SceneDescription =
     val users = nodes.placed.filter(p => p.node("mesh").isDefined)
     def meshUse(p: PlacedNode) = (p.node.required("mesh").int, givenWeights(p.node))
     val uses = users.groupBy(meshUse)
@@ -92,28 +94,18 @@ private final class GltfScene(file: GltfFile, session: Session):
       media = materials.interiors
     )
     val cameras = nodes.placed.filter(_.node("camera").isDefined)
-    val index = sensors match
-      case None =>
-        if cameras.size > 1 then
-          val message = "this camera is not rendered; --sensor 1 or --sensor all renders it"
-          session.warn(cameras(1).node.at, message, Code.Unsupported)
-        0
-      case Some(Sensors.All) => world
-      case Some(Sensors.One(index)) =>
-        if index >= Math.max(cameras.size, 1) then
-          val range = if cameras.size < 2 then "0" else s"0 to ${cameras.size - 1}"
-          Session.fail(
-            session.at("/nodes"),
-            s"no camera $index; cameras: $range",
-            Code.OptionMisfit
-          )
-        index
-    val isFollowed = sensors.contains(Sensors.All) && index + 1 < cameras.size
+    if sensor.isEmpty && cameras.size > 1 then
+      val message = "this camera is not rendered; --sensor 1 or --sensor all renders it"
+      session.warn(cameras(1).node.at, message, Code.Unsupported)
+    val index = sensor.getOrElse(0)
+    if index >= Math.max(cameras.size, 1) then
+      val range = if cameras.size < 2 then "0" else s"0 to ${cameras.size - 1}"
+      Session.fail(session.at("/nodes"), s"no camera $index; cameras: $range", Code.OptionMisfit)
     val framed = cameras.lift(index)
       .flatMap(c => session.attempt(Cameras(file, session).addCamera(scene, c))).getOrElse(scene)
-    val isOneOfSeveral = sensors.nonEmpty && cameras.size > 1
+    val isOneOfSeveral = sensor.nonEmpty && cameras.size > 1
     val named = if isOneOfSeveral then View.numbered(framed, session, index) else framed
-    named.copy(isFollowed = isFollowed)
+    named.copy(isFollowed = index + 1 < cameras.size)
 
   private def givenWeights(of: Json): Option[Vector[Double]] =
     of("weights").map(_.items.map(_.number))

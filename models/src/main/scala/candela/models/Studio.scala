@@ -35,15 +35,16 @@ private[models] object Studio:
       val images = asked.turntable.getOrElse(1)
       val framed =
         if scene.camera.isDefined then scene else Framing.of(bounds, scene, session, images)
-      val turn = world * 360.0 / images
-      val numbered =
-        if asked.turntable.isEmpty then framed else View.numbered(framed, session, world)
-      val turned = numbered.copy(
-        worldToCamera = GraphicsState.constant(
-          framed.worldToCamera.start * turning(bounds.center, -turn)
-        ),
-        isFollowed = framed.isFollowed || world + 1 < images
-      )
+      val turn = asked.turntable.fold(0.0)(world * 360.0 / _)
+      val turned =
+        if asked.turntable.isEmpty then framed
+        else
+          View.numbered(framed, session, world).copy(
+            worldToCamera = GraphicsState.constant(
+              framed.worldToCamera.start * turning(bounds.center, -turn)
+            ),
+            isFollowed = world + 1 < images
+          )
       val light = asked.light.orElse(Option.when(!isLit(scene))(ModelLight.Studio))
       if asked.background.nonEmpty && !light.exists(_.hasGround) then
         val help = "--light studio and --light sky have one"

@@ -1,13 +1,14 @@
 package candela.convert
 
+import candela.color.Rgb
 import candela.diagnostics.{Code, Problem, SourcePos}
 import candela.sampling.PhaseFunction
-import candela.scenefile.{Declaration, Param, ShapeDescription}
+import candela.scenefile.{Declaration, Param, ParamType, ShapeDescription}
 
 import scala.collection.mutable
 
-/** What scenes of Mitsuba lose as scenes of pbrt, whatever their materials and lights. */
-private[convert] abstract class MitsubaLosses:
+/** What scenes of other formats lose as scenes of pbrt, whatever their materials and lights. */
+private[convert] abstract class ForeignLosses:
   protected val problems = mutable.LinkedHashSet.empty[Problem]
 
   def warnings: Vector[Problem] = problems.toVector
@@ -16,6 +17,9 @@ private[convert] abstract class MitsubaLosses:
   protected def warn(p: Param, message: String): Unit = warn(p.pos, message)
   protected def warn(at: SourcePos, message: String): Unit =
     problems += Problem.warning(Code.Inexpressible, at, message)
+
+  protected def rgb(name: String, c: Rgb, d: Declaration): Param =
+    Param.floats(ParamType.Rgb, name, d.pos, Array(c.r, c.g, c.b))
 
   protected def withoutParams(d: Declaration, instead: String, names: String*): Declaration =
     for p <- d.params if names.contains(p.name) && instead.nonEmpty do
