@@ -73,7 +73,7 @@ object Placement:
     *
     * Between two sampled times, a corner deviates from the chord by an eighth of the squared step
     * times its acceleration, an eighth of the second difference of its positions. The bounds are
-    * padded by four times that.
+    * padded by four times that. Rotations are sampled in steps of 2.8 degrees.
     */
   def bounds(motion: Motion, open: Float, close: Float, box: Bounds3): Bounds3 =
     if box.isEmpty then Bounds3.Empty
@@ -83,8 +83,11 @@ object Placement:
       // Without an object for each corner: there may be millions of motions
       val corners = Array.fill(3)(new Array[Float](Corners))
       val difference = new Array[Float](3)
-      loop(Moments + 1): k =>
-        motion.write(lerp(k.toFloat / Moments, open, close), m, 0)
+      // A second difference has three moments
+      val angle = motion.rotationRate() * (close - open)
+      val steps = clamp(Math.ceil(angle / StepAngle).toInt, 2, MaxSteps)
+      loop(steps + 1): k =>
+        motion.write(lerp(k.toFloat / steps, open, close), m, 0)
         val (current, previous, earlier) =
           (corners(k % 3), corners((k + 2) % 3), corners((k + 1) % 3))
         swept = swept.union(bounds(m, 0, box, current))
@@ -98,8 +101,10 @@ object Placement:
   /** Coordinates of a box's corners. */
   private inline val Corners = 24
 
-  /** Samples a rotation by 180 degrees in steps of 2.8 degrees. */
-  private inline val Moments = 64
+  private inline val StepAngle = Math.PI / 64
+
+  /** What moves faster is seen in hardly any sample. */
+  private inline val MaxSteps = 1 << 12
 
   /** Transforms a shading point from object to world space.
     *

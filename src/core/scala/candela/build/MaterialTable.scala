@@ -60,7 +60,7 @@ private[build] final class MaterialTable private (
   def dress(shape: ShapeDescription, shapeIndex: Int): DressedShape =
     DressedShape(shape, ownPart(shape), ofShape(shapeIndex))
 
-  def needsTangents: Boolean = materials.exists(_.isAnisotropic)
+  lazy val needsTangents: Boolean = materials.exists(_.isAnisotropic)
 
   def describe: String =
     s"${materials.length}, ${materials.count(_.isConstant)} of them constant"

@@ -24,8 +24,8 @@ sealed abstract class StoredImage:
   def colorSpace: ColorSpace
   def toImage: Image
 
-  /** Of all, as stored. */
-  protected def number(i: Int): Float
+  /** Of all stored numbers, decoded. */
+  protected def decoded(i: Int): Float
 
   final def channels: Int = channelNames.size
 
@@ -49,12 +49,11 @@ sealed abstract class StoredImage:
   final def toReflectances: Image = inSrgb(colorSpace.toSrgbAdapted)
 
   private def inSrgb(matrix: => Matrix3): Image =
-    val sources = colorChannels
-    val picked = Image.rgb(width, height)
+    val sources = colorChannels.toArray
+    val (picked, channelCount) = (Image.rgb(width, height), channels)
     loop(width * height): pixel =>
-      loop(3): c =>
-        picked.data(3 * pixel + c) = encoding.decode(number(pixel * channels + sources(c)))
-    val isGray = sources.distinct.size == 1
+      loop(3)(c => picked.data(3 * pixel + c) = decoded(pixel * channelCount + sources(c)))
+    val isGray = sources.distinct.length == 1
     if colorSpace.isSrgb || isGray then picked
     else
       val change = matrix
@@ -92,7 +91,7 @@ final class Image(
   def apply(x: Int, y: Int, channel: Int): Float = data((y * width + x) * channels + channel)
 
   def toImage: Image = this
-  protected def number(i: Int): Float = data(i)
+  protected def decoded(i: Int): Float = encoding.decode(data(i))
 
   /** The same image, decoded to linear values; alpha is never encoded. */
   def linear: Image =
@@ -176,7 +175,8 @@ final class ByteImage(
   /** The values in [0, 1], still encoded. */
   def toImage: Image =
     val data = new Array[Float](bytes.length)
-    loop(bytes.length)(i => data(i) = number(i))
+    loop(bytes.length)(i => data(i) = (bytes(i) & 0xff) / 255f)
     Image(width, height, channelNames, data, encoding)
 
-  protected def number(i: Int): Float = (bytes(i) & 0xff) / 255f
+  private lazy val decodedBytes = Array.tabulate(256)(value => encoding.decode(value / 255f))
+  protected def decoded(i: Int): Float = decodedBytes(bytes(i) & 0xff)

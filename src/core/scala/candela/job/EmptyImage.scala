@@ -15,14 +15,14 @@ object EmptyImage:
   def foreseen(plan: RenderPlan, text: Option[NamedText]): Option[Problem] =
     for
       survey <- ViewSurvey.of(plan)
+      if plan.lights > 0 && survey.isDark
       seen = survey.firstSurfaces
-      if plan.lights > 0 && seen.rays > 0
+      if seen.rays > 0
       why <-
         if seen.isNothing then Some(s"$Past, and no light is there")
         else
           val inside = "the camera is inside a closed surface, which no light enters: "
           Option.when(survey.isEnclosed)(inside + nearest(seen))
-      if survey.isDark
     yield
       val help =
         if seen.isNothing then "turn the camera: the second point of LookAt is what it looks at"

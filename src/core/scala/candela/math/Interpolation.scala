@@ -31,6 +31,10 @@ final class Interpolation(
   private val angle = Math.acos(Math.min(1.0, cosAngle))
   private val sinAngle = Math.sin(angle)
 
+  /** The angle between quaternions is half that of the rotations. */
+  def rotationRate(leastAngle: Double): Double =
+    if endTime > startTime then Math.max(2 * angle, leastAngle) / (endTime - startTime) else 0
+
   private val startPlace = Interpolation.of(start, origin)
   private val endPlace = Interpolation.of(end, origin)
 

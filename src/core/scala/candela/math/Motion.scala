@@ -14,6 +14,13 @@ abstract class Motion:
 
   def moves: Boolean = true
 
+  /** How fast it rotates, at most, in radians per unit of time.
+    *
+    * @param leastAngle by which an interpolation counts as rotating, because something else is not
+    *   linear in time
+    */
+  def rotationRate(leastAngle: Double = 0): Double
+
   /** The map at `time` as an object, for infrequent use. */
   final def transform(time: Float): Transform =
     val rows = new Array[Double](Motion.Work)
@@ -35,10 +42,12 @@ object Motion:
 final class Still(map: Transform) extends Motion:
   def write(time: Float, to: Array[Double], at: Int): Unit = Motion.writeRows(map, to, at)
   override def moves: Boolean = false
+  def rotationRate(leastAngle: Double): Double = 0
 
 /** The inverse of another motion, which may differ from interpolating the inverses. */
 final class InverseMotion(of: Motion) extends Motion:
   override def moves: Boolean = of.moves
+  def rotationRate(leastAngle: Double): Double = of.rotationRate(Math.max(leastAngle, Math.PI))
   def write(time: Float, to: Array[Double], at: Int): Unit =
     of.write(time, to, at)
     var k = at
@@ -51,6 +60,8 @@ final class InverseMotion(of: Motion) extends Motion:
 /** Applies `inner`, then `outer`; neither is a product itself. */
 final class MotionProduct(outer: Motion, inner: Motion) extends Motion:
   override def moves: Boolean = outer.moves || inner.moves
+  def rotationRate(leastAngle: Double): Double =
+    outer.rotationRate(leastAngle) + inner.rotationRate(leastAngle)
   def write(time: Float, to: Array[Double], at: Int): Unit =
     val a = at + Motion.Doubles
     val b = a + Motion.Doubles
@@ -77,6 +88,7 @@ final class MotionProduct(outer: Motion, inner: Motion) extends Motion:
   */
 final class RecentredMotion(motion: Motion, from: Position, to: Position) extends Motion:
   override def moves: Boolean = motion.moves
+  def rotationRate(leastAngle: Double): Double = motion.rotationRate(leastAngle)
   def write(time: Float, rows: Array[Double], at: Int): Unit =
     motion.write(time, rows, at)
     recentre(rows, at, from, to)

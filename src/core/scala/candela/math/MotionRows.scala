@@ -144,5 +144,6 @@ object MotionRows:
 /** A static map, one of many. */
 final class MotionRow(val rows: MotionRows, val row: Int) extends Motion:
   override def moves: Boolean = false
+  def rotationRate(leastAngle: Double): Double = 0
   def write(time: Float, to: Array[Double], at: Int): Unit =
     MotionRows.write(rows.numbers(MotionRows.chunk(row)), MotionRows.start(row), to, at)

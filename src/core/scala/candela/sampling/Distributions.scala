@@ -72,7 +72,10 @@ private[sampling] object Cdf:
       bins: Array[Int],
       to: Int
   ): Unit =
-    loop(n)(k => bins(to + k) = findBin(cdf, at, count, k.toFloat / n))
+    var bin = 0
+    loop(n): k =>
+      while bin + 1 < count && cdf(at + bin + 1) <= k.toFloat / n do bin += 1
+      bins(to + k) = bin
     bins(to + n) = count - 1
 
   /** The same bin as [[findBin]]'s, between the two next cutpoints: fewer branches to guess, and

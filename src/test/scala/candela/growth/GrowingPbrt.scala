@@ -102,6 +102,8 @@ object GrowingPbrt:
     row("moving shapes")((i, n) => block(moving(i, n), Sphere)),
     row("moving shapes", V3)((i, n) => block(moving(i, n), Sphere)),
     row("moving shapes", V2)((i, n) => block(moving(i, n), Sphere)),
+    row("moving shapes, a material each", size = 1000): (i, n) =>
+      block(named(i, n), s"NamedMaterial \"m$i\"", moving(i, n), Sphere),
     row("moving meshes")((i, n) => block(moving(i, n), Square)),
     row("moving instances", head = Object)((i, n) => block(moving(i, n), "ObjectInstance \"o\"")),
     row("moving instances", V3, head = Object)((i, n) =>

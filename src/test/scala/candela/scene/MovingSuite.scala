@@ -18,12 +18,12 @@ class MovingSuite extends AnyFunSuite:
     draws.translation(3) * draws.rotation() * draws.stretch()
 
   /** Between maps of the same handedness: others are flat on the way. */
-  private def motion(draws: Draws): Motion =
+  private def motion(draws: Draws, start: Float = 0.2f, duration: Float = 0.6f): Motion =
     val (a, other) = (affine(draws), affine(draws))
     val b =
       if a.swapsHandedness == other.swapsHandedness then other
       else other * Transform.scale(1, 1, -1).get
-    val between = Interpolation(a, b, 0.2f, 0.8f, shortest = true)
+    val between = Interpolation(a, b, start, start + duration, shortest = true)
     if draws.coin() then between else InverseMotion(between)
 
   private def placed(surfaces: Surfaces, motion: Motion): Instanced =
@@ -34,12 +34,12 @@ class MovingSuite extends AnyFunSuite:
 
   test("bounds contain the surface whenever the shutter is open", Slow):
     val draws = Draws(1)
-    for _ <- 0 until 60 do
+    for _ <- 0 until 60; duration <- Vector(0.6f, 0.02f) do
       val soup = Soups.of(Soups.randomTriangles(draws, 20, 1)(draws.vec(-1, 1)))
-      val way = motion(draws)
+      val way = motion(draws, 0.3f, duration)
       val box = placed(Surfaces(soup, ShapeTable.Empty), way).instances.bounds(0)
       for _ <- 0 until 100 do
-        val now = way.transform(draws.unit())
+        val now = way.transform(draws.between(0.3f, 0.3f + duration))
         for i <- 0 until soup.count; c <- 0 until 3 do
           val p = now.point(soup.vertex(i, c))
           for k <- 0 until 3 do assert(p(k) >= box.min(k) && p(k) <= box.max(k), s"$p in $box")
