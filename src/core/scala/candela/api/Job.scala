@@ -112,7 +112,9 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     val target = settings.core.goal
     val recorder =
       Option.when(control.estimates || target.isGiven)(ErrorRecorder(plan.development, None))
-    val goal = recorder.filter(_ => target.isGiven).map(GoalRule(target, plan.samplesPerPixel, _))
+    val earlier = keeper.flatMap(k => k.savedError(k.samplesDone))
+    val goal = recorder.filter(_ => target.isGiven)
+      .map(GoalRule(target, plan.samplesPerPixel, _, earlier = earlier))
     val estimating = recorder.filter(_ => goal.isEmpty)
     val followed = Followed(control.listener, r => image(r, r.image(plan.development), None))
     val checkpoints = keeper.map(_.checkpointer())

@@ -13,12 +13,14 @@ import candela.settings.RenderGoal
   * @param planned             samples per pixel at which it ends in any case
   * @param recorder            measures the error
   * @param finishesFirstSample whether each pixel gets a sample, whatever the time
+  * @param earlier             relative MSE of the image that the rendering begins with, if known
   */
 final class GoalRule(
     val goal: RenderGoal,
     planned: Int,
     recorder: ErrorRecorder,
-    finishesFirstSample: Boolean = false
+    finishesFirstSample: Boolean = false,
+    earlier: Option[Interval] = None
 ) extends StoppingRule:
   private var ending = Option.empty[GoalRule.Ending]
   private var samplesDone, step, passCount = 0
@@ -41,7 +43,8 @@ final class GoalRule(
   override def begins(samples: Int, film: Film): Unit =
     samplesDone = samples
     step = 1
-    recorder.begins(samples, film)
+    val error = earlier.map(e => Math.sqrt(e.estimate))
+    if isLow(samples, error) then end(GoalRule.Ending.Error) else recorder.begins(samples, film)
 
   override def passed(pass: Pass, film: Film): Unit =
     val began = System.nanoTime
@@ -55,7 +58,8 @@ final class GoalRule(
       samplesNeeded = samples.map(s => GoalRule.roundedUp(s.estimate))
       samplesNeededRange = samples.flatMap(GoalRule.range)
     val hasSamples = samplesNeeded.exists(_ <= pass.samples)
-    if hasSamples || pass.isLast && isLow(pass.samples) then end(GoalRule.Ending.Error)
+    if hasSamples || pass.isLast && isLow(pass.samples, errorAt(pass.samples)) then
+      end(GoalRule.Ending.Error)
     val measured = (pass.endSeconds - pass.beginSeconds) / Math.max(1, pass.samples - samplesDone)
     // The first ones are slow: the JVM compiles meanwhile
     perSample = measured * GoalRule.Warm(Math.min(passCount, GoalRule.Warm.size - 1))
@@ -67,10 +71,9 @@ final class GoalRule(
     if ending.isDefined && !pass.isUnshortened then
       recorder.passed(watched.copy(isLast = true), film)
 
-  /** Whether the error is low enough, though all samples are taken before the next look. */
-  private def isLow(samples: Int): Boolean =
-    samples >= GoalRule.MinSamples &&
-      goal.error.exists(most => recorder.errorAt(samples).exists(_ <= most))
+  /** Whether the error after so many samples is low enough. */
+  private def isLow(samples: Int, error: Option[Double]): Boolean =
+    samples >= GoalRule.MinSamples && goal.error.exists(limit => error.exists(_ <= limit))
 
   /** Whether the shortest part that there is ends nearer to the time than now, and not late. */
   private def isWorthMore(remaining: Double): Boolean =

@@ -170,7 +170,7 @@ class FilmFilesSuite extends AnyFunSuite:
     withScene(): f =>
       f.render("--spp", "4096", "--error", "0.22", "--outfile", f("a.exr"), "--checkpoint")
       val few = ImageSamples.of(f.bytes("a.exr"))
-      f.run(Vector("resume", f("a.film"), "--error", "0.1"))
+      f.run(Vector("resume", f("a.film"), "--error", "0.07"))
       val many = ImageSamples.of(f.bytes("a.exr"))
       assert(few >= 2 && few < many && many < 4096, s"$few, $many")
       f.render("--spp", s"$many", "--outfile", f("b.exr"))

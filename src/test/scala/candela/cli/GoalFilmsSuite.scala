@@ -113,6 +113,17 @@ class GoalFilmsSuite extends AnyFunSuite:
       f.run(Vector("merge", f("a.film"), "--outfile", f("c.exr")))
       assert(samples(f, "c.exr") == 2 * many)
 
+  test("an error that the film has already takes no samples"):
+    withScene("independent"): f =>
+      f.render("--error", "0.05", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+      val (image, reached) = (f.bytes("a.exr"), samples(f, "a.exr"))
+      val out = f.run(Vector("resume", f("a.film"), "--error", "0.06"))
+      assert(out.contains(s", $reached spp (none added), "), out)
+      assert(out.contains("; --error was reached already"), out)
+      assert(f.bytes("a.exr") == image)
+      f.run(Vector("resume", f("a.film"), "--error", "0.02"))
+      assert(samples(f, "a.exr") > reached)
+
   test("what is planned remains, though a time has ended the rendering"):
     withScene("independent"): f =>
       def planned = f.run(Vector("info", f("a.film"))).linesIterator

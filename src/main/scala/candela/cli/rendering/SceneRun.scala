@@ -37,7 +37,11 @@ private[cli] final class SceneRun(
     Option.when(settings.goal.isGiven || isEstimated):
       ErrorRecorder(plan.development, None, estimates)
   private val goal = recorder.filter(_ => settings.goal.isGiven)
-    .map(GoalRule(settings.goal, plan.samplesPerPixel, _, finishesFirstSample = isPreview))
+    .map: recorder =>
+      // A reference tells another error than the saved one, which is estimated
+      val earlier = keeping.filter(_ => options.reference.isEmpty)
+        .flatMap(k => k.savedError(k.samplesDone))
+      GoalRule(settings.goal, plan.samplesPerPixel, recorder, isPreview, earlier)
   private val reference =
     options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
 

@@ -32,7 +32,9 @@ object Summary:
       ending: Option[String] = None
   ): String =
     val noiseNote = if noise.isEmpty then "" else s", $noise"
-    val endNote = ending.fold("")(option => s"; ended by --$option")
+    val isMet = ending.contains(GoalRule.Ending.Error.setting) && r.samplesDone == r.earlier
+    val endNote = ending.fold(""): option =>
+      if isMet then s"; --$option was reached already" else s"; ended by --$option"
     val missing = noiseNote + placeholders(standIns) + darkness(r) + endNote
     val names = written.mkString(", ")
     if r.isComplete && r.seconds == 0 then
