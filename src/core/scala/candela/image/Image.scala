@@ -103,6 +103,18 @@ final class Image(
         decoded(i) = if isColor(i % channels) then encoding.decode(data(i)) else data(i)
       Image(width, height, channelNames, decoded, colorSpace = colorSpace)
 
+  /** The same image, linear and with colours multiplied by alpha, as renderings have them: images
+    * of 8 and 16 bits have straight alpha.
+    */
+  def premultiplied: Image =
+    val decoded = linear
+    val alpha = channelNames.indexOf("A")
+    if encoding != Encoding.Linear && alpha >= 0 then
+      loop(data.length): i =>
+        val c = i % channels
+        if c != alpha then decoded.data(i) *= decoded.data(i - c + alpha)
+    decoded
+
   /** With its last row first. */
   def upsideDown: Image =
     val row = channels * width

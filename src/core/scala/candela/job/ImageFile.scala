@@ -99,23 +99,20 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
 
 object ImageFile:
 
-  /** Writes an image in the format of its file. A picture shows the denoised colours, if there are
-    * any, and alpha if its format keeps that.
-    *
-    * @param isStraight whether the colours are not multiplied by alpha
+  /** Writes an image in the format of its file, whose colours are multiplied by alpha, if it has
+    * that. A picture shows the denoised colours, if there are any, and alpha if its format keeps
+    * it.
     */
   def write(
       path: Path,
       image: Image,
       about: Vector[(String, String)] = Vector.empty,
-      options: WriteOptions = WriteOptions(),
-      isStraight: Boolean = false
+      options: WriteOptions = WriteOptions()
   ): Unit =
     if holds(path, Contents.Display) then
       val opaque = Denoising.displayed(image)
       val opacity = alpha(image).filter(_ => OutputFormat.of(path).exists(_.keepsAlpha))
-      val picture =
-        if isStraight then opaque else opacity.fold(opaque)(ImageEdits.divided(opaque, _))
+      val picture = opacity.fold(opaque)(ImageEdits.divided(opaque, _))
       val display = options.display.describe(picture)
       ImageFiles.write(path, picture, about ++ display, options.copy(alpha = opacity))
     else ImageFiles.write(path, image, about, options)

@@ -4,6 +4,7 @@ import candela.cli.files.OutputFiles
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
 import candela.image.{ImageEdits, ImageFiles, WriteOptions}
+import candela.job.ImageFile
 
 /** `candela average`: the mean of images, such as renderings with different seeds. */
 final class AverageCommand(options: Options, terminal: Terminal, report: Report):
@@ -12,12 +13,12 @@ final class AverageCommand(options: Options, terminal: Terminal, report: Report)
     val outputs = OutputFiles.ofImages(options.outfiles)
     outputs.check(options.files, "mean")
     val images = options.files.iterator.map: name =>
-      name -> ImageFiles.read(OutputFiles.path(name)).linear
+      name -> ImageFiles.read(OutputFiles.path(name)).premultiplied
     val mean = ImageEdits.mean(images)
     val writeOptions = WriteOptions(isHalf = options.image.isHalf, display = options.display)
     val about = OutputFiles.sources(options.files.map(OutputFiles.path))
     OutputFiles.writeAll(outputs.paths): out =>
-      ImageFiles.write(out, mean, Vector(about), writeOptions)
+      ImageFile.write(out, mean, Vector(about), writeOptions)
       if !options.quiet then
         val count = Figures.count(options.files.size, "image")
         terminal.out.println(s"wrote $out  ${mean.width}x${mean.height}, mean of $count")

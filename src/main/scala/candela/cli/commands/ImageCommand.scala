@@ -7,7 +7,6 @@ import candela.cli.files.OutputFiles
 import candela.cli.options.{MapShape, Options}
 import candela.cli.terminal.{ExitCode, Report, Terminal}
 import candela.convert.SkyImages
-import candela.color.Encoding
 import candela.image.*
 import candela.job.ImageFile
 import candela.lights.{EqualAreaMap, LatLongMap}
@@ -20,8 +19,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
     val outputs = OutputFiles.ofImages(options.outfiles)
     outputs.check(options.files, "image")
     val path = OutputFiles.path(options.files.head)
-    val stored = ImageFiles.read(path)
-    val source = stored.linear
+    val source = ImageFiles.read(path).premultiplied
     val result =
       try edited(source)
       catch
@@ -42,9 +40,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
       val hasColors = OutputFormat.of(out).exists(_.contents != Contents.Channels)
       val written =
         if hasColors then ImageFiles.colored(path, ImageEdits.layerAsColors(result)) else result
-      // 8-bit formats have straight alpha
-      val isStraight = stored.encoding != Encoding.Linear
-      ImageFile.write(out, written, about, writeOptions, isStraight)
+      ImageFile.write(out, written, about, writeOptions)
       if !options.quiet then terminal.out.println(s"wrote $out  ${result.width}x${result.height}")
     terminal.out.flush()
     ExitCode.Done

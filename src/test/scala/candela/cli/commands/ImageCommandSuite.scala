@@ -5,7 +5,8 @@ import java.nio.file.{Files, Path}
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.cli.{Captured, Main}
-import candela.image.{Image, ImageFiles, ImageWindow, WriteOptions}
+import candela.color.{Encoding, Srgb}
+import candela.image.{Image, ImageEdits, ImageFiles, ImageWindow, WriteOptions}
 import candela.testing.TempFolder
 
 /** The commands `image`, `average` and `info`. */
@@ -139,7 +140,6 @@ class ImageCommandSuite extends AnyFunSuite:
       ImageFiles.write(file, image)
       val (code, captured) = run(Vector("image", s"$file", "--outfile", s"$out") ++ words*)
       assert(code == 0, captured.err)
-      // PNG and TGA again: their alpha is straight
       val again = folder.resolve(s"again.$suffix")
       assert(run("image", s"$out", "--outfile", s"$again")._1 == 0)
       val made = ImageFiles.read(out)
@@ -161,6 +161,47 @@ class ImageCommandSuite extends AnyFunSuite:
     for suffix <- Vector("png", "tga") do same(picture(image, suffix), straight, 2.3f / 510)
     val opaque = Image(1, 1, Image.RgbNames, image.data.take(3))
     same(picture(image, "qoi"), opaque, 2.3f / 510)
+
+  /** Red, green, blue and alpha; where that is 0, nothing shows a colour. */
+  private val translucent: Image =
+    val pixels =
+      for alpha <- 0 to 255 by 15; c <- 0 to 3 yield
+        val color = if alpha == 0 then Vector(0, 0, 0) else Vector(80 * c, 255 - 80 * c, 128)
+        (color :+ alpha).map(_ / 255f)
+    Image(4, 18, Image.RgbNames :+ "A", pixels.flatten.toArray, Encoding.Srgb)
+
+  test("a transparent picture of 8 bits becomes an EXR file and the same picture again"):
+    TempFolder.use: folder =>
+      def file(name: String) = folder.resolve(name)
+      for suffix <- Vector("png", "tga") do
+        val (first, exr, again) = (file(s"a.$suffix"), file("b.exr"), file(s"c.$suffix"))
+        val opacity = Array.tabulate(4 * 18)(i => translucent.data(4 * i + 3))
+        ImageFiles.write(first, translucent, options = WriteOptions(alpha = Some(opacity)))
+        assert(run("image", s"$first", "--outfile", s"$exr")._1 == 0)
+        assert(run("image", s"$exr", "--outfile", s"$again")._1 == 0)
+        same(ImageFiles.read(again), ImageFiles.read(first), 0)
+        same(ImageFiles.read(again), translucent, 1e-6f)
+        // Channels of an EXR file are in alphabetical order
+        val light = ImageEdits.select(ImageFiles.read(exr), translucent.channelNames)
+        assert(Math.abs(light(3, 9, 0) - Srgb.decode(240 / 255f) * 135 / 255f) < 1e-5f)
+
+  test("averages of transparent and denoised images show alpha and the denoised colours"):
+    TempFolder.use: folder =>
+      val names = (Image.RgbNames :+ "A") ++ Vector("Denoised.R", "Denoised.G", "Denoised.B")
+      val files = Vector(0f, 0.2f).map: v =>
+        val file = folder.resolve(s"$v.exr")
+        ImageFiles.write(file, Image(1, 1, names, Array(1f, v, 1f, 0.4f + v, 0.1f, v, 0.4f)))
+        file.toString
+      def mean(name: String, sources: Vector[String] = files) =
+        val out = folder.resolve(name)
+        val (code, captured) = run(Vector("average") ++ sources ++ Vector("--outfile", s"$out")*)
+        assert(code == 0, captured.err)
+        ImageFiles.read(out).linear
+      val straight = Image(1, 1, Image.RgbNames :+ "A", Array(0.2f, 0.2f, 0.8f, 0.5f))
+      same(mean("a.png"), straight, 2.3f / 510)
+      assert(mean("a.exr").channelNames.toSet == names.toSet)
+      val picture = folder.resolve("a.png").toString
+      same(mean("b.png", Vector(picture, picture)), straight, 2.3f / 510)
 
   test("an image of an image keeps its metadata and its place"):
     TempFolder.use: folder =>
