@@ -201,6 +201,27 @@ class InMemory(unittest.TestCase):
         with self.assertRaises(ValueError):
             Transform([[1, 2], [3, 4]])
 
+    def test_a_matrix_of_3_rows_is_the_upper_left_of_a_transform(self):
+        turn = Transform().rotate([0, 0, 1], 30)
+        small = Transform(np.array(turn.matrix)[:3, :3])
+        self.assertEqual(small.translate([1, 2, 3]), turn.translate([1, 2, 3]))
+        matrix = '<transform name="to_world"><matrix value="2 0 0 0 2 0 0 0 2"/></transform>'
+        values = candela.load_string(XML.replace('<ref id="red"/>', matrix)).parameters()
+        self.assertEqual(values["ball.to_world"], Transform().scale(2))
+        # As Mitsuba's ScalarTransform3f has it
+        moved = mock.Mock(spec=["matrix"], matrix=np.array([[1, 0, 0.25], [0, 1, 0.5], [0, 0, 1]]))
+        self.assertEqual(Transform(moved), Transform().translate([0.25, 0.5, 0]))
+
+    def test_what_takes_files_alone_says_how_to_save_a_scene(self):
+        for scene in (mitsuba(), candela.load_string(XML)):
+            with self.assertRaisesRegex(candela.UsageError, r"`shard` .* scene.save\('scene.xml'\)"):
+                candela.render(scene, shard="0/2")
+            with self.assertRaisesRegex(candela.UsageError, r"save the scene"):
+                candela.run("render", scene, "--shard", "0/2")
+
+    def test_the_version_is_that_of_the_package(self):
+        self.assertRegex(candela.__version__, r"^\d")
+
     def test_numpys_values_are_values(self):
         scene = mitsuba()
         scene["red"]["reflectance"]["value"] = np.array([0.8, 0.2, 0.1])

@@ -18,6 +18,9 @@ ends. Images are NumPy arrays if NumPy is installed. All options of ``candela he
 arguments.
 """
 
+from importlib.metadata import PackageNotFoundError
+from importlib.metadata import version as _version_of
+
 from ._errors import (
     CandelaError,
     CandelaWarning,
@@ -32,6 +35,11 @@ from ._scene import Scene, load_dict, load_file, load_string, traverse
 from ._session import Progress, close, program, run
 from ._transform import Transform
 from ._xml import Parameters
+
+try:
+    __version__ = _version_of("candela-renderer")
+except PackageNotFoundError:  # a folder on the path, not the wheel
+    __version__ = "0.dev0"
 
 __all__ = [
     "CandelaError",

@@ -57,8 +57,10 @@ def render(
     options. Warnings are Python's, of the class ``CandelaWarning``. ``KeyboardInterrupt`` ends
     the rendering.
     """
+    is_file = not isinstance(scene, (Scene, dict))
+    saving = "" if is_file else ", of a file: scene.save('scene.xml') writes it"
     for name in sorted(_OTHERS.intersection(options)):
-        instead = _INSTEAD.get(name, "candela.run takes any option")
+        instead = _INSTEAD.get(name, "candela.run takes any option" + saving)
         raise UsageError(f"`{name}` does not go with `render`; {instead}")
     if options.get("sensor") == "all":
         raise UsageError(

@@ -24,6 +24,7 @@ from ._errors import (
     is_note,
     problems_in,
 )
+from ._scene import Scene
 from ._values import plain
 
 
@@ -307,6 +308,8 @@ def run(*words: Any) -> str:
 
     Raises ``CandelaError`` if its exit code is not 0. ``KeyboardInterrupt`` ends it, too.
     """
+    if any(isinstance(word, (Scene, dict)) for word in words):
+        raise UsageError("candela.run takes files: save the scene, as scene.save('scene.xml')")
     child = start([str(plain(word)) for word in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     outputs: Dict[str, str] = {}
 

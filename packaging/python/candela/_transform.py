@@ -73,7 +73,10 @@ def is_transform(value: Any) -> bool:
 
 
 def rows(matrix: Any) -> Matrix:
-    """The rows of a 4 × 4 matrix, or of a 3 × 3 one: lists, NumPy's, or those of Mitsuba."""
+    """The rows of a 4 × 4 matrix: lists, NumPy's, or those of Mitsuba. One of 3 × 3 is its upper
+    left, as in Mitsuba's files; Mitsuba's transforms of u and v have their translation in the last
+    column.
+    """
     inner = plain(matrix.matrix if is_transform(matrix) else matrix)
     try:
         if isinstance(inner, list):
@@ -84,8 +87,14 @@ def rows(matrix: Any) -> Matrix:
     except (TypeError, IndexError) as e:
         raise ValueError(f"not a matrix: {matrix!r}") from e
     if len(found) not in (3, 4) or any(len(row) != len(found) for row in found):
-        raise ValueError(f"a transform needs a 4 × 4 matrix, found {matrix!r}")
-    return found
+        raise ValueError(f"a transform needs a 4 × 4 or 3 × 3 matrix, found {matrix!r}")
+    if len(found) == 4:
+        return found
+    if is_transform(matrix):
+        found = [[a, b, 0.0, c] for a, b, c in found[:2]] + [[0.0, 0.0, 1.0, 0.0]]
+    else:
+        found = [[*row, 0.0] for row in found]
+    return [*found, [0.0, 0.0, 0.0, 1.0]]
 
 
 def _identity() -> Matrix:
