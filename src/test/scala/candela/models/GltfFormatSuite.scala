@@ -6,7 +6,10 @@ import candela.io.SceneFolder
 import candela.job.SceneFormat
 import candela.math.Vec3
 import candela.scenefile.{Param, Resolution, SceneDescription, ShapeDescription}
-import candela.settings.{ModelGround, ModelLight, ModelSettings, ReadSettings, Sensors}
+import candela.build.SceneBuilder
+import candela.settings.{
+  BuildControl, ModelGround, ModelLight, ModelSettings, ReadSettings, RenderSettings, Sensors
+}
 import candela.testing.TempFolder
 
 import java.nio.charset.StandardCharsets.UTF_8
@@ -127,6 +130,8 @@ class GltfFormatSuite extends AnyFunSuite:
     assert(ground.declared(Map.empty).get.param("reflectance").get.floats.toVector ==
       Vector(0.5f, 0f, 0f))
     assert(lit(ModelLight.Sky, Some(ModelGround.Empty)).shapes.size == 1)
+    val misspelt = intercept[SceneError](lit(ModelLight.Surroundings("studoi"))).problems.head
+    assert(misspelt.help.contains("did you mean `studio`?"))
     val lone = intercept[SceneError]:
       lit(ModelLight.Surroundings("a.exr"), Some(ModelGround.Colored(red)))
     assert(lone.problems.head.code == Code.OptionMisfit)
@@ -276,6 +281,8 @@ class GltfFormatSuite extends AnyFunSuite:
     val start = "glTF".getBytes(UTF_8) ++ Array[Byte](2, 0, 0, 0, 40, 0, 0, 0)
     try
       assert(binary(start).contains("no JSON"))
+      assert(binary(start.take(8)).contains("ends early"))
+      assert(binary("abcdef".getBytes(UTF_8)).endsWith("it begins with `abcd`, not `glTF`"))
       assert(binary(start ++ Array[Byte](-1, -1, -1, 127, 74, 83, 79, 78)).contains("ends early"))
       assert(binary(start.updated(4, 1.toByte)).contains("version 1"))
     finally Files.delete(folder)
@@ -307,6 +314,47 @@ class GltfFormatSuite extends AnyFunSuite:
     val at = scene.warnings.flatMap(_.pos).map(_.toString)
     assert(at.exists(_.endsWith("#/materials/0/extensions/KHR_materials_iridescence")), at)
     assert(at.exists(_.endsWith("#/animations/0")), at)
+
+  /** Warnings of a model whose material has these members, with their places. */
+  private def warned(material: String): Vector[String] =
+    val scene =
+      read(model(""","mode":5,"material":0""", others = s""","materials":[{$material}]"""))
+    assert(scene.errors.isEmpty)
+    scene.warnings.map(w => s"${w.pos.fold("")(_.file.dropWhile(_ != '#').drop(1))}: ${w.message}")
+
+  test("misspelt members and factors outside 0 to 1 are warnings with their pointers"):
+    val pbr =
+      """"pbrMetallicRoughness":{"metalicFactor":0,"roughnessfactor":1,"metallicFactor":3}"""
+    assert(warned(pbr).toSet == Set(
+      "/materials/0/pbrMetallicRoughness/metalicFactor: unknown member `metalicFactor`; " +
+        "did you mean `metallicFactor`?",
+      "/materials/0/pbrMetallicRoughness/roughnessfactor: unknown member `roughnessfactor`; " +
+        "did you mean `roughnessFactor`?",
+      "/materials/0/pbrMetallicRoughness/metallicFactor: `metallicFactor` must be from 0 to 1, " +
+        "found 3; using 1"
+    ))
+    assert(warned(""""pbrMetalicRoughness":{},"doublesided":true,"extras":{"a":1}""").size == 2)
+    assert(warned(""""emissiveTexture":{"index":0},"name":"a","alphaCutoff":0.5""").isEmpty)
+
+  test("a missing image is named, with its place, and magenta if rendering goes on"):
+    val textured = model(
+      ""","mode":5,"material":0""",
+      others = ""","materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+        "textures":[{"source":0}],"images":[{"uri":"none.png"}]"""
+    )
+    val control = BuildControl(threads = 1)
+    def built(keepGoing: Boolean) =
+      val settings = RenderSettings(reading = ReadSettings(keepGoing = keepGoing))
+      SceneBuilder.build(read(textured, reading = settings.reading), settings, control)
+    val missing = intercept[SceneError](built(false)).problems.head
+    assert(missing.message.contains("none.png") && missing.standIn.contains("using magenta"))
+    assert(missing.pos.exists(_.file.endsWith("baseColorTexture")), missing.pos)
+    assert(built(true)._2.exists(_.message.contains("using magenta")))
+
+  test("values for parameters, of which models have none, are an error"):
+    val reading = ReadSettings(defines = Map("width" -> "3"))
+    val problem = intercept[SceneError](read(model(), reading = reading)).problems.head
+    assert(problem.code == Code.SceneParameter)
 
   test("transforms of textures are those of the extension, about the upper left corner"):
     val transform =

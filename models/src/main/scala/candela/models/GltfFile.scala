@@ -1,11 +1,11 @@
 package candela.models
 
-import candela.diagnostics.Code
-import candela.io.{InputFile, IoReason, SceneFolder}
+import candela.diagnostics.{Code, Visible}
+import candela.io.{FileName, InputFile, IoReason, SceneFolder}
 
 import java.io.IOException
 import java.net.URLDecoder
-import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_8}
 import java.nio.{ByteBuffer, ByteOrder}
 import java.util.Base64
 
@@ -93,14 +93,16 @@ private[models] final class GltfFile private (session: Session, json: Array[Byte
   /** Files within the model, by the names of [[imageName]]. */
   def parts: Map[String, ByteBuffer] = contents.toMap
 
-  /** The name of an image file; None if it is missing. */
-  def imageName(image: Json): Option[String] = image("uri") match
+  /** The name of an image file, which may be missing. */
+  def imageName(image: Json): String = image("uri") match
     case Some(uri) =>
-      data(uri).map(bytes => part(image, ByteBuffer.wrap(bytes)))
-        .orElse(file(uri).map(_ => fileName(uri)))
+      data(uri).map(bytes => part(image, ByteBuffer.wrap(bytes))).getOrElse:
+        val name = fileName(uri)
+        session.folder.locate(name, Some(uri.at)).foreach(file => session.note(file.path))
+        name
     case None =>
       image("bufferView") match
-        case Some(index) => Some(part(image, view(index)))
+        case Some(index) => part(image, view(index))
         case None => image.fail("an image must have `uri` or `bufferView`")
 
   private def part(image: Json, bytes: ByteBuffer): String =
@@ -121,14 +123,23 @@ private[models] object GltfFile:
     val at = session.at("")
     try
       val all = session.folder.scene(session.file).map().order(ByteOrder.LITTLE_ENDIAN)
-      if all.remaining >= 12 && all.getInt(all.position()) == Magic then binary(session, all)
-      else of(session, all)
+      if all.remaining >= 4 && all.getInt(all.position()) == Magic then binary(session, all)
+      else
+        if FileName.suffix(session.file) == "glb" then checkIsText(session, array(all))
+        of(session, all)
     catch
       case e: IOException =>
         Session.fail(at, s"can't read the model: ${IoReason(e)}", Code.Unreadable)
 
   private def of(session: Session, text: ByteBuffer): GltfFile =
     new GltfFile(session, array(text), ByteBuffer.allocate(0))
+
+  /** A `.glb` file may have the contents of a `.gltf` file, but no others. */
+  private def checkIsText(session: Session, bytes: Array[Byte]): Unit =
+    if !bytes.find(!_.toChar.isWhitespace).contains('{'.toByte) then
+      val start = Visible.line(String(bytes.take(Integer.BYTES), ISO_8859_1))
+      val message = s"not a valid .glb file: it begins with `$start`, not `glTF`"
+      Session.fail(session.at(""), message, Code.UnknownFormat)
 
   def ofText(session: Session, text: String): GltfFile =
     of(session, ByteBuffer.wrap(text.getBytes(UTF_8)))
@@ -140,6 +151,7 @@ private[models] object GltfFile:
 
   private def binary(session: Session, all: ByteBuffer): GltfFile =
     def fail(message: String) = Session.fail(session.at(""), message)
+    if all.limit < 12 then fail("the file ends early")
     val version = all.getInt(4)
     if version != 2 then fail(s"expected glTF 2, found version $version")
     var json, bin = Option.empty[ByteBuffer]

@@ -2,7 +2,7 @@ package candela.models
 
 import candela.io.{ForeignKind, SceneFolder, Sha256}
 import candela.job.SceneFormat
-import candela.scenefile.SceneDescription
+import candela.scenefile.{Defines, SceneDescription}
 import candela.settings.{ReadSettings, Sensors}
 
 import java.nio.file.Path
@@ -24,6 +24,7 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
       world: Option[Int],
       text: Option[String]
   ): SceneDescription =
+    Defines(reading.defines).requireUse()
     val scene =
       GltfScene.readable(file, within, reading, text, sensor(reading, world), world.getOrElse(0))
     val hasNext = reading.model.turntable.nonEmpty || reading.sensors.contains(Sensors.All)

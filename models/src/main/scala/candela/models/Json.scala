@@ -32,7 +32,8 @@ private[models] final class Json(val value: ujson.Value, val pointer: String, se
   def names: Vector[String] = fields.keysIterator.toVector
 
   def apply(name: String): Option[Json] =
-    fields.get(name).map(Json(_, s"$pointer/${Json.escaped(name)}", session))
+    session.members.query(name, fields.keysIterator, pointer)
+    fields.get(name).map(Json(_, Json.memberPointer(pointer, name), session))
 
   def required(name: String): Json = apply(name).getOrElse(fail(s"`$name` is missing"))
 
@@ -71,6 +72,17 @@ private[models] final class Json(val value: ujson.Value, val pointer: String, se
     all.map(_.number)
 
   def number(name: String, default: Double): Double = apply(name).fold(default)(_.number)
+
+  /** A member from 0 to 1; beyond, the nearer one of these. */
+  def factor(name: String, default: Double): Double = apply(name).fold(default): member =>
+    val x = member.number
+    val limited = Math.max(0, Math.min(1, x))
+    if limited != x then
+      val message = s"`$name` must be from 0 to 1, found ${Json.numberText(x)}"
+      val using = s"using ${Json.numberText(limited)}"
+      session.warn(member.at, s"$message; $using", Code.CorrectedValue)
+    limited
+
   def size(name: String, default: Int): Int = apply(name).fold(default)(_.size)
   def flag(name: String): Boolean = apply(name).exists(_.flag)
   def text(name: String): Option[String] = apply(name).map(_.text)
@@ -101,6 +113,9 @@ private[models] object Json:
         case NonFatal(e) => Session.fail(session.at(""), s"not valid JSON: ${e.getMessage}")
     Json(value, "", session)
 
-  private def escaped(name: String): String = name.replace("~", "~0").replace("/", "~1")
+  /** The pointer to a member of the object at another one. */
+  def memberPointer(pointer: String, name: String): String =
+    s"$pointer/${name.replace("~", "~0").replace("/", "~1")}"
+
   private def numberText(x: Double): String =
     if x == x.toLong then x.toLong.toString else x.toString

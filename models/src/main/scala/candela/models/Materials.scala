@@ -64,7 +64,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         Vector(
           textures.number(
             "transmission",
-            t.number("transmissionFactor", 0),
+            t.factor("transmissionFactor", 0),
             t("transmissionTexture"),
             "r",
             t.at
@@ -96,8 +96,8 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
     val specular = entry.extension("KHR_materials_specular")
     Vector(
       textures.color("color", color, pbr("baseColorTexture"), pbr.at, hasColors),
-      textures.number("metallic", pbr.number("metallicFactor", 1), metallicRoughness, "b", pbr.at),
-      textures.number("roughness", pbr.number("roughnessFactor", 1), metallicRoughness, "g", pbr.at)
+      textures.number("metallic", pbr.factor("metallicFactor", 1), metallicRoughness, "b", pbr.at),
+      textures.number("roughness", pbr.factor("roughnessFactor", 1), metallicRoughness, "g", pbr.at)
     ) ++
       entry.extension("KHR_materials_ior")
         .map(e => Param.float("eta", e.at, e.number("ior", 1.5).toFloat)) ++
@@ -106,7 +106,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         Vector(
           textures.number(
             "specular",
-            s.number("specularFactor", 1),
+            s.factor("specularFactor", 1),
             s("specularTexture"),
             "a",
             s.at
@@ -124,7 +124,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
       textures.color("specularcolor", specular, specularGlossinessTexture, e.at),
       textures.number(
         "roughness",
-        e.number("glossinessFactor", 1),
+        e.factor("glossinessFactor", 1),
         specularGlossinessTexture,
         "a",
         e.at,
@@ -138,8 +138,8 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
     entry.extension("KHR_materials_clearcoat").toVector.flatMap: c =>
       for n <- c("clearcoatNormalTexture").orElse(entry("normalTexture")) do
         session.warn(n.at, "the clear coat has the normals of what is beneath it")
-      val factor = c.number("clearcoatFactor", 0)
-      val rough = c.number("clearcoatRoughnessFactor", 0)
+      val factor = c.factor("clearcoatFactor", 0)
+      val rough = c.factor("clearcoatRoughnessFactor", 0)
       Vector(
         textures.number("clearcoat", factor, c("clearcoatTexture"), "r", c.at),
         textures.number("clearcoatroughness", rough, c("clearcoatRoughnessTexture"), "g", c.at)
@@ -148,7 +148,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
   private def sheen(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_sheen").toVector.flatMap: s =>
       val color = Materials.rgb(s, "sheenColorFactor", Rgb.Black)
-      val rough = s.number("sheenRoughnessFactor", 0)
+      val rough = s.factor("sheenRoughnessFactor", 0)
       Vector(
         textures.color("sheencolor", color, s("sheenColorTexture"), s.at),
         textures.number("sheenroughness", rough, s("sheenRoughnessTexture"), "a", s.at)
@@ -156,7 +156,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
 
   private def stretch(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_anisotropy").toVector.flatMap: a =>
-      val strength = a.number("anisotropyStrength", 0)
+      val strength = a.factor("anisotropyStrength", 0)
       for t <- a("anisotropyTexture") do
         session.warn(
           t.at,

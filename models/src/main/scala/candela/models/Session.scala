@@ -1,6 +1,6 @@
 package candela.models
 
-import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos, Suggest}
 import candela.io.SceneFolder
 import candela.scenefile.{Declaration, Dialect, Param, Problems, Resolution}
 
@@ -19,6 +19,7 @@ private[models] final class Session(
     keepGoing: Boolean,
     resolution: Option[Resolution] = None
 ):
+  val members: Members = Members()
   private val collected = Problems()
   private val reported = mutable.LinkedHashSet.empty[Problem]
   private val files = mutable.LinkedHashSet.empty[Path]
@@ -48,7 +49,10 @@ private[models] final class Session(
     val (askedWidth, askedHeight) = asked.of(width, height)
     askedWidth.toDouble / askedHeight
 
-  def problems: Vector[Problem] = collected.result()
+  def problems: Vector[Problem] =
+    for (pointer, name, near) <- members.misspelt do
+      warn(at(pointer), s"unknown member `$name`; did you mean `$near`?", Code.UnknownParameter)
+    collected.result()
 
   /** Files read so far, other than the model itself. */
   def filesRead: Vector[Path] = files.toVector
@@ -69,6 +73,32 @@ private[models] final class Session(
       params: Seq[Param],
       dialect: Option[Dialect] = None
   ): Declaration = Declaration(category, name, params.toVector, at, folder, "srgb", dialect)
+
+/** The members of objects that are asked for, by which those that are misspelt are known. */
+private[models] final class Members:
+  // As if it were: the reader has no use for it
+  private val queriedNames = mutable.HashSet("minFilter")
+  private val absent = mutable.LinkedHashMap.empty[String, (String, String)]
+
+  /** @param names of the members of the object at the pointer */
+  def query(name: String, names: Iterator[String], pointer: String): Unit =
+    queriedNames += name
+    for other <- names if other != name && Members.isNear(name, other) do
+      absent(Json.memberPointer(pointer, other)) = (other, name)
+
+  /** Pointers to members that nothing asks for, their names, and names that were asked for. */
+  def misspelt: Vector[(String, String, String)] =
+    absent.iterator.collect {
+      case (at, (name, near)) if !queriedNames(name) => (at, name, near)
+    }.toVector
+
+private object Members:
+  private inline val MaxDistance = 2
+  private inline val MinLength = 6
+
+  private def isNear(name: String, other: String): Boolean =
+    name.length >= MinLength && Math.abs(name.length - other.length) <= MaxDistance &&
+      Suggest.distance(name.toLowerCase, other.toLowerCase, MaxDistance) <= MaxDistance
 
 private[models] object Session:
   def fail(at: SourcePos, message: String, code: Code = Code.DamagedMesh): Nothing =

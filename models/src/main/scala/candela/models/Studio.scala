@@ -2,7 +2,7 @@ package candela.models
 
 import candela.base.loop
 import candela.color.Rgb
-import candela.diagnostics.{Code, Problem, SceneError}
+import candela.diagnostics.{Code, Problem, SceneError, Suggest}
 import candela.geometry.Bounds3
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{
@@ -12,7 +12,7 @@ import candela.scenefile.{
 }
 import candela.settings.{ModelGround, ModelLight, ModelSettings}
 
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 
 /** What a model lacks to be shown: a view of it, and light. */
 private[models] object Studio:
@@ -107,6 +107,9 @@ private final class Surroundings(
       val ground = if isInside then None else onGround(flat(_))
       scene.copy(lights = scene.lights :+ sky, shapes = scene.shapes ++ ground)
     case ModelLight.Surroundings(file) =>
+      for near <- Suggest.nearest(file, Vector("studio", "sky")) if !Files.exists(Path.of(file)) do
+        val help = Some(s"did you mean `$near`?")
+        throw SceneError(Problem.general(Code.NoSuchFile, s"no such file: `$file`", help))
       val params = Vector(Param.string("mapname", at, Path.of(file).toAbsolutePath.toString))
       // v3's maps are equirectangular, as is usual
       val image = session.declare("LightSource", "infinite", at, params, Some(Dialect.V3))

@@ -31,7 +31,7 @@ private[models] final class Textures(file: GltfFile, session: Session):
   /** Names of the files of images that textures use. */
   private val files: Map[Int, String] =
     val imageIndices = entries.flatMap(source).map(_.size).distinct.filter(images.indices.contains)
-    imageIndices.flatMap(i => session.attempt(file.imageName(images(i))).flatten.map(i -> _)).toMap
+    imageIndices.flatMap(i => session.attempt(file.imageName(images(i))).map(i -> _)).toMap
 
   session.folder = session.folder.withParts(file.parts)
 
