@@ -66,7 +66,8 @@ object ImagePair:
       def size(i: Image) = s"${i.width}×${i.height}"
       throw ImageError(
         Code.DifferentImages,
-        s"image sizes differ: ${size(image)} and ${size(reference)} pixels"
+        s"image sizes differ: ${size(image)} and ${size(reference)} pixels; render's " +
+          s"--resolution ${reference.width}x${reference.height} has the reference's"
       )
     new ImagePair(picked(image, channels), picked(reference, channels))
 
@@ -84,7 +85,7 @@ object ImagePair:
 
   private def picked(image: Image, names: Vector[String]): Image =
     val isConverted = names == Image.RgbNames && !image.colorSpace.isSrgb
-    val linear = if isConverted then image.toRgb else image.linear
+    val linear = if isConverted then image.toRgb else image.premultiplied
     if linear.channelNames == names then linear
     else
       val missing = names.filterNot(linear.channelNames.contains)

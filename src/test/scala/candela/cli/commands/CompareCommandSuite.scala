@@ -75,8 +75,18 @@ class CompareCommandSuite extends AnyFunSuite:
       val b = flat(folder.resolve("b.exr"), 0.5f, width = 5)
       val (code, captured) = run(a, b)
       assert(code == 1)
-      assert(captured.err.startsWith("error: "))
+      assert(captured.err.startsWith("error: ") && captured.err.contains("--resolution 5x"))
       assert(run(a, folder.resolve("none.exr").toString)._1 == 1)
+
+  test("a transparent picture has the colours of its rendering"):
+    TempFolder.use: folder =>
+      val (exr, png) = (folder.resolve("a.exr"), folder.resolve("a.png"))
+      val names = Image.RgbNames :+ "A"
+      ImageFiles.write(exr, Image(1, 1, names, Array(0.1f, 0.2f, 0.25f, 0.5f)))
+      assert(Captured.run("image", s"$exr", "--outfile", s"$png")._1 == 0)
+      // Half a step of 8 bits is 0.2 % of what is bright
+      val (code, captured) = run(s"$png", s"$exr", "--max-relmse", "1e-4")
+      assert(code == 0, captured.out + captured.err)
 
   private def spotted(path: Path): String =
     val image = Image.rgb(8, 4)
