@@ -62,9 +62,9 @@ final class Colors(session: Session):
           )
           None
 
-  /** Colours of 0.6 had no limit; skies check theirs. */
+  /** Colours of 0.6 had no limit; skies check theirs. The roughness `alpha` takes any. */
   private def warnOfRange(c: Rgb, in: Properties, p: Property): Unit =
-    if !in.plugin.isOld && in.plugin.kind != "emitter" &&
+    if !in.plugin.isOld && in.plugin.kind != "emitter" && !p.name.startsWith("alpha") &&
       Vector(c.r, c.g, c.b).exists(x => x < 0f || x > 1f)
     then
       session.warn(

@@ -267,6 +267,8 @@ class MitsubaRulesSuite extends AnyFunSuite:
       ball("type=\"null\">", medium("<spectrum name=\"sigma_t\" value=\"4\"/>")),
       ball("type=\"null\">", medium(volume)),
       ball(metal),
+      ball(s"type=\"roughconductor\">${rgb("alpha")}"),
+      ball(s"type=\"roughdielectric\">${rgb("alpha_u")}${rgb("alpha_v")}"),
       s"<emitter type=\"constant\">${rgb("radiance")}</emitter>"
     )
     for body <- taken do assert(rejected(body).isEmpty, body)
