@@ -52,6 +52,15 @@ class SeveralScenesSuite extends AnyFunSuite:
       assert(code == 1 && captured.err.contains("would overwrite that of"), captured.err)
       assert(!Files.exists(Path.of("x-preview.png")))
 
+  test("a warning of all frames of a scene is printed once"):
+    TempFolder.use: folder =>
+      val odd = film("") + "WorldBegin\nShape \"sphere\" \"float odd\" [ $x ]\n" +
+        "LightSource \"infinite\"\n"
+      val scene = Files.writeString(folder.resolve("s.pbrt"), odd).toString
+      val words = Seq(scene, "--frames", "1-3", "-Dx=%d", "--outfile", s"$folder/%d.pfm")
+      val (code, captured) = Captured.run(words*)
+      assert(code == 0 && captured.err.split("`odd`", -1).length == 2, captured.err)
+
   test("frames whose films name one image are refused before the first is rendered"):
     TempFolder.use: folder =>
       for n <- 1 to 3 do

@@ -32,6 +32,7 @@ final class RenderCommand(
 ):
   private val cancellation = Cancellation()
   private val sequence = Sequence(options)
+  private var warned = Set.empty[Problem]
   private val files = RenderOutputs(options, report, register, resumed)
   private lazy val cache =
     val files = options.sceneCache
@@ -95,7 +96,9 @@ final class RenderCommand(
     val isBrief = options.settings.preview && !options.verbose
     val reported =
       if isBrief then prepared.warnings.filter(_.standIn.nonEmpty) else prepared.warnings
-    report.warnings(reported, all = options.verbose)
+    // Images of one scene have most of them in common
+    report.warnings(reported.filterNot(warned), all = options.verbose)
+    warned ++= reported
     if !options.quiet && world == 0 then
       for added <- prepared.description.additions do terminal.err.println(s"$scene: $added")
     if options.explain || options.verbose then Explanation.print(prepared.plan, terminal.err)
