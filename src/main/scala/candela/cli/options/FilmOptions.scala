@@ -67,7 +67,9 @@ private[cli] object FilmTable extends OptionRows:
       case Frames(Number(first), Number(last), Number(step)) if first <= last && step > 0 =>
         first to last by step
       case _ =>
-        throw IllegalArgumentException("expected first-last or first-lastxstep, e.g. 0-350x10")
+        throw IllegalArgumentException(
+          "expected first-last or first-lastxstep, with first <= last, e.g. 0-350x10"
+        )
 
   private def change(o: Options)(f: FilmOptions => FilmOptions): Options = o.copy(film = f(o.film))
 

@@ -123,6 +123,7 @@ class CommandLineSuite extends AnyFunSuite:
     "--spp 4 --spp 8 a.pbrt" -> "--spp is given twice",
     "--quiet --quiet a.pbrt" -> "--quiet is given twice",
     "-j 2 --nthreads 2 a.pbrt" -> "--nthreads is given twice",
+    "--frames 3-1 a%d.pbrt" -> "with first <= last, e.g. 0-350x10, found `3-1`",
     "--seed 99999999999 a.pbrt" -> "--seed must be at most 2147483647, found `999",
     "--tonemap filmik a.pbrt" -> "found `filmik`; did you mean `filmic`?",
     "--aov albdo a.pbrt" -> "found `albdo`; did you mean `albedo`?",
