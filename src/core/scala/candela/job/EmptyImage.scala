@@ -1,8 +1,9 @@
 package candela.job
 
 import candela.base.loop
+import candela.color.Srgb
 import candela.diagnostics.{Code, Problem, Severity}
-import candela.image.Image
+import candela.image.{DisplayTransform, Image}
 import candela.render.{FirstSurfaces, RenderPlan, Rendering, ViewSurvey}
 import candela.scenefile.{Excerpts, NamedText}
 
@@ -32,12 +33,14 @@ object EmptyImage:
   /** Of a rendered image.
     *
     * @param isForeseen whether its user knows why it has no light
+    * @param isPicture  whether its files hold what is displayed alone
     */
   def problem(
       prepared: Prepared,
       rendering: Rendering,
       image: Image,
-      isForeseen: Boolean = false
+      isForeseen: Boolean = false,
+      isPicture: Boolean = false
   ): Option[Problem] =
     val plan = prepared.plan
     val isPreview = prepared.settings.preview
@@ -55,11 +58,21 @@ object EmptyImage:
       else if colors.isUniform && plan.sight.isDefined && (!isPreview || sameness(plan).nonEmpty)
       then
         Option.unless(isForeseen)("all pixels have the same colour" -> sameness(plan))
+      else if isPicture then tooDark(image, prepared.settings.output.display)
       else None
     finding.map: (what, why) =>
       val preview = if isPreview then "" else "`candela preview` shows the surfaces in view, and "
       val help = s"$preview--pixelmaterial x,y prints what a pixel shows"
       warning(Code.EmptyImage, plan, prepared.description.text, what + why, help)
+
+  /** Of light that rounds to black in the picture. */
+  private def tooDark(image: Image, display: DisplayTransform): Option[(String, String)] =
+    val light = Denoising.displayed(image).toRgb
+    val (brightest, shown) = (light.data.max, display(light).toRgb.data.max)
+    Option.when(shown > 0f && Srgb.encode(shown) * ((1 << display.bits) - 1) < 0.5f):
+      val stops = Math.floor(-Math.log(brightest.toDouble) / Math.log(2)).toInt
+      val value = "its brightest value is %.2g".formatLocal(Locale.ROOT, brightest)
+      "the picture is black" -> s": $value; --exposure $stops shows it"
 
   private val Past = "the camera looks past all surfaces"
 

@@ -36,9 +36,11 @@ class EmptyImageSuite extends AnyFunSuite:
   private val Room = "AttributeBegin\nScale 9 9 9\nShape \"sphere\"\nAttributeEnd\n"
   private val Lamp = "LightSource \"point\" \"point3 from\" [0 3 0]\n"
 
-  private def said(text: String, words: String*): String = TempFolder.use: folder =>
+  private def said(text: String, words: String*): String = saidOf(text, "x.exr", words*)
+
+  private def saidOf(text: String, image: String, words: String*) = TempFolder.use: folder =>
     val file = Files.writeString(folder.resolve("scene.pbrt"), text)
-    val out = if words.head == "check" then Nil else Seq("--outfile", s"$folder/x.exr")
+    val out = if words.head == "check" then Nil else Seq("--outfile", s"$folder/$image")
     val (code, said) = Captured.run(words ++ Seq(file.toString) ++ out*)
     assert(code == 0, said.err)
     said.err
@@ -70,6 +72,16 @@ class EmptyImageSuite extends AnyFunSuite:
     val rendered = said(scene(Lamp + wall), "render")
     assert(!rendered.contains(Foreseen), rendered)
     assert(rendered.contains("the nearest is at distance 3"), rendered)
+
+  test("a picture that is too dark is told of, with the exposure that shows it"):
+    val faint = scene(Sphere + "LightSource \"distant\" \"rgb L\" [1e-4 1e-4 1e-4] " +
+      "\"point3 from\" [0 0 -1] \"point3 to\" [0 0 0]\n")
+    val dark = saidOf(faint, "x.png", "render")
+    assert(dark.contains("the picture is black: its brightest value is"), dark)
+    val exposure = "--exposure (\\d+) shows it".r.findFirstMatchIn(dark).get.group(1)
+    for e <- Vector(exposure, "auto") do
+      assert(!saidOf(faint, "x.png", "render", "--exposure", e).contains(Afterwards))
+    assert(!saidOf(faint, "x.exr", "render").contains(Afterwards))
 
   test("rooms with a lamp, small objects and skies are not told of"):
     val far = "Translate 0.1 0.1 0\nScale .1 .1 .1\nShape \"sphere\"\n"

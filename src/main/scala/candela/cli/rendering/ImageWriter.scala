@@ -4,7 +4,7 @@ import candela.diagnostics.Code
 import candela.cli.files.{OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
-import candela.image.Image
+import candela.image.{Contents, Image, OutputFormat}
 import candela.job.{Denoising, EmptyImage, FilmHeaders, ImageFile, Prepared, Render}
 import candela.render.Rendering
 
@@ -40,7 +40,9 @@ private[cli] final class ImageWriter(
   /** Warns of an image that shows nothing. */
   def warnIfEmpty(rendering: Rendering, image: Image): Unit =
     val isForeseen = prepared.warnings.exists(_.code == Code.EmptyView)
-    val problem = EmptyImage.problem(prepared, rendering, image, isForeseen)
+    val isPicture = paths.nonEmpty &&
+      paths.forall(OutputFormat.of(_).exists(_.contents == Contents.Display))
+    val problem = EmptyImage.problem(prepared, rendering, image, isForeseen, isPicture)
     report.warnings(problem.toVector, all = true)
 
   /** An image without samples must not replace another one. */
