@@ -248,7 +248,9 @@ final class ReferenceText(described: Described, columns: Int):
       Vector(a.name, a.kind, if a.default.isEmpty then "none" else a.default)
     val body =
       if rows.isEmpty then Vector("  no parameters")
-      else table.lines(Vector("name", "type", "default") +: rows)
+      else
+        table.lines(Vector("name", "type", "default") +: rows) ++
+          Vector("", "meanings: the plugin reference of https://mitsuba.readthedocs.io")
     s"<${p.element} type=\"${p.name}\"> (mitsuba)" +: "" +: body
 
   def parameters(t: DescribedType): Vector[String] =

@@ -53,6 +53,7 @@ class DescribeCommandSuite extends AnyFunSuite:
     assert(row(out, "distribution").exists(r =>
       r(1).contains("beckmann|ggx") && r(2) == "beckmann"
     ))
+    assert(out.linesIterator.exists(_.endsWith("https://mitsuba.readthedocs.io")))
     assert(row(out, "alpha_u").exists(_.last == "0.1") && row(out, "eta").nonEmpty)
     assert(row(
       printed("principled"),
