@@ -344,6 +344,10 @@ private[aov] object Statistic:
   final class ScaledMeanOfAll(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] = pixel.dividedBy(pixel.weight).map(_ * pixel.scale)
 
+  /** Of a colour that camera samples bring nothing to. */
+  object SplatsOnly extends Statistic(Tally.Empty):
+    def apply(pixel: PixelTally): Array[Double] = new Array[Double](3)
+
   /** Absolute value of the average. */
   final class Magnitude(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] = pixel.dividedBy(pixel.hitWeight).map(Math.abs)

@@ -120,6 +120,8 @@ final class LayerFilm(
         Array.tabulate(names.size)(group =>
           splatData((film, data) => film.addTo(data, scale, group))
         )
+      case (strategy: StrategyLayer, _) if strategy.isSplatted =>
+        Array(splatData((film, data) => film.addStrategyTo(data, scale, strategy.depth - 1)))
       case _ => Array.empty
 
   private def tallyOf(statistic: Statistic, pixel: Int, scale: Float): PixelTally =

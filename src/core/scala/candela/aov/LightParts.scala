@@ -40,6 +40,12 @@ final class LightParts(val groups: LightGroups):
     addGlow(depth, Rgb(sum.r - glow.r, sum.g - glow.g, sum.b - glow.b))
     glow = sum
 
+  /** Adds light of a group that the integrator itself tells apart. */
+  def addToGroup(group: Int, found: Rgb): Unit = add(Groups + group, found)
+
+  /** Adds light to a part alone, but not to a group. */
+  def addEmission(found: Rgb): Unit = add(Emission, found)
+
   private def add(unscattered: Int, group: Int, depth: Int, found: Rgb): Unit =
     add(if depth == 0 then unscattered else if depth == 1 then Direct else Indirect, found)
     add(Groups + group, found)

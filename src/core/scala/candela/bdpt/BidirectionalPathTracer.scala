@@ -1,5 +1,6 @@
 package candela.bdpt
 
+import candela.aov.LightParts
 import candela.cameras.Camera
 import candela.color.Rgb
 import candela.film.Splats
@@ -24,6 +25,7 @@ import candela.scene.Scene
   * @param compresses    as in [[Subpath]]
   * @param regularizes   as in [[candela.integrators.PathTracer]], for each subpath separately
   * @param sceneMedia    participating media, if there are any
+  * @param strategies    to be told apart, if they are
   *
   * Sources: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §10; PBRT 3rd
   * ed., §16.3; weights as in [[PartialWeights]].
@@ -36,7 +38,8 @@ final class BidirectionalPathTracer(
     rouletteDepth: Int,
     compresses: Boolean,
     regularizes: Boolean = false,
-    sceneMedia: SceneMedia | Null = null
+    sceneMedia: SceneMedia | Null = null,
+    strategies: Strategies | Null = null
 ) extends Integrator
     with ChainPaths:
   import BidirectionalPaths.*
@@ -64,7 +67,14 @@ final class BidirectionalPathTracer(
   // Vertex at which the current direction of the camera subpath was sampled
   private val lastP, lastN = MutableVec3()
 
-  private val camera = CameraConnection(scene, imageCamera, splats, lightMedia)
+  // As in 1 / (1 + ratios), the weight of the last emission that was hit
+  private var hitRatios = 0.0
+
+  private val recorder: StrategyRecorder | Null =
+    if strategies == null then null else StrategyRecorder(strategies, splats)
+  private val camera = CameraConnection(scene, imageCamera, splats, lightMedia, recorder)
+
+  override def lightParts: LightParts | Null = if recorder == null then null else recorder.parts
 
   def raysTraced: Long =
     rays + connection.raysTraced + lightPaths.raysTraced + camera.raysTraced +
@@ -76,7 +86,9 @@ final class BidirectionalPathTracer(
   override def lastMaterial: Int = point.material
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
-    radiance(ray, sampler, sampler, sampler, MinorShare)
+    // What is minor by its weight may be much without it
+    val keepsMinor = strategies != null && !strategies.isWeighted
+    radiance(ray, sampler, sampler, sampler, if keepsMinor then 0f else MinorShare)
 
   /** As [[radiance]], with separate samplers.
     *
@@ -101,6 +113,7 @@ final class BidirectionalPathTracer(
       minorShare: Float
   ): Rgb =
     minor = minorShare
+    if recorder != null then recorder.parts.clear()
     shadowRay.time = ray.time
     camera.startSample(ray.time)
     connection.startPath(ray.time)
@@ -131,21 +144,10 @@ final class BidirectionalPathTracer(
       rays += 1
       edges += 1
       val isHit = scene.closest(ray, hit)
-      val collision = collide(ray, emits = edges <= maxDepth, onward)
+      val collision = collide(ray, edges, onward)
       if isAbsorbed then alive = false
       else if collision < 0f && !isHit then
-        estimate += carried * LightTransport.environment(
-          scene,
-          ray,
-          (i, source) =>
-            if edges == 1 then 1f
-            else
-              val w = ray.direction
-              val p = lastP
-              val sampled = scene.selection.probability(p, lastN, i) * source.pdf(p, w)
-              val emitted = source.emissionPdf(scene.ball, p, Vec3.Zero, -w)
-              hitWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
-        )
+        estimate += carried * environment(ray, edges)
         alive = false
       else if !placeVertex(ray, collision) then edges -= 1
       else
@@ -185,12 +187,14 @@ final class BidirectionalPathTracer(
     media != null && media.isAbsorbed
 
   /** The ray's parameter of a collision with a medium; −1: none. */
-  private def collide(ray: Ray, emits: Boolean, sampler: Sampler): Float =
+  private def collide(ray: Ray, edges: Int, sampler: Sampler): Float =
     val media = ownMedia
     if media == null then -1f
     else
-      val t = media.follow(ray, path.throughput, emits, sampler)
+      val glow = media.glow
+      val t = media.follow(ray, path.throughput, emits = edges <= maxDepth, sampler)
       path.throughput = Rgb.White
+      if recorder != null then recorder.add(0, edges + 1, media.glow - glow, 0.0)
       t
 
   /** Puts the vertex at the collision or on the surface that was hit; false if that is an
@@ -213,22 +217,57 @@ final class BidirectionalPathTracer(
     */
   private def hitWeight(sampled: Double, emitted: Double): Float =
     val w = path.weights
-    (1 / (1 + mis(sampled) * w.dVCM + mis(emitted) * w.dVC)).toFloat
+    val bySampling = mis(sampled) * w.dVCM
+    val byEmission = mis(emitted) * w.dVC
+    hitRatios = bySampling + byEmission
+    (1 / (1 + bySampling + byEmission)).toFloat
+
+  /** Light of infinite lights along a ray that left the scene. */
+  private def environment(ray: Ray, edges: Int): Rgb =
+    hitRatios = 0.0
+    LightTransport.environment(
+      scene,
+      ray,
+      (i, source) =>
+        if edges == 1 then 1f
+        else
+          val w = ray.direction
+          val p = lastP
+          val sampled = scene.selection.probability(p, lastN, i) * source.pdf(p, w)
+          val emitted = source.emissionPdf(scene.ball, p, Vec3.Zero, -w)
+          hitWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
+      ,
+      (_, light) => record(0, edges + 1, light, hitRatios)
+    )
 
   /** Emission of the surface hit. */
   private def emitted(edges: Int, wo: Vec3, distance: Double): Rgb =
     val source = scene.surfaceLight(point)
     val radiance = source.radiance(point, wo)
-    if radiance.isBlack || edges == 1 then radiance
-    else if source.isShownOnly then if path.isSpecularSoFar then radiance else Rgb.Black
-    else
-      val index = point.areaLight
-      val perArea = vertex.cosine(wo) / (distance * distance)
-      val p = lastP
-      val chosen = scene.selection.probability(p, lastN, index)
-      val sampled = chosen.toDouble * source.pdf(p, point) * perArea
-      val emitted = source.emissionPdf(scene.ball, point.p, point.geometricNormal, wo)
-      radiance * hitWeight(sampled, lightPaths.chance(index).toDouble * emitted)
+    hitRatios = 0.0
+    val light =
+      if radiance.isBlack || edges == 1 then radiance
+      else if source.isShownOnly then if path.isSpecularSoFar then radiance else Rgb.Black
+      else
+        val index = point.areaLight
+        val perArea = vertex.cosine(wo) / (distance * distance)
+        val p = lastP
+        val chosen = scene.selection.probability(p, lastN, index)
+        val sampled = chosen.toDouble * source.pdf(p, point) * perArea
+        val emitted = source.emissionPdf(scene.ball, point.p, point.geometricNormal, wo)
+        radiance * hitWeight(sampled, lightPaths.chance(index).toDouble * emitted)
+    record(0, edges + 1, light, hitRatios)
+    if recorder != null && edges == 1 then recorder.parts.addEmission(light)
+    light
+
+  /** Tells what a strategy has brought, before the throughput of the camera subpath.
+    *
+    * @param s     vertices of the light subpath
+    * @param t     vertices of the camera subpath
+    * @param light weighted by 1 / (1 + misRatios)
+    */
+  private inline def record(s: Int, t: Int, light: Rgb, misRatios: Double): Unit =
+    if recorder != null then recorder.add(s, t, carried * light, misRatios)
 
   /** Connects the camera vertex to a sampled light. */
   private def direct(sampler: Sampler): Rgb =
@@ -262,7 +301,9 @@ final class BidirectionalPathTracer(
           if connection.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / connection.pdf)
         val misRatios = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
         val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + misRatios))
-        f * sample.radiance.toRgb * weight.toFloat * passed
+        val light = f * sample.radiance.toRgb * weight.toFloat * passed
+        record(1, vertex.edges + 1, light, misRatios)
+        light
 
   /** Factor of a contribution, before its shadow ray is traced: Russian roulette ends most of the
     * minor ones. What has been found so far depends on none of this, so the mean stays.
@@ -315,10 +356,13 @@ final class BidirectionalPathTracer(
         val contribution = f * g * lit.throughput * weight
         val light = contribution * connectionRoulette(contribution.largest, threshold)
         val media = ownMedia
-        if light.isBlack then light
-        else if media != null then light * media.betweenVertices(vertex, lit, wi)
-        else if isHidden(lit.point, wi, litCosine) then Rgb.Black
-        else light
+        val arriving =
+          if light.isBlack then light
+          else if media != null then light * media.betweenVertices(vertex, lit, wi)
+          else if isHidden(lit.point, wi, litCosine) then Rgb.Black
+          else light
+        record(lit.edges + 1, vertex.edges + 1, arriving, misRatios)
+        arriving
 
   /** Whether `other`, in the direction `wi`, is occluded from the camera vertex. */
   private def isHidden(other: ShadingPoint, wi: Vec3, cosine: Float): Boolean =

@@ -81,7 +81,8 @@ private[candela] final class CameraConnection(
               if !light.isBlack then
                 splats.add(filmPoint.x, filmPoint.y, light, paths.group)
                 val sink = observer
-                if sink != null then sink.observe(filmPoint.x, filmPoint.y, light, misRatios)
+                if sink != null then
+                  sink.observe(filmPoint.x, filmPoint.y, light, misRatios, lit.edges)
         i += 1
 
   private def isClear(from: ShadingPoint, towards: Vec3, end: Vec3): Boolean =
@@ -94,5 +95,6 @@ private[candela] final class CameraConnection(
 private[candela] trait SplatObserver:
   /** @param light  weighted
     * @param misRatios as in the weight 1 / (1 + others)
+    * @param edges     of the light path, without the connection
     */
-  def observe(x: Float, y: Float, light: Rgb, misRatios: Double): Unit
+  def observe(x: Float, y: Float, light: Rgb, misRatios: Double, edges: Int): Unit

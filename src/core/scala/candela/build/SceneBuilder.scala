@@ -5,7 +5,7 @@ import candela.concurrency.Parallel
 import candela.diagnostics.{Code, Limit, Problem}
 import candela.accel.tracing.Hierarchies
 import candela.aov.{
-  FirstHit, ImageLayer, Layer, LayerFilm, NamedLayer, ScreenMotion, VisibleSurface
+  FirstHit, ImageLayer, Layer, LayerFilm, NamedLayer, ScreenMotion, StrategyLayer, VisibleSurface
 }
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
@@ -41,12 +41,13 @@ object SceneBuilder:
       heap: Long = JavaHeap.limit
   ): (RenderPlan, Vector[Problem]) =
     val context = BuildContext(description, settings, control, pool)
-    val image = ImageSetup.of(context, settings)
+    val film = ImageSetup.of(context, settings)
     val samplesOverride =
       control.samples.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
     def integratorIn(context: BuildContext) =
       if settings.preview then Preview.integrator(context) else integratorPlan(context)
     val integrator = integratorIn(context)
+    val image = film.copy(layers = film.layers ++ integrator.layers)
     val sampling = SamplingSetup.of(context, settings, image, integrator, control.footprint)
     val camera = CameraSetup.of(context, image)
     for layer <- image.layers if layer.needsFootprints do
@@ -67,9 +68,9 @@ object SceneBuilder:
       )
     checkLimits(context, image, crop, sampling)
     val perPixel = samplesOverride.getOrElse(sampling.sampler.samplesPerPixel)
-    val film = Option.when(control.isRendered):
+    val filmSize = Option.when(control.isRendered):
       FilmSize.lowerBound(crop.pixels, perPixel, image.layers, image.film.development.bands)
-    val memory = MemoryCheck(heap, film, context)
+    val memory = MemoryCheck(heap, filmSize, context)
     val samples = crop.pixels * perPixel
     Hierarchies.expect(samples, pool, context.resources.warmUps)
     val world =
@@ -81,19 +82,23 @@ object SceneBuilder:
         samples,
         settings.colorMode,
         image.film.camera,
-        Option.when(image.layers.exists(_.isLight) || dimsLight(settings)):
+        Option.when(film.layers.exists(_.isLight) || dimsLight(settings)):
           settings.lightGroups.getOrElse(LightGrouping.Statements)
         ,
         memory
       ).build(footprints)
     context.problems.stopAtErrors()
-    warnOfLimits(context, image, camera, world.method)
+    warnOfLimits(context, film, camera, world.method)
     if !settings.preview then
       FireflyLimits(context, settings.fireflies).check(world.method)
       IdleSettings(context, settings).check(world)
     context.problems.stopAtErrors()
+    // A method that was chosen instead may have none
+    val imageOfMethod = if world.method.strategies.isDefined then image else film
     val renderPlan =
-      plan(context, settings, samplesOverride, image, crop, integrator, sampling, camera, world)
+      plan(
+        context, settings, samplesOverride, imageOfMethod, crop, integrator, sampling, camera, world
+      )
     checkSize(context, renderPlan)
     for why <- control.cache.save() do
       context.problems.warn(Code.Unwritable, None, s"$why; the scene cache gets no more files")
@@ -329,11 +334,15 @@ object SceneBuilder:
         world.scene.environments.nonEmpty,
       first
     )
-    val groups = world.scene.lightGroups.filter(_ => world.method.dividesLight)
+    val groups = world.method.strategies.map(_.groups)
+      .orElse(world.scene.lightGroups.filter(_ => world.method.dividesLight))
     LayerPlan(image.layers, surface, names, groups)
 
   private def described(layers: Vector[ImageLayer], bands: Option[SpectralBands]): String =
-    val descriptions = layers.map(_.word) ++ bands.map(b => s"bands of wavelengths, ${b.describe}")
+    val (strategies, others) = layers.partition(_.isInstanceOf[StrategyLayer])
+    val apart = Option.when(strategies.nonEmpty)(s"${strategies.size} strategies")
+    val descriptions =
+      others.map(_.word) ++ apart ++ bands.map(b => s"bands of wavelengths, ${b.describe}")
     if descriptions.isEmpty then "none" else descriptions.mkString(", ")
 
   private def moving(camera: CameraSetup, world: World): String =

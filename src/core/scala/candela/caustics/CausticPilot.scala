@@ -124,7 +124,7 @@ private[candela] final class CausticPilot(
     * @param learns from these paths where they begin, if at all
     */
   private final class Observer(findings: Found, learns: Option[CausticPaths]) extends SplatObserver:
-    def observe(x: Float, y: Float, light: Rgb, misRatios: Double): Unit =
+    def observe(x: Float, y: Float, light: Rgb, misRatios: Double, edges: Int): Unit =
       val weighted = light.average.toDouble
       if weighted > 0.0 && weighted < Float.PositiveInfinity && findings.splatted.contains(x, y)
       then

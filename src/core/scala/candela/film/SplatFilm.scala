@@ -20,6 +20,7 @@ import java.util.concurrent.atomic.LongAdder
   * @param limits of a splat, as of a sample's indirect light and of a sample
   * @param groups of lights that are told apart
   * @param bands  of wavelengths to accumulate, too
+  * @param strategies whose light is kept beside the image
   */
 final class SplatFilm(
     x0: Int,
@@ -31,7 +32,8 @@ final class SplatFilm(
     basis: ColorBasis,
     limits: Vector[SampleLimit],
     groups: Int = 1,
-    bands: Option[SpectralBands] = None
+    bands: Option[SpectralBands] = None,
+    strategies: Int = 0
 ) extends Splats:
   import SplatFilm.*
   private val width = x1 - x0
@@ -40,8 +42,9 @@ final class SplatFilm(
   private val spectrum: SpectralBands | Null = bands.orNull
   private val volume = filter.integral
 
-  // Colours of each group of lights, then bands
-  private val channels = 3 * groups + bands.fold(0)(_.channels.size)
+  // Colours of each group of lights, and of each strategy, then bands
+  private val colors = 3 * (groups + strategies)
+  private val channels = colors + bands.fold(0)(_.channels.size)
 
   // For each pixel, row by row, and each channel
   private val fine =
@@ -60,10 +63,15 @@ final class SplatFilm(
   def sampleCount: Long = samples.sum
 
   def add(x: Float, y: Float, light: Rgb, group: Int): Unit =
+    splat(x, y, light, if groups == 1 then 0 else 3 * group)
+
+  override def addStrategy(x: Float, y: Float, light: Rgb, strategy: Int): Unit =
+    splat(x, y, light, 3 * (groups + strategy))
+
+  private def splat(x: Float, y: Float, light: Rgb, channel: Int): Unit =
     val color = basis.toSrgb(light)
     if color.isFinite && !color.isBlack then
       val limited = clamped(color)
-      val channel = if groups == 1 then 0 else 3 * group
       spread(x, y)((pixel, weight) => addTo(channels * pixel + channel, limited * weight))
 
   private def clamped(light: Rgb): Rgb =
@@ -79,7 +87,7 @@ final class SplatFilm(
         light.g * basis.weight(1),
         light.b * basis.weight(2)
       )
-      val first = 3 * groups
+      val first = colors
       val (r, g, b) =
         (among.bandOf(basis.nm(0)), among.bandOf(basis.nm(1)), among.bandOf(basis.nm(2)))
       spread(x, y): (pixel, weight) =>
@@ -155,7 +163,7 @@ final class SplatFilm(
     eachPixel(pixel => loop(channels)(channel => f(channels * pixel + channel)))
 
   def copy(): SplatFilm =
-    val film = SplatFilm(x0, y0, x1, y1, filter, pixels, basis, limits, groups, bands)
+    val film = SplatFilm(x0, y0, x1, y1, filter, pixels, basis, limits, groups, bands, strategies)
     eachNumber: i =>
       film.coarse(i) = coarseOf(i)
       film.fine(i) = fineOf(i)
@@ -191,6 +199,10 @@ final class SplatFilm(
   def addTo(data: Array[Float], scale: Float, group: Int): Unit =
     addTo(data, scale, group, group + 1)
 
+  /** Likewise, those of one strategy. */
+  def addStrategyTo(data: Array[Float], scale: Float, strategy: Int): Unit =
+    addTo(data, scale, groups + strategy)
+
   private def addTo(data: Array[Float], scale: Float, from: Int, until: Int): Unit =
     for factor <- perSample do
       val scaled = scale * factor
@@ -216,7 +228,7 @@ final class SplatFilm(
       eachPixel: pixel =>
         loop(count): band =>
           if among.width(band) > 0 then
-            val mean = value(channels * pixel + 3 * groups + band) * factor / among.width(band)
+            val mean = value(channels * pixel + colors + band) * factor / among.width(band)
             data(stride * (pixel + 1) - count + band) += (mean * scale).toFloat
 
   private def value(i: Int): Double = coarseOf(i) / Coarse + fineOf(i) / Fine

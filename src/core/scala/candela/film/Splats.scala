@@ -14,6 +14,9 @@ abstract class Splats:
     */
   def add(x: Float, y: Float, light: Rgb, group: Int): Unit
 
+  /** Adds light of a strategy that is kept beside the image. */
+  def addStrategy(x: Float, y: Float, light: Rgb, strategy: Int): Unit = ()
+
   /** Adds the same splat to bands of wavelengths, if there are any.
     *
     * @param light at the wavelengths of `basis`

@@ -107,5 +107,8 @@ final class ConvertedSplats(splats: Splats, basis: Wavelengths) extends Splats:
     splats.add(x, y, basis.toSrgb(light), group)
     splats.addToBands(x, y, basis, light)
 
+  override def addStrategy(x: Float, y: Float, light: Rgb, strategy: Int): Unit =
+    splats.addStrategy(x, y, basis.toSrgb(light), strategy)
+
   /** None of these splats has another basis. */
   def addToBands(x: Float, y: Float, basis: Wavelengths, light: Rgb): Unit = ()

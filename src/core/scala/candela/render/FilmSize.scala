@@ -1,6 +1,6 @@
 package candela.render
 
-import candela.aov.{ImageLayer, Layer, LayerFilm}
+import candela.aov.{ImageLayer, LayerFilm}
 import candela.film.{Fireflies, SpectralBands}
 import candela.guiding.{GuideRecords, GuideSettings}
 
@@ -25,8 +25,8 @@ object FilmSize:
     val pixels = plan.crop.pixels
     val layers = plan.layers.fold(0L)(asked => LayerFilm.size(asked.layers, asked.groups))
     val bands = plan.bands.fold(0)(_.channels.size)
-    val groups = plan.layers.filter(_.layers.contains(Layer.Lights)).flatMap(_.groups)
-    val splats = if plan.method.seesLightPaths then 3 * groups.fold(1)(_.size) + bands else 0
+    val colors = plan.splatGroups + plan.strategies.count(_.isSplatted)
+    val splats = if plan.method.seesLightPaths then 3 * colors + bands else 0
     // Chains bring splats alone
     val samples = if plan.method.takesCameraSamples then plan.samplesPerPixel else 1
     val sum = sumOf(samples)

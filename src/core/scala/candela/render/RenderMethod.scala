@@ -1,7 +1,7 @@
 package candela.render
 
+import candela.bdpt.Strategies
 import candela.caustics.CausticChoice
-import candela.aov.Layer
 import candela.color.Wavelengths
 import candela.film.{PixelBounds, SplatFilm, Splats, View}
 import candela.guiding.GuideSettings
@@ -29,6 +29,9 @@ abstract class RenderMethod:
 
   /** Whether its light is divided by way and source, as the scene asks. */
   def dividesLight: Boolean
+
+  /** The strategies of connection that it tells apart, as asked. */
+  def strategies: Option[Strategies] = None
 
   /** Whether light paths connect to the camera. */
   def seesLightPaths: Boolean = false
@@ -115,7 +118,6 @@ object RenderMethod:
   private[render] def splatFilm(plan: RenderPlan): SplatFilm =
     val PixelBounds(x0, y0, x1, y1) = plan.crop
     val pixels = plan.width.toDouble * plan.height
-    val groups = plan.layers.filter(_.layers.contains(Layer.Lights)).flatMap(_.groups)
     SplatFilm(
       x0,
       y0,
@@ -125,8 +127,9 @@ object RenderMethod:
       pixels,
       plan.basis,
       plan.indirectLimit.toVector ++ plan.limit,
-      groups.fold(1)(_.size),
-      plan.bands
+      plan.splatGroups,
+      plan.bands,
+      plan.strategies.count(_.isSplatted)
     )
 
 /** Chooses, by a few paths, a method that finds caustics where that reduces the noise.

@@ -70,6 +70,14 @@ final case class RenderPlan(
   /** What the rendering takes in memory, estimated, and has taken in time until it begins. */
   def costs: Costs = Costs() ++ (built ++ FilmSize.of(this))
 
+  /** The strategies of connection that are told apart. */
+  def strategies: Vector[StrategyLayer] =
+    layers.toVector.flatMap(_.layers).collect { case s: StrategyLayer => s }
+
+  /** Groups of lights that splats are told apart by. */
+  def splatGroups: Int =
+    layers.filter(_.layers.contains(Layer.Lights)).flatMap(_.groups).fold(1)(_.size)
+
   /** What `--explain` says of the plan: (what, value). */
   def features: Vector[(String, String)] =
     facts :+ ("samples" -> (if sharesSamples then "splatted under the filter"
@@ -140,7 +148,7 @@ final case class ErrorFile(reference: String, file: String)
 /** The AOVs of an image, and the visible surface that they are computed from.
   *
   * @param names  legend of the identifiers
-  * @param division the light groups, if the samples' light is divided
+  * @param division groups of light, if the samples' light is divided
   */
 final case class LayerPlan(
     layers: Vector[ImageLayer],

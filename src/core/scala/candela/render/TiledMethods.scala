@@ -1,5 +1,6 @@
 package candela.render
 
+import candela.bdpt.Strategies
 import candela.color.Wavelengths
 import candela.film.{Fireflies, SplatFilm, View}
 import candela.guiding.{Guide, GuideSettings}
@@ -91,7 +92,8 @@ final class SplattedTiles(
     private val integrators: View => WorkerIntegrators,
     val beside: Boolean = false,
     private val guided: Option[GuidedSplats] = None,
-    override val addedLight: Option[String] = None
+    override val addedLight: Option[String] = None,
+    override val strategies: Option[Strategies] = None
 ) extends RenderMethod:
   def canShareSamples: Boolean = beside
   def canKeepOn: Boolean = guided.forall(_.settings.learnsOn)
@@ -126,7 +128,8 @@ final class SplattedTiles(
           (view, guide) => RenderMethod.inBases(bases, guidedBy(guide))(view)
         )
       ),
-      addedLight
+      addedLight,
+      strategies
     )
 
 /** How paths beside light paths learn.

@@ -129,6 +129,22 @@ final class SplatFilmSuite extends AnyFunSuite:
     assert(values(f.deltaSince(before)).slice(3, 6) == Vector(60f, 60f, 60f))
     assert(values(before).slice(3, 6) == Vector(12f, 24f, 36f))
 
+  test("the light of strategies is beside the image, and saved with it"):
+    def empty = SplatFilm(
+      0, 0, 4, 3, box, 12.0, ColorBasis.Srgb, Vector.empty, strategies = 2
+    )
+    val f = empty
+    f.countSample()
+    f.add(0.5f, 0.5f, Rgb(1, 2, 3), 0)
+    f.addStrategy(1.5f, 0.5f, Rgb(5, 5, 5), 1)
+    assert(values(f).sum == 12 * 6)
+    val read = empty
+    saved(f)(CheckedFile.read(_, "splats")(read.load))
+    for film <- Seq(f, f.copy(), read); k <- 0 to 1 do
+      val data = new Array[Float](36)
+      film.addStrategyTo(data, 1f, k)
+      assert(data.sum == (if k == 1 then 12 * 15f else 0f))
+
   test("groups of lights add up to all splats, and each has its own"):
     def filled(groups: Int) =
       val f = SplatFilm(0, 0, 4, 3, box, 12.0, ColorBasis.Srgb, Vector.empty, groups)

@@ -1,6 +1,7 @@
 package candela.build.integrators
 
 import candela.diagnostics.Code
+import candela.aov.ImageLayer
 import candela.bsdf.Material
 import candela.build.recipe.*
 import candela.film.PixelBounds
@@ -57,6 +58,7 @@ object Integrators:
   * @param interfaces   what interfaces of media are to light sampling
   * @param hasVeils     whether the openings of masks are interfaces, too
   * @param looksForCaustics whether it does so if asked to
+  * @param layers       that it brings to the image
   * @param finish       what the integrator makes of each material
   * @param throughMedia   render method for scenes with participating media, if supported
   * @param throughVolumes the same for scenes with v2's volumes, through which each worker marches
@@ -76,6 +78,7 @@ final case class IntegratorPlan(
     interfaces: Interfaces = Interfaces.Open,
     hasVeils: Boolean = false,
     looksForCaustics: Boolean = false,
+    layers: Vector[ImageLayer] = Vector.empty,
     finish: Material => Material = identity,
     throughMedia: Option[(Scene, SceneMedia) => RenderMethod] = None,
     throughVolumes: Option[(Scene, Array[Int], () => VolumeMarch) => RenderMethod] = None

@@ -1,6 +1,6 @@
 package candela.build.integrators
 
-import candela.bdpt.{BidirectionalPathTracer, LightTracer, PathMedia}
+import candela.bdpt.{BidirectionalPathTracer, LightTracer, PathMedia, Strategies}
 import candela.diagnostics.Code
 import candela.mlt.{MarkovChains, MetropolisSettings}
 import candela.photons.{PhotonPasses, PhotonSettings}
@@ -19,17 +19,36 @@ import candela.scenefile.Dialect
 object BdptRecipe extends IntegratorRecipe("bdpt", "bidirectional path tracing", sinceV3)
     with Windowed
     with Regularizing:
-  unsupported("a debugging aid; only the image is written")(
-    bool("visualizestrategies", "write an image per connection strategy")(false),
-    bool("visualizeweights", "write the MIS weights of the strategies")(false)
-  )
+  private val unweighted = bool(
+    "visualizestrategies",
+    "also write an image of each connection strategy, as if it were the only one: of IMAGE.exr, " +
+      "IMAGE_bdpt_dDD_sSS_tTT.exr, where light paths of SS and camera paths of TT vertices have " +
+      s"DD scattering events, at most $StrategyDepth"
+  )(false)
+  private val weighted = bool(
+    "visualizeweights",
+    "likewise, with the weights of multiple importance sampling: these images add up to the image"
+  )(false)
   noMeaning("all strategies have the same mean; light subpaths start by power")(
     string("lightsamplestrategy", "light sampling strategy: uniform, power, spatial", onlyV3)(
       "power"
     )
   )
-  protected def create()(using Site): IntegratorPlan =
-    windowed(BidirectionalPlans.plan(name, maxDepth(), regularize()))
+
+  protected def create()(using site: Site): IntegratorPlan =
+    val isShown = unweighted() || weighted()
+    val depth = if isShown then Math.min(maxDepth(), StrategyDepth) else maxDepth()
+    if depth < maxDepth() then
+      site.warn(
+        Code.AsInPbrt,
+        s"paths have at most $StrategyDepth scattering events where strategies are told apart, " +
+          "as in pbrt"
+      )
+    val strategies = Option.when(isShown)(Strategies(depth, weighted()))
+    windowed(BidirectionalPlans.plan(name, depth, regularize(), strategies))
+
+  /** Scattering events of paths whose strategies are told apart, at most. */
+  private inline val StrategyDepth = 5
 
 private[build] object MetropolisRanges:
   val Counts: Range = Range(1f, 1e8f)
@@ -150,25 +169,38 @@ object FunctionRecipe
 private[build] object BidirectionalPlans:
 
   /** @param name name of the integrator in the scene */
-  def plan(name: String, depth: Int, regularizes: Boolean = false)(using
-      site: Site
-  ): IntegratorPlan =
+  def plan(
+      name: String,
+      depth: Int,
+      regularizes: Boolean = false,
+      strategies: Option[Strategies] = None
+  )(using site: Site): IntegratorPlan =
     val maxDepth = depth
     val dialect = site.dialect
+    def tiles(scene: Scene, media: SceneMedia | Null) =
+      SplattedTiles(
+        tracers(scene, maxDepth, regularizes, media, strategies),
+        strategies = strategies
+      )
+    val apart = strategies.fold(""): s =>
+      s", ${if s.isWeighted then "weighted" else "unweighted"} strategies apart"
     IntegratorPlan(
-      (scene, _) => SplattedTiles(tracers(scene, maxDepth, regularizes)),
+      (scene, _) => tiles(scene, null),
       samplesBsdf = false,
-      s"$name, up to $maxDepth scattering events" + (if regularizes then ", regularised" else ""),
+      s"$name, up to $maxDepth scattering events" +
+        (if regularizes then ", regularised" else "") + apart,
+      layers = strategies.fold(Vector.empty)(_.layers),
       followsSpecular = dialect == Dialect.V4,
       throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
         limit(scene, media) match
-          case None => SplattedTiles(tracers(scene, maxDepth, regularizes, media))
-          case Some(what) => inVolpath(name, what, scene, media, maxDepth, regularizes)
+          case None => tiles(scene, media)
+          case Some(what) =>
+            inVolpath(name, what, scene, media, maxDepth, regularizes, strategies)
       ,
       throughVolumes = Some: (scene, _, march) =>
         site.warn(
           Code.IntegratorLacks,
-          s"\"$name\" does not support volumes yet; using \"path\", which $Lack"
+          s"\"$name\" does not support volumes yet; using \"path\", which ${lack(strategies)}"
         )
         val limits = PathLimits(maxDepth, RouletteDepth)
         RenderMethod.tiles(scene)(PathTracer(_, limits, volumes = march()))
@@ -189,11 +221,12 @@ private[build] object BidirectionalPlans:
       scene: Scene,
       media: SceneMedia,
       depth: Int,
-      regularizes: Boolean
+      regularizes: Boolean,
+      strategies: Option[Strategies] = None
   )(using site: Site): RenderMethod =
     site.warn(
       Code.IntegratorLacks,
-      s"\"$name\" does not support $what yet; using \"volpath\", which $Lack"
+      s"\"$name\" does not support $what yet; using \"volpath\", which ${lack(strategies)}"
     )
     val limits = PathLimits(depth, RouletteDepth, seesThrough = site.dialect == Dialect.V3)
     val options = PathOptions(regularizes, subsurface = scene.hasSubsurface)
@@ -203,20 +236,23 @@ private[build] object BidirectionalPlans:
       scene: Scene,
       depth: Int,
       regularizes: Boolean,
-      media: SceneMedia | Null = null
+      media: SceneMedia | Null,
+      strategies: Option[Strategies] = None
   )(using Site): View => WorkerIntegrators =
-    v => WorkerIntegrators(scene)(tracer(_, v, depth, regularizes, media)(v.splats))
+    v => WorkerIntegrators(scene)(tracer(_, v, depth, regularizes, media, strategies)(v.splats))
 
   private def tracer(
       scene: Scene,
       view: View,
       depth: Int,
       regularizes: Boolean,
-      media: SceneMedia | Null
+      media: SceneMedia | Null,
+      strategies: Option[Strategies] = None
   )(splats: Splats)(using site: Site): BidirectionalPathTracer =
     val compresses = site.dialect != Dialect.V2
     BidirectionalPathTracer(
-      scene, view.camera, splats, depth, SubpathRouletteDepth, compresses, regularizes, media
+      scene, view.camera, splats, depth, SubpathRouletteDepth, compresses, regularizes, media,
+      strategies.orNull
     )
 
   /** Plan of [[MarkovChains]]. Volumes use the fallback above.
@@ -250,7 +286,9 @@ private[build] object BidirectionalPlans:
       samples = Some(mutations)
     )
 
-  private val Lack = "misses caustics from point lights"
+  private def lack(strategies: Option[Strategies]): String =
+    "misses caustics from point lights" +
+      strategies.fold("")(_ => " and has no strategies to tell apart")
 
 /** Plans that use [[PhotonPasses]]. */
 private[build] object PhotonPlans:

@@ -52,14 +52,16 @@ final class MergeCommand(
     val images = header.outfiles.map(OutputFiles.path)
     val expected = FilmHeaders.of(saved.settings, header.scene, loaded, first.path, images)
     register.read(SceneFiles.of(loaded.description))
-    outputs.foreach(register.write)
+    val all = outfiles.withStrategies(loaded.plan)
+    val strategies = Output(all.paths.diff(outfiles.paths), "image", first.path.toString)
+    (outputs :+ strategies).foreach(register.write)
     FilmKeeper.verify(first, expected.copy(count = header.count))
-    try write(films, outfiles, loaded, saved)
+    try write(films, all, loaded, saved)
     catch
       case e: SceneError if options.film.partial =>
         val sound = this.sound(films, loaded)
         if sound.size == films.size then throw e
-        write(sound, outfiles, loaded, saved)
+        write(sound, all, loaded, saved)
 
   /** The films whose states are sound; the others are left out with a warning, unless all are. */
   private def sound(films: Vector[FilmFile], loaded: Prepared): Vector[FilmFile] =

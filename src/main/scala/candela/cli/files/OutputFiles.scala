@@ -2,11 +2,11 @@ package candela.cli.files
 
 import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.FileName
-import candela.aov.{ImageLayer, Layer, NamedLayer}
+import candela.aov.{ImageLayer, Layer, NamedLayer, StrategyLayer}
 import candela.build.film.FilmRecipe
 import candela.cli.options.FilmOptions
 import candela.image.{Contents, ImageError, OutputFormat}
-import candela.job.{ImageName, Prepared}
+import candela.job.{ImageName, Prepared, StrategyFiles}
 import candela.render.RenderPlan
 
 import java.io.IOException
@@ -49,6 +49,10 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
       )
     OutputFiles(paths.take(1) ++ kept, warnings ++ notices)
 
+  /** With those of the strategies that are told apart. */
+  def withStrategies(plan: RenderPlan): OutputFiles =
+    copy(paths = (paths ++ paths.headOption.toVector.flatMap(StrategyFiles(plan).beside)).distinct)
+
   /** @throws SceneError if no file can store alpha */
   def checkAlpha(): Unit =
     val fitting = OutputFormat.all.filter(f => f.keepsAlpha || f.contents == Contents.Channels)
@@ -86,12 +90,14 @@ object OutputFiles:
     val problems = failures(paths)(write).map(_._2)
     if problems.nonEmpty then throw SceneError(problems)
 
-  /** Whether a file must store layers; alpha and what scenes name themselves, and those that only
-    * guide the denoiser, need none.
+  /** Whether a file must store layers; alpha, what scenes name themselves, those that only guide
+    * the denoiser, and those that have their own files need none.
     */
   def needLayers(plan: RenderPlan, denoises: Boolean): Boolean =
     val guides = Layer.Alpha +: (if denoises then Layer.denoising else Vector.empty)
-    def isIdle(layer: ImageLayer) = guides.contains(layer) || layer.isInstanceOf[NamedLayer]
+    def isIdle(layer: ImageLayer) = layer match
+      case _: NamedLayer | _: StrategyLayer => true
+      case other => guides.contains(other)
     plan.layers.exists(!_.layers.forall(isIdle)) || plan.development.bands.nonEmpty
 
   /** Exactly the requested images. */

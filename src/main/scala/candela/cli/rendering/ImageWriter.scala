@@ -5,7 +5,7 @@ import candela.cli.files.{OutputFiles, Sequence}
 import candela.cli.options.Options
 import candela.cli.terminal.Report
 import candela.image.{Contents, Image, OutputFormat}
-import candela.job.{Denoising, EmptyImage, FilmHeaders, ImageFile, Prepared, Render}
+import candela.job.{Denoising, EmptyImage, FilmHeaders, ImageFile, Prepared, Render, StrategyFiles}
 import candela.render.Rendering
 
 import java.nio.file.{Files, Path}
@@ -24,6 +24,7 @@ private[cli] final class ImageWriter(
     val paths: Vector[Path]
 ):
   private val files = ImageFile(options.settings, name, prepared)
+  private val strategies = StrategyFiles(prepared.plan)
 
   /** The digest of the rendering, if what is done is to be skipped. */
   val digest: Option[String] = Option.when(options.film.skipDone):
@@ -55,7 +56,13 @@ private[cli] final class ImageWriter(
     val about = digest.filter(_ => rendering.isComplete).map(Sequence.Digest -> _).toVector
     // Those that can't hold the digest first: what is done is told by the others
     val failures = OutputFiles.failures(wanted.sortBy(Sequence.keepsDigest)): path =>
-      files.write(path, image, rendering, about, denoising.map(_.describe))
+      files.write(
+        path,
+        strategies.contents(path, image),
+        rendering,
+        about,
+        denoising.map(_.describe)
+      )
     if failures.nonEmpty then
       val _ = report.errors(failures.sortBy((path, _) => wanted.indexOf(path)).map(_._2))
     wanted.diff(failures.map(_._1))

@@ -76,11 +76,12 @@ private[cli] final class RenderOutputs(
     val pos = if outfiles.isEmpty then FilmName.position(loaded.description) else None
     // Those of a film are not named now
     val isAsked = outfiles.nonEmpty && resumed.isEmpty
-    register.write(Output(files.paths, "image", scene, pos = pos, isAsked = isAsked))
+    val all = files.withStrategies(plan).paths
+    register.write(Output(all, "image", scene, pos = pos, isAsked = isAsked))
     val film = FilmKeeping.path(options, outfiles, files.paths, resumed)
     val errorsAt = loaded.description.options.find(_.name == "msereferenceout").map(_.valuesAt)
     extraOutputs(scene, film, plan.errors.map(_.file), errorsAt).foreach(register.write)
-    files.paths
+    all
 
   /** Where a sandbox lets files be written. */
   private def folders(scene: String, outfiles: Vector[String]): Vector[Path] =

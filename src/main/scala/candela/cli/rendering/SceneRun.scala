@@ -5,7 +5,7 @@ import candela.cli.files.Denoised
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
 import candela.image.Image
-import candela.job.{Denoising, ErrorRecorder, FilmKeeper, GoalRule, Prepared, Render}
+import candela.job.{Denoising, ErrorRecorder, FilmKeeper, GoalRule, Prepared, Render, StrategyFiles}
 import candela.render.{Cancellation, Looks, RenderControl, Rendering, RenderListener, StoppingRule}
 import candela.render.storage.Checkpoints
 
@@ -181,7 +181,7 @@ private[cli] final class SceneRun(
     def saved(rendering: Rendering) =
       if writer.writable(rendering).isEmpty then
         "nothing: the new image has less than 1 sample per pixel"
-      else save(rendering).mkString(", ")
+      else StrategyFiles.listed(save(rendering))
     Watching(options, writer.name, prepared, reference, cancellation, terminal, saved)
 
   /** Writes the image so far. */

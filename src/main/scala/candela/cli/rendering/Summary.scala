@@ -3,7 +3,7 @@ package candela.cli.rendering
 import candela.diagnostics.Code
 import candela.cli.options.Options
 import candela.cli.terminal.{Figures, ProblemText, Terminal}
-import candela.job.{GoalRule, Prepared}
+import candela.job.{GoalRule, Prepared, StrategyFiles}
 import candela.measure.Interval
 import candela.render.{Refused, Rendering}
 import candela.render.storage.FilmFile
@@ -36,7 +36,7 @@ object Summary:
     val endNote = ending.fold(""): option =>
       if isMet then s"; --$option was reached already" else s"; ended by --$option"
     val missing = noiseNote + placeholders(standIns) + darkness(r) + endNote
-    val names = written.mkString(", ")
+    val names = StrategyFiles.listed(written)
     if r.isComplete && r.seconds == 0 then
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
       s"wrote $names  ${r.film.width}x${r.film.height}, $done spp$missing"
