@@ -13,7 +13,10 @@ import candela.film.{Development, FilterReach, Fireflies, PixelBounds, SpectralB
 import candela.guiding.Guide
 import candela.integrators.CausticsMode
 import candela.math.{Motion, Still}
-import candela.render.{ErrorFile, FilmSize, LayerPlan, Passes, RenderMethod, RenderPlan}
+import candela.render.{
+  AdaptiveSampling, ErrorFile, FilmSize, LayerPlan, Passes, RenderMethod, RenderPlan,
+  SampleDifference, Tiles
+}
 import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
 import candela.scenefile.SceneDescription
@@ -227,6 +230,12 @@ object SceneBuilder:
     if usesSampler && !settings.preview then
       for remark <- sampling.remarks do
         context.problems.warn(Code.AsInPbrt, context.description.sampler.map(_.pos), remark)
+    val adaptive =
+      if samplesOverride.isEmpty then adaptiveSampling(context, sampling, world) else None
+    val firstSamples =
+      sampling.first.filter(_ => adaptive.isDefined).fold("")((first, _) =>
+        s": ${first.asInPbrt.describe}"
+      )
     val moves = camera.motion.isDefined || world.moves
     RenderPlan(
       width = image.width,
@@ -253,7 +262,8 @@ object SceneBuilder:
         caustics(context, world) ++ context.resources.imagesInWords.map("images" -> _) ++ Vector(
           "motion" -> moving(camera, world),
           "layers" -> described(image.layers, film.development.bands),
-          "sampler" -> (if usesSampler then sampling.points else "none: Markov chains")
+          "sampler" -> (if usesSampler then sampling.points + firstSamples
+                        else "none: Markov chains")
         ) ++ FireflyLimits.feature(settings) ++
         guiding(context, settings, method, samples, crop.pixels),
       differentialScale = footprint(context, sampling),
@@ -275,8 +285,40 @@ object SceneBuilder:
       sampleWindow = image.sampleWindow,
       samples = samplesOverride,
       sight = Some(world.sight),
-      hidesSky = hidesSky(context, settings, image)
+      hidesSky = hidesSky(context, settings, image),
+      adaptive = adaptive
     )
+
+  /** Of pbrt-v2's adaptive sampler. Not of paths that learn or wait for a pilot's choice: those
+    * belong to passes over the whole image.
+    */
+  private def adaptiveSampling(
+      context: BuildContext,
+      sampling: SamplingSetup,
+      world: World
+  ): Option[AdaptiveSampling] =
+    def warn(code: Code, message: String): Unit =
+      context.problems.warn(code, context.description.sampler.map(_.pos), message)
+    sampling.first.flatMap: (asked, sampler) =>
+      val first = asked.asInPbrt
+      world.method match
+        case _: Tiles if !context.resources.settings.centers =>
+          if first != asked then
+            warn(
+              Code.AsInPbrt,
+              s"taking ${first.minSamples} or ${first.maxSamples} samples per pixel: they are " +
+                "different powers of two, as in pbrt-v2"
+            )
+          val difference =
+            if first.byShape then SampleDifference.Shape(world.scene) else SampleDifference.Contrast
+          Some(AdaptiveSampling(sampler, difference))
+        case _ =>
+          warn(
+            Code.IdleOption,
+            s"every pixel takes ${first.maxSamples} samples: the sampler \"adaptive\" goes with " +
+              "none of --guiding, --caustics and --disable-pixel-jitter"
+          )
+          None
 
   /** Pictures with alpha show what is behind them, instead of the sky: but not those that the
     * program of the dialect makes.

@@ -5,7 +5,7 @@ import candela.aov.ImageLayer
 import candela.build.cameras.Cameras
 import candela.build.film.{FilmSettings, Films, Filters}
 import candela.build.integrators.IntegratorPlan
-import candela.build.sampling.{SamplerPlan, SamplerRequest, Samplers}
+import candela.build.sampling.{FirstSampling, SamplerPlan, SamplerRequest, Samplers}
 import candela.cameras.{Camera, FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.film.{Filter, PixelBounds}
 import candela.math.*
@@ -102,13 +102,15 @@ private[build] object ImageSetup:
   * @param samples   samples per pixel, if not set by the sampler
   * @param footprint size of a sample's footprint, in pixels
   * @param remarks   on the number of samples, if the sampler is used
+  * @param first     whether a pixel needs all samples, if it doesn't always; samples its first ones
   */
 private[build] final case class SamplingSetup(
     sampler: Sampler,
     points: String,
     samples: Option[Int],
     footprint: Float,
-    remarks: Vector[String]
+    remarks: Vector[String],
+    first: Option[(FirstSampling, Sampler)]
 )
 
 private[build] object SamplingSetup:
@@ -147,7 +149,10 @@ private[build] object SamplingSetup:
       else if footprint.isDefined then footprint.get
       else if context.isV4 then Math.max(SharpestV4, density)
       else density,
-      replaced.toVector ++ rounded
+      replaced.toVector ++ rounded,
+      // Other samples are taken if these differ: points of another seed
+      plan.first.map: first =>
+        first -> points.sampler(first.asInPbrt.minSamples, ~plan.seed, image.width, image.height)
     )
 
 /** The placed camera.

@@ -35,7 +35,8 @@ object FilmHeaders:
       relative(film.toAbsolutePath.getParent, workingFolder).toString,
       SettingsCodec.identity(settings),
       files.map(_.toString),
-      digests(prepared.description) ++ names(plan),
+      digests(prepared.description) ++ names(plan) ++
+        Option.when(plan.adaptive.isDefined)(Adaptive -> Sha256.of(Adaptive)),
       size(plan),
       plan.sampler.samplesPerPixel,
       done = 0,
@@ -51,10 +52,18 @@ object FilmHeaders:
     */
   def settings(header: FilmHeader): RenderSettings =
     SettingsCodec.settings(header.words) match
-      case Right(saved) => saved.chosen.copy(samples = Some(header.samples))
+      case Right(saved) =>
+        // With a number of samples, a scene's sampler is not adaptive
+        saved.chosen.copy(samples = Option.unless(isAdaptive(header))(header.samples))
       case Left(why) =>
         val message = s"the film of `${header.scene}` has invalid settings: $why"
         throw SceneError(Problem.general(Code.OtherRendering, message))
+
+  /** Whether samples themselves decide how many a pixel has. */
+  def isAdaptive(header: FilmHeader): Boolean = header.files.exists(_._1 == Adaptive)
+
+  /** Stands among the files, as it is part of a rendering's identity. */
+  private val Adaptive = "adaptive sampling"
 
   private def workingFolder: Path = Path.of("").toAbsolutePath
 

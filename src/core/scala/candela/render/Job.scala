@@ -20,7 +20,7 @@ private[render] final class Job(
     val isPiece = piece >= 0 && piece < schedule.pieces && begun.done > 0
     isPiece && (schedule match
       case tiled: TileSchedule =>
-        begun.done < tiled.tiles(piece).pixels &&
+        begun.done < tiled.tiles(piece).pixels * tiled.atOnce &&
         begun.sums.length == film.shares.fold(0)(_.size(piece))
       case _ =>
         begun.done < ChainWorker.AtOnce && begun.sums.length == 1 &&

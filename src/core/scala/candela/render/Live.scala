@@ -34,12 +34,16 @@ final class Live private[render] (
 
   def progress: Progress =
     val total = planned + further * plan.sampled.pixels
-    Progress(queue.samplesTaken.sum, total, elapsed(), expected)
+    Progress(queue.samplesTaken.sum + queue.samplesSpared.sum, total, elapsed(), expected)
 
   /** What there is now; the result, once rendering has ended. */
   def rendering: Rendering =
     state.rendering(samplesPerPixel)
-      .copy(samplesTaken = queue.samplesTaken.sum, seconds = elapsed())
+      .copy(
+        samplesTaken = queue.samplesTaken.sum,
+        samplesSpared = queue.samplesSpared.sum,
+        seconds = elapsed()
+      )
 
   /** The tiles that workers render at the moment; none for methods without tiles. */
   def tiles: Vector[PixelBounds] =

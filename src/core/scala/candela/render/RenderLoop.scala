@@ -21,8 +21,8 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   private val pixels = plan.sampled.pixels
   private val live =
     val planned = pixels * Math.max(0, plan.samplesPerPixel - earlierSamples) / shard.count
-    val canKeepOn = plan.method.canKeepOn && shard.isWhole && checkpointer.isEmpty &&
-      plan.samplesPerPixel < RenderPlan.Endless
+    val canKeepOn = plan.method.canKeepOn && plan.adaptive.isEmpty && shard.isWhole &&
+      checkpointer.isEmpty && plan.samplesPerPixel < RenderPlan.Endless
     Live(plan, job, queue, state, planned, canKeepOn, () => seconds)
   private val timeLeft =
     TimeLeft(schedule, pixels.toDouble / shard.count, earlierSamples, rule, listener)

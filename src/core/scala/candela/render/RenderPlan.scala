@@ -37,6 +37,7 @@ import candela.scene.SurfaceNames
   *                          made for
   * @param sight             what the camera can see
   * @param hidesSky          whether the camera sees no sky, though it lights the scene
+  * @param adaptive          whether a pixel needs all samples, if it doesn't always; of [[Tiles]]
   */
 final case class RenderPlan(
     width: Int,
@@ -65,7 +66,8 @@ final case class RenderPlan(
     sampleWindow: Option[PixelBounds] = None,
     samples: Option[Int] = None,
     sight: Option[Sight] = None,
-    hidesSky: Boolean = false
+    hidesSky: Boolean = false,
+    adaptive: Option[AdaptiveSampling] = None
 ):
   /** What the rendering takes in memory, estimated, and has taken in time until it begins. */
   def costs: Costs = Costs() ++ (built ++ FilmSize.of(this))

@@ -8,7 +8,7 @@ import candela.image.Image
 
 /** Progress of a rendering.
   *
-  * @param done    camera samples taken, of `total`
+  * @param done    camera samples taken, or found to be needless, of `total`
   * @param seconds elapsed time
   */
 final case class Progress(
@@ -75,6 +75,7 @@ private[render] object Refused:
   * @param learned         what its paths learnt, if they did
   * @param learning        of the seconds, those that workers did nothing but learn
   * @param earlier         of the samples done, those of earlier runs that it continues
+  * @param samplesSpared   planned samples in all pixels that these did without
   */
 final case class Rendering(
     film: Film,
@@ -87,8 +88,13 @@ final case class Rendering(
     layers: Option[LayerFilm] = None,
     learned: Option[GuideOutcome] = None,
     learning: Double = 0,
-    earlier: Int = 0
+    earlier: Int = 0,
+    samplesSpared: Long = 0
 ):
+  /** Share of the samples done that are taken, the others being spared. */
+  def takenShare: Double =
+    if samplesSpared == 0 then 1 else samplesTaken.toDouble / (samplesTaken + samplesSpared)
+
   /** Colour channels, then AOVs, then wavelength bands.
     *
     * @param pool develops the colours

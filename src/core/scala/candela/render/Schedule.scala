@@ -13,19 +13,21 @@ import java.util.concurrent.atomic.AtomicLongArray
   * @param largestWave maximum samples per pixel of a wave
   * @param openWaves   maximum number of waves in progress: wave w begins only when wave w −
   *                    openWaves is finished
+  * @param grows       whether the first waves are smaller
   */
 private[render] abstract class Schedule(
     val pieces: Int,
     samplesPerPixel: Int,
     largestWave: Int = Schedule.LargestWave,
-    val openWaves: Int = Int.MaxValue
+    val openWaves: Int = Int.MaxValue,
+    grows: Boolean = true
 ):
 
   // The waves before the first of the largest size; from then on, all are of that size.
   private val growing: Array[Int] =
     Iterator
       .iterate(0)(start => start + Schedule.size(start))
-      .takeWhile(Schedule.size(_) < largestWave)
+      .takeWhile(start => grows && Schedule.size(start) < largestWave)
       .toArray
   private val grown = growing.lastOption.fold(0)(start => start + Schedule.size(start))
 
@@ -97,13 +99,25 @@ private[render] object Schedule:
   /** Of the wave that begins with this sample, unless it is limited: two waves double the total. */
   private def size(start: Int): Int = Math.max(Integer.highestOneBit(start) / 2, 1)
 
-/** A schedule whose pieces are the tiles of an image, row by row. */
+/** A schedule whose pieces are the tiles of an image, row by row.
+  *
+  * @param atOnce samples of a pixel that follow each other: one, or all, in a single wave
+  */
 private[render] final class TileSchedule(
     bounds: PixelBounds,
     samplesPerPixel: Int,
     largestWave: Int = Schedule.LargestWave,
-    openWaves: Int = Int.MaxValue
-) extends Schedule(TileSchedule.count(bounds), samplesPerPixel, largestWave, openWaves):
+    openWaves: Int = Int.MaxValue,
+    val atOnce: Int = 1
+) extends Schedule(
+      TileSchedule.count(bounds),
+      samplesPerPixel,
+      Math.max(largestWave, atOnce),
+      openWaves,
+      grows = atOnce == 1
+    ):
+
+  override def step: Int = if atOnce == 1 then 1 else 0
 
   protected def samplesOf(tile: Int, progress: Long): Int = progress.toInt
 

@@ -26,7 +26,8 @@ private[render] final class TileWorker(
 ) extends Worker(schedule, queue):
   private val camera = plan.camera
   private val getsOn = () => beat()
-  private val sampler = plan.sampler.copy()
+  private val planSampler = plan.sampler.copy()
+  private var sampler = planSampler
   private val rays = CameraRays(camera, plan.shutter, plan.differentialScale, plan.hidesSky)
   private val ray = rays.ray
   private val weighs = camera.weighs
@@ -39,6 +40,10 @@ private[render] final class TileWorker(
   private val lightParts: LightParts | Null =
     if dimmer != null || plan.layers.exists(_.groups.isDefined) then integrator.lightParts else null
   if visible != null then visible.lightParts = lightParts
+
+  private val firstSamples: FirstSamples | Null = plan.adaptive.map(FirstSamples(_)).orNull
+  private var isTrial = false // whether samples go to `firstSamples`
+  private val isColorOnly = layerFilm == null && bands == null
 
   // Accumulators of samples shared by several pixels
   private val levels: LevelPass | Null = film.levels.map(_.pass()).orNull
@@ -77,41 +82,100 @@ private[render] final class TileWorker(
     val end = schedule.endSample(wave)
     val last = Math.min(end, queue.endSample)
     var begun = false
-    sample = Math.max(first, queue.progress.get(tile).toInt)
+    var next = Math.max(first, queue.progress.get(tile).toInt)
     var isWhole = true
-    while sample < last && isWhole && queue.goesOn() && !queue.isAbandoned do
+    while next < last && isWhole && queue.goesOn() && !queue.isAbandoned do
+      sample = next
       if takes(tile, sample) then
         if !begun then waveWeight = beginWave(first, getsOn)
         begun = true
         isWhole = waveWeight != TileWorker.Stopped && renderSample(tile)
       if isWhole then
-        sample += 1
-        queue.progress.set(tile, sample)
-    sample >= end
+        next += schedule.atOnce
+        queue.progress.set(tile, next)
+    next >= end
 
-  /** Takes a sample of each pixel of the tile; false if it was left before the last one. */
+  /** Takes a sample of each pixel of the tile, or all that are taken at once; false if it was left
+    * before the last one.
+    */
   private def renderSample(number: Int): Boolean =
     beginTile(number)
     val begun = queue.begun.remove(number)
-    var i = 0
+    val trial = firstSamples
+    val end = tile.pixels * schedule.atOnce
+    var done = 0
     if begun != null then
-      i = begun.done
+      done = begun.done
       if shares != null then shares.resume(begun.sums)
-    while i < tile.pixels && !queue.isAbandoned do
+    while done < end && !queue.isAbandoned do
+      val i = done / schedule.atOnce
       x = tile.x0 + i % tile.width
       y = tile.y0 + i / tile.width
-      takeSample()
-      beat()
-      i += 1
-    val isWhole = i == tile.pixels
+      if trial == null then
+        takeSample()
+        beat()
+        done += 1
+      else done = i * schedule.atOnce + takePixel(trial, done % schedule.atOnce)
+    val isWhole = done == end
     if !queue.isLost then
       if isWhole then
         if shares != null then shares.end()
-        queue.samplesTaken.add(tile.pixels)
-      else if i > 0 then
+        if trial == null then queue.samplesTaken.add(tile.pixels)
+      else if done > 0 then
         val sums = if shares == null then Array.emptyDoubleArray else shares.suspend()
-        queue.begun.put(number, BegunPiece(i, sums)): Unit
+        queue.begun.put(number, BegunPiece(done, sums)): Unit
     isWhole
+
+  /** Takes the first samples of a pixel or, if these differ, all others instead.
+    *
+    * @param from how many of the others there are already
+    * @return how many there are now; all, if no more are needed
+    */
+  private def takePixel(trial: FirstSamples, from: Int): Int =
+    val all = schedule.atOnce
+    if from == 0 && !tryOut(trial) then 0
+    else if from == 0 && !trial.differ then
+      addFirst(trial)
+      queue.samplesTaken.add(trial.count)
+      queue.samplesSpared.add(all - trial.count)
+      all
+    else
+      sample = from
+      while sample < all && !queue.isAbandoned do
+        takeSample()
+        beat()
+        sample += 1
+      queue.samplesTaken.add(sample - from)
+      sample
+
+  /** Traces the first samples of a pixel; false if it was left before the last one. */
+  private def tryOut(trial: FirstSamples): Boolean =
+    trial.clear()
+    isTrial = true
+    sampler = trial.sampler
+    sample = 0
+    while sample < trial.count && !queue.isAbandoned do
+      takeSample()
+      beat()
+      sample += 1
+    isTrial = false
+    sampler = planSampler
+    sample == trial.count
+
+  /** Adds them to the film. What it needs beside their colours is traced again. */
+  private def addFirst(trial: FirstSamples): Unit =
+    sampler = trial.sampler
+    sample = 0
+    var traced = 0
+    while sample < trial.count do
+      if isPlaced() then
+        if isColorOnly then
+          val light = trial.light(traced)
+          if !queue.isLost then if light.isFinite then add(light) else refuse()
+        else follow()
+        traced += 1
+      sample += 1
+    sampler = planSampler
 
   private def beginTile(number: Int): Unit =
     tile = schedule.tiles(number)
@@ -119,7 +183,10 @@ private[render] final class TileWorker(
     if levels != null then levels.selectTile(number)
     if visible != null then visible.weight = waveWeight
 
-  private def takeSample(): Unit =
+  private def takeSample(): Unit = if isPlaced() then follow()
+
+  /** Places the sample on the film; false if no pixel needs it. */
+  private def isPlaced(): Boolean =
     val shared = shares
     if shared == null then
       sampler.start(x, y, sample)
@@ -127,19 +194,25 @@ private[render] final class TileWorker(
       filterSampler.sample(sampler.x, sampler.y)
       filmX = x + 0.5f + filterSampler.dx
       filmY = y + 0.5f + filterSampler.dy
-      if sampleWindow == null || sampleWindow.contains(filmX, filmY) then follow()
+      sampleWindow == null || sampleWindow.contains(filmX, filmY)
     else
       // Samplers cover the image only; pixels outside wrap around to the opposite side
       sampler.start(Math.floorMod(x, plan.width), Math.floorMod(y, plan.height), sample)
       sampler.next2D()
       filmX = x + sampler.x
       filmY = y + sampler.y
-      if shared.reaches(filmX, filmY) then follow()
+      shared.reaches(filmX, filmY)
 
   /** Traces the camera ray at the sampled film position. */
   private def follow(): Unit =
     val weight = rays.next(filmX, filmY, sampler)
-    if weight == 0f then
+    val trial = firstSamples
+    if isTrial && trial != null then
+      if weight == 0f then trial.addBlocked()
+      else
+        trial.traceFirstHit(ray)
+        trial.add(limited(inSrgb(integrator.radiance(ray, sampler), weight), weight))
+    else if weight == 0f then
       add(Rgb.Black)
       if layerFilm != null then layerFilm.miss(x, y, ownWeight)
     else
@@ -148,12 +221,8 @@ private[render] final class TileWorker(
       if !queue.isLost then record(estimate, weight)
 
   private def record(estimate: Rgb, weight: Float): Unit =
-    val srgb = plan.basis.toSrgb(estimate)
-    if lightParts != null && !plan.basis.isSrgb then lightParts.convert(lightParts, plan.basis)
-    val radiance =
-      if dimmer != null && lightParts != null then lightParts.limit(dimmer, weight) else srgb
-    val scaled = if weighs then weighed(radiance, weight) else radiance
-    val light = if limit != null && !weighsLast then scaled * limit.scale(scaled) else scaled
+    val radiance = inSrgb(estimate, weight)
+    val light = limited(radiance, weight)
     if light.isFinite then
       add(light)
       if bands != null then addTo(bands, weight)
@@ -161,6 +230,17 @@ private[render] final class TileWorker(
         if lightParts != null then develop(lightParts, radiance, light)
         layerFilm.add(x, y, light, ownWeight, visible)
     else refuse()
+
+  /** The radiance in sRGB, its indirect part limited. */
+  private def inSrgb(estimate: Rgb, weight: Float): Rgb =
+    val srgb = plan.basis.toSrgb(estimate)
+    if lightParts != null && !plan.basis.isSrgb then lightParts.convert(lightParts, plan.basis)
+    if dimmer != null && lightParts != null then lightParts.limit(dimmer, weight) else srgb
+
+  /** The light that the film gets of it. */
+  private def limited(radiance: Rgb, weight: Float): Rgb =
+    val scaled = if weighs then weighed(radiance, weight) else radiance
+    if limit != null && !weighsLast then scaled * limit.scale(scaled) else scaled
 
   /** Divides `light` as `radiance` is: the camera's weight and the limit scale all parts alike. */
   private def develop(parts: LightParts, radiance: Rgb, light: Rgb): Unit =

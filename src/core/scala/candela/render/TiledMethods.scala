@@ -14,11 +14,10 @@ final class Tiles(val integrators: WorkerIntegrators) extends RenderMethod:
   def dividesLight: Boolean = integrators.divideLight
 
   private[render] def job(plan: RenderPlan, shard: Shard): Job =
-    TileJobs(
-      plan,
-      TileSchedule(plan.sampled, plan.samplesPerPixel),
-      shard.takesTile
-    ).job(integrators)
+    val samples = plan.samplesPerPixel
+    val atOnce = if plan.adaptive.isDefined then samples else 1
+    TileJobs(plan, TileSchedule(plan.sampled, samples, atOnce = atOnce), shard.takesTile)
+      .job(integrators)
 
   private[render] def single(plan: RenderPlan, report: PathReport): SingleSamples =
     SingleSamples(integrators.create(Some(report)))

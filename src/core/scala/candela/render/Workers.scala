@@ -23,6 +23,9 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   private val closedWaves = AtomicInteger()
   private val firstFailure = AtomicReference[Option[Throwable]](None)
   val samplesTaken: LongAdder = LongAdder()
+
+  /** Planned samples that pixels do without. */
+  val samplesSpared: LongAdder = LongAdder()
   private val gate = Gate()
   @volatile private var isEnded = false
   @volatile private var isLeft, isForgotten = false
@@ -114,7 +117,8 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
 
 /** What is there of the next step of a piece's progress.
   *
-  * @param done of a tile, how many pixels have their sample; of a chain, how many paths are made
+  * @param done of a tile, how many pixels have their sample, or, if they take all at once, how many
+  *   samples pixels have, each spared one included; of a chain, how many paths are made
   * @param sums what becomes part of the film later: of a tile whose pixels share samples, the sums
   *   of this one, otherwise nothing; of a chain, the weight of its current path
   */

@@ -8,8 +8,8 @@ package candela.sampling
   * with the error of a prefix. Different requests are independent of each other.
   *
   * In pbrt: `sobol` and `paddedsobol` (v4), `sobol`, `02sequence`, `lowdiscrepancy` and
-  * `maxmindist` (v3), `lowdiscrepancy` (v2); also replaces `pmj02bn` (v4), `bestcandidate` and
-  * `adaptive` (v2), whose point sets are not implemented.
+  * `maxmindist` (v3), `lowdiscrepancy` and `adaptive` (v2); also replaces `pmj02bn` (v4) and
+  * `bestcandidate` (v2), whose point sets are not implemented.
   *
   * Source: Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020.
   */

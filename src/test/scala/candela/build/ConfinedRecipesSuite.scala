@@ -43,7 +43,7 @@ object ConfinedRecipesSuite:
   /** Strings that are no files. */
   private val Words = Set(
     "aamode", "basis", "coordinatesystem", "distribution", "encoding", "filter", "gridname",
-    "lightsampler", "lightsamplestrategy", "mapping", "material", "materials", "name",
+    "lightsampler", "lightsamplestrategy", "mapping", "material", "materials", "method", "name",
     "namedmaterial1", "namedmaterial2", "phases", "preset", "rendercoordsys", "sensor", "strategy",
     "temperaturename", "type", "wrap"
   )

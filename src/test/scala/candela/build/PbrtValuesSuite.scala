@@ -200,9 +200,20 @@ final class PbrtValuesSuite extends AnyFunSuite:
     assert(warnings(text, Dialect.V4).exists(_.contains("unknown measured medium \"Skim Milk\"")))
     assertMean(text, Dialect.V4, Rgb.gray(0.945f), 0.01f)
 
-  test("pbrt-v2's adaptive sampler takes a power of two, the larger of its two numbers"):
-    for ((min, max), samples) <- Seq((4, 32) -> 32, (3, 20) -> 32, (16, 4) -> 16, (8, 8) -> 16) do
+  test("pbrt-v2's adaptive sampler takes two different powers of two, the larger at most"):
+    for
+      ((min, max), (few, all)) <- Seq(
+        (4, 32) -> (4, 32),
+        (3, 20) -> (4, 32),
+        (16, 4) -> (4, 16),
+        (8, 8) -> (8, 16),
+        (1, 1) -> (2, 4)
+      )
+    do
       val sampler = s"Sampler \"adaptive\" \"integer minsamples\" $min \"integer maxsamples\" $max"
       val text = s"$sampler\nCamera \"perspective\"\nWorldBegin\nWorldEnd\n"
-      assert(SceneTexts.plan(text, Dialect.V2).sampler.samplesPerPixel == samples, sampler)
-      assert(warnings(text, Dialect.V2).exists(_.contains("taking `maxsamples`")))
+      val plan = SceneTexts.plan(text, Dialect.V2)
+      assert(plan.sampler.samplesPerPixel == all, sampler)
+      assert(plan.adaptive.exists(_.first.samplesPerPixel == few), sampler)
+      val remarks = warnings(text, Dialect.V2).filter(_.contains("different powers of two"))
+      assert(remarks.isEmpty == ((few, all) == (min, max)), sampler)

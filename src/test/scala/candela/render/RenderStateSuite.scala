@@ -40,13 +40,16 @@ class RenderStateSuite extends AnyFunSuite:
       Files.list(folder).forEach(Files.delete(_))
       Files.delete(folder)
 
-  private def plan(shares: Boolean, spp: Int)(tick: Where => Unit = _ => ()): RenderPlan =
+  private def plan(shares: Boolean, spp: Int, few: Option[Int] = None)(
+      tick: Where => Unit = _ => ()
+  ): RenderPlan =
     TinyPlan(
       width = 50,
       height = 37,
       spp = spp,
       filter = GaussianFilter.ofSigma(1.5f, 1.5f, 0.5f),
-      sharesSamples = shares
+      sharesSamples = shares,
+      adaptive = few.map(n => AdaptiveSampling(HashSampler(n), SampleDifference.Contrast))
     ): (where, sampler) =>
       tick(where)
       Rgb(sampler.next1D(), sampler.next1D() * 1e-6f, sampler.next1D() * 1e6f)
@@ -78,6 +81,36 @@ class RenderStateSuite extends AnyFunSuite:
           done = rendering.samplesDone
           runs += 1
         assert(runs > 5)
+        assert(Files.readAllBytes(parts).sameElements(Files.readAllBytes(whole)))
+
+  test("pixels whose samples decide on their number are continued to the same image", Slow):
+    for shares <- Vector(false, true); shard <- Vector(Shard.Whole, Shard(1, 2)) do
+      withFolder: folder =>
+        val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
+        def render(plan: RenderPlan, from: Option[Path], to: Path, stop: Cancellation) =
+          val checkpointer = FileCheckpointer(from, to)
+          val keep = Some(checkpointer)
+          val done = Renderer.render(
+            plan,
+            RenderControl(threads = 2, stop, shard = shard, checkpointer = keep)
+          )
+          assert(checkpointer.lost == 0)
+          done
+        // Two samples contrast with a probability between those of none and all
+        val all = render(plan(shares, 8, Some(2))(), None, whole, Cancellation())
+        assert(all.takenShare > 0.3 && all.takenShare < 0.9, all.takenShare)
+        var from = Option.empty[Path]
+        for last <- Vector(400, 1000, 300) do
+          val cancellation = Cancellation()
+          val taken = AtomicInteger()
+          val slow = plan(shares, 8, Some(2)): _ =>
+            if taken.incrementAndGet() > last then
+              cancellation.request()
+              Thread.sleep(20)
+          val stopped = render(slow, from, parts, cancellation)
+          assert(stopped.samplesDone == 0 && taken.get < last + 200, taken)
+          from = Some(parts)
+        val _ = render(plan(shares, 8, Some(2))(), from, parts, Cancellation())
         assert(Files.readAllBytes(parts).sameElements(Files.readAllBytes(whole)))
 
   test("every state that is saved while workers pause is continued to the same image"):

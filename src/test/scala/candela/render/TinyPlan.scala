@@ -26,7 +26,8 @@ object TinyPlan:
       sharesSamples: Boolean = false,
       development: Development = Development(),
       fireflies: Fireflies = Fireflies.Kept,
-      method: Option[RenderMethod] = None
+      method: Option[RenderMethod] = None,
+      adaptive: Option[AdaptiveSampling] = None
   )(radiance: (Where, Sampler) => Rgb): RenderPlan =
     val bounds = crop.getOrElse(PixelBounds(0, 0, width, height))
     RenderPlan(
@@ -43,7 +44,8 @@ object TinyPlan:
       filename,
       Vector("integrator" -> "formula"),
       sharesSamples = sharesSamples,
-      fireflies = fireflies
+      fireflies = fireflies,
+      adaptive = adaptive
     )
 
   /** Rays start at the place on the film. */

@@ -86,30 +86,24 @@ object StratifiedRecipe
       // Without jitter, the pattern itself is asked for
       SamplerPlan(name, count, request.seed ^ s, points, isEven = grid.jitter)
 
-/** v2's adaptive sampler, which takes more samples where neighbours differ. */
+/** v2's adaptive sampler, which takes more samples of a pixel if the first ones differ. */
 object AdaptiveRecipe
     extends Recipe[SamplerRequest => SamplerPlan](
       "adaptive",
-      "adaptive sampling by contrast or shape",
+      "a few samples of each pixel, or more instead where these differ: what is rare counts too " +
+        "little, as in pbrt-v2; with --spp, --error or --time the same number everywhere",
       onlyV2
     ):
-  private val Samples = Range(1f, 1 << 29).limited
-  private val maximum = integer("maxsamples", "maximum samples per pixel", range = Samples)(32)
-  private val minimum = integer("minsamples", "minimum samples per pixel", range = Samples)(4)
-  declare(
-    string("method", "criterion: contrast, shapeid")("contrast")
-  )
-  override def substitute: Option[String] =
-    Some("taking `maxsamples` in every pixel, also where `minsamples` agree and pbrt-v2 stops")
-
-  /** Samples of a pixel in which the first ones differ. pbrt-v2 rounds both numbers up to powers of
-    * two, takes the larger one, and doubles it if they are the same.
-    */
-  private def maxSamples()(using Site): Int =
-    def power(n: Int) = Integer.highestOneBit(Math.max(2, n) * 2 - 1)
-    val (a, b) = (power(minimum()), power(maximum()))
-    if a == b then 2 * a else Math.max(a, b)
+  private val Samples = Range(1f, 1 << 21).limited
+  private val maximum =
+    integer("maxsamples", "samples of a pixel whose first ones differ", range = Samples)(32)
+  private val minimum =
+    integer("minsamples", "first samples of each pixel", range = Samples)(4)
+  private val method = oneOf("method", "what must differ", Seq("contrast", "shapeid"))("contrast")
 
   protected def create()(using Site): SamplerRequest => SamplerPlan =
-    val n = maxSamples()
-    request => SamplerPlan(name, request.spp.getOrElse(n), request.seed, PointSet.Sobol)
+    val first = FirstSampling(minimum(), maximum(), method() == "shapeid")
+    request =>
+      val samples = request.spp.getOrElse(first.asInPbrt.maxSamples)
+      val adaptive = Option.when(request.spp.isEmpty)(first)
+      SamplerPlan(name, samples, request.seed, PointSet.Sobol, first = adaptive)

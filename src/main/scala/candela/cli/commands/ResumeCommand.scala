@@ -4,7 +4,7 @@ import candela.diagnostics.Code
 import candela.cli.files.{FilmInput, FilmKeeping, OutputFiles}
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Report, Terminal}
-import candela.job.{FilmKeeper, SceneLoader}
+import candela.job.{FilmHeaders, FilmKeeper, SceneLoader}
 import candela.render.{RenderPlan, Shard}
 import candela.render.storage.FilmFile
 
@@ -30,6 +30,13 @@ final class ResumeCommand(
         Code.NothingToAdd,
         s"`${film.path}` is a merger of shards; resume the shards, and merge them"
       )
+    val setsSamples = options.settings.goal.isGiven || options.settings.samples.isDefined
+    if setsSamples && FilmHeaders.isAdaptive(header) then
+      FilmKeeper.fail(
+        Code.NothingToAdd,
+        s"can't add samples to `${film.path}`: its sampler \"adaptive\" decides on their number",
+        "resume without --spp, --error and --time; or render the scene again with one of them"
+      )
     val saved = FilmInput.options(film, options).copy(
       outfiles = header.outfiles.map(FilmInput.resolve(film, _)),
       film = options.film.copy(shard = Shard(header.shards.head, header.count))
@@ -40,6 +47,7 @@ final class ResumeCommand(
       else Math.max(header.samples, header.done)
     val resumed = options.settings.samples match
       case Some(samples) => saved.setting(_.copy(samples = Some(samples)))
+      case None if saved.settings.samples.isEmpty => saved
       case None =>
         val footprint = Option(header.footprint).filter(_ > 0)
         saved.controlling(_.copy(samples = Some(sampleLimit), footprint = footprint))

@@ -45,7 +45,9 @@ object Summary:
       val size = s"${r.film.width}x${r.film.height}"
       val seconds = Figures.duration(r.seconds)
       val share =
-        if shards == 1 then "" else s"${Figures.general(r.samplesDone.toDouble / shards)} of "
+        if r.takenShare < 1 then s"${average(r.samplesDone * r.takenShare / shards)} of "
+        else if shards == 1 then ""
+        else s"${Figures.general(r.samplesDone.toDouble / shards)} of "
       s"wrote $names  $size, $share${r.samplesDone} spp${ofThisRun(r)}, $seconds, " +
         s"$rates$missing"
     else
@@ -55,6 +57,10 @@ object Summary:
         else if r.samplesDone > 1 then s"$done samples"
         else s"$done sample"
       s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r)}$missing"
+
+  /** `8.77`: three digits. */
+  private def average(samples: Double): String =
+    Figures.general(BigDecimal(samples).round(java.math.MathContext(3)).toDouble)
 
   /** `error 4.6 % (3.3 to 5.2 %)`: with the interval, where that is wider than 15 %; of too few
     * samples for an estimate, and of images without finite values, `error unknown`.
