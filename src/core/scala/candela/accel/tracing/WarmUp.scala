@@ -1,6 +1,7 @@
 package candela.accel.tracing
 
 import candela.concurrency.Parallel
+import java.lang.management.ManagementFactory
 import java.util.SplittableRandom
 import java.util.concurrent.atomic.AtomicBoolean
 
@@ -64,8 +65,10 @@ private[tracing] object WarmUp:
   /** Longest pause, in milliseconds: a batch takes long if it waits for the compiler. */
   final val MaxRestMillis = 20L
 
-  /** The warm-up gives up a kernel that is not faster after this many seconds. */
-  final val TimeoutSeconds = 60L
+  /** The warm-up gives up a kernel that is not faster after this many seconds of its thread's
+    * processor time: a busy machine only takes longer.
+    */
+  final val TimeoutSeconds = 15L
 
   private final val Triangles = 500
 
@@ -148,9 +151,11 @@ final class WarmUps:
     val random = SplittableRandom(1)
     val tree = testTree(random, fast.width, fast.lanes)
     val rays = TestRays(random)
-    val end = System.nanoTime + TimeoutSeconds * 1000000000L
+    val processor = ManagementFactory.getThreadMXBean
+    val end = processor.getCurrentThreadCpuTime + TimeoutSeconds * 1000000000L
     var batches = 0
-    while !areOver && System.nanoTime < end && !Thread.currentThread.isInterrupted do
+    while !areOver && processor.getCurrentThreadCpuTime < end && !Thread.currentThread.isInterrupted
+    do
       var nanos = 0L
       if !closest.isOver then nanos += closest.attempt(tree, fast, rays)
       if !occluded.isOver then nanos += occluded.attempt(tree, fast, rays)
