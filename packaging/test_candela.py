@@ -200,6 +200,18 @@ class InMemory(unittest.TestCase):
         np.testing.assert_array_equal(a.rgb, candela.load_dict(mitsuba()).render(spp=1).rgb)
         with self.assertRaises(ValueError):
             Transform([[1, 2], [3, 4]])
+        np.testing.assert_allclose(t.inverse() @ t, np.eye(4), atol=1e-12)
+        np.testing.assert_allclose(t @ [1, 0, 0], [1, 4, 3], atol=1e-12)
+        np.testing.assert_allclose(t @ np.array([1.0, 0, 0]), [1, 4, 3], atol=1e-12)
+        self.assertEqual(Transform(np.array(t)[:3]), t)
+        for wrong, message in (
+            (lambda: Transform(np.diag([1, 1, 1, 2])), "needs the last row 0, 0, 0, 1"),
+            (lambda: Transform().scale([1, 0, 1]).inverse(), "no inverse"),
+            (lambda: Transform().rotate([0, 0, 0], 30), "axis of a rotation has length 0"),
+            (lambda: Transform().look_at([0, 0, 1], [0, 0, 1], [0, 1, 0]), "target equals origin"),
+        ):
+            with self.assertRaisesRegex(ValueError, message):
+                wrong()
 
     def test_a_matrix_of_3_rows_is_the_upper_left_of_a_transform(self):
         turn = Transform().rotate([0, 0, 1], 30)

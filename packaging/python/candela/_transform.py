@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any, List, Sequence, Union
+import numbers
+from typing import Any, List, Sequence, Union, overload
 
-from ._values import plain
+from ._values import described, plain
 
 Matrix = List[List[float]]
 
@@ -22,8 +23,19 @@ class Transform:
     def __init__(self, matrix: Any = None) -> None:
         self.matrix: Matrix = _identity() if matrix is None else rows(matrix)
 
-    def __matmul__(self, other: Any) -> "Transform":
-        a, b = self.matrix, rows(other)
+    @overload
+    def __matmul__(self, other: "Transform") -> "Transform": ...
+
+    @overload
+    def __matmul__(self, other: Any) -> Any: ...
+
+    def __matmul__(self, other: Any) -> Any:
+        """The transform that follows another one; or a point, as a list of three numbers."""
+        a, point = self.matrix, plain(other)
+        if isinstance(point, list) and all(isinstance(x, numbers.Real) for x in point):
+            x, y, z = point
+            return [row[0] * x + row[1] * y + row[2] * z + row[3] for row in a[:3]]
+        b = rows(other)
         size = range(4)
         return Transform([[sum(a[i][k] * b[k][j] for k in size) for j in size] for i in size])
 
@@ -39,7 +51,7 @@ class Transform:
     def rotate(self, axis: Sequence[float], angle: float) -> "Transform":
         """Counterclockwise about the axis, in degrees."""
         # Source: Rodrigues' rotation formula
-        x, y, z = _unit(axis)
+        x, y, z = _unit(axis, "the axis of a rotation has length 0")
         s, c = math.sin(math.radians(angle)), math.cos(math.radians(angle))
         k = 1 - c
         return self @ Transform(
@@ -55,10 +67,26 @@ class Transform:
         self, origin: Sequence[float], target: Sequence[float], up: Sequence[float]
     ) -> "Transform":
         """Of a camera at ``origin``: its z points to ``target``, and ``up`` is up."""
-        z = _unit([t - o for t, o in zip(target, origin)])
-        x = _unit(_cross(up, z))
+        z = _unit([t - o for t, o in zip(target, origin)], "target equals origin")
+        x = _unit(_cross(up, z), "up is parallel to the direction from origin to target")
         y = _cross(z, x)
         return self @ Transform([[x[i], y[i], z[i], origin[i]] for i in range(3)] + [[0, 0, 0, 1]])
+
+    def inverse(self) -> "Transform":
+        a = self.matrix
+        # The rows of a 3 × 3 matrix's inverse are cross products of its columns
+        columns = [[a[i][j] for i in range(3)] for j in range(3)]
+        cofactors = [_cross(columns[(i + 1) % 3], columns[(i + 2) % 3]) for i in range(3)]
+        determinant = sum(x * y for x, y in zip(columns[0], cofactors[0]))
+        if determinant == 0:
+            raise ValueError("a transform that maps volumes to 0 has no inverse")
+        linear = Transform([[x / determinant for x in row] for row in cofactors])
+        return linear.translate([-a[i][3] for i in range(3)])
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+        import numpy
+
+        return numpy.array(self.matrix, dtype)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Transform) and self.matrix == other.matrix
@@ -73,9 +101,9 @@ def is_transform(value: Any) -> bool:
 
 
 def rows(matrix: Any) -> Matrix:
-    """The rows of a 4 × 4 matrix: lists, NumPy's, or those of Mitsuba. One of 3 × 3 is its upper
-    left, as in Mitsuba's files; Mitsuba's transforms of u and v have their translation in the last
-    column.
+    """The rows of a 4 × 4 matrix: lists, NumPy's, or those of Mitsuba. One of 3 × 4 lacks the last
+    row; one of 3 × 3 is the upper left, as in Mitsuba's files; Mitsuba's transforms of u and v have
+    their translation in the last column.
     """
     inner = plain(matrix.matrix if is_transform(matrix) else matrix)
     try:
@@ -85,12 +113,18 @@ def rows(matrix: Any) -> Matrix:
             size = len(inner)
             found = [[float(inner[i, j]) for j in range(size)] for i in range(size)]
     except (TypeError, IndexError) as e:
-        raise ValueError(f"not a matrix: {matrix!r}") from e
-    if len(found) not in (3, 4) or any(len(row) != len(found) for row in found):
-        raise ValueError(f"a transform needs a 4 × 4 or 3 × 3 matrix, found {matrix!r}")
+        raise ValueError(f"not a matrix: {described(matrix)}") from e
+    sizes = {(len(found), len(row)) for row in found}
+    if len(sizes) != 1 or not sizes <= {(4, 4), (3, 4), (3, 3)}:
+        expected = "a matrix of 4 × 4, 3 × 4 or 3 × 3"
+        raise ValueError(f"a transform needs {expected}, found {described(matrix)}")
     if len(found) == 4:
+        if any(abs(x - y) > 1e-6 for x, y in zip(found[3], (0, 0, 0, 1))):
+            raise ValueError(f"a transform needs the last row 0, 0, 0, 1, found {found[3]}")
         return found
-    if is_transform(matrix):
+    if sizes == {(3, 4)}:
+        pass
+    elif is_transform(matrix):
         found = [[a, b, 0.0, c] for a, b, c in found[:2]] + [[0.0, 0.0, 1.0, 0.0]]
     else:
         found = [[*row, 0.0] for row in found]
@@ -109,10 +143,8 @@ def _cross(a: Sequence[float], b: Sequence[float]) -> List[float]:
     ]
 
 
-def _unit(v: Sequence[float]) -> List[float]:
+def _unit(v: Sequence[float], fault: str) -> List[float]:
     length = math.sqrt(sum(x * x for x in v))
     if length == 0:
-        raise ValueError(
-            "a vector of length 0 has no direction: target equals origin, or up is parallel"
-        )
+        raise ValueError(fault)
     return [x / length for x in v]

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import os
-from typing import Any
+from typing import Any, List
+
+_SHOWN = 16  # values of a list in a message
 
 
 def plain(value: Any) -> Any:
@@ -15,3 +18,18 @@ def plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [plain(each) for each in value]
     return value
+
+
+def described(value: Any) -> str:
+    """A value in a message: of arrays and long lists, the size."""
+    shape = getattr(value, "shape", None)
+    if isinstance(shape, tuple) and shape:
+        return f"an array of {' × '.join(map(str, shape))} {getattr(value, 'dtype', '')}".rstrip()
+    sizes: List[int] = []
+    inner = value
+    while isinstance(inner, (list, tuple)) and inner:
+        sizes.append(len(inner))
+        inner = inner[0]
+    if math.prod(sizes) > _SHOWN:
+        return f"a list of {' × '.join(map(str, sizes))} values"
+    return f"{value!r:.80}"
