@@ -169,7 +169,7 @@ class InMemory(unittest.TestCase):
         self.assertIn('a colour is {"type": "rgb", "value": […]}', problem.text)
         scene["red"]["reflectance"], scene["ball"]["center"] = 0.5, [0, 0]
         (problem,) = candela.check(scene)
-        self.assertIn("a vector is a list of three numbers", problem.text)
+        self.assertIn("must be 3 numbers, found 2 numbers", problem.text)
 
     def test_a_saved_scene_is_the_same(self):
         with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
@@ -180,6 +180,8 @@ class InMemory(unittest.TestCase):
                 np.testing.assert_array_equal(
                     candela.render(file, spp=1).rgb, scene.render(spp=1).rgb
                 )
+                with self.assertRaisesRegex(candela.UsageError, f"ends with {file.suffix}"):
+                    scene.save(Path(folder) / ("a.pbrt", "a.xml")[i])
 
     def test_values_that_the_scene_has_not_are_told_of(self):
         values = candela.load_string(XML).parameters()
@@ -302,6 +304,8 @@ class InMemory(unittest.TestCase):
             with self.assertWarnsRegex(candela.CandelaWarning, "sensor=1 the second"):
                 self.assertEqual(loaded.render(spp=1).width, 24)
             self.assertEqual([loaded.render(spp=1, sensor=i).width for i in (0, 1)], [24, 8])
+            with self.assertWarnsRegex(candela.CandelaWarning, "sensor=0 renders the first"):
+                loaded.render(spp=1)
             with self.assertRaisesRegex(candela.SceneError, "there is no sensor 2"):
                 loaded.render(spp=1, sensor=2)
             with self.assertRaisesRegex(candela.UsageError, "returns one image"):
@@ -321,6 +325,7 @@ class InMemory(unittest.TestCase):
             self.assertNotIn("candela-", candela.run("info", film).replace(folder, ""))
             values = np.frombuffer(pfm.read_bytes()[-4 * whole.size :], "<f4")
             np.testing.assert_array_equal(values.reshape(whole.shape)[::-1], whole)
+            np.testing.assert_array_equal(candela.load(film).rgb, whole)
             np.testing.assert_array_equal(scene.render(spp=8, outfile=film).rgb, whole)
 
     def test_what_the_program_prints_is_printed(self):
@@ -358,6 +363,7 @@ class InMemory(unittest.TestCase):
             candela.load_dict(scene)
         keys = [p.key for p in caught.exception.problems]
         self.assertEqual(keys, ["red", "ball.radius", "sky.radiance", "width"])
+        self.assertEqual(candela.check(scene), list(caught.exception.problems))
         self.assertIn("did you mean `diffuse`?", str(caught.exception))
 
     def test_arrays_and_names_that_no_scene_takes_are_faults(self):
@@ -430,6 +436,10 @@ class InMemory(unittest.TestCase):
             candela.load_dict(mitsuba()).render(spp=-1)
         self.assertIn("error: spp must be at least 1", str(caught.exception))
         self.assertNotIn("--", str(caught.exception))
+        with self.assertWarnsRegex(candela.CandelaWarning, "effect: `image.rgb` is linear light"):
+            candela.load_dict(mitsuba()).render(spp=1, exposure=2)
+        (problem,) = candela.check({"type": "scene"})
+        self.assertIn('add "sensor": {"type": "perspective"}', problem.text)
 
     def test_warnings_are_of_the_line_that_renders(self):
         scene = mitsuba()
@@ -467,10 +477,43 @@ class Images(unittest.TestCase):
             np.testing.assert_array_equal(values.reshape(image.rgb.shape)[::-1], image.rgb)
             for picture in (png.read_bytes(), image._repr_png_()):
                 self.assertTrue(picture.startswith(b"\x89PNG"))
-            with self.assertRaises(FileNotFoundError):
-                candela.load(Path(folder) / "missing.npz")
+            np.savez(npz, x=np.ones(3))
+            with self.assertRaisesRegex(candela.CandelaError, r"candela.Image\(array\)"):
+                candela.load(npz)
+            absent = Path(folder) / "absent"
+            for missing in (
+                lambda: candela.load(absent.with_suffix(".npz")),
+                lambda: candela.render(absent.with_suffix(".xml")),
+                lambda: candela.traverse(candela.load_file(absent.with_suffix(".xml"))),
+                lambda: candela.load_dict(mitsuba()).save(absent / "x.xml"),
+                lambda: image.save(absent / "x.npz"),
+                lambda: image.save(absent / "x.png"),
+            ):
+                with self.assertRaises(FileNotFoundError) as caught:
+                    missing()
+                self.assertIsInstance(caught.exception, candela.SceneError)
+                self.assertIn("absent", caught.exception.problems[0].text)
             with self.assertRaisesRegex(candela.CandelaError, "x.tiff"):
                 image.save(Path(folder) / "x.tiff")
+
+    def test_images_are_made_of_arrays_and_are_arrays(self):
+        array = np.linspace(0, 1, 60).reshape(5, 3, 4)
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            for values in (array, array[..., :3]):
+                image = candela.Image(values)
+                for suffix in ("exr", "npz"):
+                    image.save(Path(folder) / f"x.{suffix}")
+                    again = candela.load(Path(folder) / f"x.{suffix}")
+                    np.testing.assert_array_equal(again.rgb, array[..., :3].astype("f4"))
+                    self.assertEqual(again.alpha is None, values.shape[2] == 3)
+        self.assertEqual(image.shape, (5, 3, 3))
+        np.testing.assert_array_equal(image[1:, :, 0], image.rgb[1:, :, 0])
+        np.testing.assert_array_equal(image - image, np.zeros((5, 3, 3)))
+        image.rgb = 2 * image.rgb
+        np.testing.assert_allclose(image[4, 2], 2 * array[4, 2, :3])
+        for wrong in (array[0], np.ones((5, 3, 3), "u1"), array):
+            with self.assertRaisesRegex(ValueError, "needs an array of .* found an array of "):
+                image.rgb = wrong
 
     def test_pictures_show_the_denoised_image_and_alpha(self):
         rgb, alpha = np.full((2, 2, 3), 0.25, "f4"), np.full((2, 2), 0.5, "f4")

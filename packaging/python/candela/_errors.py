@@ -7,6 +7,10 @@ from dataclasses import dataclass
 from typing import Iterable, List, Optional, Tuple
 
 
+# Of each line of a dict's text: its place, and the number of values if it is a list
+Keys = List[Tuple[str, int]]
+
+
 @dataclass(frozen=True)
 class Problem:
     """An error or a warning.
@@ -51,6 +55,10 @@ class SceneError(CandelaError):
     """A scene, or a file that it names, is invalid."""
 
 
+class MissingFileError(SceneError, FileNotFoundError):
+    """A file, or the folder of an output, does not exist."""
+
+
 class UsageError(CandelaError):
     """An option is unknown, or its value is invalid."""
 
@@ -70,17 +78,21 @@ _FIRST = re.compile(
 
 
 _OPTION = re.compile(r"`candela [^`]*`|(?<![\w-])--([a-z][a-z0-9-]*)(?: (?=[A-Z]+\b|\d))?")
+_LONG = re.compile(r"found `([^`]{80})[^`]{20,}`")
 _HELP = re.compile("`candela help (render|check)` says")
 _EXCERPT = re.compile(r"^ +\d* \|")
 _BELOW = re.compile(r"^ (?! )|" + _EXCERPT.pattern)  # the first line of a problem
 _COUNT = re.compile(r"^(and )?\d+ (more )?errors?$")
 
 
-# What a list in a dict can be
-_LISTS = {
-    "must be a colour or a texture, found a vector": 'a colour is {"type": "rgb", "value": […]}',
-    "must be a vector, found a string": "a vector is a list of three numbers",
+# Words of files and the command line, and those of Python
+_WORDS = {
+    "--sensor all renders each, --sensor 1": "sensor=0 renders the first, sensor=1",
+    ".npz files store linear light": "`image.rgb` is linear light",
 }
+
+_COLOR = "must be a colour or a texture, found a vector"
+_ELEMENT = re.compile(r'<(\w+) type="(\w+)">')
 
 
 def is_note(line: str) -> bool:
@@ -92,6 +104,9 @@ def in_python(line: str) -> str:
     """A line of a message, with keywords instead of the command line's options."""
     if _EXCERPT.match(line):
         return line
+    for words, others in _WORDS.items():
+        line = line.replace(words, others)
+    line = _LONG.sub(r"found `\1…`", line)
     line = _HELP.sub(r"`help(candela.\1)` and COMMANDS.md say", line)
 
     def keyword(option: "re.Match[str]") -> str:
@@ -102,10 +117,10 @@ def in_python(line: str) -> str:
     return _OPTION.sub(keyword, line)
 
 
-def problems_in(lines: Iterable[str], keys: Optional[List[str]] = None) -> List[Problem]:
+def problems_in(lines: Iterable[str], keys: Optional[Keys] = None) -> List[Problem]:
     """The problems in the program's messages; the lines below each belong to it.
 
-    :param keys: of the lines of the scene, if it is a dict's
+    :param keys: those of the scene, if it is a dict's
     """
     found: List[List[str]] = []
     for line in lines:
@@ -116,27 +131,30 @@ def problems_in(lines: Iterable[str], keys: Optional[List[str]] = None) -> List[
     return [_problem([in_python(line) for line in each], keys) for each in found]
 
 
-def _problem(lines: List[str], keys: Optional[List[str]]) -> Problem:
+def _problem(lines: List[str], keys: Optional[Keys]) -> Problem:
     first = _FIRST.match(lines[0])
     assert first is not None
     place = first["file"]
     line = int(first["line"]) if first["line"] else None
     column = int(first["column"]) if first["column"] else None
-    key = first["pointer"]
-    if keys is not None and line is not None:
+    key, message = first["pointer"], first["message"]
+    if keys is not None and (line is not None or place is None):
         # The user has seen no text
-        key = keys[line - 1] if line <= len(keys) else ""
+        key, size = keys[line - 1] if line and line <= len(keys) else ("", 0)
         place = line = column = None
         number = f" [{first['number']}]" if first["number"] else ""
         start = f"{key}: " if key else ""
-        lines = [
-            f"{start}{first['severity']}: {first['message']}{number}",
-            *(below for below in lines[1:] if not _EXCERPT.match(below)),
-            *(f" {help}" for end, help in _LISTS.items() if first["message"].endswith(end)),
-        ]
+        below = [line for line in lines[1:] if not _EXCERPT.match(line)]
+        below = [_ELEMENT.sub(r'"\1": {"type": "\2"}', line) for line in below]
+        if message.endswith(_COLOR):
+            below.append(' a colour is {"type": "rgb", "value": […]}')
+        if message.endswith("found a string") and size > 1:
+            message = message.replace("a vector", "3 numbers")
+            message = message.replace("found a string", f"found {size} numbers")
+        lines = [f"{start}{first['severity']}: {message}{number}", *below]
     return Problem(
         severity=first["severity"],
-        message=first["message"],
+        message=message,
         text="\n".join(lines),
         file=place,
         line=line,
@@ -146,10 +164,21 @@ def _problem(lines: List[str], keys: Optional[List[str]]) -> Problem:
     )
 
 
-def error_of(code: int, lines: List[str], keys: Optional[List[str]] = None) -> CandelaError:
+_MISSING = re.compile("^E010[14] |: no such folder: ")
+
+
+def missing(path: str) -> MissingFileError:
+    message = f"no such file or folder: `{path}`"
+    text = f"error: {message} [E0104]"
+    return MissingFileError(text, (Problem("error", message, text, path, number="E0104"),))
+
+
+def error_of(code: int, lines: List[str], keys: Optional[Keys] = None) -> CandelaError:
     """The exception for an exit code and what was printed."""
     problems = sorted(problems_in(lines, keys), key=lambda p: p.severity)
     errors = [p.text for p in problems if p.severity == "error"]
     message = "\n".join(errors) or "\n".join(lines[-20:])
     kind = {1: SceneError, 2: UsageError}.get(code, InternalError)
+    if problems and _MISSING.search(f"{problems[0].number} {problems[0].message}"):
+        kind = MissingFileError
     return kind(message or f"candela has ended with exit code {code}", tuple(problems), code)

@@ -14,6 +14,9 @@ from array import array
 from pathlib import Path
 from typing import Any, Dict, List, Optional, Tuple, Union
 
+from ._errors import CandelaError, UsageError, missing
+from ._values import described
+
 try:
     import numpy as np
 except ImportError:  # images have memoryviews
@@ -32,24 +35,39 @@ class Image:
     is the place of a crop in the whole image: x, y, and the whole's width and height.
 
     Arrays are NumPy's, of float32; without NumPy, they are memoryviews: ``image.rgb[y, x, 0]``.
+    ``Image(array)`` is one of height × width × 3, or × 4 with alpha, by which its colours are
+    multiplied.
     """
 
     def __init__(
         self,
-        layers: Dict[str, Any],
-        metadata: Dict[str, str],
-        channels: Dict[str, List[str]],
+        layers: Any,
+        metadata: Optional[Dict[str, str]] = None,
+        channels: Optional[Dict[str, List[str]]] = None,
         window: Optional[Tuple[int, int, int, int]] = None,
     ) -> None:
-        self.layers = layers
-        self.metadata = metadata
-        self.channels = channels
+        self.layers: Dict[str, Any] = layers if isinstance(layers, dict) else _layers(layers)
+        self.metadata = metadata or {}
+        self.channels = channels or {"rgb": [*"RGB"], "alpha": ["A"]}
         self.window = window
 
     @property
     def rgb(self) -> Any:
         """Red, green and blue, in float32."""
         return self["rgb"]
+
+    @rgb.setter
+    def rgb(self, values: Any) -> None:
+        layers = _layers(values)
+        if layers["rgb"].shape != self.shape or "alpha" in layers:
+            expected = " × ".join(map(str, self.shape))
+            raise ValueError(f"the image needs an array of {expected}, found {described(values)}")
+        self.layers["rgb"] = layers["rgb"]
+
+    @property
+    def shape(self) -> Tuple[int, int, int]:
+        """Of ``rgb``: height, width and 3."""
+        return self.height, self.width, 3
 
     @property
     def alpha(self) -> Optional[Any]:
@@ -67,13 +85,14 @@ class Image:
     def _any(self) -> Any:
         return next(iter(self.layers.values()))
 
-    def __getitem__(self, name: str) -> Any:
-        """A layer by its name, in upper or lower case, or by the name that ``aov`` gives it:
-        ``depth`` is ``Z``, as in EXR files. What files have as several layers is one array, with
-        their channels one after the other: ``uv`` is ``u`` and ``v``.
+    def __getitem__(self, name: Any) -> Any:
+        """Values of ``rgb`` by their indices: ``image[:, :, 0]``; or a layer by its name, in upper or
+        lower case, or by the name that ``aov`` gives it: ``depth`` is ``Z``, as in EXR files. What
+        files have as several layers is one array, with their channels one after the other: ``uv``
+        is ``u`` and ``v``.
         """
         if not isinstance(name, str):
-            raise TypeError("an image has layers by name; image.rgb[y, x] is a pixel")
+            return self.rgb[name]
         names = self._named(name)
         if not names:
             known = {*self.layers, *(word for word in _WORDS if self._named(word))}
@@ -97,19 +116,26 @@ class Image:
         values = values if dtype is None else values.astype(dtype)
         return values.copy() if copy else values
 
+    def __sub__(self, other: Any) -> Any:
+        """The difference of ``rgb``, as an array."""
+        return np.asarray(self) - np.asarray(other)
+
     def save(self, path: PathLike) -> None:
         """Writes a file in the format of its name, as ``candela image`` does: ``.exr`` and ``.npz``
-        with all layers, ``.png``, ``.jpg``, ``.qoi`` and ``.tga`` as shown on a screen, ``.pfm``.
+        with all layers in 32-bit floats, ``.png``, ``.jpg``, ``.qoi`` and ``.tga`` as shown on a screen, ``.pfm``.
         """
         from ._session import execute
 
         target = os.fspath(path)
         if target.lower().endswith(".npz"):
-            _write_npz(self, target)
+            try:
+                _write_npz(self, target)
+            except FileNotFoundError:
+                raise missing(target) from None
             return
         with tempfile.TemporaryDirectory(prefix="candela-") as folder:
             source = Path(folder) / "image.exr"
-            source.write_bytes(_exr(self))
+            source.write_bytes(exr(self))
             execute(["image", str(source), "--outfile", target])
 
     def _repr_png_(self) -> bytes:
@@ -121,6 +147,18 @@ class Image:
 
     def __repr__(self) -> str:
         return f"<candela.Image {self.width}x{self.height}: {', '.join(self.layers)}>"
+
+
+def _layers(values: Any) -> Dict[str, Any]:
+    """Those of an array."""
+    if np is None:
+        raise UsageError("images of arrays need NumPy, which is not installed")
+    array = np.asarray(values)
+    if array.ndim != 3 or array.shape[2] not in (3, 4) or array.dtype.kind != "f":
+        expected = "height × width × 3 or height × width × 4, floats of linear light"
+        raise ValueError(f"an image needs an array of {expected}, found {described(values)}")
+    copy = np.array(array, "f4")
+    return {"rgb": copy} if copy.shape[2] == 3 else {"rgb": copy[..., :3], "alpha": copy[..., 3]}
 
 
 # Layers by the names that the option gives them, where those of files are others
@@ -151,16 +189,24 @@ def _joined(image: Image, names: List[str]) -> Any:
 
 
 def load(path: PathLike) -> Image:
-    """Reads an image file: ``.npz`` and all that ``candela image`` reads, such as ``.exr``."""
-    if not zipfile.is_zipfile(path):
-        open(path, "rb").close()  # raises an error if there is none
+    """Reads an image file: ``.npz`` and all that ``candela image`` reads, such as ``.exr``; or the
+    image of a film, ``.film``.
+    """
+    source = os.fspath(path)
+    if not os.path.exists(source):
+        raise missing(source)
+    if not zipfile.is_zipfile(source):
         from ._session import execute
 
         with tempfile.TemporaryDirectory(prefix="candela-") as folder:
             arrays = Path(folder) / "image.npz"
-            execute(["image", os.fspath(path), "--outfile", str(arrays)])
+            command = "merge" if source.lower().endswith(".film") else "image"
+            execute([command, source, "--outfile", str(arrays)])
             return load(arrays)
-    with zipfile.ZipFile(path) as archive:
+    with zipfile.ZipFile(source) as archive:
+        if "metadata.json" not in archive.namelist():
+            advice = "candela.Image(array) makes an image of an array of numpy.load"
+            raise CandelaError(f"{source} is no image of `Image.save`: {advice}")
         about = json.loads(archive.read("metadata.json"))
         layers = {
             name[: -len(".npy")]: _array(archive.read(name))
@@ -207,7 +253,7 @@ def _flat(values: Any) -> "array[float]":
     return data
 
 
-def _exr(image: Image) -> bytes:
+def exr(image: Image) -> bytes:
     """A file of 32-bit floats, not packed. Source: OpenEXR, "OpenEXR File Layout"."""
     width, height = image.width, image.height
     planes: Dict[bytes, "array[float]"] = {}

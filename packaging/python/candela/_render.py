@@ -13,7 +13,7 @@ from ._errors import CandelaWarning, Problem, SceneError, UsageError, in_python
 from ._image import Image, load
 from ._scene import Scene, load_dict, load_file
 from ._session import Listener, execute
-from ._values import plain
+from ._values import described, plain
 
 PathLike = Union[str, "os.PathLike[str]"]
 Plain = Union[str, int, float, "os.PathLike[str]"]
@@ -69,7 +69,8 @@ def render(
         )
     with tempfile.TemporaryDirectory(prefix="candela-") as folder:
         file = Path(folder) / "image.npz"
-        name, text, keys = _scene(scene).source()
+        loaded = _scene(scene)
+        name, text, keys = loaded.source()
         files = {"outfile": [file, *_items(outfile)], "aov": aov, "spp": spp}
         words = ["render", name, *_words({**files, **options})]
         given = None if text is None else (name, text)
@@ -80,8 +81,9 @@ def render(
 
 def check(scene: Union[PathLike, Scene, Dict[str, Any]], **options: Value) -> List[Problem]:
     """Parses and builds a scene without rendering it, and returns its errors and warnings."""
-    name, text, keys = _scene(scene).source()
     try:
+        loaded = _scene(scene)
+        name, text, keys = loaded.source()
         given = None if text is None else (name, text)
         printed, problems = execute(["check", name, *_words(options)], given, keys)
     except SceneError as error:
@@ -117,7 +119,7 @@ def _words(options: "dict[str, Value]") -> List[str]:
             try:
                 items = [_word(item) for item in _items(value)]
             except TypeError:
-                message = f"{name} can't be {value!r:.80}: expected a number, a text or a list"
+                message = f"{name} can't be {described(given)}: expected a number, a text or a list"
                 raise UsageError(message) from None
             words += [f"{option}={x}" for x in (items if name in _REPEATED else [",".join(items)])]
     return words

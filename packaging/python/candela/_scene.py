@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 from xml.etree.ElementTree import Element, ParseError
 
 from . import _xml
-from ._errors import CandelaError, Problem, SceneError, UsageError
+from ._errors import CandelaError, Keys, Problem, SceneError, UsageError, missing
 
 if TYPE_CHECKING:
     from ._image import Image
@@ -34,7 +34,7 @@ class Scene:
         """Whether it has Mitsuba's format; otherwise it has pbrt's."""
         return self._of_dict or self._name.lower().endswith((".xml", ".xml.gz"))
 
-    def source(self) -> Tuple[str, Optional[str], Optional[_xml.Keys]]:
+    def source(self) -> Tuple[str, Optional[str], Optional[Keys]]:
         """The name, the text unless it is a file, and the keys of its lines if it is a dict's."""
         if self._of_dict and self._tree is not None:
             text, keys = _xml.in_lines(self._tree)
@@ -64,8 +64,11 @@ class Scene:
             return self._text
         if self._name.lower().endswith(".gz"):
             raise UsageError(f"{self._name} is packed: unpack it to change its values")
-        with open(self._name, encoding="utf-8") as file:
-            return file.read()
+        try:
+            with open(self._name, encoding="utf-8") as file:
+                return file.read()
+        except FileNotFoundError:
+            raise missing(self._name) from None
 
     def _changed(self) -> None:
         if not self._of_dict and self._tree is not None:
@@ -73,9 +76,16 @@ class Scene:
 
     def save(self, path: PathLike) -> None:
         """Writes its text, Mitsuba's XML if it is a dict's; files that it names are not copied."""
+        target = os.fspath(path)
         text = self.source()[1] or self._whole()
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
+        suffix = os.path.splitext(self._name)[1]
+        if not target.lower().endswith(suffix.lower()):
+            raise UsageError(f"the scene needs a name that ends with {suffix}, found `{target}`")
+        try:
+            with open(target, "w", encoding="utf-8") as file:
+                file.write(text)
+        except FileNotFoundError:
+            raise missing(target) from None
 
     def render(self, **options: Any) -> Image:
         """The image; see ``candela.render``."""

@@ -17,6 +17,7 @@ from typing import IO, Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 from ._errors import (
     InternalError,
+    Keys,
     Problem,
     UsageError,
     error_of,
@@ -279,7 +280,7 @@ if sys.platform != "win32":
 def execute(
     words: Sequence[str],
     text: Optional[Text] = None,
-    keys: Optional[List[str]] = None,
+    keys: Optional[Keys] = None,
     progress: Optional[Listener] = None,
     image: Optional[Path] = None,
 ) -> Tuple[str, List[Problem]]:

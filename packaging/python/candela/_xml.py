@@ -9,12 +9,10 @@ import xml.etree.ElementTree as ET
 from collections.abc import MutableMapping
 from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple
 
-from ._errors import Problem, SceneError
+from ._errors import Keys, Problem, SceneError
 from ._plugins import ELEMENTS
 from ._transform import Transform, is_transform, rows
-from ._values import plain
-
-Keys = List[str]  # of the elements that begin in each line of a text, from line 1
+from ._values import described, plain
 
 
 def of_dict(scene: Dict[str, Any]) -> Tuple[ET.Element, List[Problem]]:
@@ -50,8 +48,9 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
         return ET.Element(tag, name=name, value=text)
 
     if not isinstance(name, str):
-        wrong(f"a name must be a text, found {name!r:.80}")
+        wrong(f"a name must be a text, found {described(name)}")
         return None
+    given = value
     value = {"type": "rgb", "value": value} if _is_color(value) else plain(value)
     if isinstance(value, dict):
         return _object(name, value, key, faults)
@@ -68,7 +67,7 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
         return None
     if _is_transform(value):
         try:
-            matrix = rows(value)
+            matrix = rows(given)
         except ValueError as e:
             wrong(str(e))
             return None
@@ -79,7 +78,7 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
         items = [float(x) for x in value]
     except (TypeError, ValueError):
         hint = ": use its dict" if type(value).__module__.startswith("mitsuba") else ""
-        wrong(f"expected a number, a text, a dict or a transform, found {value!r:.80}{hint}")
+        wrong(f"expected a number, a text, a dict or a transform, found {described(given)}{hint}")
         return None
     if len(items) == 1:
         return leaf("float", repr(items[0]))
@@ -140,7 +139,8 @@ def _color(
     except (TypeError, ValueError):
         pairs = "a number, or pairs of wavelength and value"
         expected = "three numbers" if kind == "rgb" else pairs
-        message = f"`{kind}` needs a 'value': expected {expected}, found {given!r:.80}"
+        shown = described(value.get("value"))
+        message = f"`{kind}` needs a 'value': expected {expected}, found {shown}"
         faults.append(_fault(key, message))
         return None
     element.set("value", text)
@@ -194,15 +194,23 @@ def in_lines(root: ET.Element) -> Tuple[str, Keys]:
         attributes = "".join(f" {n}={_quoted(v)}" for n, v in element.attrib.items())
         children = list(element)
         lines.append(f"<{element.tag}{attributes}{'' if children else '/'}>")
-        keys.append(key)
+        keys.append((key, _size(element)))
         for child in children:
             write(child, _joined(key, _name(child)))
         if children:
             lines.append(f"</{element.tag}>")
-            keys.append(key)
+            keys.append((key, 0))
 
     write(root, "")
     return "\n".join(lines) + "\n", keys
+
+
+def _size(element: ET.Element) -> int:
+    """How many values a list has that is a string of XML."""
+    try:
+        return len([float(x) for x in element.get("value", "").split(",")])
+    except ValueError:
+        return 0
 
 
 def _quoted(text: str) -> str:
