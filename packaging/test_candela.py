@@ -171,6 +171,61 @@ class InMemory(unittest.TestCase):
         (problem,) = candela.check(scene)
         self.assertIn("must be 3 numbers, found 2 numbers", problem.text)
 
+    def test_an_object_takes_the_place_of_another_any_number_of_times(self):
+        checkerboard = {"type": "checkerboard", "color0": 0.3, "color1": 0.3}
+        blue = {"type": "rgb", "value": [0.1, 0.2, 0.8]}
+        values = [blue, checkerboard, 0.3, blue, [0.1, 0.2, 0.8]]
+        of_dict = mitsuba()
+        of_dict["red"]["reflectance"] = checkerboard
+        for scene in (candela.load_dict(of_dict), candela.load_string(XML)):
+            parameters = scene.parameters()
+            for first in values:
+                for second in values:
+                    parameters["red.reflectance"] = first
+                    parameters["red.reflectance"] = second
+            for name in ("red.reflectance", "red.reflectance.value"):
+                seen = []
+                for value in values:
+                    parameters[name] = value
+                    seen.append(scene.render(spp=1).rgb[8, 12])
+                np.testing.assert_allclose(seen[1], seen[2], rtol=1e-5)
+                for other in (3, 4):
+                    np.testing.assert_allclose(seen[other], seen[0], rtol=0.01)
+                self.assertGreater(seen[0][2], 2 * seen[1][2])
+            del parameters["red.reflectance"], parameters["red"]
+            parameters["red"] = {"type": "diffuse"}
+            with self.assertRaises(KeyError):  # no longer that of the one before
+                parameters["red.reflectance"] = blue
+            parameters["red"] = {"type": "diffuse", "reflectance": blue}
+            np.testing.assert_allclose(scene.render(spp=1).rgb[8, 12], seen[0], rtol=0.01)
+
+    def test_what_takes_the_place_of_an_object_is_of_its_kind(self):
+        scene = mitsuba()
+        scene["ball"]["bsdf"] = {"type": "diffuse", "id": "inner"}
+        scene["other"] = {"type": "sphere", "radius": 0.1, "bsdf": {"type": "ref", "id": "inner"}}
+        of_objects = candela.load_dict(scene)
+        values = of_objects.parameters()
+        for value in ({"type": "sphere"}, 0.5, [1, 2, 3], {"type": "rgb", "value": 1}):
+            with self.assertRaisesRegex(candela.SceneError, "ball.bsdf: error: expected a bsdf, f"):
+                values["ball.bsdf"] = value
+        for _ in range(2):
+            for value in ({"type": "conductor"}, {"type": "ref", "id": "red"}):
+                values["other.bsdf"] = value
+        for kind in ("conductor", "plastic"):
+            values["ball.bsdf"] = {"type": kind}
+        values["other.bsdf"] = {"type": "ref", "id": "inner"}
+        self.assertEqual(of_objects.check(), [])
+        values["ball.bsdf"] = values["other.bsdf"] = {"type": "ref", "id": "red"}
+        self.assertEqual(of_objects.check(), [])
+        loaded = candela.load_dict(mitsuba())
+        loaded.parameters()["ball"] = {"type": "cylinder"}
+        loaded.parameters()["sensor.film"] = {"type": "hdrfilm", "width": 8, "height": 4}
+        self.assertEqual(loaded.render(spp=1).shape, (4, 8, 3))
+        with self.assertRaisesRegex(KeyError, "'ball' is no value"):
+            values["ball"]
+        with self.assertRaisesRegex(KeyError, "give it where the scene is made"):
+            values["ball.radius"] = 2
+
     def test_a_saved_scene_is_the_same(self):
         with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
             for i, scene in enumerate([candela.load_dict(mitsuba()), candela.load_string(SCENE)]):

@@ -227,8 +227,9 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
     """The values of a scene by their names, such as ``ball.bsdf.reflectance.value``.
 
     A change counts from the next rendering on; ``update`` takes several, and no call of it is
-    needed. Values are numbers, texts, lists of three numbers, or a ``Transform``; a new value may
-    also be a dict, such as a texture.
+    needed. Values are numbers, texts, lists of three numbers, or a ``Transform``.
+    What a dict describes, such as ``ball`` or ``ball.bsdf``, is no value, but another dict
+    may take its place.
     """
 
     def __init__(self, root: ET.Element, changed: Callable[[], None]) -> None:
@@ -236,7 +237,8 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         self._changed = changed
         self._deleted: Dict[str, Path] = {}  # which may be set again
 
-    def _all(self) -> Dict[str, Path]:
+    def _all(self, objects: bool = False) -> Dict[str, Path]:
+        """Values, and objects if asked for."""
         found: Dict[str, Path] = {}
 
         def collect(parent: ET.Element, key: str) -> None:
@@ -246,7 +248,11 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
                     continue  # a comment, or a part of a transform
                 inner = _joined(key, name)
                 if child.tag in _OBJECTS and "type" in child.attrib:
+                    if objects:
+                        found.setdefault(inner, (parent, child))
                     collect(child, inner)
+                elif child.tag == "ref" and objects:
+                    found.setdefault(inner, (parent, child))
                 elif child.tag in _VALUES:
                     suffix = ".value" if child.tag in ("rgb", "spectrum") else ""
                     found.setdefault(inner + suffix, (parent, child))
@@ -254,37 +260,54 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         collect(self._root, "")
         return found
 
-    def _path(self, key: str, deleted: Optional[Dict[str, Path]] = None) -> Path:
-        found = {**(deleted or {}), **self._all()}
-        path = found.get(key) or found.get(f"{key}.value")
-        if path is None:
-            near = difflib.get_close_matches(key, found, 1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise KeyError(f"the scene has no parameter {key!r}{hint}")
-        return path
+    def _path(self, key: str, changes: bool = True) -> Path:
+        """Of a value; if it changes, also that of an object, or of what was deleted."""
+        found = {**(self._deleted if changes else {}), **self._all(objects=changes)}
+        # A colour may have taken the place of a texture, or a texture that of a colour
+        names = (key, f"{key}.value", key[: -len(".value")] if key.endswith(".value") else key)
+        path = next((found[name] for name in names if name in found), None)
+        if path is not None:
+            return path
+        everything = self._all(objects=True)
+        if key in everything:
+            raise KeyError(f"{key!r} is no value; its values are {key + '.'!r}…")
+        near = difflib.get_close_matches(key, found, 1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        if key.rpartition(".")[0] in everything:
+            hint += "; give it where the scene is made, if its default is to change"
+        raise KeyError(f"the scene has no parameter {key!r}{hint}")
 
     def __getitem__(self, key: str) -> Any:
-        return _value(self._path(key)[1])
+        return _value(self._path(key, changes=False)[1])
 
     def __setitem__(self, key: str, value: Any) -> None:
-        parent, old = self._path(key, self._deleted)
+        parent, old = self._path(key)
         faults: List[Problem] = []
         new = _element(old.get("name", ""), _like(old, plain(value)), key, faults)
+        if new is not None and not _fits(old, new):
+            faults.append(_fault(key, f"expected a {old.tag}, found a {new.tag}"))
         if faults or new is None:
             raise error_of_faults(faults)
         new.tail = old.tail
+        if "name" not in old.attrib:
+            new.attrib.pop("name", None)
+        if "id" in old.attrib and "ref" not in (old.tag, new.tag):
+            new.set("id", old.attrib["id"])  # others may refer to it
         if old in parent:
             parent[list(parent).index(old)] = new
         else:
             parent.append(new)
-            self._deleted = {k: p for k, p in self._deleted.items() if p[1] is not old}
+        inside = {id(each) for each in self._root.iter()}
+        self._deleted = {
+            k: p for k, p in self._deleted.items() if p[1] is not old and id(p[0]) in inside
+        }
         self._changed()
 
     def __delitem__(self, key: str) -> None:
         """Takes its value out of the scene: the default is used."""
         path = self._path(key)
         parent, old = path
-        self._deleted.update((k, p) for k, p in self._all().items() if p == path)
+        self._deleted.update((k, p) for k, p in self._all(objects=True).items() if p == path)
         parent.remove(old)
         self._changed()
 
@@ -305,6 +328,16 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
 
 _VALUES = set("float integer boolean string vector point rgb spectrum transform".split())
 
+# What may take each other's places
+_COLORS = {"float", "integer", "rgb", "spectrum", "texture", "volume"}
+
+
+def _fits(old: ET.Element, new: ET.Element) -> bool:
+    """Whether a new element may take the place of an object."""
+    if old.tag in _COLORS and new.tag in _COLORS:
+        return True
+    return old.tag not in _OBJECTS or new.tag in (old.tag, "ref")
+
 
 def _name(element: ET.Element) -> str:
     given = element.get("name") or element.get("id")
@@ -320,9 +353,9 @@ def _like(old: ET.Element, value: Any) -> Any:
     is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
     is_list = hasattr(value, "__len__") and not isinstance(value, (str, dict))
     if (is_number or is_list) and not _is_transform(value):
-        if old.tag == "rgb" or (is_list and old.tag in ("spectrum", "float")):
+        if old.tag == "rgb" or (is_list and old.tag in ("spectrum", "float", "texture")):
             return {"type": "rgb", "value": value}
-        if old.tag == "spectrum":
+        if old.tag == "spectrum" and "type" not in old.attrib:
             return {"type": "spectrum", "value": value}
     return value
 
