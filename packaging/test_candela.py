@@ -172,9 +172,10 @@ class InMemory(unittest.TestCase):
         self.assertIn("must be 3 numbers, found 2 numbers", problem.text)
 
     def test_an_object_takes_the_place_of_another_any_number_of_times(self):
+        pixels = np.full((2, 2, 3), [0.1, 0.2, 0.8])
         checkerboard = {"type": "checkerboard", "color0": 0.3, "color1": 0.3}
         blue = {"type": "rgb", "value": [0.1, 0.2, 0.8]}
-        values = [blue, checkerboard, 0.3, blue, [0.1, 0.2, 0.8]]
+        values = [blue, checkerboard, 0.3, {"type": "bitmap", "data": pixels}, [0.1, 0.2, 0.8]]
         of_dict = mitsuba()
         of_dict["red"]["reflectance"] = checkerboard
         for scene in (candela.load_dict(of_dict), candela.load_string(XML)):
@@ -225,6 +226,85 @@ class InMemory(unittest.TestCase):
             values["ball"]
         with self.assertRaisesRegex(KeyError, "give it where the scene is made"):
             values["ball.radius"] = 2
+
+    def test_meshes_are_made_of_arrays(self):
+        vertices = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+        faces, uv = np.array([[0, 1, 2], [0, 2, 3]]), np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+        up = np.tile([0.0, 0, 1], (4, 1))
+        scene = mitsuba()
+        turn = Transform().rotate([0, 1, 0], 180)
+        scene["ball"].update(type="rectangle", to_world=turn)
+        scene["sky"] = {"type": "directional", "direction": [0.3, 0.2, 1]}
+        checkerboard = {"type": "checkerboard", "to_uv": Transform().scale([4, 2, 1])}
+        scene["red"]["reflectance"] = checkerboard
+        whole = candela.render(scene, spp=16).rgb
+        self.assertGreater(whole.max(), 0.05)
+        bsdf = {"type": "ref", "id": "red"}
+        for arrays in ((vertices, faces, up, uv), (vertices, faces.tolist(), None, uv)):
+            scene["ball"] = {**candela.mesh(*arrays), "bsdf": bsdf, "to_world": turn}
+            loaded = candela.load_dict(scene)
+            np.testing.assert_allclose(loaded.render(spp=16).rgb, whole, atol=0.01)
+        loaded.parameters()["ball"] = {**candela.mesh(100 * vertices, faces), "bsdf": bsdf}
+        self.assertFalse(np.allclose(loaded.render(spp=1).rgb, whole))
+        for wrong, message in (
+            ((vertices.T, faces), "vertices must be n × 3 numbers, found an array of 3 × 4 int64"),
+            ((vertices, faces * 1.0), "faces must be n × 3 integers, found an array of 2 × 3 f"),
+            ((vertices, faces + 1), "faces need indices from 0 to 3, found 1 to 4"),
+            ((vertices, faces, up[1:]), "normals must be 4 × 3 numbers, found an array of 3 × 3"),
+            ((vertices, faces, None, up), "texcoords must be 4 × 2 numbers, found an array of 4"),
+        ):
+            with self.assertRaisesRegex(ValueError, message):
+                candela.mesh(*wrong)
+
+    def test_textures_are_made_of_arrays(self):
+        scene = mitsuba()
+        grey = {"type": "rgb", "value": [0.21586] * 3}  # 128 of sRGB
+        scene["red"]["reflectance"] = grey
+        whole = candela.render(scene, spp=4).rgb
+        bits = np.full((4, 2, 3), 128, "u1")
+        floats = np.full((4, 2, 3), 0.21586)
+        for array in (bits, bits[..., :1], bits[..., 0], floats, floats[..., 0].astype("f2")):
+            for name in ("data", "bitmap"):
+                scene["red"]["reflectance"] = {"type": "bitmap", name: array}
+                np.testing.assert_allclose(candela.render(scene, spp=4).rgb, whole, rtol=2e-3)
+        loaded = candela.load_dict(scene)
+        values = loaded.parameters()
+        np.testing.assert_array_equal(values["red.reflectance.data"], array)
+        values["red.reflectance.data"] = 2 * floats
+        self.assertGreater(loaded.render(spp=4).rgb[8, 12, 0], 1.5 * whole[8, 12, 0])
+        values["red.reflectance"] = {"type": "bitmap", "data": bits, "raw": True}
+        raw = loaded.render(spp=4).rgb
+        values["red.reflectance"] = 128 / 255
+        np.testing.assert_allclose(raw, loaded.render(spp=4).rgb, rtol=2e-3)
+        scene["red"]["reflectance"] = grey
+        for data in (2 * floats, bits):
+            scene["sky"] = {"type": "envmap", "bitmap": data}
+            sky = candela.render(scene, spp=4).rgb
+            expected = 0.21586 if data is bits else 0.43172
+            np.testing.assert_allclose(sky[0, 0], expected, rtol=2e-3)
+        values["red.reflectance"] = {"type": "bitmap", "data": floats}
+        with self.assertRaisesRegex(candela.SceneError, "found an array of 4 × 2 × 3 int64"):
+            values["red.reflectance.data"] = bits.astype("i8")
+
+    def test_arrays_are_saved_with_the_scene_and_their_files_removed_after_it(self):
+        mesh = candela.mesh([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], [[0, 1, 2]])
+        scene = mitsuba()
+        scene["red"]["reflectance"] = {"type": "bitmap", "data": np.full((2, 2), 0.5)}
+        scene["ball"] = {**mesh, "bsdf": {"type": "twosided", "b": {"type": "ref", "id": "red"}}}
+        loaded = candela.load_dict(scene)
+        image = loaded.render(spp=2).rgb
+        paths = [file.path for file in candela._xml.arrays(loaded._tree)]
+        self.assertEqual([os.path.exists(path) for path in paths], [True, True])
+        with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
+            file = Path(folder) / "scene.xml"
+            with self.assertRaisesRegex(candela.UsageError, "scene.save"):
+                loaded.render(spp=1, outfile=Path(folder) / "x.film")
+            for _ in range(2):
+                loaded.save(file)
+            self.assertEqual(len(list(Path(folder).iterdir())), 3)
+            del loaded, scene, mesh
+            self.assertEqual([os.path.exists(path) for path in paths], [False, False])
+            np.testing.assert_array_equal(candela.render(file, spp=2).rgb, image)
 
     def test_a_saved_scene_is_the_same(self):
         with tempfile.TemporaryDirectory(prefix="candela test ") as folder:
@@ -423,13 +503,22 @@ class InMemory(unittest.TestCase):
 
     def test_arrays_and_names_that_no_scene_takes_are_faults(self):
         scene = mitsuba()
-        scene["red"]["reflectance"] = {"type": "bitmap", "data": np.ones((2, 2, 3))}
+        scene["red"]["reflectance"] = {"type": "bitmap", "data": np.ones((2, 2, 5))}
+        scene["ball"]["vertex_positions"] = np.ones((1000, 3))
+        scene["ball"]["to_world"] = np.ones((1000, 3))
+        scene["ball"]["center"] = [np.ones(3)] * 1000
         scene["ball"][1] = 2
         scene[3] = {"type": "sphere"}
         with self.assertRaises(candela.SceneError) as caught:
             candela.render(scene)
         told = {p.key: p.message for p in caught.exception.problems}
-        self.assertIn("write it to a file", told["red.reflectance.data"])
+        self.assertIn("found an array of 2 × 2 × 5 float64", told["red.reflectance.data"])
+        self.assertIn("candela.mesh(vertices, faces)", told["ball.vertex_positions"])
+        self.assertIn("found an array of 1000 × 3 float64", told["ball.to_world"])
+        self.assertIn("found a list of 1000 values", told["ball.center"])
+        with self.assertRaises(candela.UsageError) as caught:
+            candela.render(mitsuba(), cropwindow=np.zeros(1000))
+        self.assertLess(len(str(caught.exception)), 400)
         self.assertEqual(told["ball.1"], "a name must be a text, found 1")
         self.assertEqual(told["3"], "a name must be a text, found 3")
 

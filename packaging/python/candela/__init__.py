@@ -21,6 +21,7 @@ arguments.
 from importlib.metadata import PackageNotFoundError
 from importlib.metadata import version as _version_of
 
+from ._arrays import mesh
 from ._errors import (
     CandelaError,
     CandelaWarning,
@@ -61,6 +62,7 @@ __all__ = [
     "load_dict",
     "load_file",
     "load_string",
+    "mesh",
     "program",
     "render",
     "run",

@@ -69,8 +69,15 @@ def render(
         )
     with tempfile.TemporaryDirectory(prefix="candela-") as folder:
         file = Path(folder) / "image.npz"
-        loaded = _scene(scene)
+        loaded = _scene(scene)  # whose files of arrays last as long as it
         name, text, keys = loaded.source()
+        if loaded.has_arrays and any(
+            os.fspath(x).lower().endswith(".film") for x in _items(outfile)
+        ):
+            raise UsageError(
+                "a film names the files of its scene, and those of arrays are temporary: "
+                "scene.save('scene.xml') writes them; then render that file"
+            )
         files = {"outfile": [file, *_items(outfile)], "aov": aov, "spp": spp}
         words = ["render", name, *_words({**files, **options})]
         given = None if text is None else (name, text)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 from xml.etree.ElementTree import Element, ParseError
 
@@ -33,6 +34,10 @@ class Scene:
     def is_mitsuba(self) -> bool:
         """Whether it has Mitsuba's format; otherwise it has pbrt's."""
         return self._of_dict or self._name.lower().endswith((".xml", ".xml.gz"))
+
+    @property
+    def has_arrays(self) -> bool:
+        return bool(_xml.arrays(self._tree))
 
     def source(self) -> Tuple[str, Optional[str], Optional[Keys]]:
         """The name, the text unless it is a file, and the keys of its lines if it is a dict's."""
@@ -75,17 +80,22 @@ class Scene:
             self._text = _xml.to_text(self._tree)
 
     def save(self, path: PathLike) -> None:
-        """Writes its text, Mitsuba's XML if it is a dict's; files that it names are not copied."""
+        """Writes its text, Mitsuba's XML if it is a dict's, and its arrays, to files beside it;
+        files that it names are not copied.
+        """
         target = os.fspath(path)
         text = self.source()[1] or self._whole()
         suffix = os.path.splitext(self._name)[1]
         if not target.lower().endswith(suffix.lower()):
             raise UsageError(f"the scene needs a name that ends with {suffix}, found `{target}`")
+        files = _xml.arrays(self._tree)
         try:
             with open(target, "w", encoding="utf-8") as file:
-                file.write(text)
+                file.write(_xml.saved(text, files))
         except FileNotFoundError:
             raise missing(target) from None
+        for each in files:
+            shutil.copyfile(each, os.path.join(os.path.dirname(target), each.saved_name))
 
     def render(self, **options: Any) -> Image:
         """The image; see ``candela.render``."""

@@ -9,6 +9,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import MutableMapping
 from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple
 
+from ._arrays import ArrayFile, texture
 from ._errors import Keys, Problem, SceneError
 from ._plugins import ELEMENTS
 from ._transform import Transform, is_transform, rows
@@ -37,6 +38,21 @@ def of_dict(scene: Dict[str, Any]) -> Tuple[ET.Element, List[Problem]]:
 
 _OBJECTS = set(ELEMENTS.values())
 
+# Parameters of Mitsuba's meshes, which its `traverse` names
+_MESH = {"vertex_positions", "faces", "vertex_normals", "vertex_texcoords"}
+
+
+class FileElement(ET.Element):
+    """The file name of an array, whose file lasts as long as the element."""
+
+    def __init__(self, file: ArrayFile) -> None:
+        super().__init__("string", name="filename", value=file.path)
+        self.file = file
+
+    @property
+    def is_texture(self) -> bool:
+        return self.file.array is not None
+
 
 def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional[ET.Element]:
     """The element of a value; what is wrong with it is added to the faults."""
@@ -50,6 +66,8 @@ def _element(name: str, value: Any, key: str, faults: List[Problem]) -> Optional
     if not isinstance(name, str):
         wrong(f"a name must be a text, found {described(name)}")
         return None
+    if isinstance(value, ArrayFile):
+        return FileElement(value)
     given = value
     value = {"type": "rgb", "value": value} if _is_color(value) else plain(value)
     if isinstance(value, dict):
@@ -109,14 +127,29 @@ def _object(
     if isinstance(value.get("id"), str):
         tree.set("id", value["id"])
     for inner, each in value.items():
-        if kind == "bitmap" and inner in ("data", "bitmap"):
-            message = "a bitmap of an array can't be passed: write it to a file, its `filename`"
-            faults.append(_fault(f"{key}.{inner}", message))
-        elif inner not in ("type", "id"):
+        if inner in ("type", "id"):
+            continue
+        if element == "shape" and inner in _MESH:
+            advice = "candela.mesh(vertices, faces) is a mesh of arrays"
+            message = f"unknown parameter `{inner}`: {advice}"
+            faults.append(_fault(f"{key}.{inner}", message, "E0308"))
+            continue
+        if kind in ("bitmap", "envmap") and inner in ("data", "bitmap"):
+            child = _array(each, f"{key}.{inner}", faults)
+        else:
             child = _element(inner, each, f"{key}.{inner}", faults)
-            if child is not None:
-                tree.append(child)
+        if child is not None:
+            tree.append(child)
     return tree
+
+
+def _array(value: Any, key: str, faults: List[Problem]) -> Optional[ET.Element]:
+    """The element of the array of a texture or an environment."""
+    try:
+        return FileElement(texture(value))
+    except ValueError as e:
+        faults.append(_fault(key, str(e)))
+        return None
 
 
 def _color(
@@ -213,6 +246,18 @@ def _size(element: ET.Element) -> int:
         return 0
 
 
+def arrays(root: Optional[ET.Element]) -> List[ArrayFile]:
+    elements = [] if root is None else root.iter("string")
+    return [each.file for each in elements if isinstance(each, FileElement)]
+
+
+def saved(text: str, files: List[ArrayFile]) -> str:
+    """A text with the names that files of arrays have beside it."""
+    for file in files:
+        text = text.replace(_quoted(file.path), _quoted(file.saved_name))
+    return text
+
+
 def _quoted(text: str) -> str:
     escaped = text.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
     return f'"{escaped}"'
@@ -227,8 +272,8 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
     """The values of a scene by their names, such as ``ball.bsdf.reflectance.value``.
 
     A change counts from the next rendering on; ``update`` takes several, and no call of it is
-    needed. Values are numbers, texts, lists of three numbers, or a ``Transform``.
-    What a dict describes, such as ``ball`` or ``ball.bsdf``, is no value, but another dict
+    needed. Values are numbers, texts, lists of three numbers, a ``Transform``, or the array of a
+    bitmap. What a dict describes, such as ``ball`` or ``ball.bsdf``, is no value, but another dict
     may take its place.
     """
 
@@ -283,7 +328,10 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
     def __setitem__(self, key: str, value: Any) -> None:
         parent, old = self._path(key)
         faults: List[Problem] = []
-        new = _element(old.get("name", ""), _like(old, plain(value)), key, faults)
+        if isinstance(old, FileElement) and old.is_texture:
+            new = _array(value, key, faults)
+        else:
+            new = _element(old.get("name", ""), _like(old, value), key, faults)
         if new is not None and not _fits(old, new):
             faults.append(_fault(key, f"expected a {old.tag}, found a {new.tag}"))
         if faults or new is None:
@@ -340,6 +388,8 @@ def _fits(old: ET.Element, new: ET.Element) -> bool:
 
 
 def _name(element: ET.Element) -> str:
+    if isinstance(element, FileElement) and element.is_texture:
+        return "data"
     given = element.get("name") or element.get("id")
     return given or (element.tag if "type" in element.attrib else "")
 
@@ -349,7 +399,10 @@ def _joined(key: str, name: str) -> str:
 
 
 def _like(old: ET.Element, value: Any) -> Any:
-    """A plain new value, as what the element has been."""
+    """A new value, as what the element has been."""
+    if isinstance(value, ArrayFile):
+        return value
+    value = plain(value)
     is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
     is_list = hasattr(value, "__len__") and not isinstance(value, (str, dict))
     if (is_number or is_list) and not _is_transform(value):
@@ -361,6 +414,8 @@ def _like(old: ET.Element, value: Any) -> Any:
 
 
 def _value(element: ET.Element) -> Any:
+    if isinstance(element, FileElement):
+        return element.file.array if element.is_texture else element.file
     text = element.get("value", "")
     try:
         if element.tag == "transform":
