@@ -207,7 +207,7 @@ class InMemory(unittest.TestCase):
         of_objects = candela.load_dict(scene)
         values = of_objects.parameters()
         for value in ({"type": "sphere"}, 0.5, [1, 2, 3], {"type": "rgb", "value": 1}):
-            with self.assertRaisesRegex(candela.SceneError, "ball.bsdf: error: expected a bsdf, f"):
+            with self.assertRaisesRegex(candela.SceneError, "ball.bsdf: error: expected `bsdf`, f"):
                 values["ball.bsdf"] = value
         for _ in range(2):
             for value in ({"type": "conductor"}, {"type": "ref", "id": "red"}):

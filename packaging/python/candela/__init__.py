@@ -32,11 +32,11 @@ from ._errors import (
     UsageError,
 )
 from ._image import Image, load
+from ._parameters import Parameters
 from ._render import check, render, version
 from ._scene import Scene, load_dict, load_file, load_string, traverse
 from ._session import Progress, close, program, run
 from ._transform import Transform
-from ._xml import Parameters
 
 try:
     __version__ = _version_of("candela-renderer")

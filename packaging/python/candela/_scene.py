@@ -9,6 +9,7 @@ from xml.etree.ElementTree import Element, ParseError
 
 from . import _xml
 from ._errors import CandelaError, Keys, Problem, SceneError, UsageError, missing
+from ._parameters import Parameters
 
 if TYPE_CHECKING:
     from ._image import Image
@@ -28,7 +29,7 @@ class Scene:
         self._text = text  # None: that of the file, or of the tree
         self._tree = tree
         self._of_dict = tree is not None
-        self._parameters: Optional[_xml.Parameters] = None
+        self._parameters: Optional[Parameters] = None
 
     @property
     def is_mitsuba(self) -> bool:
@@ -46,7 +47,7 @@ class Scene:
             return self._name, text, keys
         return self._name, self._text, None
 
-    def parameters(self) -> _xml.Parameters:
+    def parameters(self) -> Parameters:
         """The values of the scene by their names; see ``candela.traverse``."""
         if not self.is_mitsuba:
             raise UsageError(
@@ -61,7 +62,7 @@ class Scene:
                 message = f"{self._name}:{line}:{column + 1}: error: {e.msg}"
                 fault = Problem("error", str(e.msg), message, self._name, line, column + 1)
                 raise SceneError(message, (fault,)) from None
-        self._parameters = self._parameters or _xml.Parameters(self._tree, self._changed)
+        self._parameters = self._parameters or Parameters(self._tree, self._changed)
         return self._parameters
 
     def _whole(self) -> str:
@@ -165,7 +166,7 @@ def load_file(path: PathLike) -> Scene:
     return Scene(os.fspath(path), None)
 
 
-def traverse(scene: Scene) -> _xml.Parameters:
+def traverse(scene: Scene) -> Parameters:
     """The values of a scene by their names, as Mitsuba's ``traverse`` has them: what its text or
     dict says, without defaults.
 

@@ -1,0 +1,217 @@
+"""The values of a scene by their names."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import numbers
+import xml.etree.ElementTree as ET
+from collections.abc import MutableMapping
+from typing import Any, Callable, Dict, Iterator, List, Tuple
+
+from ._arrays import ArrayFile
+from ._errors import Problem
+from ._transform import Transform
+from ._values import plain
+from ._xml import (
+    OBJECTS,
+    FileElement,
+    array_of,
+    element_of,
+    error_of_faults,
+    fault,
+    is_matrix,
+    joined,
+    name_of,
+)
+
+Path = Tuple[ET.Element, ET.Element]  # an element, with its parent
+
+
+class Parameters(MutableMapping):  # type: ignore[type-arg]
+    """The values of a scene by their names, such as ``ball.bsdf.reflectance.value``.
+
+    A change counts from the next rendering on; ``update`` takes several, and no call of it is
+    needed. Values are numbers, texts, lists of three numbers, a ``Transform``, or the array of a
+    bitmap. What a dict describes, such as ``ball`` or ``ball.bsdf``, is no value, but another dict
+    may take its place.
+    """
+
+    def __init__(self, root: ET.Element, changed: Callable[[], None]) -> None:
+        self._root = root
+        self._changed = changed
+        self._deleted: Dict[str, Path] = {}  # which may be set again
+
+    def _all(self, objects: bool = False) -> Dict[str, Path]:
+        """Values, and objects if asked for."""
+        found: Dict[str, Path] = {}
+
+        def collect(parent: ET.Element, key: str) -> None:
+            for child in parent:
+                name = name_of(child) if isinstance(child.tag, str) else ""
+                if not name:
+                    continue  # a comment, or a part of a transform
+                inner = joined(key, name)
+                if child.tag in OBJECTS and "type" in child.attrib:
+                    if objects:
+                        found.setdefault(inner, (parent, child))
+                    collect(child, inner)
+                elif child.tag == "ref" and objects:
+                    found.setdefault(inner, (parent, child))
+                elif child.tag in _VALUES:
+                    suffix = ".value" if child.tag in ("rgb", "spectrum") else ""
+                    found.setdefault(inner + suffix, (parent, child))
+
+        collect(self._root, "")
+        return found
+
+    def _path(self, key: str, changes: bool = True) -> Path:
+        """Of a value; if it changes, also that of an object, or of what was deleted."""
+        found = {**(self._deleted if changes else {}), **self._all(objects=changes)}
+        # A colour may have taken the place of a texture, or a texture that of a colour
+        names = (key, f"{key}.value", key[: -len(".value")] if key.endswith(".value") else key)
+        path = next((found[name] for name in names if name in found), None)
+        if path is not None:
+            return path
+        everything = self._all(objects=True)
+        if key in everything:
+            raise KeyError(f"{key!r} is no value; its values are {key + '.'!r}…")
+        near = difflib.get_close_matches(key, found, 1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        if key.rpartition(".")[0] in everything:
+            hint += "; give it where the scene is made, if its default is to change"
+        raise KeyError(f"the scene has no parameter {key!r}{hint}")
+
+    def __getitem__(self, key: str) -> Any:
+        return _value(self._path(key, changes=False)[1])
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        parent, old = self._path(key)
+        faults: List[Problem] = []
+        if isinstance(old, FileElement) and old.is_texture:
+            new = array_of(value, key, faults)
+        else:
+            new = element_of(old.get("name", ""), _like(old, value), key, faults)
+        if new is not None and not _fits(old, new):
+            faults.append(fault(key, f"expected `{old.tag}`, found `{new.tag}`"))
+        if faults or new is None:
+            raise error_of_faults(faults)
+        new.tail = old.tail
+        if "name" not in old.attrib:
+            new.attrib.pop("name", None)
+        if "id" in old.attrib and "ref" not in (old.tag, new.tag):
+            new.set("id", old.attrib["id"])  # others may refer to it
+        if old in parent:
+            parent[list(parent).index(old)] = new
+        else:
+            parent.append(new)
+        inside = {id(each) for each in self._root.iter()}
+        self._deleted = {
+            k: p for k, p in self._deleted.items() if p[1] is not old and id(p[0]) in inside
+        }
+        self._changed()
+
+    def __delitem__(self, key: str) -> None:
+        """Takes its value out of the scene: the default is used."""
+        path = self._path(key)
+        parent, old = path
+        self._deleted.update((k, p) for k, p in self._all(objects=True).items() if p == path)
+        parent.remove(old)
+        self._changed()
+
+    def __contains__(self, key: object) -> bool:
+        found = self._all()
+        return key in found or f"{key}.value" in found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all())
+
+    def __len__(self) -> int:
+        return len(self._all())
+
+    def __repr__(self) -> str:
+        lines = [f"  {key!r}: {value!r}" for key, value in self.items()]
+        return "\n".join(["candela.Parameters:", *lines])
+
+
+_VALUES = set("float integer boolean string vector point rgb spectrum transform".split())
+
+# What may take each other's places
+_COLORS = {"float", "integer", "rgb", "spectrum", "texture", "volume"}
+
+
+def _fits(old: ET.Element, new: ET.Element) -> bool:
+    """Whether a new element may take the place of an object."""
+    if old.tag in _COLORS and new.tag in _COLORS:
+        return True
+    return old.tag not in OBJECTS or new.tag in (old.tag, "ref")
+
+
+def _like(old: ET.Element, value: Any) -> Any:
+    """A new value, as what the element has been."""
+    if isinstance(value, ArrayFile):
+        return value
+    value = plain(value)
+    is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
+    is_list = hasattr(value, "__len__") and not isinstance(value, (str, dict))
+    if (is_number or is_list) and not is_matrix(value):
+        if old.tag == "rgb" or (is_list and old.tag in ("spectrum", "float", "texture")):
+            return {"type": "rgb", "value": value}
+        if old.tag == "spectrum" and "type" not in old.attrib:
+            return {"type": "spectrum", "value": value}
+    return value
+
+
+def _value(element: ET.Element) -> Any:
+    if isinstance(element, FileElement):
+        return element.file.array if element.is_texture else element.file
+    text = element.get("value", "")
+    try:
+        if element.tag == "transform":
+            return _transform(element)
+        if element.tag == "integer":
+            return int(text)
+        if element.tag == "float":
+            return float(text)
+        if element.tag == "boolean":
+            return {"true": True, "false": False}[text.strip().lower()]
+        if element.tag in ("vector", "point", "rgb"):
+            numbers = [float(x) for x in text.replace(",", " ").split()]
+            if not text:
+                numbers = [float(element.get(axis, 0)) for axis in "xyz"]
+            return numbers * 3 if len(numbers) == 1 else numbers
+        if element.tag == "spectrum" and text:
+            return float(text)
+    except (ValueError, KeyError):
+        pass  # such as `$name`, which is given where the scene is loaded
+    return text or element.get("filename", "")
+
+
+def _transform(element: ET.Element) -> Transform:
+    whole = Transform()
+    for step in element:
+
+        def triple(name: str) -> List[float]:
+            return [float(x) for x in step.attrib[name].replace(",", " ").split()]
+
+        def axes(default: float) -> List[float]:
+            if "value" in step.attrib:
+                given = triple("value")
+                return given * 3 if len(given) == 1 else given
+            return [float(step.get(axis, default)) for axis in "xyz"]
+
+        one = Transform()
+        if step.tag == "translate":
+            one = one.translate(axes(0))
+        elif step.tag == "scale":
+            one = one.scale(axes(1))
+        elif step.tag == "rotate":
+            one = one.rotate(axes(0), float(step.attrib["angle"]))
+        elif step.tag == "lookat":
+            one = one.look_at(triple("origin"), triple("target"), triple("up"))
+        elif step.tag == "matrix":
+            flat = triple("value")
+            side = math.isqrt(len(flat))
+            one = Transform([flat[i * side : (i + 1) * side] for i in range(side)])
+        whole = one @ whole
+    return whole
