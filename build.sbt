@@ -133,6 +133,8 @@ lazy val core: Project = (project in file("src/core"))
     description := "A physically based renderer for pbrt and Mitsuba scenes: the library",
     target := (ThisBuild / baseDirectory).value / "target" / "core",
     Compile / scalaSource := baseDirectory.value / "scala",
+    Compile / javaSource := baseDirectory.value / "java",
+    Compile / javacOptions ++= Seq("--release", "17"),
     Compile / resourceDirectory := baseDirectory.value / "resources",
     compiled,
     // Natives are for the platforms that the library's users choose

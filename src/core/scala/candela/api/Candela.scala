@@ -28,7 +28,7 @@ object Candela:
 
   /** Reads a scene with non-default settings. */
   def read(file: Path, how: ReadSettings): Scene =
-    Scenes.read(file.toString, how):
+    Scenes.read(file.toString, how): how =>
       Render.read(SceneName.existing(file.toString), how.core, how.control)
 
   /** Reads a scene from a text, of pbrt's format or Mitsuba's XML; file names in it are relative to
@@ -47,7 +47,7 @@ object Candela:
     */
   def parse(text: String, name: Path, how: ReadSettings): Scene =
     Objects.requireNonNull(text, "text")
-    Scenes.read(name.toString, how):
+    Scenes.read(name.toString, how): how =>
       Render.readText(name, text, how.core, how.control)
 
   /** Builds a scene in code; file names in it are relative to the current folder. */

@@ -24,7 +24,6 @@ import scala.collection.mutable.ArrayBuffer
 final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: Prepared)
     extends AutoCloseable:
   private val plan = prepared.plan
-  private val display = settings.core.output.display
   private val files = ImageFile(prepared.settings, scene.name, prepared)
   private val closing = CoreCancellation()
 
@@ -146,7 +145,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
     )
 
   private def image(rendering: Rendering, image: Image, denoiser: Option[String]): RenderedImage =
-    RenderedImages.of(image, display, files, rendering, denoiser)
+    RenderedImages.of(image, files, rendering, denoiser)
 
   private def errors(squares: Array[Float], like: Image): RenderedImage =
     val data = squares.map(s => Math.sqrt(s.toDouble).toFloat)

@@ -5,14 +5,6 @@ import java.util.Optional
 
 import scala.jdk.OptionConverters.*
 
-/** Severity of a [[Problem]]. */
-enum Severity extends java.lang.Enum[Severity]:
-  /** The scene is rendered nevertheless. */
-  case Warning
-
-  /** The scene is not rendered. */
-  case Error
-
 /** An error or warning about a scene or a setting. Immutable. */
 final class Problem private[api] (core: candela.diagnostics.Problem):
   private def pos: Option[SourcePos] = core.pos

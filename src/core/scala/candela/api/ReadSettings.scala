@@ -45,8 +45,8 @@ final class ReadSettings private (
   def withSandbox: ReadSettings =
     controlled(control.copy(limits = control.limits.copy(sandbox = true)))
 
-  /** Ends reading, building and rendering of a scene with an error after a time, counted from now.
-    * A sandbox alone limits no time.
+  /** Ends reading, building and rendering of a scene with an error after a time, counted from the
+    * call that reads it. A sandbox alone limits no time.
     */
   def withTimeLimit(time: Duration): ReadSettings =
     limited(Limit.Time, Some(Math.max(1, time.toMillis)))
@@ -68,8 +68,12 @@ final class ReadSettings private (
     limited(limit, Option.unless(value == "none")(bound))
 
   private def limited(limit: Limit, bound: Option[Long]): ReadSettings =
-    val limits = control.limits.copy(changed = control.limits.changed + (limit -> bound))
-    controlled(control.copy(limits = if limit == Limit.Time then limits.started else limits))
+    val changed = control.limits.changed + (limit -> bound)
+    controlled(control.copy(limits = control.limits.copy(changed = changed)))
+
+  /** These, whose time begins now. */
+  private[api] def started: ReadSettings =
+    controlled(control.copy(limits = control.limits.started))
 
   /** Sets a command-line option of reading scenes by its name, without `--`:
     * `withOption("resolution", "50%")`, `sensor`, `light`, `background`.

@@ -1,10 +1,11 @@
 package candela.api
 
 import candela.diagnostics.Code
-import candela.image.{DisplayTransform, Image, ImageFiles}
-import candela.job.{Denoising, ImageFile}
+import candela.image.{Image, ImageFiles}
+import candela.job.ImageFile
 import candela.render.Rendering
 
+import java.nio.ByteBuffer
 import java.nio.file.Path
 import java.util.List as JList
 
@@ -15,8 +16,7 @@ import scala.jdk.CollectionConverters.*
   */
 final class RenderedImage private[api] (
     image: Image,
-    display: DisplayTransform,
-    write: Path => Unit
+    encode: Path => Vector[ByteBuffer]
 ):
   def width: Int = image.width
   def height: Int = image.height
@@ -74,27 +74,32 @@ final class RenderedImage private[api] (
     *
     * @throws SceneException if it can't be written
     */
-  def save(file: Path): Unit = Problems.thrown(write(file))
+  def save(file: Path): Unit = Problems.thrown(ImageFiles.store(file, encode(file)))
+
+  /** The bytes that [[save]] writes in a format: `exr`, `png` or another suffix of a file.
+    *
+    * @throws SceneException if there is no such format
+    */
+  def bytes(format: String): Array[Byte] = Problems.thrown:
+    val parts = encode(Path.of(s"image.$format"))
+    val file = ByteBuffer.allocate(Math.toIntExact(parts.map(_.remaining.toLong).sum))
+    parts.foreach(file.put(_))
+    file.array
 
   /** As `RenderedImage(640x360, R, G, B)`. */
   override def toString: String =
     Shown("RenderedImage", s"${width}x$height" +: image.channelNames*)
 
-  /** The bytes of a PNG file. */
-  def png: Array[Byte] = Problems.thrown(ImageFiles.png(Denoising.displayed(image), display))
-
 private[api] object RenderedImages:
   /** The image of a rendering, whose files have its metadata. */
   def of(
       image: Image,
-      display: DisplayTransform,
       files: ImageFile,
       rendering: Rendering,
       denoiser: Option[String]
   ): RenderedImage =
-    def write(file: Path) = files.write(file, image, rendering, denoiser = denoiser)
-    RenderedImage(image, display, write)
+    RenderedImage(image, files.encoded(_, image, rendering, denoiser = denoiser))
 
   /** Any other image. */
   def plain(image: Image): RenderedImage =
-    RenderedImage(image, DisplayTransform.Plain, ImageFile.write(_, image))
+    RenderedImage(image, ImageFile.encoded(_, image))

@@ -104,9 +104,10 @@ final class Scene private[api] (
 
 private[api] object Scenes:
 
-  /** What `body` reads. */
-  def read(name: String, reading: ReadSettings)(body: => SceneDescription): Scene =
-    try of(name, body, reading)
+  /** What `body` reads by the settings, whose time begins. */
+  def read(name: String, settings: ReadSettings)(body: ReadSettings => SceneDescription): Scene =
+    val reading = settings.started
+    try of(name, body(reading), reading)
     catch case e: SceneError => Scene(name, None, e.problems, reading)
 
   def of(name: String, description: SceneDescription, reading: ReadSettings): Scene =

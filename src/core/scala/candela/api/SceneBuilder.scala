@@ -6,18 +6,6 @@ import candela.scenefile.{GivenStatement, InstanceList, Param, StatementRunner}
 
 import java.util.function.UnaryOperator
 
-/** A statement that a scene has once. */
-enum SceneSetting extends java.lang.Enum[SceneSetting]:
-  case Camera, Film, Sampler, Filter, Integrator
-
-/** The type of a texture's values. */
-enum TextureValues extends java.lang.Enum[TextureValues]:
-  /** Numbers. */
-  case Float
-
-  /** Colours and spectra. */
-  case Spectrum
-
 /** Builds a scene from statements of pbrt-v4, or edits another scene. Names, parameters and values
   * are those of scene files (docs/REFERENCE.md), with the same checks and messages. Errors are in
   * the problems of [[scene]], with the line of source code that called the builder; so are calls

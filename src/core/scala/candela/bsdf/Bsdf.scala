@@ -45,6 +45,9 @@ abstract class Bsdf:
   /** Whether all scattering is perfectly specular, so that light sampling can't contribute. */
   final def isSpecular: Boolean = !flags.hasAny(BsdfFlags.Diffuse | BsdfFlags.Glossy)
   final def isTransmissive: Boolean = flags.hasAny(BsdfFlags.Transmissive)
+
+  /** Whether light is scattered to a range of directions on the other side. */
+  def scattersThrough: Boolean = isTransmissive && !isSpecular
   final def isDiffuse: Boolean = flags.hasAny(BsdfFlags.Diffuse)
   final def isReciprocal: Boolean = !flags.hasAny(BsdfFlags.OneWay)
   final def isDispersive: Boolean = flags.hasAny(BsdfFlags.Dispersive)
@@ -80,6 +83,7 @@ abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
   protected def changed(@unused wo: Vec3, sample: BsdfSample): BsdfSample = sample
 
   def flags: BsdfFlags = inner.flags
+  override def scattersThrough: Boolean = isTransmissive && inner.scattersThrough
   override def straight(wo: Vec3): Rgb = inner.straight(wo)
   override def regularized: Bsdf
 

@@ -82,6 +82,14 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
     // Light may be compressed by one of two lobes that transmit it, and not by the other
     if transmissive < 2 then combined else combined | BsdfFlags.OneWay
 
+  override val scattersThrough: Boolean =
+    var through = false
+    var i = 0
+    while i < lobes.length do
+      if lobes(i).scattersThrough then through = true
+      i += 1
+    through
+
   override def straight(wo: Vec3): Rgb =
     var sum = Rgb.Black
     var i = 0
@@ -153,4 +161,5 @@ final class SentThrough(reflection: Bsdf) extends WrappedBsdf(reflection):
     BsdfSample(Hemisphere.flipped(s.wi), s.weight, s.pdf, s.isSpecular, s.eta)
 
   override def flags: BsdfFlags = reflection.flags | BsdfFlags.Transmissive
+  override def scattersThrough: Boolean = !isSpecular
   override def regularized: Bsdf = SentThrough(reflection.regularized)

@@ -5,6 +5,7 @@ import candela.diagnostics.Code
 import candela.io.{FileName, ForeignFile, InputFile, IoReason, WholeFile, WriteError}
 import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
+import java.nio.ByteBuffer
 import java.nio.file.{Files, NoSuchFileException, Path}
 
 import scala.util.Using
@@ -171,16 +172,27 @@ object ImageFiles:
       metadata: Vector[(String, String)] = Vector.empty,
       options: WriteOptions = WriteOptions()
   ): Unit =
-    val buffers =
-      try
-        (OutputFormat.of(path), FileName.suffix(path)) match
-          case (Some(format), _) => format.buffers(image, metadata, options)
-          case (None, "") =>
-            throw ImageError(Code.UnknownFormat, s"the name has no extension; $Writable")
-          case (None, other) =>
-            throw ImageError(Code.UnknownFormat, s"can't write .$other files; $Writable")
-      catch case e: ImageError => throw ImageError(e.code, s"$path: ${e.getMessage}")
-    try WholeFile.write(path, buffers)
+    store(path, encoded(path, image, metadata, options))
+
+  /** What [[write]] stores in a file of this name. */
+  def encoded(
+      path: Path,
+      image: Image,
+      metadata: Vector[(String, String)] = Vector.empty,
+      options: WriteOptions = WriteOptions()
+  ): Vector[ByteBuffer] =
+    try
+      (OutputFormat.of(path), FileName.suffix(path)) match
+        case (Some(format), _) => format.buffers(image, metadata, options)
+        case (None, "") =>
+          throw ImageError(Code.UnknownFormat, s"the name has no extension; $Writable")
+        case (None, other) =>
+          throw ImageError(Code.UnknownFormat, s"can't write .$other files; $Writable")
+    catch case e: ImageError => throw ImageError(e.code, s"$path: ${e.getMessage}")
+
+  /** Writes what is [[encoded]]. */
+  def store(path: Path, file: Vector[ByteBuffer]): Unit =
+    try WholeFile.write(path, file)
     catch case e: WriteError => throw ImageError(Code.Unwritable, e.getMessage)
 
   /** The bytes that `write` stores in an `.exr` file. */

@@ -114,16 +114,18 @@ class SurfaceVertex(scene: Scene):
   final def isStraight: Boolean =
     bounce.isSpecular && (bounce.wi.toVec3 + ownLocalWo.toVec3).lengthSquared < 1e-10f
 
-  /** False if the BSDF only reflects, and the geometric normal separates `wi` from `wo`. */
+  /** False if the geometric normal separates `wi` from `wo`, and the BSDF scatters no light through
+    * the surface, but in single directions.
+    */
   final def isOpen(wi: Vec3): Boolean =
-    !scene.sidesByGeometry || bsdf.isTransmissive ||
+    !scene.sidesByGeometry || bsdf.scattersThrough ||
       ((wi dot point.geometricNormal) > 0f) == ((wo dot point.geometricNormal) > 0f)
 
   /** The local direction `w`, mirrored to the side of `other` where the geometric normal has
     * decided that this is a reflection.
     */
   private def onSide(w: Vec3, other: Vec3): Vec3 =
-    if !scene.sidesByGeometry || bsdf.isTransmissive || (w.z > 0f) == (other.z > 0f) then w
+    if !scene.sidesByGeometry || bsdf.scattersThrough || (w.z > 0f) == (other.z > 0f) then w
     else Vec3(w.x, w.y, -w.z)
 
   /** Samples the BSDF into `bounce`. */

@@ -53,8 +53,10 @@ private[job] object ForeignAdvice:
     case MitsubaMesh =>
       Some("load it by <shape type=\"serialized\"> in a Mitsuba scene")
     case Model =>
+      val readsModels = SceneFormat.all.exists(_.suffixes.contains("glb"))
       Some(
-        s"export it as a scene of ${SceneFormat.inWords}, for example from Blender; OBJ and " +
+        (if readsModels then "" else "candela-models on the class path reads glTF; or ") +
+          s"export it as a scene of ${SceneFormat.inWords}, for example from Blender; OBJ and " +
           "PLY meshes can be loaded by Mitsuba scenes"
       )
     case Volume => Some("a scene can load it as a medium")

@@ -8,6 +8,7 @@ import candela.image.{
 import candela.render.{Rendering, RenderPlan}
 import candela.settings.RenderSettings
 
+import java.nio.ByteBuffer
 import java.nio.file.Path
 import java.util.Locale
 
@@ -30,7 +31,16 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
       rendering: Rendering,
       more: Vector[(String, String)] = Vector.empty,
       denoiser: Option[String] = None
-  ): Unit =
+  ): Unit = ImageFiles.store(path, encoded(path, image, rendering, more, denoiser))
+
+  /** What [[write]] stores in a file of this name. */
+  def encoded(
+      path: Path,
+      image: Image,
+      rendering: Rendering,
+      more: Vector[(String, String)] = Vector.empty,
+      denoiser: Option[String] = None
+  ): Vector[ByteBuffer] =
     val about = facts ++ more ++ sampleFacts(rendering) ++ ImageFile.bias(plan, rendering, denoiser)
     val writeOptions = WriteOptions(
       plan.development.isHalf,
@@ -42,7 +52,7 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
     val (written, last) =
       if ImageFile.holds(path, Contents.Display) then (image, Vector.empty)
       else (ImageFile.file(path, image, plan), plan.layers.fold(Vector.empty)(_.metadata(image)))
-    ImageFile.write(path, written, about ++ last, writeOptions)
+    ImageFile.encoded(path, written, about ++ last, writeOptions)
 
   /** Writes a mean of renderings with its error, in the precision of its values.
     *
@@ -108,14 +118,22 @@ object ImageFile:
       image: Image,
       about: Vector[(String, String)] = Vector.empty,
       options: WriteOptions = WriteOptions()
-  ): Unit =
+  ): Unit = ImageFiles.store(path, encoded(path, image, about, options))
+
+  /** What [[write]] stores in a file of this name. */
+  def encoded(
+      path: Path,
+      image: Image,
+      about: Vector[(String, String)] = Vector.empty,
+      options: WriteOptions = WriteOptions()
+  ): Vector[ByteBuffer] =
     if holds(path, Contents.Display) then
       val opaque = Denoising.displayed(image)
       val opacity = alpha(image).filter(_ => OutputFormat.of(path).exists(_.keepsAlpha))
       val picture = opacity.fold(opaque)(ImageEdits.divided(opaque, _))
       val display = options.display.describe(picture)
-      ImageFiles.write(path, picture, about ++ display, options.copy(alpha = opacity))
-    else ImageFiles.write(path, image, about, options)
+      ImageFiles.encoded(path, picture, about ++ display, options.copy(alpha = opacity))
+    else ImageFiles.encoded(path, image, about, options)
 
   private def holds(path: Path, contents: Contents): Boolean =
     OutputFormat.of(path).exists(_.contents == contents)

@@ -33,7 +33,7 @@ object StrategyFiles:
     val (strategies, others) = files.partition(f => Name.matches(f.getFileName.toString))
     val pattern = strategies.headOption.map: file =>
       val name = Name.replaceFirstIn(file.toString, "$1_bdpt_d*_s*_t*.exr")
-      s"$name (${strategies.size} files)"
+      if strategies.size == 1 then file.toString else s"$name (${strategies.size} files)"
     (others ++ pattern).mkString(", ")
 
   private val Name = raw"(.*)_bdpt_d\d\d_s\d\d_t\d\d\.exr".r

@@ -2,7 +2,6 @@ package candela.mitsuba
 
 import candela.diagnostics.Code
 import candela.color.Rgb
-import candela.io.FileName
 import candela.math.Transform
 import candela.scenefile.{Declaration, Dialect, GraphicsState, LightDescription, Param, ParamType}
 
@@ -138,7 +137,7 @@ final class Emitters(
         picture(t).flatMap((_, params) => lit(c, slides(params)))
 
   private def slides(params: Seq[Param]): Seq[Param] =
-    params.map(p => Param.string("mapname", p.pos, p.strings.head))
+    params.map(p => if p.name == "filename" then p.renamed("mapname") else p)
 
   private def directional(in: Properties): LightDescription =
     val c = colors.uniform(in, "irradiance", Rgb.White, Role.Emission)
@@ -214,16 +213,8 @@ final class Emitters(
           name <- in.text("filename")
           path <- session.file(name, in.posOf("filename"), "skipped")
         yield
-          if isRaw && !FileName.isOfFloats(path.path) then
-            session.warn(
-              Code.CorrectedValue,
-              in.posOf("raw"),
-              "8-bit images of emitters are always decoded from sRGB"
-            )
-          (
-            name,
-            Param.string("filename", in.posOf("filename"), session.named(path)) +: extraParams
-          )
+          val file = Param.string("filename", in.posOf("filename"), session.named(path))
+          (name, Vector(file, Param.bool("raw", in.posOf("raw"), isRaw)) ++ extraParams)
 
   private def plainParams(in: Properties): Seq[Param] =
     in.ignore("filter_type", "wrap_mode")

@@ -5,11 +5,12 @@ import candela.testing.{Eventually, TempFolder}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import java.io.{ByteArrayOutputStream, OutputStream, PrintStream}
+import java.io.{ByteArrayInputStream, ByteArrayOutputStream, OutputStream, PrintStream}
 import java.nio.file.{Files, Path}
 import java.time.Duration
 import java.util.concurrent.{CancellationException, CyclicBarrier}
 import java.util.concurrent.TimeUnit.SECONDS
+import javax.imageio.ImageIO
 
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
@@ -39,6 +40,7 @@ class LibrarySuite extends AnyFunSuite:
         val own = folder.resolve(s"own.$suffix")
         image.save(own)
         assert(Files.readAllBytes(own).toVector == Files.readAllBytes(program(suffix)).toVector)
+        assert(Files.readAllBytes(own).toVector == image.bytes(suffix).toVector)
 
   test("renderings at once have the bytes that each has alone"):
     val texts = Vector("\"path\"", "\"bdpt\"", "\"mlt\" \"integer bootstrapsamples\" 500")
@@ -266,8 +268,20 @@ class LibrarySuite extends AnyFunSuite:
     val long = RenderSettings().withTime(Duration.ofSeconds(30))
     val late = refused(rendered(scene, long))
     assert(late.number == "E0110" && late.message.contains("the time limit of 1.5 s"), late)
-    val over = Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), how).problems.get(0)
-    assert(over.message.contains("the time limit of 1.5 s is reached"), over)
+    // Which begins with each scene
+    assert(!Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), how).hasErrors)
+
+  test("constants of enums are there for Java, also if Scala code uses them first"):
+    val used = Vector[AnyRef](Severity.Error, SceneSetting.Film, TextureValues.Float)
+    for constant <- used do
+      val field = constant.getClass.getField(constant.toString)
+      assert(field.get(null) eq constant)
+
+  test("a picture in memory keeps alpha"):
+    val text = LibraryScenes.text()
+    val image = rendered(Candela.parse(text), RenderSettings(samples = 1).withLayers("alpha")).image
+    val picture = ImageIO.read(ByteArrayInputStream(image.bytes("png")))
+    assert(picture.getColorModel.hasAlpha)
 
   test("limits are set as those of the program"):
     def exceeded(name: String, value: String): Problem =

@@ -175,6 +175,23 @@ final class PbrtValuesSuite extends AnyFunSuite:
        |  "string namedmaterial2" "b" $amount
        |NamedMaterial "m"""".stripMargin
 
+  test("relief of a surface that lets light straight through reflects none from the other side"):
+    val place = "LookAt 0 1 6 0 0 0 0 1 0"
+    val relief = "Texture \"w\" \"float\" \"wrinkled\" Texture \"b\" \"float\" \"scale\" " +
+      "\"texture tex1\" \"w\" \"float tex2\" .3\n"
+    def uber(opacity: Double) = relief + "Material \"uber\" \"rgb Ks\" [0 0 0] " +
+      s"\"rgb opacity\" [$opacity $opacity $opacity] \"texture bumpmap\" \"b\"\n"
+    val ball = "LightSource \"point\" \"rgb I\" [8 6 4]\n" + uber(0.6) + "Shape \"sphere\""
+    for dialect <- Seq(Dialect.V2, Dialect.V3) do
+      // pbrt-v2 counts one fewer
+      val depth = if dialect == Dialect.V2 then 0 else 1
+      assertMean(view(dialect, place, 45, ball, depth), dialect, Rgb.Black, 0f)
+      def tube(opacity: Double) = "LightSource \"point\" \"rgb I\" [8 6 4]\n" + uber(opacity) +
+        "Rotate 90 1 0 0 Shape \"cylinder\" \"float phimax\" 240"
+      def mean(opacity: Double) = SceneTexts.mean(view(dialect, place, 45, tube(opacity)), dialect)
+      val (almost, whole) = (mean(0.999), mean(1))
+      assert(Math.abs(almost.g / whole.g - 1) < 0.02f, s"$dialect: $almost, not $whole")
+
   test("amounts above 1 of a mix scale its first material"):
     val text = mix("\"rgb amount\" [1.7 .5 .2]")
     assertMean(text, Dialect.V3, Rgb(1.0234f, 0.4013f, 0.5217f), 0.02f)

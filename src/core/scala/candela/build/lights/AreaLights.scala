@@ -98,6 +98,7 @@ final class DiffuseLightRecipe(
     )
   private val filename =
     string("filename", "image over the surface's uv, instead of `L`", onlyV4, shown = "none")("")
+  declare(bool("raw", LightImages.Raw, onlyMitsuba)(false))
   private val tint =
     color("tint", "colour that scales the image", SpectrumRole.Reflectance, onlyGltf)(Rgb.White)
   private val wrap =

@@ -71,6 +71,7 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
       onlyMitsuba,
       shown = "none"
     )("")
+  declare(bool("raw", LightImages.Raw, onlyMitsuba)(false))
 
   protected def create()(using site: Site): LightPlan =
     val picture =

@@ -89,6 +89,7 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
   private val mapname =
     string("mapname", "image of the slide; none: white", untilV3, shown = "none")("")
   private val filename = string("filename", "image of the slide", onlyV4, shown = "none")("")
+  declare(bool("raw", LightImages.Raw, onlyMitsuba)(false))
   private val fov =
     float(
       "fov",

@@ -29,7 +29,7 @@ private[build] object LightImages:
     yield
       // Lookups convert the colours of sRGB to wavelengths; other bases have a copy each
       val basis = Option(site.resources.basis).filterNot(_.isSpectral)
-      images.of((stored, site.rules.decodesLights, isFromBelow, basis))(loaded(stored, name)) match
+      images.of((stored, isDecoded, isFromBelow, basis))(loaded(stored, name)) match
         case Right(image) => image
         case Left(e) =>
           site.problems.missing(e.code, p.valuesAt, e.getMessage, StandIns.Magentas)
@@ -61,11 +61,11 @@ private[build] object LightImages:
     for
       p <- site.declaration.param(name)
       content <- site.resources.keyOf(p, site.declaration)
-    yield s"$content ${site.rules.decodesLights} $isFromBelow"
+    yield s"$content ${isDecoded} $isFromBelow"
 
   /** None with a problem, and of images that have too few rows. */
   private def tiled(tiles: TileCache, name: String)(using site: Site): Option[EnvironmentImage] =
-    val ways = s"pixels of lights ${site.rules.decodesLights}"
+    val ways = s"pixels of lights ${isDecoded}"
     def texels(bands: ImageBands) = TexelBands(bands, 3, Array.emptyFloatArray): band =>
       usable(band, name) match
         case Right(rgb) => FloatTexels(rgb.width, rgb.height, 3, rgb.data)
@@ -112,6 +112,12 @@ private[build] object LightImages:
         case _ => upright.data
       rebasing(site.resources.basis).fold(upright)(change => upright.mapped(change(_), target))
 
+  /** What the parameter `raw` of lights with images means. */
+  val Raw: String = "whether values of 8-bit images are linear"
+
+  private def isDecoded(using site: Site): Boolean =
+    site.rules.decodesLights && !site.declaration.param("raw").exists(_.bools.contains(true))
+
   private def isFromBelow(using site: Site): Boolean =
     TextureStore.isFromBelow(site.declaration, site.dialect)
 
@@ -129,7 +135,7 @@ private[build] object LightImages:
   ): Either[ImageError, Image] =
     def undecoded = Image(image.width, image.height, image.channelNames, image.toImage.data)
     try
-      val rgb = if site.rules.decodesLights then image.toRgb else undecoded.toRgb
+      val rgb = if isDecoded then image.toRgb else undecoded.toRgb
       // Sums of brighter pixels overflow
       val i = firstUnusable(rgb.data)
       def file = site.declaration.param(name).flatMap(_.strings.headOption).getOrElse("")
