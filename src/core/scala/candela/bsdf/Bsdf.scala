@@ -14,6 +14,11 @@ abstract class Bsdf:
   /** The BSDF value in sr⁻¹, without the cosine; black for perfectly specular scattering. */
   def f(wo: Vec3, wi: Vec3): Rgb
 
+  /** Reflection where the shading normal separates the directions, and the geometric one doesn't:
+    * BRDFs of pbrt-v2 and v3 then look at no side.
+    */
+  def reflectedAcross(wo: Vec3, wi: Vec3): Rgb = f(wo, Hemisphere.flipped(wi))
+
   /** The pdf of `sample` with respect to solid angle; 0 for specular scattering. */
   def pdf(wo: Vec3, wi: Vec3): Float
 

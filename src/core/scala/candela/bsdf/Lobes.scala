@@ -24,6 +24,9 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
       i += 1
     sum
 
+  override def reflectedAcross(wo: Vec3, wi: Vec3): Rgb =
+    lobes.foldLeft(Rgb.Black)((sum, lobe) => sum + lobe.reflectedAcross(wo, wi))
+
   def pdf(wo: Vec3, wi: Vec3): Float =
     var sum = 0f
     var i = 0
@@ -141,6 +144,7 @@ object Lobes:
 /** `inner` multiplied by `scale`. */
 final class Scaled(inner: Bsdf, scale: Rgb) extends WrappedBsdf(inner):
   override def f(wo: Vec3, wi: Vec3): Rgb = inner.f(wo, wi) * scale
+  override def reflectedAcross(wo: Vec3, wi: Vec3): Rgb = inner.reflectedAcross(wo, wi) * scale
 
   override protected def changed(wo: Vec3, s: BsdfSample): BsdfSample =
     BsdfSample(s.wi, s.weight * scale, s.pdf, s.isSpecular, s.eta)

@@ -83,14 +83,11 @@ class SurfaceVertex(scene: Scene):
 
   /** Likewise, if the local direction is known. */
   final def received(wi: Vec3, localWi: Vec3): Rgb =
-    if isOpen(wi) then bsdf.f(localWo, onSide(localWi, localWo)) else Rgb.Black
+    if isOpen(wi) then value(localWo, localWi) else Rgb.Black
 
   /** The BSDF for light that a light path sends on to `wi`. */
   final def sent(wi: Vec3): Rgb =
-    if !isOpen(wi) then Rgb.Black
-    else
-      val towards = point.frame.toLocal(wi)
-      bsdf.f(towards, onSide(localWo, towards))
+    if isOpen(wi) then value(point.frame.toLocal(wi), localWo) else Rgb.Black
 
   /** Solid-angle density with which the path continues to `wi`. */
   final def pdf(wi: Vec3): Float = localPdf(point.frame.toLocal(wi))
@@ -121,12 +118,11 @@ class SurfaceVertex(scene: Scene):
     !scene.sidesByGeometry || bsdf.scattersThrough ||
       ((wi dot point.geometricNormal) > 0f) == ((wo dot point.geometricNormal) > 0f)
 
-  /** The local direction `w`, mirrored to the side of `other` where the geometric normal has
-    * decided that this is a reflection.
-    */
-  private def onSide(w: Vec3, other: Vec3): Vec3 =
-    if !scene.sidesByGeometry || bsdf.scattersThrough || (w.z > 0f) == (other.z > 0f) then w
-    else Vec3(w.x, w.y, -w.z)
+  /** Of directions for which the surface [[isOpen]]. */
+  private def value(wo: Vec3, wi: Vec3): Rgb =
+    if !scene.sidesByGeometry || bsdf.scattersThrough || (wo.z > 0f) == (wi.z > 0f) then
+      bsdf.f(wo, wi)
+    else bsdf.reflectedAcross(wo, wi)
 
   /** Samples the BSDF into `bounce`. */
   final def draw(sampler: Sampler): Unit =

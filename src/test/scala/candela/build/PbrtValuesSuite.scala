@@ -192,6 +192,21 @@ final class PbrtValuesSuite extends AnyFunSuite:
       val (almost, whole) = (mean(0.999), mean(1))
       assert(Math.abs(almost.g / whole.g - 1) < 0.02f, s"$dialect: $almost, not $whole")
 
+  test("gloss on relief has pbrt-v3's value where the shading normal separates the directions"):
+    def ball(material: String) =
+      "LightSource \"distant\" \"point from\" [4 2 -1] \"rgb L\" [8 6 4]\n" +
+        "Texture \"b\" \"float\" \"bilerp\" \"float v01\" 3 \"float v10\" 4 \"float v11\" -2\n" +
+        s"Material \"$material\" \"texture bumpmap\" \"b\" Shape \"sphere\""
+    val place = "LookAt 0 1 6 0 0 0 0 1 0"
+    for
+      (material, expected) <- Vector(
+        "uber" -> Rgb(0.010537f, 0.007903f, 0.005269f),
+        "substrate" -> Rgb(0.028092f, 0.021067f, 0.014046f)
+      )
+    do
+      val text = view(Dialect.V3, place, 45, ball(material), depth = 1, samples = 256)
+      assertMean(text, Dialect.V3, expected, 0.02f)
+
   test("amounts above 1 of a mix scale its first material"):
     val text = mix("\"rgb amount\" [1.7 .5 .2]")
     assertMean(text, Dialect.V3, Rgb(1.0234f, 0.4013f, 0.5217f), 0.02f)

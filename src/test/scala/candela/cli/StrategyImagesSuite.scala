@@ -49,8 +49,10 @@ class StrategyImagesSuite extends AnyFunSuite:
       f.run(Vector("merge", f("0.film"), f("1.film"), "--outfile", f("a.exr")))
       check()
 
-  test("none takes the place of a file that was read"):
+  test("none takes the place of a file that was read, or asked for"):
     withScene: f =>
+      val asked = f.fail(Vector(f.scene, "--outfile", f("a.exr"), "--outfile", f(names(1))))
+      assert(asked.contains(s"`${f(names(1))}` is the file of a strategy of bdpt"), asked)
       val _ = Files.move(f.folder.resolve("part.pbrt"), f.folder.resolve(names(1)))
       f.rewrite("s.pbrt")(_.replace("part.pbrt", names(1)))
       val why = f.fail(Vector(f.scene, "--outfile", f("a.exr")))

@@ -23,16 +23,18 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
 
   def f(wo: Vec3, wi: Vec3): Rgb =
     if !Hemisphere.isSameSide(wo, wi) then Rgb.Black
+    else reflectedAcross(Hemisphere.above(wo), Hemisphere.above(wi))
+
+  override def reflectedAcross(wo: Vec3, wi: Vec3): Rgb =
+    val (cosO, cosI) = (Hemisphere.absCos(wo), Hemisphere.absCos(wi))
+    val halfVector = (wo + wi).normalized
+    val cosM = wo dot halfVector
+    val diffuseTerm = base * (penetration(cosO) * penetration(cosI))
+    if !(cosM > 0f) then diffuseTerm
     else
-      val o = Hemisphere.above(wo)
-      val i = Hemisphere.above(wi)
-      val m = (o + i).normalized
-      val cosM = o dot m
-      val diffuseTerm = base * (penetration(o.z) * penetration(i.z))
-      if cosM <= 0f then diffuseTerm
-      else
-        val schlick = specular + absent * fifthPower(1f - Math.min(cosM, 1f))
-        diffuseTerm + schlick * (distribution.d(m) / (4f * cosM * Math.max(o.z, i.z)))
+      val m = halfVector.facing(Vec3.Z)
+      val schlick = specular + absent * fifthPower(1f - Math.min(cosM, 1f))
+      diffuseTerm + schlick * (distribution.d(m) / (4f * cosM * Math.max(cosO, cosI)))
 
   /** Approximate transmittance to the base at this cosine, relative to normal incidence. */
   private def penetration(cosine: Float): Float = 1f - fifthPower(1f - 0.5f * cosine)

@@ -19,17 +19,21 @@ final class MicrofacetReflection(
 
   def f(wo: Vec3, wi: Vec3): Rgb =
     if !Hemisphere.isSameSide(wo, wi) then Rgb.Black
+    else value(Hemisphere.above(wo), Hemisphere.above(wi), isBelow = wo.z < 0f)
+
+  override def reflectedAcross(wo: Vec3, wi: Vec3): Rgb =
+    value(wo, wi, isBelow = wo.z + wi.z < 0f)
+
+  private def value(o: Vec3, i: Vec3, isBelow: Boolean): Rgb =
+    val halfVector = (o + i).normalized
+    val cosM = o dot halfVector
+    // Both grazing and opposite: rounding has displaced the half vector. Such directions are
+    // never sampled.
+    if !(cosM > 0f) then Rgb.Black
     else
-      val o = Hemisphere.above(wo)
-      val i = Hemisphere.above(wi)
-      val m = (o + i).normalized
-      val cosM = o dot m
-      // Both grazing and opposite: rounding has displaced the half vector. Such directions are
-      // never sampled.
-      if cosM <= 0f then Rgb.Black
-      else
-        val value = distribution.d(m) * distribution.visibility(o, i, m)
-        scale * curve(oriented(cosM, wo)) * value
+      val m = halfVector.facing(Vec3.Z)
+      scale * curve(if isBelow then -cosM else cosM) *
+        (distribution.d(m) * distribution.visibility(o, i, m))
 
   def pdf(wo: Vec3, wi: Vec3): Float =
     if !Hemisphere.isSameSide(wo, wi) then 0f

@@ -49,9 +49,12 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
       )
     OutputFiles(paths.take(1) ++ kept, warnings ++ notices)
 
-  /** With those of the strategies that are told apart. */
+  /** Those of the strategies that are told apart. */
+  def strategies(plan: RenderPlan): Vector[Path] =
+    paths.headOption.toVector.flatMap(StrategyFiles(plan).beside)
+
   def withStrategies(plan: RenderPlan): OutputFiles =
-    copy(paths = (paths ++ paths.headOption.toVector.flatMap(StrategyFiles(plan).beside)).distinct)
+    copy(paths = (paths ++ strategies(plan)).distinct)
 
   /** @throws SceneError if no file can store alpha */
   def checkAlpha(): Unit =

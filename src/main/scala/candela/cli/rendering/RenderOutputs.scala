@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.diagnostics.SourcePos
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
 import candela.aov.Layer
 import candela.cli.files.{FileRegister, FilmKeeping, FilmName, Frame, Output, OutputFiles}
 import candela.cli.options.{FilmOptions, Options}
@@ -76,6 +76,9 @@ private[cli] final class RenderOutputs(
     val pos = if outfiles.isEmpty then FilmName.position(loaded.description) else None
     // Those of a film are not named now
     val isAsked = outfiles.nonEmpty && resumed.isEmpty
+    for path <- files.paths.intersect(files.strategies(plan)) if isAsked do
+      val message = s"`$path` is the file of a strategy of bdpt; the image needs another name"
+      throw SceneError(Problem.general(Code.OutputConflict, message))
     val all = files.withStrategies(plan).paths
     register.write(Output(all, "image", scene, pos = pos, isAsked = isAsked))
     val film = FilmKeeping.path(options, outfiles, files.paths, resumed)

@@ -52,15 +52,12 @@ object Interrupts:
   def fromSignals(err: PrintStream, isInteractive: Boolean, signal: String = "INT"): Interrupts =
     Signals(err, isInteractive, signal)
 
-  /** The first SIGINT cancels, a later one quits at once. SIGTERM (from a batch system, or from sbt
+  /** The first SIGINT cancels, the second quits at once. SIGTERM (from a batch system, or from sbt
     * passing on a Ctrl-C) cancels too, and waits until `body` has written its image.
     */
   private final class Signals(err: PrintStream, echoes: Boolean, signal: String)
       extends Interrupts:
     private val interrupt = Signal(signal)
-
-    /** Nanoseconds within which signals are one: coreutils' `timeout` sends two. */
-    private inline val Repetition = 500_000_000L
 
     override def quitting(): Unit =
       val onInterrupt: SignalHandler = _ =>
@@ -80,12 +77,9 @@ object Interrupts:
       val onShutdown = Thread: () =>
         cancellation.request()
         ended.await()
-      var first = 0L
       val onInterrupt: SignalHandler = _ =>
-        if cancellation.isRequested then
-          if System.nanoTime - first > Repetition then quit(ExitCode.Interrupted)
+        if cancellation.isRequested then quit(ExitCode.Interrupted)
         else
-          first = System.nanoTime
           // Printed first, because a cancelled rendering may end, and print its result, at once.
           if echoes then err.println()
           err.println("stopping; Ctrl-C again quits and writes nothing")

@@ -29,8 +29,6 @@ class InterruptsSuite extends AnyFunSuite:
     val plan = TinyPlan(spp = 1_000_000_000): (where, _) =>
       if where.sample == 2 && !pressed then
         pressed = true
-        // As coreutils' `timeout` does
-        Signal.raise(Signal(name))
         Signal.raise(Signal(name))
       Rgb.White
     val rendering = Interrupts.fromSignals(captured.terminal.err, false, name).during(cancellation):
