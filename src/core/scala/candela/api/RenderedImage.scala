@@ -1,11 +1,10 @@
 package candela.api
 
 import candela.diagnostics.Code
-import candela.image.{Image, ImageFiles}
+import candela.image.{EncodedImage, Image}
 import candela.job.ImageFile
 import candela.render.Rendering
 
-import java.nio.ByteBuffer
 import java.nio.file.Path
 import java.util.List as JList
 
@@ -16,7 +15,7 @@ import scala.jdk.CollectionConverters.*
   */
 final class RenderedImage private[api] (
     image: Image,
-    encode: Path => Vector[ByteBuffer]
+    encode: Path => EncodedImage
 ):
   def width: Int = image.width
   def height: Int = image.height
@@ -74,17 +73,14 @@ final class RenderedImage private[api] (
     *
     * @throws SceneException if it can't be written
     */
-  def save(file: Path): Unit = Problems.thrown(ImageFiles.store(file, encode(file)))
+  def save(file: Path): Unit = Problems.thrown(encode(file).save())
 
   /** The bytes that [[save]] writes in a format: `exr`, `png` or another suffix of a file.
     *
     * @throws SceneException if there is no such format
     */
-  def bytes(format: String): Array[Byte] = Problems.thrown:
-    val parts = encode(Path.of(s"image.$format"))
-    val file = ByteBuffer.allocate(Math.toIntExact(parts.map(_.remaining.toLong).sum))
-    parts.foreach(file.put(_))
-    file.array
+  def bytes(format: String): Array[Byte] =
+    Problems.thrown(encode(Path.of(s"image.$format")).bytes)
 
   /** As `RenderedImage(640x360, R, G, B)`. */
   override def toString: String =

@@ -11,6 +11,18 @@ import java.nio.file.{Files, NoSuchFileException, Path}
 import scala.util.Using
 import scala.util.control.ControlThrowable
 
+/** An image file that is not written yet. */
+final class EncodedImage private[image] (path: Path, parts: Vector[ByteBuffer]):
+  /** @throws ImageError if it can't be written; an existing file then stays */
+  def save(): Unit =
+    try WholeFile.write(path, parts)
+    catch case e: WriteError => throw ImageError(Code.Unwritable, e.getMessage)
+
+  def bytes: Array[Byte] =
+    val file = ByteBuffer.allocate(Math.toIntExact(parts.map(_.remaining.toLong).sum))
+    parts.foreach(part => file.put(part.duplicate))
+    file.array
+
 /** Reads and writes image files of all supported formats. Every failure is an [[ImageError]]. */
 object ImageFiles:
 
@@ -172,7 +184,7 @@ object ImageFiles:
       metadata: Vector[(String, String)] = Vector.empty,
       options: WriteOptions = WriteOptions()
   ): Unit =
-    store(path, encoded(path, image, metadata, options))
+    encoded(path, image, metadata, options).save()
 
   /** What [[write]] stores in a file of this name. */
   def encoded(
@@ -180,27 +192,21 @@ object ImageFiles:
       image: Image,
       metadata: Vector[(String, String)] = Vector.empty,
       options: WriteOptions = WriteOptions()
-  ): Vector[ByteBuffer] =
+  ): EncodedImage =
     try
       (OutputFormat.of(path), FileName.suffix(path)) match
-        case (Some(format), _) => format.buffers(image, metadata, options)
+        case (Some(format), _) => EncodedImage(path, format.buffers(image, metadata, options))
         case (None, "") =>
           throw ImageError(Code.UnknownFormat, s"the name has no extension; $Writable")
         case (None, other) =>
           throw ImageError(Code.UnknownFormat, s"can't write .$other files; $Writable")
     catch case e: ImageError => throw ImageError(e.code, s"$path: ${e.getMessage}")
 
-  /** Writes what is [[encoded]]. */
-  def store(path: Path, file: Vector[ByteBuffer]): Unit =
-    try WholeFile.write(path, file)
-    catch case e: WriteError => throw ImageError(Code.Unwritable, e.getMessage)
-
   /** The bytes that `write` stores in an `.exr` file. */
   def exr(image: Image): Array[Byte] = Exr.write(image, Vector.empty)
 
   /** The bytes that `write` stores in a `.png` file. */
-  def png(image: Image, display: DisplayTransform = DisplayTransform.Plain): Array[Byte] =
-    Png.write(image, Vector.empty, WriteOptions(display = display))
+  def png(image: Image): Array[Byte] = Png.write(image, Vector.empty)
 
   /** Signatures of BMP, GIF and PSD. */
   private val StbMarks = Vector("BM", "GIF8", "8BPS")

@@ -3,12 +3,11 @@ package candela.job
 import candela.base.Version
 import candela.film.{Fireflies, PixelBounds, SpectralBands}
 import candela.image.{
-  Contents, Image, ImageEdits, ImageFiles, ImageWindow, OutputFormat, WriteOptions
+  Contents, EncodedImage, Image, ImageEdits, ImageFiles, ImageWindow, OutputFormat, WriteOptions
 }
 import candela.render.{Rendering, RenderPlan}
 import candela.settings.RenderSettings
 
-import java.nio.ByteBuffer
 import java.nio.file.Path
 import java.util.Locale
 
@@ -20,27 +19,18 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
   private val plan = prepared.plan
   private val output = settings.output
 
-  /** Writes an image in the format of its file.
+  /** An image in the format of its file.
     *
     * @param more     to say of it
     * @param denoiser that made the denoised colours, if there are any
     */
-  def write(
-      path: Path,
-      image: Image,
-      rendering: Rendering,
-      more: Vector[(String, String)] = Vector.empty,
-      denoiser: Option[String] = None
-  ): Unit = ImageFiles.store(path, encoded(path, image, rendering, more, denoiser))
-
-  /** What [[write]] stores in a file of this name. */
   def encoded(
       path: Path,
       image: Image,
       rendering: Rendering,
       more: Vector[(String, String)] = Vector.empty,
       denoiser: Option[String] = None
-  ): Vector[ByteBuffer] =
+  ): EncodedImage =
     val about = facts ++ more ++ sampleFacts(rendering) ++ ImageFile.bias(plan, rendering, denoiser)
     val writeOptions = WriteOptions(
       plan.development.isHalf,
@@ -109,24 +99,15 @@ final class ImageFile(settings: RenderSettings, name: String, prepared: Prepared
 
 object ImageFile:
 
-  /** Writes an image in the format of its file, whose colours are multiplied by alpha, if it has
-    * that. A picture shows the denoised colours, if there are any, and alpha if its format keeps
-    * it.
+  /** An image in the format of its file, whose colours are multiplied by alpha, if it has that. A
+    * picture shows the denoised colours, if there are any, and alpha if its format keeps it.
     */
-  def write(
-      path: Path,
-      image: Image,
-      about: Vector[(String, String)] = Vector.empty,
-      options: WriteOptions = WriteOptions()
-  ): Unit = ImageFiles.store(path, encoded(path, image, about, options))
-
-  /** What [[write]] stores in a file of this name. */
   def encoded(
       path: Path,
       image: Image,
       about: Vector[(String, String)] = Vector.empty,
       options: WriteOptions = WriteOptions()
-  ): Vector[ByteBuffer] =
+  ): EncodedImage =
     if holds(path, Contents.Display) then
       val opaque = Denoising.displayed(image)
       val opacity = alpha(image).filter(_ => OutputFormat.of(path).exists(_.keepsAlpha))

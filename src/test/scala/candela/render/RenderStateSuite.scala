@@ -54,6 +54,21 @@ class RenderStateSuite extends AnyFunSuite:
       tick(where)
       Rgb(sampler.next1D(), sampler.next1D() * 1e-6f, sampler.next1D() * 1e6f)
 
+  /** A rendering that continues the state of a file, and saves its own in another. */
+  private def continued(
+      plan: RenderPlan,
+      shard: Shard,
+      from: Option[Path],
+      to: Path,
+      stop: Cancellation
+  ): Rendering =
+    val checkpointer = FileCheckpointer(from, to)
+    val keep = Some(checkpointer)
+    val control = RenderControl(threads = 2, stop, shard = shard, checkpointer = keep)
+    val done = Renderer.render(plan, control)
+    assert(checkpointer.lost == 0)
+    done
+
   test("a rendering that is interrupted again and again is the one that was not, bit for bit"):
     for shares <- Vector(false, true); threads <- Vector(1, 3) do
       withFolder: folder =>
@@ -88,14 +103,7 @@ class RenderStateSuite extends AnyFunSuite:
       withFolder: folder =>
         val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
         def render(plan: RenderPlan, from: Option[Path], to: Path, stop: Cancellation) =
-          val checkpointer = FileCheckpointer(from, to)
-          val keep = Some(checkpointer)
-          val done = Renderer.render(
-            plan,
-            RenderControl(threads = 2, stop, shard = shard, checkpointer = keep)
-          )
-          assert(checkpointer.lost == 0)
-          done
+          continued(plan, shard, from, to, stop)
         // Two samples contrast with a probability between those of none and all
         val all = render(plan(shares, 8, Some(2))(), None, whole, Cancellation())
         assert(all.takenShare > 0.3 && all.takenShare < 0.9, all.takenShare)
@@ -139,14 +147,7 @@ class RenderStateSuite extends AnyFunSuite:
       withFolder: folder =>
         val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
         def render(plan: RenderPlan, from: Option[Path], to: Path, stop: Cancellation) =
-          val checkpointer = FileCheckpointer(from, to)
-          val keep = Some(checkpointer)
-          val done = Renderer.render(
-            plan,
-            RenderControl(threads = 2, stop, shard = shard, checkpointer = keep)
-          )
-          assert(checkpointer.lost == 0)
-          done
+          continued(plan, shard, from, to, stop)
         val _ = render(plan(shares, 3)(), None, whole, Cancellation())
         val cancellation = Cancellation()
         val taken = AtomicInteger()

@@ -18,7 +18,7 @@ final class AverageCommand(options: Options, terminal: Terminal, report: Report)
     val writeOptions = WriteOptions(isHalf = options.image.isHalf, display = options.display)
     val about = OutputFiles.sources(options.files.map(OutputFiles.path))
     OutputFiles.writeAll(outputs.paths): out =>
-      ImageFile.write(out, mean, Vector(about), writeOptions)
+      ImageFile.encoded(out, mean, Vector(about), writeOptions).save()
       if !options.quiet then
         val count = Figures.count(options.files.size, "image")
         terminal.out.println(s"wrote $out  ${mean.width}x${mean.height}, mean of $count")

@@ -40,7 +40,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
       val hasColors = OutputFormat.of(out).exists(_.contents != Contents.Channels)
       val written =
         if hasColors then ImageFiles.colored(path, ImageEdits.layerAsColors(result)) else result
-      ImageFile.write(out, written, about, writeOptions)
+      ImageFile.encoded(out, written, about, writeOptions).save()
       if !options.quiet then terminal.out.println(s"wrote $out  ${result.width}x${result.height}")
     terminal.out.flush()
     ExitCode.Done

@@ -56,13 +56,8 @@ private[cli] final class ImageWriter(
     val about = digest.filter(_ => rendering.isComplete).map(Sequence.Digest -> _).toVector
     // Those that can't hold the digest first: what is done is told by the others
     val failures = OutputFiles.failures(wanted.sortBy(Sequence.keepsDigest)): path =>
-      files.write(
-        path,
-        strategies.contents(path, image),
-        rendering,
-        about,
-        denoising.map(_.describe)
-      )
+      val contents = strategies.contents(path, image)
+      files.encoded(path, contents, rendering, about, denoising.map(_.describe)).save()
     if failures.nonEmpty then
       val _ = report.errors(failures.sortBy((path, _) => wanted.indexOf(path)).map(_._2))
     wanted.diff(failures.map(_._1))
