@@ -170,8 +170,10 @@ object NextFile:
   /** Temporary files of this process. */
   private val open = ConcurrentHashMap.newKeySet[Path]()
 
-  /** Deletes what is not complete; the process ends. */
-  def giveUp(): Unit = open.forEach(file => Try(Files.deleteIfExists(file)): Unit)
+  /** Deletes what is not complete, and ends the process before another file is begun. */
+  def giveUp(end: => Unit): Unit = open.synchronized:
+    open.forEach(file => Try(Files.deleteIfExists(file)): Unit)
+    end
 
   /** Opens the next version of a file.
     *
@@ -189,13 +191,10 @@ object NextFile:
           removeLeft(file)
           val unique = s"${ProcessHandle.current.pid}-${System.nanoTime}"
           val temporary = file.resolveSibling(s"${beginning(file)}$unique.tmp")
-          open.add(temporary): Unit
-          val channel =
-            try FileChannel.open(temporary, CREATE_NEW, WRITE)
-            catch
-              case e: Throwable =>
-                open.remove(temporary): Unit
-                throw e
+          val channel = open.synchronized:
+            val created = FileChannel.open(temporary, CREATE_NEW, WRITE)
+            open.add(temporary): Unit
+            created
           val _ = Try(channel.tryLock())
           val _ = Try(Files.setPosixFilePermissions(temporary, Files.getPosixFilePermissions(file)))
           NextFile(path, target, temporary, channel)

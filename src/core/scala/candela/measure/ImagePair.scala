@@ -67,7 +67,8 @@ object ImagePair:
       throw ImageError(
         Code.DifferentImages,
         s"image sizes differ: ${size(image)} and ${size(reference)} pixels; render's " +
-          s"--resolution ${reference.width}x${reference.height} has the reference's"
+          s"--resolution ${reference.width}x${reference.height} has the reference's, " +
+          "`candela image --crop` cuts a part"
       )
     new ImagePair(picked(image, channels), picked(reference, channels))
 

@@ -48,6 +48,11 @@ class EarlyInterruptSuite extends AnyFunSuite:
     def awaits(text: String): Unit = while isAlive && !err.contains(text) do Thread.sleep(5)
     def interrupt(): Unit = run(Vector("kill", "-INT", process.pid.toString)): Unit
 
+    /** By a command of the shell, which starts no process between. */
+    def interruptTwice(): Unit =
+      val kill = s"kill -INT ${process.pid}"
+      run(Vector("sh", "-c", s"$kill; $kill")): Unit
+
     /** Its end, which must be soon, and leave no stack trace and no half of a file. */
     def ended(): Ended =
       val started = System.nanoTime
@@ -139,6 +144,7 @@ class EarlyInterruptSuite extends AnyFunSuite:
       running.interrupt()
       running.awaits("stopping")
       assert(running.isAlive)
+      Thread.sleep(100)
       running.interrupt()
       assert(running.ended().code == 130)
       assert(Files.exists(folder.resolve("b.exr")))
@@ -149,8 +155,18 @@ class EarlyInterruptSuite extends AnyFunSuite:
       running.awaits("integrator")
       Thread.sleep(300)
       running.interrupt()
+      Thread.sleep(100)
       running.interrupt()
       assert(running.ended().code == 130)
+
+  test("an interrupt that comes twice at once, as from timeout, is one"):
+    inFolder: folder =>
+      val running = Running(folder, endless :+ "--explain")
+      running.awaits("integrator")
+      Thread.sleep(300)
+      running.interruptTwice()
+      assert(running.ended().code == 130)
+      assert(Files.exists(folder.resolve("a.exr")))
 
   test("an interrupt while it renders ends a page that stays, too"):
     inFolder: folder =>

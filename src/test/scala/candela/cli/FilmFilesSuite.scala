@@ -309,6 +309,17 @@ class FilmFilesSuite extends AnyFunSuite:
       assert(second.out.endsWith("\n4 scenes: 2 rendered, 2 skipped (done already)\n"))
       assert(f.run(words :+ "--spp" :+ "3").endsWith("4 scenes: 4 rendered\n"))
 
+  test("frames of one scene are counted and named by their numbers"):
+    withScene(): f =>
+      val sized = text(Paths, "independent").replace("xresolution\" 24", "xresolution\" $n")
+      val scene = Files.writeString(f.folder.resolve("one.pbrt"), sized).toString
+      val words = Vector(scene, "-Dn=%d", "--outfile", f("one%d.exr"), "--frames")
+      assert(f.run(words :+ "1-1").contains("one1.exr"))
+      val (code, said) = f.captured(words :+ "0-3")
+      assert(code == 1, said.err)
+      val counts = "2 rendered, 1 skipped (done already), 1 failed"
+      assert(said.out.endsWith(s"\n4 scenes: $counts ($scene frame 0)\n"), said.out)
+
   test("of many scenes that fail, the first are named"):
     withScene(): f =>
       val words = Vector(f("no%d.pbrt"), "--frames", "1-1000", "--outfile", f("out%d.exr"))

@@ -71,17 +71,17 @@ private[cli] final class ClusterCommand(
     val code = guarded:
       submit(frame, cluster)
       ExitCode.Done
-    if open.size == openCount then sequence.ended(frame.scene)(code)
+    if open.size == openCount then sequence.ended(frame.label)(code)
 
   /** Sends a scene to the cluster, unless its image is done. */
   private def submit(frame: Frame, cluster: Cluster): Unit =
-    val Frame(scene, outfiles, options) = frame
+    val Frame(scene, outfiles, options, _) = frame
     val prepared = renderer.load(frame)
     val writer = renderer.images(frame, prepared)
     val film = outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
     if writer.isDone then
       prepared.close()
-      sequence.skip(scene)
+      sequence.skip()
     else
       val path = film.getOrElse(Path.of("film"))
       val header = FilmHeaders.of(options.settings, scene, prepared, path, writer.paths)
@@ -89,7 +89,7 @@ private[cli] final class ClusterCommand(
       val files = SceneFiles.of(prepared.description)
       val work = ClusterWork(header, Path.of(scene), files, options.cluster.shards, total)
       samplesAsked += total
-      open :+= Submitted(scene, prepared, writer, film, work, cluster.submit(work))
+      open :+= Submitted(frame.label, prepared, writer, film, work, cluster.submit(work))
 
   /** Waits for one of the renderings, and writes its image. */
   private def finishOne(): Unit =
@@ -101,7 +101,7 @@ private[cli] final class ClusterCommand(
     for next <- open.find(_.run.isDone) do
       open = open.filterNot(_ eq next)
       samplesDone += next.work.total
-      sequence.ended(next.scene)(guarded(finish(next)))
+      sequence.ended(next.label)(guarded(finish(next)))
       next.prepared.close()
 
   private def updateProgress(): Unit =
@@ -147,7 +147,7 @@ private[cli] object ClusterCommand:
   val FirstSeconds = 10.0
 
   final case class Submitted(
-      scene: String,
+      label: String,
       prepared: Prepared,
       writer: ImageWriter,
       film: Option[Path],

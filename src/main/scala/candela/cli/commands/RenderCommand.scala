@@ -60,7 +60,7 @@ final class RenderCommand(
       while world.nonEmpty && !cancellation.isRequested do
         val n = world.get
         world = None
-        sequence.ended(frame.scene):
+        sequence.ended(frame.label):
           report.guarded:
             Using.resource(load(frame, n)): prepared =>
               if isLookedAt then inspect(prepared)
@@ -75,7 +75,7 @@ final class RenderCommand(
     sequence.code
 
   private[cli] def load(frame: Frame, world: Int = 0): Prepared =
-    val Frame(scene, outfiles, options) = frame
+    val Frame(scene, outfiles, options, _) = frame
     if world > 0 then
       for why <- InputFile.obstacle(OutputFiles.path(scene)) do
         val message = s"can't read world ${world + 1} of `$scene`: $why"
@@ -125,7 +125,7 @@ final class RenderCommand(
     try
       val writer = this.writer(options, name, prepared, paths)
       if isDone(writer, keeping) then
-        sequence.skip(name)
+        sequence.skip()
         ExitCode.Done
       else
         for k <- keeping; film <- k.start if !options.quiet do

@@ -9,13 +9,19 @@ import candela.job.SceneFormat
 import java.nio.file.Path
 
 /** A scene of a sequence, the output files asked for, and its options. */
-private[cli] final case class Frame(scene: String, outfiles: Vector[String], options: Options)
+private[cli] final case class Frame(
+    scene: String,
+    outfiles: Vector[String],
+    options: Options,
+    number: Option[Int] = None
+):
+  /** Its scene, and its number if that is not in the name of the scene. */
+  def label: String = number.fold(scene)(n => s"$scene frame $n")
 
 /** The scenes of a command line, and what became of them. */
 private[cli] final class Sequence(options: Options):
   private var worst = ExitCode.Done
-  private var skipped = Set.empty[String]
-  private var skippedCount, rendered = 0
+  private var skipped, succeeded = 0
   private var failed = Vector.empty[String]
 
   val frames: Vector[Frame] = options.film.frames match
@@ -25,32 +31,31 @@ private[cli] final class Sequence(options: Options):
         Frame(
           FrameNames.numbered(options.files.head, n),
           options.outfiles.map(FrameNames.numbered(_, n)),
-          options.defining(_.view.mapValues(FrameNames.numbered(_, n)).toMap)
+          options.defining(_.view.mapValues(FrameNames.numbered(_, n)).toMap),
+          Option.unless(FrameNames.hasNumber(options.files.head))(n)
         )
 
   def code: ExitCode = worst
 
-  /** Notes that a scene is done already. */
-  def skip(scene: String): Unit =
-    skipped += scene
-    skippedCount += 1
+  /** Notes that a scene, which ends next, is done already. */
+  def skip(): Unit = skipped += 1
 
-  def ended(scene: String)(render: => ExitCode): Unit =
+  /** @param label of the frame */
+  def ended(label: String)(render: => ExitCode): Unit =
     val code = render
     worst = worst.worseOf(code)
-    if code != ExitCode.Done then failed :+= scene
-    else if !skipped.contains(scene) then rendered += 1
+    if code != ExitCode.Done then failed :+= label else succeeded += 1
 
   /** `4 scenes: 2 rendered, 1 skipped (done already), 1 failed: b.pbrt`; of several scenes only. */
   def summary: Option[String] =
-    Option.when(frames.size > 1 || skipped.nonEmpty):
+    Option.when(frames.size > 1 || skipped > 0):
       def counted(count: Int, what: String) = Option.when(count > 0)(s"$count $what")
       val unnamed = failed.size - Sequence.MostNamed
       val names =
         failed.take(Sequence.MostNamed) ++ Option.when(unnamed > 0)(s"… and $unnamed more")
-      val missing = frames.size - failed.size - rendered - skippedCount
+      val missing = frames.size - failed.size - succeeded
       val counts =
-        counted(rendered, "rendered") ++ counted(skippedCount, "skipped (done already)") ++
+        counted(succeeded - skipped, "rendered") ++ counted(skipped, "skipped (done already)") ++
           counted(failed.size, names.mkString("failed (", ", ", ")")) ++
           counted(missing, "not begun")
       s"${Figures.count(frames.size, "scene")}: ${counts.mkString(", ")}"

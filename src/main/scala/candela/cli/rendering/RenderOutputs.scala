@@ -27,7 +27,7 @@ private[cli] final class RenderOutputs(
   def checkAll(frames: Vector[Frame], loader: SceneLoader): Unit =
     if frames.size > 1 then
       val together = FileRegister()
-      for Frame(scene, outfiles, _) <- frames if Files.exists(OutputFiles.path(scene)) do
+      for Frame(scene, outfiles, _, _) <- frames if Files.exists(OutputFiles.path(scene)) do
         val images =
           if outfiles.nonEmpty then Some(OutputFiles.requested(outfiles))
           else

@@ -45,7 +45,8 @@ object Summary:
       val size = s"${r.film.width}x${r.film.height}"
       val seconds = Figures.duration(r.seconds)
       val share =
-        if r.takenShare < 1 then s"${average(r.samplesDone * r.takenShare / shards)} of "
+        if r.takenShare < 1 && r.earlier == 0 then
+          s"${average(r.samplesDone * r.takenShare / shards)} of "
         else if shards == 1 then ""
         else s"${Figures.general(r.samplesDone.toDouble / shards)} of "
       s"wrote $names  $size, $share${r.samplesDone} spp${ofThisRun(r)}, $seconds, " +

@@ -5,6 +5,7 @@ import candela.render.Cancellation
 
 import java.io.{InputStream, PrintStream}
 import java.util.concurrent.CountDownLatch
+import java.util.concurrent.atomic.AtomicLong
 
 import scala.util.Try
 
@@ -52,12 +53,16 @@ object Interrupts:
   def fromSignals(err: PrintStream, isInteractive: Boolean, signal: String = "INT"): Interrupts =
     Signals(err, isInteractive, signal)
 
-  /** The first SIGINT cancels, the second quits at once. SIGTERM (from a batch system, or from sbt
+  /** The first SIGINT cancels, the second quits at once, unless it is the same one: `timeout -s INT`
+    * signals the process and then its group. SIGTERM (from a batch system, or from sbt
     * passing on a Ctrl-C) cancels too, and waits until `body` has written its image.
     */
   private final class Signals(err: PrintStream, echoes: Boolean, signal: String)
       extends Interrupts:
     private val interrupt = Signal(signal)
+
+    /** A keyboard repeats a key after 30 ms at the earliest. */
+    private val SameInterruptNanos = 20_000_000L
 
     override def quitting(): Unit =
       val onInterrupt: SignalHandler = _ =>
@@ -69,17 +74,20 @@ object Interrupts:
 
     /** Without anything that goes on meanwhile and might fail, and leaves nothing half-written. */
     override def quit(code: ExitCode): Unit =
-      NextFile.giveUp()
-      Runtime.getRuntime.halt(code.number)
+      NextFile.giveUp(Runtime.getRuntime.halt(code.number))
 
     def during[A](cancellation: Cancellation)(body: => A): A =
       val ended = CountDownLatch(1)
       val onShutdown = Thread: () =>
         cancellation.request()
         ended.await()
+      val first = AtomicLong(Long.MinValue)
       val onInterrupt: SignalHandler = _ =>
-        if cancellation.isRequested then quit(ExitCode.Interrupted)
+        val now = System.nanoTime
+        if cancellation.isRequested then
+          if now - first.get > SameInterruptNanos then quit(ExitCode.Interrupted)
         else
+          first.set(now)
           // Printed first, because a cancelled rendering may end, and print its result, at once.
           if echoes then err.println()
           err.println("stopping; Ctrl-C again quits and writes nothing")
