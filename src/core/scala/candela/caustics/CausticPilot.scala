@@ -149,7 +149,7 @@ private[candela] final class CausticPilot(
       findings.lightRays.toDouble / Math.max(1, findings.lightPaths) / findings.pairs.raysPerPath
     val variances = findings.variances
     import variances.*
-    // Rounded down, as the ring of docs/CAUSTICS.md asks
+    // Rounded down to a power of two: docs/CAUSTICS.md
     val perSample = amount(Math.sqrt(byLight / (byPaths * cost)))
     val work = (byPaths + byLight / perSample) * (1.0 + cost * perSample)
     val choice = LightPathChoice(aimed, perSample.toFloat)

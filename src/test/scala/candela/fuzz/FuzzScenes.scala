@@ -11,7 +11,7 @@ import scala.util.Random
   * refusal.
   *
   * Usage: `./sbt "Test/runMain candela.fuzz.FuzzScenes --kind scenes --count 1000000 --seed 1"`.
-  * The options are in CONTRIBUTING.md. The files of a finding stay in the folder that is named at
+  * The options are in docs/TESTING.md. The files of a finding stay in the folder that is named at
   * the start; so do the last ones, should the process itself come to an end.
   */
 object FuzzScenes:

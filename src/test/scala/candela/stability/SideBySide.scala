@@ -54,7 +54,7 @@ object SideBySide:
     val pictures = off.flatMap: row =>
       Seq(
         "",
-        s"![${row.scene.words}](stability/${row.scene.name}.png)",
+        s"![${row.scene.name}](stability/${row.scene.name}.png)",
         "",
         s"`${row.scene.name}`: ${row.scene.words}"
       )

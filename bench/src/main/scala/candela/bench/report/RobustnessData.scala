@@ -3,7 +3,7 @@ package candela.bench.report
 import candela.bench.statistics.Statistics
 import candela.report.RenderData
 
-/** `candela robustness` as JSON; docs/STABILITY.md describes the fields. */
+/** `candela robustness` as JSON. */
 object RobustnessData:
   /** Raised when a field changes its meaning. */
   private final val Format = 1
