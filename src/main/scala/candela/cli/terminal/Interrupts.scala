@@ -53,7 +53,7 @@ object Interrupts:
   def fromSignals(err: PrintStream, isInteractive: Boolean, signal: String = "INT"): Interrupts =
     Signals(err, isInteractive, signal)
 
-  /** The first SIGINT cancels, the second quits at once, unless it is the same one: `timeout -s INT`
+  /** The first SIGINT cancels, the second quits at once, unless it is the same one: `timeout`
     * signals the process and then its group. SIGTERM (from a batch system, or from sbt
     * passing on a Ctrl-C) cancels too, and waits until `body` has written its image.
     */
@@ -83,11 +83,11 @@ object Interrupts:
         ended.await()
       val first = AtomicLong(Long.MinValue)
       val onInterrupt: SignalHandler = _ =>
-        val now = System.nanoTime
+        val time = System.nanoTime
         if cancellation.isRequested then
-          if now - first.get > SameInterruptNanos then quit(ExitCode.Interrupted)
+          if time - first.get > SameInterruptNanos then quit(ExitCode.Interrupted)
         else
-          first.set(now)
+          first.set(time)
           // Printed first, because a cancelled rendering may end, and print its result, at once.
           if echoes then err.println()
           err.println("stopping; Ctrl-C again quits and writes nothing")
