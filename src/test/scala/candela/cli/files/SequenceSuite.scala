@@ -5,7 +5,7 @@ import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import java.nio.file.{Files, Path}
+import java.nio.file.Files
 
 class SequenceSuite extends AnyFunSuite:
 
