@@ -4,7 +4,7 @@ import candela.aov.LightParts
 import candela.color.{MutableRgb, Rgb}
 import candela.geometry.{Hit, Ray}
 import candela.guiding.Guide
-import candela.lights.SurfaceLight
+import candela.lights.{Light, SurfaceLight}
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -78,14 +78,19 @@ abstract class CameraPath(
     if path.lightSamplingMisses then 1f
     else path.emissionWeight(scene.selection.probability(path.lastP, path.lastN, light), pdf)
 
+  private def isHiddenFromCamera(light: Light): Boolean = path.depth == 0 && !light.isInView
+
   /** Radiance of the environment along the ray, weighted against light sampling. */
   protected final def environment(): Rgb =
     LightTransport.environment(
       scene,
       ray,
       weight = (i, light) =>
-        emissionWeight(i, light.pdf(path.lastP, ray.direction)) *
-          extension.emissionFactor(i, light),
+        if isHiddenFromCamera(light) then 0f
+        else
+          emissionWeight(i, light.pdf(path.lastP, ray.direction)) *
+            extension.emissionFactor(i, light)
+      ,
       contribution = extension.meetEnvironment
     )
 
@@ -93,7 +98,7 @@ abstract class CameraPath(
   protected final def surfaceWeight(light: SurfaceLight): Float =
     val point = vertex.point
     val misWeight =
-      if light.isShownOnly && !path.lightSamplingMisses then 0f
+      if isHiddenFromCamera(light) || light.isShownOnly && !path.lightSamplingMisses then 0f
       else emissionWeight(point.areaLight, light.pdf(path.lastP, point))
     misWeight * extension.emissionFactor(point.areaLight, light)
 

@@ -21,7 +21,8 @@ final class AreaLight(
     box: Bounds3,
     axis: Vec3,
     cosSpread: Float,
-    override val isContrary: Boolean = false
+    override val isContrary: Boolean = false,
+    override val isInView: Boolean = true
 ) extends SurfaceLight:
 
   def radiance(at: ShadingPoint, w: Vec3): Rgb =

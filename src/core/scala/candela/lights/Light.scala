@@ -24,6 +24,9 @@ abstract class Light:
   /** Whether only the camera sees the light, directly or by specular scattering. */
   def isShownOnly: Boolean = false
 
+  /** Whether the camera sees the light; if not, only what it lights, and reflections of it. */
+  def isInView: Boolean = true
+
   /** May light paths start here that compete with the camera's and with light samples? Not where
     * either finds what the other doesn't.
     */
@@ -69,6 +72,7 @@ trait WrappedLight(source: Light) extends Light:
   override def isSampled: Boolean = source.isSampled
   override def isContrary: Boolean = source.isContrary
   override def isShownOnly: Boolean = source.isShownOnly
+  override def isInView: Boolean = source.isInView
   override def isInfinite: Boolean = source.isInfinite
   override def power(scene: Ball): Float = source.power(scene)
   override def emit(

@@ -24,7 +24,8 @@ final class SunAndSky(
     sky: Float,
     sunlight: Rgb,
     convert: Rgb => Rgb,
-    complete: Boolean
+    complete: Boolean,
+    override val isInView: Boolean = true
 ) extends EnvironmentLight:
   private val sunFrame = Frame.fromZ(toSun)
 

@@ -6,7 +6,8 @@ import candela.image.{Image, ImageError, ImageFiles}
 import candela.io.FileName
 import candela.math.{clamp, lerp, square}
 import candela.scenefile.{
-  Declaration, Dialect, GraphicsState, Param, ParamType, SceneDescription, TextureDescription
+  Declaration, Dialect, GraphicsState, MaterialRef, Param, ParamType, SceneDescription,
+  ShapeDescription, TextureDescription
 }
 
 import scala.collection.mutable
@@ -18,7 +19,8 @@ private[convert] object FromGltf:
 
   def converted(scene: SceneDescription, files: SideFiles): Converted =
     val run = Run(scene, files)
-    val plain = Declarations.map(scene)(run.plain)
+    val solid = scene.copy(shapes = scene.shapes.map(run.solidLight))
+    val plain = Declarations.map(solid)(run.plain)
     val named = plain.namedMaterials.flatMap(run.material)
     val result = plain.copy(
       dialect = Dialect.V4,
@@ -42,8 +44,9 @@ private[convert] object FromGltf:
         case "AreaLightSource" => areaLight(filed)
         case "Camera" => withoutParams(filed, "", "nearclip", "farclip")
         case "LightSource" =>
-          if d.name == "spot" then warn(d, "a \"spot\" fades along another curve in pbrt")
-          filed
+          if d.name == "spot" && d.param("falloff").isEmpty then
+            warn(d, "a \"spot\" fades along another curve in pbrt")
+          withoutParams(visibleLight(filed), "", "falloff")
         case _ => filed
 
     /** With the files that are within the model written beside the scene. */
@@ -158,7 +161,33 @@ private[convert] object FromGltf:
       val tinted = d.param("tint").map(rgb).filter(_ != Rgb.White).fold(d): tint =>
         rewritten(d, tint)(_.toReflectances.mapped(_ * tint))
       val placed = withoutParams(tinted, "the image is mapped by u and v directly", "imageuv")
-      withoutParams(placed, "", "wrap", "filter", "tint")
+      for p <-
+          Vector("coneangle", "spread").flatMap(d.param).filter(_.floats.headOption.exists(_ < 180))
+      do warn(p, "pbrt has no beams of area lights; it shines to all sides")
+      val bare = withoutParams(placed, "", "axis", "coneangle", "conedeltaangle", "spread")
+      withoutParams(visibleLight(bare), "", "wrap", "filter", "tint")
+
+    /** Lights of material "interface" are black in pbrt-v4. It has lights that no ray hits, and
+      * others.
+      */
+    def solidLight(s: ShapeDescription): ShapeDescription = s.material match
+      case MaterialRef.Inline(m) if m.name == "interface" && s.areaLight.isDefined =>
+        val isHidden = s.areaLight.flatMap(_.param("inview")).exists(_.bools.contains(false))
+        val zero = if isHidden then Some(Param.float("alpha", m.pos, 0f)) else None
+        warn(m, if isHidden then "nothing reflects the light" else "the light casts a shadow")
+        val black = Param.floats(ParamType.Rgb, "reflectance", m.pos, Array(0f, 0f, 0f))
+        s.copy(
+          shape = s.shape.copy(params = s.shape.params ++ zero),
+          material = MaterialRef.Inline(m.copy(name = "diffuse", params = Vector(black))),
+          areaLight = s.areaLight.map(withoutParams(_, "", "inview"))
+        )
+      case _ => s
+
+    /** A light that the camera sees. */
+    private def visibleLight(d: Declaration): Declaration =
+      for p <- d.param("inview").filter(_.bools.contains(false)) do
+        warn(p, "the camera sees the light")
+      withoutParams(d, "", "inview")
 
     private def rgb(p: Param): Rgb = Rgb(p.floats(0), p.floats(1), p.floats(2))
 

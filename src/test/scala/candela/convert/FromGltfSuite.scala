@@ -72,3 +72,23 @@ class FromGltfSuite extends AnyFunSuite:
                        |""".stripMargin
       val material = """"texture color" "b" "float roughness" 0.7 "float metallic" 0.2"""
       assertAlike(ball(material, textures), folder)
+
+  test("lights without a shadow become those that pbrt-v4 has"):
+    TempFolder.use: folder =>
+      def converted(inView: Boolean) =
+        val text =
+          s"""WorldBegin
+             |Material "interface"
+             |AreaLightSource "diffuse" "rgb L" [1 1 1] "bool inview" $inView
+             |  "float spread" 60 "vector3 axis" [0 0 1]
+             |Shape "sphere"
+             |""".stripMargin
+        val scene = SceneTexts.parse(text, Dialect.V4, folder).copy(dialect = Dialect.Gltf)
+        Converter.convert(scene, Dialect.V4, folder)
+      val hidden = converted(inView = false)
+      val shape = hidden.scene.shapes.head
+      assert(shape.shape.param("alpha").get.floats.toVector == Vector(0f))
+      assert(shape.areaLight.get.params.map(_.name) == Vector("L"))
+      assert(shape.material.declared(Map.empty).get.name == "diffuse")
+      assert(hidden.warnings.exists(_.message.contains("beams")))
+      assert(converted(inView = true).scene.shapes.head.shape.param("alpha").isEmpty)

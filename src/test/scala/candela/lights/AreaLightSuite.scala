@@ -76,6 +76,11 @@ final class AreaLightSuite extends AnyFunSuite:
 
   private def disk(reversed: Boolean) = Disk(down, 0f, 1f, 0f, TwoPi, reversed)
   private val sphere = Sphere(place, 0.7f, -0.7f, 0.7f, TwoPi, false)
+  private def beam(name: String, shape: Shape, beam: Beam): Case =
+    val (axis, spread) = shape.normals
+    val plain = AreaLight(shape, emitted, false, shape.bounds, axis, spread)
+    Case(name, Soups.of(Seq.empty), Seq(shape), BeamLight(plain, beam))
+
   private val cases = Seq(
     ofShape("sphere", sphere, false),
     ofShape("cut sphere", Sphere(place, 0.7f, -0.7f, 0.2f, TwoPi, false), false),
@@ -90,7 +95,9 @@ final class AreaLightSuite extends AnyFunSuite:
     ofRectangle("rectangle facing away", 1f, flipped = false),
     picture("picture on a sphere", sphere),
     picture("picture on a disk", disk(false)),
-    pictureOnTriangle
+    pictureOnTriangle,
+    beam("cone of a sphere", sphere, Cone(-Vec3.Z, 0.7f, 0.95f)),
+    beam("grid before a disk", disk(false), Grid(disk(false).normals._1, 1.2))
   )
 
   for c <- cases do

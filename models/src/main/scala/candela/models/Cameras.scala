@@ -23,7 +23,9 @@ private[models] final class Cameras(file: GltfFile, session: Session):
           view.required("yfov").fail(s"expected an angle between 0 and π, found $height")
         val shorter =
           if aspect >= 1 then height else 2 * Math.atan(Math.tan(height / 2) * aspect)
-        val params = Param.float("fov", entry.at, Math.toDegrees(shorter).toFloat) +: clips(view)
+        val (x, y) = if aspect >= 1 then (aspect, 1.0) else (1.0, 1 / aspect)
+        val params = Param.float("fov", entry.at, Math.toDegrees(shorter).toFloat) +:
+          (clips(view) ++ shift(p).map(window(_, x, y, entry.at)) ++ lens(p))
         View.addCamera(scene, session, p.toWorld, aspect, "perspective", params, entry.at)
       case "orthographic" =>
         val view = entry.required("orthographic")
@@ -33,19 +35,42 @@ private[models] final class Cameras(file: GltfFile, session: Session):
         checkAspect(view, x / y)
         val aspect = session.aspect(x / y)
         val across = if aspect == x / y then x else y * aspect
-        val window =
-          Param.float("screenwindow", entry.at, Seq(-across, across, -y, y).map(_.toFloat)*)
         View.addCamera(
           scene,
           session,
           p.toWorld,
           aspect,
           "orthographic",
-          window +: clips(view),
+          window(shift(p).getOrElse(View.Centred), across, y, entry.at) +: (clips(view) ++ lens(p)),
           entry.at
         )
       case other =>
         entry.required("type").fail(s"expected perspective or orthographic, found `$other`")
+
+  private def extras(p: PlacedNode): Option[Extras] =
+    Extras.of(p.node, "nodes", "camera", session)("shift", "apertureRadius", "focusDistance")
+
+  private def shift(p: PlacedNode): Option[Vector[Double]] =
+    extras(p).flatMap(_("shift")).map(_.numbers(2))
+
+  /** The screen window around a place that is moved by parts of its width and height.
+    *
+    * @param x, y half of its width and height
+    */
+  private def window(shift: Vector[Double], x: Double, y: Double, at: SourcePos): Param =
+    val (dx, dy) = (2 * x * shift(0), 2 * y * shift(1))
+    Param.float("screenwindow", at, Seq(dx - x, dx + x, dy - y, dy + y).map(_.toFloat)*)
+
+  private def lens(p: PlacedNode): Vector[Param] =
+    extras(p).toVector.flatMap: e =>
+      val radius = e.size("apertureRadius", 0)
+      val focus = e.number("focusDistance", View.FarAway, 1e-6, Double.PositiveInfinity)
+      if radius == 0 then Vector.empty
+      else
+        Vector(
+          Param.float("lensradius", e.entry.at, radius.toFloat),
+          Param.float("focaldistance", e.entry.at, focus.toFloat)
+        )
 
   private def checkAspect(view: Json, aspect: Double): Unit =
     if !(aspect > 1e-3 && aspect < 1e3) then view.fail(s"the aspect ratio is $aspect")
@@ -62,6 +87,9 @@ private[models] final class Cameras(file: GltfFile, session: Session):
 private[models] object View:
   val Aspect: Double = 4.0 / 3
   val FarAway: Float = 1e30f
+
+  /** The shift of a camera that sees as much on both sides of its axis. */
+  val Centred: Vector[Double] = Vector(0.0, 0.0)
   private val LongerSide = 720
   private val Samples = 64
   private val MaxDepth = 16

@@ -1,12 +1,11 @@
 package candela.models
 
-import candela.color.Rgb
-import candela.diagnostics.{Code, Severity, SourcePos}
+import candela.diagnostics.{Code, Severity}
 import candela.io.SceneFolder
 import candela.math.Transform
 import candela.scenefile.{
-  Declaration, Dialect, Excerpts, GraphicsState, InstanceDescription, InstanceList,
-  LightDescription, Param, ParamType, SceneDescription, ShapeDescription
+  Dialect, Excerpts, GraphicsState, InstanceDescription, InstanceList,
+  LightDescription, SceneDescription, ShapeDescription
 }
 import candela.settings.ReadSettings
 
@@ -34,8 +33,10 @@ private[models] object GltfScene:
   ): SceneDescription =
     val session = Session(file, within, reading.keepGoing, reading.resolution)
     val opened = text.fold(GltfFile.read(session))(GltfFile.ofText(session, _))
-    val model = GltfScene(opened, session).result(sensor)
-    val scene = Studio.complete(model, session, reading.model, world)
+    val reader = GltfScene(opened, session)
+    val model = reader.result(sensor)
+    val isWhole = reader.environment.isDefined
+    val scene = Studio.complete(model, session, reading.model, world, isWhole)
     val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
     scene.copy(
       warnings = warnings,
@@ -66,6 +67,10 @@ private final class GltfScene(file: GltfFile, session: Session):
   private val shapes = Vector.newBuilder[ShapeDescription]
   private val objects = mutable.LinkedHashMap.empty[String, Vector[ShapeDescription]]
   private val instances = InstanceList.newBuilder
+  private val lit = Vector.newBuilder[LightDescription]
+
+  /** What the model says of what surrounds it; if it does, it is lit as it is. */
+  val environment: Option[Extras] = nodes.scene.flatMap(lights.environment)
 
   private def checkVersion(): Unit =
     val version = file.root.required("asset").required("version").text
@@ -82,12 +87,16 @@ private final class GltfScene(file: GltfFile, session: Session):
     def meshUse(p: PlacedNode) = (p.node.required("mesh").int, givenWeights(p.node))
     val uses = users.groupBy(meshUse)
     for p <- users do session.attempt(addShapes(p, isShared = uses(meshUse(p)).size > 1))
-    val lit = nodes.placed.flatMap(p => session.attempt(lights(p)).flatten)
+    for p <- nodes.placed do
+      session.attempt(lights(p)).flatten.foreach:
+        case light: LightDescription => lit += light
+        case shape: ShapeDescription => shapes += shape
+    environment.foreach(e => session.attempt(lights.surroundings(e)).flatten.foreach(lit += _))
     val scene = SceneDescription(
       Dialect.Gltf,
       textures = textures.result(),
       namedMaterials = materials.result(),
-      lights = lit,
+      lights = lit.result(),
       shapes = shapes.result(),
       objects = objects.toMap,
       instances = instances.result(),
@@ -203,52 +212,3 @@ private final class GltfScene(file: GltfFile, session: Session):
         item(r, 4, Vector(0, 0, 0, 1)),
         item(s, 3, Vector(1, 1, 1))
       )
-
-/** Translates punctual lights. Candela of visible light become watts per steradian by 683 lumens
-  * per watt, and lux watts per square metre, as in Blender; emission is as it is written.
-  */
-private final class Lights(file: GltfFile, session: Session):
-  private val entries =
-    file.root.extension("KHR_lights_punctual").toVector.flatMap(_.list("lights"))
-
-  def apply(p: PlacedNode): Option[LightDescription] =
-    p.node.extension("KHR_lights_punctual").map: e =>
-      light(e.required("light").element(entries, "lights"), p)
-
-  private def light(entry: Json, p: PlacedNode): LightDescription =
-    val at = entry.at
-    val color = Materials.rgb(entry, "color", Rgb.White)
-    val power = color * (entry.number("intensity", 1) / Lights.LumensPerWatt).toFloat
-    for range <- entry("range") do
-      session.warn(range.at, "`range` is ignored: light falls off with the square of the distance")
-    def axis = Vector(
-      point("from", at, 0f),
-      point("to", at, -1f)
-    )
-    val d = entry.required("type").text match
-      case "point" => declare(entry, "point", Vector(Textures.rgb("I", power, at)))
-      case "directional" =>
-        declare(entry, "distant", Textures.rgb("L", power, at) +: axis)
-      case "spot" =>
-        val spot = entry.required("spot")
-        val (inner, outer) =
-          (spot.number("innerConeAngle", 0), spot.number("outerConeAngle", Math.PI / 4))
-        if !(inner >= 0 && inner < outer && outer <= Math.PI / 2 + 1e-6) then
-          spot.fail(s"expected 0 ≤ inner < outer ≤ π/2, found $inner and $outer")
-        val angles = Vector(
-          Param.float("coneangle", at, Math.toDegrees(outer).toFloat),
-          Param.float("conedeltaangle", at, Math.toDegrees(outer - inner).toFloat)
-        )
-        declare(entry, "spot", (Textures.rgb("I", power, at) +: axis) ++ angles)
-      case other =>
-        entry.required("type").fail(s"expected point, directional or spot, found `$other`")
-    LightDescription(d, GraphicsState.constant(Nodes.rigid(p.toWorld)))
-
-  private def point(name: String, at: SourcePos, z: Float): Param =
-    Param.floats(ParamType.Point3, name, at, Array(0f, 0f, z))
-
-  private def declare(entry: Json, name: String, params: Vector[Param]): Declaration =
-    session.declare("LightSource", name, entry.at, params)
-
-private object Lights:
-  private val LumensPerWatt = 683.0

@@ -28,6 +28,8 @@ private[models] final class Json(val value: ujson.Value, val pointer: String, se
     case o: ujson.Obj => o.value
     case _ => wrong("an object")
 
+  def isObject: Boolean = value.isInstanceOf[ujson.Obj]
+
   /** Names of an object's members. */
   def names: Vector[String] = fields.keysIterator.toVector
 
@@ -117,5 +119,5 @@ private[models] object Json:
   def memberPointer(pointer: String, name: String): String =
     s"$pointer/${name.replace("~", "~0").replace("/", "~1")}"
 
-  private def numberText(x: Double): String =
+  def numberText(x: Double): String =
     if x == x.toLong then x.toLong.toString else x.toString

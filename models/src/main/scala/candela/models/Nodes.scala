@@ -12,12 +12,15 @@ private[models] final case class PlacedNode(node: Json, toWorld: Transform)
 private[models] final class Nodes(file: GltfFile, session: Session):
   val entries: Vector[Json] = file.root.list("nodes")
 
-  /** The nodes of the scene that is to be shown, parents before children. */
+  private val scenes = file.root.list("scenes")
+
+  /** The scene that is to be shown. */
+  val scene: Option[Json] =
+    file.root.element("scene", scenes, "scenes").orElse(scenes.headOption)
+
+  /** Its nodes, parents before children. */
   val placed: Vector[PlacedNode] =
-    val scenes = file.root.list("scenes")
-    val roots = file.root.element("scene", scenes, "scenes").orElse(scenes.headOption) match
-      case Some(scene) => scene.list("nodes")
-      case None => topmost
+    val roots = scene.fold(topmost)(_.list("nodes"))
     if scenes.size > 1 then
       session.warn(
         session.at("/scenes"),

@@ -19,16 +19,20 @@ private[models] object Studio:
 
   /** The scene with a camera if it has none, and in a studio if nothing lights it, or as asked.
     *
-    * @param world number of the image of a turntable
+    * @param world   number of the image of a turntable
+    * @param isWhole whether it needs no light
     */
   def complete(
       scene: SceneDescription,
       session: Session,
       asked: ModelSettings,
-      world: Int
+      world: Int,
+      isWhole: Boolean
   ): SceneDescription =
     val bounds = ModelBounds.of(scene)
-    if bounds.isEmpty then
+    val isDark = !isWhole && !isLit(scene)
+    if isWhole && bounds.isEmpty && scene.camera.isDefined && asked.light.isEmpty then scene
+    else if bounds.isEmpty then
       session.error(session.at(""), "the model has no surface", Code.NoSurface)
       scene
     else
@@ -45,7 +49,7 @@ private[models] object Studio:
             ),
             isFollowed = world + 1 < images
           )
-      val light = asked.light.orElse(Option.when(!isLit(scene))(ModelLight.Studio))
+      val light = asked.light.orElse(Option.when(isDark)(ModelLight.Studio))
       if asked.background.nonEmpty && !light.exists(_.hasGround) then
         val help = "--light studio and --light sky have one"
         throw SceneError(Problem.general(
@@ -57,7 +61,7 @@ private[models] object Studio:
       val lit = light.fold(dark)(Surroundings(bounds, dark, session, asked.background, turn).lit)
       val missing = Vector(
         Option.when(scene.camera.isEmpty)("a camera that sees all of it"),
-        Option.when(asked.light.isEmpty && !isLit(scene))("a studio with light")
+        Option.when(asked.light.isEmpty && isDark)("a studio with light")
       ).flatten
       lit.copy(additions =
         Option.when(missing.nonEmpty)(s"shown by ${missing.mkString(" and ")}, which it lacks")
@@ -113,19 +117,13 @@ private final class Surroundings(
       val params = Vector(Param.string("mapname", at, Path.of(file).toAbsolutePath.toString))
       // v3's maps are equirectangular, as is usual
       val image = session.declare("LightSource", "infinite", at, params, Some(Dialect.V3))
-      val toWorld = Transform.rotate(turn, 0, 1, 0).fold(forward)(_ * forward)
+      val toWorld = Transform.rotate(turn, 0, 1, 0).fold(Lights.Forward)(_ * Lights.Forward)
       scene.copy(lights =
         scene.lights :+ LightDescription(image, GraphicsState.constant(toWorld))
       )
 
   /** From pbrt's and Mitsuba's z, which points up, to y. */
   private val upright = Transform.rotate(-90, 1, 0, 0).getOrElse(Transform.Identity)
-
-  /** From pbrt's maps, whose middle is at -x, to -z, where a model's front view looks. pbrt's axes
-    * are left-handed, a model's right-handed.
-    */
-  private val forward =
-    Transform.fromRows(Vector(0, -1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 1)).get
 
   /** A neutral studio: a backdrop that rises behind the model, a large light before it, a fainter
     * one on the other side, one behind it, and dim light from everywhere.

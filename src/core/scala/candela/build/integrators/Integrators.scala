@@ -110,6 +110,7 @@ object IntegratorPlan:
   /** What interfaces are to integrators without media. pbrt-v2 has none. */
   def interfaces(using site: Site): Interfaces = site.dialect match
     case Dialect.V2 => Interfaces.Open
+    case _ if site.rules.opens => Interfaces.Open
     case Dialect.V3 => Interfaces.Lossy
     case Dialect.V4 | Dialect.Mitsuba | Dialect.Gltf => Interfaces.Closed
 

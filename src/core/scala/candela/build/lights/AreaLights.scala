@@ -24,6 +24,7 @@ object AreaLights:
   * @param emitted emitted radiance, or scale of the image
   * @param mapping of u and v to the image
   * @param power   v4's total power per shape, independent of its area; not set if ≤ 0
+  * @param beam    where it is brightest; none: everywhere alike
   * @param perUnit mean luminance of the image; 1 without an image
   */
 final class AreaLightPlan(
@@ -33,6 +34,8 @@ final class AreaLightPlan(
     perUnit: Float,
     power: Float,
     twoSided: Boolean,
+    beam: Option[Beam],
+    isInView: Boolean,
     val samples: Int
 ):
 
@@ -57,7 +60,17 @@ final class AreaLightPlan(
   /** Light of two triangles that form a rectangle. */
   def ofRectangle(rectangle: RectangleSampler): SurfaceLight =
     val emitted = radiance(rectangle.area / 2)
-    AreaLight(rectangle, emitted, twoSided, rectangle.bounds, rectangle.normal, 1f)
+    beamed(AreaLight(
+      rectangle,
+      emitted,
+      twoSided,
+      rectangle.bounds,
+      rectangle.normal,
+      1f,
+      isInView = isInView
+    ))
+
+  private def beamed(light: AreaLight): SurfaceLight = beam.fold(light)(BeamLight(light, _))
 
   def ofShape(shape: Shape, contrary: Boolean): SurfaceLight =
     val (axis, cosSpread) = shape.normals
@@ -71,8 +84,9 @@ final class AreaLightPlan(
       contrary: Boolean
   ): SurfaceLight =
     val emitted = radiance(surface.area)
-    val plain = AreaLight(surface, emitted, twoSided, bounds, axis, cosSpread, contrary)
-    picture.fold(plain)(PictureLight(plain, surface, _, mapping))
+    val plain =
+      AreaLight(surface, emitted, twoSided, bounds, axis, cosSpread, contrary, isInView)
+    picture.fold(beamed(plain))(PictureLight(plain, surface, _, mapping))
 
 /** Creates no light if nothing is emitted. */
 final class DiffuseLightRecipe(
@@ -123,6 +137,42 @@ final class DiffuseLightRecipe(
       onlyOthers
     )
 
+  private val axis =
+    vector("axis", "axis of the beam, in world space", onlyGltf)(Vec3.Z)
+  private val cone =
+    float(
+      "coneangle",
+      "angle between the axis and the edge of the beam",
+      onlyGltf,
+      "degrees",
+      "none",
+      Range(0f, 180f)
+    )(180f)
+  private val fading =
+    float(
+      "conedeltaangle",
+      "angular width of the falloff inside the edge, a smoothstep of the cosine",
+      onlyGltf,
+      "degrees",
+      range = Range(0f, 180f)
+    )(0f)
+  private val spread =
+    float(
+      "spread",
+      "angle of the beam of a grid before the light, of the same power; 180: no grid",
+      onlyGltf,
+      "degrees",
+      range = Range(0f, 180f)
+    )(180f)
+  private val isInView = bool("inview", "whether the camera sees the light", onlyGltf)(true)
+
+  private def beam(using Site): Option[Beam] =
+    val along = axis().normalized
+    if cone() < 180f then
+      Some(Cone(along, cos(radians(cone())), cos(radians(Math.max(0f, cone() - fading())))))
+    else if spread() < 180f then Some(Grid(along, Math.toRadians(spread() / 2.0)))
+    else None
+
   private def lookup(using Site): PictureLookup =
     val wrapMode = wrap() match
       case "repeat" => Wrap.Repeat
@@ -148,7 +198,17 @@ final class DiffuseLightRecipe(
       None
     else
       val mapping = AffineUvMapping.of(imageUv())
-      Some(AreaLightPlan(emitted, picture, mapping, perUnit, power(), twoSided(), sampleCount()))
+      Some(AreaLightPlan(
+        emitted,
+        picture,
+        mapping,
+        perUnit,
+        power(),
+        twoSided(),
+        beam,
+        isInView(),
+        sampleCount()
+      ))
 
 /** Lights of an emitting mesh, created once all triangles are known.
   *

@@ -64,6 +64,13 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     float("conedeltaangle", "angular width of the falloff inside the edge", unit = "degrees")(5f)
   private val power =
     float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
+  private val falloff =
+    oneOf(
+      "falloff",
+      "falloff inside the edge, by the cosine",
+      Vector("square", "smoothstep"),
+      onlyGltf
+    )("square")
   private val slide =
     string(
       "mapname",
@@ -81,6 +88,7 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
     val p = Places.far("from").getOrElse(Places.exact(from()))
     val axis = Places.vectorBetween("from", from(), "to", to())
+    val fade = if falloff() == "smoothstep" then Fade.Cubic else site.rules.fade
     ScaledLight.warn(onlyV4, _.nonEmpty, SpotLightRecipe.Cone)
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
@@ -90,7 +98,7 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
       LightPlan(
         (toWorld, _) =>
           val frame = LightFrame(toWorld * Transform.translate(p.x, p.y, p.z))
-          Some(SpotLight(frame, axis.normalized, i, edge, full, site.rules.fade, picture))
+          Some(SpotLight(frame, axis.normalized, i, edge, full, fade, picture))
         ,
         samples = 1
       )

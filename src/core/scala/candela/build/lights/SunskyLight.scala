@@ -37,6 +37,8 @@ object SunskyLightRecipe
   private val skyScale =
     float("skyscale", "scale of the sky's radiance", range = Range.atLeast(0f))(1f)
 
+  private val isInView = bool("inview", "whether the camera sees it", onlyGltf)(true)
+
   protected def create()(using site: Site): LightPlan =
     val ground = albedo() match
       case Array(r, g, b) => Rgb(r, g, b)
@@ -66,7 +68,8 @@ object SunskyLightRecipe
                 case _ => model.sunIrradiance * sunScale()
               ,
               c => convert(c) * scaling,
-              complete = finds != SkySampling.Bright
+              complete = finds != SkySampling.Bright,
+              isInView = isInView()
             )
           )
         ,

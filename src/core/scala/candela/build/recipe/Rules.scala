@@ -33,6 +33,7 @@ import candela.textures.{TexelBands, Texels}
   * @param facesEmitters whether samples of emitters lie on the side that rays see
   * @param passes    whether light passes panes and openings of masks unscattered, and what it meets
   *                  there counts as passed
+  * @param opens     whether light passes interfaces of media, also where integrators ignore media
   * @param goesBeneath whether `path` follows light beneath surfaces
   * @param skyCovers whether the sky is opaque
   * @param defaultsToIndependent whether independent samples are what scenes have that don't choose
@@ -60,6 +61,7 @@ final case class Rules(
     glows: Boolean = true,
     facesEmitters: Boolean = false,
     passes: Boolean = false,
+    opens: Boolean = false,
     goesBeneath: Boolean = false,
     skyCovers: Boolean = false,
     defaultsToIndependent: Boolean = false
@@ -130,10 +132,10 @@ object Rules:
     decodesAll = true,
     decodesNormals = false,
     decodesLights = true,
-    flatMaps = true,
     bumps = Bumps.Sloped,
     plainMetals = true,
     clips = true,
     fade = Fade.Square,
-    facesEmitters = true
+    facesEmitters = true,
+    opens = true
   )
