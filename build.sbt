@@ -246,7 +246,8 @@ lazy val root: Project = (project in file("."))
 
     // What makes the packages is tested, too.
     Test / unmanagedSources ++=
-      Seq("Distribution", "Facts", "JavaRuntime", "Manifests", "PlainLambdas", "ProgramFiles",
+      Seq("Addon", "Distribution", "Facts", "JavaRuntime", "Manifests", "PlainLambdas",
+        "ProgramFiles",
         "Revision", "Wheel", "ZipWriter")
         .map(name => (ThisBuild / baseDirectory).value / "project" / s"$name.scala"),
 
@@ -385,8 +386,11 @@ def packages = Def.task {
     facts.value,
     program,
     (base / "packaging" / "python" / "candela").toPath,
+    (base / "packaging" / "blender").toPath,
     JavaRuntime.jdk(sys.env, file(sys.props("java.home")).toPath, facts.value.bestJava),
-    Seq("candela_3", "candela-bench_3", "candela-models_3").map(m => s"${organization.value}:$m:${version.value}"),
+    Seq("candela_3", "candela-bench_3", "candela-models_3").map(m =>
+      s"${organization.value}:$m:${version.value}"
+    ),
     jvmOptions ++ memory,
     (target.value / "dist").toPath
   )

@@ -9,6 +9,7 @@ object Distribution {
 
   /** @param program   all files of the program, by their names
     * @param module    folder of the Python package
+    * @param addon     folder of the add-on for Blender
     * @param jdk       makes the runtime; or why there is none
     * @param libraries the program's Maven modules, for Coursier
     * @param options   of the JVM, for Coursier
@@ -18,6 +19,7 @@ object Distribution {
       facts: Facts,
       program: Seq[(String, Path)],
       module: Path,
+      addon: Path,
       jdk: Either[String, Path],
       libraries: Seq[String],
       options: Seq[String],
@@ -45,12 +47,15 @@ object Distribution {
       entries
     }
     for (platform <- Platform.all) zip(platform, None)
+    val module = ProgramFiles.module(plan.module)
+    val licence = program.filter(_.name == "LICENSE")
+    val addon = Addon.entries(facts, ProgramFiles.module(plan.addon) ++ licence, module)
+    ZipWriter.write(addon, folder.resolve(facts.addonFile))
     say(s"the Java runtime for ${here.name} is made by $jdk")
     val runtime = folder.resolve("runtime")
     try {
       JavaRuntime.make(jdk, runtime)
       val entries = zip(here, Some(ProgramFiles.runtime(runtime)))
-      val module = ProgramFiles.module(plan.module)
       Wheel.write(facts, here, entries, module, folder.resolve(facts.wheelFile(here)))
     } finally delete(runtime)
     describe(plan, say)
@@ -69,13 +74,17 @@ object Distribution {
       )
       path = folder.resolve(name) if Files.isRegularFile(path)
     } made += Artifact(name, platform, hasRuntime, ZipWriter.sha256(path), Files.size(path))
+    val addon = Some(folder.resolve(facts.addonFile)).filter(Files.isRegularFile(_))
+    val sums = made.map(a => a.sha256 -> a.file) ++
+      addon.map(path => ZipWriter.sha256(path) -> facts.addonFile)
     val texts = Manifests.all(facts, made.toSeq, plan.libraries, plan.options) :+
-      ("SHA256SUMS" -> made.map(a => s"${a.sha256}  ${a.file}\n").mkString)
+      ("SHA256SUMS" -> sums.map { case (sum, file) => s"$sum  $file\n" }.mkString)
     for ((name, text) <- texts) {
       val file = folder.resolve(name)
       Files.createDirectories(file.getParent)
       Files.writeString(file, text)
     }
+    for (path <- addon) say("%6.1f MB  %s".format(Files.size(path) / 1e6, facts.addonFile))
     for (a <- made) say("%6.1f MB  %s".format(a.size / 1e6, a.file))
   }
 

@@ -31,6 +31,8 @@ final case class Facts(
   def wheelFile(platform: Platform): String =
     s"${wheel.replace('-', '_')}-$wheelVersion-py3-none-${platform.wheelTag}.whl"
 
+  def addonFile: String = s"$command-blender-$version.zip"
+
   /** As Python spells versions (PEP 440). */
   def wheelVersion: String = version.replace("-SNAPSHOT", ".dev0")
 }

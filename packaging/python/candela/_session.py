@@ -267,6 +267,16 @@ def close() -> None:
 atexit.register(close)
 
 
+def cancel() -> None:
+    """Ends what runs, early, as Ctrl-C does; another thread waits for it."""
+    running = _session
+    if running is not None:
+        try:
+            running._send({"cancel": True})
+        except InternalError:
+            pass  # it has ended
+
+
 def _forget() -> None:
     """In a forked process: the Java process is its parent's, as is the thread that has the lock."""
     global _lock, _session

@@ -2,7 +2,8 @@ package candela.cli
 
 import candela.testing.TempFolder
 import packaging.{
-  Artifact, Distribution, Entry, Facts, JavaRuntime, Manifests, Platform, ProgramFiles, Revision,
+  Addon, Artifact, Distribution, Entry, Facts, JavaRuntime, Manifests, Platform, ProgramFiles,
+  Revision,
   Wheel, ZipWriter
 }
 
@@ -126,6 +127,15 @@ class DistributionSuite extends AnyFunSuite:
       // A file where the launcher would make a folder of archives: they go to the user's cache
       assert(found.contains("candela/program/lib/archives"))
 
+  test("the add-on for Blender has this version, and the module that runs the program"):
+    val module = ProgramFiles.module(Path.of("packaging", "python", "candela"))
+    val sources = ProgramFiles.module(Path.of("packaging", "blender"))
+    val entries = Addon.entries(facts, sources, module).map(e => e.name -> e).toMap
+    def text(name: String) = String(entries(name).content.bytes, UTF_8)
+    assert(text("blender_manifest.toml").linesIterator.contains("version = \"1.2.3-SNAPSHOT\""))
+    assert(Vector("__init__.py", "engine.py", "candela/_session.py").forall(entries.contains))
+    assert(facts.addonFile == "candela-blender-1.2.3-SNAPSHOT.zip")
+
   test("sources that git has archived know their commit, and whether they are a release"):
     TempFolder.use: folder =>
       val file = Files.createDirectory(folder.resolve("project")).resolve("commit")
@@ -166,7 +176,7 @@ class DistributionSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val jdk = JavaRuntime.jdk(Map.empty, folder, 25)
       val dist = folder.resolve("dist")
-      val plan = Distribution.Plan(facts, Nil, folder, jdk, Nil, Nil, dist)
+      val plan = Distribution.Plan(facts, Nil, folder, folder, jdk, Nil, Nil, dist)
       val failure = intercept[RuntimeException](Distribution.make(plan, _ => ()))
       assert(failure.getMessage.contains("JDK 25") && failure.getMessage.contains("adoptium.net"))
       assert(!Files.exists(dist))

@@ -1,7 +1,7 @@
 package candela.cli
 
 import candela.mitsuba.Plugins
-import candela.testing.TempFolder
+import candela.testing.{ClassPathProgram, TempFolder}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -28,15 +28,7 @@ class PythonSuite extends AnyFunSuite:
     if Try(ProcessBuilder("python3", "-c", "import numpy").start().waitFor()).toOption != Some(0)
     then cancel("python3 with numpy is not installed")
     TempFolder.use: folder =>
-      val java = ProcessHandle.current.info.command.orElse("java")
-      val options = "-XX:+UseParallelGC -Xss4m -Xmx1g"
-      val program = folder.resolve("candela")
-      val classes = System.getProperty("java.class.path")
-      Files.writeString(
-        program,
-        s"#!/bin/sh\nexec '$java' $options -cp '$classes' candela.cli.Main \"$$@\"\n"
-      )
-      assert(program.toFile.setExecutable(true))
+      val program = ClassPathProgram.in(folder)
       val builder = ProcessBuilder("python3", "packaging/test_candela.py").redirectErrorStream(true)
       builder.environment.putAll(Map(
         "CANDELA_PROGRAM" -> s"$program",

@@ -1,0 +1,59 @@
+"""What Blender's glTF exporter loses of materials, and of objects."""
+
+from .nodes import linked, output_of, tree_of, upstream
+
+# Those that the exporter reads
+_NODES = {
+    "ATTRIBUTE", "BSDF_PRINCIPLED", "BSDF_TRANSPARENT", "BACKGROUND", "EMISSION", "GROUP",
+    "GROUP_INPUT", "GROUP_OUTPUT", "LIGHT_PATH", "MAPPING", "MATH", "MIX", "MIX_RGB", "MIX_SHADER",
+    "NORMAL_MAP", "OUTPUT_MATERIAL", "RGB", "SEPARATE_COLOR", "SEPRGB", "TEX_COORD", "TEX_IMAGE",
+    "UVMAP", "VALUE", "VERTEX_COLOR",
+}
+_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+_INVISIBLE = {"EMPTY", "CAMERA", "LIGHT", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE"}
+_SHADOWLESS = ("visible_camera", "visible_diffuse", "visible_glossy", "visible_transmission",
+               "visible_shadow")
+
+
+def check(depsgraph, warn):
+    """Names what is left out of the objects that are rendered."""
+    checked = set()
+    for instance in depsgraph.object_instances:
+        each = instance.object.original
+        if each in checked or not instance.show_self:
+            continue
+        checked.add(each)
+        _check_object(each, warn)
+        for slot in each.material_slots:
+            material = slot.material
+            if material is not None and material not in checked:
+                checked.add(material)
+                _check_material(material, warn)
+
+
+def _check_object(each, warn):
+    if each.type == "VOLUME":
+        why = "Blender has no converter to NanoVDB"
+        warn(f"volume '{each.name}' is not supported, because {why}; left out")
+    elif each.type not in _GEOMETRY | _INVISIBLE:
+        kind = each.type.lower().replace("_", " ")
+        warn(f"object '{each.name}' ({kind}) is not supported; left out")
+    if any(system.settings.type == "HAIR" for system in each.particle_systems):
+        warn(f"the hair of object '{each.name}' is not supported; left out")
+    if each.type in _GEOMETRY and not all(getattr(each, name) for name in _SHADOWLESS):
+        warn(f"the ray visibility of object '{each.name}' is ignored")
+
+
+def _check_material(material, warn):
+    tree = tree_of(material)
+    output = output_of(tree, "OUTPUT_MATERIAL") if tree else None
+    if output is None:
+        return
+    for name in ("Volume", "Displacement"):
+        if linked(output, name) is not None:
+            what = name.lower()
+            warn(f"the {what} of material '{material.name}' is not supported; left out")
+    names = [node.name for node in upstream(linked(output, "Surface")) if node.type not in _NODES]
+    if names:
+        nodes = ", ".join(f"'{name}'" for name in sorted(names))
+        warn(f"material '{material.name}': glTF has no node {nodes}; its default is used")

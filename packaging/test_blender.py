@@ -1,0 +1,532 @@
+"""Tests of the add-on for Blender, in PyPI's module bpy: python packaging/test_blender.py
+
+CANDELA_PROGRAM names the program. Without it, or without bpy, nothing is tested.
+"""
+
+import contextlib
+import io
+import json
+import math
+import os
+import struct
+import sys
+import tempfile
+import threading
+import types
+import unittest
+import zipfile
+from pathlib import Path
+
+PACKAGING = Path(__file__).resolve().parent
+_HOME = tempfile.TemporaryDirectory(prefix="candela test ")
+os.environ["BLENDER_USER_RESOURCES"] = _HOME.name
+
+try:
+    import bpy
+    import numpy as np
+    from mathutils import Vector
+except ImportError as missing:
+    print(f"skipped: {missing}", file=sys.stderr)
+    sys.exit(0)
+if not os.path.isfile(os.environ.get("CANDELA_PROGRAM", "")):
+    print("skipped: CANDELA_PROGRAM names no program", file=sys.stderr)
+    sys.exit(0)
+
+MODULE = "bl_ext.user_default.candela"
+SIZE = (36, 24)
+
+
+def zipped(path: Path):
+    """The add-on, as `./sbt dist` makes it."""
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, inside in (("blender", ""), ("python/candela", "candela/")):
+            folder = PACKAGING / name
+            for file in sorted(folder.glob("*")):
+                if file.is_file():
+                    archive.write(file, inside + file.name)
+
+
+def setUpModule():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    file = Path(os.environ.get("CANDELA_ADDON", "")) if "CANDELA_ADDON" in os.environ else None
+    if file is None:
+        file = Path(_HOME.name) / "candela-blender.zip"
+        zipped(file)
+    bpy.ops.extensions.package_install_files(
+        filepath=str(file), repo="user_default", enable_on_install=True
+    )
+
+
+def tearDownModule():
+    part("candela").close()
+    _HOME.cleanup()
+
+
+def part(name):
+    return sys.modules[f"{MODULE}.{name}"]
+
+
+def material(name, color, emission=None):
+    """Diffuse, or a light."""
+    made = bpy.data.materials.new(name)
+    if made.node_tree is None:
+        made.use_nodes = True
+    shader = next(n for n in made.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+    shader.inputs["Base Color"].default_value = (*color, 1)
+    shader.inputs["Roughness"].default_value = 1
+    shader.inputs["Specular IOR Level"].default_value = 0
+    if emission is not None:
+        shader.inputs["Emission Color"].default_value = (*emission, 1)
+        shader.inputs["Emission Strength"].default_value = 8
+    return made
+
+
+def painted(*color, emission=None):
+    """Paints the last object that was made."""
+    made = bpy.context.object
+    made.data.materials.clear()
+    made.data.materials.append(material(made.name, color, emission))
+    return made
+
+
+class Scene:
+    """A ball on a floor before a camera, and a dim world."""
+
+    def __init__(self, world=0.0):
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+        for name in (MODULE, "cycles"):
+            if name not in bpy.context.preferences.addons:
+                bpy.ops.preferences.addon_enable(module=name)
+        self.scene = bpy.context.scene
+        render = self.scene.render
+        render.resolution_x, render.resolution_y = SIZE
+        render.threads_mode, render.threads = "FIXED", 1
+        self.scene.world = bpy.data.worlds.new("World")
+        if self.scene.world.node_tree is None:
+            self.scene.world.use_nodes = True
+        self.nodes = self.scene.world.node_tree.nodes
+        self.background = next(n for n in self.nodes if n.type == "BACKGROUND")
+        self.background.inputs["Color"].default_value = (0.5, 0.7, 1, 1)
+        self.background.inputs["Strength"].default_value = world
+        bpy.ops.mesh.primitive_plane_add(size=20)
+        self.floor = painted(0.6, 0.5, 0.4)
+        bpy.ops.mesh.primitive_uv_sphere_add(radius=0.8, location=(0, 0, 0.8))
+        self.ball = painted(0.3, 0.5, 0.7)
+        self.camera = bpy.data.cameras.new("Camera")
+        self.scene.camera = self.put("Camera", self.camera, (0, -6, 3))
+
+    def put(self, name, data, place, aim=(0, 0, 0.5)):
+        made = bpy.data.objects.new(name, data)
+        made.location = place
+        towards = Vector(aim) - Vector(place)
+        made.rotation_euler = towards.to_track_quat("-Z", "Y").to_euler()
+        self.scene.collection.objects.link(made)
+        return made
+
+    def light(self, kind, place=(2, -2, 4), **fields):
+        data = bpy.data.lights.new(kind, kind)
+        for name, value in {"energy": 300, **fields}.items():
+            setattr(data, name, value)
+        return self.put(kind, data, place)
+
+    def render(self, engine, samples=128, **wanted):
+        """Red, green, blue and alpha, rows from below."""
+        self.scene.render.engine = engine
+        self.scene.candela.samples = self.scene.cycles.samples = samples
+        for name in ("max_bounces", "diffuse_bounces", "glossy_bounces"):
+            setattr(self.scene.cycles, name, 16)
+        self.scene.cycles.use_denoising = self.scene.cycles.use_adaptive_sampling = False
+        self.scene.cycles.sample_clamp_indirect = 0
+        output = self.scene.render.image_settings
+        output.file_format, output.color_mode, output.color_depth = "OPEN_EXR", "RGBA", "32"
+        file = os.path.join(_HOME.name, "image.exr")
+        self.scene.render.filepath = file
+        bpy.ops.render.render(write_still=True)
+        image = bpy.data.images.load(file, check_existing=False)
+        image.alpha_mode = "CHANNEL_PACKED"
+        pixels = np.empty(image.size[0] * image.size[1] * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+        shape = (image.size[1], image.size[0], 4)
+        bpy.data.images.remove(image)
+        return pixels.reshape(shape)
+
+    def export(self):
+        """The JSON of the exported scene, and the warnings."""
+        warnings = []
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        with tempfile.TemporaryDirectory() as folder:
+            file = part("export").write(
+                self.scene, bpy.context.view_layer, depsgraph, Path(folder), warnings.append
+            )
+            data = file.read_bytes()
+        (length,) = struct.unpack_from("<I", data, 12)
+        return json.loads(data[20 : 20 + length]), warnings
+
+
+def map_of_patches():
+    """An environment of gradients with two lamps."""
+    rows = 256
+    y, x = np.mgrid[0:rows, 0 : 2 * rows] / rows
+    pixels = np.dstack([0.2 + 0.4 * x, 0.3 + 0.5 * y, np.full_like(x, 0.6), np.ones_like(x)])
+    pixels[160:192, 80:128, :3] = (40, 30, 20)
+    pixels[96:112, 320:352, :3] = (2, 20, 3)
+    image = bpy.data.images.new("sky", 2 * rows, rows, float_buffer=True)
+    image.pixels.foreach_set(pixels.astype(np.float32).ravel())
+    return image
+
+
+def surrounded(kind):
+    made = Scene(world=0.7)
+    tree = made.scene.world.node_tree
+    texture, mapping, place = (
+        tree.nodes.new(f"ShaderNode{name}") for name in ("TexEnvironment", "Mapping", "TexCoord")
+    )
+    texture.image = map_of_patches()
+    mapping.vector_type = kind
+    mapping.inputs["Rotation"].default_value = (0.2, 0.1, 1)
+    tree.links.new(place.outputs["Generated"], mapping.inputs["Vector"])
+    tree.links.new(mapping.outputs[0], texture.inputs[0])
+    tree.links.new(texture.outputs[0], made.background.inputs["Color"])
+    return made
+
+
+def instanced(made):
+    """Cubes of a collection, in a row."""
+    collection = bpy.data.collections.new("Cubes")
+    bpy.ops.mesh.primitive_cube_add(size=0.4)
+    cube = painted(0.8, 0.2, 0.2)
+    made.scene.collection.objects.unlink(cube)
+    collection.objects.link(cube)
+    for k in range(6):
+        holder = made.put(f"Cube {k}", None, (-2 + 0.8 * k, -1, 0.3))
+        holder.instance_type, holder.instance_collection = "COLLECTION", collection
+        holder.rotation_euler, holder.scale = (0, 0, 0.3 * k), (1, 1, 1 + 0.2 * k)
+
+
+def scattered(made):
+    """Cubes of geometry nodes, on a grid."""
+    bpy.ops.mesh.primitive_cube_add(size=0.3)
+    cube = painted(0.8, 0.2, 0.2)
+    cube.hide_render = True
+    grid = {"x_subdivisions": 4, "y_subdivisions": 4, "size": 4}
+    bpy.ops.mesh.primitive_grid_add(location=(0, 0, 0.2), **grid)
+    tree = bpy.data.node_groups.new("Scatter", "GeometryNodeTree")
+    for way in ("INPUT", "OUTPUT"):
+        tree.interface.new_socket("Geometry", in_out=way, socket_type="NodeSocketGeometry")
+    start, end = tree.nodes.new("NodeGroupInput"), tree.nodes.new("NodeGroupOutput")
+    scatter = tree.nodes.new("GeometryNodeInstanceOnPoints")
+    source = tree.nodes.new("GeometryNodeObjectInfo")
+    source.inputs["Object"].default_value = cube
+    source.inputs["As Instance"].default_value = True
+    tree.links.new(start.outputs[0], scatter.inputs["Points"])
+    tree.links.new(source.outputs["Geometry"], scatter.inputs["Instance"])
+    tree.links.new(scatter.outputs[0], end.inputs[0])
+    bpy.context.object.modifiers.new("Scatter", "NODES").node_group = tree
+
+
+def subdivided(made):
+    bpy.ops.mesh.primitive_cube_add(size=1.5, location=(1.6, 0, 0.8))
+    modifier = painted(0.8, 0.5, 0.1).modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels, modifier.render_levels = 0, 3
+
+
+def lit(world=0.6, **fields):
+    made = Scene(world)
+    made.light("POINT")
+    for name, value in fields.items():
+        setattr(made.camera, name, value)
+    return made
+
+
+def tall(made):
+    made.scene.render.resolution_x, made.scene.render.resolution_y = SIZE[::-1]
+    return made
+
+
+def lamp(kind, world=0.0, **fields):
+    made = Scene(world)
+    made.light(kind, **fields)
+    return made
+
+
+def changed(made, change):
+    change(made)
+    return made
+
+
+def focused(made):
+    made.camera.dof.use_dof = True
+    made.camera.dof.aperture_fstop, made.camera.dof.focus_distance = 0.1, 4
+
+
+def glowing(made):
+    bpy.ops.mesh.primitive_cube_add(size=0.5, location=(1.5, -0.5, 0.6))
+    painted(0, 0, 0, emission=(1, 0.5, 0.2))
+
+
+def without_floor(made):
+    bpy.data.objects.remove(made.floor)
+    made.scene.render.film_transparent = True
+
+
+def bordered(made):
+    render = made.scene.render
+    render.use_border = render.use_crop_to_border = True
+    render.border_min_x, render.border_max_x = 0.25, 0.75
+    render.border_min_y, render.border_max_y = 0.1, 0.6
+
+
+def stretched(made):
+    made.light("AREA", size=1, energy=150).scale = (2, 1, 1)
+
+
+def in_view(made):
+    made.light("AREA", place=(0, 1.5, 1.5), size=1).visible_camera = True
+
+
+def graded(made):
+    made.scene.view_settings.exposure = 2
+
+
+SCENES = {
+    "world": lambda: Scene(0.6),
+    "sensor fitted": lambda: lit(lens=35),
+    "sensor fitted to a tall image": lambda: tall(lit(lens=40, shift_x=-0.1)),
+    "sensor's height, shifted": lambda: lit(
+        sensor_fit="VERTICAL", lens=30, shift_x=0.15, shift_y=-0.1
+    ),
+    "sensor's width in a tall image": lambda: tall(
+        lit(sensor_fit="HORIZONTAL", lens=25, shift_y=0.1)
+    ),
+    "orthographic": lambda: lit(type="ORTHO", ortho_scale=5, shift_x=0.1),
+    "depth of field": lambda: changed(lit(), focused),
+    "point": lambda: lamp("POINT", color=(1, 0.8, 0.6)),
+    "point with a radius": lambda: lamp("POINT", shadow_soft_size=0.5, use_soft_falloff=False),
+    "spot": lambda: lamp("SPOT", energy=900, spot_size=0.9, spot_blend=0.5),
+    "spot with a radius": lambda: lamp(
+        "SPOT", energy=900, spot_size=0.9, spot_blend=0.3, shadow_soft_size=0.4,
+        use_soft_falloff=False,
+    ),
+    "sun": lambda: lamp("SUN", energy=3, color=(1, 0.9, 0.7)),
+    "sun with an angle": lambda: lamp("SUN", energy=3, angle=0.5),
+    "square": lambda: lamp("AREA", size=1.5),
+    "rectangle": lambda: lamp("AREA", world=0.3, shape="RECTANGLE", size=2, size_y=0.5),
+    "disk": lambda: lamp("AREA", shape="DISK", size=1.5),
+    "ellipse": lambda: lamp("AREA", shape="ELLIPSE", size=2, size_y=0.6),
+    "spread": lambda: lamp("AREA", size=1, spread=math.radians(60)),
+    "scaled area": lambda: changed(Scene(), stretched),
+    "area in view": lambda: changed(Scene(), in_view),
+    "temperature": lambda: lamp("AREA", size=1, use_temperature=True, temperature=3500),
+    "world of an image": lambda: surrounded("POINT"),
+    "world of an image, turned back": lambda: surrounded("TEXTURE"),
+    "collection instances": lambda: changed(lit(), instanced),
+    "geometry nodes": lambda: changed(lit(), scattered),
+    "subdivision": lambda: changed(lit(), subdivided),
+    "transparent film": lambda: changed(lit(), without_floor),
+    "emission": lambda: changed(Scene(), glowing),
+    "exposure of the view": lambda: changed(lit(), graded),
+    "border": lambda: changed(lit(), bordered),
+}
+
+
+class AgainstCycles(unittest.TestCase):
+    def test_each_scene_is_as_bright_as_in_cycles(self):
+        for name, make in SCENES.items():
+            with self.subTest(name):
+                made = make()
+                expected, found = made.render("CYCLES"), made.render("CANDELA")
+                self.assertEqual(found.shape, expected.shape)
+                # Both have noise of 1 % of the mean at most
+                means, limits = found.mean((0, 1)), expected.mean((0, 1))
+                np.testing.assert_allclose(means, limits, rtol=0.03, atol=1e-3)
+                # Quarters of the image, so that nothing is mirrored
+                for half in np.array_split(np.arange(found.shape[0]), 2):
+                    for side in np.array_split(np.arange(found.shape[1]), 2):
+                        at = np.ix_(half, side)
+                        near = 0.06 * expected.mean()
+                        np.testing.assert_allclose(
+                            found[at].mean((0, 1)), expected[at].mean((0, 1)), rtol=0.06, atol=near
+                        )
+
+
+class Rendering(unittest.TestCase):
+    def test_passes_are_those_of_cycles(self):
+        made = lit()
+        layer = bpy.context.view_layer
+        layer.use_pass_z = layer.use_pass_normal = layer.candela.use_pass_albedo = True
+        images = {}
+        for engine in ("CYCLES", "CANDELA"):
+            made.render(engine)
+            settings = made.scene.render.image_settings
+            if hasattr(settings, "media_type"):
+                settings.media_type = "MULTI_LAYER_IMAGE"
+            settings.file_format = "OPEN_EXR_MULTILAYER"
+            if hasattr(settings, "use_exr_interleave"):
+                settings.use_exr_interleave = True  # one part
+            made.scene.render.filepath = os.path.join(_HOME.name, "layers.exr")
+            bpy.ops.render.render(write_still=True)
+            images[engine] = part("candela").load(made.scene.render.filepath)
+            if hasattr(settings, "media_type"):
+                settings.media_type = "IMAGE"
+
+        def values(engine, name):
+            found = images[engine].layers
+            return next(v for key, v in found.items() if f"{name}." in f"{key}.")
+
+        for name in ("Depth", "Normal"):
+            expected, found = values("CYCLES", name), values("CANDELA", name)
+            # Edges of the ball are where the filters put them, and the horizon is far
+            near = np.isclose(found, expected, rtol=0.02, atol=0.05)
+            self.assertGreater(near.mean(), 0.8, name)
+        self.assertAlmostEqual(float(values("CANDELA", "Albedo")[-1, 0, 0]), 0.6, delta=0.02)
+
+    def test_each_frame_is_the_scene_at_its_time(self):
+        made = Scene(1.0)
+        made.ball.location.x = -9
+        made.ball.keyframe_insert("location", frame=1)
+        made.ball.location.x = 0
+        made.ball.keyframe_insert("location", frame=2)
+        made.scene.frame_start, made.scene.frame_end = 1, 2
+        made.render("CANDELA", samples=4)
+        made.scene.render.filepath = os.path.join(_HOME.name, "frame####")
+        bpy.ops.render.render(animation=True)
+        means = []
+        for frame in ("frame0001", "frame0002"):
+            image = part("candela").load(os.path.join(_HOME.name, f"{frame}.exr"))
+            means.append(float(image.rgb[..., 0].mean()))
+        self.assertGreater(abs(means[0] / means[1] - 1), 0.02)
+
+    def test_what_ends_a_rendering_is_said(self):
+        made = Scene(1.0)
+        made.scene.render.engine = "CANDELA"
+        made.scene.camera = None
+        with self.assertRaisesRegex(RuntimeError, "no camera"):
+            bpy.ops.render.render()
+        made.scene.camera = bpy.data.objects["Camera"]
+        preferences = bpy.context.preferences.addons[MODULE].preferences
+        preferences.program = os.path.join(_HOME.name, "absent")
+        try:
+            with self.assertRaisesRegex(RuntimeError, "Preferences"):
+                bpy.ops.render.render()
+        finally:
+            preferences.program = ""
+
+    def test_escape_ends_a_rendering_and_keeps_its_image(self):
+        made = lit()
+        made.scene.render.engine = "CANDELA"
+        made.scene.candela.samples = 1_000_000
+        engine = Listener(after=1.0)
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        with tempfile.TemporaryDirectory() as folder:
+            part("engine")._Rendering(engine, depsgraph, Path(folder)).run()
+        self.assertGreater(max(engine.progress), 0)
+        self.assertGreater(engine.passes["Combined"].rect.values.mean(), 0)
+
+    def test_what_reads_blender_runs_in_its_main_thread(self):
+        run = part("engine")._on_main_thread
+        self.assertIs(run(threading.current_thread, lambda: False), threading.main_thread())
+        found, timers = [], []
+        fake = types.SimpleNamespace(
+            register=timers.append, is_registered=timers.__contains__, unregister=timers.remove
+        )
+        module = part("engine")
+        real, module.bpy = module.bpy, types.SimpleNamespace(app=types.SimpleNamespace(timers=fake))
+        try:
+            words = (threading.current_thread, lambda: False)
+            other = threading.Thread(target=lambda: found.append(run(*words)))
+            other.start()
+            while not timers:
+                pass
+            timers[0]()
+            other.join()
+        finally:
+            module.bpy = real
+        self.assertEqual(found, [threading.main_thread()])
+
+
+class Listener:
+    """A render engine that is ended after some seconds of rendering."""
+
+    is_animation = False
+
+    def __init__(self, after):
+        self._after, self._line, self.progress = after, "", [0.0]
+        fills = types.SimpleNamespace
+        self.passes = {"Combined": fills(rect=fills(foreach_set=self._set, values=np.zeros(1)))}
+
+    def _set(self, values):
+        self.passes["Combined"].rect.values = values
+
+    def test_break(self):
+        return self.progress[-1] > 0
+
+    def update_progress(self, done):
+        self.progress.append(done)
+
+    def update_stats(self, title, line):
+        self._line = line
+
+    def report(self, kind, text):
+        pass
+
+    def begin_result(self, *place, layer):
+        return types.SimpleNamespace(layers=[types.SimpleNamespace(passes=self.passes)])
+
+    def update_result(self, result):
+        pass
+
+    def end_result(self, result, cancel):
+        pass
+
+
+class Exporting(unittest.TestCase):
+    def test_the_open_scene_is_as_it_was(self):
+        made = lit()
+        subdivided(made)
+        cube, modifier = bpy.context.object, bpy.context.object.modifiers[0]
+        made.ball.hide_set(True)
+        made.floor.hide_viewport = True
+        lamp = made.light("SPOT", use_temperature=True)
+        bpy.ops.object.mode_set(mode="EDIT")
+        model, _ = made.export()
+        self.assertEqual((modifier.levels, modifier.render_levels), (0, 3))
+        self.assertTrue(made.ball.hide_get() and made.floor.hide_viewport)
+        self.assertTrue(lamp.data.use_temperature)
+        self.assertEqual(cube.mode, "EDIT")
+        names = {node["name"] for node in model["nodes"] if "mesh" in node}
+        self.assertEqual(names, {made.ball.name, made.floor.name, cube.name})
+
+    def test_other_exports_have_no_extras(self):
+        lit()
+        file = os.path.join(_HOME.name, "plain.gltf")
+        with contextlib.redirect_stdout(io.StringIO()):
+            options = {"export_format": "GLTF_SEPARATE", "export_lights": True}
+            bpy.ops.export_scene.gltf(filepath=file, **options)
+        self.assertNotIn("extras", Path(file).read_text())
+
+    def test_what_is_left_out_is_named(self):
+        made = lit()
+        tree = made.ball.data.materials[0].node_tree
+        shader = next(n for n in tree.nodes if n.type == "BSDF_PRINCIPLED")
+        noise = tree.nodes.new("ShaderNodeTexNoise")
+        tree.links.new(noise.outputs["Color"], shader.inputs["Base Color"])
+        volume = bpy.data.volumes.new("Smoke")
+        made.put("Smoke", volume, (0, 0, 0))
+        sky = made.nodes.new("ShaderNodeTexSky")
+        made.scene.world.node_tree.links.new(sky.outputs[0], made.background.inputs["Color"])
+        made.camera.dof.use_dof, made.camera.dof.aperture_blades = True, 5
+        _, warnings = made.export()
+        for name in (noise.name, "Smoke", sky.name, "camera 'Camera'"):
+            self.assertTrue(any(name in text for text in warnings), (name, warnings))
+        _, none = lit().export()
+        self.assertEqual(none, [])
+
+    def test_only_the_scenes_camera_is_exported(self):
+        made = lit()
+        made.put("Second", bpy.data.cameras.new("Second"), (1, 1, 1))
+        model, _ = made.export()
+        self.assertEqual([n["name"] for n in model["nodes"] if "camera" in n], ["Camera"])
+
+
+if __name__ == "__main__":
+    unittest.main()
