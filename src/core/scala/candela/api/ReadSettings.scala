@@ -76,12 +76,12 @@ final class ReadSettings private (
     controlled(control.copy(limits = control.limits.started))
 
   /** Sets a command-line option of reading scenes by its name, without `--`:
-    * `withOption("resolution", "50%")`, `sensor`, `light`, `background`.
+    * `withOption("resolution", "50%")`, `sensor`, `light`, `background`, `at`.
     */
   def withOption(name: String, value: String): ReadSettings =
     val changed =
       NamedOptions.change(name, Some(value), isRead = true)(CoreRendering(reading = core)).reading
-    if changed.sensors.contains(Sensors.All) || changed.model.turntable.nonEmpty then
+    if changed.sensors.contains(Sensors.All) || changed.model.hasSeveralImages then
       Problems.fail(Code.OptionMisfit, s"`$name` $value is for several images; a scene has one")
     new ReadSettings(changed, control)
 

@@ -6,7 +6,7 @@ import candela.io.{FileName, ForeignKind, SceneFolder}
 import candela.build.DialectChoice
 import candela.mitsuba.{MitsubaScene, XmlFile}
 import candela.scenefile.{Defines, Parser, SceneDescription, TokenDigest}
-import candela.settings.{ModelSettings, ReadSettings, Sensors}
+import candela.settings.{ModelSettings, ModelState, ReadSettings, Sensors}
 
 import java.nio.file.{Files, Path}
 
@@ -35,6 +35,9 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
   /** Whether scenes may have several sensors, or are models. */
   def hasSensors: Boolean = false
   def isModel: Boolean = false
+
+  /** Whether they may have animations and variants of materials. */
+  def hasStates: Boolean = false
 
   /** The readable part of a scene; see [[SceneDescription.errors]].
     *
@@ -83,9 +86,15 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
       refuse(s"`$file` has no sensors", help)
     if !isModel && reading.model != ModelSettings() then
       refuse(s"`$file` is no model", "--light, --background and --turntable are for models")
-    if reading.model.turntable.nonEmpty && reading.sensors.contains(Sensors.All) then
-      val help = "render a turntable of each: --sensor 0, --sensor 1 …"
-      refuse("a turntable is of one camera", help)
+    if !hasStates && reading.model.state != ModelState() then
+      val help = "--at, --animation and --variant are for models in glTF"
+      refuse(s"`$file` has no animations and no variants", help)
+    val several = reading.model.state.times.exists(_.count > 1)
+    if several && reading.model.turntable.nonEmpty then
+      refuse("a turntable is of one time", "give a single time: --at 1.5")
+    if reading.model.hasSeveralImages && reading.sensors.contains(Sensors.All) then
+      val shown = if several then "--at with several times" else "a turntable"
+      refuse(s"$shown is of one camera", "render each camera: --sensor 0, --sensor 1 …")
 
 object SceneFormat:
   /** Those of the core, and those that other modules bring. */

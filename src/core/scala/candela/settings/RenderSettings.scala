@@ -153,12 +153,36 @@ final case class ReadSettings(
   * @param light      what lights it
   * @param background what is behind and below it
   * @param turntable  number of images, between which it turns around once
+  * @param state      which of its states is shown
   */
 final case class ModelSettings(
     light: Option[ModelLight] = None,
     background: Option[ModelGround] = None,
-    turntable: Option[Int] = None
+    turntable: Option[Int] = None,
+    state: ModelState = ModelState()
+):
+  /** Whether there is an image of each of several views or times. */
+  def hasSeveralImages: Boolean = turntable.nonEmpty || state.times.exists(_.count > 1)
+
+/** A state of a model that has several.
+  *
+  * @param times     of an animation, an image each; none: at rest
+  * @param animation name or index of that animation; none: the first
+  * @param variant   name of a variant of its materials
+  */
+final case class ModelState(
+    times: Option[ModelTimes] = None,
+    animation: Option[String] = None,
+    variant: Option[String] = None
 )
+
+/** Times at equal distances, in seconds. */
+final case class ModelTimes(first: Double, step: Double, count: Int):
+  def apply(i: Int): Double = first + i * step
+
+object ModelTimes:
+  val MaxCount: Int = 10000
+  def at(time: Double): ModelTimes = ModelTimes(time, 0, 1)
 
 /** What lights a model. */
 enum ModelLight:

@@ -15,6 +15,8 @@ object SettingsTable:
   private def parse(s: S)(f: ReadSettings => ReadSettings): S = s.copy(reading = f(s.reading))
   private def model(s: S)(f: ModelSettings => ModelSettings): S =
     parse(s)(r => r.copy(model = f(r.model)))
+  private def state(s: S)(f: ModelState => ModelState): S =
+    model(s)(m => m.copy(state = f(m.state)))
   private def aim(s: S)(f: RenderGoal => RenderGoal): S = s.copy(goal = f(s.goal))
 
   private type Layers = Vector[(Layer, Option[Boolean])]
@@ -253,6 +255,27 @@ object SettingsTable:
     )(_.reading.model.turntable)((s, n) => model(s)(_.copy(turntable = Some(n))))(using
       TextForm.int.filter("from 1 to 10000")(n => n >= 1 && n <= 10000)
     ).explained("The images are `MODEL-0.exr`, `MODEL-1.exr` …, or `%d` in `--outfile` is N."),
+    option(
+      "at",
+      "TIME|FIRST:STEP:LAST",
+      "show a model at this time of an animation, e.g. 1.5 or 1.5s, or render an image of each " +
+        "of these times, e.g. 0:0.1:2 (default: at rest)"
+    )(_.reading.model.state.times)((s, t) => state(s)(_.copy(times = Some(t))))
+      .explained("The images are `MODEL-0.exr`, `MODEL-1.exr` …, or `%d` in `--outfile` is N."),
+    option(
+      "animation",
+      "NAME|INDEX",
+      "the animation of --at (default: the first)"
+    )(_.reading.model.state.animation)((s, n) => state(s)(_.copy(animation = Some(n))))(using
+      TextForm.string
+    ),
+    option(
+      "variant",
+      "NAME",
+      "show a model with this variant of its materials"
+    )(_.reading.model.state.variant)((s, n) => state(s)(_.copy(variant = Some(n))))(using
+      TextForm.string
+    ),
     option(
       "mse-reference-image",
       "FILE",

@@ -182,6 +182,7 @@ object TextForm:
   private val Size = raw"(\d{1,8})[x×,](\d{1,8})".r
   private val MaxAcross = 1 << 24
   private val MaxPercent = 10000.0
+  private val MaxModelSeconds = 1e6
 
   given TextForm[Resolution] =
     def isAcross(pixels: Int) = pixels >= 1 && pixels <= MaxAcross
@@ -214,6 +215,25 @@ object TextForm:
       case named => lower(named)
     }
   )
+
+  given TextForm[ModelTimes] =
+    def time(text: String) =
+      Decimal.double(text.stripSuffix("s")).filter(t => t >= 0 && t < MaxModelSeconds)
+    TextForm(
+      "seconds of an animation, or first:step:last, e.g. 1.5 or 0:0.1:2",
+      {
+        case s"$first:$step:$last" =>
+          for
+            a <- time(first)
+            d <- time(step)
+            b <- time(last) if d > 0 && b >= a
+            // 0:0.1:2 ends with 2, whatever the rounding of the steps
+            steps = Math.floor((b - a) / d + 1e-9) if steps < ModelTimes.MaxCount
+          yield ModelTimes(a, d, steps.toInt + 1)
+        case single => time(single).map(ModelTimes.at)
+      },
+      t => if t.count == 1 then t.first.toString else s"${t.first}:${t.step}:${t(t.count - 1)}"
+    )
 
   given TextForm[ModelGround] =
     val color = ofItems(

@@ -1,9 +1,8 @@
 package candela.models
 
 import candela.color.Rgb
-import candela.diagnostics.{Code, Refusal, SceneError, Severity}
+import candela.diagnostics.{Code, Refusal, SceneError}
 import candela.io.SceneFolder
-import candela.job.SceneFormat
 import candela.math.Vec3
 import candela.scenefile.{Param, Resolution, SceneDescription, ShapeDescription}
 import candela.build.SceneBuilder
@@ -13,65 +12,11 @@ import candela.settings.{
 import candela.testing.TempFolder
 
 import java.nio.charset.StandardCharsets.UTF_8
-import java.nio.file.{Files, Path}
-import java.nio.{ByteBuffer, ByteOrder}
-import java.util.Base64
+import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
 
-class GltfFormatSuite extends AnyFunSuite:
-  private val format = SceneFormat.named(Path.of("model.glb")).get
-
-  private def read(
-      json: String,
-      isConfined: Boolean = false,
-      reading: ReadSettings = ReadSettings()
-  ): SceneDescription =
-    val file = Path.of("models", "model.gltf")
-    format.read(file, SceneFolder.of(file, isConfined), reading, None, Some(json))
-
-  /** The first error, with its place. */
-  private def error(json: String): String =
-    val problems =
-      try read(json).errors
-      catch case e: SceneError => e.problems
-    val p = problems.find(_.severity == Severity.Error).get
-    s"${p.pos.fold("")(_.file.dropWhile(_ != '#').drop(1))}: ${p.message}"
-
-  private def floats(values: Double*): Array[Byte] =
-    val bytes = ByteBuffer.allocate(4 * values.size).order(ByteOrder.LITTLE_ENDIAN)
-    values.foreach(x => bytes.putFloat(x.toFloat))
-    bytes.array
-
-  private def uri(bytes: Array[Byte]): String =
-    s"data:application/octet-stream;base64,${Base64.getEncoder.encodeToString(bytes)}"
-
-  private val square = floats(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0)
-  private val View = """{"buffer":0,"byteLength":48}"""
-  private val Position = """{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}"""
-
-  /** A model of one mesh of four vertices. */
-  private def model(
-      primitive: String = "",
-      accessors: Seq[String] = Nil,
-      views: Seq[String] = Nil,
-      data: Array[Byte] = Array.emptyByteArray,
-      nodes: String = """{"mesh":0}""",
-      roots: String = "0",
-      others: String = ""
-  ): String =
-    val bytes = square ++ data
-    s"""{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[$roots]}],"nodes":[$nodes],
-       |"meshes":[{"primitives":[{"attributes":{"POSITION":0}$primitive}]}],
-       |"accessors":[${(Position +: accessors).mkString(",")}],
-       |"bufferViews":[${(View +: views).mkString(",")}],
-       |"buffers":[{"byteLength":${bytes.length},"uri":"${uri(bytes)}"}]$others}""".stripMargin
-
-  private def shape(json: String): ShapeDescription =
-    val scene = read(json)
-    assert(scene.errors.isEmpty, scene.errors.map(_.message))
-    scene.shapes.head
-
+class GltfFormatSuite extends AnyFunSuite, GltfModels:
   private def param(s: ShapeDescription, name: String): Param = s.shape.param(name).get
   private def indices(json: String): Vector[Int] = param(shape(json), "indices").ints.toVector
 

@@ -72,7 +72,13 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
         ModelGround.Colored(Rgb(0.1f, 0f, 1f))
       ))
       turntable <- Gen.option(Gen.choose(1, 10000))
-      model = ModelSettings(light, ground, turntable)
+      times <- Gen.option(Gen.oneOf(
+        Gen.choose(0.0, 1e3).map(ModelTimes.at),
+        Gen.choose(2, 1000).map(ModelTimes(0.5, 0.125, _))
+      ))
+      animation <- Gen.option(name)
+      variant <- Gen.option(name)
+      model = ModelSettings(light, ground, turntable, ModelState(times, animation, variant))
     yield ReadSettings(dialect, defines, keepGoing, sensors, resolution, model)
 
   /** Precisions are of layers that are there. */

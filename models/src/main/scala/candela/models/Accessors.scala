@@ -116,7 +116,7 @@ private[models] final class Accessors(file: GltfFile, session: Session):
       a.fail(s"bytes $from to ${from + length} of a buffer view of ${bytes.remaining} bytes")
     bytes.slice(from, length.toInt).order(bytes.order)
 
-private object Accessors:
+private[models] object Accessors:
   val Components: Map[String, Int] =
     Map(
       "SCALAR" -> 1,

@@ -16,6 +16,7 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
   def firstWorld: Int = 0
   override def hasSensors: Boolean = true
   override def isModel: Boolean = true
+  override def hasStates: Boolean = true
 
   protected def readable(
       file: Path,
@@ -27,7 +28,7 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
     Defines(reading.defines).requireUse()
     val scene =
       GltfScene.readable(file, within, reading, text, sensor(reading, world), world.getOrElse(0))
-    val hasNext = reading.model.turntable.nonEmpty || reading.sensors.contains(Sensors.All)
+    val hasNext = reading.model.hasSeveralImages || reading.sensors.contains(Sensors.All)
     scene.copy(isFollowed = scene.isFollowed && world.isDefined && hasNext)
 
   def digest(text: String): String = Sha256.of(text)

@@ -7,7 +7,7 @@ import candela.scenefile.{
   Dialect, Excerpts, GraphicsState, InstanceDescription, InstanceList,
   LightDescription, SceneDescription, ShapeDescription
 }
-import candela.settings.ReadSettings
+import candela.settings.{ModelState, ReadSettings}
 
 import java.nio.file.Path
 
@@ -20,7 +20,7 @@ private[models] object GltfScene:
     *
     * @param text   what is read instead of the file
     * @param sensor index of the camera that is asked for, if any is
-    * @param world  number of the image of a turntable
+    * @param world  number of the image of a turntable, or of a time
     * @throws SceneError if the file contains no model at all
     */
   def readable(
@@ -33,10 +33,16 @@ private[models] object GltfScene:
   ): SceneDescription =
     val session = Session(file, within, reading.keepGoing, reading.resolution)
     val opened = text.fold(GltfFile.read(session))(GltfFile.ofText(session, _))
-    val reader = GltfScene(opened, session)
-    val model = reader.result(sensor)
-    val isWhole = reader.environment.isDefined
-    val scene = Studio.complete(model, session, reading.model, world, isWhole)
+    val times = reading.model.state.times.filter(_.count > 1)
+    def reader(image: Int) = GltfScene(opened, session, reading.model.state, image)
+    val shown = reader(world)
+    val model = shown.result(sensor)
+    // All images of an animation have the view of the first
+    val framed = Option.when(times.isDefined && world > 0)(reader(0).result(sensor))
+    val isWhole = shown.environment.isDefined
+    val complete = Studio.complete(model, session, reading.model, world, isWhole, framed)
+    val scene = times.fold(complete): t =>
+      View.numbered(complete, session, world).copy(isFollowed = world + 1 < t.count)
     val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
     scene.copy(
       warnings = warnings,
@@ -51,17 +57,20 @@ private[models] object GltfScene:
     "EXT_mesh_gpu_instancing", "KHR_materials_unlit", "KHR_materials_ior",
     "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_volume",
     "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_anisotropy",
-    "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness"
+    "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness", Variants.Name
   )
 
-private final class GltfScene(file: GltfFile, session: Session):
+/** @param image number of the image of several times */
+private final class GltfScene(file: GltfFile, session: Session, state: ModelState, image: Int):
   checkVersion()
   private val textures = Textures(file, session)
   private val materials = Materials(file, session, textures)
   private val primitives = Primitives(file, session)
   private val meshes = file.root.list("meshes")
   private val skins = file.root.list("skins")
-  private val nodes = Nodes(file, session)
+  private val pose = Animations(file, session).pose(state, image)
+  private val nodes = Nodes(file, session, pose)
+  private val variants = Variants(file, session, state.variant)
   private val lights = Lights(file, session)
 
   private val shapes = Vector.newBuilder[ShapeDescription]
@@ -79,12 +88,10 @@ private final class GltfScene(file: GltfFile, session: Session):
     for name <- file.root.list("extensionsRequired") if !GltfScene.Extensions(name.text) do
       val message = s"the model requires `${name.text}`, which is not supported"
       session.missing(name.at, message, "the model without it", code = Code.Unsupported)
-    for animation <- file.root.list("animations").headOption do
-      session.warn(animation.at, "animations are not supported; the model is shown at rest")
 
   def result(sensor: Option[Int]): SceneDescription =
     val users = nodes.placed.filter(p => p.node("mesh").isDefined)
-    def meshUse(p: PlacedNode) = (p.node.required("mesh").int, givenWeights(p.node))
+    def meshUse(p: PlacedNode) = (p.node.required("mesh").int, weightsOfNode(p.node))
     val uses = users.groupBy(meshUse)
     for p <- users do session.attempt(addShapes(p, isShared = uses(meshUse(p)).size > 1))
     for p <- nodes.placed do
@@ -122,8 +129,12 @@ private final class GltfScene(file: GltfFile, session: Session):
   /** By index: each mesh may be that of many nodes. */
   private val weightsOfMeshes = mutable.HashMap.empty[Int, Vector[Double]]
 
+  /** If they differ from the mesh's. */
+  private def weightsOfNode(node: Json): Option[Vector[Double]] =
+    pose(node, "weights").orElse(givenWeights(node))
+
   private def weights(node: Json): Vector[Double] =
-    givenWeights(node).getOrElse:
+    weightsOfNode(node).getOrElse:
       val index = node.required("mesh")
       weightsOfMeshes.getOrElseUpdate(
         index.size,
@@ -165,7 +176,7 @@ private final class GltfScene(file: GltfFile, session: Session):
 
   private def objectName(index: Json, node: Json, mesh: Json): String =
     val name = mesh.text("name").getOrElse("mesh")
-    (s"$name ${index.size}" +: givenWeights(node).getOrElse(Vector.empty)).mkString(" ")
+    (s"$name ${index.size}" +: weightsOfNode(node).getOrElse(Vector.empty)).mkString(" ")
 
   private def described(
       primitive: Json,
@@ -173,9 +184,7 @@ private final class GltfScene(file: GltfFile, session: Session):
       skin: Option[Skin],
       toWorld: Transform
   ): Option[ShapeDescription] =
-    for v <- primitive.extension("KHR_materials_variants") do
-      session.warn(v.at, "variants of materials are not supported; using `material`")
-    val surface = materials(primitive("material"), primitives.hasColors(primitive))
+    val surface = materials(variants.material(primitive), primitives.hasColors(primitive))
     primitives.shape(primitive, weights, skin, surface.shape).map: shape =>
       ShapeDescription(
         shape,

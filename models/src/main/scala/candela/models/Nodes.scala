@@ -8,8 +8,8 @@ import scala.collection.mutable
 /** A node in the world. */
 private[models] final case class PlacedNode(node: Json, toWorld: Transform)
 
-/** The tree of nodes. */
-private[models] final class Nodes(file: GltfFile, session: Session):
+/** The tree of nodes, in a pose. */
+private[models] final class Nodes(file: GltfFile, session: Session, pose: Pose):
   val entries: Vector[Json] = file.root.list("nodes")
 
   private val scenes = file.root.list("scenes")
@@ -48,27 +48,33 @@ private[models] final class Nodes(file: GltfFile, session: Session):
           s"node ${index.size} is reached twice: nodes must form a tree",
           Code.Circle
         )
-      val toWorld = parent * Nodes.local(node)
+      val toWorld = parent * Nodes.local(node, pose)
       all += PlacedNode(node, toWorld)
       waiting.pushAll(node.list("children").reverse.map((_, toWorld)))
     all.result()
 
   /** The transforms of nodes of the scene, by their index. */
   lazy val byIndex: Map[Int, Transform] =
-    placed.map(p => p.node.pointer.drop("/nodes/".length).toInt -> p.toWorld).toMap
+    placed.map(p => Nodes.index(p.node) -> p.toWorld).toMap
 
 private[models] object Nodes:
 
+  /** The index of a node. */
+  def index(node: Json): Int = node.pointer.drop("/nodes/".length).toInt
+
   /** The transform of a node within its parent. */
-  def local(node: Json): Transform = node("matrix") match
+  private def local(node: Json, pose: Pose): Transform = node("matrix") match
     case Some(m) =>
       val columns = m.numbers(16)
       Transform.fromColumns(columns).getOrElse(flat(columns))
     case None =>
-      val t = node("translation").fold(Vector(0.0, 0.0, 0.0))(_.numbers(3))
-      val r = node("rotation").fold(Vector(0.0, 0.0, 0.0, 1.0))(_.numbers(4))
-      val s = node("scale").fold(Vector(1.0, 1.0, 1.0))(_.numbers(3))
-      of(t, r, s)
+      def numbers(name: String, default: Vector[Double]) =
+        pose(node, name).getOrElse(node(name).fold(default)(_.numbers(default.size)))
+      of(
+        numbers("translation", Vector(0, 0, 0)),
+        numbers("rotation", Vector(0, 0, 0, 1)),
+        numbers("scale", Vector(1, 1, 1))
+      )
 
   private def flat(columns: Vector[Double]): Transform =
     Transform.flat(Vector.tabulate(16)(i => columns(i % 4 * 4 + i / 4)))

@@ -38,7 +38,7 @@ private[models] final class Primitives(file: GltfFile, session: Session):
       skin: Option[Skin],
       extra: Vector[Param]
   ): Option[Declaration] =
-    for e <- primitive("extensions"); name <- e.names do
+    for e <- primitive("extensions"); name <- e.names if name != Variants.Name do
       val message = s"`$name` of a primitive is not supported"
       if name == "KHR_draco_mesh_compression" then
         Session.fail(e.at, message, Code.Unsupported)

@@ -21,15 +21,17 @@ private[models] object Studio:
     *
     * @param world   number of the image of a turntable
     * @param isWhole whether it needs no light
+    * @param framed  the scene whose bounds choose the view and the studio; none: itself
     */
   def complete(
       scene: SceneDescription,
       session: Session,
       asked: ModelSettings,
       world: Int,
-      isWhole: Boolean
+      isWhole: Boolean,
+      framed: Option[SceneDescription] = None
   ): SceneDescription =
-    val bounds = ModelBounds.of(scene)
+    val bounds = ModelBounds.of(framed.getOrElse(scene))
     val isDark = !isWhole && !isLit(scene)
     if isWhole && bounds.isEmpty && scene.camera.isDefined && asked.light.isEmpty then scene
     else if bounds.isEmpty then
@@ -37,15 +39,15 @@ private[models] object Studio:
       scene
     else
       val images = asked.turntable.getOrElse(1)
-      val framed =
+      val seen =
         if scene.camera.isDefined then scene else Framing.of(bounds, scene, session, images)
       val turn = asked.turntable.fold(0.0)(world * 360.0 / _)
       val turned =
-        if asked.turntable.isEmpty then framed
+        if asked.turntable.isEmpty then seen
         else
-          View.numbered(framed, session, world).copy(
+          View.numbered(seen, session, world).copy(
             worldToCamera = GraphicsState.constant(
-              framed.worldToCamera.start * turning(bounds.center, -turn)
+              seen.worldToCamera.start * turning(bounds.center, -turn)
             ),
             isFollowed = world + 1 < images
           )
