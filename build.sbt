@@ -198,7 +198,10 @@ lazy val models: Project = (project in file("models"))
     target := (ThisBuild / baseDirectory).value / "target" / "models",
     compiled,
     Publishing.withoutDocumentation,
-    libraryDependencies += "com.lihaoyi" %% "ujson" % "4.1.0"
+    libraryDependencies ++= Seq(
+      "com.lihaoyi" %% "ujson" % "4.1.0",
+      "com.twelvemonkeys.imageio" % "imageio-webp" % "3.12.0" % Runtime // found by javax.imageio
+    )
   )
 
 /** What is run, staged, tested and distributed: the program with its benchmarks and models. */

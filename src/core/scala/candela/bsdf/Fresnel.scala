@@ -3,6 +3,8 @@ package candela.bsdf
 import candela.color.Rgb
 import candela.math.*
 
+import scala.annotation.unused
+
 /** Fresnel reflection and refraction of unpolarised light at a smooth interface.
   *
   * Computed in Double: near the critical angle and for metals of small `eta` the differences below
@@ -115,6 +117,13 @@ abstract class ReflectanceCurve:
     *                 arrives from inside
     */
   def apply(cosTheta: Float): Rgb
+
+  /** What passes through a boundary.
+    *
+    * @param cosTheta as above
+    * @param fresnel  reflectance of the boundary by itself
+    */
+  def transmitted(@unused cosTheta: Float, fresnel: Float): Float = 1f - fresnel
 
 /** Reflectance 1 at every angle. */
 object FullReflectance extends ReflectanceCurve:

@@ -4,7 +4,7 @@ import java.util.Locale
 
 import candela.build.recipe.Rules
 import candela.color.{CameraSensor, ColorError, SmoothSpectra, Wavelengths}
-import candela.scenefile.SceneDescription
+import candela.scenefile.{Dialect, SceneDescription}
 import candela.settings.ColorMode
 
 /** What the paths of a scene carry, and why.
@@ -21,9 +21,15 @@ private[build] final case class ColorPlan(bases: Vector[Wavelengths], describe: 
 
 private[build] object ColorPlan:
 
-  /** pbrt-v2 and v3 multiply three numbers. */
+  /** pbrt-v2, v3 and glTF multiply three numbers. */
   def mode(asked: ColorMode, scene: SceneDescription): ColorMode =
-    if asked == ColorMode.Auto && !Rules.of(scene.dialect).isSpectral then ColorMode.Rgb else asked
+    val isSpectral = Rules.of(scene.dialect).isSpectral || disperses(scene)
+    if asked == ColorMode.Auto && !isSpectral then ColorMode.Rgb else asked
+
+  /** Whether materials of a model say so; those of pbrt have spectra as indices instead. */
+  private def disperses(scene: SceneDescription): Boolean =
+    scene.dialect == Dialect.Gltf &&
+      scene.namedMaterials.exists(_._2.param("dispersion").isDefined)
 
   /** Decides once the scene is built in three numbers.
     *

@@ -93,8 +93,8 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
     if several && reading.model.turntable.nonEmpty then
       refuse("a turntable is of one time", "give a single time: --at 1.5")
     if reading.model.hasSeveralImages && reading.sensors.contains(Sensors.All) then
-      val shown = if several then "--at with several times" else "a turntable"
-      refuse(s"$shown is of one camera", "render each camera: --sensor 0, --sensor 1 …")
+      val option = if several then "--at with several times" else "a turntable"
+      refuse(s"$option is of one camera", "render each camera: --sensor 0, --sensor 1 …")
 
 object SceneFormat:
   /** Those of the core, and those that other modules bring. */

@@ -65,10 +65,15 @@ final class SecondUvMapping(
   def footprint(at: ShadingPoint): TexFootprint = Mapping2D.Unknown
 
 object AffineUvMapping:
-  /** @param rows s and t by u, v and 1; without them, u and v as they are */
-  def of(rows: Array[Float]): Mapping2D = rows match
-    case Array(su, sv, ds, tu, tv, dt) => AffineUvMapping(su, sv, ds, tu, tv, dt)
-    case _ => UvMapping(1f, 1f, 0f, 0f)
+  /** @param rows   s and t by u, v and 1; without them, u and v as they are
+    * @param second whether of the second set of u and v
+    */
+  def of(rows: Array[Float], second: Boolean = false): Mapping2D = rows match
+    case Array(su, sv, ds, tu, tv, dt) =>
+      if second then SecondUvMapping(su, sv, ds, tu, tv, dt)
+      else AffineUvMapping(su, sv, ds, tu, tv, dt)
+    case _ =>
+      if second then SecondUvMapping(1f, 0f, 0f, 0f, 1f, 0f) else UvMapping(1f, 1f, 0f, 0f)
 
 /** Spherical mapping about the texture space's origin: s is the angle from +z over π, t the angle
   * around z, counter-clockwise from +x, over 2π, in [0, 1).

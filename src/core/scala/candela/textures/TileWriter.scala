@@ -71,7 +71,7 @@ private[textures] final class TileWriter private (
     def rows(first: Int, band: Texels, from: Int)(visit: Int => Unit): Unit =
       loop(band.height)(y => if first + y >= from then visit(first + y))
     val bottomRow = Math.max(0, bands.height - 2)
-    if wrap == Wrap.Repeat then
+    if wrap.repeatsDown then
       bands.visit(bottomRow)((first, band) => rows(first, band, bottomRow)(widen(first, band, _)))
     val row = new Array[Float](enlargement.length)
     var nextRow = 0

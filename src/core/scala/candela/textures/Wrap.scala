@@ -14,18 +14,35 @@ enum Wrap:
     */
   case OctahedralSphere
 
+  /** Modes that differ: across, and down the image. Each is `Repeat`, `Clamp` or `Mirror`. */
+  case Axes(across: Wrap, down: Wrap)
+
   /** Index of texel (`x`, `y`) in row order, for any integers; −1 for black. */
   def index(x: Int, y: Int, width: Int, height: Int): Int =
     if x >= 0 && y >= 0 && x < width && y < height then y * width + x
     else
       this match
-        case Repeat => Math.floorMod(y, height) * width + Math.floorMod(x, width)
         case Black => -1
-        case Mirror => Wrap.mirrored(y, height) * width + Wrap.mirrored(x, width)
-        case Clamp => clamp(y, 0, height - 1) * width + clamp(x, 0, width - 1)
         case OctahedralSphere => Wrap.octahedral(x, y, width, height)
+        case Axes(across, down) => down.along(y, height) * width + across.along(x, width)
+        case _ => along(y, height) * width + along(x, width)
+
+  /** The texel along one axis. */
+  private def along(i: Int, size: Int): Int = this match
+    case Clamp => clamp(i, 0, size - 1)
+    case Mirror => Wrap.mirrored(i, size)
+    case _ => Math.floorMod(i, size)
+
+  /** Whether the first row follows the last. */
+  def repeatsDown: Boolean = this match
+    case Repeat => true
+    case Axes(_, down) => down.repeatsDown
+    case _ => false
 
 object Wrap:
+
+  /** The mode of two axes. */
+  def of(across: Wrap, down: Wrap): Wrap = if across == down then across else Axes(across, down)
 
   private def mirrored(x: Int, size: Int): Int =
     val inside = Math.floorMod(x, size)

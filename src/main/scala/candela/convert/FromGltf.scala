@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.color.Rgb
+import candela.color.{Cauchy, Rgb}
 import candela.diagnostics.{Code, Problem}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.io.FileName
@@ -16,6 +16,9 @@ import scala.collection.mutable
   * what vertices have beside u, v and normals. Files within the model become files.
   */
 private[convert] object FromGltf:
+  private val LeftOut = Vector(
+    "clearcoat", "sheencolor", "anisotropy", "iridescence", "specular", "specularcolor"
+  )
 
   def converted(scene: SceneDescription, files: SideFiles): Converted =
     val run = Run(scene, files)
@@ -104,7 +107,8 @@ private[convert] object FromGltf:
         upright(withoutParams(first, "the texture is left upright", "uskew", "vskew"))
 
     private def upright(d: Declaration): Declaration =
-      d.copy(params = d.params.map: p =>
+      val alike = withoutParams(d, "images are wrapped alike along s and t", "wrapt")
+      alike.copy(params = alike.params.map: p =>
         if p.name != "wrap" || !p.strings.contains("mirror") then p
         else
           warn(p, "pbrt has no wrap `mirror`; using `repeat`")
@@ -160,12 +164,13 @@ private[convert] object FromGltf:
     private def areaLight(d: Declaration): Declaration =
       val tinted = d.param("tint").map(rgb).filter(_ != Rgb.White).fold(d): tint =>
         rewritten(d, tint)(_.toReflectances.mapped(_ * tint))
-      val placed = withoutParams(tinted, "the image is mapped by u and v directly", "imageuv")
+      val placed =
+        withoutParams(tinted, "the image is mapped by u and v directly", "imageuv", "uv2")
       for p <-
           Vector("coneangle", "spread").flatMap(d.param).filter(_.floats.headOption.exists(_ < 180))
       do warn(p, "pbrt has no beams of area lights; it shines to all sides")
       val bare = withoutParams(placed, "", "axis", "coneangle", "conedeltaangle", "spread")
-      withoutParams(visibleLight(bare), "", "wrap", "filter", "tint")
+      withoutParams(visibleLight(bare), "", "wrap", "wrapt", "filter", "tint")
 
     /** Lights of material "interface" are black in pbrt-v4. It has lights that no ray hits, and
       * others.
@@ -197,8 +202,7 @@ private[convert] object FromGltf:
       else
         warn(d, "the material of glTF is approximated by pbrt-v4's")
         for
-          p <- Vector("clearcoat", "sheencolor", "anisotropy", "specular", "specularcolor")
-            .flatMap(d.param)
+          p <- FromGltf.LeftOut.flatMap(d.param)
           if !p.floats.forall(x => x == (if p.name.startsWith("specular") then 1f else 0f))
         do warn(p, s"pbrt has no `${p.name}` of \"gltf\"; it is left out")
         val metallic = d.param("metallic")
@@ -235,11 +239,14 @@ private[convert] object FromGltf:
       val passing = d.param("transmission").flatMap(_.floats.headOption).getOrElse(0f)
       val isThin = !d.param("thin").exists(_.bools.contains(false))
       val eta = d.param("eta").filter(_.floats.exists(_ >= 1f)).toVector
+      val sheet = d.param("diffusetransmission").flatMap(_.floats.headOption).getOrElse(0f)
       if passing >= 0.5f then
         warn(d, "pbrt's glass has no colour; it is left out")
         if isThin then Vector(name -> d.copy(name = "thindielectric", params = eta))
         else
-          Vector(name -> d.copy(name = "dielectric", params = eta ++ roughness(d) ++ bumps(d)))
+          val index = dispersed(d, eta)
+          Vector(name -> d.copy(name = "dielectric", params = index ++ roughness(d) ++ bumps(d)))
+      else if sheet > 0f then Vector(name -> transmitting(d, sheet))
       else
         val index = eta.headOption.fold(1.5f)(_.floats.head)
         val alpha = meanAlpha(d)
@@ -265,6 +272,26 @@ private[convert] object FromGltf:
               d.copy(name = "conductor", params = mirror +: (roughness(d) ++ bumps(d))),
             name -> blend(d, first, second, Param.float("amount", d.pos, share))
           )
+
+    /** The index of refraction at wavelengths, if it differs among them. */
+    private def dispersed(d: Declaration, eta: Vector[Param]): Vector[Param] =
+      val strength = d.param("dispersion").flatMap(_.floats.headOption).getOrElse(0f)
+      if strength == 0f then eta
+      else
+        val index = Cauchy(eta.headOption.fold(1.5f)(_.floats.head), strength)
+        val pairs = index.lambda.zip(index.values).flatMap(_.toList)
+        Vector(Param.floats(ParamType.Spectrum, "eta", d.pos, pairs))
+
+    private def transmitting(d: Declaration, share: Float): Declaration =
+      warn(d, "pbrt's \"diffusetransmission\" has no highlights; they are left out")
+      val sent = d.copy(params =
+        d.param("diffusetransmissioncolor").map(_.renamed("color")).toVector
+      )
+      val params = Vector(
+        reflectance(d, s"of ${1f - share}", _ * (1f - share)),
+        reflectance(sent, s"of $share", _ * share).renamed("transmittance")
+      )
+      d.copy(name = "diffusetransmission", params = params ++ bumps(d))
 
     /** The base colour: an image, if there is one, times a colour. */
     private def colorOf(d: Declaration): (Option[Declaration], Rgb) =
@@ -312,6 +339,8 @@ private[convert] object FromGltf:
         x.sum / x.length
 
     private def bumps(d: Declaration): Vector[Param] =
+      for p <- d.param("normalwrap") do
+        warn(p, "pbrt repeats normal maps; this one, too")
       for p <- d.param("normalscale") do warn(p, "pbrt has no scale of normal maps; using 1")
       for p <- d.param("normalmapuv") do
         warn(p, "pbrt maps normal maps by u and v directly; the transform of this one is dropped")

@@ -92,3 +92,34 @@ class FromGltfSuite extends AnyFunSuite:
       assert(shape.material.declared(Map.empty).get.name == "diffuse")
       assert(hidden.warnings.exists(_.message.contains("beams")))
       assert(converted(inView = true).scene.shapes.head.shape.param("alpha").isEmpty)
+
+  /** Declarations of the materials that a material of glTF becomes. */
+  private def converted(material: String, textures: String = "") =
+    TempFolder.use: folder =>
+      val scene = SceneTexts.parse(ball(material, textures), Dialect.V4, folder)
+      val result = Converter.convert(scene.copy(dialect = Dialect.Gltf), Dialect.V4, folder)
+      (result.scene.namedMaterials.map(_._2), result.warnings.map(_.message))
+
+  test("glass that disperses has an index at each wavelength"):
+    val glass = """"float metallic" 0 "float transmission" 1 "bool thin" false "float eta" 1.6"""
+    val (Vector(plain), _) = converted(glass): @unchecked
+    assert(plain.param("eta").get.floats.toVector == Vector(1.6f))
+    val (Vector(d), _) = converted(s"""$glass "float dispersion" 2"""): @unchecked
+    val eta = d.param("eta").get.floats.grouped(2).map(p => p(0) -> p(1)).toMap
+    assert(eta(400f) > eta(590f) && eta(590f) > eta(700f) && Math.abs(eta(590f) - 1.6f) < 1e-3f)
+
+  test("what transmits diffusely becomes a \"diffusetransmission\""):
+    val (Vector(d), warnings) = converted(
+      """"float metallic" 0 "rgb color" [.8 .4 .2] "float diffusetransmission" 0.25
+        |"rgb diffusetransmissioncolor" [.4 .8 .2]""".stripMargin
+    ): @unchecked
+    assert(d.name == "diffusetransmission" && warnings.exists(_.contains("no highlights")))
+    def numbers(name: String) = d.param(name).get.floats.map(x => Math.rint(1e6 * x) / 1e6).toVector
+    assert(numbers("reflectance") == Vector(0.6, 0.3, 0.15))
+    assert(numbers("transmittance") == Vector(0.1, 0.2, 0.05))
+
+  test("films and wraps that pbrt lacks are named"):
+    val texture = """Texture "a" "spectrum" "imagemap" "string filename" "none.png"
+                    |"string wrap" "repeat" "string wrapt" "clamp"""".stripMargin
+    val warnings = converted(""""float iridescence" 1""", texture)._2
+    assert(warnings.exists(_.contains("`iridescence`")) && warnings.exists(_.contains("`wrapt`")))

@@ -2,7 +2,7 @@ package candela.integrators
 
 import candela.bsdf.{Bsdf, BsdfLaws, Lambert, Lobes, Scaled, SentThrough}
 import candela.bsdf.microfacet.{Dielectric, Dispersive, TrowbridgeReitz}
-import candela.color.{Rgb, SmoothSpectra, Wavelengths}
+import candela.color.{Cauchy, Rgb, SmoothSpectra, Wavelengths}
 import candela.math.lerp
 import candela.scenefile.Dialect
 import candela.settings.{ColorMode, RenderSettings}
@@ -43,6 +43,21 @@ class DispersionSuite extends BsdfLaws:
        |Material "dielectric" $eta
        |Shape "sphere"
        |""".stripMargin
+
+  test("glass of glTF disperses as a dielectric of the indices that it stands for", Slow):
+    def mean(material: String, dialect: Dialect) =
+      val text = lens("").replace("Material \"dielectric\" \n", material)
+      SceneTexts.mean(SceneTexts.parse(text, Dialect.V4).copy(dialect = dialect))
+    val index = Cauchy(1.5f, 6f)
+    val pairs = index.lambda.zip(index.values).map((nm, n) => s"$nm $n").mkString(" ")
+    val wanted = mean(s"Material \"dielectric\" \"spectrum eta\" [$pairs]\n", Dialect.V4)
+    val glass = "MakeNamedMaterial \"a\" \"string type\" \"gltf\" \"float metallic\" 0 " +
+      "\"float roughness\" 0 \"bool thin\" false \"float transmission\" 1 \"float eta\" 1.5"
+    val c = mean(s"$glass \"float dispersion\" 6\nNamedMaterial \"a\"\n", Dialect.Gltf)
+    val plain = mean(s"$glass\nNamedMaterial \"a\"\n", Dialect.Gltf) // all light at 587.56 nm
+    // Noise, and highlights that are not perfectly sharp
+    def off(a: Rgb) = (a - wanted).map(Math.abs(_)).max / wanted.max
+    assert(off(c) < 0.03f && off(plain) > 0.1f, s"$c $plain, not $wanted")
 
   test("each wavelength goes its own way, and their colours add up to what is seen", Slow):
     // For each wavelength what glass of its index shows

@@ -192,6 +192,8 @@ class AnimationsSuite extends AnyFunSuite, GltfModels:
     assert(images.map(_.worldToCamera.start.point(Vec3.Zero)).distinct.size == 1)
     val names = images.map(_.film.get.param("filename").get.strings.head)
     assert(names == Vector.tabulate(3)(i => s"model-$i.exr"))
+    // Where a scene is one image, it is the first
+    assert(read(walk, reading = steps).warnings.exists(_.message.contains("several times")))
     for
       several <- Seq(
         steps.copy(sensors = Some(Sensors.All)),

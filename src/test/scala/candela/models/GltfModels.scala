@@ -40,7 +40,8 @@ trait GltfModels:
 
   val square: Array[Byte] = floats(0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0)
   val View: String = """{"buffer":0,"byteLength":48}"""
-  val Position: String = """{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}"""
+  val Position: String = """{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3",""" +
+    """"min":[0,0,0],"max":[1,1,0]}"""
 
   /** Accessors of vectors of floats, with their buffer views, after [[Position]]; data of these. */
   def arrays(all: (String, Array[Byte])*): (Seq[String], Seq[String], Array[Byte]) =

@@ -21,7 +21,10 @@ object SceneTexts:
       dialect: Dialect = Dialect.V3,
       options: RenderSettings = RenderSettings(),
       pool: Parallel = Parallel.Alone
-  ): RenderPlan = SceneBuilder.build(parse(text, dialect), options, pool = pool)._1.piloted
+  ): RenderPlan = plan(parse(text, dialect), options, pool)
+
+  private def plan(scene: SceneDescription, options: RenderSettings, pool: Parallel): RenderPlan =
+    SceneBuilder.build(scene, options, pool = pool)._1.piloted
 
   /** All that building has to say, warnings or errors. */
   def problems(
@@ -34,8 +37,10 @@ object SceneTexts:
     catch case e: SceneError => e.problems
 
   /** The mean of all pixels, in linear sRGB. */
-  def mean(text: String, dialect: Dialect = Dialect.V3): Rgb =
-    val made = plan(text, dialect)
+  def mean(text: String, dialect: Dialect = Dialect.V3): Rgb = mean(parse(text, dialect))
+
+  def mean(scene: SceneDescription): Rgb =
+    val made = plan(scene, RenderSettings(), Parallel.Alone)
     val data = Renderer.render(made, threads = 1).image(made.development).data
     def channel(c: Int) =
       (data.indices.by(3).map(i => data(i + c).toDouble).sum * 3 / data.length).toFloat

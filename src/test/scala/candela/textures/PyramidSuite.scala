@@ -51,14 +51,14 @@ class PyramidSuite extends AnyFunSuite:
 
   test("a low picture is enlarged by many threads as by one"):
     val draws = Draws(5)
-    for wrap <- Wrap.values; height <- Seq(1, 3, 5) do
+    for wrap <- WrapSuite.All; height <- Seq(1, 3, 5) do
       val from = FloatTexels(9000, height, 1, Array.fill(9000 * height)(draws.unit()))
       val alone = numbers(Pyramid.enlarged(from, wrap, 1f))
       assert(numbers(Pyramid.enlarged(from, wrap, 1f, ThreadPool(3))) == alone, s"$height, $wrap")
 
   test("all wraps are the same with any number of threads"):
     val draws = Draws(8)
-    for wrap <- Wrap.values; channels <- Seq(1, 3) do
+    for wrap <- WrapSuite.All; channels <- Seq(1, 3) do
       val size = 150
       val from = FloatTexels(size, size, channels, Array.fill(channels * size * size)(draws.unit()))
       def all(parallel: Parallel) = Pyramid.levels(from, wrap, 1f, parallel)

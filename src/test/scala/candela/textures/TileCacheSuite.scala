@@ -96,7 +96,7 @@ class TileCacheSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val kinds = Seq((256, 128, 3), (130, 70, 1), (300, 5, 3), (64, 64, 1), (1, 1, 3), (7, 200, 1))
       for ((w, h, channels), i) <- kinds.zipWithIndex do
-        val wrap = Wrap.values(i % Wrap.values.length)
+        val wrap = WrapSuite.All(i % WrapSuite.All.length)
         for texels <- Seq(bytes(w, h, channels, i), floats(w, h, channels, i)) do
           val (whole, plain) = (pyramid(texels, wrap), Array(texels))
           for levels <- Seq(whole, plain) do
@@ -146,7 +146,7 @@ class TileCacheSuite extends AnyFunSuite:
         ((w, h), i) <- sizes.zipWithIndex
         channels <- Seq(1, 3)
         texels <- Seq(bytes(w, h, channels, i), floats(w, h, channels, i))
-        wrap <- Wrap.values
+        wrap <- WrapSuite.All
       do
         val key = s"$i $channels ${texels.getClass} $wrap"
         val own = folder.resolve(key)

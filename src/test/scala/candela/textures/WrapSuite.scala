@@ -10,7 +10,7 @@ class WrapSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
   private def index(wrap: Wrap, x: Int, y: Int) = wrap.index(x, y, w, h)
 
   test("inside, every mode gives the texel itself"):
-    for wrap <- Wrap.values; x <- 0 until w; y <- 0 until h do
+    for wrap <- WrapSuite.All; x <- 0 until w; y <- 0 until h do
       assert(index(wrap, x, y) == y * w + x)
 
   test("repeat goes around, clamp stays at the edge, black is nowhere"):
@@ -28,6 +28,14 @@ class WrapSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       assert(index(Wrap.Mirror, 2 * w + 1, y) == index(Wrap.Mirror, 1, y))
     assert(index(Wrap.Mirror, 2, -2) == w + 2 && index(Wrap.Mirror, 2, h) == (h - 1) * w + 2)
 
+  test("modes of both axes are those of each, alike or not"):
+    val plain = Vector(Wrap.Repeat, Wrap.Clamp, Wrap.Mirror)
+    for across <- plain; down <- plain; x <- -12 to 12; y <- -12 to 12 do
+      val wrap = Wrap.of(across, down)
+      val (column, row) = (index(across, x, 0) % w, index(down, 0, y) / w)
+      assert(index(wrap, x, y) == row * w + column)
+      assert(wrap.repeatsDown == (down == Wrap.Repeat))
+
   test("octahedral: one step across an edge leads to the mirrored texel of the same edge"):
     val n = 4
     def cell(x: Int, y: Int) =
@@ -42,6 +50,17 @@ class WrapSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   test("any integers give a texel, or black"):
     val any = Gen.chooseNum(Int.MinValue, Int.MaxValue)
-    forAll(any, any, Gen.oneOf(Wrap.values.toSeq)): (x, y, wrap) =>
+    forAll(any, any, Gen.oneOf(WrapSuite.All)): (x, y, wrap) =>
       val i = index(wrap, x, y)
       assert(i < w * h && (i >= 0 || wrap == Wrap.Black && i == -1))
+
+private[textures] object WrapSuite:
+  val All: Vector[Wrap] = Vector(
+    Wrap.Repeat,
+    Wrap.Black,
+    Wrap.Clamp,
+    Wrap.Mirror,
+    Wrap.OctahedralSphere,
+    Wrap.Axes(Wrap.Clamp, Wrap.Repeat),
+    Wrap.Axes(Wrap.Mirror, Wrap.Clamp)
+  )

@@ -6,7 +6,7 @@ import candela.settings.ModelState
 /** Where nodes are, and how their meshes are morphed. What it doesn't say is as in the file. */
 private[models] final class Pose(values: Map[(Int, String), Vector[Double]]):
 
-  /** The `translation`, `rotation`, `scale` or `weights` of a node, if it differs from the file's. */
+  /** The `translation`, `rotation`, `scale` or `weights` of a node, if it is not the file's. */
   def apply(node: Json, property: String): Option[Vector[Double]] =
     values.get((Nodes.index(node), property))
 

@@ -7,6 +7,7 @@ import java.io.IOException
 import java.net.URLDecoder
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_8}
 import java.nio.{ByteBuffer, ByteOrder}
+import java.nio.file.Path
 import java.util.Base64
 
 import scala.collection.mutable
@@ -33,11 +34,33 @@ private[models] final class GltfFile private (session: Session, json: Array[Byte
       }
     )
 
-  /** The bytes of a buffer view. */
+  private val decompressed = mutable.HashMap.empty[Int, ByteBuffer]
+
+  /** The bytes of a buffer view, decompressed if it is compressed. */
   def view(index: Json): ByteBuffer =
     val entry = index.element(views, "buffer views")
-    for e <- entry("extensions").toVector.flatMap(_.names).headOption do
-      Session.fail(entry.at, s"the compression `$e` is not supported", Code.Unsupported)
+    val compressed = GltfFile.Compressions.iterator.flatMap(entry.extension(_)).nextOption()
+    compressed match
+      case Some(e) =>
+        decompressed.getOrElseUpdate(index.size, decoded(entry, e)).duplicate
+          .order(ByteOrder.LITTLE_ENDIAN)
+      case None => range(entry)
+
+  private def decoded(entry: Json, compressed: Json): ByteBuffer =
+    val (count, stride) =
+      (compressed.required("count").size, compressed.required("byteStride").size)
+    val (length, found) = (entry.required("byteLength").size, count.toLong * stride)
+    if length != found then
+      compressed.fail(s"$count elements of $stride bytes are not the $length bytes of the view")
+    session.folder.allowance.countBytes(found, session.file, Some(compressed.at))
+    val bytes = GltfFile.array(range(compressed))
+    val (mode, filter) =
+      (compressed.required("mode").text, compressed.text("filter").getOrElse("NONE"))
+    try Meshopt.decode(bytes, count, stride, mode, filter)
+    catch case e: DamagedStream => compressed.fail(e.getMessage)
+
+  /** The bytes of a buffer that an entry names. */
+  private def range(entry: Json): ByteBuffer =
     val all = buffer(entry.required("buffer"))
     val (from, length) = (entry.size("byteOffset", 0), entry.required("byteLength").size)
     if from.toLong + length > all.remaining then
@@ -98,22 +121,38 @@ private[models] final class GltfFile private (session: Session, json: Array[Byte
     case Some(uri) =>
       data(uri).map(bytes => part(image, ByteBuffer.wrap(bytes))).getOrElse:
         val name = fileName(uri)
-        session.folder.locate(name, Some(uri.at)).foreach(file => session.note(file.path))
-        name
+        val located = session.folder.locate(name, Some(uri.at))
+        located.foreach(file => session.note(file.path))
+        // All others are read where they are
+        val converted = located.filter(_ => GltfFile.Converted(FileName.suffix(Path.of(name))))
+        converted.fold(name)(file => part(image, GltfFile.mapped(file, uri)))
     case None =>
       image("bufferView") match
         case Some(index) => part(image, view(index))
         case None => image.fail("an image must have `uri` or `bufferView`")
 
   private def part(image: Json, bytes: ByteBuffer): String =
-    val isPng = bytes.remaining > 4 && bytes.get(bytes.position() + 1) == 'P'
-    val suffix = if isPng then "png" else "jpg"
+    val isWebP = WebPImages.contains(bytes)
+    val readable = if isWebP then WebPImages.png(bytes, session, image.at) else bytes
+    def starts(second: Char) =
+      readable.remaining > 4 && readable.get(readable.position() + 1) == second.toByte
+    if starts('K') then
+      val message = "images in KTX2 are not supported"
+      Session.fail(image.at, message, Code.Unsupported, Remedies.of("KHR_texture_basisu"))
+    val suffix = if starts('P') then "png" else "jpg"
     val name = s"${session.file.getFileName}#${image.pointer}.$suffix"
-    contents(name) = bytes
+    contents(name) = readable
     name
 
 private[models] object GltfFile:
   private val Scheme = "[A-Za-z][A-Za-z0-9+.-]+:".r
+
+  /** Of buffer views. */
+  val Compressions: Vector[String] = Vector("EXT_meshopt_compression", "KHR_meshopt_compression")
+
+  /** Suffixes of images that are read here. */
+  private val Converted = Set("webp", "ktx2")
+
   private inline val Magic = 0x46546c67
   private inline val JsonChunk = 0x4e4f534a
   private inline val BinaryChunk = 0x004e4942

@@ -1,5 +1,6 @@
 package candela.models
 
+import candela.diagnostics.{Code, Problem, Severity}
 import candela.io.{ForeignKind, SceneFolder, Sha256}
 import candela.job.SceneFormat
 import candela.scenefile.{Defines, SceneDescription}
@@ -29,7 +30,13 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
     val scene =
       GltfScene.readable(file, within, reading, text, sensor(reading, world), world.getOrElse(0))
     val hasNext = reading.model.hasSeveralImages || reading.sensors.contains(Sensors.All)
-    scene.copy(isFollowed = scene.isFollowed && world.isDefined && hasNext)
+    val firstOnly = Option.when(world.isEmpty && reading.model.state.times.exists(_.count > 1)):
+      val message = "--at has several times; this is about the first"
+      Problem(Code.SeveralWorlds, Severity.Warning, None, message)
+    scene.copy(
+      isFollowed = scene.isFollowed && world.isDefined && hasNext,
+      warnings = scene.warnings ++ firstOnly
+    )
 
   def digest(text: String): String = Sha256.of(text)
 

@@ -35,11 +35,11 @@ private[models] object GltfScene:
     val opened = text.fold(GltfFile.read(session))(GltfFile.ofText(session, _))
     val times = reading.model.state.times.filter(_.count > 1)
     def reader(image: Int) = GltfScene(opened, session, reading.model.state, image)
-    val shown = reader(world)
-    val model = shown.result(sensor)
+    val current = reader(world)
+    val model = current.result(sensor)
     // All images of an animation have the view of the first
     val framed = Option.when(times.isDefined && world > 0)(reader(0).result(sensor))
-    val isWhole = shown.environment.isDefined
+    val isWhole = current.environment.isDefined
     val complete = Studio.complete(model, session, reading.model, world, isWhole, framed)
     val scene = times.fold(complete): t =>
       View.numbered(complete, session, world).copy(isFollowed = world + 1 < t.count)
@@ -51,14 +51,11 @@ private[models] object GltfScene:
       folder = session.folder
     )
 
-  /** Those that are read, beside materials. */
-  private[models] val Extensions: Set[String] = Set(
+  /** Those that are read. */
+  private[models] val Extensions: Set[String] = Materials.Supported ++ Set(
     "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_texture_transform",
-    "EXT_mesh_gpu_instancing", "KHR_materials_unlit", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_volume",
-    "KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_anisotropy",
-    "KHR_materials_emissive_strength", "KHR_materials_pbrSpecularGlossiness", Variants.Name
-  )
+    "EXT_mesh_gpu_instancing", Variants.Name, Textures.WebP
+  ) ++ GltfFile.Compressions
 
 /** @param image number of the image of several times */
 private final class GltfScene(file: GltfFile, session: Session, state: ModelState, image: Int):
@@ -87,7 +84,8 @@ private final class GltfScene(file: GltfFile, session: Session, state: ModelStat
       Session.fail(session.at("/asset/version"), s"expected glTF 2, found version $version")
     for name <- file.root.list("extensionsRequired") if !GltfScene.Extensions(name.text) do
       val message = s"the model requires `${name.text}`, which is not supported"
-      session.missing(name.at, message, "the model without it", code = Code.Unsupported)
+      val help = Remedies.of(name.text)
+      session.missing(name.at, message, "the model without it", help, Code.Unsupported)
 
   def result(sensor: Option[Int]): SceneDescription =
     val users = nodes.placed.filter(p => p.node("mesh").isDefined)

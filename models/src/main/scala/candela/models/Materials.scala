@@ -56,7 +56,8 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
 
   private def surface(entry: Json, hasColors: Boolean): Surface =
     val passes = entry.extension("KHR_materials_transmission")
-    val volume = passes.flatMap(_ => entry.extension("KHR_materials_volume"))
+    val volume = passes.orElse(entry.extension("KHR_materials_diffuse_transmission"))
+      .flatMap(_ => entry.extension("KHR_materials_volume"))
       .filter(_.number("thicknessFactor", 0) > 0)
     val specularGlossiness = entry.extension("KHR_materials_pbrSpecularGlossiness")
     val params = specularGlossiness.fold(reflection(entry, hasColors))(glossiness(_, hasColors)) ++
@@ -71,7 +72,8 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
           ),
           Param.bool("thin", t.at, volume.isEmpty)
         )
-    val all = params ++ coat(entry) ++ sheen(entry) ++ stretch(entry) ++ normals(entry)
+    val all = params ++ coat(entry) ++ sheen(entry) ++ stretch(entry) ++ film(entry) ++
+      sheet(entry) ++ dispersion(entry, volume.isDefined && passes.isDefined) ++ normals(entry)
     val d = session.declare("Material", "gltf", entry.at, all)
     val alpha = specularGlossiness.fold(opacity(entry, base(entry), "baseColor", hasColors)): o =>
       opacity(entry, o, "diffuse", hasColors)
@@ -157,15 +159,46 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
   private def stretch(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_anisotropy").toVector.flatMap: a =>
       val strength = a.factor("anisotropyStrength", 0)
-      for t <- a("anisotropyTexture") do
-        session.warn(
-          t.at,
-          "directions of `anisotropyTexture` are not supported; using its strength"
-        )
+      val info = a("anisotropyTexture")
+      val direction = info.toVector.flatMap: _ =>
+        Vector("anisotropyx" -> "r", "anisotropyy" -> "g").map: (name, channel) =>
+          textures.number(name, 1, info, channel, a.at)
       Vector(
-        textures.number("anisotropy", strength, a("anisotropyTexture"), "b", a.at),
+        textures.number("anisotropy", strength, info, "b", a.at),
         Param.float("anisotropyrotation", a.at, a.number("anisotropyRotation", 0).toFloat)
+      ) ++ direction
+
+  private def film(entry: Json): Vector[Param] =
+    entry.extension("KHR_materials_iridescence").toVector.flatMap: f =>
+      def nm(member: String, default: Double) =
+        f(member).fold(default): m =>
+          if m.number >= 0 then m.number else m.fail(s"expected at least 0 nm, found ${m.number}")
+      val thickness = f("iridescenceThicknessTexture")
+      val weight = f.factor("iridescenceFactor", 0)
+      Vector(
+        textures.number("iridescence", weight, f("iridescenceTexture"), "r", f.at),
+        Param.float("iridescenceeta", f.at, f.number("iridescenceIor", 1.3).toFloat),
+        Param.float("iridescencemin", f.at, nm("iridescenceThicknessMinimum", 100).toFloat),
+        Param.float("iridescencemax", f.at, nm("iridescenceThicknessMaximum", 400).toFloat)
+      ) ++ thickness.map(t => textures.number("iridescencethickness", 1, Some(t), "g", f.at))
+
+  private def sheet(entry: Json): Vector[Param] =
+    entry.extension("KHR_materials_diffuse_transmission").toVector.flatMap: d =>
+      val share = d.factor("diffuseTransmissionFactor", 0)
+      val color = Materials.rgb(d, "diffuseTransmissionColorFactor", Rgb.White)
+      val name = "diffusetransmission"
+      Vector(
+        textures.number(name, share, d("diffuseTransmissionTexture"), "a", d.at),
+        textures.color(s"${name}color", color, d("diffuseTransmissionColorTexture"), d.at)
       )
+
+  private def dispersion(entry: Json, refracts: Boolean): Option[Param] =
+    entry.extension("KHR_materials_dispersion").flatMap: d =>
+      val strength = d.number("dispersion", 0)
+      if strength < 0 then d.fail(s"expected a `dispersion` of at least 0, found $strength")
+      if strength > 0 && !refracts then
+        session.warn(d.at, "only volumes that transmit light disperse it; ignored")
+      Option.when(strength > 0 && refracts)(Param.float("dispersion", d.at, strength.toFloat))
 
   private def normals(entry: Json): Vector[Param] =
     for
@@ -177,6 +210,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
       ) ++
         Option.when(p.rows != Textures.Upright):
           Param.floats(ParamType.Float, "normalmapuv", p.at, p.rows.toArray)
+        ++ p.wrap.params(("normalwrap", "normalwrapt"), p.at)
         ++ Option.when(p.second)(Param.bool("normaluv2", p.at, true)) ++
         Some(info.number("scale", 1)).filter(_ != 1)
           .map(s => Param.float("normalscale", p.at, s.toFloat))
@@ -214,13 +248,14 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
     val params = info.flatMap(textures.picture) match
       case None => Vector(Textures.rgb("L", color, at))
       case Some(p) =>
-        if p.second then session.warn(p.at, "emission has the first set of u and v")
         Vector(
           Param.string("filename", at, p.file),
           Textures.rgb("tint", color * (1f / color.max), at),
           Param.float("scale", at, color.max),
-          Param.string("wrap", at, p.wrap)
+          Param.string("wrap", at, p.wrap.s)
         ) ++
+          Option.when(p.wrap.t != p.wrap.s)(Param.string("wrapt", at, p.wrap.t)) ++
+          Option.when(p.second)(Param.bool("uv2", at, true)) ++
           Option.when(!p.isSmooth)(Param.string("filter", at, "point")) ++
           Option.when(p.rows != Textures.Upright):
             Param.floats(ParamType.Float, "imageuv", at, p.rows.toArray)
@@ -268,5 +303,8 @@ private[models] object Materials:
 
   def default(session: Session): Json = Json(ujson.Obj(), "", session)
 
-  private val Supported = Set("unlit", "ior", "specular", "transmission", "volume", "clearcoat",
-    "sheen", "anisotropy", "emissive_strength", "pbrSpecularGlossiness").map("KHR_materials_" + _)
+  val Supported: Set[String] = Set(
+    "unlit", "ior", "specular", "transmission", "volume", "clearcoat",
+    "sheen", "anisotropy", "emissive_strength", "pbrSpecularGlossiness", "iridescence",
+    "diffuse_transmission", "dispersion"
+  ).map("KHR_materials_" + _)

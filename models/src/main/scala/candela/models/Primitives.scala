@@ -38,12 +38,17 @@ private[models] final class Primitives(file: GltfFile, session: Session):
       skin: Option[Skin],
       extra: Vector[Param]
   ): Option[Declaration] =
-    for e <- primitive("extensions"); name <- e.names if name != Variants.Name do
-      val message = s"`$name` of a primitive is not supported"
-      if name == "KHR_draco_mesh_compression" then
-        Session.fail(e.at, message, Code.Unsupported)
-      else session.warn(e.at, s"$message; ignored")
+    for
+      e <- primitive("extensions"); name <- e.names
+      if name != Variants.Name && name != Primitives.Draco
+    do
+      session.warn(e.at, s"`$name` of a primitive is not supported; ignored")
     val position = attribute(primitive, "POSITION")
+    for e <- primitive.extension(Primitives.Draco) do
+      // Accessors may have the mesh uncompressed, too
+      if !position.exists(p => accessors.entry(p)("bufferView").isDefined) then
+        val message = "meshes compressed by Draco are not supported"
+        Session.fail(e.at, message, Code.Unsupported, Remedies.of(Primitives.Draco))
     val mode = primitive.size("mode", Primitives.Triangles)
     if position.isEmpty then
       session.warn(primitive.at, "a primitive without positions is ignored")
@@ -216,6 +221,7 @@ private[models] final class Primitives(file: GltfFile, session: Session):
       accessors.floats(index, each)
 
 private[models] object Primitives:
+  private val Draco = "KHR_draco_mesh_compression"
   private val Triangles = 4
   private val Strip = 5
   private val Fan = 6

@@ -101,5 +101,20 @@ private object Members:
       Suggest.distance(name.toLowerCase, other.toLowerCase, MaxDistance) <= MaxDistance
 
 private[models] object Session:
-  def fail(at: SourcePos, message: String, code: Code = Code.DamagedMesh): Nothing =
-    throw SceneError(Problem.error(code, at, message))
+  def fail(
+      at: SourcePos,
+      message: String,
+      code: Code = Code.DamagedMesh,
+      help: Option[String] = None
+  ): Nothing = throw SceneError(Problem.error(code, at, message).withHelp(help))
+
+/** What makes models readable that use an extension which is not read. */
+private[models] object Remedies:
+  def of(extension: String): Option[String] = extension match
+    case "KHR_draco_mesh_compression" =>
+      Some("export the model without Draco's compression, for example from Blender")
+    case "KHR_texture_basisu" =>
+      Some("`gltf-transform ktxdecompress` converts the model's images to PNG")
+    case "EXT_texture_avif" => Some("`gltf-transform png` converts the model's images to PNG")
+    case "MSFT_texture_dds" => Some("convert the model's images to PNG")
+    case _ => None

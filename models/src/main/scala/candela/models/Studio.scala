@@ -39,15 +39,15 @@ private[models] object Studio:
       scene
     else
       val images = asked.turntable.getOrElse(1)
-      val seen =
+      val viewed =
         if scene.camera.isDefined then scene else Framing.of(bounds, scene, session, images)
       val turn = asked.turntable.fold(0.0)(world * 360.0 / _)
       val turned =
-        if asked.turntable.isEmpty then seen
+        if asked.turntable.isEmpty then viewed
         else
-          View.numbered(seen, session, world).copy(
+          View.numbered(viewed, session, world).copy(
             worldToCamera = GraphicsState.constant(
-              seen.worldToCamera.start * turning(bounds.center, -turn)
+              viewed.worldToCamera.start * turning(bounds.center, -turn)
             ),
             isFollowed = world + 1 < images
           )

@@ -1,6 +1,6 @@
 package candela.models
 
-import candela.diagnostics.SourcePos
+import candela.diagnostics.{Code, Problem, SourcePos}
 import candela.color.Rgb
 import candela.scenefile.{Declaration, Dialect, GraphicsState, Param, ParamType, TextureDescription}
 
@@ -15,10 +15,19 @@ private[models] final case class Picture(
     file: String,
     second: Boolean,
     rows: Vector[Float],
-    wrap: String,
+    wrap: Wraps,
     isSmooth: Boolean,
     at: SourcePos
 )
+
+/** Wrap modes along s and t. */
+private[models] final case class Wraps(s: String, t: String):
+  /** Parameters of these names; those that are the default of an image are left out. */
+  def params(names: (String, String), at: SourcePos): Vector[Param] =
+    Vector(
+      Option.when(s != "repeat" || t != s)(Param.string(names._1, at, s)),
+      Option.when(t != s)(Param.string(names._2, at, t))
+    ).flatten
 
 /** Translates textures, each use of an image once. */
 private[models] final class Textures(file: GltfFile, session: Session):
@@ -37,15 +46,23 @@ private[models] final class Textures(file: GltfFile, session: Session):
 
   def result(): Vector[TextureDescription] = described.values.toVector
 
-  /** The image of a texture; those of extensions whose formats are not supported have another. */
-  private def source(texture: Json): Option[Json] = texture("source")
+  /** The image of a texture, if one of its formats is supported. */
+  private def source(texture: Json): Option[Json] =
+    texture.extension(Textures.WebP).flatMap(_("source")).orElse(texture("source"))
 
   /** What a `textureInfo` refers to. */
   def picture(info: Json): Option[Picture] =
     val texture = info.required("index").element(entries, "textures")
-    for e <- texture("extensions").toVector.flatMap(_.names) do
-      session.warn(texture.at, s"images of `$e` are not supported; using `source`")
-    if source(texture).isEmpty then session.warn(texture.at, "the texture has no image; ignored")
+    val foreign = texture("extensions").toVector.flatMap(_.names).filter(_ != Textures.WebP)
+    if source(texture).isDefined then
+      for e <- foreign do
+        session.warn(texture.at, s"images of `$e` are not supported; using `source`")
+    else if foreign.isEmpty then session.warn(texture.at, "the texture has no image; ignored")
+    else
+      val message = s"images of `${foreign.head}` are not supported; the texture is left out"
+      session.report(
+        Problem.warning(Code.Unsupported, texture.at, message).withHelp(Remedies.of(foreign.head))
+      )
     for
       index <- source(texture)
       _ = index.element(images, "images")
@@ -79,13 +96,10 @@ private[models] final class Textures(file: GltfFile, session: Session):
       1 - c * scale(1) - offset(1)
     ).map(x => Math.rint(x * 1e7) / 1e7).map(_.toFloat)
 
-  private def wrap(sampler: Option[Json]): String =
+  private def wrap(sampler: Option[Json]): Wraps =
     def mode(name: String) = sampler.flatMap(_(name)).fold("repeat"): code =>
       Textures.Wraps.getOrElse(code.int, code.fail(s"unknown wrap mode ${code.int}"))
-    val (s, t) = (mode("wrapS"), mode("wrapT"))
-    if s != t then
-      session.warn(sampler.get.at, s"images are wrapped across and along alike; using `$s`")
-    s
+    Wraps(mode("wrapS"), mode("wrapT"))
 
   /** A colour times an image and the colours of the vertices, if there are such. */
   def color(
@@ -157,7 +171,7 @@ private[models] final class Textures(file: GltfFile, session: Session):
           Param.string("filename", at, p.file),
           Param.string("encoding", at, encoding)
         ) ++ mapping ++
-          Option.when(p.wrap != "repeat")(Param.string("wrap", at, p.wrap)) ++
+          p.wrap.params(("wrap", "wrapt"), at) ++
           Option.when(!p.isSmooth)(Param.string("filter", at, "point")) ++
           channel.map(Param.string("channel", at, _)) ++
           Option.when(scale != 1f)(Param.float("scale", at, scale)) ++
@@ -173,6 +187,7 @@ private[models] final class Textures(file: GltfFile, session: Session):
     name
 
 private[models] object Textures:
+  val WebP = "EXT_texture_webp"
   val Upright: Vector[Float] = Vector(1f, 0f, 0f, 0f, 1f, 0f)
   private val Coordinates = Vector("uscale", "uskew", "udelta", "vskew", "vscale", "vdelta")
   private val Nearest = 9728

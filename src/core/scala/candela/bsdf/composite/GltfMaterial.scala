@@ -1,7 +1,8 @@
 package candela.bsdf.composite
 
 import candela.bsdf.{
-  Bsdf, CosineSampled, Fresnel, FullReflectance, Lobes, Material, ReflectanceCurve, SentThrough
+  Bsdf, BsdfFlags, CosineSampled, Fresnel, FullReflectance, Lobes, Material, ReflectanceCurve,
+  SentThrough, WrappedBsdf
 }
 import candela.bsdf.microfacet.{MicrofacetReflection, RoughDielectric, TrowbridgeReitz}
 import candela.color.Rgb
@@ -25,8 +26,10 @@ import candela.textures.{FloatTexture, RgbTexture, Textured}
   * @param coatRoughness  roughness of the clear coat
   * @param sheen          colour of the fibres above the surface
   * @param sheenRoughness how far the fibres stray from the normal
-  * @param anisotropy     stretch of the highlights
-  * @param rotation       angle of that stretch from the tangent, in radians
+  * @param stretch        of the highlights
+  * @param film           above the surface, under the clear coat
+  * @param sheet          fraction of the diffuse lobe that is transmitted instead of reflected
+  * @param sheetColor     colour of that
   */
 final class GltfParameters(
     val color: RgbTexture,
@@ -41,19 +44,67 @@ final class GltfParameters(
     val coatRoughness: FloatTexture,
     val sheen: RgbTexture,
     val sheenRoughness: FloatTexture,
-    val anisotropy: FloatTexture,
-    val rotation: Float
+    val stretch: GltfStretch,
+    val film: GltfFilm,
+    val sheet: FloatTexture,
+    val sheetColor: RgbTexture
 ) extends Textured(
       color, metallic, roughness, specular, specularColor, transmission, coat, coatRoughness,
-      sheen, sheenRoughness, anisotropy
-    ):
-  override def isAnisotropic: Boolean = anisotropy.constant.forall(_ != 0f)
+      sheen, sheenRoughness, stretch, film, sheet, sheetColor
+    )
+
+/** How highlights are stretched.
+  *
+  * @param strength 0: not at all
+  * @param x, y     direction from the tangent to the bitangent, from 0 for -1 to 1
+  * @param rotation of the direction, in radians
+  */
+final class GltfStretch(
+    val strength: FloatTexture,
+    x: FloatTexture,
+    y: FloatTexture,
+    rotation: Float
+) extends Textured(strength, x, y):
+  override def isAnisotropic: Boolean = strength.constant.forall(_ != 0f)
+
+  private val cosine = cos(rotation)
+  private val sine = sin(rotation)
+
+  /** Turns the frame's tangent into that direction. */
+  def turn(at: ShadingPoint): Unit =
+    val (dx, dy) = (2f * x(at) - 1f, 2f * y(at) - 1f)
+    val (along, across) = (cosine * dx - sine * dy, sine * dx + cosine * dy)
+    if across != 0f || along < 0f then
+      val turned = at.frame.s.toVec3 * along + at.frame.t.toVec3 * across
+      at.frame.set(Frame.along(at.frame.n.toVec3, turned.normalized))
+
+/** A thin film that varies.
+  *
+  * @param weight    0: none
+  * @param eta       index of refraction
+  * @param thinnest  thickness in nm where `thickness` is 0
+  * @param thickest  where it is 1
+  */
+final class GltfFilm(
+    weight: FloatTexture,
+    eta: Float,
+    thinnest: Float,
+    thickest: Float,
+    thickness: FloatTexture,
+    colors: FilmColors
+) extends Textured(weight, thickness):
+
+  /** Null where there is none. */
+  private[composite] def apply(at: ShadingPoint): ThinFilm | Null =
+    val present = clamp(weight(at), 0f, 1f)
+    if present == 0f then null
+    else ThinFilm(present, eta, lerp(thickness(at), thinnest, thickest), colors)
 
 /** The material of glTF 2.0: a blend of a metal and of a dielectric over a diffuse base, with the
   * layers of its extensions. The same on both sides, unless it encloses a volume.
   *
   * Sources: glTF 2.0 specification, appendix B; the extensions KHR_materials_ior, specular,
-  * transmission, volume, clearcoat, sheen and anisotropy.
+  * transmission, volume, clearcoat, sheen, anisotropy, iridescence and diffuse_transmission.
   */
 final class GltfMaterial(p: GltfParameters) extends Material, Textured(p):
   import GltfMaterial.*
@@ -70,12 +121,19 @@ final class GltfMaterial(p: GltfParameters) extends Material, Textured(p):
     val passing = unit(p.transmission(at))
     val specular = unit(p.specular(at))
     val normal = p.specularColor.positive(at).map(c => Math.min(c * reflectance, 1f) * specular)
-    val curve = GltfReflectance(normal, specular, color, metallic)
+    val curve = GltfReflectance(normal, specular, color, metallic, p.film(at))
     val facets = facetsAt(at)
 
     val lobes = Lobes.Builder()
-    val broad = color * ((1f - metallic) * (1f - passing))
-    lobes.add(GltfDiffuse(broad, curve), broad.max)
+    val broad = (1f - metallic) * (1f - passing)
+    val sent = unit(p.sheet(at))
+    val reflected = color * (broad * (1f - sent))
+    lobes.add(GltfDiffuse(reflected, curve), reflected.max)
+    if broad * sent > 0f then
+      val sheet = p.sheetColor.albedo(at) * (broad * sent)
+      val through = SentThrough(GltfDiffuse(sheet, curve))
+      val refracts = passing > 0f && !p.isThin
+      lobes.add(if refracts then UncompressedSheet(through) else through, sheet.max): Unit
     val clear = (1f - metallic) * passing
     val passed = color * clear
     val glossy = Math.max(curve(1f).max, 0.04f)
@@ -94,11 +152,8 @@ final class GltfMaterial(p: GltfParameters) extends Material, Textured(p):
 
   private def facetsAt(at: ShadingPoint): TrowbridgeReitz =
     val alpha = alphaOf(p.roughness(at))
-    val strength = unit(p.anisotropy(at))
-    if strength > 0f && p.rotation != 0f then
-      val (s, t) = (at.frame.s.toVec3, at.frame.t.toVec3)
-      val turned = s * cos(p.rotation) + t * sin(p.rotation)
-      at.frame.set(Frame.along(at.frame.n.toVec3, turned))
+    val strength = unit(p.stretch.strength(at))
+    if strength > 0f then p.stretch.turn(at)
     TrowbridgeReitz(lerp(square(strength), alpha, 1f), alpha)
 
   private def fibrous(at: ShadingPoint, base: Bsdf): Bsdf =
@@ -137,25 +192,39 @@ object GltfMaterial:
   * @param normal   of the dielectric, at normal incidence
   * @param grazing  of the dielectric, at grazing incidence
   * @param color    of the metal, at normal incidence
+  * @param film     above either; null: none
   */
-final class GltfReflectance(normal: Rgb, grazing: Float, color: Rgb, metallic: Float)
-    extends ReflectanceCurve:
+final class GltfReflectance(
+    normal: Rgb,
+    grazing: Float,
+    color: Rgb,
+    metallic: Float,
+    film: ThinFilm | Null = null
+) extends ReflectanceCurve:
 
   /** By the weight of grazing incidence. */
-  private[composite] def dielectric(weight: Float): Rgb = normal.map(n => lerp(weight, n, grazing))
+  private[composite] def dielectric(cosTheta: Float, weight: Float): Rgb =
+    filmed(normal.map(n => lerp(weight, n, grazing)), normal, cosTheta)
 
-  def apply(cosTheta: Float): Rgb =
-    blend(dielectric(Schlick.weight(Math.abs(cosTheta))), cosTheta)
+  private def dielectric(cosTheta: Float): Rgb =
+    dielectric(cosTheta, Schlick.weight(Math.abs(cosTheta)))
+
+  private def filmed(bare: Rgb, normal: Rgb, cosTheta: Float): Rgb =
+    val layer = film
+    if layer == null then bare else layer.coated(bare, normal, cosTheta)
+
+  def apply(cosTheta: Float): Rgb = blend(dielectric(cosTheta), cosTheta)
 
   /** Of the reflectances of the dielectric and of the metal. */
   private[composite] def blend(dielectric: Rgb, cosTheta: Float): Rgb =
-    val weight = Schlick.weight(Math.abs(cosTheta))
-    val metal = color.map(c => lerp(weight, c, 1f))
-    dielectric * (1f - metallic) + metal * metallic
+    if metallic == 0f then dielectric
+    else
+      val weight = Schlick.weight(Math.abs(cosTheta))
+      val metal = filmed(color.map(c => lerp(weight, c, 1f)), color, cosTheta)
+      dielectric * (1f - metallic) + metal * metallic
 
   /** What the dielectric doesn't reflect. */
-  def passed(cosTheta: Float): Float =
-    1f - dielectric(Schlick.weight(Math.abs(cosTheta))).max
+  def passed(cosTheta: Float): Float = 1f - dielectric(cosTheta).max
 
   def passed: ReflectanceCurve = new ReflectanceCurve:
     def apply(cosTheta: Float): Rgb = Rgb.gray(passed(cosTheta))
@@ -171,11 +240,26 @@ private final class GltfInterface(outer: GltfReflectance, eta: Float, clear: Flo
   private val f0 = Schlick.normal(eta)
 
   def apply(cosTheta: Float): Rgb =
-    val exact = Fresnel.dielectric(cosTheta, eta)
-    if cosTheta < 0f then Rgb.gray(clear * exact)
-    else
-      val weight = clamp((exact - f0) / (1f - f0), 0f, 1f)
-      outer.blend(outer.dielectric(weight), cosTheta)
+    if cosTheta < 0f then Rgb.gray(clear * Fresnel.dielectric(cosTheta, eta))
+    else outer.blend(dielectric(cosTheta), cosTheta)
+
+  private def dielectric(cosTheta: Float): Rgb =
+    val weight = clamp((Fresnel.dielectric(cosTheta, eta) - f0) / (1f - f0), 0f, 1f)
+    outer.dielectric(cosTheta, weight)
+
+  // A film may reflect more than the boundary
+  override def transmitted(cosTheta: Float, fresnel: Float): Float =
+    val outside =
+      if cosTheta >= 0f then cosTheta else Fresnel.cosRefracted(-cosTheta, 1f / eta)
+    if outside <= 0f then 0f
+    else Math.min(1f - fresnel, 1f - dielectric(outside).max)
+
+/** What passes a boundary diffusely beside light that is refracted. The radiance of that alone is
+  * scaled by the square of the index.
+  */
+private final class UncompressedSheet(sheet: Bsdf) extends WrappedBsdf(sheet):
+  override def flags: BsdfFlags = sheet.flags | BsdfFlags.OneWay
+  override def regularized: Bsdf = UncompressedSheet(sheet.regularized)
 
 /** The diffuse base under a dielectric, which lets through what its microfacets don't reflect. */
 final class GltfDiffuse(color: Rgb, curve: GltfReflectance) extends CosineSampled:

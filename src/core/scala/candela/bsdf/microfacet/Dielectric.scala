@@ -42,13 +42,19 @@ final class RoughDielectric(
   /** What a microfacet reflects, given its Fresnel term. */
   private def reflected(wo: Vec3, cosM: Float, fresnel: Float): Rgb =
     if mirror == null then reflectance * fresnel
-    else reflectance * mirror(if wo.z < 0f then -cosM else cosM)
+    else reflectance * mirror(oriented(wo, cosM))
+
+  private def oriented(wo: Vec3, cosM: Float): Float = if wo.z < 0f then -cosM else cosM
+
+  /** What a microfacet refracts. */
+  private def refracted(wo: Vec3, cosM: Float, fresnel: Float): Float =
+    if mirror == null then 1f - fresnel else mirror.transmitted(oriented(wo, cosM), fresnel)
 
   /** Probability of sampling reflection given the Fresnel term; NaN if the surface is black. */
   private def reflects(wo: Vec3, cosM: Float, fresnel: Float): Float =
     val r =
       if mirror == null then fresnel * maxReflectance else reflected(wo, cosM, fresnel).max
-    r / (r + (1f - fresnel) * maxTransmittance)
+    r / (r + refracted(wo, cosM, fresnel) * maxTransmittance)
 
   def f(wo: Vec3, wi: Vec3): Rgb =
     if Hemisphere.isLevel(wo, wi) then Rgb.Black
@@ -65,7 +71,7 @@ final class RoughDielectric(
         else if i.z > 0f then reflected(wo, o dot m, fresnel) * density
         else
           val spread = 4f * (o dot m) * jacobian(o, i, m, relative) / (relative * relative)
-          transmittance * ((1f - fresnel) * density * spread)
+          transmittance * (refracted(wo, o dot m, fresnel) * density * spread)
 
   def pdf(wo: Vec3, wi: Vec3): Float =
     if Hemisphere.isLevel(wo, wi) then 0f
@@ -104,7 +110,8 @@ final class RoughDielectric(
         if cosT <= 0f then out.absorb()
         else
           val i = Fresnel.refracted(o, m, cosM, cosT, relative)
-          val passed = transmittance * ((1f - fresnel) / ((1f - p) * relative * relative))
+          val share = refracted(wo, cosM, fresnel) / ((1f - p) * relative * relative)
+          val passed = transmittance * share
           if i.z > -Hemisphere.Horizon then out.absorb()
           else setSample(wo, o, i, m, passed, relative, relative, out)
 

@@ -9,7 +9,8 @@ import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.shapes.{RectangleSampler, Shape, SurfaceSampler, TriangleSampler, TriangleSoup}
-import candela.textures.{AffineUvMapping, Mapping2D, Wrap}
+import candela.build.textures.WrapModes
+import candela.textures.{AffineUvMapping, Mapping2D}
 
 /** Recipes of area lights. */
 object AreaLights:
@@ -119,9 +120,13 @@ final class DiffuseLightRecipe(
     oneOf(
       "wrap",
       "wrap mode outside the image",
-      Vector("clamp", "repeat", "mirror"),
+      WrapModes.Names,
       onlyOthers
     )("clamp")
+  private val wrapDown =
+    oneOf("wrapt", "wrap mode along t, if it differs", WrapModes.Names, onlyGltf, shown = "`wrap`")(
+      ""
+    )
   private val filter =
     oneOf(
       "filter",
@@ -136,6 +141,7 @@ final class DiffuseLightRecipe(
       "s and t of the image, by u, v and 1",
       onlyOthers
     )
+  private val second = bool("uv2", "use the second set of u and v of meshes", onlyGltf)(false)
 
   private val axis =
     vector("axis", "axis of the beam, in world space", onlyGltf)(Vec3.Z)
@@ -174,11 +180,7 @@ final class DiffuseLightRecipe(
     else None
 
   private def lookup(using Site): PictureLookup =
-    val wrapMode = wrap() match
-      case "repeat" => Wrap.Repeat
-      case "mirror" => Wrap.Mirror
-      case _ => Wrap.Clamp
-    PictureLookup(filter() == "bilinear", wrapMode)
+    PictureLookup(filter() == "bilinear", WrapModes.of(wrap(), wrapDown()))
 
   protected def create()(using site: Site): Option[AreaLightPlan] =
     val isPicture = site.dialect == Dialect.V4 && filename().nonEmpty
@@ -197,7 +199,7 @@ final class DiffuseLightRecipe(
       site.warn(Code.DarkLight, "this area light emits nothing; it is ignored")
       None
     else
-      val mapping = AffineUvMapping.of(imageUv())
+      val mapping = AffineUvMapping.of(imageUv(), second())
       Some(AreaLightPlan(
         emitted,
         picture,

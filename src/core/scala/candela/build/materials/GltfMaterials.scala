@@ -1,9 +1,9 @@
 package candela.build.materials
 
 import candela.bsdf.Material
-import candela.bsdf.composite.{GltfMaterial, GltfParameters}
+import candela.bsdf.composite.{FilmColors, GltfFilm, GltfMaterial, GltfParameters, GltfStretch}
 import candela.build.recipe.*
-import candela.color.Rgb
+import candela.color.{Cauchy, Rgb}
 
 /** The material of glTF 2.0 and its extensions. */
 object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of glTF", onlyGltf):
@@ -28,13 +28,45 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
   private val anisotropy = floatTexture("anisotropy", "stretch of the highlights")(0f)
   private val rotation =
     float("anisotropyrotation", "angle of that stretch from the tangent", unit = "radians")(0f)
+  private val stretchX =
+    floatTexture("anisotropyx", "direction of the stretch along the tangent, from 0 for -1")(1f)
+  private val stretchY =
+    floatTexture("anisotropyy", "likewise along the bitangent")(0.5f)
+  private val film = floatTexture("iridescence", "strength of a thin film on the surface")(0f)
+  private val filmEta =
+    float("iridescenceeta", "index of the film", range = Range.atLeast(1f).limited)(1.3f)
+  private val thinnest = float(
+    "iridescencemin",
+    "thickness of the film where its texture is 0",
+    unit = "nm",
+    range = Range.atLeast(0f).limited
+  )(100f)
+  private val thickest = float(
+    "iridescencemax",
+    "thickness of the film where its texture is 1",
+    unit = "nm",
+    range = Range.atLeast(0f).limited
+  )(400f)
+  private val thickness =
+    floatTexture("iridescencethickness", "thickness of the film between both")(1f)
+  private val dispersion =
+    float("dispersion", "20 over the Abbe number", range = Range.atLeast(0f).limited)(0f)
+  private val sheet = floatTexture(
+    "diffusetransmission",
+    "fraction of diffuse light that is transmitted instead of reflected"
+  )(0f)
+  private val sheetColor =
+    rgbTexture("diffusetransmissioncolor", "colour of what is transmitted diffusely")(Rgb.White)
 
-  protected def create()(using Site): Material =
-    GltfMaterial(GltfParameters(
+  protected def create()(using site: Site): Material =
+    val index = SpectralValue.Wavelengths(Cauchy(eta(), dispersion()))
+    val atHero = if dispersion() > 0f then Indices.scalar(index) else eta()
+    val colors = FilmColors.of(site.resources.basis)
+    Indices.disperse(index)(GltfMaterial(GltfParameters(
       color(),
       metallic(),
       roughness(),
-      eta(),
+      atHero,
       specular(),
       specularColor(),
       transmission(),
@@ -43,6 +75,8 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
       coatRoughness(),
       sheen(),
       sheenRoughness(),
-      anisotropy(),
-      rotation()
-    ))
+      GltfStretch(anisotropy(), stretchX(), stretchY(), rotation()),
+      GltfFilm(film(), filmEta(), thinnest(), thickest(), thickness(), colors),
+      sheet(),
+      sheetColor()
+    )))

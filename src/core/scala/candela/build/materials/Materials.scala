@@ -8,11 +8,12 @@ import candela.bsdf.{
 import candela.bsdf.composite.Edition
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
+import candela.build.textures.WrapModes
 import candela.color.{Encoding, Rgb}
 import candela.image.ImageBands
 import candela.scenefile.{Declaration, Dialect, Param}
 import candela.textures.{
-  AffineUvMapping, FloatTexture, MadeTexels, Mapping2D, MipLevel, SecondUvMapping, Texels, Wrap
+  AffineUvMapping, FloatTexture, MadeTexels, Mapping2D, MipLevel, Texels, Wrap
 }
 
 /** Recipes of materials. */
@@ -105,6 +106,16 @@ abstract class MaterialRecipe(
     float("normalscale", "scale of the normal map's tangential components", onlyGltf)(1f)
   private val second: Option[Field[Boolean]] = Option.when(bumps):
     bool("normaluv2", "use the second set of u and v for the normal map", onlyGltf)(false)
+  private val wrap: Option[Field[String]] = Option.when(bumps):
+    oneOf("normalwrap", "wrap mode of the normal map", WrapModes.Names, onlyGltf)("repeat")
+  private val wrapDown: Option[Field[String]] = Option.when(bumps):
+    oneOf(
+      "normalwrapt",
+      "that along t, if it differs",
+      WrapModes.Names,
+      onlyGltf,
+      shown = "`normalwrap`"
+    )("")
   private val edges: Option[Field[Boolean]] = Option.when(bumps):
     bool("softedges", "soften the terminator on bumps", onlyOthers)(true)
   private val turns: Option[Field[Boolean]] = Option.when(bumps):
@@ -147,12 +158,10 @@ abstract class MaterialRecipe(
       )
 
   private def uvMapping()(using Site): Mapping2D =
-    val rows = normalMapUv.fold(Array.emptyFloatArray)(_())
-    if !second.exists(_()) then AffineUvMapping.of(rows)
-    else
-      rows match
-        case Array(su, sv, ds, tu, tv, dt) => SecondUvMapping(su, sv, ds, tu, tv, dt)
-        case _ => SecondUvMapping(1f, 0f, 0f, 0f, 1f, 0f)
+    AffineUvMapping.of(normalMapUv.fold(Array.emptyFloatArray)(_()), second.exists(_()))
+
+  private def wrapping(using Site): Wrap =
+    WrapModes.of(wrap.fold("repeat")(_()), wrapDown.fold("")(_()))
 
   private def normalMap()(using site: Site): Option[MipLevel] =
     for
@@ -178,17 +187,17 @@ abstract class MaterialRecipe(
       Texels.color(image, if decodes(image.encoding) then Encoding.Srgb.decode(_) else identity)
     site.resources.textures.tiles match
       case Some(tiles) =>
-        val ways = s"normals ${site.rules.decodesNormals && !isPng}"
+        val ways = s"normals ${site.rules.decodesNormals && !isPng} $wrapping"
         for
-          image <- site.resources.tiled(tiles, p, site, StandIns.Magentas, ways, Wrap.Repeat):
-            bands => MadeTexels(texels(bands), None, bands.encoding, None)
+          image <- site.resources.tiled(tiles, p, site, StandIns.Magentas, ways, wrapping): bands =>
+            MadeTexels(texels(bands), None, bands.encoding, None)
         yield
           val _ = decodes(image.encoding)
           pyramid(image.levels(0))
       case None =>
         for stored <- site.resources.image(p, site.declaration, site.problems) yield
           val _ = decodes(stored.encoding)
-          pyramid(MipLevel(texels(ImageBands.of(stored)).inMemory, Wrap.Repeat))
+          pyramid(MipLevel(texels(ImageBands.of(stored)).inMemory, wrapping))
 
 /** Base of materials with the common roughness parameters.
   *

@@ -67,29 +67,31 @@ trait Fields:
       values: Seq[String],
       in: Set[Dialect] = every,
       forgiven: Boolean = false,
-      instead: String = ""
+      instead: String = "",
+      shown: String = ""
   )(default: Dialect ?=> String): Field[String] =
     val words = s"$doc: ${values.mkString(", ")}"
-    field(name, "string", words, in, "", "", Range.Any, default)(DefaultText.quoted): (p, site) =>
-      if p.paramType != ParamType.String || p.strings.size != 1 then
-        wrong(p, site, "one string", "string")
-      else
-        p.strings.headOption.filter(values.contains).orElse {
-          val value = p.strings.headOption.getOrElse("")
-          val message = s"`$name` must be one of ${values.mkString(", ")}, found \"$value\""
-          val help = Suggest.nearest(value, values).map(v => s"did you mean `$v`?")
-          if site.dialect == Dialect.V4 && !forgiven then
-            site.problems.error(Code.ParameterValue, p.valuesAt, message, help)
-          else
-            val fallback = if instead.isEmpty then "the default" else s"\"$instead\""
-            site.problems.warn(
-              Code.ParameterValue,
-              p.valuesAt,
-              s"$message; using $fallback, as pbrt does",
-              help
-            )
-          Option.when(instead.nonEmpty)(instead)
-        }
+    field(name, "string", words, in, "", shown, Range.Any, default)(DefaultText.quoted):
+      (p, site) =>
+        if p.paramType != ParamType.String || p.strings.size != 1 then
+          wrong(p, site, "one string", "string")
+        else
+          p.strings.headOption.filter(values.contains).orElse {
+            val value = p.strings.headOption.getOrElse("")
+            val message = s"`$name` must be one of ${values.mkString(", ")}, found \"$value\""
+            val help = Suggest.nearest(value, values).map(v => s"did you mean `$v`?")
+            if site.dialect == Dialect.V4 && !forgiven then
+              site.problems.error(Code.ParameterValue, p.valuesAt, message, help)
+            else
+              val fallback = if instead.isEmpty then "the default" else s"\"$instead\""
+              site.problems.warn(
+                Code.ParameterValue,
+                p.valuesAt,
+                s"$message; using $fallback, as pbrt does",
+                help
+              )
+            Option.when(instead.nonEmpty)(instead)
+          }
 
   /** An array of numbers of any length; empty by default.
     *

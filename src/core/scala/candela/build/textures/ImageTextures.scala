@@ -23,6 +23,10 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
       ImageMapRecipe.Wraps :+ "mirror",
       onlyOthers
     )("repeat")
+  private val wrapDown =
+    oneOf("wrapt", "wrap mode along t, if it differs", WrapModes.Names, onlyGltf, shown = "`wrap`")(
+      ""
+    )
   private val pyramid = Once[ImageLookup]()
   protected val scale = float("scale", "scale of the values")(1f)
   protected val invert = bool("invert", "invert values: 1 − value", onlyV4)(false)
@@ -147,10 +151,8 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
 
   private def wrapping(using Site): Wrap = wrap match
     case "black" => Wrap.Black
-    case "clamp" => Wrap.Clamp
-    case "mirror" => Wrap.Mirror
     case "octahedralsphere" => Wrap.OctahedralSphere
-    case _ => Wrap.Repeat
+    case name => WrapModes.of(name, wrapDown())
 
   /** Images that are not filtered are neither enlarged nor reduced. */
   private def isPlain(using site: Site): Boolean =
@@ -285,6 +287,20 @@ private object ImageMapRecipe:
 
   val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
   val FilterNames: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")
+
+/** Wrap modes of images whose axes may have different ones. */
+private[build] object WrapModes:
+  val Names: Vector[String] = Vector("repeat", "clamp", "mirror")
+
+  /** @param down that along t; any other name than these: as `across` */
+  def of(across: String, down: String): Wrap =
+    val first = mode(across)
+    Wrap.of(first, if Names.contains(down) then mode(down) else first)
+
+  private def mode(name: String): Wrap = name match
+    case "clamp" => Wrap.Clamp
+    case "mirror" => Wrap.Mirror
+    case _ => Wrap.Repeat
 
 /** Per-face textures, without texture coordinates. */
 abstract class PtexRecipe[A] extends Recipe[A]("ptex", "Ptex per-face texture", sinceV3):

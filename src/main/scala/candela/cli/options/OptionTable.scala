@@ -45,7 +45,7 @@ private[candela] object OptionTable extends OptionRows:
     .action((n, o) => o.controlling(_.copy(threads = n)))
 
   private def parsing: Vector[Row] =
-    settings("dialect", "define", "sensor", "light", "background")
+    settings("dialect", "define", "sensor", "light", "background", "at", "animation", "variant")
 
   /** The command `preview` sets that of its name. */
   private def allSettings: Vector[Row] =

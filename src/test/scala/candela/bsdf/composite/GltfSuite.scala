@@ -1,8 +1,9 @@
 package candela.bsdf.composite
 
 import candela.bsdf.{Bsdf, BsdfLaws, Directions}
-import candela.color.Rgb
+import candela.color.{ColorBasis, Rgb}
 import candela.geometry.ShadingPoint
+import candela.math.*
 import candela.textures.{ConstantFloat, ConstantRgb}
 
 class GltfSuite extends BsdfLaws:
@@ -21,7 +22,10 @@ class GltfSuite extends BsdfLaws:
       coatRoughness: Float = 0.4f,
       sheen: Rgb = Rgb.Black,
       sheenRoughness: Float = 0.5f,
-      anisotropy: Float = 0f
+      anisotropy: Float = 0f,
+      film: Float = 0f,
+      sheet: Float = 0f,
+      basis: ColorBasis = ColorBasis.Srgb
   ): Bsdf =
     def number(x: Float) = ConstantFloat(x)
     GltfMaterial(GltfParameters(
@@ -37,8 +41,10 @@ class GltfSuite extends BsdfLaws:
       number(coatRoughness),
       ConstantRgb(sheen),
       number(sheenRoughness),
-      number(anisotropy),
-      0.5f
+      GltfStretch(number(anisotropy), number(1f), number(0.5f), 0.5f),
+      GltfFilm(number(film), 1.4f, 100f, 500f, number(0.9f), FilmColors.of(basis)),
+      number(sheet),
+      ConstantRgb(Rgb(0.2f, 0.9f, 0.5f))
     )).bsdf(ShadingPoint())
 
   obeysLaws("dielectric", surface())
@@ -48,6 +54,16 @@ class GltfSuite extends BsdfLaws:
   obeysLaws("thin wall", surface(transmission = 0.7f))
   obeysLaws("volume", surface(transmission = 0.9f, isThin = false))
   obeysLaws("coated", surface(coat = 0.8f), isReciprocal = false)
+  obeysLaws("oily plastic", surface(film = 0.8f))
+  obeysLaws("tempered metal", surface(film = 1f, metallic = 1f))
+  obeysLaws("bubble", surface(film = 1f, transmission = 1f))
+  obeysLaws("oily glass", surface(Rgb.White, film = 1f, transmission = 1f, isThin = false))
+  obeysLaws("paper", surface(sheet = 0.6f))
+  obeysLaws(
+    "wax",
+    surface(sheet = 0.6f, transmission = 0.5f, isThin = false),
+    isReciprocal = false
+  )
   obeysLaws("cloth", surface(sheen = Rgb(0.9f, 0.5f, 0.3f)))
 
   /** The sample implementation of the specification, appendix B.3.5. */
@@ -77,6 +93,31 @@ class GltfSuite extends BsdfLaws:
       val f = surface(metallic = metallic, roughness = roughness).f(wo, wi)
       for (value, e) <- Vector(f.r, f.g, f.b).zip(expected) do
         assert(Math.abs(value - e) <= 1e-4 * e + 1e-6, s"$metallic $roughness $o $i $azimuth")
+
+  test("a sheet sends through what its share says, and the rest back"):
+    val (wo, wi) = (Directions.at(20, 0), Directions.at(40, 30))
+    val below = Vec3(wi.x, wi.y, -wi.z)
+    val (plain, sheet) = (surface(roughness = 1f), surface(roughness = 1f, sheet = 0.25f))
+    val black = surface(Rgb.Black, roughness = 1f)
+    val base = plain.f(wo, wi) - black.f(wo, wi)
+    val back = sheet.f(wo, wi) - black.f(wo, wi)
+    val sent = sheet.f(wo, below)
+    for (a, b) <- Vector(back.r -> base.r * 0.75f, sent.r -> base.r / 0.8f * 0.2f * 0.25f) do
+      assert(Math.abs(a - b) < 1e-5f * b + 1e-6f, s"$a, $b")
+    assert(plain.f(wo, below).isBlack && sheet.isTransmissive && !plain.isTransmissive)
+
+  test("highlights are stretched in the direction of the texture, turned by the angle"):
+    def stretched(x: Float, y: Float, rotation: Float) =
+      val number = ConstantFloat(_)
+      GltfStretch(number(1f), number(x), number(y), rotation)
+    def tangent(x: Float, y: Float, rotation: Float) =
+      val at = ShadingPoint()
+      stretched(x, y, rotation).turn(at)
+      at.frame.s.toVec3
+    def near(a: Vec3, b: Vec3) = (a - b).length < 1e-6f
+    assert(near(tangent(1f, 0.5f, 0f), Vec3.X) && near(tangent(0.5f, 1f, 0f), Vec3.Y))
+    assert(near(tangent(0.5f, 0.9f, Math.PI.toFloat / 2), Vec3.X * -1f))
+    assert(near(tangent(0f, 0.5f, 0f), Vec3.X * -1f))
 
   test("fibres over black reflect what their albedo says, and white ones lose little"):
     for degrees <- Seq(10, 45, 75); roughness <- Seq(0.3f, 0.6f, 1f) do
