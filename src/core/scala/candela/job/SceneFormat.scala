@@ -53,7 +53,7 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
       text: Option[String] = None
   ): SceneDescription =
     checkOptions(file, reading)
-    readable(file, within, reading, world, text)
+    CameraFile.applied(readable(file, within, reading, world, text), within, reading)
 
   protected def readable(
       file: Path,
@@ -95,6 +95,8 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
     if reading.model.hasSeveralImages && reading.sensors.contains(Sensors.All) then
       val option = if several then "--at with several times" else "a turntable"
       refuse(s"$option is of one camera", "render each camera: --sensor 0, --sensor 1 …")
+    if reading.model.turntable.nonEmpty && reading.camera.nonEmpty then
+      refuse("a turntable moves the camera itself", "render it without --camera")
 
 object SceneFormat:
   /** Those of the core, and those that other modules bring. */

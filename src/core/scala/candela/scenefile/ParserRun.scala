@@ -15,6 +15,7 @@ import scala.util.Try
   * @param world which of the file's worlds to read, from 0
   * @param defines values of `$NAME`
   * @param isHead whether to read what is before the world only
+  * @param cameraOf the scene whose camera the file replaces, by [[CameraStatements]] alone
   */
 private[scenefile] final class ParserRun(
     source: Source,
@@ -24,7 +25,8 @@ private[scenefile] final class ParserRun(
     keepGoing: Boolean,
     world: Int,
     defines: Defines,
-    isHead: Boolean = false
+    isHead: Boolean = false,
+    cameraOf: Option[SceneDescription] = None
 ):
   import ParserRun.*
 
@@ -33,7 +35,9 @@ private[scenefile] final class ParserRun(
   private val problems = Problems()
   private val doubts = DoubtfulFiles(problems.add)
   private val parameters = Parameters(evidence, doubts.add, continuation, () => isV4)
+  private var ofCamera = Vector.empty[(String, SourcePos)]
   private var scene = SceneWriter(folder, evidence, () => isV4, doubts.add)
+  for base <- cameraOf do scene.startFromCamera(base)
   private val misplaced = Problems()
 
   private val sources = mutable.LinkedHashSet.from(file.map(_.path))
@@ -74,6 +78,17 @@ private[scenefile] final class ParserRun(
 
   /** The Film statement read so far. */
   def film: Option[Declaration] = scene.description(dialect, Vector.empty).film
+
+  /** The directives of a camera, in order. */
+  def cameraDirectives: Vector[(String, SourcePos)] = ofCamera
+
+  /** The camera, placed by the transforms even if the file has no `Camera`; with all problems. */
+  def view: SceneDescription =
+    val names = ofCamera.map(_._1)
+    if !names.contains("Camera") && names.exists(CameraStatements.Transforms) then
+      scene.placeCamera()
+    def reopen(name: String) = if name == source.name then source.again else Excerpts.read(name)
+    scene.description(dialect, Excerpts.fill(problems.result(), reopen))
 
   /** The description with all problems; throws these if there is no world. */
   def result(dialect: Dialect): SceneDescription =
@@ -141,6 +156,9 @@ private[scenefile] final class ParserRun(
     folder.allowance.checkTime(Some(position))
     val directive = if in.current == Token.Word then Directives.named(in.text) else null
     if directive == null then unknown(in)
+    else if cameraOf.nonEmpty && !CameraStatements.Allowed(directive.name) then
+      in.advance()
+      throw SceneError(CameraStatements.unexpected(directive.name, position))
     else if scene.worldEnd.nonEmpty && worldsToSkip == 0 then
       trailing = trailing.orElse(Some(position))
       isFollowed = directive.name == "WorldBegin"
@@ -150,6 +168,7 @@ private[scenefile] final class ParserRun(
       if scene.worldEnd.nonEmpty then beginNext()
       // The first of each: there are millions
       if directives.add(directive) then evidence.uses("directive", directive.name, position)
+      if cameraOf.nonEmpty then ofCamera :+= (directive.name -> position)
       in.advance()
       if isMisplaced(directive, position) then skipToDirective(in)
       else run(directive, position, in)

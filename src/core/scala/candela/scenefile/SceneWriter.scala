@@ -187,6 +187,11 @@ final class SceneWriter(
     instances ++= base.instances
     media ++= base.media.map(m => m.name -> m)
 
+  /** Begins with the camera of another scene, before its world. */
+  def startFromCamera(base: SceneDescription): Unit =
+    result = result.copy(camera = base.camera, worldToCamera = base.worldToCamera)
+    isBased = true
+
   /** Changes all that there is so far. */
   def change(f: SceneDescription => SceneDescription): Unit =
     val changed = f(description(result.dialect, Vector.empty))

@@ -138,6 +138,7 @@ enum RenderRegion:
   * @param sensors   of a scene that may have several; none: the first
   * @param resolution in place of the film's: some formats' views depend on its aspect ratio
   * @param model     how a model is shown
+  * @param camera    file with a camera in place of the scene's
   */
 final case class ReadSettings(
     dialect: Option[Dialect] = None,
@@ -145,7 +146,8 @@ final case class ReadSettings(
     keepGoing: Boolean = false,
     sensors: Option[Sensors] = None,
     resolution: Option[Resolution] = None,
-    model: ModelSettings = ModelSettings()
+    model: ModelSettings = ModelSettings(),
+    camera: Option[String] = None
 )
 
 /** How a model is shown, instead of as it is.

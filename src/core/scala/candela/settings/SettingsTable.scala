@@ -277,6 +277,15 @@ object SettingsTable:
       TextForm.string
     ),
     option(
+      "camera",
+      "FILE",
+      "a camera instead of the scene's: LookAt and Camera statements, or a Mitsuba scene's <sensor>"
+    )(_.reading.camera)((s, f) => parse(s)(_.copy(camera = Some(f))))(using TextForm.string)
+      .explained(
+        "For scenes of every format; `candela move` writes such files: " +
+          "[moving the camera](WATCHING.md#moving-the-camera)."
+      ),
+    option(
       "mse-reference-image",
       "FILE",
       "reference image for --mse-reference-out, which it needs"

@@ -79,7 +79,8 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       animation <- Gen.option(name)
       variant <- Gen.option(name)
       model = ModelSettings(light, ground, turntable, ModelState(times, animation, variant))
-    yield ReadSettings(dialect, defines, keepGoing, sensors, resolution, model)
+      camera <- Gen.option(Gen.const("a b.pbrt"))
+    yield ReadSettings(dialect, defines, keepGoing, sensors, resolution, model, camera)
 
   /** Precisions are of layers that are there. */
   private def outputs(layers: Vector[Layer]): Gen[OutputSettings] =
@@ -144,7 +145,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   test("the settings of these tests have every field"):
     val fields = Vector(RenderSettings(), RenderGoal(), ReadSettings(), OutputSettings())
-    assert(fields.map(_.productArity) == Vector(22, 2, 6, 6), "`settings` must make the new field")
+    assert(fields.map(_.productArity) == Vector(22, 2, 7, 6), "`settings` must make the new field")
 
   test("settings are read from words as they were written, all of them", Slow):
     forAll(settings, minSuccessful(500)): s =>

@@ -27,6 +27,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "at" -> Vector("1.5", "0s", "0:0.5:2"),
     "animation" -> Vector("Walk", "1"),
     "variant" -> Vector("red shoe"),
+    "camera" -> Vector("a b.pbrt"),
     "color" -> Vector("rgb", "spectral"),
     "sampler" -> Vector("scene", "progressive", "halton", "stratified"),
     "fireflies" -> Vector("reweight", "clamp:2.5"),

@@ -1,0 +1,108 @@
+package candela.job
+
+import candela.diagnostics.{Code, Problem, SceneError, SourcePos}
+import candela.io.{InputFile, IoReason, SceneFolder}
+import candela.mitsuba.MitsubaScene
+import candela.scenefile.{CameraStatements, Dialect, Resolution, SceneDescription, Source}
+import candela.settings.ReadSettings
+
+import java.io.IOException
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Files, InvalidPathException, Path}
+
+import scala.util.Using
+
+/** Files with a camera in place of a scene's own: `LookAt` and `Camera` statements for scenes of
+  * every format, or the `<sensor>` of Mitsuba's.
+  */
+object CameraFile:
+
+  /** The scene with the camera of the file that the user has named, if any.
+    *
+    * @throws SceneError if the file is missing or wrong
+    */
+  def applied(
+      scene: SceneDescription,
+      within: SceneFolder,
+      reading: ReadSettings
+  ): SceneDescription = reading.camera.fold(scene): name =>
+    val file = existing(name)
+    // The user has named it, so an untrusted scene's may be anywhere
+    val folder = SceneFolder.of(file, allowance = within.allowance)
+    val text = textOf(name, folder.scene(file))
+    val isSensor = text.stripPrefix("\uFEFF").stripLeading.startsWith("<")
+    val viewed =
+      if isSensor then ofSensor(scene, file, folder, text, reading)
+      else CameraStatements.applied(scene, Source.fromText(name, text), folder)
+    viewed.copy(sources = viewed.sources :+ file)
+
+  /** The scene with the camera of statements.
+    *
+    * @param name of the text in messages
+    * @throws SceneError if the text has errors
+    */
+  def ofText(scene: SceneDescription, name: String, text: String): SceneDescription =
+    CameraStatements.applied(scene, Source.fromText(name, text), scene.folder)
+
+  private def existing(name: String): Path =
+    val file =
+      try Path.of(name)
+      catch case e: InvalidPathException => fail(name, e.getReason)
+    if !Files.exists(file) then
+      fail(name, "no such file", SceneFolder.suggestionFor(file).map(f => s"did you mean `$f`?"))
+    if Files.isDirectory(file) then fail(name, "it is a folder")
+    file
+
+  private def textOf(name: String, file: InputFile): String =
+    try
+      val bytes = Using.resource(file.stream())(_.readNBytes(MaxBytes + 1))
+      if bytes.length > MaxBytes then fail(name, s"it is larger than $MaxBytes bytes")
+      String(bytes, UTF_8)
+    catch case e: IOException => fail(name, IoReason(e))
+
+  private def fail(name: String, why: String, help: Option[String] = None): Nothing =
+    val message = s"can't read the camera file `$name`: $why"
+    throw SceneError(Problem.general(Code.NoSuchFile, message, help))
+
+  private val MaxBytes = 1 << 20
+
+  /** Of the text of a `<sensor>`, whose film has the size of the scene's. */
+  private def ofSensor(
+      scene: SceneDescription,
+      file: Path,
+      folder: SceneFolder,
+      text: String,
+      reading: ReadSettings
+  ): SceneDescription =
+    if scene.dialect != Dialect.Mitsuba then
+      throw SceneError(Problem.error(
+        Code.OtherDialect,
+        SourcePos(file.toString, 1, 1),
+        "a <sensor> is a camera of Mitsuba's scenes, and this scene is of another format",
+        Some("write `LookAt` and `Camera`")
+      ))
+    val prolog = Prolog.findPrefixOf(text).getOrElse("")
+    val wrapped = s"$prolog$Opening${text.drop(prolog.length)}\n</scene>"
+    def size(name: String) = scene.film.flatMap(_.param(name)).flatMap(_.ints.headOption)
+    val resolution = size("xresolution").zip(size("yresolution")).map: (width, height) =>
+      val (seenWidth, seenHeight) =
+        reading.resolution.fold((width, height))(_.of(width, height))
+      Resolution.Size(seenWidth, seenHeight)
+    val sensor = MitsubaScene.readable(
+      file,
+      reading.defines,
+      reading.keepGoing,
+      Some(folder),
+      Some(wrapped),
+      resolution = resolution
+    )
+    if sensor.errors.nonEmpty then throw SceneError(sensor.errors)
+    scene.copy(
+      camera = sensor.camera,
+      worldToCamera = sensor.worldToCamera,
+      warnings = scene.warnings ++ sensor.warnings
+    )
+
+  /** What an XML file may have before its root. */
+  private val Prolog = raw"(?s)\x{FEFF}?\s*(<\?xml.*?\?>)?".r
+  private val Opening = "<scene version=\"3.0.0\">"
