@@ -45,6 +45,15 @@ private[build] final class BuildContext(
   def aside(findings: Findings): BuildContext =
     new BuildContext(description, origin, resources.unread, findings)
 
+  /** The same scene as another camera sees it, with problems of its own. */
+  def seenAs(seen: SceneDescription): BuildContext =
+    val viewed = description.copy(
+      camera = seen.camera,
+      worldToCamera = origin.toCamera(seen.worldToCamera),
+      cameraMedium = seen.cameraMedium
+    )
+    new BuildContext(viewed, origin, resources, Findings(text = seen.text))
+
   private val emissions = IdentityHashMap[Declaration, Option[AreaLightPlan]]()
 
   private val alike = Alike[Option[AreaLightPlan]](problems)

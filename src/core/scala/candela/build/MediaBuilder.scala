@@ -96,22 +96,22 @@ private[build] final class MediaBuilder(
     else if regions.nonEmpty && plan.throughVolumes.isDefined then
       val volumes = Regions(regions)
       val method = methodIn(volumes)
-      (march(scene, volumes, method), s"${volumes.describe}, ${method.describe}")
+      (march(volumes, method), s"${volumes.describe}, ${method.describe}")
     else (Surroundings.Nothing, "none")
 
   private def methodIn(volumes: Regions) = volumeMethod.copy(stepSize = stepSize(volumes))
 
-  private def march(scene: Scene, volumes: Regions, method: VolumeMethod) =
-    Surroundings.Volumes(() => VolumeMarch(scene, volumes, method.stepSize, method.scatters))
+  private def march(volumes: Regions, method: VolumeMethod) =
+    Surroundings.Volumes(VolumeMarch(_, volumes, method.stepSize, method.scatters))
 
   /** The same in another colour basis. */
-  def inBasis(surroundings: Surroundings, context: BuildContext, scene: Scene): Surroundings =
+  def inBasis(surroundings: Surroundings, context: BuildContext): Surroundings =
     surroundings match
       case Surroundings.Media(all) =>
         Surroundings.Media(all.inBasis(i => medium(filled(i)._1, context).get))
       case Surroundings.Volumes(_) =>
         val volumes = Regions(regions(context))
-        march(scene, volumes, methodIn(volumes))
+        march(volumes, methodIn(volumes))
       case Surroundings.Nothing => Surroundings.Nothing
 
   /** The step size that is asked for, if a ray can have so many. */

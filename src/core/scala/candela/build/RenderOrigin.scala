@@ -24,7 +24,7 @@ private[build] final class RenderOrigin(val position: Position, val reason: Stri
     if position.isOrigin then d
     else
       d.copy(
-        worldToCamera = mapped(d.worldToCamera)(_ * position.fromOrigin),
+        worldToCamera = toCamera(d.worldToCamera),
         textures = d.textures.map(t => t.copy(textureToWorld = moved(t.textureToWorld))),
         lights = d.lights.map(l => l.copy(lightToWorld = moved(l.lightToWorld))),
         shapes = d.shapes.map(s => s.copy(objectToWorld = moved(s.objectToWorld))),
@@ -32,6 +32,10 @@ private[build] final class RenderOrigin(val position: Position, val reason: Stri
         media = d.media.map(m => m.copy(mediumToWorld = moved(m.mediumToWorld))),
         volumes = d.volumes.map(v => v.copy(lightToWorld = moved(v.lightToWorld)))
       )
+
+  /** The transform from this world to a camera. */
+  def toCamera(fromWorld: AnimatedTransform): AnimatedTransform =
+    if position.isOrigin then fromWorld else mapped(fromWorld)(_ * position.fromOrigin)
 
   private def moved(t: AnimatedTransform): AnimatedTransform = mapped(t)(position.toOrigin * _)
 

@@ -171,7 +171,10 @@ private[build] final case class CameraSetup(
 
   /** @param size size of a sample's footprint, in pixels */
   def cone(image: ImageSetup, size: Float): PixelCone =
-    PixelCone.of(camera, toWorld.point(Vec3.Zero), image.width, image.height, size)
+    PixelCone.of(camera, eye, image.width, image.height, size)
+
+  /** Where it is, at shutter open. */
+  def eye: Vec3 = toWorld.point(Vec3.Zero)
 
 private[build] object CameraSetup:
   def of(context: BuildContext, image: ImageSetup): CameraSetup =

@@ -1,35 +1,79 @@
 package candela.build
 
-import candela.diagnostics.Code
+import candela.diagnostics.{Code, SourcePos}
 import scala.collection.IndexedSeqView
 
 import candela.accel.{Accelerator, Instances, Primitives}
 import candela.aov.Cryptomatte
-import candela.build.integrators.IntegratorPlan
+import candela.build.integrators.{IntegratorPlan, Surroundings}
 import candela.build.lights.{LightPlan, Lights, SkySampling}
 import candela.build.options.{AcceleratorPlan, Accelerators, BvhRecipe}
 import candela.cameras.Shutter
 import candela.color.{CameraSensor, ColorBasis}
 import candela.integrators.CausticsMode
-import candela.math.Motion
+import candela.math.{Motion, Vec3}
 import candela.lights.LightSelection
 import candela.render.{Cost, CostKind, RenderMethod, Sight}
 import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}
 import candela.scenefile.{Declaration, Dialect, LightDescription, ShapeDescription}
 import candela.settings.{ColorMode, LightGrouping}
 
-/** The world, ready to render, with a description of its features. */
-private[build] final class World(
+/** A scene in one colour basis, and the method that renders it. */
+private[build] final class LitScene(
+    plan: IntegratorPlan,
     val scene: Scene,
-    val method: RenderMethod,
+    around: Surroundings,
+    lightSamples: Array[Int]
+):
+  val method: RenderMethod = plan.methodIn(around, scene, lightSamples)
+
+  def seenFrom(eye: Vec3, footprints: => Footprints): LitScene =
+    LitScene(plan, scene.withFootprints(footprints), around.seenFrom(eye), lightSamples)
+
+/** The world, ready to render, with a description of its features.
+  *
+  * @param plain in the basis of the build
+  * @param bases in those of spectral rendering; empty without it
+  */
+private[build] final class World(
+    plain: LitScene,
+    bases: Vector[LitScene],
     val color: ColorPlan,
     val features: Vector[(String, String)],
     val moves: Boolean,
     val costs: Vector[Cost],
-    val sight: Sight,
+    objectPlaces: Int => Option[SourcePos],
+    cameraPlace: Option[SourcePos],
     names: () => SurfaceNames,
     survey: () => CausticSurvey
 ):
+  val scene: Scene = plain.scene
+
+  val method: RenderMethod =
+    if bases.isEmpty then plain.method
+    else RenderMethod.spectral(color.bases.zip(bases.map(_.method)))
+
+  def sight: Sight = Sight(scene, objectPlaces, cameraPlace)
+
+  /** The same world as another camera sees it.
+    *
+    * @param footprints evaluated only if the scene needs them
+    */
+  def seenFrom(eye: Vec3, footprints: => Footprints): World =
+    lazy val evaluated = footprints
+    World(
+      plain.seenFrom(eye, evaluated),
+      bases.map(_.seenFrom(eye, evaluated)),
+      color,
+      features,
+      moves,
+      costs,
+      objectPlaces,
+      cameraPlace,
+      names,
+      survey
+    )
+
   /** For image layers. */
   def surfaceNames: SurfaceNames = names()
 
@@ -141,14 +185,14 @@ private[build] final class WorldBuilder(
     val samples = lights.map(_.samples).toArray
     val (surroundings, inMedia) =
       media.surroundings(scene, shining.map(_._1), materials, reach)
-    val plain = integrator.methodIn(surroundings, scene, samples)
+    val plain = LitScene(integrator, scene, surroundings, samples)
     val colorPlan = ColorPlan.of(context, mode, sensor)
     val color = if context.resources.settings.oneColorSet then colorPlan.ofOneSet else colorPlan
     if color.isSpectral then context.resources.census.sayOfSpectral()
     def inBasis(basis: ColorBasis) = context.in(basis)(textures)
     val disperses = color.bases.headOption.map(inBasis).exists: first =>
       materials.disperses(first, integratorIn(first))
-    def recolored(basis: ColorBasis): RenderMethod =
+    def recolored(basis: ColorBasis): LitScene =
       val basisContext = inBasis(basis)
       val otherLights = areaLights(basisContext) ++
         shining.flatMap((l, _) => light(l, lightPlan(l, basisContext), skies))
@@ -156,16 +200,13 @@ private[build] final class WorldBuilder(
       val otherMaterials =
         materials.inBasis(color.bases.size, disperses, plan)(() => inBasis(basis))
       val otherScene = scene.recolored(otherMaterials, otherLights.map(_.light).toArray)
-      val otherSurroundings = media.inBasis(surroundings, basisContext, otherScene)
-      plan.methodIn(otherSurroundings, otherScene, samples)
-    val method =
-      if !color.isSpectral then plain
-      else
-        clock.during(CostKind.Materials):
-          RenderMethod.spectral(color.bases.zip(ofEach(color.bases)(recolored)))
+      LitScene(plan, otherScene, media.inBasis(surroundings, basisContext), samples)
+    val inBases =
+      if !color.isSpectral then Vector.empty
+      else clock.during(CostKind.Materials)(ofEach(color.bases)(recolored))
     World(
-      scene,
-      method,
+      plain,
+      inBases,
       color,
       Vector(
         "accelerator" -> placed.accelerator.describe,
@@ -182,7 +223,8 @@ private[build] final class WorldBuilder(
       ) ++ scene.lightGroups.map(g => "light groups" -> g.names.mkString(", ")),
       placed.instanced.instances.moving > 0,
       memory.costs,
-      Sight(scene, objectPlaces(lit, uses.shared), description.camera.map(_.pos)),
+      objectPlaces(lit, uses.shared),
+      description.camera.map(_.pos),
       () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id),
       () =>
         val shapeMaterials = shapes.indices.iterator.map(materials.materialOf)
@@ -192,11 +234,11 @@ private[build] final class WorldBuilder(
   /** The first one finds all problems of lights and media, in the order of the statements; the
     * others are made in parallel.
     */
-  private def ofEach(bases: Vector[ColorBasis])(make: ColorBasis => RenderMethod) =
-    val methods = new Array[RenderMethod](bases.size)
-    methods(0) = make(bases(0))
-    context.resources.pool.forEach(bases.size - 1)(i => methods(i + 1) = make(bases(i + 1)))
-    methods.toVector
+  private def ofEach(bases: Vector[ColorBasis])(make: ColorBasis => LitScene) =
+    val scenes = new Array[LitScene](bases.size)
+    scenes(0) = make(bases(0))
+    context.resources.pool.forEach(bases.size - 1)(i => scenes(i + 1) = make(bases(i + 1)))
+    scenes.toVector
 
   /** Of the world's shapes, then of instances: static ones come first. */
   private def objectNames(world: LitSurfaces, objects: Vector[PlacedObject]): Vector[String] =

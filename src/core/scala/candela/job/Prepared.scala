@@ -1,6 +1,7 @@
 package candela.job
 
 import candela.diagnostics.Problem
+import candela.build.BuiltScene
 import candela.color.Rgb
 import candela.render.{
   Checkpointer, RenderControl, Renderer, Rendering, RenderPlan, RenderState, ThreadPool
@@ -18,6 +19,7 @@ import java.nio.file.Path
   * @param warnings of reading and building
   * @param settings it was prepared by
   * @param pool     of its threads
+  * @param built    plans it for other cameras
   */
 final case class Prepared(
     description: SceneDescription,
@@ -26,7 +28,8 @@ final case class Prepared(
     readSeconds: Double = 0,
     buildSeconds: Double = 0,
     pool: ThreadPool = ThreadPool(1),
-    settings: RenderSettings = RenderSettings()
+    settings: RenderSettings = RenderSettings(),
+    built: Option[BuiltScene] = None
 ) extends AutoCloseable:
   def close(): Unit = pool.close()
 

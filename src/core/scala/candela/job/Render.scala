@@ -68,15 +68,21 @@ object Render:
     try
       val limited = control.limited
       limited.cache.startScene()
-      val ((plan, warnings), seconds) = timed:
-        val (plan, warnings) = SceneBuilder.build(description, settings, limited, pool)
-        (if control.isRendered then piloted(plan, control) else plan, warnings)
+      val ((built, plan), seconds) = timed:
+        val built = SceneBuilder.buildViewed(description, settings, limited, pool)
+        (built, if control.isRendered then piloted(built.plan, control) else built.plan)
       // Placeholders show nothing, and were told of
-      val hasAll = warnings.forall(_.standIn.isEmpty)
-      val allWarnings = description.warnings ++ warnings ++
+      val hasAll = built.warnings.forall(_.standIn.isEmpty)
+      val allWarnings = description.warnings ++ built.warnings ++
         (if hasAll then EmptyImage.foreseen(plan, description.text) else None)
       Prepared(
-        description, plan, allWarnings, buildSeconds = seconds, pool = pool, settings = settings
+        description,
+        plan,
+        allWarnings,
+        buildSeconds = seconds,
+        pool = pool,
+        settings = settings,
+        built = Some(built)
       )
     catch
       case e: Throwable =>

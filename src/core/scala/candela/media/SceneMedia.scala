@@ -43,6 +43,9 @@ final class SceneMedia private (layout: SceneMedia.Layout, maker: Int => Medium)
   /** The media of another colour basis, in the same order. */
   def inBasis(maker: Int => Medium): SceneMedia = new SceneMedia(layout, maker)
 
+  /** The same media, around a camera elsewhere. */
+  def seenFrom(eye: Vec3): SceneMedia = new SceneMedia(layout.seenFrom(eye), this(_))
+
 object SceneMedia:
   /** @param media   media other than vacuum
     * @param borders indexed by the scene's materials
@@ -70,6 +73,8 @@ object SceneMedia:
       val eye: Vec3,
       val reach: Float
   ):
+    def seenFrom(eye: Vec3): Layout = Layout(media, borders, camera, lights, eye, reach)
+
     private val inside = borders.map(_.inside)
     private val outside = borders.map(_.outside)
 

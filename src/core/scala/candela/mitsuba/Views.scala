@@ -26,7 +26,7 @@ final class Views(session: Session, media: Media, image: String):
       in.ignore("srf")
       val toWorld = in.motion("to_world").getOrElse(GraphicsState.Identity)
       val medium = in.nested("medium").headOption.fold("")(media(_))
-      val axes = if p.name == "spherical" then Views.PanoramaAxes else Views.Axes
+      val axes = SensorAxes.of(p.name)
       val toCamera = GraphicsState.inverse(toWorld.after(GraphicsState.constant(axes)))
       from.copy(
         camera = Some(camera(in, seenWidth, seenHeight)),
@@ -220,14 +220,18 @@ private[mitsuba] object Views:
     Seq("gamma" -> -1.0, "key" -> 0.18, "burn" -> 0.0)
   private val Linear = "the image has linear values"
 
-  /** Mitsuba's x points left, pbrt's right. */
-  private val Axes = Transform.scale(-1, 1, 1).get
-
-  /** The azimuth of panoramas begins at Mitsuba's −z, at pbrt's x. */
-  private val PanoramaAxes =
-    Transform.fromRows(Vector(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1)).get
-
   /** Samples per pixel of a sampler's statement. */
   def sampleCount(sampler: Declaration): Int =
     def number(name: String) = sampler.param(name).flatMap(_.ints.headOption)
     number("pixelsamples").orElse(number("xsamples").map(x => x * x)).getOrElse(1)
+
+/** From the axes of pbrt's cameras to those of Mitsuba's sensors. */
+object SensorAxes:
+  def of(sensor: String): Transform = if sensor == "spherical" then Panorama else Plain
+
+  /** Mitsuba's x points left, pbrt's right. */
+  private val Plain = Transform.scale(-1, 1, 1).get
+
+  /** The azimuth of panoramas begins at Mitsuba's −z, at pbrt's x. */
+  private val Panorama =
+    Transform.fromRows(Vector(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 0, 1)).get

@@ -152,34 +152,26 @@ final class Scene(
   /** The same geometry with other materials and lights, in the same order; light sampling keeps its
     * probabilities.
     */
-  def recolored(materials: SceneMaterials, lights: Array[Light]): Scene =
-    Scene(
-      surfaces,
-      instanced,
-      accelerator,
-      materials,
-      lights,
-      selection,
-      sidesByGeometry,
-      footprints,
-      report,
-      lightGroups
-    )
+  def recolored(materials: SceneMaterials, lights: Array[Light]): Scene = copy(materials, lights)
+
+  /** The same scene with the footprints of another camera, if it needs any. */
+  def withFootprints(other: => Footprints): Scene =
+    if footprints.isEmpty then this else copy(footprints = Some(other))
 
   /** Returns the same scene, reporting one path. */
   def reported(report: PathReport): Scene =
     val reportedLights = lights.zipWithIndex.map((l, i) => ReportedLights.of(l, i, report))
+    copy(lights = reportedLights, report = Some(report))
+
+  private def copy(
+      materials: SceneMaterials = materials,
+      lights: Array[Light] = lights,
+      footprints: Option[Footprints] = footprints,
+      report: Option[PathReport] = report
+  ): Scene =
     Scene(
-      surfaces,
-      instanced,
-      accelerator,
-      materials,
-      reportedLights,
-      selection,
-      sidesByGeometry,
-      footprints,
-      Some(report),
-      lightGroups
+      surfaces, instanced, accelerator, materials, lights, selection, sidesByGeometry, footprints,
+      report, lightGroups
     )
 
   private val casterMaterials = materials.casters

@@ -7,6 +7,7 @@ import candela.build.recipe.*
 import candela.film.PixelBounds
 import candela.integrators.*
 import candela.lights.LightStrategy
+import candela.math.Vec3
 import candela.media.SceneMedia
 import candela.render.RenderMethod
 import candela.scene.Scene
@@ -95,7 +96,8 @@ final case class IntegratorPlan(
   def methodIn(around: Surroundings, scene: Scene, lightSamples: Array[Int]): RenderMethod =
     (around, throughMedia, throughVolumes) match
       case (Surroundings.Media(all), Some(make), _) => make(scene, all)
-      case (Surroundings.Volumes(march), _, Some(make)) => make(scene, lightSamples, march)
+      case (Surroundings.Volumes(march), _, Some(make)) =>
+        make(scene, lightSamples, () => march(scene))
       case _ => method(scene, lightSamples)
 
 /** What is between the surfaces of a scene, as far as its integrator renders it. */
@@ -104,7 +106,12 @@ enum Surroundings:
   case Media(all: SceneMedia)
 
   /** The volumes of pbrt-v2, and what marches through them for a worker. */
-  case Volumes(march: () => VolumeMarch)
+  case Volumes(march: Scene => VolumeMarch)
+
+  /** The same around a camera elsewhere. */
+  def seenFrom(eye: Vec3): Surroundings = this match
+    case Media(all) => Media(all.seenFrom(eye))
+    case _ => this
 
 object IntegratorPlan:
   /** What interfaces are to integrators without media. pbrt-v2 has none. */
