@@ -95,9 +95,10 @@ object Architecture:
       "api" -> (job + "job"),
       "models" -> models,
       "report" -> report,
-      "watch" -> (report ++ Set("film", "aov", "render", "report"))
+      "watch" -> (report ++ Set("film", "aov", "render", "report")),
+      "moving" -> (job ++ Set("job", "convert", "report", "watch"))
     ) ++ below(program).map((room, lower) =>
-      room -> (job ++ lower ++ Set("job", "convert", "report", "watch"))
+      room -> (job ++ lower ++ Set("job", "convert", "report", "watch", "moving"))
     ) ++ below(bench).map: (room, lower) =>
       val commands = if room == "bench" then program.toSet else Set.empty
       room -> (job ++ lower ++ Set("job", "convert", "report") ++ commands)

@@ -60,13 +60,15 @@ function liveView(size) {
     ev: number("ev", 0), curve: asked.get("curve") in ToneCurves ? asked.get("curve") : "linear",
     layer: asked.get("layer") || "", version: -1, points: 0, tiles: [] };
   const pixels = Object.assign(document.createElement("canvas"), { width, height });
-  const paper = pixels.getContext("2d"), out = paper.createImageData(width, height);
+  const paper = pixels.getContext("2d");
+  // While the camera moves, pictures are smaller than the image
+  let [wide, high] = [width, height], out = paper.createImageData(wide, high);
   let titles = {}; // of the layers, by name
   let data = null, channels = 3, matrix = null, display = displays(s.curve), asking = null;
 
   function paint() {
     if (!data) return;
-    const gain = Math.pow(2, s.ev), n = width * height, last = channels - 1, c = new Float32Array(3);
+    const gain = Math.pow(2, s.ev), n = wide * high, last = channels - 1, c = new Float32Array(3);
     const isColor = s.layer === "color";
     for (let i = 0, o = 0; i < n; i++, o += 4) {
       for (let k = 0; k < 3; k++) {
@@ -112,12 +114,13 @@ function liveView(size) {
       asking = setTimeout(async () => {
         const [x, y, version] = [s.x, s.y, s.version];
         try {
-          const rows = await (await fetch(`pixel?x=${x}&y=${y}`)).json();
+          const [px, py] = [x * wide / width | 0, y * high / height | 0];
+          const rows = await (await fetch(`pixel?x=${px}&y=${py}`)).json();
           const text = v => (v === null ? "–" : short(v)).padStart(10);
           const title = r => titles[r.layer] || r.layer;
-          const wide = Math.max(18, ...rows.map(r => title(r).length));
+          const column = Math.max(18, ...rows.map(r => title(r).length));
           readout.textContent = `pixel (${x + size.x0}, ${y + size.y0})\n` +
-            rows.map(r => `${title(r).padEnd(wide)} ${r.values.map(text).join(" ")}`).join("\n");
+            rows.map(r => `${title(r).padEnd(column)} ${r.values.map(text).join(" ")}`).join("\n");
           live.dataset.pixel = JSON.stringify({ x, y, version, rows });
         } catch (e) { /* the next state tells that the server has gone */ }
       }, 40);
@@ -131,6 +134,11 @@ function liveView(size) {
     const toSrgb = answer.headers.get("X-To-Srgb");
     matrix = toSrgb && toSrgb.split(",").map(Number);
     data = new Float32Array(await answer.arrayBuffer());
+    const [w, h] = ["X-Width", "X-Height"].map(name => +answer.headers.get(name));
+    if (w !== wide || h !== high) {
+      [wide, high] = [pixels.width, pixels.height] = [w, h];
+      out = paper.createImageData(w, h);
+    }
     s.version = +answer.headers.get("X-Version");
     byId("waiting").hidden = true;
     paint(); readOut();
@@ -171,12 +179,16 @@ function liveView(size) {
     return select.options[(select.selectedIndex + by + n) % n].value;
   };
 
+  const moves = typeof mover === "function" ? mover(stage, (x, y) => ({
+    x: s.left / width + x / s.zoom, y: s.top / height + y / s.zoom,
+  })) : { keys: {} };
   navigate(stage, width, height, s, draw, {
     isOnly: true,
     keys: {
       e: () => set({ ev: Math.min(10, s.ev + 0.5) }), E: () => set({ ev: Math.max(-10, s.ev - 0.5) }),
       c: () => set({ curve: next(byId("curve")) }), l: () => set({ layer: next(byId("layer")) }),
       t: () => { byId("showtiles").click(); },
+      ...moves.keys,
     },
   });
   byId("ev").addEventListener("input", e => set({ ev: +e.target.value }));
@@ -194,6 +206,7 @@ const isOver = state => ["done", "stopped"].includes(state.stage);
 function figures(state) {
   const words = { rendering: state.version ? "rendering" : "waiting for the first pass", stopping: "stopping",
     stopped: "stopped: a partial image", done: "done" };
+  if (state.camera) cameraFigures(state, words);
   write("stage", `${words[state.stage]}${state.saved ? `; saved ${state.saved}` : ""}` +
     (state.viewers > 1 ? `; ${state.viewers} viewers` : ""));
   byId("done").style.width = `${100 * state.part}%`;
@@ -204,7 +217,8 @@ function figures(state) {
   write("rate", metric(state.rate));
   write("error", state.error === null ? "–" : `${short(100 * state.error)} %`);
   byId("stop").disabled = state.stage !== "rendering";
-  const over = isOver(state), hadFocus = ["stop", "keep", "save"].includes(document.activeElement.id);
+  const hadFocus = ["stop", "keep", "save"].includes(document.activeElement.id);
+  const over = isOver(state) && !state.camera;
   byId("stop").hidden = byId("save").hidden = over;
   byId("keep").hidden = state.keepsOn === null;
   byId("files").hidden = !over;
@@ -217,7 +231,7 @@ function figures(state) {
   }
   byId("keep").setAttribute("aria-pressed", state.keepsOn === true);
   byId("keep").disabled = byId("save").disabled = byId("end").disabled = false;
-  byId("end").hidden = !(over && state.stays);
+  byId("end").hidden = !((over || state.camera) && state.stays);
   live.dataset.stage = state.stage; live.dataset.latest = state.version;
 }
 
@@ -246,11 +260,12 @@ async function poll() {
     run = state.run;
     figures(state);
     view ||= liveView(state);
-    await view.show(state, isOver(state) || began > (busy - First) / Share);
+    await view.show(state, state.camera || isOver(state) || began > (busy - First) / Share);
     busy += performance.now() - began - waited;
-    const isSoon = isOver(state) && state.files === null;
+    const isSoon = isOver(state) && state.files === null && !state.camera;
     const end = isSoon ? Soonest : state.left === null ? Latest : Math.max(Soonest, 1000 * state.left);
     pause = Math.min(Latest, end, Math.max(Soonest, 1000 * Growth * state.seconds));
+    if (state.camera && !isOver(state)) pause = Math.min(pause, 100 + 100 * state.seconds);
     live.dataset.lost = "";
   } catch (e) {
     const over = isOver(live.dataset);

@@ -135,7 +135,8 @@ function navigate(stage, width, height, s, draw, { pans = () => true, clicked = 
   for (const b of root.querySelectorAll("[data-zoom]")) b.addEventListener("click", zooms[b.dataset.zoom]);
   document.addEventListener("keydown", e => {
     const isFocused = document.activeElement === stage;
-    const isMeant = isFocused || isOnly && !e.key.startsWith("Arrow") && e.target.tagName !== "SELECT";
+    const isMeant = isFocused || isOnly && !e.key.startsWith("Arrow") &&
+      e.target.tagName !== "SELECT" && e.target.type !== "number";
     if (!isMeant || e.ctrlKey || e.metaKey || e.altKey) return;
     const far = e.shiftKey ? 10 : 1;
     const all = {

@@ -3,8 +3,8 @@ package candela.cli
 import candela.diagnostics.{Code, Problem, Severity}
 import candela.cli.commands.{
   AverageCommand, CheckCommand, ClusterCommand, CompareCommand, CompletionCommand, ConvertCommand,
-  DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand, PreviewCommand,
-  ReferenceCommand, RenderCommand, ResumeCommand, ViewCommand
+  DescribeCommand, ExplainCommand, ImageCommand, InfoCommand, MergeCommand, MoveCommand,
+  PreviewCommand, ReferenceCommand, RenderCommand, ResumeCommand, ViewCommand
 }
 import candela.cli.options.{Command, CommandLine, CommandService, CommandTable, Options}
 import candela.cli.terminal.{ExitCode, Interrupts, ProblemText, Report, Terminal}
@@ -89,6 +89,7 @@ object Main:
       case Command.Reference => ReferenceCommand(options, terminal, report, loader).run()
       case Command.Compare => CompareCommand(options, terminal, report).run()
       case Command.Describe => DescribeCommand(options, terminal, report).run()
+      case Command.Move => MoveCommand(options, terminal, report, loader).run()
       case Command.Preview => PreviewCommand(options, terminal, report, loader).run()
       case Command.View => ViewCommand(options, terminal, report).run()
       case Command.Image => ImageCommand(options, terminal, report).run()

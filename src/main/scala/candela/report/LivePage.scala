@@ -11,16 +11,18 @@ object LivePage:
     * @param plan        features of the scene: (feature, value)
     * @param warnings    of reading and building the scene
     * @param isEstimated whether errors are, for lack of a reference
+    * @param isMoving    whether viewers move the camera
     */
   def html(
       scene: String,
       version: String,
       plan: Vector[(String, String)],
       warnings: Vector[String],
-      isEstimated: Boolean
+      isEstimated: Boolean,
+      isMoving: Boolean = false
   ): String =
     val subtitle = span(id := "stage", attr("role") := "status", "connecting")
-    Page.served(scene.split(raw"[/\\]").last, subtitle, version, "live")(
+    Page.served(scene.split(raw"[/\\]").last, subtitle, version, scripts(isMoving))(
       div(
         id := "live",
         Viewer.stage(
@@ -29,33 +31,42 @@ object LivePage:
         ),
         div(
           cls := "beside",
-          actions,
+          actions(isMoving),
           p(
             id := "files",
             attr("role") := "status",
             attr("tabindex") := "-1",
             attr("hidden") := ""
           ),
+          Option.when(isMoving)(CameraControls.all),
           Option.when(warnings.nonEmpty)(warned(warnings)),
-          figures(isEstimated),
+          figures(isEstimated, isMoving),
           display,
           div(cls := "readout")
         )
       ),
       tables,
-      p(cls := "soft", keys),
-      h2("Error"),
-      div(id := "charts", p(cls := "soft", "No estimate before the second sample.")),
+      p(cls := "soft", if isMoving then CameraControls.keys else keys),
+      div(
+        id := "errors",
+        Option.when(isMoving)(attr("hidden") := ""),
+        h2("Error"),
+        div(id := "charts", p(cls := "soft", "No estimate before the second sample."))
+      ),
       h2("Scene"),
       Page.facts(("file" -> scene) +: plan)
     )
 
-  private def actions: Frag =
+  private def scripts(isMoving: Boolean): Vector[String] =
+    if isMoving then Vector("live", "move") else Vector("live")
+
+  private def actions(isMoving: Boolean): Frag =
     div(
       cls := "choice",
+      Option.when(isMoving)(CameraControls.tools),
       button(id := "stop", "stop"),
       button(id := "keep", attr("aria-pressed") := "false", "add samples"),
-      button(id := "save", "save"),
+      button(id := "save", if isMoving then "write camera" else "save"),
       button(id := "end", attr("hidden") := "", "end"),
       span(
         id := "progress",
@@ -72,13 +83,15 @@ object LivePage:
     val count = if warnings.sizeIs == 1 then "1 warning" else s"${warnings.size} warnings"
     tag("details")(cls := "warning", tag("summary")(count), warnings.map(p(_)))
 
-  private def figures(isEstimated: Boolean): Frag =
+  private def figures(isEstimated: Boolean, isMoving: Boolean): Frag =
     val error = ErrorCharts(Vector.empty, isEstimated).word("relative error")
     val figures = Vector("samples" -> "samples per pixel", "left" -> "left") ++
       Vector("seconds" -> "rendering", "rate" -> "samples per second", "error" -> error)
+    val absent = if isMoving then Set("left", "error") else Set.empty
+    def hides(key: String) = Option.when(absent(key))(attr("hidden") := "")
     div(
       cls := "tiles",
-      figures.map((key, words) => div(cls := "tile", b(id := key, "–"), span(words)))
+      figures.map((key, words) => div(cls := "tile", hides(key), b(id := key, "–"), span(words)))
     )
 
   /** Controls of how the image is shown. */

@@ -35,6 +35,7 @@ final case class LiveLayer(name: String, title: String, meaning: String)
   * @param stays   whether the page remains when rendering has ended
   * @param saved   files written on request, most recently
   * @param files   written at the end; None: not yet
+  * @param camera  that viewers move, if they do
   */
 final case class LiveState(
     run: String,
@@ -54,10 +55,33 @@ final case class LiveState(
     keepsOn: Option[Boolean],
     stays: Boolean,
     saved: Option[String],
-    files: Option[Vector[String]]
+    files: Option[Vector[String]],
+    camera: Option[LiveCamera] = None
 ):
   /** Whether nothing will change any more. */
   def isFinal: Boolean = files.isDefined
+
+/** The camera that viewers move.
+  *
+  * @param statements that place and describe it
+  * @param native     the same in the format of the scene, with its title, if that is another
+  * @param fov        in degrees, if it has one that can be changed; so are the others
+  * @param lens       radius of the aperture
+  * @param focus      distance in focus
+  * @param remarks    on what can't be changed, and what is lost
+  * @param file       where it can be written
+  * @param problem    why it could not be rendered
+  */
+final case class LiveCamera(
+    statements: String,
+    native: Option[(String, String)],
+    fov: Option[Double],
+    lens: Option[Double],
+    focus: Option[Double],
+    remarks: Vector[String],
+    file: String,
+    problem: Option[String]
+)
 
 /** Formats the live page's data. */
 object LiveData:
@@ -88,8 +112,24 @@ object LiveData:
         "keepsOn" -> s.keepsOn.fold(ujson.Null: ujson.Value)(ujson.Bool(_)),
         "stays" -> s.stays,
         "saved" -> s.saved.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
-        "files" -> s.files.fold(ujson.Null: ujson.Value)(ujson.Arr.from(_))
+        "files" -> s.files.fold(ujson.Null: ujson.Value)(ujson.Arr.from(_)),
+        "camera" -> s.camera.fold(ujson.Null: ujson.Value)(camera)
       )
+    )
+
+  private def camera(c: LiveCamera): ujson.Value =
+    def number(x: Option[Double]) = x.fold(ujson.Null: ujson.Value)(ujson.Num(_))
+    ujson.Obj(
+      "statements" -> c.statements,
+      "native" -> c.native.fold(ujson.Null: ujson.Value)((title, text) =>
+        ujson.Obj("title" -> title, "text" -> text)
+      ),
+      "fov" -> number(c.fov),
+      "lens" -> number(c.lens),
+      "focus" -> number(c.focus),
+      "remarks" -> ujson.Arr.from(c.remarks),
+      "file" -> c.file,
+      "problem" -> c.problem.fold(ujson.Null: ujson.Value)(ujson.Str(_))
     )
 
   /** The error curves, as part of the page. */

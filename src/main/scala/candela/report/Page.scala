@@ -19,12 +19,12 @@ private[candela] object Page:
 
   /** A page that asks the program.
     *
-    * @param script further style and script, by name
+    * @param scripts further styles and scripts, by name
     */
-  def served(heading: String, subtitle: Frag, version: String, script: String)(
+  def served(heading: String, subtitle: Frag, version: String, scripts: Vector[String])(
       parts: Frag*
   ): String =
-    template(heading, subtitle, Vector("page", script))(
+    template(heading, subtitle, "page" +: scripts)(
       parts,
       p(
         cls := "soft",

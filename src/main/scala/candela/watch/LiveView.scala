@@ -1,10 +1,10 @@
 package candela.watch
 
 import candela.base.Version
+import candela.measure.CurvePoint
 import candela.render.{Cancellation, Rendering, RenderPlan}
 import candela.report.{Frame, LivePage, LiveState, Stage}
 
-import java.net.{BindException, InetAddress}
 import java.util.UUID
 import java.util.concurrent.{CountDownLatch, TimeUnit}
 
@@ -42,23 +42,21 @@ final class LiveView(
   @volatile private var saved: Option[String] = None
   @volatile private var files: Option[Vector[String]] = None
 
-  private val actions: Map[String, () => Unit] = Map(
-    "stop" -> (() => stop()),
-    "keep" -> (() => observer.keepsOn.foreach(keeps => observer.keepOn(!keeps))),
-    "save" -> (() => saved = Some(save(observer.rendering))),
-    "end" -> (() => ended.countDown())
-  )
+  private object source extends LiveSource:
+    import LiveSource.action
+    def snapshot: Option[Snapshot] = observer.snapshot
+    def state: LiveState = LiveView.this.state
+    override def points: Vector[CurvePoint] = observer.points
+    val actions: Map[String, LiveSource.Action] = Map(
+      "stop" -> action(stop()),
+      "keep" -> action(observer.keepsOn.foreach(keeps => observer.keepOn(!keeps))),
+      "save" -> action { saved = Some(save(observer.rendering)) },
+      "end" -> action(ended.countDown())
+    )
 
   private val server: LiveServer =
-    val host = address.host.fold(InetAddress.getLoopbackAddress)(InetAddress.getByName)
     val page = LivePage.html(scene, Version.current, plan.features, warnings, isEstimated)
-    def serve(port: Int) =
-      LiveServer(host, port, page, observer, viewers, () => state, actions, isEstimated)
-    address.port match
-      case Some(port) => serve(port)
-      case None =>
-        try serve(DefaultPort)
-        catch case _: BindException => serve(0)
+    LiveServer.at(address, page, source, viewers, isEstimated)
 
   /** Address of the page. */
   def link: String = server.access.link
@@ -116,7 +114,5 @@ final class LiveView(
     )
 
 object LiveView:
-  private val DefaultPort = 8642
-
   /** Viewers have this long to get the last image. */
   private[watch] val LastImageTimeoutNanos = 5_000_000_000L

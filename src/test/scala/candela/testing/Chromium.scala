@@ -142,6 +142,45 @@ final class OpenPage(address: URI) extends AutoCloseable:
       "modifiers" -> modifiers
     )
 
+  private def mouse(kind: String, x: Double, y: Double, buttons: Int): Unit =
+    val _ = call(
+      "Input.dispatchMouseEvent",
+      "type" -> kind,
+      "x" -> x,
+      "y" -> y,
+      "button" -> (if kind == "mouseMoved" && buttons == 0 then "none" else "left"),
+      "buttons" -> buttons,
+      "clickCount" -> 1
+    )
+
+  /** A place of an element in the window, in parts of its width and height. */
+  private def place(selector: String, x: Double, y: Double): (Double, Double) =
+    val box = value(s"(b => [b.x + b.width * $x, b.y + b.height * $y])" +
+      s"(document.querySelector('$selector').getBoundingClientRect())").arr.map(_.num)
+    (box(0), box(1))
+
+  /** Drags the mouse over an element, by places in parts of its width and height. */
+  def drag(selector: String, places: (Double, Double)*): Unit =
+    val (startX, startY) = place(selector, places.head._1, places.head._2)
+    mouse("mousePressed", startX, startY, 1)
+    for (x, y) <- places.tail do
+      val (windowX, windowY) = place(selector, x, y)
+      mouse("mouseMoved", windowX, windowY, 1)
+    val (endX, endY) = place(selector, places.last._1, places.last._2)
+    mouse("mouseReleased", endX, endY, 0)
+
+  /** Moves fingers over an element; each step has the places of all. */
+  def touch(selector: String, steps: Vector[(Double, Double)]*): Unit =
+    def send(kind: String, places: Vector[(Double, Double)]): Unit =
+      val points = places.zipWithIndex.map: (at, id) =>
+        val (x, y) = place(selector, at._1, at._2)
+        ujson.Obj("x" -> x, "y" -> y, "id" -> id)
+      val _ =
+        call("Input.dispatchTouchEvent", "type" -> kind, "touchPoints" -> ujson.Arr.from(points))
+    send("touchStart", steps.head)
+    steps.tail.foreach(send("touchMove", _))
+    send("touchEnd", Vector.empty)
+
   private def call(method: String, parameters: (String, ujson.Value)*): ujson.Value =
     calls += 1
     val message =

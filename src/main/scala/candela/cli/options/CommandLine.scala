@@ -187,6 +187,7 @@ enum Command(val word: String, val module: Option[String] = None):
   case Convert extends Command("convert")
   case View extends Command("view")
   case Preview extends Command("preview")
+  case Move extends Command("move")
   case Image extends Command("image")
   case Average extends Command("average")
   case Info extends Command("info")

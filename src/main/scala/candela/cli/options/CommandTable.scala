@@ -76,6 +76,15 @@ private[cli] object CommandTable extends OptionRows:
         "`--denoise`."
     ),
     CommandRow(
+      Command.Move,
+      "move the camera of a scene on a page in the browser",
+      Vector(file("scene.pbrt", "the scene")),
+      Words.scenes,
+      OptionTable.move,
+      "The page shows each view at once, and the camera as text; it writes a file for " +
+        "`--camera`: [moving the camera](WATCHING.md#moving-the-camera)."
+    ),
+    CommandRow(
       Command.Check,
       "parse and build scenes, and report errors",
       Vector(scenes),

@@ -16,7 +16,7 @@ private[candela] object IdleOptions:
   def of(o: Options): Vector[String] = o.command match
     case Command.Render => scenes(o) ++ rendering(o) ++ pictures(o)
     case Command.Preview => scenes(o) ++ pictures(o)
-    case Command.Check | Command.Convert | Command.Reference => scenes(o)
+    case Command.Check | Command.Convert | Command.Reference | Command.Move => scenes(o)
     case Command.View | Command.Image | Command.Average => pictures(o) ++ halves(o)
     case Command.Resume => interval(o, isFilm = true)
     case Command.Compare => compared(o.compare)

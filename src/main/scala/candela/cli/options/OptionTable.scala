@@ -44,8 +44,17 @@ private[candela] object OptionTable extends OptionRows:
       else failure(s"--nthreads must be at most $MostThreads, found `$n`")
     .action((n, o) => o.controlling(_.copy(threads = n)))
 
+  private def watch(meaning: String): Row =
+    opt[Option[WatchAddress]]("watch").valueName("[PORT]")
+      .text(OptionText(
+        s"$meaning, on this machine only; with ADDRESS:PORT, to anyone who has the link",
+        "[The live page](WATCHING.md)."
+      ))
+      .action((a, o) => o.copy(watch = Some(a.getOrElse(WatchAddress(None, None)))))
+
   private def parsing: Vector[Row] =
-    settings("dialect", "define", "sensor", "light", "background", "at", "animation", "variant")
+    settings("dialect", "define", "sensor", "camera", "light", "background") ++
+      settings("at", "animation", "variant")
 
   /** The command `preview` sets that of its name. */
   private def allSettings: Vector[Row] =
@@ -87,13 +96,7 @@ private[candela] object OptionTable extends OptionRows:
           "--denoise"
       )
       .action((f, o) => o.copy(reference = Some(f))),
-    opt[Option[WatchAddress]]("watch").valueName("[PORT]")
-      .text(OptionText(
-        "serve a live page of the image, on this machine only; with ADDRESS:PORT, to anyone who " +
-          "has the link",
-        "[The live page](WATCHING.md)."
-      ))
-      .action((a, o) => o.copy(watch = Some(a.getOrElse(WatchAddress(None, None))))),
+    watch("serve a live page of the image"),
     opt[Unit]("watch-after")
       .text("keep the live page after rendering, until Ctrl-C or its button `end`")
       .action((_, o) => o.copy(watchAfter = true)),
@@ -198,6 +201,17 @@ private[candela] object OptionTable extends OptionRows:
     quiet,
     verbose("")
   ) ++ DisplayTable.options ++
+    LimitTable.options
+
+  val move: Vector[Row] = Vector[Row](
+    opt[String]('o', "outfile").valueName("FILE")
+      .text("file for the camera (default: the scene's name with -camera.pbrt, in this folder)")
+      .action((f, o) => o.copy(outfiles = Vector(f))),
+    threads,
+    watch("where to serve the page")
+  ) ++ settings("spp", "seed", "resolution", "cropwindow", "aov") ++ parsing ++
+    settings("keep-going", "color", "sampler", "guiding", "caustics", "sky") ++
+    Vector(explain, quiet, verbose(", and what --explain prints")) ++ TextureTable.options ++
     LimitTable.options
 
   val image: Vector[Row] = (ImageTable.options :+ quiet) ++ DisplayTable.imageRows

@@ -80,7 +80,7 @@ object PbrtOptions:
     v4("fullscreen", "", Refused("--watch shows the image while it is rendered")),
     v4("gpu", "", Ignored("the image is the same; it is rendered by processors", isTold = true)),
     v4("gpu-device", "N", Ignored("rendering takes no GPU", isTold = true)),
-    v4("interactive", "", Refused("--watch shows the image while it is rendered")),
+    v4("interactive", "", Refused("`candela move` moves the camera on a page in the browser")),
     v4("log-file", "FILE", Ignored("messages go to standard error: `2> FILE`", isTold = true)),
     v4("log-level", "LEVEL", LogLevel),
     v4("log-utilization", "", Ignored("`--report` shows what the threads did", isTold = true)),

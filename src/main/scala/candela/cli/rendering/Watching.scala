@@ -41,8 +41,8 @@ final class Watching(
     view = options.watch.map(serve(observer, _))
 
   private def serve(observer: Observer, address: WatchAddress): LiveView =
-    try
-      val view = LiveView(
+    val view = Watching.served(address):
+      LiveView(
         scene,
         plan,
         prepared.warnings.distinct.map(ProblemText.format),
@@ -54,26 +54,15 @@ final class Watching(
         save,
         stays = options.watchAfter
       )
-      // Elsewhere nobody can guess the link.
-      if !options.quiet || address.host.isDefined then
-        terminal.err.println(s"watch at ${view.link}")
-      view
-    catch
-      case e: IOException => throw cannotServe(address, Watching.reason(e))
+    // Elsewhere nobody can guess the link.
+    if !options.quiet || address.host.isDefined then
+      terminal.err.println(s"watch at ${view.link}")
+    view
 
   private def cannotReach(host: String, port: Int, cause: IOException): Unit =
     if !options.quiet then
       val message = s"warning: no viewer at $host:$port yet: ${Watching.reason(cause)}"
       terminal.err.println(ProblemText.numbered(message, Code.Viewer))
-
-  private def cannotServe(address: WatchAddress, cause: String): SceneError =
-    val endpoint = (address.host ++ address.port.map(_.toString)).mkString(":")
-    val help = "choose another with --watch PORT or --watch ADDRESS:PORT"
-    SceneError(Problem.general(
-      Code.Viewer,
-      s"can't serve the live page at $endpoint: $cause",
-      Some(help)
-    ))
 
   /** Shows the result; returns when the viewers need the page no longer. */
   def end(rendering: Rendering): Unit =
@@ -89,7 +78,22 @@ final class Watching(
     observer.foreach(_.close())
     view.foreach(_.close())
 
-private object Watching:
+private[cli] object Watching:
+  /** What is served at an address.
+    *
+    * @throws SceneError if that can't be used
+    */
+  def served[A](address: WatchAddress)(view: => A): A =
+    try view
+    catch
+      case e: IOException =>
+        val endpoint = (address.host ++ address.port.map(_.toString)).mkString(":")
+        throw SceneError(Problem.general(
+          Code.Viewer,
+          s"can't serve the live page at $endpoint: ${reason(e)}",
+          Some("choose another with --watch PORT or --watch ADDRESS:PORT")
+        ))
+
   def reason(e: IOException): String = e match
     case unknown: UnknownHostException => s"no such host: ${unknown.getMessage}"
     case other => other.getMessage

@@ -130,7 +130,7 @@ class CommandLineSuite extends AnyFunSuite:
     "--film gbufer a.pbrt" -> "--film must be gbuffer or rgba, found `gbufer`",
     "--define x a.xml" -> "--define must be NAME=VALUE, found `x`",
     "preview --spp 4 a.pbrt" ->
-      "`candela preview` has no option `--spp`; `render`, `resume` and `reference` have it",
+      "`candela preview` has no option `--spp`; `render`, `move`, `resume` and `reference` have it",
     "--spark fake --thumbnail auto a.pbrt" -> "--spark can't be combined with --thumbnail",
     "--spark fake --write-partial-images a.pbrt" ->
       "--spark can't be combined with --write-partial-images",

@@ -92,7 +92,7 @@ final class PbrtOptionsSuite extends AnyFunSuite:
       assert(options(line) == meant)
 
   private val refused = Vector(
-    "--interactive a.pbrt" -> "--interactive is an option of pbrt; here, --watch shows the image",
+    "--interactive a.pbrt" -> "--interactive is an option of pbrt; here, `candela move` moves",
     "--fullscreen a.pbrt" -> "--watch",
     "--debugstart 1,2 a.pbrt" -> "--pixel x,y --sample N --debug",
     "--pixelstats a.pbrt" -> "--aov variance",
