@@ -35,6 +35,13 @@ class ArrayFile:
     def __fspath__(self) -> str:
         return self.path
 
+    def __deepcopy__(self, memo: Any) -> "ArrayFile":
+        return self  # nobody changes it
+
+    def __reduce__(self) -> Any:
+        with open(self.path, "rb") as file:
+            return ArrayFile, (os.path.splitext(self.path)[1], file.read(), self.array)
+
     def __repr__(self) -> str:
         return f"<candela array {self.saved_name}>"
 
@@ -99,10 +106,20 @@ def _rows(name: str, values: Any, width: int, count: Any = "n", kinds: str = "fi
     return array
 
 
-def texture(values: Any) -> ArrayFile:
-    """An image of a texture: linear floats; of 8 bits, sRGB, as Mitsuba's ``Bitmap``."""
+def texture(values: Any, is_raw: bool = False) -> ArrayFile:
+    """An image of a texture: linear floats; of 8 bits, sRGB, unless a ``mitsuba.Bitmap`` says
+    otherwise.
+
+    :param is_raw: whether its values are taken as they are
+    """
     _need_numpy()
     array = np.array(values)
+    gamma = getattr(values, "srgb_gamma", None)
+    if callable(gamma) and not is_raw:
+        if array.dtype == np.uint8 and not gamma():
+            array = array / np.float32(255)
+        elif array.dtype.kind == "f" and gamma():
+            array = _linear(array)
     planes = array[..., None] if array.ndim == 2 else array
     is_bytes = array.dtype == np.uint8
     if not (
@@ -119,6 +136,12 @@ def texture(values: Any) -> ArrayFile:
     layer = "rgb" if planes.shape[2] == 3 else "Y"
     image = Image({layer: planes}, {}, {layer: [*"RGB"] if layer == "rgb" else ["Y"]})
     return ArrayFile(".exr", exr(image), array)
+
+
+def _linear(encoded: Any) -> Any:
+    """Source: IEC 61966-2-1, sRGB."""
+    toe, curve = encoded / 12.92, ((np.maximum(encoded, 0) + 0.055) / 1.055) ** 2.4
+    return np.where(encoded <= 0.04045, toe, curve)
 
 
 def _png(planes: Any) -> bytes:

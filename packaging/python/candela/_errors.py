@@ -182,3 +182,11 @@ def error_of(code: int, lines: List[str], keys: Optional[Keys] = None) -> Candel
     if problems and _MISSING.search(f"{problems[0].number} {problems[0].message}"):
         kind = MissingFileError
     return kind(message or f"candela has ended with exit code {code}", tuple(problems), code)
+
+
+def user_frame() -> int:
+    """How far above a warning the call is that is not of this package."""
+    frame, level = sys._getframe(2), 2
+    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
+        frame, level = frame.f_back, level + 1
+    return level

@@ -53,8 +53,13 @@ class Image:
 
     @property
     def rgb(self) -> Any:
-        """Red, green and blue, in float32."""
-        return self["rgb"]
+        """Red, green and blue, in float32; of a film in luminance or X, Y and Z, converted."""
+        if "rgb" in self.layers or "Y" not in self.layers or np is None:
+            return self["rgb"]
+        if "X" in self.layers and "Z" in self.layers:
+            xyz = np.dstack([self.layers[name] for name in "XYZ"])
+            return (xyz @ np.array(_SRGB_OF_XYZ).T).astype("f4")
+        return np.dstack([self.layers["Y"]] * 3)
 
     @rgb.setter
     def rgb(self, values: Any) -> None:
@@ -63,6 +68,7 @@ class Image:
             expected = " × ".join(map(str, self.shape))
             raise ValueError(f"the image needs an array of {expected}, found {described(values)}")
         self.layers["rgb"] = layers["rgb"]
+        self.layers.pop("Denoised", None)  # pictures would show it
 
     @property
     def shape(self) -> Tuple[int, int, int]:
@@ -160,6 +166,13 @@ def _layers(values: Any) -> Dict[str, Any]:
     copy = np.array(array, "f4")
     return {"rgb": copy} if copy.shape[2] == 3 else {"rgb": copy[..., :3], "alpha": copy[..., 3]}
 
+
+# Source: IEC 61966-2-1, sRGB
+_SRGB_OF_XYZ = [
+    [3.2404542, -1.5371385, -0.4985314],
+    [-0.9692660, 1.8760108, 0.0415560],
+    [0.0556434, -0.2040259, 1.0572252],
+]
 
 # Layers by the names that the option gives them, where those of files are others
 _WORDS = {

@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, Iterator, List, Tuple
 from ._arrays import ArrayFile
 from ._errors import Problem
 from ._transform import Transform
-from ._values import plain
+from ._values import described, plain
 from ._xml import (
     OBJECTS,
     FileElement,
@@ -79,7 +79,7 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         near = difflib.get_close_matches(key, found, 1)
         hint = f"; did you mean {near[0]!r}?" if near else ""
         if key.rpartition(".")[0] in everything:
-            hint += "; give it where the scene is made, if its default is to change"
+            hint = "; give it where the scene is made, if its default is to change"
         raise KeyError(f"the scene has no parameter {key!r}{hint}")
 
     def __getitem__(self, key: str) -> Any:
@@ -89,11 +89,14 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
         parent, old = self._path(key)
         faults: List[Problem] = []
         if isinstance(old, FileElement) and old.is_texture:
-            new = array_of(value, key, faults)
+            is_raw = any(x.get("name") == "raw" and x.get("value") == "true" for x in parent)
+            new = array_of(value, key, faults, is_raw)
         else:
-            new = element_of(old.get("name", ""), _like(old, value), key, faults)
+            new = element_of(old.get("name", ""), _like(old, value, key), key, faults)
         if new is not None and not _fits(old, new):
-            faults.append(fault(key, f"expected `{old.tag}`, found `{new.tag}`"))
+            expected = _KINDS.get(old.tag, f"`{old.tag}`")
+            found = described(value) if new.tag in _KINDS else f"`{new.tag}`"
+            faults.append(fault(key, f"expected {expected}, found {found}"))
         if faults or new is None:
             raise error_of_faults(faults)
         new.tail = old.tail
@@ -138,28 +141,48 @@ _VALUES = set("float integer boolean string vector point rgb spectrum transform"
 
 # What may take each other's places
 _COLORS = {"float", "integer", "rgb", "spectrum", "texture", "volume"}
+_POINTS = {"vector", "point"}
+
+# The elements of values, in words
+_KINDS = {
+    **{tag: "a number, a colour or a texture" for tag in _COLORS},
+    **{tag: "three numbers" for tag in _POINTS},
+    "boolean": "True or False",
+    "string": "a text",
+    "transform": "a transform",
+}
 
 
 def _fits(old: ET.Element, new: ET.Element) -> bool:
-    """Whether a new element may take the place of an object."""
-    if old.tag in _COLORS and new.tag in _COLORS:
-        return True
-    return old.tag not in OBJECTS or new.tag in (old.tag, "ref")
+    """Whether a new element may take the place of another one."""
+    alike = next((tags for tags in (_COLORS, _POINTS) if old.tag in tags), {old.tag})
+    is_object = old.tag in OBJECTS or old.tag == "ref" or old.tag in _COLORS
+    return new.tag in alike or (is_object and new.tag == "ref") or old.tag == "ref"
 
 
-def _like(old: ET.Element, value: Any) -> Any:
+def _like(old: ET.Element, value: Any, key: str) -> Any:
     """A new value, as what the element has been."""
     if isinstance(value, ArrayFile):
         return value
     value = plain(value)
     is_number = isinstance(value, numbers.Real) and not isinstance(value, bool)
     is_list = hasattr(value, "__len__") and not isinstance(value, (str, dict))
+    is_whole = key.endswith(".value")  # what a colour has been stays one
+    if isinstance(value, str) and is_whole and old.tag in ("rgb", "spectrum"):
+        return {"type": old.tag, "value": value}
     if (is_number or is_list) and not is_matrix(value):
-        if old.tag == "rgb" or (is_list and old.tag in ("spectrum", "float", "texture")):
+        if is_list and old.tag in ("rgb", "spectrum", "float", "integer", "texture"):
             return {"type": "rgb", "value": value}
-        if old.tag == "spectrum" and "type" not in old.attrib:
-            return {"type": "spectrum", "value": value}
+        if is_whole and old.tag in ("rgb", "spectrum") and "type" not in old.attrib:
+            return {"type": old.tag, "value": value}
     return value
+
+
+class _Numbers(List[float]):
+    """Those of a value, which is set as a whole."""
+
+    def __setitem__(self, *_: Any) -> None:
+        raise TypeError("a copy of the scene's numbers: change a list, and set the value to it")
 
 
 def _value(element: ET.Element) -> Any:
@@ -179,7 +202,7 @@ def _value(element: ET.Element) -> Any:
             numbers = [float(x) for x in text.replace(",", " ").split()]
             if not text:
                 numbers = [float(element.get(axis, 0)) for axis in "xyz"]
-            return numbers * 3 if len(numbers) == 1 else numbers
+            return _Numbers(numbers * 3 if len(numbers) == 1 else numbers)
         if element.tag == "spectrum" and text:
             return float(text)
     except (ValueError, KeyError):

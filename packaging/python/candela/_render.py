@@ -9,7 +9,7 @@ import warnings
 from pathlib import Path
 from typing import Any, Dict, Iterable, List, Optional, Union
 
-from ._errors import CandelaWarning, Problem, SceneError, UsageError, in_python
+from ._errors import CandelaWarning, Problem, SceneError, UsageError, in_python, user_frame
 from ._image import Image, load
 from ._scene import Scene, load_dict, load_file
 from ._session import Listener, execute
@@ -121,7 +121,8 @@ def _words(options: "dict[str, Value]") -> List[str]:
         elif value is None or value is False:
             continue
         elif isinstance(value, dict):
-            words += [f"{option}={key}={_word(each)}" for key, each in value.items()]
+            pairs = [f"{key}={','.join(map(_word, _items(each)))}" for key, each in value.items()]
+            words += [f"{option}={x}" for x in (pairs if name in _REPEATED else [",".join(pairs)])]
         else:
             try:
                 items = [_word(item) for item in _items(value)]
@@ -146,15 +147,7 @@ def _word(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _user_frame() -> int:
-    """How far above ``_warn`` the call is that is not of this package."""
-    frame, level = sys._getframe(2), 2
-    while frame.f_back is not None and frame.f_globals.get("__package__") == __package__:
-        frame, level = frame.f_back, level + 1
-    return level
-
-
 def _warn(problems: List[Problem]) -> None:
     for problem in problems:
         if problem.severity == "warning":
-            warnings.warn(problem.text, CandelaWarning, stacklevel=_user_frame())
+            warnings.warn(problem.text, CandelaWarning, stacklevel=user_frame())

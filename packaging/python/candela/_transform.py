@@ -40,18 +40,22 @@ class Transform:
         return Transform([[sum(a[i][k] * b[k][j] for k in size) for j in size] for i in size])
 
     def translate(self, v: Sequence[float]) -> "Transform":
-        x, y, z = v
+        x, y, z = _three("a translation", v)
         return self @ Transform([[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]])
 
     def scale(self, v: Union[float, Sequence[float]]) -> "Transform":
         v = plain(v)
-        x, y, z = v if hasattr(v, "__len__") else (v, v, v)  # type: ignore[misc]
+        x, y, z = _three("a scale", v if hasattr(v, "__len__") else [v] * 3)
         return self @ Transform([[x, 0, 0, 0], [0, y, 0, 0], [0, 0, z, 0], [0, 0, 0, 1]])
 
     def rotate(self, axis: Sequence[float], angle: float) -> "Transform":
-        """Counterclockwise about the axis, in degrees."""
+        """Counterclockwise about the axis, which should have length 1, in degrees; with another
+        one, the matrix is Mitsuba's, which is no rotation.
+        """
         # Source: Rodrigues' rotation formula
-        x, y, z = _unit(axis, "the axis of a rotation has length 0")
+        x, y, z = _three("the axis of a rotation", axis)
+        if x == y == z == 0:
+            raise ValueError("the axis of a rotation has length 0")
         s, c = math.sin(math.radians(angle)), math.cos(math.radians(angle))
         k = 1 - c
         return self @ Transform(
@@ -141,6 +145,16 @@ def _cross(a: Sequence[float], b: Sequence[float]) -> List[float]:
         a[2] * b[0] - a[0] * b[2],
         a[0] * b[1] - a[1] * b[0],
     ]
+
+
+def _three(what: str, given: Any) -> List[float]:
+    try:
+        values = [float(x) for x in plain(given)]
+    except (TypeError, ValueError):
+        values = []
+    if len(values) != 3 or not all(map(math.isfinite, values)):
+        raise ValueError(f"{what} needs three numbers, found {described(given)}")
+    return values
 
 
 def _unit(v: Sequence[float], fault: str) -> List[float]:

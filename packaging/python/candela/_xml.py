@@ -5,11 +5,12 @@ from __future__ import annotations
 import difflib
 import math
 import numbers
+import warnings
 import xml.etree.ElementTree as ET
 from typing import Any, Dict, List, Optional, Tuple
 
 from ._arrays import ArrayFile, texture
-from ._errors import Keys, Problem, SceneError
+from ._errors import CandelaWarning, Keys, Problem, SceneError, user_frame
 from ._plugins import ELEMENTS
 from ._transform import is_transform, rows
 from ._values import described, plain
@@ -47,6 +48,12 @@ class FileElement(ET.Element):
     def __init__(self, file: ArrayFile) -> None:
         super().__init__("string", name="filename", value=file.path)
         self.file = file
+
+    def __deepcopy__(self, memo: Any) -> "FileElement":
+        return FileElement(self.file)
+
+    def __reduce__(self) -> Any:
+        return FileElement, (self.file,)
 
     @property
     def is_texture(self) -> bool:
@@ -134,18 +141,33 @@ def _object(
             faults.append(fault(f"{key}.{inner}", message, "E0308"))
             continue
         if kind in ("bitmap", "envmap") and inner in ("data", "bitmap"):
-            child = array_of(each, f"{key}.{inner}", faults)
+            child = array_of(each, f"{key}.{inner}", faults, value.get("raw") is True)
         else:
             child = element_of(inner, each, f"{key}.{inner}", faults)
         if child is not None:
             tree.append(child)
+            if element == "bsdf":
+                _warn_of_range(child, f"{key}.{inner}")
     return tree
 
 
-def array_of(value: Any, key: str, faults: List[Problem]) -> Optional[ET.Element]:
+def _warn_of_range(bitmap: ET.Element, key: str) -> None:
+    """As Mitsuba: such a texture of a BSDF reflects more light than it gets."""
+    for child in bitmap if bitmap.get("type") == "bitmap" else ():
+        array = child.file.array if isinstance(child, FileElement) else None
+        if array is not None and array.dtype.kind == "f":
+            low, high = float(array.min()), float(array.max())
+            if low < 0 or high > 1:
+                message = f"{key}.data: warning: values from {low:g} to {high:g}, expected 0 to 1"
+                warnings.warn(message, CandelaWarning, stacklevel=user_frame())
+
+
+def array_of(
+    value: Any, key: str, faults: List[Problem], is_raw: bool = False
+) -> Optional[ET.Element]:
     """The element of the array of a texture or an environment."""
     try:
-        return FileElement(texture(value))
+        return FileElement(texture(value, is_raw))
     except ValueError as e:
         faults.append(fault(key, str(e)))
         return None
@@ -238,11 +260,12 @@ def in_lines(root: ET.Element) -> Tuple[str, Keys]:
 
 
 def _size(element: ET.Element) -> int:
-    """How many values a list has that is a string of XML."""
+    """How many values a list has that is a string of XML; one of three would be a vector."""
     try:
-        return len([float(x) for x in element.get("value", "").split(",")])
+        size = len([float(x) for x in element.get("value", "").split(",")])
     except ValueError:
         return 0
+    return 0 if element.tag == "string" and size == 3 else size
 
 
 def arrays(root: Optional[ET.Element]) -> List[ArrayFile]:

@@ -15,7 +15,8 @@ import java.util.Objects
   *   job.render(threads = 8).image.save(Path.of("image.exr"))
   * }}}
   *
-  * The library never prints, exits, or changes JVM properties. Scenes and settings are immutable;
+  * The library never prints or exits, and changes no JVM properties but those that LWJGL and
+  * `java.desktop` set for themselves. Scenes and settings are immutable;
   * any number of jobs can be prepared and rendered at the same time.
   */
 object Candela:
@@ -29,7 +30,7 @@ object Candela:
   /** Reads a scene with non-default settings. */
   def read(file: Path, how: ReadSettings): Scene =
     Scenes.read(file.toString, how): how =>
-      Render.read(SceneName.existing(file.toString), how.core, how.control)
+      Render.read(SceneName.existing(Problems.onDisk(file).toString), how.core, how.control)
 
   /** Reads a scene from a text, of pbrt's format or Mitsuba's XML; file names in it are relative to
     * the current folder.
@@ -48,7 +49,7 @@ object Candela:
   def parse(text: String, name: Path, how: ReadSettings): Scene =
     Objects.requireNonNull(text, "text")
     Scenes.read(name.toString, how): how =>
-      Render.readText(name, text, how.core, how.control)
+      Render.readText(Problems.onDisk(name), text, how.core, how.control)
 
   /** Builds a scene in code; file names in it are relative to the current folder. */
   def build(): SceneBuilder = build(Path.of(""))

@@ -98,9 +98,10 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
       control: RenderControl,
       problems: ArrayBuffer[candela.diagnostics.Problem]
   ): FilmKeeper =
-    val path = file.toAbsolutePath
+    val path = Problems.onDisk(file).toAbsolutePath
     val header = FilmHeaders.of(prepared.settings, scene.name, prepared, path)
-    val filmOptions = FilmKeeper.How(control.every.map(_.toNanos * 1e-9), problems += _)
+    val filmOptions =
+      FilmKeeper.How(control.every.map(_.toNanos * 1e-9), problems += _, savesError = true)
     FilmKeeper.of(path, header, filmOptions)(FilmKeeper.locked(path))
 
   private def rendered(
@@ -116,7 +117,7 @@ final class Job private[api] (scene: Scene, settings: RenderSettings, prepared: 
       .map(GoalRule(target, plan.samplesPerPixel, _, earlier = earlier))
     val estimating = recorder.filter(_ => goal.isEmpty)
     val followed = Followed(control.listener, r => image(r, r.image(plan.development), None))
-    val checkpoints = keeper.map(_.checkpointer())
+    val checkpoints = keeper.map(_.checkpointer(n => recorder.flatMap(_.relativeMse(n))))
     val coreControl = CoreControl(
       control.threads,
       CoreCancellation(control.cancellation.core, closing),

@@ -22,7 +22,10 @@ private[api] object NamedOptions:
       Problems.fail(Code.OptionValue, s"setting `$name` takes $wanted, $actual")
     val text = value.getOrElse("")
     val changed = setting.change(text).getOrElse:
-      Problems.fail(Code.OptionValue, s"wrong value of `$name`: `${setting.wrong(text)}`")
+      Problems.fail(
+        Code.OptionValue,
+        s"`$name` must be ${setting.wanted(text)}, found `${setting.wrong(text)}`"
+      )
     if (changed(default).reading != default.reading) != isRead then
       val (owner, reason) =
         if isRead then ("RenderSettings", "of rendering scenes")

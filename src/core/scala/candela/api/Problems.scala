@@ -3,6 +3,8 @@ package candela.api
 import candela.diagnostics.{Code, SceneError}
 import candela.image.{ImageError, MissingNatives}
 
+import java.nio.file.{FileSystems, Path}
+
 import scala.jdk.CollectionConverters.*
 
 /** Problems of the core, for callers. */
@@ -28,6 +30,17 @@ private[api] object Problems:
       case e: SceneError => throw SceneException(e.problems)
       case e: ImageError => fail(e.code, e.getMessage)
       case e: MissingNatives => fail(Code.MissingLibrary, e.getMessage, Some(e.help))
+
+  /** The path; of another file system, such as a zip's, its name would be another file's.
+    *
+    * @throws SceneError if it is of another one
+    */
+  def onDisk(path: Path): Path =
+    if path.getFileSystem != FileSystems.getDefault then
+      val help = Some("copy it to a file, or read its text: Candela.parse")
+      val message = s"`$path` is no file of the default file system"
+      throw SceneError(candela.diagnostics.Problem.general(Code.Unreadable, message, help))
+    path
 
   def fail(code: Code, message: String, help: Option[String] = None): Nothing =
     throw SceneException(Vector(candela.diagnostics.Problem.general(code, message, help)))

@@ -85,8 +85,13 @@ final class ReadSettings private (
       Problems.fail(Code.OptionMisfit, s"`$name` $value is for several images; a scene has one")
     new ReadSettings(changed, control)
 
-  /** Which of the worlds of a file of pbrt-v2 or v3 to read, from 0. */
-  def withWorld(number: Int): ReadSettings = controlled(control.copy(world = Some(number)))
+  /** Which of the worlds of a file of pbrt-v2 or v3 to read, from 0; if it is not given, the first,
+    * with a warning if there are others. One that the file has not is an error.
+    */
+  def withWorld(number: Int): ReadSettings =
+    if number < 0 then
+      Problems.fail(Code.OptionValue, s"`number` must be at least 0, found $number")
+    controlled(control.copy(world = Some(number)))
 
   /** As `ReadSettings(--dialect v3, sandbox)`: what is not the default. */
   override def toString: String =
@@ -101,7 +106,8 @@ final class ReadSettings private (
 
 object ReadSettings:
   /** The default settings. */
-  def apply(): ReadSettings = new ReadSettings(CoreSettings(), BuildControl(cache = Keep()))
+  def apply(): ReadSettings =
+    new ReadSettings(CoreSettings(), BuildControl(world = None, cache = Keep()))
 
   /** The default settings, for Java and Kotlin. */
   def create(): ReadSettings = apply()

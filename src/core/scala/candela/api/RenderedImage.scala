@@ -73,7 +73,7 @@ final class RenderedImage private[api] (
     *
     * @throws SceneException if it can't be written
     */
-  def save(file: Path): Unit = Problems.thrown(encode(file).save())
+  def save(file: Path): Unit = Problems.thrown(encode(Problems.onDisk(file)).save())
 
   /** The bytes that [[save]] writes in a format: `exr`, `png` or another suffix of a file.
     *

@@ -8,4 +8,10 @@ import scala.jdk.CollectionConverters.*
   * looked up at run time.
   */
 object Services:
-  def installed[A](service: Class[A]): Iterator[A] = ServiceLoader.load(service).iterator.asScala
+  /** Those beside this program, and those that the thread sees: threads of a pool may see others
+    * than the thread that started it.
+    */
+  def installed[A](service: Class[A]): Iterator[A] =
+    val loaders = Vector(getClass.getClassLoader, Thread.currentThread.getContextClassLoader)
+    loaders.iterator.flatMap(ServiceLoader.load(service, _).iterator.asScala)
+      .distinctBy(_.getClass.getName)

@@ -56,7 +56,7 @@ final class ColorSpace private (
     val primaries: Primaries,
     val illuminant: Spectrum,
     val xyzOfRgb: Matrix3,
-    private[color] val rgbOfXyz: Matrix3
+    val rgbOfXyz: Matrix3
 ):
   def isSrgb: Boolean = this eq ColorSpace.Srgb
 

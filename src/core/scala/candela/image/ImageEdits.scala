@@ -24,10 +24,11 @@ object ImageEdits:
       data(i) = image.data(i / indices.length * image.channels + indices(i % indices.length))
     Image(image.width, image.height, names, data, image.encoding, image.colorSpace)
 
-  /** The three channels of a layer, such as `N.X`, `N.Y` and `N.Z`, as R, G and B: how a picture
-    * shows it. Other images are returned as they are.
+  /** How a picture shows an image: X, Y and Z are converted; the three channels of a layer, such as
+    * `N.X`, `N.Y` and `N.Z`, are taken as R, G and B. Other images are returned as they are.
     */
-  def layerAsColors(image: Image): Image =
+  def layerAsColors(source: Image): Image =
+    val image = PixelFormat.colors(source)
     val components = image.channelNames.map(_.split('.').last)
     if components == Image.RgbNames || components == Vector("X", "Y", "Z") then
       Image(image.width, image.height, Image.RgbNames, image.data, image.encoding, image.colorSpace)

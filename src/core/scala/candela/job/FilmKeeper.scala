@@ -38,7 +38,7 @@ final class FilmKeeper private (
       header.copy(
         done = done,
         // A film without images may be one of several parts: their sum has no error
-        error = noise.filter(_ => header.outfiles.nonEmpty)
+        error = noise.filter(_ => header.outfiles.nonEmpty || how.savesError)
           .map(i => FilmError(i.estimate, i.low, i.high))
       )
     // A damaged file must not replace its previous copy.
@@ -54,8 +54,9 @@ object FilmKeeper:
 
   /** @param every seconds between two copies; none: as often as is worth it
     * @param warn  receives what can't be read or written
+    * @param savesError whether the error of a film without images is saved, too
     */
-  final case class How(every: Option[Double], warn: Problem => Unit)
+  final case class How(every: Option[Double], warn: Problem => Unit, savesError: Boolean = false)
 
   /** A new film file, or the saved rendering of an existing one.
     *
@@ -158,7 +159,8 @@ object FilmKeeper:
       for difference <- now.difference(film.header) do
         val isLonger = now.copy(samples = film.header.samples).difference(film.header).isEmpty &&
           now.samples > film.header.samples
-        val resuming = s"`candela resume $path --spp ${now.samples}` adds samples; or "
+        val resuming = s"`candela resume $path --spp ${now.samples}` adds samples, " +
+          "unless its sampler's points depend on their number; or "
         val help = if isLonger then resuming + Remove else Remove
         fail(Code.OtherRendering, s"`$path` belongs to another rendering: $difference", help)
       if film.header.shards != now.shards then

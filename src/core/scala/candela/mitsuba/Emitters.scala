@@ -221,6 +221,9 @@ final class Emitters(
     in.warnUnsupported("ignored", "to_uv")
     Seq.empty
 
-private object Emitters:
+private[mitsuba] object Emitters:
+  /** Types of which Mitsuba takes one. */
+  val Surroundings: Set[String] = Set("constant", "envmap", "sunsky", "timed_sunsky")
+
   /** Types with a place or a direction of their own, which shapes may contain. */
   private val Placed = Set("directional", "point", "projector", "spot")

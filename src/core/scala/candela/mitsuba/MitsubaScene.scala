@@ -75,6 +75,12 @@ private final class Translation(session: Session, file: Path):
     // Those that need a mesh are translated with it
     objectsOf("bsdf").filterNot(surfaces.textureTypes(_).exists(MeshAttributes.Types))
       .foreach(p => session.attempt(surfaces(p)))
+    Properties.warnOfSurplus(objectsOf("integrator"), "integrator", "a scene", session)
+    for
+      surplus <- objectsOf("emitter").filter(p => Emitters.Surroundings(p.name) && !p.isOld).drop(1)
+    do
+      val message = "Mitsuba takes one light from everywhere; this one is added to the others"
+      session.warn(Code.Nesting, surplus.pos, message)
     val lights = objectsOf("emitter").flatMap(emitters(_)) ++ emitters.ofNoSurface
     val (open, close) = session.shutter
     val start = SourcePos(file.toString, 1, 1)

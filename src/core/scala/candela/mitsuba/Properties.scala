@@ -123,6 +123,12 @@ final class Properties(val plugin: Plugin, val session: Session):
     if name.nonEmpty then note(name, kind) else note(s"<$kind>", kind)
     named(kind).collect { case (of, child) if name.isEmpty || of == name => child }
 
+  /** The nested or referenced object of a kind; others are ignored, with a warning each. */
+  def single(kind: String): Option[Plugin] =
+    val all = nested(kind)
+    Properties.warnOfSurplus(all, kind, plugin.description, session)
+    all.headOption
+
   /** The same of any name, with their names. */
   def named(kind: String): Vector[(String, Plugin)] =
     for
@@ -185,5 +191,9 @@ final class Properties(val plugin: Plugin, val session: Session):
           )
 
 private[mitsuba] object Properties:
+  def warnOfSurplus(all: Vector[Plugin], kind: String, owner: String, session: Session): Unit =
+    for surplus <- all.drop(1) do
+      session.warn(Code.Nesting, surplus.pos, s"$owner has one $kind; this one is ignored")
+
   /** A number without needless digits. */
   def text(x: Double): String = x.toFloat.toString.stripSuffix(".0")

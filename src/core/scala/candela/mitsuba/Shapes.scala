@@ -89,15 +89,12 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
 
   private def shape(in: Properties): Vector[ShapeDescription] =
     in.ignore("silhouette_sampling_weight", "filename_id")
-    val emitter = in.nested("emitter").headOption
+    val emitter = in.single("emitter")
     in.nested("sensor"): Unit
-    val bsdf = in.nested("bsdf")
-    bsdf.drop(1).foreach(b =>
-      session.warn(Code.Nesting, b.pos, "a shape has one bsdf; this one is ignored")
-    )
-    val attributes = bsdf.headOption.flatMap(attributesFor(in, _))
+    val bsdf = in.single("bsdf")
+    val attributes = bsdf.flatMap(attributesFor(in, _))
     val scattering = in.nested("subsurface").headOption
-    val (surface, material) = bsdf.headOption match
+    val (surface, material) = bsdf match
       case inner if scattering.isDefined =>
         val s = surfaces.scattering(scattering.get, inner.map(surfaces(_)))
         (s, MaterialRef.Inline(s.material))

@@ -94,7 +94,7 @@ final class Textures(session: Session, colors: Colors):
 
   private def plain(p: Plugin, valueType: String, scale: Float): Option[String] =
     val parameters = p.name match
-      case "bitmap" => session.translate(p)(bitmap).map((_, GraphicsState.Identity))
+      case "bitmap" => session.translate(p)(bitmap(_, valueType)).map((_, GraphicsState.Identity))
       case "checkerboard" =>
         session.translate(p)(checkerboard(_, valueType)).map((_, GraphicsState.Identity))
       case "volume" => session.translate(p)(volume(_, valueType))
@@ -133,7 +133,7 @@ final class Textures(session: Session, colors: Colors):
     descriptions += TextureDescription(unique, valueType, t, toWorld)
     unique
 
-  private def bitmap(in: Properties): Option[(String, Seq[Param])] =
+  private def bitmap(in: Properties, valueType: String): Option[(String, Seq[Param])] =
     val position = in.pos
     val filter = filterOf(in)
     val wrap = wrapOf(in)
@@ -145,13 +145,20 @@ final class Textures(session: Session, colors: Colors):
       name <- in.text("filename").orElse:
         session.error(Code.MissingParameter, position, "a bitmap must have a `filename`")
         None
-      path <- session.file(name, in.posOf("filename"), s"using ${Textures.Fallback.r}")
-    yield "imagemap" -> (Seq(
-      Param.string("filename", in.posOf("filename"), session.named(path)),
-      Param.string("filter", position, if filter == "nearest" then "point" else "bilinear"),
-      Param.string("wrap", position, wrap),
-      Param.string("encoding", position, encoding)
-    ) ++ mapping)
+    yield
+      val at = in.posOf("filename")
+      val isColor = valueType == "spectrum"
+      // As for images of pbrt's scenes
+      session.file(name, at, if isColor then "using magenta" else "using the constant 1") match
+        case None if isColor => "constant" -> Seq(Textures.rgb("value", Rgb(1f, 0f, 1f), at))
+        case None => "constant" -> Seq(Param.float("value", at, 1f))
+        case Some(path) =>
+          "imagemap" -> (Seq(
+            Param.string("filename", at, session.named(path)),
+            Param.string("filter", position, if filter == "nearest" then "point" else "bilinear"),
+            Param.string("wrap", position, wrap),
+            Param.string("encoding", position, encoding)
+          ) ++ mapping)
 
   private def filterOf(in: Properties): String =
     val filter = in.word("filter_type", "bilinear", "bilinear", "nearest", "trilinear", "ewa")

@@ -13,16 +13,16 @@ final class Views(session: Session, media: Media, image: String):
   /** The scene as seen by a sensor. */
   def addSensor(p: Plugin, from: SceneDescription): SceneDescription =
     session.translate(p): in =>
-      val (width, height, film) = in.nested("film").headOption match
+      val (width, height, film) = in.single("film") match
         case Some(f) => session.translate(f)(filmOf)
         case None => filmOf(Properties(plain("film", "hdrfilm", in.pos), session))
       val (seenWidth, seenHeight) =
         session.resolution.fold((width, height))(_.of(width, height))
       val filter = in.nested("film").headOption
-        .flatMap(f => Properties(f, session).nested("rfilter").headOption)
+        .flatMap(f => Properties(f, session).single("rfilter"))
         .getOrElse(plain("rfilter", "gaussian", in.pos))
       val sampler =
-        in.nested("sampler").headOption.getOrElse(plain("sampler", "independent", in.pos))
+        in.single("sampler").getOrElse(plain("sampler", "independent", in.pos))
       in.ignore("srf")
       val toWorld = in.motion("to_world").getOrElse(GraphicsState.Identity)
       val medium = in.nested("medium").headOption.fold("")(media(_))

@@ -115,6 +115,10 @@ private[scenefile] final class ParserRun(
         problems.add(Problem.general(Code.NoWorld, s"`${source.name}` has no WorldBegin; $hint"))
       case None => ()
       case Some(begin) =>
+        if worldsToSkip > 0 then
+          val message =
+            s"`${source.name}` has no world $world; the last one is ${world - worldsToSkip}"
+          problems.add(Problem.general(Code.OptionMisfit, message))
         misplaced.result().foreach(problems.add)
         scene.displacedDefinitions(dialect).foreach(problems.add)
         for at <- trailing if !isFollowed || dialect == Dialect.V4 do

@@ -344,7 +344,7 @@ class LibrarySuite extends AnyFunSuite:
     assert(refused(RenderSettings().withOption(
       "seed",
       "x"
-    )).message == "wrong value of `seed`: `x`")
+    )).message == "`seed` must be a whole number, found `x`")
     assert(refused(
       RenderSettings().withOption("seed")
     ).message == "setting `seed` takes a value, found none")

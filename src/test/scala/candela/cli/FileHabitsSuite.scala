@@ -5,7 +5,7 @@ import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.image.{Image, ImageFiles}
+import candela.image.{Image, ImageFiles, PixelFormat}
 import candela.testing.{Gzip, TempFolder}
 
 /** Files as they come: names in any language, compressed, with Windows line ends, in folders. */
@@ -135,3 +135,12 @@ class FileHabitsSuite extends AnyFunSuite:
       assert(channels("xyza", "b.exr").toSet == Set("X", "Y", "Z", "A"))
       assert(channels("rgb", "c.exr") == Image.RgbNames)
       assert(channels("luminance", "d.png") == Image.RgbNames)
+      val shown = folder.resolve("b.png")
+      val _ = run("image", folder.resolve("b.exr").toString, "--outfile", shown.toString)
+      val Vector(r, g, b) = ImageFiles.read(shown).toRgb.data.take(3).toVector: @unchecked
+      assert(Math.abs(r - 0.2) < 0.01 && Math.abs(g - 0.5) < 0.01 && Math.abs(b - 0.9) < 0.01)
+
+  test("depth beside X, Y and Z has a name of its own"):
+    val data = Array(0.2f, 0.5f, 0.9f, 7f)
+    val image = Image(1, 1, Image.RgbNames :+ "Z", data)
+    assert(PixelFormat.Tristimulus(image).channelNames == Vector("X", "Y", "Z", "Depth.Z"))

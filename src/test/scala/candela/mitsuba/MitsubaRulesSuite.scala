@@ -275,3 +275,29 @@ class MitsubaRulesSuite extends AnyFunSuite:
     // 0.6 took any
     val old = ball("type=\"diffuse\">", medium(rgb("sigmaT") + rgb("albedo")))
     assert(rejected(old, "0.6.0").isEmpty)
+
+  test("of what Mitsuba takes one, others are told"):
+    val ball = "<shape type=\"sphere\"><emitter type=\"area\"/><emitter type=\"area\"/></shape>"
+    val twice = Path6 + Path6 + ball + "<emitter type=\"constant\"/>" * 2 +
+      sensor("<rfilter type=\"box\"/>", "<sampler type=\"halton\"/>")
+    inFile(twice): scene =>
+      val messages = scene.warnings.map(_.message)
+      for kind <- Vector("integrator", "emitter", "sampler", "rfilter") do
+        assert(messages.count(_.endsWith(s"has one $kind; this one is ignored")) == 1, messages)
+      assert(messages.count(_.contains("Mitsuba takes one light from everywhere")) == 1, messages)
+
+  test("missing images are placeholders as those of pbrt's scenes"):
+    val map =
+      "<texture type=\"bitmap\" name=\"NAME\"><string name=\"filename\" value=\"no.png\"/>" +
+        "</texture>"
+    val bsdf = "<bsdf type=\"principled\">" + map.replace("NAME", "base_color") +
+      map.replace("NAME", "roughness") + "</bsdf>"
+    val text = s"<scene version=\"3.0.0\">${sensor()}<shape type=\"sphere\">$bsdf</shape></scene>"
+    val file = Files.createTempFile("candela", ".xml")
+    try
+      val _ = Files.writeString(file, text)
+      val scene = MitsubaScene.readable(file, Map.empty, keepGoing = true)
+      assert(scene.errors.isEmpty, scene.errors)
+      val told = scene.warnings.flatMap(_.standIn).toSet
+      assert(told == Set("using magenta", "using the constant 1"), told)
+    finally Files.delete(file)

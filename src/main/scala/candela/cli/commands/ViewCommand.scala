@@ -25,7 +25,10 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
         s"`view` writes $pictures, found `$path`"
       ))
     val images = options.files.map(OutputFiles.path).map: path =>
-      path -> ImageFiles.colored(path, Denoising.displayed(ImageFiles.read(path)))
+      path -> ImageFiles.colored(
+        path,
+        ImageEdits.layerAsColors(Denoising.displayed(ImageFiles.read(path)))
+      )
     val about = OutputFiles.sources(images.map(_._1))
     images match
       case Vector((_, image)) =>

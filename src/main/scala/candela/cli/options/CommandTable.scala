@@ -2,7 +2,7 @@ package candela.cli.options
 
 import candela.diagnostics.Code
 import candela.guiding.GuidingMode
-import candela.settings.{RenderRegion, RenderSettings}
+import candela.settings.{RenderRegion, RenderSettings, SettingsTable}
 
 import scopt.{OParser, OptionDef}
 
@@ -266,7 +266,12 @@ private[cli] object CommandTable extends OptionRows:
   /** What is wrong with the words of a command line, of which one may name a part of the image. */
   def problem(words: Seq[String]): Option[String] =
     val regions = words.map(_.takeWhile(c => c != '=' && c != ':')).filter(Regions)
+    val assigned = words.find(word => word.contains('=') && Flags(word.takeWhile(_ != '=')))
     Option.when(regions.size > 1):
       "only one of --cropwindow, --pixelbounds and --pixel can be given"
+    .orElse(assigned.map: word =>
+      val (flag, value) = word.splitAt(word.indexOf('='))
+      s"$flag takes no value, found `${value.drop(1)}`")
 
+  private val Flags = SettingsTable.all.filterNot(_.takesValue).map("--" + _.name).toSet
   private val Regions = Set("--cropwindow", "--pixelbounds", "--pixel")

@@ -69,7 +69,10 @@ private[cli] object ImageTable extends OptionRows:
   private val linear = OutputFormat.listed(Contents.Radiance, Contents.Channels)
 
   private def outfile: Row =
-    opt[Seq[String]]('o', "outfile").required().unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]](
+      'o',
+      "outfile"
+    )(using fileNames).required().unbounded().valueName("FILE[,FILE]")
       .text(s"image to write, ${OutputFormat.listed()}")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f))
 

@@ -40,6 +40,12 @@ private[candela] trait OptionRows:
       if of.isRepeatable then lettered.unbounded() else lettered
     else b.opt[Unit](of.name).text(text).action((_, o) => of.change("").fold(o)(o.setting))
 
+  /** Of files, which commas separate; a comma behind no suffix belongs to a name. */
+  protected final val fileNames: Read[Seq[String]] = Read.reads: text =>
+    text.split(",").foldLeft(Vector.empty[String]): (names, part) =>
+      if names.isEmpty || names.last.matches(".*\\.[A-Za-z]+") then names :+ part
+      else names.init :+ s"${names.last},$part"
+
   /** Of a list, as of `,`, nothing may be left. */
   protected final def nonEmpty(option: String)(all: Seq[?]): Either[String, Unit] =
     if all.nonEmpty then b.success

@@ -61,7 +61,7 @@ private[candela] object OptionTable extends OptionRows:
     SettingsTable.all.filter(_.name != Command.Preview.word).map(row(_))
 
   val render: Vector[Row] = Vector(
-    opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]]('o', "outfile")(using fileNames).unbounded().valueName("FILE[,FILE]")
       .text(OptionText(
         s"output image, ${OutputFormat.listed()}; several: the same image in each format",
         "The suffix selects the format; `x.exr,x.png` are image and preview. A name that ends " +
@@ -84,7 +84,7 @@ private[candela] object OptionTable extends OptionRows:
     opt[Unit]("write-partial-images")
       .text("write the image at 1, 2, 4, 8, ... samples per pixel, too")
       .action((_, o) => o.copy(partialImages = true)),
-    opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]]("report")(using fileNames).unbounded().valueName("FILE[,FILE]")
       .text(OptionText(
         "write error over time as .html, .json or .csv; the image is unaffected",
         "[What a report shows](BENCH.md#a-single-rendering)."
@@ -120,7 +120,10 @@ private[candela] object OptionTable extends OptionRows:
     TextureTable.scenes ++ Vector(quiet, verbose(", and the time of each phase"))
 
   val merge: Vector[Row] = Vector(
-    opt[Seq[String]]('o', "outfile").required().unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]](
+      'o',
+      "outfile"
+    )(using fileNames).required().unbounded().valueName("FILE[,FILE]")
       .text(s"output image, ${OutputFormat.listed()}; or .film: the merged film")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f))
   ) ++ FilmTable.merge ++ Vector(quiet, verbose(""))
@@ -181,7 +184,7 @@ private[candela] object OptionTable extends OptionRows:
   ) ++ parsing ++ Vector(quiet, verbose("")) ++ LimitTable.options
 
   val view: Vector[Row] = Vector[Row](
-    opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]]('o', "outfile")(using fileNames).unbounded().valueName("FILE[,FILE]")
       .text(s"picture to write, ${OutputFormat.listed(Contents.Display)} (default: the terminal)")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
     opt[Int]("columns").valueName("N")
@@ -192,7 +195,7 @@ private[candela] object OptionTable extends OptionRows:
   ) ++ DisplayTable.options
 
   val preview: Vector[Row] = Vector[Row](
-    opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]]('o', "outfile")(using fileNames).unbounded().valueName("FILE[,FILE]")
       .text("picture to write (default: the scene's name with -preview.png, in this folder)")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
     threads

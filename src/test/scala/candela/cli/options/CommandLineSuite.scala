@@ -40,6 +40,8 @@ class CommandLineSuite extends AnyFunSuite:
       one.setting(_.copy(quick = true)).copy(quiet = true, verbose = true, explain = true),
     "a.pbrt --outfile x.exr" -> one.copy(outfiles = Vector("x.exr")),
     "a.pbrt --outfile x.exr,y.png" -> one.copy(outfiles = Vector("x.exr", "y.png")),
+    "a.pbrt --outfile lr=0.1,b=2/x,1.exr,y.png" ->
+      one.copy(outfiles = Vector("lr=0.1,b=2/x,1.exr", "y.png")),
     "--outfile x.exr a.pbrt --outfile y.png" -> one.copy(outfiles = Vector("x.exr", "y.png")),
     "a.pbrt --cropwindow 0.25,0.75,0,1" ->
       in(RenderRegion.Window(0.25f, 0.75f, 0f, 1f)),
@@ -123,6 +125,7 @@ class CommandLineSuite extends AnyFunSuite:
     "--spp 4 --spp 8 a.pbrt" -> "--spp is given twice",
     "--quiet --quiet a.pbrt" -> "--quiet is given twice",
     "-j 2 --nthreads 2 a.pbrt" -> "--nthreads is given twice",
+    "--guiding=on --keep-going=0 a.pbrt" -> "--keep-going takes no value, found `0`",
     "--frames 3-1 a%d.pbrt" -> "with first <= last, e.g. 0-350x10, found `3-1`",
     "--seed 99999999999 a.pbrt" -> "--seed must be at most 2147483647, found `999",
     "--tonemap filmik a.pbrt" -> "found `filmik`; did you mean `filmic`?",

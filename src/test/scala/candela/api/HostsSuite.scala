@@ -1,0 +1,72 @@
+package candela.api
+
+import candela.testing.TempFolder
+
+import java.net.URI
+import java.nio.file.{FileSystems, Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import scala.util.Using
+
+/** What programs have that command lines have not. */
+class HostsSuite extends AnyFunSuite:
+
+  private def numbers(problems: java.util.List[Problem]) =
+    Vector.tabulate(problems.size)(problems.get(_).number)
+
+  private def inFile(text: String)(body: Path => Any): Any =
+    TempFolder.use(folder => body(Files.writeString(folder.resolve("s.pbrt"), text)))
+
+  test("a world that the file has not is an error; the first is read with a warning of others"):
+    def world(width: Int) = s"""Film "image" "integer xresolution" $width "integer yresolution" 2
+      |Camera "perspective"
+      |WorldBegin
+      |LightSource "infinite"
+      |WorldEnd
+      |""".stripMargin
+    inFile(world(3) + world(5)): file =>
+      def read(n: Int) = Candela.read(file, ReadSettings().withWorld(n))
+      def width(scene: Scene) = Using.resource(scene.prepare(RenderSettings(), 1))(_.width)
+      assert(width(read(0)) == 3 && width(read(1)) == 5 && numbers(read(1).problems).isEmpty)
+      val first = Candela.read(file)
+      assert(numbers(first.problems) == Vector("E0208") && width(first) == 3)
+      assert(read(2).hasErrors && read(99).hasErrors)
+      val message = intercept[SceneException](width(read(2))).getMessage
+      assert(message.contains("has no world 2; the last one is 1"), message)
+      assert(
+        intercept[SceneException](ReadSettings().withWorld(-1)).getMessage.contains("found -1")
+      )
+
+  test("a film whose error is low enough already gets no more samples"):
+    TempFolder.use: folder =>
+      val settings = RenderSettings().withError(0.2)
+      val control = RenderControl().withThreads(2).withFilm(folder.resolve("a.film"))
+      def samples() =
+        val scene = Candela.parse(LibraryScenes.text(samples = 4096))
+        Using.resource(scene.prepare(settings, 2))(_.render(control)).samplesPerPixel
+      val first = samples()
+      assert(first < 4096 && samples() == first && samples() == first)
+
+  test("a path of another file system is refused, and not looked for on the disk"):
+    inFile(LibraryScenes.text()): file =>
+      val zip = URI.create("jar:" + file.resolveSibling("a.zip").toUri)
+      Using.resource(FileSystems.newFileSystem(zip, java.util.Map.of("create", "true"))): inside =>
+        val path = inside.getPath(file.toString)
+        def refusal(body: => Any) = intercept[SceneException](body).getMessage
+        val reading = Candela.read(path)
+        assert(reading.hasErrors && reading.problems.get(0).message.contains("default file system"))
+        Using.resource(Candela.read(file).prepare(RenderSettings(), 1)): job =>
+          val image = job.render(1).image
+          assert(refusal(image.save(inside.getPath("a.png"))).contains("default file system"))
+          val control = RenderControl().withFilm(inside.getPath("a.film"))
+          assert(refusal(job.render(control)).contains("default file system"))
+
+  test("models are read whatever classes the first thread sees"):
+    val thread = Thread.currentThread
+    val own = thread.getContextClassLoader
+    thread.setContextClassLoader(ClassLoader.getPlatformClassLoader)
+    try
+      val formats = candela.base.Services.installed(classOf[candela.job.SceneFormat]).toVector
+      assert(formats.map(_.name).contains("glTF"))
+    finally thread.setContextClassLoader(own)
