@@ -1,8 +1,10 @@
 """Tests of the installed module: python -m unittest packaging/test_candela.py"""
 
 import contextlib
+import copy
 import io
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -592,6 +594,114 @@ class InMemory(unittest.TestCase):
             warnings.simplefilter("always")
             candela.load_dict(scene).render(spp=1)
         self.assertEqual([w.filename for w in caught], [__file__])
+
+
+class Kept(unittest.TestCase):
+    """Values of scenes that are changed, copied and taken from other modules."""
+
+    def scene(self, reflectance=0.5):
+        return candela.load_dict({
+            "type": "scene",
+            "integrator": {"type": "path"},
+            "sensor": {
+                "type": "perspective",
+                "to_world": candela.Transform().look_at([0, 0, -4], [0, 0, 0], [0, 1, 0]),
+                "film": {"type": "hdrfilm", "width": 4, "height": 4, "rfilter": {"type": "box"}},
+            },
+            "sky": {"type": "constant"},
+            "red": {"type": "diffuse", "reflectance": reflectance},
+            "ball": {"type": "sphere", "radius": 1.0, "bsdf": {"type": "ref", "id": "red"}},
+            "lamp": {"type": "point", "position": [0, 0, -5], "intensity": 20.0},
+        })
+
+    def test_a_value_of_another_kind_is_refused_and_spoils_nothing(self):
+        scene = self.scene({"type": "rgb", "value": [0.1, 0.2, 0.3]})
+        values = scene.parameters()
+        for name, wrong, right in (
+            ("red.reflectance.value", True, [0.5, 0.5, 0.5]),
+            ("ball.radius", "big", 2.0),
+            ("lamp.position", 0.5, [0, 0, 5]),
+        ):
+            with self.assertRaises(candela.SceneError) as caught:
+                values[name] = wrong
+            self.assertIn("expected", str(caught.exception))
+            values[name] = right
+            self.assertEqual(values[name], right)
+        with self.assertRaises(TypeError):
+            values["red.reflectance.value"][0] = 0
+
+    def test_a_number_after_a_spectrum_is_the_number(self):
+        scene = self.scene()
+        values = scene.parameters()
+        values["lamp.intensity"] = {"type": "spectrum", "value": 20.0}
+        values["lamp.intensity.value"] = 10.0
+        self.assertIn("<spectrum", scene.source()[1])
+        values["lamp.intensity"] = 20.0
+        self.assertNotIn("<spectrum", scene.source()[1])
+
+    def test_scenes_with_arrays_are_copied_and_pickled(self):
+        pixels = np.full((2, 2, 3), 0.25, "f4")
+        scene = self.scene({"type": "bitmap", "data": pixels})
+        image = scene.render(spp=2)
+        copied, unpickled = copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))
+        del scene
+        for other in (copied, unpickled):
+            self.assertTrue((other.render(spp=2).rgb == image.rgb).all())
+            self.assertIn("red.reflectance.data", other.parameters())
+
+    def test_a_bitmap_says_whether_it_is_encoded(self):
+        class Bitmap:
+            def __init__(self, values, gamma):
+                self.values, self.gamma = values, gamma
+
+            def srgb_gamma(self):
+                return self.gamma
+
+            def __array__(self, dtype=None, copy=None):
+                return self.values
+
+        grey, half = np.full((2, 2, 3), 128, np.uint8), np.full((2, 2, 3), 0.5, "f4")
+        for values, gamma, expected in (
+            (grey, False, 128 / 255),
+            (grey, True, 0.21586),
+            (half, True, 0.21404),
+            (half, False, 0.5),
+        ):
+            scene = self.scene({"type": "bitmap", "data": Bitmap(values, gamma)})
+            albedo = scene.render(spp=1, aov=["albedo"])["albedo"]
+            self.assertAlmostEqual(float(albedo[1, 1, 0]), expected, 3)
+
+    def test_a_texture_brighter_than_its_light_is_a_warning(self):
+        with self.assertWarnsRegex(candela.CandelaWarning, "from 0 to 200, expected 0 to 1"):
+            pixels = np.full((2, 2, 3), 200.0)
+            pixels[0, 0] = 0
+            self.scene({"type": "bitmap", "data": pixels})
+
+    def test_films_of_other_channels_have_colours(self):
+        scene = self.scene({"type": "rgb", "value": [0.8, 0.1, 0.1]})
+        expected = scene.render(spp=4).rgb
+        scene = self.scene({"type": "rgb", "value": [0.8, 0.1, 0.1]})
+        dict_text = scene.source()[1].replace(
+            '<film type="hdrfilm" name="film">',
+            '<film type="hdrfilm" name="film"><string name="pixel_format" value="xyz"/>',
+        )
+        image = candela.load_string(dict_text).render(spp=4, aov=["depth"])
+        self.assertTrue(np.allclose(image.rgb, expected, atol=2e-3))
+        self.assertEqual(image["depth"].shape[:2], (4, 4))
+        self.assertEqual(np.ndim(np.squeeze(image["depth"])), 2)
+
+    def test_the_axis_of_a_rotation_is_taken_as_it_is(self):
+        turned = candela.Transform().rotate([1, 1, 0], 45).matrix[0][:3]
+        self.assertTrue(np.allclose(turned, [1, 0.2928932, 0.7071068]))
+        for wrong in (lambda t: t.rotate(45, [0, 1, 0]), lambda t: t.scale([1, 2])):
+            with self.assertRaises(ValueError):
+                wrong(candela.Transform())
+
+    def test_setting_colours_drops_the_denoised_ones(self):
+        image = candela.Image(np.zeros((2, 2, 3), "f4"))
+        image.layers["Denoised"] = image.rgb
+        image.rgb = np.ones((2, 2, 3), "f4")
+        self.assertNotIn("Denoised", image.layers)
 
 
 class Images(unittest.TestCase):

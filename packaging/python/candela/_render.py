@@ -121,7 +121,7 @@ def _words(options: "dict[str, Value]") -> List[str]:
         elif value is None or value is False:
             continue
         elif isinstance(value, dict):
-            pairs = [f"{key}={','.join(map(_word, _items(each)))}" for key, each in value.items()]
+            pairs = [f"{key}={','.join(map(_word, _items(plain(each))))}" for key, each in value.items()]
             words += [f"{option}={x}" for x in (pairs if name in _REPEATED else [",".join(pairs)])]
         else:
             try:
