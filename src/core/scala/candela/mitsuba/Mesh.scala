@@ -1,6 +1,7 @@
 package candela.mitsuba
 
 import candela.base.{RestBuffer, loop}
+import candela.build.shapes.VertexNormals
 import candela.math.{Position, Transform, Vec3}
 
 /** Triangles of a mesh file. Normals and coordinates may be empty.
@@ -93,9 +94,6 @@ final class Mesh(
 
   /** With vertex normals, if it has none: those of the triangles, weighted by their angles at the
     * vertex.
-    *
-    * Source: Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets", Journal of
-    * Graphics Tools 3(1), 1998.
     */
   def smooth: Mesh =
     if normals.nonEmpty then this
@@ -108,23 +106,7 @@ final class Mesh(
 
   /** Normals of the triangles times their angles, at each corner. */
   private def cornerNormals: Array[Float] =
-    val result = new Array[Float](3 * indices.length)
-    val local = if isFar then centred else positions
-    def point(i: Int) = Vec3(local(3 * i), local(3 * i + 1), local(3 * i + 2))
-    loop(indices.length / 3): t =>
-      val p = Array(indices(3 * t), indices(3 * t + 1), indices(3 * t + 2)).map(point)
-      val n = ((p(1) - p(0)) cross (p(2) - p(0)))
-      if n.lengthSquared > 0f then
-        val unit = n.normalized
-        loop(3): c =>
-          val a = (p((c + 1) % 3) - p(c)).normalized
-          val b = (p((c + 2) % 3) - p(c)).normalized
-          val angle = Math.acos(Math.max(-1.0, Math.min(1.0, a.dot(b).toDouble))).toFloat
-          if angle.isFinite then
-            result(9 * t + 3 * c) = unit.x * angle
-            result(9 * t + 3 * c + 1) = unit.y * angle
-            result(9 * t + 3 * c + 2) = unit.z * angle
-    result
+    VertexNormals.ofCorners(if isFar then centred else positions, indices)
 
   /** With vertex normals of its triangles, which are smooth across edges of at most an angle. */
   def smoothBelow(degrees: Double): Mesh =

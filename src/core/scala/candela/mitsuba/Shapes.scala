@@ -188,7 +188,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
           in.warnUnsupported("materials of .mtl files are not read", "load_materials")
         if in.integer("shape_index", -1) >= 0 then
           in.warnUnsupported("all parts of the file are read", "shape_index")
-        mesh(in, toWorld, isFlipped)(ObjFile.read(_, isUp, in.pos))
+        mesh(in, toWorld, isFlipped)(ObjShape.read(_, isUp, in.pos))
       case "ply" =>
         val isUp = in.flag("flip_tex_coords", false)
         in.ignore("srgb")

@@ -16,7 +16,7 @@ class MeshFilesSuite extends AnyFunSuite:
     finally Files.delete(file)
 
   private def obj(text: String): Mesh =
-    written(text.getBytes("UTF-8"))(ObjFile.read(_, flipped = false, at))
+    written(text.getBytes("UTF-8"))(ObjShape.read(_, flipped = false, at))
   private def why(body: => Any): String = intercept[SceneError](body).problems.head.message
 
   test("a corner of a face is a vertex of its own combination of indices"):
@@ -28,12 +28,14 @@ class MeshFilesSuite extends AnyFunSuite:
     assert(mesh.normals.isEmpty)
 
   test("faults of an OBJ file are reported with its line"):
-    assert(why(obj("v 0 0 0\nf 1 2 3\n")).endsWith("line 2: the index 2 is not one of 1 to 1"))
+    assert(why(
+      obj("v 0 0 0\nf 1 2 3\n")
+    ).endsWith("line 2: an index of the corner `3` is out of range: vertices are 1 to 1"))
     assert(why(obj("v 0 x 0\n")).endsWith("line 1: expected a number, found `x`"))
     assert(why(obj("v 0 0 0\n")).endsWith("it has no faces"))
 
   test("the same tent as OBJ and as serialized mesh"):
-    val a = ObjFile.read(InputFile.named(folder.resolve("tent.obj")), flipped = false, at)
+    val a = ObjShape.read(InputFile.named(folder.resolve("tent.obj")), flipped = false, at)
     val b = SerializedFile.read(InputFile.named(folder.resolve("tent.serialized")), 0, at)
     def corners(m: Mesh) =
       m.indices.toVector.map(i => m.positions.slice(3 * i, 3 * i + 3).toVector)

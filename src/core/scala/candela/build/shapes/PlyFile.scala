@@ -2,6 +2,7 @@ package candela.build.shapes
 
 import candela.base.{FloatBuffer, IntBuffer, RestBuffer, loop}
 import candela.diagnostics.{Code, Problem, SceneError, Severity, SourcePos}
+import candela.geometry.Polygons
 import candela.io.{InputFile, IoReason}
 import java.io.IOException
 
@@ -19,6 +20,8 @@ import candela.scenefile.Source
   * @param quads     four vertex indices per quad that was kept, in the order 0 1 3 2 of its corners
   * @param ofVertices other numbers of each vertex, by property, in their order; if asked for
   * @param ofTriangles likewise, of the faces that triangles are parts of
+  * @param wholes    what stands for 1 in those numbers that are unsigned bytes or words
+  * @param omitted   properties and elements that are not read
   */
 final class PlyMesh(
     val positions: Array[Float],
@@ -28,7 +31,9 @@ final class PlyMesh(
     val quads: Array[Int],
     val ofVertices: Vector[(String, Array[Float])] = Vector.empty,
     val ofTriangles: Vector[(String, Array[Float])] = Vector.empty,
-    val rests: Array[Float] = Array.emptyFloatArray
+    val rests: Array[Float] = Array.emptyFloatArray,
+    val wholes: Map[String, Float] = Map.empty,
+    val omitted: Vector[String] = Vector.empty
 ):
   /** Around another point, if digits of the vertices would be missing in the world. */
   def recentred(toWorld: Transform): Option[(PlyMesh, Position)] =
@@ -46,15 +51,17 @@ object PlyFile:
   /** @param at        position of the reference in the scene, for error messages
     * @param keepQuads whether to keep quads as they are
     * @param keepsAll  whether to keep all numbers of vertices and faces
+    * @param cutsEars  whether faces may be concave, so that fans won't do
     */
   def read(
       file: InputFile,
       at: Option[SourcePos] = None,
       keepQuads: Boolean = false,
-      keepsAll: Boolean = false
+      keepsAll: Boolean = false,
+      cutsEars: Boolean = false
   ): PlyMesh =
     Source.read(file) match
-      case Right(source) => mesh(source, at, keepQuads, keepsAll)
+      case Right(source) => mesh(source, at, keepQuads, keepsAll, cutsEars)
       case Left(why) => throw problem(at, s"can't read the mesh `$file`: $why")
 
   /** Positions of the first vertices, at most `limit`. */
@@ -68,9 +75,7 @@ object PlyFile:
           PlyReader(
             header,
             PlyNumbers.of(source, header, fail),
-            false,
-            false,
-            fail
+            fail = fail
           ).firstPositions(limit)
         finally source.close()
 
@@ -81,7 +86,8 @@ object PlyFile:
       source: Source,
       at: Option[SourcePos],
       keepQuads: Boolean = false,
-      keepsAll: Boolean = false
+      keepsAll: Boolean = false,
+      cutsEars: Boolean = false
   ): PlyMesh =
     var isAscii = true
     def fail(offset: Long, message: String): Nothing =
@@ -90,7 +96,8 @@ object PlyFile:
     try
       val header = PlyHeader.read(source, fail)
       isAscii = header.format == PlyFormat.Ascii
-      PlyReader(header, PlyNumbers.of(source, header, fail), keepQuads, keepsAll, fail).read()
+      val numbers = PlyNumbers.of(source, header, fail)
+      PlyReader(header, numbers, keepQuads, keepsAll, cutsEars, fail).read()
     catch
       case e: IOException =>
         throw problem(at, s"can't read the mesh `${source.name}`: ${IoReason(e)}")
@@ -117,13 +124,15 @@ object PlyFile:
   *
   * @param keepQuads whether to keep quads as they are
   * @param keepsAll  whether to keep all numbers of vertices and faces
+  * @param cutsEars  whether faces may be concave
   * @param fail      reports a problem at a byte offset
   */
 private[build] final class PlyReader(
     header: PlyHeader,
     in: PlyNumbers,
-    keepQuads: Boolean,
-    keepsAll: Boolean,
+    keepQuads: Boolean = false,
+    keepsAll: Boolean = false,
+    cutsEars: Boolean = false,
     fail: (Long, String) => Nothing
 ):
   private val rests = RestBuffer()
@@ -132,6 +141,8 @@ private[build] final class PlyReader(
   private var uvs = Array.emptyFloatArray
   private val indices = IntBuffer()
   private val quads = IntBuffer()
+  private val polygon = IntBuffer()
+  private val polygons = Polygons()
   private var ofVertices = Vector.empty[(String, Array[Float])]
   private var ofTriangles = Vector.empty[(String, FloatBuffer)]
 
@@ -150,7 +161,18 @@ private[build] final class PlyReader(
     if triangles.isEmpty && patches.isEmpty then fail(in.offset, "no face has three corners")
     val triangleValues = ofTriangles.map((name, values) => name -> values.drain())
     val missing = rests.drain(positions.length)
-    PlyMesh(positions, normals, uvs, triangles, patches, ofVertices, triangleValues, missing)
+    PlyMesh(
+      positions,
+      normals,
+      uvs,
+      triangles,
+      patches,
+      ofVertices,
+      triangleValues,
+      missing,
+      header.wholes,
+      header.omitted(PlyReader.Corners)
+    )
 
   /** Positions of the first vertices, if the file begins with them. */
   def firstPositions(limit: Int): Array[Double] =
@@ -271,20 +293,41 @@ private[build] final class PlyReader(
     else
       val first = index(p.valueType, vertexCount)
       val second = index(p.valueType, vertexCount)
-      var last = index(p.valueType, vertexCount)
-      val isQuad = length == 4 && keepQuads
-      if !isQuad then triangle(first, second, last)
-      loop(length - 3): _ =>
-        val next = index(p.valueType, vertexCount)
-        // 3 0 2 for the second half of a quad; larger faces use the order of the fan
-        if isQuad then
-          quads += first
-          quads += second
-          quads += next
-          quads += last
-        else if length == 4 then triangle(next, first, last)
-        else triangle(first, last, next)
-        last = next
+      val last = index(p.valueType, vertexCount)
+      if length > 3 && cutsEars && positions.nonEmpty then
+        readPolygon(p, vertexCount, Array(first, second, last), length)
+      else readFan(p, vertexCount, first, second, last, length)
+
+  /** The rest of a face that may be concave. */
+  private def readPolygon(p: PlyProperty, vertexCount: Int, three: Array[Int], length: Int): Unit =
+    polygon.clear()
+    three.foreach(polygon += _)
+    loop(length - 3)(_ => polygon += index(p.valueType, vertexCount))
+    polygons.triangulate(positions, length)(polygon(_)): (a, b, c) =>
+      triangle(polygon(a), polygon(b), polygon(c))
+
+  private def readFan(
+      p: PlyProperty,
+      vertexCount: Int,
+      first: Int,
+      second: Int,
+      third: Int,
+      length: Int
+  ): Unit =
+    var last = third
+    val isQuad = length == 4 && keepQuads
+    if !isQuad then triangle(first, second, last)
+    loop(length - 3): _ =>
+      val next = index(p.valueType, vertexCount)
+      // 3 0 2 for the second half of a quad; larger faces use the order of the fan
+      if isQuad then
+        quads += first
+        quads += second
+        quads += next
+        quads += last
+      else if length == 4 then triangle(next, first, last)
+      else triangle(first, last, next)
+      last = next
 
   private def triangle(a: Int, b: Int, c: Int): Unit =
     indices += a
@@ -302,7 +345,7 @@ private[build] final class PlyReader(
 private[build] object PlyReader:
   private val Position = Seq("x", "y", "z")
   private val Normal = Seq("nx", "ny", "nz")
-  private val Corners = Set("vertex_indices", "vertex_index")
+  val Corners = Set("vertex_indices", "vertex_index")
 
   /** Whether [[PlyNumbers.triangle]] can read it. */
   private def isUsualList(p: PlyProperty): Boolean =

@@ -47,7 +47,23 @@ private[build] final case class PlyHeader(
     format: PlyFormat,
     elements: Vector[PlyElement],
     bodyStart: Int
-)
+):
+  /** What stands for 1 in numbers of an unsigned type of one or two bytes. */
+  def wholes: Map[String, Float] =
+    val all = elements.flatMap(_.properties).filter(_.countType.isEmpty)
+    all.collect {
+      case PlyProperty(name, PlyType.UInt8, _) => name -> 255f
+      case PlyProperty(name, PlyType.UInt16, _) => name -> 65535f
+    }.toMap
+
+  /** Elements and lists that are not read, which are all lists but `corners` of faces. */
+  def omitted(corners: Set[String]): Vector[String] =
+    val lists =
+      for
+        e <- elements if e.name == "vertex" || e.name == "face"
+        p <- e.properties if p.countType.nonEmpty && !(e.name == "face" && corners(p.name))
+      yield p.name
+    lists ++ elements.filter(e => e.count > 0 && e.name != "vertex" && e.name != "face").map(_.name)
 
 private[build] object PlyHeader:
 
