@@ -71,7 +71,8 @@ object Architecture:
       ' '
     )
   private val mitsuba = common ++ Set("scenefile", "build.shapes")
-  private val models = common ++ Set("geometry", "scenefile", "settings", "job")
+  private val models =
+    common ++ Set("build.shapes", "geometry", "image", "scenefile", "settings", "job")
   private val towers = (runtime ++ file).toSet
   private val job = towers ++ bridge ++ Set("mitsuba", "measure")
 

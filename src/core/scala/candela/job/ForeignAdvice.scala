@@ -44,20 +44,22 @@ private[job] object ForeignAdvice:
 
   private val Formats = s"supported scene formats: ${SceneFormat.inWords}"
 
+  private def readsModels: Boolean = SceneFormat.all.exists(_.isModel)
+
   private def advice(kind: ForeignKind, file: Path): Option[String] = kind match
     case Picture => Some(s"`candela view $file` shows it")
     case Film => Some(s"`candela resume $file` continues it; `candela info $file` describes it")
     case Suite => Some(s"`candela bench $file` runs it")
     case Triangles =>
-      Some(s"Shape \"plymesh\" \"string filename\" \"$file\" in a scene shows it")
+      val inScene = s"Shape \"plymesh\" \"string filename\" \"$file\" in a scene shows it"
+      Some(if readsModels then s"its name must end with .ply; or $inScene" else inScene)
     case MitsubaMesh =>
       Some("load it by <shape type=\"serialized\"> in a Mitsuba scene")
     case Model =>
-      val readsModels = SceneFormat.all.exists(_.suffixes.contains("glb"))
+      val module = "candela-models on the class path reads glTF, OBJ, PLY and STL; or "
       Some(
-        (if readsModels then "" else "candela-models on the class path reads glTF; or ") +
-          s"export it as a scene of ${SceneFormat.inWords}, for example from Blender; OBJ and " +
-          "PLY meshes can be loaded by Mitsuba scenes"
+        (if readsModels then "" else module) +
+          s"export it as a scene of ${SceneFormat.inWords}, for example from Blender"
       )
     case Volume => Some("a scene can load it as a medium")
     case Photometry => Some("LightSource \"goniometric\" \"string filename\" loads it")

@@ -36,6 +36,9 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
   def hasSensors: Boolean = false
   def isModel: Boolean = false
 
+  /** Whether its models are meshes that scenes may name, and leave open which axis points up. */
+  def isMesh: Boolean = false
+
   /** Whether they may have animations and variants of materials. */
   def hasStates: Boolean = false
 
@@ -85,7 +88,9 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
       val help = "--sensor chooses among those of Mitsuba's XML files and cameras of models"
       refuse(s"`$file` has no sensors", help)
     if !isModel && reading.model != ModelSettings() then
-      refuse(s"`$file` is no model", "--light, --background and --turntable are for models")
+      refuse(s"`$file` is no model", "--light, --background, --turntable and --up are for models")
+    if !isMesh && reading.model.up.nonEmpty then
+      refuse(s"which axis of `$file` points up is known", s"--up is for other formats than $name")
     if !hasStates && reading.model.state != ModelState() then
       val help = "--at, --animation and --variant are for models in glTF"
       refuse(s"`$file` has no animations and no variants", help)

@@ -156,15 +156,21 @@ final case class ReadSettings(
   * @param background what is behind and below it
   * @param turntable  number of images, between which it turns around once
   * @param state      which of its states is shown
+  * @param up         which of its axes points up, if its format leaves that open
   */
 final case class ModelSettings(
     light: Option[ModelLight] = None,
     background: Option[ModelGround] = None,
     turntable: Option[Int] = None,
-    state: ModelState = ModelState()
+    state: ModelState = ModelState(),
+    up: Option[UpAxis] = None
 ):
   /** Whether there is an image of each of several views or times. */
   def hasSeveralImages: Boolean = turntable.nonEmpty || state.times.exists(_.count > 1)
+
+/** The axis of a model that points up. */
+enum UpAxis:
+  case Y, Z
 
 /** A state of a model that has several.
   *

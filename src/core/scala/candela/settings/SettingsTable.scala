@@ -286,6 +286,11 @@ object SettingsTable:
           "[moving the camera](WATCHING.md#moving-the-camera)."
       ),
     option(
+      "up",
+      "y|z",
+      "which axis of a model points up (default: y in OBJ, z in PLY and STL)"
+    )(_.reading.model.up)((s, axis) => model(s)(_.copy(up = Some(axis)))),
+    option(
       "mse-reference-image",
       "FILE",
       "reference image for --mse-reference-out, which it needs"

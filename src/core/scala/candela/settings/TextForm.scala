@@ -235,6 +235,8 @@ object TextForm:
       t => if t.count == 1 then t.first.toString else s"${t.first}:${t.step}:${t(t.count - 1)}"
     )
 
+  given TextForm[UpAxis] = named(UpAxis.values.toSeq, lower, "y or z")
+
   given TextForm[ModelGround] =
     val color = ofItems(
       "none, or a colour as r,g,b with numbers from 0 to 1",

@@ -33,8 +33,7 @@ class ForeignSceneSuite extends AnyFunSuite:
   test("meshes and models in place of scenes are named, also if packed or by a wrong suffix"):
     TempFolder.use: folder =>
       val ply = "ply\nformat ascii 1.0\nend_header\n".getBytes
-      for (name, bytes) <- Vector("a.ply" -> ply, "a.ply.gz" -> Gzip.of(ply), "b.pbrt" -> ply)
-      do
+      for (name, bytes) <- Vector("a.pbrt.gz" -> Gzip.of(ply), "b.pbrt" -> ply) do
         val file = Files.write(folder.resolve(name), bytes)
         val what = s"`$file` is a PLY mesh, not a scene"
         assert(refusal("check", s"$file").head == s"error: $what [E0102]")
@@ -45,14 +44,17 @@ class ForeignSceneSuite extends AnyFunSuite:
       val mitsuba = Files.writeString(folder.resolve("m.pbrt"), "<scene version=\"3.0.0\"></scene>")
       assert(refusal(s"$mitsuba")(1) == " its name must end with .xml")
 
+  private val formats =
+    "pbrt (.pbrt), Mitsuba (.xml), glTF (.glb, .gltf), OBJ (.obj), PLY (.ply) or STL (.stl)"
+
   test("a model in place of a scene is told the formats that scenes have"):
     TempFolder.use: folder =>
-      val model = Files.writeString(folder.resolve("model.obj"), "v 0 0 0\nv 1 0 0\nf 1 2 1\n")
+      val model = Files.writeString(folder.resolve("model.blend"), "BLENDER-v300")
       for command <- commands do
         val lines = refusal(command, s"$model")
-        assert(lines(0) == s"error: `$model` is an OBJ mesh, not a scene [E0102]")
+        assert(lines(0) == s"error: `$model` is a Blender file, not a scene [E0102]")
         assert(
-          lines(1).contains("a scene of pbrt (.pbrt), Mitsuba (.xml) or glTF (.glb, .gltf)"),
+          lines(1).contains(s"a scene of $formats"),
           lines(1)
         )
 
@@ -62,7 +64,7 @@ class ForeignSceneSuite extends AnyFunSuite:
       for command <- commands do
         assert(refusal(command, s"$notes") == Vector(
           s"error: `$notes` is not a scene: its first word is not a pbrt directive [E0102]",
-          " supported scene formats: pbrt (.pbrt), Mitsuba (.xml) or glTF (.glb, .gltf)"
+          s" supported scene formats: $formats"
         ))
       val scene = "# mine\nCamera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
       val file = Files.writeString(folder.resolve("scene.txt"), scene)

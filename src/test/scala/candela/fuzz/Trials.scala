@@ -32,6 +32,7 @@ enum FileKind(val name: String, val short: Int):
   case Volumes extends FileKind("volumes", 200)
   case Mitsuba extends FileKind("mitsuba", 400)
   case Models extends FileKind("models", 400)
+  case MeshModels extends FileKind("mesh-models", 600)
 
 /** Reads broken files, all of them written into `folder`. Each must give an answer or a clean
   * refusal; whatever else happens is a finding.
@@ -74,6 +75,8 @@ final class Trials(from: Path, folder: Path, random: Random):
   private val quilts = Mutator(Vector(Trials.quilt), random)
   private val curves = Mutator(Vector(Trials.curves), random)
   private lazy val models = Models(Files.createDirectories(folder.resolve("models")), random)
+  private lazy val meshModels =
+    MeshModels(Files.createDirectories(folder.resolve("models")), random)
   private val objects = Mutator(files(".obj") ++ files(".serialized"), random)
 
   /** The next broken file; `judge` reads it. */
@@ -103,6 +106,9 @@ final class Trials(from: Path, folder: Path, random: Random):
       case FileKind.Models =>
         val (bytes, isBinary) = models.next()
         (bytes, if isBinary then "models/broken.glb" else "models/broken.gltf")
+      case FileKind.MeshModels =>
+        val (bytes, name) = meshModels.next()
+        (bytes, s"models/$name")
     Files.write(folder.resolve(name), bytes)
 
   /** One in eight compressed, and one in eight a broken archive. */
@@ -125,7 +131,7 @@ final class Trials(from: Path, folder: Path, random: Random):
           val scene = Parser.validated(MitsubaScene.readable(file, Map.empty, keepGoing = false))
           val _ = SceneBuilder.build(scene, RenderSettings(samples = Some(1), quick = true))
           None
-        case FileKind.Models =>
+        case FileKind.Models | FileKind.MeshModels =>
           val format = SceneFormat.named(file).get
           val scene =
             format.read(file, SceneFolder.of(file, isConfined = true), ReadSettings(), None)
@@ -160,8 +166,9 @@ final class Trials(from: Path, folder: Path, random: Random):
   private def unclear(e: SceneError): Option[String] =
     val errors = e.problems.filter(_.severity == Severity.Error)
     val bad = errors.find(p => p.message.isBlank || p.message.exists(c => c == '\n' || c == '\r'))
+    // Line 0: of the whole file, or a place that its name tells
     val lost =
-      errors.find(p => p.pos.exists(a => (a.line < 1 || a.column < 1) && !a.file.contains('#')))
+      errors.find(p => p.pos.exists(a => a.file.isEmpty || a.line > 0 && a.column < 1))
     if errors.isEmpty then Some("an error without errors")
     else bad.orElse(lost).map(p => s"an unclear message: $p")
 

@@ -78,7 +78,8 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       ))
       animation <- Gen.option(name)
       variant <- Gen.option(name)
-      model = ModelSettings(light, ground, turntable, ModelState(times, animation, variant))
+      up <- Gen.option(Gen.oneOf(UpAxis.values.toSeq))
+      model = ModelSettings(light, ground, turntable, ModelState(times, animation, variant), up)
       camera <- Gen.option(Gen.const("a b.pbrt"))
     yield ReadSettings(dialect, defines, keepGoing, sensors, resolution, model, camera)
 

@@ -1,10 +1,10 @@
 package candela.models
 
-import candela.diagnostics.{Code, Severity}
+import candela.diagnostics.Code
 import candela.io.SceneFolder
 import candela.math.Transform
 import candela.scenefile.{
-  Dialect, Excerpts, GraphicsState, InstanceDescription, InstanceList,
+  Dialect, GraphicsState, InstanceDescription, InstanceList,
   LightDescription, SceneDescription, ShapeDescription
 }
 import candela.settings.{ModelState, ReadSettings}
@@ -43,13 +43,7 @@ private[models] object GltfScene:
     val complete = Studio.complete(model, session, reading.model, world, isWhole, framed)
     val scene = times.fold(complete): t =>
       View.numbered(complete, session, world).copy(isFollowed = world + 1 < t.count)
-    val (errors, warnings) = Excerpts.fill(session.problems).partition(_.severity == Severity.Error)
-    scene.copy(
-      warnings = warnings,
-      errors = errors,
-      sources = file +: session.filesRead,
-      folder = session.folder
-    )
+    session.finished(scene)
 
   /** Those that are read. */
   private[models] val Extensions: Set[String] = Materials.Supported ++ Set(

@@ -29,7 +29,7 @@ private[models] final class Lights(file: GltfFile, session: Session):
     val rotation = environment("rotation").fold(Vector(0.0, 0.0, 0.0, 1.0))(_.numbers(4))
     val image = environment("uri").map(_ => file.imageName(environment.entry))
     val params =
-      Textures.rgb("L", radiance, at) +: image.map(Param.string("mapname", at, _)).toVector
+      Picture.rgb("L", radiance, at) +: image.map(Param.string("mapname", at, _)).toVector
     // v3's maps are equirectangular, as is usual
     val light = session.declare("LightSource", "infinite", at, params, image.map(_ => Dialect.V3))
     val turn = Nodes.of(Seq(0, 0, 0), rotation, Seq(1, 1, 1))
@@ -61,14 +61,14 @@ private[models] final class Lights(file: GltfFile, session: Session):
 
   private def point(entry: Json, p: PlacedNode, extras: Option[Extras]) =
     ball(entry, p, extras, Vector.empty).getOrElse:
-      placed(declare(entry, "point", Vector(Textures.rgb("I", power(entry), entry.at))), p)
+      placed(declare(entry, "point", Vector(Picture.rgb("I", power(entry), entry.at))), p)
 
   private def directional(entry: Json, p: PlacedNode, extras: Option[Extras]) =
     val at = entry.at
     val irradiance = power(entry)
     val angle = extras.fold(0.0)(_.number("angle", 0, 0, Math.PI))
     if angle == 0 then
-      placed(declare(entry, "distant", Textures.rgb("L", irradiance, at) +: axis(at)), p)
+      placed(declare(entry, "distant", Picture.rgb("L", irradiance, at) +: axis(at)), p)
     else
       // A sun without sky, whose zenith is where it stands. Of a large one, what is far from the
       // middle adds less to the irradiance
@@ -96,7 +96,7 @@ private[models] final class Lights(file: GltfFile, session: Session):
       Param.float("conedeltaangle", at, Math.toDegrees(outer - full).toFloat)
     )
     ball(entry, p, extras, beamAxis(p, at) +: angles).getOrElse:
-      val params = (Textures.rgb("I", power(entry), at) +: axis(at)) ++ angles ++
+      val params = (Picture.rgb("I", power(entry), at) +: axis(at)) ++ angles ++
         blend.map(_ => Param.string("falloff", at, "smoothstep"))
       placed(declare(entry, "spot", params), p)
 
@@ -172,7 +172,7 @@ private[models] final class Lights(file: GltfFile, session: Session):
         "AreaLightSource",
         "diffuse",
         at,
-        Textures.rgb("L", radiance, at) +: params
+        Picture.rgb("L", radiance, at) +: params
       ))
     )
 

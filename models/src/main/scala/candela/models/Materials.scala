@@ -2,9 +2,7 @@ package candela.models
 
 import candela.base.NumberedNames
 import candela.color.Rgb
-import candela.scenefile.{
-  Declaration, GraphicsState, MaterialRef, MediumDescription, Param, ParamType
-}
+import candela.scenefile.{Declaration, GraphicsState, MaterialRef, MediumDescription, Param}
 
 import scala.collection.mutable
 
@@ -204,16 +202,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
     for
       info <- entry("normalTexture").toVector
       p <- textures.picture(info).toVector
-      param <- Vector(
-        Param.string("normalmap", p.at, p.file),
-        Param.bool("softedges", p.at, false)
-      ) ++
-        Option.when(p.rows != Textures.Upright):
-          Param.floats(ParamType.Float, "normalmapuv", p.at, p.rows.toArray)
-        ++ p.wrap.params(("normalwrap", "normalwrapt"), p.at)
-        ++ Option.when(p.second)(Param.bool("normaluv2", p.at, true)) ++
-        Some(info.number("scale", 1)).filter(_ != 1)
-          .map(s => Param.float("normalscale", p.at, s.toFloat))
+      param <- textures.normalMap(p, info.number("scale", 1))
     yield param
 
   /** @param prefix of the factor and the texture of the colour, whose alpha it is */
@@ -242,25 +231,8 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
     val color = factor * strength.toFloat
     Option.when(color.max > 0f)(light(entry, color, entry("emissiveTexture")))
 
-  /** The area light of a colour times an image. */
   private def light(entry: Json, color: Rgb, info: Option[Json]): Declaration =
-    val at = entry.at
-    val params = info.flatMap(textures.picture) match
-      case None => Vector(Textures.rgb("L", color, at))
-      case Some(p) =>
-        Vector(
-          Param.string("filename", at, p.file),
-          Textures.rgb("tint", color * (1f / color.max), at),
-          Param.float("scale", at, color.max),
-          Param.string("wrap", at, p.wrap.s)
-        ) ++
-          Option.when(p.wrap.t != p.wrap.s)(Param.string("wrapt", at, p.wrap.t)) ++
-          Option.when(p.second)(Param.bool("uv2", at, true)) ++
-          Option.when(!p.isSmooth)(Param.string("filter", at, "point")) ++
-          Option.when(p.rows != Textures.Upright):
-            Param.floats(ParamType.Float, "imageuv", at, p.rows.toArray)
-    val sides = Option.when(entry.flag("doubleSided"))(Param.bool("twosided", at, true))
-    session.declare("AreaLightSource", "diffuse", at, params ++ sides)
+    textures.light(color, info.flatMap(textures.picture), entry.flag("doubleSided"), entry.at)
 
   /** A colour that no light changes: that of an emitter that reflects nothing. */
   private def unlit(entry: Json, hasColors: Boolean): Surface =
@@ -268,7 +240,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
       session.warn(entry.at, "colours of vertices of an unlit material are not supported")
     val pbr = base(entry)
     val color = Materials.rgb(pbr, "baseColorFactor", Rgb.White, 4)
-    val black = Vector(Textures.rgb("reflectance", Rgb.Black, entry.at))
+    val black = Vector(Picture.rgb("reflectance", Rgb.Black, entry.at))
     val d = session.declare("Material", "diffuse", entry.at, black)
     val emitted = Option.when(color.max > 0f)(light(entry, color, pbr("baseColorTexture")))
     Surface(
@@ -288,8 +260,8 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
       val absorption = color.map(c => (-Math.log(Math.max(c, 1e-6)) / distance).toFloat)
       val name = s"medium ${media.size + 1}"
       val params = Vector(
-        Textures.rgb("sigma_a", absorption, volume.at),
-        Textures.rgb("sigma_s", Rgb.Black, volume.at)
+        Picture.rgb("sigma_a", absorption, volume.at),
+        Picture.rgb("sigma_s", Rgb.Black, volume.at)
       )
       val d = session.declare("Medium", "homogeneous", volume.at, params)
       media(name) = MediumDescription(name, d, GraphicsState.Identity)

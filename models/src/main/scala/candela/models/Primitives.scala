@@ -3,7 +3,7 @@ package candela.models
 import candela.base.loop
 import candela.diagnostics.Code
 import candela.math.{Transform, Vec3}
-import candela.scenefile.{Declaration, Param, ParamType}
+import candela.scenefile.{Declaration, Param}
 
 /** Numbers of a primitive's vertices; each array but the positions may be empty. */
 private[models] final case class Vertices(
@@ -72,19 +72,17 @@ private[models] final class Primitives(file: GltfFile, session: Session):
       extra: Vector[Param]
   ): Declaration =
     val at = primitive.at
-    def numbers(kind: ParamType, name: String, values: Array[Float]) =
-      Option.when(values.nonEmpty)(Param.floats(kind, name, at, values))
     def uvs(set: Int) = vertexFloats(primitive, s"TEXCOORD_$set", count, 2).map(upright)
-    val params = Vector(
-      numbers(ParamType.Point3, "P", v.positions),
-      Some(Param.int("indices", at, corners.toIndexedSeq*)),
-      numbers(ParamType.Normal, "N", v.normals),
-      numbers(ParamType.Float, "tangents", v.tangents),
-      uvs(0).flatMap(numbers(ParamType.Point2, "uv", _)),
-      uvs(1).flatMap(numbers(ParamType.Point2, "uv2", _)),
-      colors(primitive, count).flatMap(numbers(ParamType.Float, "colors", _))
-    ).flatten
-    session.declare("Shape", "trianglemesh", at, params ++ extra)
+    val mesh = Mesh(
+      v.positions,
+      corners,
+      v.normals,
+      uvs(0).getOrElse(Array.emptyFloatArray),
+      colors(primitive, count).getOrElse(Array.emptyFloatArray),
+      tangents = v.tangents,
+      secondUvs = uvs(1).getOrElse(Array.emptyFloatArray)
+    )
+    session.declare("Shape", "trianglemesh", at, mesh.params(at) ++ extra)
 
   /** v begins at the bottom of images. */
   private def upright(uvs: Array[Float]): Array[Float] =

@@ -1,8 +1,10 @@
 package candela.models
 
-import candela.diagnostics.{Code, Problem, SceneError, SourcePos, Suggest}
+import candela.diagnostics.{Code, Problem, SceneError, Severity, SourcePos, Suggest}
 import candela.io.SceneFolder
-import candela.scenefile.{Declaration, Dialect, Param, Problems, Resolution}
+import candela.scenefile.{
+  Declaration, Dialect, Excerpts, Param, Problems, Resolution, SceneDescription
+}
 
 import java.nio.file.Path
 
@@ -24,12 +26,19 @@ private[models] final class Session(
   private val reported = mutable.LinkedHashSet.empty[Problem]
   private val files = mutable.LinkedHashSet.empty[Path]
 
+  /** All of the model. */
+  def position: SourcePos = SourcePos(s"$file", 0, 0)
+
   /** The place of a JSON pointer. */
   def at(pointer: String): SourcePos = SourcePos(s"$file#$pointer", 0, 0)
 
   def report(p: Problem): Unit = if reported.add(p) then collected.add(p)
-  def warn(at: SourcePos, message: String, code: Code = Code.Unsupported): Unit =
-    report(Problem.warning(code, at, message))
+  def warn(
+      at: SourcePos,
+      message: String,
+      code: Code = Code.Unsupported,
+      help: Option[String] = None
+  ): Unit = report(Problem.warning(code, at, message, help))
   def error(at: SourcePos, message: String, code: Code = Code.DamagedMesh): Unit =
     report(Problem.error(code, at, message))
   def missing(
@@ -49,7 +58,17 @@ private[models] final class Session(
     val (askedWidth, askedHeight) = asked.of(width, height)
     askedWidth.toDouble / askedHeight
 
-  def problems: Vector[Problem] =
+  /** The scene with the problems of reading it. */
+  def finished(scene: SceneDescription): SceneDescription =
+    val (errors, warnings) = Excerpts.fill(problems).partition(_.severity == Severity.Error)
+    scene.copy(
+      warnings = warnings,
+      errors = errors,
+      sources = file +: filesRead,
+      folder = folder
+    )
+
+  private def problems: Vector[Problem] =
     for (pointer, name, near) <- members.misspelt do
       warn(at(pointer), s"unknown member `$name`; did you mean `$near`?", Code.UnknownParameter)
     collected.result()

@@ -35,7 +35,7 @@ private[models] object Studio:
     val isDark = !isWhole && !isLit(scene)
     if isWhole && bounds.isEmpty && scene.camera.isDefined && asked.light.isEmpty then scene
     else if bounds.isEmpty then
-      session.error(session.at(""), "the model has no surface", Code.NoSurface)
+      session.error(session.position, "the model has no surface", Code.NoSurface)
       scene
     else
       val images = asked.turntable.getOrElse(1)
@@ -90,7 +90,7 @@ private final class Surroundings(
     background: Option[ModelGround],
     turn: Double
 ):
-  private val at = session.at("")
+  private val at = session.position
   private val center = bounds.center
   private val radius = Math.max(0.5f * (bounds.max - bounds.min).length, 1e-6f)
   private val eye = scene.worldToCamera.start.inverse.point(Vec3.Zero)
@@ -164,7 +164,7 @@ private final class Surroundings(
     shape(corners, Vector.empty, Vector(0, 1, 2, 0, 2, 3), color)
 
   private def everywhere(radiance: Float): LightDescription =
-    val params = Vector(Textures.rgb("L", Rgb.gray(radiance), at))
+    val params = Vector(Picture.rgb("L", Rgb.gray(radiance), at))
     LightDescription(
       session.declare("LightSource", "infinite", at, params),
       GraphicsState.Identity
@@ -199,7 +199,7 @@ private final class Surroundings(
       "AreaLightSource",
       "diffuse",
       at,
-      Vector(Textures.rgb("L", Rgb.gray(radiance), at))
+      Vector(Picture.rgb("L", Rgb.gray(radiance), at))
     )
     shape(corners, Vector.empty, Vector(0, 1, 2, 0, 2, 3), Rgb.Black).copy(areaLight =
       Some(emission)
@@ -239,7 +239,7 @@ private final class Surroundings(
       triples(ParamType.Point3, "P", points),
       Param.int("indices", at, indices*)
     ) ++ Option.when(normals.nonEmpty)(triples(ParamType.Normal, "N", normals))
-    val reflectance = Vector(Textures.rgb("reflectance", color, at))
+    val reflectance = Vector(Picture.rgb("reflectance", color, at))
     ShapeDescription(
       session.declare("Shape", "trianglemesh", at, params),
       GraphicsState.Identity,
@@ -312,7 +312,7 @@ private[models] object Framing:
       x.z, y.z, towardsViewer.z, eye.z,
       0f, 0f, 0f, 1f
     ).map(_.toDouble)
-    val at = session.at("")
+    val at = session.position
     val params = Vector(
       Param.float(
         "fov",

@@ -1,41 +1,14 @@
 package candela.models
 
-import candela.diagnostics.{Code, Problem, SourcePos}
 import candela.color.Rgb
-import candela.scenefile.{Declaration, Dialect, GraphicsState, Param, ParamType, TextureDescription}
+import candela.diagnostics.{Code, Problem, SourcePos}
+import candela.scenefile.Param
 
-import scala.collection.mutable
-
-/** An image on a surface: its file, and how u and v lie on it.
-  *
-  * @param second whether by the second set of u and v
-  * @param rows   s and t by u, v and 1, where v and t begin at the bottom
-  */
-private[models] final case class Picture(
-    file: String,
-    second: Boolean,
-    rows: Vector[Float],
-    wrap: Wraps,
-    isSmooth: Boolean,
-    at: SourcePos
-)
-
-/** Wrap modes along s and t. */
-private[models] final case class Wraps(s: String, t: String):
-  /** Parameters of these names; those that are the default of an image are left out. */
-  def params(names: (String, String), at: SourcePos): Vector[Param] =
-    Vector(
-      Option.when(s != "repeat" || t != s)(Param.string(names._1, at, s)),
-      Option.when(t != s)(Param.string(names._2, at, t))
-    ).flatten
-
-/** Translates textures, each use of an image once. */
-private[models] final class Textures(file: GltfFile, session: Session):
+/** Translates textures of glTF. */
+private[models] final class Textures(file: GltfFile, session: Session) extends Pictures(session):
   private val entries = file.root.list("textures")
   private val images = file.root.list("images")
   private val samplers = file.root.list("samplers")
-  private val described = mutable.LinkedHashMap.empty[String, TextureDescription]
-  private val names = mutable.HashMap.empty[Any, String]
 
   /** Names of the files of images that textures use. */
   private val files: Map[Int, String] =
@@ -43,8 +16,6 @@ private[models] final class Textures(file: GltfFile, session: Session):
     imageIndices.flatMap(i => session.attempt(file.imageName(images(i))).map(i -> _)).toMap
 
   session.folder = session.folder.withParts(file.parts)
-
-  def result(): Vector[TextureDescription] = described.values.toVector
 
   /** The image of a texture, if one of its formats is supported. */
   private def source(texture: Json): Option[Json] =
@@ -76,7 +47,7 @@ private[models] final class Textures(file: GltfFile, session: Session):
       Picture(
         name,
         set > 0,
-        transform.fold(Textures.Upright)(rows),
+        transform.fold(Picture.Upright)(rows),
         wrap(sampler),
         sampler.flatMap(_("magFilter")).forall(_.int != Textures.Nearest),
         info.at
@@ -101,25 +72,14 @@ private[models] final class Textures(file: GltfFile, session: Session):
       Textures.Wraps.getOrElse(code.int, code.fail(s"unknown wrap mode ${code.int}"))
     Wraps(mode("wrapS"), mode("wrapT"))
 
-  /** A colour times an image and the colours of the vertices, if there are such. */
   def color(
       name: String,
       factor: Rgb,
       info: Option[Json],
       at: SourcePos,
       hasColors: Boolean = false
-  ): Param =
-    val tint = Option.when(factor != Rgb.White)(factor)
-    val textured = info.flatMap(picture).map(image(_, "spectrum", "sRGB", None, 1f))
-    val vertices = Option.when(hasColors)(vertexColors("spectrum", at))
-    val factors = textured.toVector ++ vertices
-    if factors.isEmpty then Textures.rgb(name, factor, at)
-    else
-      val product = factors.reduce((a, b) => scaled(at, Param.texture("tex2", at, b), a))
-      val tinted = tint.fold(product)(c => scaled(at, Textures.rgb("tex2", c, at), product))
-      Param.texture(name, at, tinted)
+  ): Param = colorOf(name, factor, info.flatMap(picture), at, hasColors)
 
-  /** A number times a channel of an image and the alpha of the vertices, if there are such. */
   def number(
       name: String,
       factor: Double,
@@ -128,70 +88,9 @@ private[models] final class Textures(file: GltfFile, session: Session):
       at: SourcePos,
       hasColors: Boolean = false,
       isInverted: Boolean = false
-  ): Param =
-    val scale = factor.toFloat
-    val textured =
-      info.flatMap(picture).map(image(_, "float", "linear", Some(channel), scale, isInverted))
-    val vertices = Option.when(hasColors)(vertexColors("float", at))
-    (textured, vertices) match
-      case (None, None) => Param.float(name, at, if isInverted then 1f - scale else scale)
-      case (Some(one), None) => Param.texture(name, at, one)
-      case (None, Some(one)) =>
-        Param.texture(name, at, times(at, one, Param.float("scale", at, scale)))
-      case (Some(a), Some(b)) =>
-        Param.texture(name, at, times(at, a, Param.texture("scale", at, b)))
-
-  private def times(at: SourcePos, texture: String, by: Param): String =
-    add(
-      "float",
-      session.declare("Texture", "scale", at, Seq(Param.texture("tex", at, texture), by))
-    )
-
-  private def scaled(at: SourcePos, by: Param, texture: String): String =
-    val params = Seq(Param.texture("tex1", at, texture), by)
-    add("spectrum", session.declare("Texture", "scale", at, params, Some(Dialect.V3)))
-
-  private def vertexColors(kind: String, at: SourcePos): String =
-    names.getOrElseUpdate(kind, add(kind, session.declare("Texture", "vertexcolor", at, Nil)))
-
-  private def image(
-      p: Picture,
-      kind: String,
-      encoding: String,
-      channel: Option[String],
-      scale: Float,
-      isInverted: Boolean = false
-  ): String =
-    names.getOrElseUpdate(
-      (p.copy(at = SourcePos.Nowhere), kind, encoding, channel, scale, isInverted), {
-        val at = p.at
-        val mapping = Textures.Coordinates.zip(p.rows).zip(Textures.Upright)
-          .collect { case ((name, x), usual) if x != usual => Param.float(name, at, x) }
-        val params = Vector(
-          Param.string("filename", at, p.file),
-          Param.string("encoding", at, encoding)
-        ) ++ mapping ++
-          p.wrap.params(("wrap", "wrapt"), at) ++
-          Option.when(!p.isSmooth)(Param.string("filter", at, "point")) ++
-          channel.map(Param.string("channel", at, _)) ++
-          Option.when(scale != 1f)(Param.float("scale", at, scale)) ++
-          Option.when(isInverted)(Param.bool("invert", at, true)) ++
-          Option.when(p.second)(Param.bool("uv2", at, true))
-        add(kind, session.declare("Texture", "imagemap", at, params))
-      }
-    )
-
-  private def add(kind: String, texture: Declaration): String =
-    val name = s"texture ${described.size + 1}"
-    described(name) = TextureDescription(name, kind, texture, GraphicsState.Identity)
-    name
+  ): Param = numberOf(name, factor, info.flatMap(picture), channel, at, hasColors, isInverted)
 
 private[models] object Textures:
   val WebP = "EXT_texture_webp"
-  val Upright: Vector[Float] = Vector(1f, 0f, 0f, 0f, 1f, 0f)
-  private val Coordinates = Vector("uscale", "uskew", "udelta", "vskew", "vscale", "vdelta")
   private val Nearest = 9728
   private val Wraps = Map(10497 -> "repeat", 33071 -> "clamp", 33648 -> "mirror")
-
-  def rgb(name: String, c: Rgb, at: SourcePos): Param =
-    Param.floats(ParamType.Rgb, name, at, Array(c.r, c.g, c.b))

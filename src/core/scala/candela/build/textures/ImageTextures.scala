@@ -228,8 +228,9 @@ abstract class ImageMapRecipe[A](standIn: String, category: String)
 object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "numbers"):
   private val channel = oneOf(
     "channel",
-    "channel of the image whose values these are, instead of the luminance",
-    Vector("all", "r", "g", "b", "a"),
+    "channel of the image whose values these are, instead of the luminance; opacity: alpha other " +
+      "than 1, else the mean of the colours",
+    Vector("all", "r", "g", "b", "a", "opacity"),
     onlyGltf
   )("all")
 
@@ -240,6 +241,7 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones, "
   protected def texels(image: ImageBands, decode: Float => Float)(using site: Site): TexelBands =
     channel() match
       case "all" => site.rules.toNumber(image, decode)
+      case "opacity" => Texels.meanOrAlpha(image, decode)
       case name => Texels.channel(image, name.toUpperCase, decode)
 
   protected def whenSeen(stored: StoredImage, decode: Float => Float)(using Site): () => Texels =

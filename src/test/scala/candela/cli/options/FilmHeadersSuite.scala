@@ -28,6 +28,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "animation" -> Vector("Walk", "1"),
     "variant" -> Vector("red shoe"),
     "camera" -> Vector("a b.pbrt"),
+    "up" -> Vector("y", "z"),
     "color" -> Vector("rgb", "spectral"),
     "sampler" -> Vector("scene", "progressive", "halton", "stratified"),
     "fireflies" -> Vector("reweight", "clamp:2.5"),

@@ -218,7 +218,7 @@ object SuiteFolder:
   /** @throws SceneError if there is no scene */
   def read(folder: Path, references: Path): Suite =
     val scenes = scala.util.Using.resource(Files.list(folder)): files =>
-      files.iterator.asScala.toVector.filter(SceneFormat.named(_).isDefined).sorted
+      files.iterator.asScala.toVector.filter(SceneFormat.named(_).exists(!_.isMesh)).sorted
     if scenes.isEmpty then
       val help = s"scenes are of ${SceneFormat.inWords}"
       throw SceneError(Problem.general(Code.SuiteFile, s"no scene in $folder", Some(help)))

@@ -1,0 +1,108 @@
+package candela.models
+
+import candela.color.{Encoding, Rgb}
+import candela.diagnostics.SourcePos
+import candela.io.{ForeignKind, InputFile, SceneFolder, Sha256}
+import candela.job.SceneFormat
+import candela.math.Transform
+import candela.scenefile.{
+  Defines, Dialect, GraphicsState, MaterialRef, SceneDescription,
+  ShapeDescription
+}
+import candela.settings.{ReadSettings, UpAxis}
+
+import java.nio.ByteBuffer
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.Path
+
+/** Formats of models that have neither camera nor light, and leave open which axis points up.
+  *
+  * @param up the axis that usually does
+  */
+abstract class MeshFormat private[models] (name: String, suffix: String, up: UpAxis)
+    extends SceneFormat(name, Vector(suffix)):
+  def hasDialects: Boolean = false
+  override def owns(kind: ForeignKind): Boolean = kind match
+    case ForeignKind.Model | ForeignKind.Triangles | ForeignKind.Other => true
+    case _ => false
+  def keepsMeshesApart: Boolean = true
+  def worlds: String = "images"
+  def firstWorld: Int = 0
+  override def isModel: Boolean = true
+  override def isMesh: Boolean = true
+
+  /** Shapes and materials of a file. */
+  private[models] def model(input: InputFile, session: Session): SceneDescription
+
+  protected def readable(
+      file: Path,
+      within: SceneFolder,
+      reading: ReadSettings,
+      world: Option[Int],
+      text: Option[String]
+  ): SceneDescription =
+    Defines(reading.defines).requireUse()
+    val session = Session(file, within, reading.keepGoing, reading.resolution)
+    val input = text.fold(within.scene(file))(MeshFormat.inMemory(file, within, _))
+    val axis = reading.model.up.getOrElse(up)
+    val turned = MeshFormat.upright(model(input, session), axis)
+    val complete =
+      Studio.complete(turned, session, reading.model, world.getOrElse(0), isWhole = false)
+    val opposite = if axis == UpAxis.Y then UpAxis.Z else UpAxis.Y
+    def word(a: UpAxis) = a.toString.toLowerCase
+    val upward = Option.when(reading.model.up.isEmpty):
+      s"${word(axis)} points up: --up ${word(opposite)} changes that"
+    val scene = session.finished(complete)
+    scene.copy(
+      additions = Some((scene.additions ++ upward).mkString("; ")).filter(_.nonEmpty),
+      isFollowed = scene.isFollowed && world.isDefined && reading.model.turntable.nonEmpty
+    )
+
+  def digest(text: String): String = Sha256.of(text)
+
+  def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
+    Some(None)
+
+private[models] object MeshFormat:
+  /** Of surfaces without a material: that of Blender's. */
+  val Gray = 0.8f
+
+  private def inMemory(file: Path, within: SceneFolder, text: String): InputFile =
+    val name = s"$file"
+    within.withParts(Map(name -> ByteBuffer.wrap(text.getBytes(UTF_8)))).part(name).get
+
+  private def upright(scene: SceneDescription, axis: UpAxis): SceneDescription = axis match
+    case UpAxis.Y => scene
+    case UpAxis.Z =>
+      // Blender's, and that of most CAD: z is up, −y the front
+      val turn = GraphicsState.constant(Transform.rotate(-90, 1, 0, 0).get)
+      scene.copy(shapes = scene.shapes.map(_.copy(objectToWorld = turn)))
+
+  def shape(mesh: Mesh, surface: Surface, at: SourcePos, session: Session): ShapeDescription =
+    ShapeDescription(
+      session.declare("Shape", "trianglemesh", at, mesh.params(at) ++ surface.shape),
+      GraphicsState.Identity,
+      reverseOrientation = false,
+      surface.material,
+      surface.emission,
+      insideMedium = surface.interior
+    )
+
+  /** A matte surface of the colours of the vertices, if they have any. */
+  def plain(hasColors: Boolean, pictures: Pictures, at: SourcePos, session: Session): Surface =
+    val tint = if hasColors then Rgb.White else Rgb.gray(Gray)
+    val color = pictures.colorOf("reflectance", tint, None, at, hasColors)
+    val d = session.declare("Material", "diffuse", at, Vector(color))
+    Surface(MaterialRef.Inline(d), Vector.empty, None, "")
+
+  /** The scene of one mesh without materials. */
+  def scene(mesh: Mesh, session: Session): SceneDescription =
+    val (pictures, at) = (Pictures(session), session.position)
+    val surface = plain(mesh.colors.nonEmpty, pictures, at, session)
+    val isVeiled = (3 until mesh.colors.length by 4).exists(mesh.colors(_) < 1f)
+    val alpha = Option.when(isVeiled)(pictures.numberOf("alpha", 1, None, "a", at, true))
+    val shapes = Vector(shape(mesh, surface.copy(shape = alpha.toVector), at, session))
+    SceneDescription(Dialect.Gltf, textures = pictures.result(), shapes = shapes)
+
+  /** The linear value of an sRGB component, as files of meshes have them. */
+  def linear(x: Float): Float = Encoding.Srgb.decode(Math.max(0f, Math.min(x, 1f)))
