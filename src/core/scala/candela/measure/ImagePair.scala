@@ -68,7 +68,7 @@ object ImagePair:
         Code.DifferentImages,
         s"image sizes differ: ${size(image)} and ${size(reference)} pixels; render's " +
           s"--resolution ${reference.width}x${reference.height} has the reference's, " +
-          "`candela image --crop` cuts a part"
+          "image's --crop x0,x1,y0,y1 cuts a part"
       )
     new ImagePair(picked(image, channels), picked(reference, channels))
 
