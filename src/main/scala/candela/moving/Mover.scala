@@ -167,7 +167,7 @@ final class Mover(
         if pixels >= ProbePixels then
           secondsPerPixel = (System.nanoTime - start) * 1e-9 / pixels
 
-  /** Renders as `candela render --camera` does. */
+  /** Renders as `candela render --camera FILE` does. */
   private def complete(view: MovedView, number: Int, until: Cancellation): Unit =
     val prepared = view.prepared.copy(plan = view.prepared.plan.piloted)
     val listener = new RenderListener:
