@@ -58,6 +58,22 @@ object Steps:
       names.map(_._2).mkString("`", "`, `", "`")
     )(s => names.foreach((from, to) => s.take(from).foreach(s.add(to, _))))
 
+  /** Where textures of v3 and v4 lie: each mapping has its own numbers. */
+  val mapping: Step =
+    Step("`mapping`, `uscale`, `vscale`, `udelta`, `vdelta`, `v1`, `v2`", "those of the mapping"):
+      s =>
+        val kind = s.takeString("mapping", "uv")
+        val names = kind match
+          case "uv" => Vector("uscale", "vscale", "udelta", "vdelta")
+          case "planar" => Vector("v1", "v2", "udelta", "vdelta")
+          case _ => Vector.empty
+        if kind != "uv" then s.addString("mapping", kind)
+        for name <- Vector("uscale", "vscale", "udelta", "vdelta", "v1", "v2") do
+          for p <- s.take(name) if names.contains(name) do s.add(name, p)
+        if kind == "cylindrical" then
+          val message = "\"cylindrical\" maps heights in v4, and directions from the centre in v3"
+          s.warn(Code.Inexpressible, s.declaration.pos, message)
+
   /** Drops parameters that don't affect the image. */
   def drop(names: String*): Step =
     Step(names.mkString("`", "`, `", "`"), "ignored: does not affect the image"): s =>

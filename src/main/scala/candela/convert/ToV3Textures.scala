@@ -10,8 +10,6 @@ import candela.scenefile.*
 object ToV3Textures:
   import Steps.*
 
-  private val mapping = retain("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
-
   /** v3 supports sRGB's curve only, and no inversion: other encodings are baked into a new image,
     * as are formats that it can't read.
     */

@@ -71,8 +71,8 @@ object ToV4Shapes:
     )
   )
 
-  /** Tessellates shapes that v4 lacks. v3 ignores `ReverseOrientation` of meshes with normals,
-    * while v4 flips the normals.
+  /** Tessellates shapes that v4 lacks. In v3, meshes with normals that emit light and have
+    * `ReverseOrientation` are seen on one side and light the other.
     */
   def placed(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
     Tessellation.of(s.shape) match
@@ -85,6 +85,8 @@ object ToV4Shapes:
           s"v4 has no \"${s.shape.name}\"; using \"trianglemesh\", $method"
         )
         Vector(s.copy(shape = mesh))
-      case None if s.reverseOrientation && Meshes.hasNormals(s.shape) =>
-        Vector(s.copy(reverseOrientation = false))
-      case None => Vector(s)
+      case None =>
+        if s.reverseOrientation && s.areaLight.nonEmpty && Meshes.hasNormals(s.shape) then
+          val message = "v3 lights the other side of a reversed mesh with normals"
+          run.warn(Code.Inexpressible, s.shape.pos, message)
+        Vector(s)

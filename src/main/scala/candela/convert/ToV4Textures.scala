@@ -9,7 +9,6 @@ object ToV4Textures:
   import Steps.*
 
   private val Placement = Seq("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
-  private val mapping = retain(Placement*)
 
   /** By default v3 decodes PNG and TGA, v4 all 8-bit formats; v4 can override this for PNG only.
     * Other encodings are baked into a new image.

@@ -117,12 +117,34 @@ class MeaningSuite extends AnyFunSuite:
     )
     assert(mix.param("materials").get.strings == Vector("b", "a"))
 
-  test("ReverseOrientation does not turn a mesh with normals in v3, and does in v4"):
+  test("ReverseOrientation turns a mesh with normals"):
     val mesh = "ReverseOrientation Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] " +
       "\"integer indices\" [0 1 2] \"normal N\" [0 0 1 0 0 1 0 0 1]"
-    assert(!converted(mesh, Dialect.V3, Dialect.V4).scene.shapes.head.reverseOrientation)
+    assert(converted(mesh, Dialect.V3, Dialect.V4).scene.shapes.head.reverseOrientation)
     val turned = converted(mesh, Dialect.V4, Dialect.V3).scene.shapes.head
     assert(turned.shape.param("N").get.floats(2) == -1f && !turned.reverseOrientation)
+
+  test("a reversed lamp with normals is a warning: v3 lights its other side"):
+    val lamp =
+      "AreaLightSource \"diffuse\" ReverseOrientation Shape \"trianglemesh\" \"point3 P\" " +
+        "[0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2] \"normal N\" [0 0 1 0 0 1 0 0 1]"
+    val warnings = converted(lamp, Dialect.V3, Dialect.V4).warnings
+    assert(warnings.exists(_.message.contains("lights the other side")), warnings)
+
+  test("a mapping has its own numbers, and cylinders are a warning"):
+    def mapped(kind: String) =
+      val numbers = "\"float uscale\" 4 \"float udelta\" 1 \"vector v1\" [2 0 0]"
+      val texture =
+        s"Texture \"t\" \"color\" \"checkerboard\" \"string mapping\" \"$kind\" $numbers"
+      val made =
+        converted(s"$texture Material \"matte\" \"texture Kd\" \"t\"", Dialect.V3, Dialect.V4)
+      val names = made.scene.textures.last.texture.params.map(_.name).toSet
+      (names - "mapping" - "dimension", made.warnings.map(_.message))
+    assert(mapped("uv") == (Set("uscale", "udelta"), Vector.empty))
+    assert(mapped("planar") == (Set("v1", "udelta"), Vector.empty))
+    assert(mapped("spherical") == (Set.empty, Vector.empty))
+    val (names, warnings) = mapped("cylindrical")
+    assert(names.isEmpty && warnings.exists(_.contains("maps heights")), warnings)
 
   test("what v4 has no more becomes triangles, or is left out, and is named"):
     for kind <- Vector("cone", "paraboloid", "hyperboloid") do

@@ -1,6 +1,6 @@
 package candela.cli.commands
 
-import candela.diagnostics.{Problem, SceneError, Severity}
+import candela.diagnostics.{Code, Problem, SceneError, Severity}
 import candela.io.WholeFile
 import candela.build.TextureValues
 import candela.cli.files.{FileRegister, FilmName, Output, OutputFiles}
@@ -22,6 +22,9 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
 
   private def convert(): ExitCode =
     val target = options.outfiles.headOption.map(OutputFiles.path)
+    for path <- target; format <- SceneFormat.named(path) if !format.hasDialects do
+      val message = s"`$path` has a name of ${format.name}; convert writes scenes of pbrt"
+      throw SceneError(Problem.general(Code.OptionMisfit, message, Some("name it .pbrt")))
     val output = Output(target.toVector, "scene", options.files.head)
     val register = FileRegister()
     val folder =

@@ -36,6 +36,13 @@ class ConvertCommandSuite extends AnyFunSuite:
       assert(Files.readString(out).contains("Film \"rgb\""))
       assert(TempFolder.names(folder) == Set("a.pbrt", "b.pbrt"))
 
+  test("a name of another format is an error before anything is written"):
+    TempFolder.use: folder =>
+      val out = folder.resolve("b.xml")
+      val (code, captured) = run(scene(folder).toString, "--to", "v4", "--outfile", out.toString)
+      assert(code == 1 && captured.err.contains("has a name of Mitsuba"), captured.err)
+      assert(TempFolder.names(folder) == Set("a.pbrt"))
+
   test("a missing include is an error, without the advice to use an option that convert lacks"):
     TempFolder.use: folder =>
       val file = Files.writeString(folder.resolve("a.pbrt"), "Include \"none.pbrt\"\n")
