@@ -226,7 +226,7 @@ class InMemory(unittest.TestCase):
         self.assertEqual(loaded.render(spp=1).shape, (4, 8, 3))
         with self.assertRaisesRegex(KeyError, "'ball' is no value"):
             values["ball"]
-        with self.assertRaisesRegex(KeyError, "give it where the scene is made"):
+        with self.assertRaisesRegex(KeyError, "ive it where the scene is made"):
             values["ball.radius"] = 2
 
     def test_meshes_are_made_of_arrays(self):

@@ -78,8 +78,9 @@ class Parameters(MutableMapping):  # type: ignore[type-arg]
             raise KeyError(f"{key!r} is no value; its values are {key + '.'!r}…")
         near = difflib.get_close_matches(key, found, 1)
         hint = f"; did you mean {near[0]!r}?" if near else ""
-        if not near and key.rpartition(".")[0] in everything:
-            hint = "; give it where the scene is made, if its default is to change"
+        if key.rpartition(".")[0] in everything:
+            start = " Give" if near else "; give"
+            hint += f"{start} it where the scene is made, if its default is to change"
         raise KeyError(f"the scene has no parameter {key!r}{hint}")
 
     def __getitem__(self, key: str) -> Any:
