@@ -22,9 +22,6 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
 
   private def convert(): ExitCode =
     val target = options.outfiles.headOption.map(OutputFiles.path)
-    for path <- target; format <- SceneFormat.named(path) if !format.hasDialects do
-      val message = s"`$path` has a name of ${format.name}; convert writes scenes of pbrt"
-      throw SceneError(Problem.general(Code.OptionMisfit, message, Some("name it .pbrt")))
     val output = Output(target.toVector, "scene", options.files.head)
     val register = FileRegister()
     val folder =
@@ -39,6 +36,9 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     // The output keeps neither comments nor includes.
     register.read(SceneFiles.of(scene))
     register.write(output)
+    for path <- target; format <- SceneFormat.named(path) if !format.hasDialects do
+      val message = s"`$path` has a name of ${format.name}; convert writes scenes of pbrt"
+      throw SceneError(Problem.general(Code.OptionMisfit, message, Some("name it .pbrt")))
     val film = FilmName.problem(scene)
     for p <- film if p.severity == Severity.Error do throw SceneError(p)
     val to = options.to.getOrElse(scene.dialect.base)
