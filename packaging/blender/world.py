@@ -6,6 +6,7 @@ import numpy as np
 from mathutils import Euler, Matrix
 
 from .candela import Image
+from .candela._arrays import linear as of_srgb
 from .candela._image import exr
 from .nodes import linked, output_of, source, tree_of, unlinked
 
@@ -102,8 +103,7 @@ def linear(image, warn):
         pixels = np.repeat(pixels, 3, axis=2)
     space = image.colorspace_settings.name
     if not image.is_float and space == "sRGB":
-        low = pixels <= 0.04045
-        return np.where(low, pixels / 12.92, ((np.maximum(pixels, 0.04045) + 0.055) / 1.055) ** 2.4)
+        return of_srgb(pixels)
     if not image.is_float and space != "Non-Color" and "Linear" not in space:
         warn(f"the colour space {space} of image '{image.name}' is not supported; using linear")
     return pixels

@@ -119,7 +119,7 @@ def texture(values: Any, is_raw: bool = False) -> ArrayFile:
         if array.dtype == np.uint8 and not gamma():
             array = array / np.float32(255)
         elif array.dtype.kind == "f" and gamma():
-            array = _linear(array)
+            array = linear(array)
     planes = array[..., None] if array.ndim == 2 else array
     is_bytes = array.dtype == np.uint8
     if not (
@@ -138,7 +138,7 @@ def texture(values: Any, is_raw: bool = False) -> ArrayFile:
     return ArrayFile(".exr", exr(image), array)
 
 
-def _linear(encoded: Any) -> Any:
+def linear(encoded: Any) -> Any:
     """Source: IEC 61966-2-1, sRGB."""
     toe, curve = encoded / 12.92, ((np.maximum(encoded, 0) + 0.055) / 1.055) ** 2.4
     return np.where(encoded <= 0.04045, toe, curve)

@@ -12,6 +12,7 @@ object Services:
     * than the thread that started it.
     */
   def installed[A](service: Class[A]): Iterator[A] =
-    val loaders = Vector(getClass.getClassLoader, Thread.currentThread.getContextClassLoader)
+    val loaders =
+      Vector(getClass.getClassLoader, Thread.currentThread.getContextClassLoader).distinct
     loaders.iterator.flatMap(ServiceLoader.load(service, _).iterator.asScala)
       .distinctBy(_.getClass.getName)

@@ -55,18 +55,14 @@ object Grid:
   *
   * @param even uniform light on the same surface
   */
-final class BeamLight(even: AreaLight, beam: Beam) extends SurfaceLight, WrappedLight(even):
+final class BeamLight(even: AreaLight, beam: Beam) extends ModulatedLight(even):
+  protected def strength: Float = beam.mean
+
   def radiance(at: ShadingPoint, w: Vec3): Rgb = even.radiance(at, w) * beam(w dot beam.axis)
 
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     even.sample(from, u1, u2, out)
     if out.pdf > 0f then out.radiance.scale(beam(-(out.wi dot beam.axis)))
-
-  def pdf(from: Vec3, at: ShadingPoint): Float = even.pdf(from, at)
-
-  def bounds: Option[LightBounds] = even.bounds.map(b => b.copy(power = b.power * beam.mean))
-
-  override def power(scene: Ball): Float = even.power(scene) * beam.mean
 
   override def emit(
       scene: Ball,

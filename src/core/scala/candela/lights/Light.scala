@@ -87,6 +87,15 @@ trait WrappedLight(source: Light) extends Light:
     source.emissionPdf(scene, p, n, w)
   override def connectionPdf(from: Vec3, ray: EmittedRay): Float = source.connectionPdf(from, ray)
 
+/** An area light whose emission is that of `even`, scaled; directions are sampled as for that. */
+abstract class ModulatedLight(even: SurfaceLight) extends SurfaceLight, WrappedLight(even):
+  /** Upper bound or mean of the scale, for light selection. */
+  protected def strength: Float
+
+  def pdf(from: Vec3, at: ShadingPoint): Float = even.pdf(from, at)
+  override def power(scene: Ball): Float = even.power(scene) * strength
+  def bounds: Option[LightBounds] = even.bounds.map(b => b.copy(power = b.power * strength))
+
 /** Result of [[Light.sample]]; mutable, one per worker. It owns its vectors. */
 final class LightSample:
   private val ownWi = MutableVec3(0f, 0f, 1f)

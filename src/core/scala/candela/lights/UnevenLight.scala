@@ -12,14 +12,10 @@ import candela.textures.{Mapping2D, UvMapping}
   * @param even uniform light on the same surface
   */
 abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler)
-    extends SurfaceLight,
-      WrappedLight(even):
+    extends ModulatedLight(even):
 
   /** Scale of the emission at the sampled point. */
   protected def factor(at: ShadingPoint): Rgb
-
-  /** Upper bound or mean of the scale, for light selection. */
-  protected def strength: Float
 
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     even.sample(from, u1, u2, out)
@@ -29,10 +25,6 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler)
       if surface.intersectSurface(out.ray, out.hit, out.point) then
         out.radiance.scale(factor(out.point))
       else out.pdf = 0f
-
-  def pdf(from: Vec3, at: ShadingPoint): Float = even.pdf(from, at)
-
-  override def power(scene: Ball): Float = even.power(scene) * strength
 
   override def emit(
       scene: Ball,
@@ -51,9 +43,6 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler)
       if surface.intersectSurface(work.ray, work.hit, work.point) then
         out.radiance = out.radiance * factor(work.point)
       else out.pdf = 0f
-
-  def bounds: Option[LightBounds] =
-    even.bounds.map(b => b.copy(power = b.power * strength))
 
 object UnevenLight:
   /** Distance from which a ray is traced back, relative to the surface's extent. */

@@ -87,14 +87,16 @@ private[scenefile] final class ParserRun(
     val names = ofCamera.map(_._1)
     if !names.contains("Camera") && names.exists(CameraStatements.Transforms) then
       scene.placeCamera()
+    scene.description(dialect, problemsWithExcerpts)
+
+  private def problemsWithExcerpts: Vector[Problem] =
     def reopen(name: String) = if name == source.name then source.again else Excerpts.read(name)
-    scene.description(dialect, Excerpts.fill(problems.result(), reopen))
+    Excerpts.fill(problems.result(), reopen)
 
   /** The description with all problems; throws these if there is no world. */
   def result(dialect: Dialect): SceneDescription =
     finish(dialect)
-    def reopen(name: String) = if name == source.name then source.again else Excerpts.read(name)
-    val allProblems = Excerpts.fill(problems.result(), reopen)
+    val allProblems = problemsWithExcerpts
     if scene.worldBegin.isEmpty then throw SceneError(allProblems)
     val (errors, warnings) = allProblems.partition(_.severity == Severity.Error)
     val read = scene.description(dialect, warnings)

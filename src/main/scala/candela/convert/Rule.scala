@@ -63,16 +63,18 @@ object Steps:
     Step("`mapping`, `uscale`, `vscale`, `udelta`, `vdelta`, `v1`, `v2`", "those of the mapping"):
       s =>
         val kind = s.takeString("mapping", "uv")
-        val names = kind match
-          case "uv" => Vector("uscale", "vscale", "udelta", "vdelta")
-          case "planar" => Vector("v1", "v2", "udelta", "vdelta")
-          case _ => Vector.empty
         if kind != "uv" then s.addString("mapping", kind)
-        for name <- Vector("uscale", "vscale", "udelta", "vdelta", "v1", "v2") do
-          for p <- s.take(name) if names.contains(name) do s.add(name, p)
+        for name <- Placement; p <- s.take(name) if Placements.getOrElse(kind, Set.empty)(name) do
+          s.add(name, p)
         if kind == "cylindrical" then
           val message = "\"cylindrical\" maps heights in v4, and directions from the centre in v3"
           s.warn(Code.Inexpressible, s.declaration.pos, message)
+
+  /** The numbers of mappings. */
+  val Placement: Vector[String] = Vector("uscale", "vscale", "udelta", "vdelta", "v1", "v2")
+
+  private val Placements =
+    Map("uv" -> Placement.take(4).toSet, "planar" -> Placement.drop(2).toSet)
 
   /** Drops parameters that don't affect the image. */
   def drop(names: String*): Step =

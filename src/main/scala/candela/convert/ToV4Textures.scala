@@ -8,8 +8,6 @@ import candela.scenefile.*
 object ToV4Textures:
   import Steps.*
 
-  private val Placement = Seq("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
-
   /** By default v3 decodes PNG and TGA, v4 all 8-bit formats; v4 can override this for PNG only.
     * Other encodings are baked into a new image.
     */
@@ -152,7 +150,7 @@ object ToV4Textures:
         case Some(name) =>
           s.convertTo("scale")
           s.addTexture("tex", name)
-          Placement.foreach(s.take)
+          ("mapping" +: Placement).foreach(s.take)
         case None =>
           for (name, c) <- Seq(
               "v00" -> Rgb(0, 0, 0),

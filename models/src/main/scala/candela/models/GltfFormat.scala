@@ -1,32 +1,25 @@
 package candela.models
 
 import candela.diagnostics.{Code, Problem, Severity}
-import candela.io.{ForeignKind, SceneFolder, Sha256}
-import candela.job.SceneFormat
-import candela.scenefile.{Defines, SceneDescription}
+import candela.io.{ForeignKind, SceneFolder}
+import candela.scenefile.SceneDescription
 import candela.settings.{ReadSettings, Sensors}
 
 import java.nio.file.Path
 
 /** Models in glTF 2.0, as scenes. */
-final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
-  def hasDialects: Boolean = false
+final class GltfFormat extends ModelFormat("glTF", Vector("glb", "gltf")):
   override def owns(kind: ForeignKind): Boolean = kind == ForeignKind.Model
-  def keepsMeshesApart: Boolean = true
-  def worlds: String = "images"
-  def firstWorld: Int = 0
   override def hasSensors: Boolean = true
-  override def isModel: Boolean = true
   override def hasStates: Boolean = true
 
-  protected def readable(
+  private[models] def model(
       file: Path,
       within: SceneFolder,
       reading: ReadSettings,
       world: Option[Int],
       text: Option[String]
   ): SceneDescription =
-    Defines(reading.defines).requireUse()
     val scene =
       GltfScene.readable(file, within, reading, text, sensor(reading, world), world.getOrElse(0))
     val hasNext = reading.model.hasSeveralImages || reading.sensors.contains(Sensors.All)
@@ -37,8 +30,3 @@ final class GltfFormat extends SceneFormat("glTF", Vector("glb", "gltf")):
       isFollowed = scene.isFollowed && world.isDefined && hasNext,
       warnings = scene.warnings ++ firstOnly
     )
-
-  def digest(text: String): String = Sha256.of(text)
-
-  def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
-    Some(None)

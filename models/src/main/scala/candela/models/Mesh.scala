@@ -33,3 +33,20 @@ private[models] final case class Mesh(
       numbers(ParamType.Point2, "uv2", secondUvs),
       numbers(ParamType.Float, "colors", colors)
     ).flatten
+
+  /** With vertices of their own for all triangles.
+    *
+    * @param colors four components of each triangle
+    */
+  def coloredByTriangle(colors: Array[Float]): Mesh =
+    def spread(values: Array[Float], each: Int) =
+      if values.isEmpty then values
+      else Array.tabulate(each * indices.length)(i => values(each * indices(i / each) + i % each))
+    Mesh(
+      spread(positions, 3),
+      Array.range(0, indices.length),
+      spread(normals, 3),
+      spread(uvs, 2),
+      Array.tabulate(4 * indices.length)(i => colors(4 * (i / 12) + i % 4)),
+      spread(rests, 3)
+    )

@@ -2,13 +2,9 @@ package candela.models
 
 import candela.color.{Encoding, Rgb}
 import candela.diagnostics.SourcePos
-import candela.io.{ForeignKind, InputFile, SceneFolder, Sha256}
-import candela.job.SceneFormat
+import candela.io.{ForeignKind, InputFile, SceneFolder}
 import candela.math.Transform
-import candela.scenefile.{
-  Defines, Dialect, GraphicsState, MaterialRef, SceneDescription,
-  ShapeDescription
-}
+import candela.scenefile.{Dialect, GraphicsState, MaterialRef, SceneDescription, ShapeDescription}
 import candela.settings.{ReadSettings, UpAxis}
 
 import java.nio.ByteBuffer
@@ -20,32 +16,26 @@ import java.nio.file.Path
   * @param up the axis that usually does
   */
 abstract class MeshFormat private[models] (name: String, suffix: String, up: UpAxis)
-    extends SceneFormat(name, Vector(suffix)):
-  def hasDialects: Boolean = false
+    extends ModelFormat(name, Vector(suffix)):
   override def owns(kind: ForeignKind): Boolean = kind match
     case ForeignKind.Model | ForeignKind.Triangles | ForeignKind.Other => true
     case _ => false
-  def keepsMeshesApart: Boolean = true
-  def worlds: String = "images"
-  def firstWorld: Int = 0
-  override def isModel: Boolean = true
   override def isMesh: Boolean = true
 
   /** Shapes and materials of a file. */
-  private[models] def model(input: InputFile, session: Session): SceneDescription
+  private[models] def surfaces(input: InputFile, session: Session): SceneDescription
 
-  protected def readable(
+  private[models] def model(
       file: Path,
       within: SceneFolder,
       reading: ReadSettings,
       world: Option[Int],
       text: Option[String]
   ): SceneDescription =
-    Defines(reading.defines).requireUse()
     val session = Session(file, within, reading.keepGoing, reading.resolution)
     val input = text.fold(within.scene(file))(MeshFormat.inMemory(file, within, _))
     val axis = reading.model.up.getOrElse(up)
-    val turned = MeshFormat.upright(model(input, session), axis)
+    val turned = MeshFormat.upright(surfaces(input, session), axis)
     val complete =
       Studio.complete(turned, session, reading.model, world.getOrElse(0), isWhole = false)
     val opposite = if axis == UpAxis.Y then UpAxis.Z else UpAxis.Y
@@ -57,11 +47,6 @@ abstract class MeshFormat private[models] (name: String, suffix: String, up: UpA
       additions = Some((scene.additions ++ upward).mkString("; ")).filter(_.nonEmpty),
       isFollowed = scene.isFollowed && world.isDefined && reading.model.turntable.nonEmpty
     )
-
-  def digest(text: String): String = Sha256.of(text)
-
-  def imageName(file: Path, within: SceneFolder, reading: ReadSettings): Option[Option[String]] =
-    Some(None)
 
 private[models] object MeshFormat:
   /** Of surfaces without a material: that of Blender's. */

@@ -11,7 +11,7 @@ import scala.collection.mutable
 /** Models in Wavefront's OBJ format with materials in MTL, as scenes. */
 final class ObjFormat extends MeshFormat("OBJ", "obj", UpAxis.Y):
 
-  private[models] def model(input: InputFile, session: Session): SceneDescription =
+  private[models] def surfaces(input: InputFile, session: Session): SceneDescription =
     def at(line: Int, column: Int) = SourcePos(s"${session.file}", line, column)
     val mesh = ObjFile.read(input): (line, column, message) =>
       Session.fail(at(line, column), message)
@@ -49,9 +49,8 @@ private final class ObjScene(obj: ObjMesh, session: Session):
     val hasColors = obj.colors.nonEmpty
     val facesOf = mutable.LinkedHashMap.empty[Option[MtlMaterial], mutable.ArrayBuffer[Range]]
     for (run, i) <- obj.runs.zipWithIndex do
-      val end = if i + 1 < obj.runs.size then obj.runs(i + 1).firstFace else obj.faces
       facesOf.getOrElseUpdate(run.material.flatMap(material), mutable.ArrayBuffer.empty) +=
-        (run.firstFace until end)
+        obj.facesOf(i)
     val shapes = facesOf.toVector.flatMap: (material, ranges) =>
       val mesh = meshes.of(ranges.toVector)
       val surface = material.fold(

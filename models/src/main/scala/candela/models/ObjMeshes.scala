@@ -29,8 +29,7 @@ private[models] final class ObjMeshes(obj: ObjMesh):
   private val groups: Array[Int] =
     val result = new Array[Int](obj.faces)
     for (run, i) <- obj.runs.zipWithIndex do
-      val end = if i + 1 < obj.runs.size then obj.runs(i + 1).firstFace else obj.faces
-      loop(run.firstFace, end): f =>
+      for f <- obj.facesOf(i) do
         val hasNormals = (obj.start(f) until obj.ends(f)).forall(obj.normal(_) >= 0)
         result(f) = if hasNormals then -1 else run.smoothing & Int.MaxValue
     result

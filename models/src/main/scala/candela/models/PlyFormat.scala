@@ -9,7 +9,7 @@ import candela.settings.UpAxis
 /** Models in the polygon file format, as scenes. */
 final class PlyFormat extends MeshFormat("PLY", "ply", UpAxis.Z):
 
-  private[models] def model(input: InputFile, session: Session): SceneDescription =
+  private[models] def surfaces(input: InputFile, session: Session): SceneDescription =
     val ply = PlyFile.read(input, keepsAll = true, cutsEars = true)
     for name <- ply.omitted do
       session.warn(session.position, s"`$name` is not supported; it is left out")
@@ -26,7 +26,7 @@ private object PlyFormat:
     colors(ply, ply.ofVertices, count) match
       case Some(colors) => plain.copy(colors = colors)
       case None =>
-        colors(ply, ply.ofTriangles, ply.indices.length / 3).fold(plain)(onFaces(plain, _))
+        colors(ply, ply.ofTriangles, ply.indices.length / 3).fold(plain)(plain.coloredByTriangle)
 
   /** Colours of so many vertices or triangles, in sRGB as Blender and MeshLab take them. */
   private def colors(
@@ -48,18 +48,3 @@ private object PlyFormat:
                 if c < 3 then MeshFormat.linear(x) else Math.max(0f, Math.min(x, 1f))
           case None => loop(count)(i => result(4 * i + c) = 1f)
       result
-
-  /** With vertices of their own for all triangles. */
-  private def onFaces(m: Mesh, colors: Array[Float]): Mesh =
-    def spread(values: Array[Float], each: Int) =
-      if values.isEmpty then values
-      else
-        Array.tabulate(each * m.indices.length)(i => values(each * m.indices(i / each) + i % each))
-    Mesh(
-      spread(m.positions, 3),
-      Array.range(0, m.indices.length),
-      spread(m.normals, 3),
-      spread(m.uvs, 2),
-      Array.tabulate(4 * m.indices.length)(i => colors(4 * (i / 12) + i % 4)),
-      spread(m.rests, 3)
-    )

@@ -14,7 +14,7 @@ import java.nio.charset.StandardCharsets.ISO_8859_1
 /** Models in the format of stereolithography, as scenes. */
 final class StlFormat extends MeshFormat("STL", "stl", UpAxis.Z):
 
-  private[models] def model(input: InputFile, session: Session): SceneDescription =
+  private[models] def surfaces(input: InputFile, session: Session): SceneDescription =
     Source.read(input) match
       case Left(why) =>
         Session.fail(session.position, s"can't read the model: $why", Code.Unreadable)
@@ -61,6 +61,7 @@ private final class StlTriangles:
     colors += r
     colors += g
     colors += b
+    colors += 1f
 
   def mesh(): Mesh =
     val points = Array.tabulate(3 * vertices.size): i =>
@@ -68,15 +69,8 @@ private final class StlTriangles:
         case 0 => vertices.first(i / 3)
         case 1 => vertices.second(i / 3)
         case _ => vertices.third(i / 3))
-    val corners = indices.drain()
-    if colors.length == 0 then Mesh(points, corners)
-    else
-      Mesh(
-        Array.tabulate(3 * corners.length)(i => points(3 * corners(i / 3) + i % 3)),
-        Array.range(0, corners.length),
-        colors = Array.tabulate(4 * corners.length): i =>
-          if i % 4 == 3 then 1f else colors(3 * (i / 12) + i % 4)
-      )
+    val triangles = Mesh(points, indices.drain())
+    if colors.length == 0 then triangles else triangles.coloredByTriangle(colors.drain())
 
 /** Reads text: only the vertices of each facet matter. */
 private final class StlText(

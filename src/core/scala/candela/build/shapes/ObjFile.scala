@@ -39,6 +39,11 @@ final class ObjMesh(
     val omitted: Vector[PlacedText]
 ):
   def faces: Int = ends.length
+
+  /** The faces of a run. */
+  def facesOf(run: Int): Range =
+    runs(run).firstFace until (if run + 1 < runs.size then runs(run + 1).firstFace else faces)
+
   def start(face: Int): Int = if face == 0 then 0 else ends(face - 1)
 
   /** Index of the position, the coordinates and the normal of a corner; −1: none. */
