@@ -5,22 +5,37 @@ import scala.collection.mutable.ArrayBuffer
 /** Growable buffer of unboxed numbers.
   *
   * Stores fixed-size chunks and joins them at the end: peak memory is twice the result, against
-  * four times for a doubling array.
+  * four times for a doubling array. The first chunk begins small: many buffers hold little.
   *
   * @tparam A array type of the numbers
   */
 abstract class NumberBuffer[A](newArray: Int => A):
   private val pieces = ArrayBuffer.empty[A]
   protected var size = 0
+  private var firstLength = 0
 
   def length: Int = size
 
   /** The chunk that holds the number at index `i`. */
-  protected def pieceOf(i: Int): A =
+  protected def pieceOf(i: Int): A = pieces(i >>> NumberBuffer.Bits)
+
+  /** Likewise, which is made or enlarged. */
+  protected def roomFor(i: Int): A =
     val k = i >>> NumberBuffer.Bits
     if k == NumberBuffer.MaxPieces then throw OutOfMemoryError("a list of more than 2^31 numbers")
+    if i >= firstLength && firstLength < NumberBuffer.Piece then enlargeFirst(i)
     while pieces.length <= k do pieces += newArray(NumberBuffer.Piece)
     pieces(k)
+
+  private def enlargeFirst(i: Int): Unit =
+    val doubled = 2 * Integer.highestOneBit(Math.min(i, NumberBuffer.Piece - 1))
+    val length = Math.max(NumberBuffer.MinPiece, doubled)
+    val enlarged = newArray(length)
+    if firstLength == 0 then pieces += enlarged
+    else
+      System.arraycopy(pieces(0), 0, enlarged, 0, firstLength)
+      pieces(0) = enlarged
+    firstLength = length
 
   def copyTo(to: A, at: Int): Unit =
     for k <- pieces.indices do
@@ -34,11 +49,11 @@ abstract class NumberBuffer[A](newArray: Int => A):
   protected def share(other: NumberBuffer[A]): Unit =
     val full = other.size >>> NumberBuffer.Bits
     pieces ++= other.pieces.take(full)
-    size = full << NumberBuffer.Bits
-    val remaining = other.size - size
+    if full > 0 then firstLength = NumberBuffer.Piece
+    val remaining = other.size & NumberBuffer.OffsetMask
     if remaining > 0 then
-      System.arraycopy(other.pieces(full), 0, pieceOf(size), 0, remaining)
-      size = other.size
+      System.arraycopy(other.pieces(full), 0, roomFor(other.size - 1), 0, remaining)
+    size = other.size
 
   /** Empties the buffer, but keeps its memory. */
   def clear(): Unit = size = 0
@@ -54,6 +69,7 @@ abstract class NumberBuffer[A](newArray: Int => A):
 object NumberBuffer:
   private[candela] inline val Bits = 12
   private[candela] inline val Piece = 4096
+  private inline val MinPiece = 16
 
   /** Of an index: the bits of the offset in its chunk. */
   private[candela] inline val OffsetMask = 4095
@@ -65,7 +81,7 @@ final class FloatBuffer extends NumberBuffer[Array[Float]](new Array[Float](_)):
 
   def +=(x: Float): Unit =
     val offset = size & NumberBuffer.OffsetMask
-    if offset == 0 then last = pieceOf(size)
+    if offset == 0 || offset == last.length then last = roomFor(size)
     last(offset) = x
     size += 1
 
@@ -73,8 +89,8 @@ final class FloatBuffer extends NumberBuffer[Array[Float]](new Array[Float](_)):
     var start = 0
     while start < some.length do
       val offset = size & NumberBuffer.OffsetMask
-      last = pieceOf(size)
       val count = Math.min(some.length - start, NumberBuffer.Piece - offset)
+      last = roomFor(size + count - 1)
       System.arraycopy(some, start, last, offset, count)
       start += count
       size += count
@@ -87,7 +103,7 @@ final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
 
   def +=(x: Int): Unit =
     val offset = size & NumberBuffer.OffsetMask
-    if offset == 0 then last = pieceOf(size)
+    if offset == 0 || offset == last.length then last = roomFor(size)
     last(offset) = x
     size += 1
 
@@ -96,8 +112,8 @@ final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
     val end = size + count
     while size < end do
       val offset = size & NumberBuffer.OffsetMask
-      last = pieceOf(size)
       val pieceEnd = Math.min(offset + end - size, NumberBuffer.Piece)
+      last = roomFor(size - offset + pieceEnd - 1)
       java.util.Arrays.fill(last, offset, pieceEnd, x)
       size += pieceEnd - offset
 

@@ -1,5 +1,7 @@
 package candela.math
 
+import candela.base.loop
+
 /** The linear part of an affine map as a rotation, given by the unit quaternion (x, y, z; w), after
   * a stretch: nine numbers in row order.
   */
@@ -23,13 +25,15 @@ private[math] object PolarDecomposition:
     * Comput. 7(4), 1986.
     */
   def apply(t: Transform): PolarDecomposition =
-    val m = Array.tabulate(9)(i => t.m(4 * (i / 3) + i % 3))
+    val m = nine(i => t.m(4 * (i / 3) + i % 3))
     var r = m
     var change = Double.PositiveInfinity
     var steps = 0
     while change > 1e-14 && steps < MostSteps do
-      val next = r.lazyZip(transposedInverse(r)).map((p, q) => 0.5 * (p + q))
-      change = next.lazyZip(r).map((p, q) => Math.abs(p - q)).max
+      val (last, inverse) = (r, transposedInverse(r))
+      val next = nine(i => 0.5 * (last(i) + inverse(i)))
+      change = 0
+      loop(9)(i => change = Math.max(change, Math.abs(next(i) - last(i))))
       r = next
       steps += 1
     val rotation = if determinant(r) < 0 then r.map(-_) else r
@@ -37,14 +41,22 @@ private[math] object PolarDecomposition:
 
   private val MostSteps = 100
 
+  /** A matrix of three rows, without boxing: there may be many thousands of motions. */
+  private inline def nine(inline entry: Int => Double): Array[Double] =
+    val m = new Array[Double](9)
+    loop(9)(i => m(i) = entry(i))
+    m
+
   private def transposed(m: Array[Double]): Array[Double] =
-    Array.tabulate(9)(i => m(3 * (i % 3) + i / 3))
+    nine(i => m(3 * (i % 3) + i / 3))
 
   private def product(a: Array[Double], b: Array[Double]): Array[Double] =
-    Array.tabulate(9)(i => (0 until 3).map(k => a(3 * (i / 3) + k) * b(3 * k + i % 3)).sum)
+    nine: i =>
+      val (row, column) = (3 * (i / 3), i % 3)
+      a(row) * b(column) + a(row + 1) * b(3 + column) + a(row + 2) * b(6 + column)
 
   private def cofactors(m: Array[Double]): Array[Double] =
-    Array.tabulate(9): i =>
+    nine: i =>
       val r = i / 3
       val c = i % 3
       val r1 = (r + 1) % 3
@@ -58,8 +70,8 @@ private[math] object PolarDecomposition:
     m(0) * c(0) + m(1) * c(1) + m(2) * c(2)
 
   private def transposedInverse(m: Array[Double]): Array[Double] =
-    val d = determinant(m)
-    cofactors(m).map(_ / d)
+    val (d, c) = (determinant(m), cofactors(m))
+    nine(i => c(i) / d)
 
   /** Divides by the largest of the four components, whose sign becomes positive.
     *

@@ -25,7 +25,9 @@ object SceneFiles:
   /** Some of them several times: comparing millions takes longer than reading them again. */
   private def declarations(s: SceneDescription): Iterator[Declaration] =
     val single = Vector(s.camera, s.sampler, s.filter, s.integrator, s.accelerator, s.renderer)
-    def shapes = s.shapes.iterator ++ s.objects.valuesIterator.flatten
+    // Once: each object is looked up by its name
+    val ofObjects = s.objects.valuesIterator.flatten.toVector
+    def shapes = s.shapes.iterator ++ ofObjects
     (single :+ s.volumeIntegrator).flatten.iterator ++
       s.textures.iterator.map(_.texture) ++
       s.namedMaterials.iterator.map(_._2) ++

@@ -6,7 +6,7 @@ class NumberBufferSuite extends AnyFunSuite:
 
   test("numbers come back in their order, however many, and again after the buffer was emptied"):
     val (floats, ints) = (FloatBuffer(), IntBuffer())
-    for count <- Seq(0, 1, 4095, 4096, 4097, 20000, 5) do
+    for count <- Seq(0, 1, 16, 17, 4095, 4096, 4097, 20000, 5) do
       for i <- 0 until count do
         floats += i * 0.5f
         ints += -i
@@ -14,9 +14,19 @@ class NumberBufferSuite extends AnyFunSuite:
       assert(floats.drain().sameElements(Array.tabulate(count)(_ * 0.5f)))
       assert(ints.drain().sameElements(Array.tabulate(count)(-_)))
 
+  test("a list is added as its numbers are"):
+    for counts <- Seq(Seq(3, 16, 40), Seq(0, 16, 1), Seq(5000), Seq(4090, 20, 4096)) do
+      val (some, each) = (FloatBuffer(), FloatBuffer())
+      for count <- counts do
+        some ++= Array.tabulate(count)(_.toFloat)
+        for i <- 0 until count do each += i.toFloat
+        some += -1f
+        each += -1f
+      assert(some.drain().sameElements(each.drain()))
+
   test("one number so many times is as each added"):
     val (some, each) = (IntBuffer(), IntBuffer())
-    for (count, i) <- Seq(1, 0, 4094, 1, 1, 8192, 5000, 3).zipWithIndex do
+    for (count, i) <- Seq(1, 0, 20, 4073, 1, 1, 8192, 5000, 3).zipWithIndex do
       some.add(i, count)
       for _ <- 0 until count do each += i
       some += -i
@@ -34,7 +44,7 @@ class NumberBufferSuite extends AnyFunSuite:
     assert(ints.drain().sameElements(Array.tabulate(7000)(-_)))
 
   test("buffers that go on from one have its numbers, and it has none of theirs"):
-    for count <- Seq(0, 5, 4096, 10_000) do
+    for count <- Seq(0, 5, 16, 4096, 10_000) do
       val ints = IntBuffer()
       for i <- 0 until count do ints += i
       val (first, second) = (ints.continued, ints.continued)

@@ -44,8 +44,7 @@ private[accel] object BvhBuilder:
       parallel: Parallel
   ): BinaryTree =
     val pieces = split(records, size, parallel)
-    val joined = Subtree.join(pieces.top, pieces.subtrees, parallel)
-    BinaryTree(pieces.order, joined.nodes, joined.root, joined.leafSize, pieces.bounds)
+    Subtree.join(pieces.top, pieces.subtrees, pieces.order, pieces.bounds, parallel)
 
   /** The parts of a tree. */
   private final class Pieces(
@@ -63,8 +62,8 @@ private[accel] object BvhBuilder:
     union(records, parallel, levels.boxes)
     val bounds = boundsOf(levels.boxes)
     val binOf = Array.fill(3)(new Array[Byte](count))
-    val together = SharedCut(records, size.shift, binOf, parallel)
     val deferred = partSize(count)
+    def together = SharedCut(records, size.shift, binOf, parallel)
     val top = SubtreeBuilder(records, together, levels, size, deferred)
     val topRoot = top.build(0, count, 0)
     val topSize = top.leafSize
@@ -75,14 +74,14 @@ private[accel] object BvhBuilder:
       val builder =
         SubtreeBuilder(records, BinnedCut(records, size.shift, binOf), range.levels, size)
       val root = builder.build(range.start, range.end, range.depth)
-      subtrees(i) = Subtree(root, builder.leafSize, builder.trimmedNodes)
+      subtrees(i) = Subtree(root, builder.leafSize, builder.nodes)
     val order = new Array[Int](count)
     parallel.ranges(count): (from, until) =>
       var i = from
       while i < until do
         order(i) = records(i * BoxRecord.Ints + BoxRecord.Number)
         i += 1
-    Pieces(order, Subtree(topRoot, topSize, top.trimmedNodes), subtrees, bounds)
+    Pieces(order, Subtree(topRoot, topSize, top.nodes), subtrees, bounds)
 
   private def union(records: Array[Int], parallel: Parallel, to: Array[Int]): Unit =
     BoxRecord.clear(to, 0)

@@ -1,8 +1,9 @@
 package candela.accel.building
 
-import candela.base.loop
+import candela.base.{FloatBuffer, loop}
 import candela.concurrency.Parallel
 import candela.accel.BinaryTree
+import candela.geometry.Bounds3
 
 /** Builds a subtree over a range of records, which it sorts in place. One per worker.
   *
@@ -14,7 +15,7 @@ import candela.accel.BinaryTree
   */
 private[building] final class SubtreeBuilder(
     records: Array[Int],
-    cut: Cut,
+    cut: => Cut,
     levels: Levels,
     size: LeafSize,
     deferred: Int = 0
@@ -24,15 +25,17 @@ private[building] final class SubtreeBuilder(
   /** If a block holds as many triangles as [[FewCut]] splits, only ranges with other primitives get
     * there: their cost is per primitive.
     */
-  private val exactCut = FewCut(records, if size.block < FewCut.MaxRange then size.shift else 0)
+  private lazy val exactCut =
+    FewCut(records, if size.block < FewCut.MaxRange then size.shift else 0)
 
-  private var nodes = new Array[Float](NodeFloats * 64)
-  private var length = 0
+  // Most trees of many need neither
+  private lazy val largeCut = cut
+
+  val nodes = FloatBuffer()
+  private val row = new Array[Float](NodeFloats)
 
   /** Deferred ranges: a child that looks like a leaf of −k primitives is the kth of these. */
   val deferredRanges = scala.collection.mutable.ArrayBuffer.empty[DeferredRange]
-
-  def trimmedNodes: Array[Float] = java.util.Arrays.copyOf(nodes, length)
 
   /** Number of primitives in the leaf that [[build]] last made; 0 if it made a node. */
   var leafSize = 0
@@ -45,18 +48,19 @@ private[building] final class SubtreeBuilder(
     if n <= deferred then defer(first, end, depth)
     else if n <= 1 || size.isLeaf(records, first, end) then leaf(first, end)
     else
-      val chosenCut = if n <= FewCut.MaxRange then exactCut else cut
+      val chosenCut = if n <= FewCut.MaxRange then exactCut else largeCut
       val isCut = depth < BvhBuilder.MaxSahDepth && chosenCut.findSplit(first, end, levels, depth)
       if !isCut then if n <= size.maxPrimitives then leaf(first, end) else halve(first, end, depth)
       else if n <= size.maxPrimitives && n <= costOf(chosenCut, depth) then leaf(first, end)
       else
-        val node = newNode()
+        val node = nodes.length
         val middle = first + chosenCut.leftCount
         chosenCut.divide(first, end)
         chosenCut.descend(levels, depth)
         val offset = depth * BoxRecord.Ints
-        BoxRecord.read(levels.boxes, offset + BoxRecord.Ints, nodes, node)
-        BoxRecord.read(levels.boxes, offset, nodes, node + 6)
+        BoxRecord.read(levels.boxes, offset + BoxRecord.Ints, row, 0)
+        BoxRecord.read(levels.boxes, offset, row, 6)
+        nodes ++= row
         setChild(node, 0, build(first, middle, depth + 1))
         levels.descend(depth)
         setChild(node, 1, build(middle, end, depth + 1))
@@ -78,7 +82,8 @@ private[building] final class SubtreeBuilder(
 
   /** Median split by position in the array, ignoring the geometry. */
   private def halve(first: Int, end: Int, depth: Int): Int =
-    val node = newNode()
+    val node = nodes.length
+    nodes ++= row
     val middle = (first + end) >>> 1
     buildHalf(node, 0, first, middle, depth)
     buildHalf(node, 1, middle, end, depth)
@@ -89,28 +94,13 @@ private[building] final class SubtreeBuilder(
     levels.descend(depth)
     val offset = (depth + 1) * BoxRecord.Ints
     BoxRecord.uniteInto(levels.boxes, offset, records, first, end)
-    BoxRecord.read(levels.boxes, offset, nodes, node + 6 * side)
+    BoxRecord.read(levels.boxes, offset, row, 0)
+    loop(6)(k => nodes(node + 6 * side + k) = row(k))
     setChild(node, side, build(first, end, depth + 1))
 
   private def setChild(node: Int, side: Int, code: Int): Unit =
     nodes(node + 12 + side) = java.lang.Float.intBitsToFloat(code)
     nodes(node + 14 + side) = java.lang.Float.intBitsToFloat(leafSize)
-
-  private def newNode(): Int =
-    val offset = length
-    length += NodeFloats
-    if length > nodes.length then
-      nodes = java.util.Arrays.copyOf(nodes, SubtreeBuilder.grown(nodes.length))
-    offset
-
-private[building] object SubtreeBuilder:
-
-  /** Doubles a capacity, up to the maximum. */
-  private def grown(length: Int): Int =
-    val maxLength = Int.MaxValue / BinaryTree.NodeFloats * BinaryTree.NodeFloats
-    if length == maxLength then
-      throw IllegalStateException("the BVH exceeds the maximum array length")
-    Math.min(2L * length, maxLength.toLong).toInt
 
 /** A range of records whose subtree is still to be built.
   *
@@ -128,21 +118,28 @@ private[building] final class DeferredRange(
   *
   * @param leafSize size of the root, if it is a leaf; −k if it is the kth deferred part
   */
-private[building] final class Subtree(val root: Int, val leafSize: Int, val nodes: Array[Float])
+private[building] final class Subtree(val root: Int, val leafSize: Int, val nodes: FloatBuffer)
 
 private[building] object Subtree:
   import BinaryTree.NodeFloats
 
   /** Joins the upper part `top` and its deferred parts into one tree. */
-  def join(top: Subtree, parts: Array[Subtree], parallel: Parallel): Subtree =
+  def join(
+      top: Subtree,
+      parts: Array[Subtree],
+      order: Array[Int],
+      bounds: Bounds3,
+      parallel: Parallel
+  ): BinaryTree =
     val starts = parts.scanLeft(top.nodes.length.toLong)(_ + _.nodes.length)
     if starts.last > Int.MaxValue - 8 then
       val count = starts.last / NodeFloats
       throw IllegalStateException(s"a BVH of $count nodes exceeds the maximum array length")
-    val joinedNodes = java.util.Arrays.copyOf(top.nodes, starts.last.toInt)
+    val joinedNodes = new Array[Float](starts.last.toInt)
+    top.nodes.copyTo(joinedNodes, 0)
     parallel.forEach(parts.length): i =>
       val start = starts(i).toInt
-      System.arraycopy(parts(i).nodes, 0, joinedNodes, start, parts(i).nodes.length)
+      parts(i).nodes.copyTo(joinedNodes, start)
       children(joinedNodes, start, starts(i + 1).toInt): (at, code, _) =>
         setBits(joinedNodes, at, moved(code, start))
     def rootOf(k: Int) = moved(parts(k).root, starts(k).toInt)
@@ -151,8 +148,9 @@ private[building] object Subtree:
         setBits(joinedNodes, at, rootOf(-size - 1))
         setBits(joinedNodes, at + 2, parts(-size - 1).leafSize)
     val size = top.leafSize
-    if size < 0 then Subtree(rootOf(-size - 1), parts(-size - 1).leafSize, joinedNodes)
-    else Subtree(top.root, size, joinedNodes)
+    val (root, rootSize) =
+      if size < 0 then (rootOf(-size - 1), parts(-size - 1).leafSize) else (top.root, size)
+    BinaryTree(order, joinedNodes, root, rootSize, bounds)
 
   private def moved(code: Int, start: Int): Int = if code < 0 then code else code + start
 
