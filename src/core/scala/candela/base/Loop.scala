@@ -13,3 +13,9 @@ inline def loop(from: Int, until: Int)(inline body: Int => Unit): Unit =
   while i < until do
     body(i)
     i += 1
+
+/** The first number below `count` for which this holds, or −1. */
+inline def indexWhere(count: Int)(inline holds: Int => Boolean): Int =
+  var i = 0
+  while i < count && !holds(i) do i += 1
+  if i < count then i else -1

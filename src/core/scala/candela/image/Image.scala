@@ -27,7 +27,7 @@ sealed abstract class StoredImage:
   /** Of all stored numbers, decoded. */
   protected def decoded(i: Int): Float
 
-  final def channels: Int = channelNames.size
+  def channels: Int
 
   /** Indices of the named channels, if all are present. */
   final def indicesOf(names: Vector[String]): Option[Vector[Int]] =
@@ -86,6 +86,7 @@ final class Image(
     val encoding: Encoding = Encoding.Linear,
     val colorSpace: ColorSpace = ColorSpace.Srgb
 ) extends StoredImage:
+  val channels: Int = channelNames.size
   require(data.length == width.toLong * height * channels, s"$width×$height×$channels")
 
   def apply(x: Int, y: Int, channel: Int): Float = data((y * width + x) * channels + channel)
@@ -181,6 +182,7 @@ final class ByteImage(
     val bytes: Array[Byte],
     val encoding: Encoding
 ) extends StoredImage:
+  val channels: Int = channelNames.size
   def colorSpace: ColorSpace = ColorSpace.Srgb
   require(bytes.length == width.toLong * height * channels, s"$width×$height×$channels")
 

@@ -151,7 +151,9 @@ object Param:
   def float(name: String, at: SourcePos, values: Float*): Param =
     Param(ParamType.Float, name, at, at, floats = values.toArray)
   def int(name: String, at: SourcePos, values: Int*): Param =
-    Param(ParamType.Integer, name, at, at, ints = values.toArray)
+    ints(name, at, values.toArray)
+  def ints(name: String, at: SourcePos, values: Array[Int]): Param =
+    Param(ParamType.Integer, name, at, at, ints = values)
   def bool(name: String, at: SourcePos, value: Boolean): Param =
     Param(ParamType.Bool, name, at, at, bools = Vector(value))
   def string(name: String, at: SourcePos, values: String*): Param =

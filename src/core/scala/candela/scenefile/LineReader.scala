@@ -89,6 +89,17 @@ final class LineReader(
     while cursor < lineEnd && !isBlankAt(cursor) do cursor += 1
     cursor - start
 
+  /** Passes digits; the number that they are, or one from `Int.MaxValue` on. */
+  def digits(): Long =
+    val bytes = source.bytes
+    var n = 0L
+    var i = cursor
+    while i < lineEnd && bytes(i) >= '0' && bytes(i) <= '9' do
+      if n < Int.MaxValue then n = 10 * n + (bytes(i) - '0')
+      i += 1
+    cursor = i
+    n
+
   /** The byte of a mark. */
   def byteAt(mark: Int): Byte = source.bytes(mark)
 

@@ -1,6 +1,6 @@
 package candela.textures
 
-import candela.base.loop
+import candela.base.{indexWhere, loop}
 import candela.color.Rgb
 import candela.image.{ByteImage, Image, ImageBands, StoredImage}
 
@@ -153,10 +153,7 @@ object Texels:
         data(offset + c(0)) == data(offset + c(1)) && data(offset + c(0)) == data(offset + c(2))
 
   private inline def every(image: StoredImage)(inline holds: Int => Boolean): Boolean =
-    val count = image.width * image.height
-    var i = 0
-    while i < count && holds(i) do i += 1
-    i == count
+    indexWhere(image.width * image.height)(i => !holds(i)) < 0
 
   private def stored(image: StoredImage, index: Int): Float = image match
     case stored: ByteImage => (stored.bytes(index) & 0xff) / 255f

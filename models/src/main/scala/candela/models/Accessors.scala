@@ -1,6 +1,6 @@
 package candela.models
 
-import candela.base.loop
+import candela.base.{indexWhere, loop}
 import candela.diagnostics.{Code, Limit}
 
 import java.nio.ByteBuffer
@@ -33,17 +33,13 @@ private[models] final class Accessors(file: GltfFile, session: Session):
     floatArrays.getOrElseUpdate(
       index.size, {
         val a = entry(index)
-        val isNormalized = a.flag("normalized")
+        val maxValue = if a.flag("normalized") then kindOf(a).maxValue else 0.0
         val out = new Array[Float](checkedSize(a, components(index)))
-        read(a, components(index)): (i, bytes, offset, kind) =>
-          val x = kind.number(bytes, offset)
-          out(i) =
-            (if isNormalized && kind.maxValue > 0 then Math.max(x / kind.maxValue, -1.0)
-             else x).toFloat
-        out.indexWhere(x => !java.lang.Float.isFinite(x)) match
-          case -1 => ()
+        read(a, components(index)): (i, x) =>
+          out(i) = (if maxValue > 0 then Math.max(x / maxValue, -1.0) else x).toFloat
+        indexWhere(out.length)(i => !java.lang.Float.isFinite(out(i))) match
+          case -1 => out
           case i => a.fail(s"number $i is ${out(i)}")
-        out
       }
     )
 
@@ -52,8 +48,7 @@ private[models] final class Accessors(file: GltfFile, session: Session):
       index.size, {
         val a = entry(index)
         val out = new Array[Int](checkedSize(a, components(index)))
-        read(a, components(index)): (i, bytes, offset, kind) =>
-          val x = kind.number(bytes, offset)
+        read(a, components(index)): (i, x) =>
           if x != x.toInt then a.fail(s"number $i is $x, not an index")
           out(i) = x.toInt
         out
@@ -88,7 +83,7 @@ private[models] final class Accessors(file: GltfFile, session: Session):
     stride
 
   /** Visits all numbers, those that a sparse accessor replaces last. */
-  private def read(a: Json, each: Int)(visit: (Int, ByteBuffer, Int, Number) => Unit): Unit =
+  private inline def read(a: Json, each: Int)(inline visit: (Int, Double) => Unit): Unit =
     val kind = kindOf(a)
     val element = each * kind.bytes
     val count = a.required("count").size
@@ -96,7 +91,8 @@ private[models] final class Accessors(file: GltfFile, session: Session):
       val (bytes, stride) = (file.view(index), strideOf(a, index, element))
       val start = a.size("byteOffset", 0)
       loop(count): i =>
-        loop(each)(c => visit(i * each + c, bytes, start + i * stride + c * kind.bytes, kind))
+        loop(each): c =>
+          visit(i * each + c, kind.number(bytes, start + i * stride + c * kind.bytes))
     for sparse <- a("sparse") do
       val changed = sparse.required("count").size
       val (indices, values) = (sparse.required("indices"), sparse.required("values"))
@@ -107,7 +103,7 @@ private[models] final class Accessors(file: GltfFile, session: Session):
         val i = indexKind.number(changedIndices, k * indexKind.bytes)
         if i < 0 || i >= count then indices.fail(s"index $k is ${i.toLong}, of $count elements")
         loop(each): c =>
-          visit(i.toInt * each + c, numbers, k * element + c * kind.bytes, kind)
+          visit(i.toInt * each + c, kind.number(numbers, k * element + c * kind.bytes))
 
   private def part(a: Json, length: Long): ByteBuffer =
     val bytes = file.view(a.required("bufferView"))

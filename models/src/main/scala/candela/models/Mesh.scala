@@ -26,7 +26,7 @@ private[models] final case class Mesh(
       Option.when(values.nonEmpty)(Param.floats(kind, name, at, values))
     Vector(
       Some(Param.floats(ParamType.Point3, "P", at, positions, rests)),
-      Some(Param.int("indices", at, indices.toIndexedSeq*)),
+      Some(Param.ints("indices", at, indices)),
       numbers(ParamType.Normal, "N", normals),
       numbers(ParamType.Float, "tangents", tangents),
       numbers(ParamType.Point2, "uv", uvs),

@@ -1,6 +1,6 @@
 package candela.models
 
-import candela.base.loop
+import candela.base.{indexWhere, loop}
 import candela.diagnostics.Code
 import candela.math.{Transform, Vec3}
 import candela.scenefile.{Declaration, Param}
@@ -118,9 +118,9 @@ private[models] final class Primitives(file: GltfFile, session: Session):
     val order = primitive("indices") match
       case Some(index) =>
         val all = accessors.ints(index)
-        for i <- all.find(i => i < 0 || i >= vertices) do
-          index.fail(s"expected indices of $vertices vertices, found $i")
-        all
+        indexWhere(all.length)(i => all(i) < 0 || all(i) >= vertices) match
+          case -1 => all
+          case i => index.fail(s"expected indices of $vertices vertices, found ${all(i)}")
       case None => Array.range(0, vertices)
     val count = order.length
     mode match
@@ -175,8 +175,10 @@ private[models] final class Primitives(file: GltfFile, session: Session):
     else
       val bones = skin.get.joints
       val index = primitive.required("attributes")
-      for (indices, _) <- sets; j <- indices.find(j => j < 0 || j >= bones.size) do
-        index.fail(s"expected joints of a skin of ${bones.size}, found $j")
+      for
+        (joints, _) <- sets
+        i = indexWhere(joints.length)(i => joints(i) < 0 || joints(i) >= bones.size) if i >= 0
+      do index.fail(s"expected joints of a skin of ${bones.size}, found ${joints(i)}")
       val (p, n, t) = (v.positions.clone, v.normals.clone, v.tangents.clone)
       loop(count): i =>
         var (position, normal, tangent) = (Vec3.Zero, Vec3.Zero, Vec3.Zero)

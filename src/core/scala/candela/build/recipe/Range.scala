@@ -1,5 +1,6 @@
 package candela.build.recipe
 
+import candela.base.indexWhere
 import candela.diagnostics.Code
 import candela.scenefile.Param
 
@@ -47,7 +48,9 @@ final case class Range(
   def held(p: Param, unit: String, site: Site): Option[Param] =
     def isOdd(x: Float) = !holds(x) && (outside != Outside.Deferred || Range.isAbsurd(x))
     def first(isSuch: Float => Boolean) =
-      p.floats.find(isSuch).orElse(p.ints.iterator.map(_.toFloat).find(isSuch))
+      indexWhere(p.floats.length)(i => isSuch(p.floats(i))) match
+        case -1 => p.ints.iterator.map(_.toFloat).find(isSuch)
+        case i => Some(p.floats(i))
     first(isOdd) match
       case None => Some(p)
       case Some(odd) =>

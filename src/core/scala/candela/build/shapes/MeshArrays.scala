@@ -1,5 +1,6 @@
 package candela.build.shapes
 
+import candela.base.indexWhere
 import candela.diagnostics.Code
 import candela.build.recipe.*
 import candela.scenefile.ParamType
@@ -93,21 +94,18 @@ private[build] object MeshArrays:
         val count = indices.length
         problem(s"`indices` must have a multiple of $corners numbers, found $count")
       else
-        indices.find(i => i < 0 || i >= vertices) match
-          case Some(i) =>
-            problem(s"`indices` must be vertices of `P`, 0 to ${vertices - 1}, found $i")
-          case None =>
-            if !isFinite(positions) then
-              problem("`P` must not contain NaN or infinite numbers")
-            else None
+        indexWhere(indices.length)(i => indices(i) < 0 || indices(i) >= vertices) match
+          case -1 =>
+            Option.unless(isFinite(positions))("`P` must not contain NaN or infinite numbers")
+          case i =>
+            val range = s"0 to ${vertices - 1}"
+            problem(s"`indices` must be vertices of `P`, $range, found ${indices(i)}")
     wrong.foreach(site.unusable(Code.BrokenMesh, _))
     wrong.isEmpty
 
   /** Whether no number is infinite or NaN. */
   def isFinite(numbers: Array[Float]): Boolean =
-    var i = 0
-    while i < numbers.length && java.lang.Float.isFinite(numbers(i)) do i += 1
-    i == numbers.length
+    indexWhere(numbers.length)(i => !java.lang.Float.isFinite(numbers(i))) < 0
 
   /** Drops attributes that don't match the number of vertices, with a warning, as pbrt does. */
   private def matching(name: String, values: Array[Float], vertices: Int, each: Int)(using

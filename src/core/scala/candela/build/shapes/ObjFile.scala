@@ -224,10 +224,7 @@ private final class ObjReader(in: LineReader):
     val isBackward = in.isAt('-')
     if isBackward then in.skip(1)
     val digits = in.mark
-    var n = 0L
-    while !in.isAtEnd && in.byteAt(in.mark) >= '0' && in.byteAt(in.mark) <= '9' do
-      if n < Int.MaxValue then n = 10 * n + (in.byteAt(in.mark) - '0')
-      in.skip(1)
+    val n = in.digits()
     if in.mark == digits then if isBackward then cornerless(start) else -1
     else
       val resolved = if isBackward then count - n else n - 1
