@@ -67,9 +67,10 @@ object Architecture:
   private val measure = common + "image"
   private val report = measure + "measure"
   private val convert =
-    measure ++ "bsdf bsdf.composite bsdf.layered bsdf.microfacet lights sampling scenefile".split(
-      ' '
-    )
+    measure ++
+      "bsdf bsdf.composite bsdf.layered bsdf.microfacet lights sampling scenefile shapes".split(
+        ' '
+      )
   private val mitsuba = common ++ Set("scenefile", "build.shapes")
   private val models =
     common ++ Set("build.shapes", "geometry", "image", "scenefile", "settings", "job")

@@ -34,6 +34,19 @@ final class Profile(
     */
   inline def slope(z: Double): Double = 0.5 * g1 + g2 * z
 
+  /** −z of the normal (x, y, −leaning) that points away from the axis. */
+  def leaning(x: Double, y: Double, z: Double): Double =
+    if !loose then slope(z)
+    else
+      val along = alongLine(x, y, z)
+      (x * along.x + y * along.y) / vSpan
+
+  /** Where the radius is 0. */
+  def zeros: Vector[Double] =
+    val root = Math.sqrt(0.25 * g1 * g1 - g0 * g2)
+    if g2 == 0 then Option.when(g1 != 0)(-g0 / g1).toVector
+    else Vector(-root, root).map(r => (r - 0.5 * g1) / g2).filter(java.lang.Double.isFinite(_))
+
   inline def v(z: Double): Double = (z - vStart) / vSpan
 
   /** Angle from the seam to (x, y), in [0, 2π). */

@@ -96,7 +96,7 @@ final class Quadric(
         z += k * s
       steps -= 1
     setPoint(x, y, z, at)
-    val slope = leaning(x, y, z)
+    val slope = profile.leaning(x, y, z)
     val gradient = Vec3(x.toFloat, y.toFloat, -slope.toFloat)
     // An apex points up, as the gradient is zero there
     val objectNormal = if gradient.isZero then Vec3.Z else gradient
@@ -108,13 +108,6 @@ final class Quadric(
       objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0))
     ))
     if at.wantsPartials then partials(x, y, z, at)
-
-  /** −z of the normal (x, y, −slope). */
-  private def leaning(x: Double, y: Double, z: Double): Double =
-    if !profile.loose then profile.slope(z)
-    else
-      val along = profile.alongLine(x, y, z)
-      (x * along.x + y * along.y) / profile.vSpan
 
   private def partials(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
     if profile.loose then loosePartials(x, y, z, at) else followingPartials(x, y, z, at)

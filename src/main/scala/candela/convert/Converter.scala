@@ -50,7 +50,9 @@ object Converter:
       if isOfOthers then ofOthers(scene, to, files) else Converted(scene, Vector.empty)
     val relocated = Declarations.map(translated.scene)(FileNames(files.folder).moved)
     val images =
-      if isOfOthers then MitsubaInV4.images(relocated, files)
+      if scene.dialect == Dialect.Mitsuba then
+        MitsubaInV4.images(MitsubaInV4.luminances(relocated, files), files)
+      else if isOfOthers then MitsubaInV4.images(relocated, files)
       else Converted(relocated, Vector.empty)
     val moved = images.scene
     val hasSpaces = to == Dialect.V4 || from != Dialect.V4

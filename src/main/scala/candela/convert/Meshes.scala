@@ -7,6 +7,7 @@ import candela.scenefile.{Declaration, Param, ParamType}
 
 /** Properties of meshes. */
 object Meshes:
+  val OtherSide = "v3 lights the other side of a reversed mesh with normals"
 
   /** Whether every vertex has a shading normal. */
   def hasNormals(shape: Declaration): Boolean = shape.name match

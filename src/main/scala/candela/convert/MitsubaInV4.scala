@@ -49,6 +49,18 @@ private[convert] object MitsubaInV4:
   /** Lights that no ray hits by chance. */
   private val Points = Set("point", "spot", "distant", "projection", "goniometric")
 
+  /** Numbers of coloured images are luminances in Mitsuba, means of channels in pbrt-v4. */
+  def luminances(scene: SceneDescription, files: SideFiles): SceneDescription =
+    scene.copy(textures = scene.textures.map: t =>
+      val file = t.texture.param("filename")
+        .filter(_ => t.valueType == "float" && t.texture.name == "imagemap")
+      file.filter(RewrittenImages.isColored(t.texture, _)).fold(t): p =>
+        val isRaw = t.texture.param("encoding").exists(_.strings.contains("linear"))
+        val name = RewrittenImages.luminances(t.texture, p, isRaw, files)
+        val params = t.texture.params.filterNot(_.name == "encoding")
+          .map(q => if q eq p then p.withStrings(Vector(name)) else q)
+        t.copy(texture = t.texture.copy(params = params)))
+
   /** pbrt-v4 decodes all 8-bit files but PNG as sRGB. */
   def images(scene: SceneDescription, files: SideFiles): Converted =
     val problems = Vector.newBuilder[Problem]

@@ -20,7 +20,7 @@ final class Pass(
     val defaults: Map[String, String],
     val shape: (ShapeDescription, PassRun) => Vector[ShapeDescription] = (s, _) => Vector(s),
     val texture: TextureDescription => TextureDescription = identity,
-    val light: LightDescription => LightDescription = identity
+    val light: (LightDescription, PassRun) => Vector[LightDescription] = (l, _) => Vector(l)
 ):
   def table(category: String): Table = tables.find(_.category == category).get
 
@@ -58,6 +58,11 @@ final class PassRun(
 
   def warn(code: Code, at: SourcePos, message: String): Unit =
     problems += Problem.warning(code, at, message)
+
+  /** Reports a parameter that the source dialect lacks. */
+  def ignore(p: Param, name: String): Unit =
+    warn(Code.UnknownParameter, p.pos, s"unknown parameter `${p.name}` of \"$name\"; ignored")
+
   def warnings: Vector[Problem] = problems.toVector
 
   def texture(name: String, valueType: String): Option[TextureDescription] =
@@ -98,7 +103,7 @@ final class PassRun(
     val allTextures = scene.textures.flatMap: t =>
       val placed = pass.texture(t)
       currentTransform = placed.textureToWorld
-      val declaration = convert(t.texture, s"${t.valueType} texture")
+      val declaration = convert(placed.texture, s"${t.valueType} texture")
       val dependencies = added.toVector
       added.clear()
       dependencies ++ declaration.map(d => placed.copy(texture = d))
@@ -135,9 +140,12 @@ final class PassRun(
         pass.to == Dialect.V4
       ,
       namedMaterials = materials,
-      lights = scene.lights.flatMap: l =>
-        convert(l.light, "LightSource")
-          .map(d => pass.light(l).copy(light = d, medium = medium(l.medium))),
+      lights =
+        for
+          l <- scene.lights
+          light <- pass.light(l, this)
+          declaration <- convert(light.light, "LightSource")
+        yield light.copy(light = declaration, medium = medium(l.medium)),
       shapes = shapes,
       objects = objects,
       cameraMedium = medium(scene.cameraMedium),

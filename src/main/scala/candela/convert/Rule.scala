@@ -58,6 +58,17 @@ object Steps:
       names.map(_._2).mkString("`", "`, `", "`")
     )(s => names.foreach((from, to) => s.take(from).foreach(s.add(to, _))))
 
+  /** Bumps, by another name. In v3, light reaches them if it is before the surface; in v4, it must
+    * be before the bump, too.
+    */
+  def bumps(s: Statement, from: String, to: String): Unit =
+    for p <- s.take(from) do
+      s.add(to, p)
+      val (source, target) = s.run.ends
+      if source != target && s.numberOf(p).isEmpty then
+        val message = "v3 lights bumps that turn away from a light, v4 does not"
+        s.warn(Code.Inexpressible, p.pos, message)
+
   /** Where textures of v3 and v4 lie: each mapping has its own numbers. */
   val mapping: Step =
     Step("`mapping`, `uscale`, `vscale`, `udelta`, `vdelta`, `v1`, `v2`", "those of the mapping"):

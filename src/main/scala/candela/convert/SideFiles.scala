@@ -13,7 +13,7 @@ import scala.util.Try
 import candela.color.{Encoding, Rgb}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.lights.{Picture, PictureLookup}
-import candela.scenefile.{Dialect, Param}
+import candela.scenefile.{Declaration, Dialect, Param}
 
 /** Files that accompany an output scene, named by a hash of their content: an existing file of that
   * name is either equal, or not ours to overwrite.
@@ -128,6 +128,41 @@ object RewrittenImages:
         loop(3): c =>
           result.data(3 * i + c) = change(image.data(image.channels * i + sources(c)), c)
       result
+
+  /** A float texture's image as numbers, if it has colours: v3 takes their luminance, v4 their
+    * mean.
+    *
+    * @param way what `number`, of stored values, depends on
+    */
+  def numbers(s: Statement, p: Param, way: Any)(number: Rgb => Float): Option[String] =
+    Option.when(isColored(s.declaration, p)):
+      written(s, p, ("numbers", way)): image =>
+        val colors = stored(image)
+        val result = Image.rgb(image.width, image.height)
+        loop(image.width * image.height): i =>
+          val x = number(Rgb(colors(3 * i), colors(3 * i + 1), colors(3 * i + 2)))
+          java.util.Arrays.fill(result.data, 3 * i, 3 * i + 3, x)
+        result
+
+  /** As numbers of linear values, or of the stored ones. */
+  def luminances(d: Declaration, p: Param, isRaw: Boolean, files: SideFiles): String =
+    val source = file(d.folder, p)
+    files.reused((source.path, "luminances", isRaw)):
+      val image = ImageFiles.load(source).toImage
+      val colors = if isRaw then stored(image) else image.linear.toRgb.data
+      val result = Image.rgb(image.width, image.height)
+      loop(image.width * image.height): i =>
+        val y = Rgb(colors(3 * i), colors(3 * i + 1), colors(3 * i + 2)).luminance
+        java.util.Arrays.fill(result.data, 3 * i, 3 * i + 3, y)
+      files.add("image", "exr", ImageFiles.exr(result))
+
+  /** Whether some pixel is not grey; not if the image can't be read. */
+  def isColored(d: Declaration, p: Param): Boolean =
+    Try(stored(ImageFiles.load(file(d.folder, p)).toImage)).toOption.exists: colors =>
+      colors.indices.by(3).exists(i => colors(i) != colors(i + 1) || colors(i) != colors(i + 2))
+
+  private def stored(image: Image) =
+    Image(image.width, image.height, image.channelNames, image.data).toRgb.data
 
   /** The stored values as linear ones, unless the file is PNG, for which scenes name the encoding,
     * or linear as it is: name of the file, or why it can't be read.

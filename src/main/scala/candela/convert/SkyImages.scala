@@ -20,7 +20,7 @@ object SkyImages:
     try
       val file = RewrittenImages.file(s, p)
       val kind = if toSquare then "equalarea" else "latlong"
-      Some(s.run.files.reused((file.path, s.run.pass.from, toSquare, tint)):
+      Some(s.run.files.reused((file.path, s.run.pass.from, s.name, tint)):
         val image = environment(file, name, s, toSquare)
         val tinted = if tint == Rgb.White then image else times(image, tint)
         s.run.files.add(kind, "exr", ImageFiles.exr(tinted)))
@@ -35,9 +35,11 @@ object SkyImages:
 
   private def environment(file: InputFile, name: String, s: Statement, toSquare: Boolean): Image =
     val isPhotometry = IesFile.isNamed(name)
-    val source =
+    val colors =
       if isPhotometry then IesFile.read(file).photometry.image
       else RewrittenImages.lightImage(ImageFiles.load(file).toImage, name, s)
+    // v4's goniometric lights take the mean of the channels
+    val source = if s.name == "goniometric" && !toSquare then averaged(colors) else colors
     if isPhotometry && !toSquare then
       val width = Math.max(source.width, 360)
       resampled(source, LatLongMap, width, source.height, LatLongMap, smooth = true)
@@ -100,6 +102,13 @@ object SkyImages:
       val wx = map.wrapX(px, py, image.width, image.height)
       val wy = map.wrapY(px, py, image.width, image.height)
       loop(3)(c => sum(c) += weight * image(wx, wy, c))
+
+  private def averaged(image: Image): Image =
+    val data = image.data.clone
+    loop(data.length / 3): i =>
+      val mean = (data(3 * i) + data(3 * i + 1) + data(3 * i + 2)) / 3f
+      java.util.Arrays.fill(data, 3 * i, 3 * i + 3, mean)
+    Image(image.width, image.height, image.channelNames, data)
 
   private def times(image: Image, tint: Rgb): Image =
     val factors = Array(tint.r, tint.g, tint.b)

@@ -99,8 +99,7 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
       val source = s"${declaration.category} \"$name\""
       val message = s"$source is converted to \"$targetName\" in $target: $note"
       warn(Code.Inexpressible, declaration.pos, message)
-    for p <- pending.values if !p.isDefault do
-      warn(Code.UnknownParameter, p.pos, s"unknown parameter `${p.name}` of \"$name\"; ignored")
+    for p <- pending.values if !p.isDefault do run.ignore(p, name)
     val (implied, converted) = added.toVector.partition(_.pos == declaration.pos)
     val ordered = converted.sortBy(p => (p.pos.line, p.pos.column)) ++ implied
     // v2 and v3 have no `Attribute`

@@ -1,84 +1,112 @@
 package candela.convert
 
-import candela.math.{clamp, radians, Vec3}
+import candela.math.{clamp, lerp, radians, Vec3}
 import candela.scenefile.{Declaration, Param, ParamType}
+import candela.shapes.Profile
 
 /** Tessellates shapes that v4 lacks, by their parametric form. */
 object Tessellation:
 
-  /** The shape as a trianglemesh, if v4 lacks its type. */
-  def of(d: Declaration): Option[Declaration] = d.name match
-    case "cone" | "paraboloid" | "hyperboloid" => surface(d).map(grid(d))
+  /** The shape as a trianglemesh, if v4 lacks its type.
+    *
+    * @param isMirrored whether its transform mirrors it: v4 turns quadrics over then, but no mesh
+    *   with normals
+    */
+  def of(d: Declaration, isMirrored: Boolean = false): Option[Declaration] = d.name match
+    case "cone" | "paraboloid" | "hyperboloid" => profile(d).map(grid(d, _, isMirrored))
     case "heightfield" => heightfield(d)
     case _ => None
 
+  /** Whether the normals are not those of the surface: see [[Profile]]. */
+  def isLoose(d: Declaration): Boolean = profile(d).exists(_.loose)
+
   /** Points of a quadric by u and v in [0, 1], in its own space. */
-  def surface(d: Declaration): Option[(Float, Float) => Vec3] =
-    def number(name: String, default: Float) =
-      d.param(name).flatMap(_.floats.headOption).getOrElse(default)
-    def point(name: String, default: Vec3) = d.param(name).map(_.floats) match
+  def surface(d: Declaration): Option[(Float, Float) => Vec3] = d.name match
+    case "sphere" =>
+      val radius = number(d, "radius", 1f)
+      val (z0, z1) = zRange(d, -radius, radius)
+      def angle(z: Float) = Math.acos(clamp(z / radius, -1f, 1f).toDouble)
+      val (theta0, theta1) = (angle(z0), angle(z1))
+      Some: (u, v) =>
+        val theta = theta0 + v * (theta1 - theta0)
+        cylindrical(radius * Math.sin(theta), radius * Math.cos(theta), u * phiMax(d))
+    case "disk" =>
+      val (radius, inner) = (number(d, "radius", 1f), number(d, "innerradius", 0f))
+      val height = number(d, "height", 0f).toDouble
+      Some((u, v) => cylindrical(radius - v.toDouble * (radius - inner), height, u * phiMax(d)))
+    case _ => profile(d).map(p => point(p, phiMax(d), _, _))
+
+  private def number(d: Declaration, name: String, default: Float) =
+    d.param(name).flatMap(_.floats.headOption).getOrElse(default)
+
+  private def zRange(d: Declaration, low: Float, high: Float) =
+    val (a, b) = (number(d, "zmin", low), number(d, "zmax", high))
+    (Math.min(a, b), Math.max(a, b))
+
+  private def phiMax(d: Declaration) = radians(clamp(number(d, "phimax", 360f), 0f, 360f))
+
+  private def profile(d: Declaration): Option[Profile] =
+    def corner(name: String, default: Vec3) = d.param(name).map(_.floats) match
       case Some(Array(x, y, z)) => Vec3(x, y, z)
       case _ => default
-    val phimax = radians(clamp(number("phimax", 360f), 0f, 360f))
-    def turned(x: Float, y: Float, z: Float, u: Float) =
-      val (sin, cos) = (Math.sin(u * phimax.toDouble), Math.cos(u * phimax.toDouble))
-      Vec3((x * cos - y * sin).toFloat, (x * sin + y * cos).toFloat, z)
-    val radius = number("radius", 1f)
-    def zRange(low: Float, high: Float) =
-      val (a, b) = (number("zmin", low), number("zmax", high))
-      (Math.min(a, b), Math.max(a, b))
+    val radius = number(d, "radius", 1f)
     d.name match
-      case "sphere" =>
-        val (z0, z1) = zRange(-radius, radius)
-        def angle(z: Float) = Math.acos(clamp(z / radius, -1f, 1f).toDouble)
-        val (theta0, theta1) = (angle(z0), angle(z1))
-        Some: (u, v) =>
-          val theta = theta0 + v * (theta1 - theta0)
-          turned((radius * Math.sin(theta)).toFloat, 0f, (radius * Math.cos(theta)).toFloat, u)
       case "cylinder" =>
-        val (z0, z1) = zRange(-1f, 1f)
-        Some((u, v) => turned(radius, 0f, z0 + v * (z1 - z0), u))
-      case "disk" =>
-        val (height, inner) = (number("height", 0f), number("innerradius", 0f))
-        Some((u, v) => turned(radius - v * (radius - inner), 0f, height, u))
-      case "cone" =>
-        val height = number("height", 1f)
-        Some((u, v) => turned(radius * (1 - v), 0f, v * height, u))
+        val (z0, z1) = zRange(d, -1f, 1f)
+        Some(Profile.cylinder(radius, z0, z1))
+      case "cone" => Some(Profile.cone(radius, number(d, "height", 1f)))
       case "paraboloid" =>
-        val (z0, z1) = zRange(0f, 1f)
-        Some: (u, v) =>
-          val z = z0 + v * (z1 - z0)
-          turned(radius * Math.sqrt(Math.max(z / z1, 0f).toDouble).toFloat, 0f, z, u)
+        val (z0, z1) = zRange(d, 0f, 1f)
+        Some(Profile.paraboloid(radius, z0, z1))
       case "hyperboloid" =>
-        val (p1, p2) = (point("p1", Vec3.Zero), point("p2", Vec3(1, 1, 1)))
-        Some: (u, v) =>
-          val p = p1 * (1 - v) + p2 * v
-          turned(p.x, p.y, p.z, u)
+        Profile.hyperboloid(corner("p1", Vec3.Zero), corner("p2", Vec3(1, 1, 1)))
       case _ => None
+
+  private def cylindrical(radius: Double, z: Double, angle: Double) =
+    Vec3((radius * Math.cos(angle)).toFloat, (radius * Math.sin(angle)).toFloat, z.toFloat)
+
+  private def point(p: Profile, phiMax: Float, u: Float, v: Float): Vec3 =
+    val z = p.vStart + v * p.vSpan
+    cylindrical(Math.sqrt(Math.max(p.radius2(z), 0.0)), z, p.seam(z) + u * phiMax)
 
   private val StepsAround = 128
   private val StepsAlong = 32
 
   /** A surface over the unit square, with the normal ∂p/∂u × ∂p/∂v. */
-  private def grid(d: Declaration)(p: (Float, Float) => Vec3): Declaration =
-    val vertices =
-      for j <- 0 to StepsAlong; i <- 0 to StepsAround
-      yield (i.toFloat / StepsAround, j.toFloat / StepsAlong)
+  private def grid(d: Declaration, p: Profile, isMirrored: Boolean): Declaration =
+    val phi = phiMax(d)
+    val strips = ranges(p)
+    def vertices(tip: Float) =
+      for
+        (v0, v1) <- strips
+        j <- 0 to StepsAlong
+        i <- 0 to StepsAround
+        t = clamp(j.toFloat / StepsAlong, tip, 1 - tip)
+      yield (i.toFloat / StepsAround, lerp(t, v0, v1))
+    val sign = if isMirrored then -p.vSpan.sign else p.vSpan.sign
     def normal(u: Float, v: Float) =
-      // Offset into the surface, because ∂p/∂u vanishes at a tip.
-      val (u0, u1) = (Math.max(u - Step, 0f), Math.min(u + Step, 1f))
-      val (v0, v1) = (Math.max(v - Step, 0f), Math.min(v + Step, 1f))
-      val inner = clamp(v, Step, 1 - Step)
-      ((p(u1, inner) - p(u0, inner)) cross (p(u, v1) - p(u, v0))).normalized
+      val at = point(p, phi, u, v)
+      val (x, y, z) = (at.x.toDouble, at.y.toDouble, at.z.toDouble)
+      Vec3(at.x, at.y, -p.leaning(x, y, z).toFloat).normalized * sign.toFloat
+    val count = (StepsAround + 1) * (StepsAlong + 1)
     mesh(
       d,
-      vertices.map(p(_, _)),
-      vertices.map(normal(_, _)),
-      vertices,
-      squares(StepsAround + 1, StepsAlong + 1)
+      vertices(0f).map(point(p, phi, _, _)),
+      vertices(Tip).map(normal(_, _)),
+      vertices(0f),
+      strips.indices.toArray
+        .flatMap(i => squares(StepsAround + 1, StepsAlong + 1).map(_ + i * count))
     )
 
-  private val Step = 1e-3f
+  /** Short of a tip, where there is no normal. */
+  private val Tip = 1e-4f
+
+  /** The ranges of v with a surface. */
+  private def ranges(p: Profile): Vector[(Float, Float)] =
+    val ends = (Vector(0.0, 1.0) ++ p.zeros.map(p.v(_)).filter(v => v > 0 && v < 1)).sorted
+    ends.zip(ends.tail)
+      .filter((a, b) => p.radius2(p.vStart + 0.5 * (a + b) * p.vSpan) > 0)
+      .map((a, b) => (a.toFloat, b.toFloat))
 
   /** Two triangles per cell of a vertex grid. */
   private def squares(nx: Int, ny: Int): Array[Int] =
@@ -114,4 +142,4 @@ object Tessellation:
       list(ParamType.Normal, "N", flattened(normals)),
       list(ParamType.Point2, "uv", uvs.flatMap((u, v) => Seq(u, v)))
     ).flatten :+ Param(ParamType.Integer, "indices", d.pos, d.pos, ints = indices)
-    d.copy(name = "trianglemesh", params = meshParams ++ d.param("alpha"))
+    d.copy(name = "trianglemesh", params = meshParams)

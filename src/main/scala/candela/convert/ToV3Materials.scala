@@ -10,7 +10,7 @@ object ToV3Materials:
   import Steps.*
 
   private val bump = Step("`displacement`, `normalmap`", "`bumpmap`; `normalmap` is dropped"): s =>
-    for p <- s.take("displacement") do s.add("bumpmap", p)
+    bumps(s, "displacement", "bumpmap")
     for p <- s.take("normalmap") do
       s.warn(Code.Inexpressible, p.pos, "v3 does not support normal maps; ignored")
 

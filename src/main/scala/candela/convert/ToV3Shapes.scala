@@ -50,7 +50,7 @@ object ToV3Shapes:
     )
   )
 
-  /** v3 ignores `ReverseOrientation` of meshes with normals, while v4 flips the normals. */
+  /** v3 turns reversed meshes with normals over for rays, but not for samples of lights. */
   def placed(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
     val meshed =
       if s.shape.name != "bilinearmesh" then s
@@ -65,11 +65,7 @@ object ToV3Shapes:
     val turned =
       if meshed.reverseOrientation && Meshes.hasNormals(meshed.shape) then
         if meshed.shape.name == "plymesh" then
-          run.warn(
-            Code.Inexpressible,
-            s.shape.pos,
-            "v3 does not reverse the orientation of a PLY mesh with normals"
-          )
+          if s.areaLight.nonEmpty then run.warn(Code.Inexpressible, s.shape.pos, Meshes.OtherSide)
           meshed
         else meshed.copy(shape = reversed(meshed.shape), reverseOrientation = false)
       else meshed

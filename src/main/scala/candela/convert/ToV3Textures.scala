@@ -17,14 +17,10 @@ object ToV3Textures:
     Step("`filename`, `encoding`, `invert`", "`filename`, `gamma`; or a new image as EXR"): s =>
       val (encoding, inverts) = (s.takeString("encoding", "sRGB"), s.takeBool("invert", false))
       for p <- s.take("filename") do
-        val name = p.strings.headOption.getOrElse("").toLowerCase
+        val name = fileName(p)
         val isPng = name.endsWith(".png")
         val isKnown = Seq(".png", ".tga", ".exr", ".pfm").exists(name.endsWith)
-        val decode: Float => Float = encoding.split(' ') match
-          case _ if Seq(".exr", ".pfm", ".hdr").exists(name.endsWith) => identity
-          case Array("linear") if isPng => identity
-          case Array("gamma", g) if isPng && Decimal.float(g).nonEmpty => pow(_, g.toFloat)
-          case _ => Srgb.decode(_)
+        val decode = decoding(name, encoding)
         val isBaked = isPng && encoding.startsWith("gamma") ||
           name.endsWith(".exr") && RewrittenImages.hasOtherPrimaries(s, p)
         if isKnown && !inverts && !isBaked then
@@ -35,6 +31,31 @@ object ToV3Textures:
           s.addString("filename", RewrittenImages.baked(s, p, (encoding, inverts))(decoded))(using
             p.pos
           )
+
+  private def fileName(p: Param) = p.strings.headOption.getOrElse("").toLowerCase
+
+  private def decoding(name: String, encoding: String): Float => Float =
+    val isPng = name.endsWith(".png")
+    encoding.split(' ') match
+      case _ if Seq(".exr", ".pfm", ".hdr").exists(name.endsWith) => identity
+      case Array("linear") if isPng => identity
+      case Array("gamma", g) if isPng && Decimal.float(g).nonEmpty => pow(_, g.toFloat)
+      case _ => Srgb.decode(_)
+
+  /** v4 takes the mean of what it decodes, v3 decodes the luminance of float textures. */
+  private val mean: Step =
+    Step("`filename` of a coloured image", "the mean of its channels, as a new image"): s =>
+      for p <- s.peek("filename") do
+        def word(name: String) = s.peek(name).flatMap(_.strings.headOption)
+        val encoding = word("encoding").getOrElse("sRGB")
+        val inverts = s.peek("invert").exists(_.bools.contains(true))
+        val decode = decoding(fileName(p), encoding)
+        def number(stored: Rgb) =
+          val mean = (decode(stored.r) + decode(stored.g) + decode(stored.b)) / 3f
+          if inverts then 1f - mean else mean
+        for name <- RewrittenImages.numbers(s, p, (encoding, inverts))(number) do
+          Seq("filename", "encoding", "invert").foreach(s.take)
+          s.addString("filename", name)(using p.pos)
 
   private val filter: Step = Step("`filter`", "`trilinear`, for all but \"ewa\""): s =>
     val p = s.take("filter")
@@ -57,17 +78,13 @@ object ToV3Textures:
         )
       else s.add("wrap", p)
 
-  private def common = Seq(
+  private val image = Seq(file, filter, wrap, retain("scale", "maxanisotropy"), mapping)
+
+  private def common(image: Seq[Step]) = Seq(
     Rule("constant" -> "constant")(retain("value")),
     Rule("mix" -> "mix")(retain("tex1", "tex2", "amount")),
     Rule("bilerp" -> "bilerp")(retain("v00", "v01", "v10", "v11"), mapping),
-    Rule("imagemap" -> "imagemap")(
-      file,
-      filter,
-      wrap,
-      retain("scale", "maxanisotropy"),
-      mapping
-    ),
+    Rule("imagemap" -> "imagemap")(image*),
     Rule("checkerboard" -> "checkerboard")(retain("tex1", "tex2", "dimension"), mapping),
     Rule("dots" -> "dots")(retain("inside", "outside"), mapping),
     Rule("ptex" -> "ptex")(
@@ -85,8 +102,28 @@ object ToV3Textures:
     )
   )
 
+  /** v3 has planar mappings in world space: the transform moves into their numbers. */
+  def placed(t: TextureDescription): TextureDescription =
+    val isPlanar = t.texture.param("mapping").exists(_.strings.headOption.contains("planar"))
+    val toTexture = t.textureToWorld.start.inverseM
+    def axis(vector: String, delta: String, default: Vector[Float]) =
+      def numbers(name: String) = t.texture.param(name).fold(Vector.empty)(_.floats.toVector)
+      val v = Some(numbers(vector)).filter(_.length == 3).getOrElse(default)
+      def times(column: Int) = (0 to 2).map(row => toTexture(4 * row + column) * v(row)).sum.toFloat
+      val at = t.texture.param(vector).fold(t.texture.pos)(_.pos)
+      Vector(
+        Param.floats(ParamType.Vector3, vector, at, Array.tabulate(3)(times)),
+        Param.float(delta, at, numbers(delta).headOption.getOrElse(0f) + times(3))
+      )
+    if !isPlanar || t.textureToWorld.start.isIdentity then ToV4Textures.placed(t)
+    else
+      val inWorld = axis("v1", "udelta", Vector(1, 0, 0)) ++ axis("v2", "vdelta", Vector(0, 1, 0))
+      val names = inWorld.map(_.name).toSet
+      val params = t.texture.params.filterNot(p => names(p.name)) ++ inWorld
+      ToV4Textures.placed(t.copy(texture = t.texture.copy(params = params)))
+
   val floats: Table = Table("float texture", fallback = "constant")(
-    ((common :+ Rule("scale" -> "scale")(rename(
+    ((common(mean +: image) :+ Rule("scale" -> "scale")(rename(
       "tex" -> "tex1",
       "scale" -> "tex2"
     ))) ++ Noise.rules)*
@@ -107,7 +144,7 @@ object ToV3Textures:
           s.addTexture("tex2", s.run.define(gray))(using p.pos)
 
   val colors: Table = Table("spectrum texture", fallback = "constant")(
-    (common ++ Seq(
+    (common(image) ++ Seq(
       Rule("scale" -> "scale")(scale),
       Noise.marble
     ))*

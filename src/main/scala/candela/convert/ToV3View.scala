@@ -195,7 +195,7 @@ object ToV3View:
       "Sampler" -> "zsobol"
     ),
     ToV3Shapes.placed,
+    ToV3Textures.placed,
     // As in the opposite direction.
-    ToV4Textures.placed,
-    ToV4Lights.placed
+    (light, _) => Vector(ToV4Lights.flipped(light))
   )

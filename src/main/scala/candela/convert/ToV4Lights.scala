@@ -3,7 +3,7 @@ package candela.convert
 import candela.color.Rgb
 import candela.lights.PictureLookup
 import candela.math.Transform
-import candela.scenefile.{AnimatedTransform, LightDescription}
+import candela.scenefile.{AnimatedTransform, LightDescription, Param, ParamType}
 
 /** Lights, from v3 to v4. */
 object ToV4Lights:
@@ -25,8 +25,11 @@ object ToV4Lights:
         case Some(p) =>
           val factor = s.takeColor(color, Rgb.White) * s.takeColor("scale", Rgb.White)
           val isGray = Values.isGray(factor)
-          // "goniometric" keeps its colour as a factor.
-          val tint = if isGray || !optional then Rgb.White else factor
+          // "goniometric" keeps its colour as a factor; v4 takes the mean of its image's channels
+          val channel = Channels.find(c => factor * c == factor && factor != Rgb.Black)
+          val tint =
+            if optional then if isGray then Rgb.White else factor
+            else channel.fold(Rgb.White)(_ * 3f)
           for name <- SkyImages.converted(p, s, toSquare = true, tint) do
             s.addString("filename", name)(using p.pos)
           if !isGray && !optional then s.addRgb(color, factor)
@@ -63,8 +66,26 @@ object ToV4Lights:
     Rule("diffuse|area" -> "diffuse")(retain("twosided"), Emission.toV4("L"), samples)
   )
 
+  /** A light of v4 whose image has colours is one of each primary colour. */
+  def placed(l: LightDescription, run: PassRun): Vector[LightDescription] =
+    if l.light.name != "goniometric" then Vector(flipped(l))
+    else if !l.light.param("mapname").exists(RewrittenImages.isColored(l.light, _)) then Vector(l)
+    else
+      def color(name: String) =
+        l.light.param(name).flatMap(run.values.color(_, l.light)).getOrElse(Rgb.White)
+      val remaining = l.light.params.filterNot(p => p.name == "I" || p.name == "scale")
+      val at = l.light.param("I").fold(l.light.pos)(_.pos)
+      for
+        channel <- Channels
+        part = color("I") * color("scale") * channel
+        if part != Rgb.Black
+        intensity = Param.floats(ParamType.Rgb, "I", at, Array(part.r, part.g, part.b))
+      yield l.copy(light = l.light.copy(params = remaining :+ intensity))
+
+  private val Channels = Vector(Rgb(1, 0, 0), Rgb(0, 1, 0), Rgb(0, 0, 1))
+
   /** v3's projected image is flipped vertically relative to v4's. */
-  def placed(l: LightDescription): LightDescription =
+  def flipped(l: LightDescription): LightDescription =
     if l.light.name != "projection" then l
     else
       val flip = Transform.scale(1, -1, 1).get

@@ -9,7 +9,7 @@ import candela.scenefile.{GraphicsState, Param, ParamType, TextureDescription, D
 object ToV4Materials:
   import Steps.*
 
-  private val bump = rename("bumpmap" -> "displacement")
+  private val bump = Step("`bumpmap`", "`displacement`")(bumps(_, "bumpmap", "displacement"))
   private val white = isColor(1f)
   private val black = isColor(0f)
 

@@ -47,9 +47,9 @@ object ToV4Shapes:
     for p <- uv.orElse(st) do s.add("uv", Values.typed(p, ParamType.Point2))
 
   val table: Table = Table("Shape")(
-    Rule("sphere" -> "sphere")(retain("radius", "zmin", "zmax", "phimax"), alpha, shadow),
-    Rule("cylinder" -> "cylinder")(retain("radius", "zmin", "zmax", "phimax"), alpha, shadow),
-    Rule("disk" -> "disk")(retain("height", "radius", "innerradius", "phimax"), alpha, shadow),
+    Rule("sphere" -> "sphere")(retain("radius", "zmin", "zmax", "phimax")),
+    Rule("cylinder" -> "cylinder")(retain("radius", "zmin", "zmax", "phimax")),
+    Rule("disk" -> "disk")(retain("height", "radius", "innerradius", "phimax")),
     Rule("trianglemesh" -> "trianglemesh")(
       retain("P", "N", "S", "indices", "faceIndices"),
       uv,
@@ -60,14 +60,10 @@ object ToV4Shapes:
     Rule("plymesh" -> "plymesh")(retain("filename"), alpha, shadow),
     Rule("loopsubdiv" -> "loopsubdiv")(
       rename("nlevels" -> "levels"),
-      retain("levels", "P", "indices", "scheme"),
-      alpha,
-      shadow
+      retain("levels", "P", "indices", "scheme")
     ),
     Rule("curve" -> "curve")(
-      retain("P", "N", "type", "basis", "degree", "width", "width0", "width1", "splitdepth"),
-      alpha,
-      shadow
+      retain("P", "N", "type", "basis", "degree", "width", "width0", "width1", "splitdepth")
     )
   )
 
@@ -75,7 +71,9 @@ object ToV4Shapes:
     * `ReverseOrientation` are seen on one side and light the other.
     */
   def placed(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
-    Tessellation.of(s.shape) match
+    // pbrt places shapes that move by instances, which mirror no shape
+    val isMirrored = !s.objectToWorld.isAnimated && s.objectToWorld.start.swapsHandedness
+    Tessellation.of(s.shape, isMirrored) match
       case Some(mesh) =>
         val method =
           if s.shape.name == "heightfield" then "same triangles" else "finely tessellated"
@@ -84,9 +82,18 @@ object ToV4Shapes:
           s.shape.pos,
           s"v4 has no \"${s.shape.name}\"; using \"trianglemesh\", $method"
         )
+        for name <- Seq("alpha", "shadowalpha"); p <- s.shape.param(name) if !p.isDefault do
+          run.ignore(p, s.shape.name)
+        if isMirrored && s.areaLight.nonEmpty && s.shape.name != "heightfield" then
+          val message = "a mirrored quadric that emits is seen on one side in v3, and lights the " +
+            "other; in v4 it lights the side that is seen"
+          run.warn(Code.Inexpressible, s.shape.pos, message)
+        if Tessellation.isLoose(s.shape) then
+          val message = "v3's hyperboloids that are narrowest elsewhere than at z = 0 have the " +
+            "normals of another surface; where the two face apart, v4 shades it otherwise"
+          run.warn(Code.Inexpressible, s.shape.pos, message)
         Vector(s.copy(shape = mesh))
       case None =>
         if s.reverseOrientation && s.areaLight.nonEmpty && Meshes.hasNormals(s.shape) then
-          val message = "v3 lights the other side of a reversed mesh with normals"
-          run.warn(Code.Inexpressible, s.shape.pos, message)
+          run.warn(Code.Inexpressible, s.shape.pos, Meshes.OtherSide)
         Vector(s)

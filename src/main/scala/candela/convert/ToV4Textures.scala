@@ -25,6 +25,19 @@ object ToV4Textures:
           val decoded = (x: Float, _: Int) => if decodes then Srgb.decode(x) else x
           s.addString("filename", RewrittenImages.baked(s, p, decodes)(decoded))(using p.pos)
 
+  /** v3 decodes the luminance of float textures, v4 takes the mean of what it decodes. */
+  private val luminance: Step =
+    Step("`filename` of a coloured image", "its luminance, as a new image"): s =>
+      for p <- s.peek("filename") do
+        val file = p.strings.headOption.getOrElse("").toLowerCase
+        val decodes = s.peek("gamma").flatMap(_.bools.headOption)
+          .getOrElse(file.endsWith(".png") || file.endsWith(".tga"))
+        def number(stored: Rgb) =
+          if decodes then Srgb.decode(stored.luminance) else stored.luminance
+        for name <- RewrittenImages.numbers(s, p, decodes)(number) do
+          val _ = (s.take("filename"), s.take("gamma"))
+          s.addString("filename", name)(using p.pos)
+
   private val filter: Step = Step("`trilinear`", "`filter`: \"ewa\", or \"trilinear\""): s =>
     s.addString("filter", if s.takeBool("trilinear", false) then "trilinear" else "ewa")
 
@@ -37,7 +50,7 @@ object ToV4Textures:
     )
   )
 
-  private def common = Seq(
+  private def common(image: Seq[Step]) = Seq(
     Rule("constant" -> "constant")(retain("value")),
     Rule("mix" -> "mix")(retain("tex1", "tex2", "amount")),
     Rule("bilerp" -> "bilerp")(retain("v00", "v01", "v10", "v11"), mapping),
@@ -52,7 +65,7 @@ object ToV4Textures:
   )
 
   val floats: Table = Table("float texture", fallback = "constant")(
-    ((common :+ Rule("scale" -> "scale")(rename(
+    ((common(luminance +: image) :+ Rule("scale" -> "scale")(rename(
       "tex1" -> "tex",
       "tex2" -> "scale"
     ))) ++ Noise.rules)*
@@ -163,7 +176,7 @@ object ToV4Textures:
   )
 
   val colors: Table = Table("spectrum texture", fallback = "constant")(
-    (common ++ Seq(
+    (common(image) ++ Seq(
       Rule("scale" -> "scale")(scale),
       Noise.marble,
       byNumber("fbm")(Noise.octaves),

@@ -130,7 +130,7 @@ object ConverterSuite:
       "v2-materials" -> 0.2,
       "v2-metropolis" -> 0.4,
       "v2-path-grid" -> 0.25,
-      "v2-point-lights" -> 0.7,
+      "v2-point-lights" -> 0.95,
       "v2-procedural" -> 0.6,
       "v2-subsurface" -> 1.3,
       "v2-volumes" -> 1.25,

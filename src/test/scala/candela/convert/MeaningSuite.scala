@@ -95,6 +95,22 @@ class MeaningSuite extends AnyFunSuite:
 
   private def number(d: Declaration, name: String) = d.param(name).get.floats.head
 
+  test("bumps are a warning where they are made, unless they are flat"):
+    def warned(from: Dialect, to: Dialect, bump: String) =
+      val name = if from == Dialect.V3 then "\"matte\" \"texture bumpmap\""
+      else "\"diffuse\" \"texture displacement\""
+      val world = s"Texture \"t\" \"float\" $bump\nMaterial $name \"t\" Shape \"sphere\""
+      converted(world, from, to).warnings.filter(_.message.contains("turn away from a light"))
+    for (from, to) <- Seq(Dialect.V3 -> Dialect.V4, Dialect.V4 -> Dialect.V3) do
+      assert(warned(from, to, "\"wrinkled\"").flatMap(_.pos).map(_.line) == Vector(3))
+      assert(warned(from, to, "\"constant\"").isEmpty)
+
+  test("quadrics of v3 have no alpha, which v4's have"):
+    for kind <- Seq("sphere", "cylinder", "disk", "cone") do
+      val made = converted(s"Shape \"$kind\" \"float alpha\" 0", Dialect.V3, Dialect.V4)
+      assert(made.scene.shapes.head.shape.param("alpha").isEmpty)
+      assert(made.warnings.exists(_.message.contains("unknown parameter `alpha`")), made.warnings)
+
   test("roughness is the same alpha"):
     val metal = material("Material \"metal\" \"float roughness\" .2", Dialect.V3, Dialect.V4)
     val alpha = candela.bsdf.microfacet.Roughness.polynomialAlpha(.2f)
@@ -124,12 +140,43 @@ class MeaningSuite extends AnyFunSuite:
     val turned = converted(mesh, Dialect.V4, Dialect.V3).scene.shapes.head
     assert(turned.shape.param("N").get.floats(2) == -1f && !turned.reverseOrientation)
 
+  test("a reversed mesh in a file is a warning only if it emits: v3 lights its other side"):
+    TempFolder.use: folder =>
+      val ply = "ply\nformat ascii 1.0\nelement vertex 3\n" +
+        Seq("x", "y", "z", "nx", "ny", "nz").map(n => s"property float $n\n").mkString +
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+        "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n"
+      val _ = java.nio.file.Files.writeString(folder.resolve("a.ply"), ply)
+      def warnings(light: String) =
+        val text = s"${view.replace("image", "rgb")}$light ReverseOrientation " +
+          "Shape \"plymesh\" \"string filename\" \"a.ply\""
+        val made = Converter.convert(SceneTexts.parse(text, Dialect.V4, folder), Dialect.V3, folder)
+        made.warnings.map(_.message).filter(_.contains("revers"))
+      assert(warnings("").isEmpty)
+      assert(warnings("AreaLightSource \"diffuse\"") == Vector(Meshes.OtherSide))
+
   test("a reversed lamp with normals is a warning: v3 lights its other side"):
     val lamp =
       "AreaLightSource \"diffuse\" ReverseOrientation Shape \"trianglemesh\" \"point3 P\" " +
         "[0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2] \"normal N\" [0 0 1 0 0 1 0 0 1]"
     val warnings = converted(lamp, Dialect.V3, Dialect.V4).warnings
     assert(warnings.exists(_.message.contains("lights the other side")), warnings)
+
+  test("a planar mapping stays where it was: v3's is in world space"):
+    val texture = "Translate .3 .2 0 Rotate 30 1 0 1 Scale 1 2 1 Texture \"t\" \"spectrum\" " +
+      "\"checkerboard\" \"string mapping\" \"planar\" \"float udelta\" .4 " +
+      "\"vector3 v2\" [0 1 1] \"rgb tex1\" [3 1 0] \"rgb tex2\" [0 1 3]\n"
+    val made = converted(texture, Dialect.V4, Dialect.V3)
+    val t = SceneTexts.parse(s"WorldBegin $texture", Dialect.V4).textures.head.textureToWorld.start
+    val planar = made.scene.textures.head
+    assert(planar.textureToWorld.start.isIdentity)
+    def numbers(name: String) = planar.texture.param(name).get.floats.toVector
+    for (x, y, z) <- Seq((0f, 0f, 0f), (1f, -2f, 3f), (.5f, 4f, -1f)) do
+      val inTexture = t.inverse.point(candela.math.Vec3(x, y, z))
+      def inWorld(v: String, delta: String) =
+        numbers(v).zip(Seq(x, y, z)).map(_ * _).sum + numbers(delta).head
+      assert(Math.abs(inWorld("v1", "udelta") - (inTexture.x + .4f)) < 1e-5f)
+      assert(Math.abs(inWorld("v2", "vdelta") - (inTexture.y + inTexture.z)) < 1e-5f)
 
   test("a mapping has its own numbers, and cylinders are a warning"):
     def mapped(kind: String) =

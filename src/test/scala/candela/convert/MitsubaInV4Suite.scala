@@ -1,11 +1,12 @@
 package candela.convert
 
 import candela.bsdf.Fresnel
-import candela.color.Encoding
+import candela.color.{Encoding, Rgb, Srgb}
 import candela.image.{Image, ImageFiles, Samples}
 import candela.math.sqrt
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Declaration, Dialect, MaterialRef}
+import candela.testing.SceneTexts
 
 import java.nio.file.{Files, Path}
 
@@ -43,6 +44,55 @@ class MitsubaInV4Suite extends AnyFunSuite:
     assert(shaded.map(_.message) ==
       Vector("pbrt-v4 has no transparent area lights; this one casts shadows"))
     assert(shaded.head.pos.map(_.line).contains(2) && shaded.head.help.get.contains(":3:1"))
+
+  private val small = "<sensor type=\"perspective\"><film type=\"hdrfilm\">" +
+    "<integer name=\"width\" value=\"12\"/><integer name=\"height\" value=\"12\"/></film>" +
+    "<sampler type=\"independent\"><integer name=\"sample_count\" value=\"64\"/></sampler>" +
+    "</sensor>"
+
+  /** A turned lamp before a wall. */
+  private def lamp(shape: String, flips: Boolean, x: Int) =
+    s"<shape type=\"$shape\"><boolean name=\"flip_normals\" value=\"$flips\"/>" +
+      s"<transform name=\"to_world\"><scale x=\"$x\"/><rotate y=\"1\" angle=\"40\"/>" +
+      "<translate x=\".4\" z=\"5\"/></transform><emitter type=\"area\"/></shape>" +
+      "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"9\"/>" +
+      "<rotate y=\"1\" angle=\"180\"/><translate z=\"8\"/></transform></shape>"
+
+  test("mirrored spheres and disks that emit become such as are not mirrored, as bright"):
+    for shape <- Seq("sphere", "disk"); flips <- Seq(true, false); x <- Seq(-1, 1) do
+      Samples.inFolder: folder =>
+        val body = s"<integrator type=\"path\"/>$small${lamp(shape, flips, x)}"
+        val file = folder.resolve("lamp.xml")
+        val _ = Files.writeString(file, s"<scene version=\"3.0.0\">$body</scene>")
+        val scene = MitsubaScene.readable(file, Map.empty, keepGoing = false)
+        val made = Converter.convert(scene, Dialect.V4, folder).scene
+        assert(!made.shapes.filter(_.areaLight.nonEmpty)
+          .exists(_.objectToWorld.start.swapsHandedness))
+        val (before, after) = (SceneTexts.mean(scene).g, SceneTexts.mean(made).g)
+        // 9,216 samples
+        assert(
+          Math.abs(before - after) < 0.03f * before + 1e-6f,
+          s"$shape, $flips, $x: $before, $after"
+        )
+
+  test("numbers of a coloured image are its luminances, which pbrt-v4 would average"):
+    for (name, raw) <- Seq("a.exr" -> false, "b.png" -> false, "c.png" -> true) do
+      Samples.inFolder: folder =>
+        val data = Array.tabulate(48)(i => Array(.2f, .9f, .4f)(i % 3))
+        ImageFiles.write(folder.resolve(name), Image(4, 4, Image.RgbNames, data))
+        val made = converted(
+          folder,
+          sphere("<bsdf type=\"mask\"><texture name=\"opacity\" type=\"bitmap\"><string " +
+            s"name=\"filename\" value=\"$name\"/><boolean name=\"raw\" value=\"$raw\"/>" +
+            "</texture><bsdf type=\"diffuse\"/></bsdf>")
+        )
+        val file = made.scene.textures.head.texture.param("filename").get.strings.head
+        val image = ImageFiles.read(folder.resolve(file)).linear.toRgb
+        val stored = Rgb(.2f, .9f, .4f)
+        val expected = if raw then stored.map(Srgb.encode(_)).luminance else stored.luminance
+        // 8 bits, then half floats
+        assert(Math.abs(image.data(0) - expected) < 5e-3f, s"$name: ${image.data(0)}, $expected")
+        assert(image.data(0) == image.data(1) && image.data(0) == image.data(2))
 
   private def colored(light: String, wall: String) =
     converted(s"<emitter type=\"constant\"><rgb name=\"radiance\" value=\"$light\"/></emitter>\n" +

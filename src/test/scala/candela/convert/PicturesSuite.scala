@@ -92,6 +92,46 @@ class PicturesSuite extends AnyFunSuite:
         // 8 bits, then half floats
         assert(image.data.forall(x => Math.abs(x - 0.537f) < 3e-3f), s"$kind: ${image.data(0)}")
 
+  private def meansAreKept(folder: Path, from: Dialect, to: Dialect, world: String) =
+    val scene = SceneTexts.parse(view(from) + world + end(from), from, folder)
+    val made = Converter.convert(scene, to, folder)
+    val (before, after) = (SceneTexts.mean(scene), SceneTexts.mean(made.scene))
+    // Half floats, and images seen through others
+    for (x, y) <- Seq(before.r -> after.r, before.g -> after.g, before.b -> after.b) do
+      assert(Math.abs(x - y) < 0.01f * before.max && x > 1e-3f, s"$before, $after")
+    assert(made.warnings.isEmpty, made.warnings)
+
+  private def coloured(folder: Path, name: String, width: Int, height: Int) =
+    val data = Array.tabulate(3 * width * height)(i => Array(.2f, .9f, .4f)(i % 3))
+    ImageFiles.write(folder.resolve(name), Image(width, height, Image.RgbNames, data))
+
+  test("a goniometric light keeps the colours of its image, which v4 averages"):
+    Samples.inFolder: folder =>
+      coloured(folder, "light.exr", 64, 32)
+      coloured(folder, "square.exr", 64, 64)
+      val light = "Translate 5 3 -9 LightSource \"goniometric\" \"rgb I\" [150 300 200]"
+      val ball = "\nIdentity Material \"%s\" Shape \"sphere\""
+      val inV3 = s"$light \"string mapname\" \"light.exr\"${ball.format("matte")}"
+      meansAreKept(folder, Dialect.V3, Dialect.V4, inV3)
+      val inV4 = s"$light \"string filename\" \"square.exr\"${ball.format("diffuse")}"
+      meansAreKept(folder, Dialect.V4, Dialect.V3, inV4)
+
+  test("a float texture of a coloured image keeps its numbers: luminances in v3, means in v4"):
+    Samples.inFolder: folder =>
+      for (name, options) <- Seq("a.exr" -> "", "b.png" -> "", "c.png" -> "linear") do
+        coloured(folder, name, 4, 4)
+        def scene(kind: String, material: String, decoding: String) =
+          s"LightSource \"infinite\" Texture \"t\" \"float\" \"imagemap\" \"string filename\" " +
+            s"\"$name\" $decoding Texture \"s\" \"$kind\" \"mix\" \"texture amount\" \"t\" " +
+            s"\"rgb tex1\" [.1 .1 .1] \"rgb tex2\" [.8 .8 .8] $material \"s\" Shape \"sphere\""
+        val (gamma, encoding) =
+          if options.isEmpty then ("", "")
+          else ("\"bool gamma\" \"false\"", "\"string encoding\" \"linear\"")
+        val v3 = scene("spectrum", "Material \"matte\" \"texture Kd\"", gamma)
+        meansAreKept(folder, Dialect.V3, Dialect.V4, v3)
+        val v4 = scene("spectrum", "Material \"diffuse\" \"texture reflectance\"", encoding)
+        meansAreKept(folder, Dialect.V4, Dialect.V3, v4)
+
   test("colours that pbrt-v4 shows otherwise, since it multiplies spectra, are named"):
     def said(kd: String, l: String) =
       val text = view(Dialect.V3) + s"LightSource \"infinite\" $l\nMaterial \"matte\" $kd " +
