@@ -179,6 +179,7 @@ private[build] final class WorldBuilder(
         grouping.map(LightGroupBuilder.groups(_, lights.map(_.statement), media.isEmissive))
     )
     warnOfDarkness(scene, media.glows(materials))
+    warnOfLightPaths()
     for s <- (world +: objects).flatMap(_.shadowing).headOption if scene.lights.nonEmpty do
       warnOfShadows(s)
     val reach = 2f * placed.accelerator.bounds.radius
@@ -321,6 +322,16 @@ private[build] final class WorldBuilder(
         s"a shadow, as in $whose",
       Some("\"volpath\" does not block them")
     )
+
+  /** pbrt-v4 divides by the density of a sphere's points as they are sampled from the camera. */
+  private def warnOfLightPaths(): Unit =
+    def isLamp(s: ShapeDescription) = s.areaLight.nonEmpty && s.shape.name == "sphere"
+    val isTraced = description.integrator.exists(_.name == "lightpath")
+    if isTraced && context.rules.dialect == Dialect.V4 then
+      for lamp <- description.shapes.find(isLamp) do
+        val message = "pbrt-v4's \"lightpath\" shows the light of this sphere itself darker, at " +
+          "about half of its radiance; what it lights agrees"
+        problems.warn(Code.UnlikePbrt, lamp.shape.pos, message)
 
   private def warnOfDarkness(scene: Scene, mediaGlow: Boolean): Unit =
     if scene.lights.isEmpty && !mediaGlow && integrator.isLit && !problems.hasErrors then

@@ -9,6 +9,9 @@ import java.util.concurrent.ConcurrentHashMap
   */
 object NamedSpectra:
 
+  /** Those whose light pbrt-v4 shows in other colours. */
+  val Corrected: Set[String] = Set("stdillum-D50")
+
   /** Place of a spectrum: a file and a column after that of wavelengths. */
   private final class Place(val file: String, val column: Int = 1)
 

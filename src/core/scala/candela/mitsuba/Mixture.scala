@@ -2,8 +2,21 @@ package candela.mitsuba
 
 import candela.diagnostics.Code
 
-/** Mitsuba 0.6's `mixturebsdf` and `mixturephase`. */
+/** Blends, and Mitsuba 0.6's `mixturebsdf` and `mixturephase`. */
 private[mitsuba] object Mixture:
+
+  /** Says where Mitsuba 3 renders a blend otherwise, by an error of its own. */
+  def warnOfSmooth(in: Properties, parts: Seq[Plugin]): Unit =
+    if !in.plugin.isOld && parts.exists(isSmooth) then
+      val message = "Mitsuba weighs the probability of a smooth part of a blend like a density; " +
+        "its image differs, by up to 7 %"
+      in.session.warn(Code.UnlikePbrt, in.pos, message)
+
+  private def isSmooth(p: Plugin): Boolean =
+    Smooth(p.name) || p.name == "twosided" && p.properties.map(_.value)
+      .collect { case Value.Nested(inner) => inner }.exists(isSmooth)
+
+  private val Smooth = Set("conductor", "dielectric", "thindielectric", "plastic")
 
   /** Weights of so many parts, which sum to at most 1; None, after an error, if they don't fit. */
   def weights(in: Properties, count: Int, kind: String): Option[Vector[Double]] =

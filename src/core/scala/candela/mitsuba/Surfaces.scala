@@ -252,6 +252,7 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
     in.nested("bsdf").toList match
       case a :: b :: surplus =>
         warnSurplus(in, surplus)
+        Mixture.warnOfSmooth(in, Seq(a, b))
         val (Seq(first, second), isOneSided) = components(Seq(a, b)): @unchecked
         mixed(in.pos, first, second, weight).copy(isOneSided = isOneSided)
       case _ =>

@@ -82,7 +82,15 @@ final class Values(
           case None =>
             def c(name: String) = e(name).fold(0.0)(number(_, e.pos))
             Value.Triple(c("x"), c("y"), c("z"))
-      case "rgb" | "srgb" => Value.Color(color(text, e.pos))
+      case "rgb" | "srgb" =>
+        if e.tag == "rgb" && !e.isOld && text.trim.startsWith("#") then
+          report(Problem.warning(
+            Code.UnlikePbrt,
+            e.pos,
+            s"Mitsuba 3 takes no `${text.trim}`; reading the values divided by 255",
+            Some("write three numbers")
+          ))
+        Value.Color(color(text, e.pos))
       case "spectrum" => spectrum(e)
       case "blackbody" =>
         val kelvin = number(e("temperature").getOrElse(text).stripSuffix("K"), e.pos)

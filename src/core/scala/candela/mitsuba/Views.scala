@@ -195,6 +195,9 @@ final class Views(session: Session, media: Media, image: String):
         sampler("halton", Param.int("pixelsamples", countPosition, count))
       case "stratified" | "multijitter" | "orthogonal" =>
         val x = Math.ceil(Math.sqrt(count)).toInt
+        if x * x != count then
+          val message = s"`sample_count` $count becomes ${x * x}, the next square number"
+          session.warn(Code.CorrectedValue, countPosition, message)
         sampler(
           "stratified",
           Param.int("xsamples", countPosition, x),

@@ -132,3 +132,12 @@ class UnlikePbrtSuite extends AnyFunSuite:
         "\"integer indices\" [0 1 2] \"normal N\" [0 0 1 0 0 1 0 0 1]"
       val text = scene(s"AttributeBegin $lines $mesh AttributeEnd")
       assert(isWarned(text, Dialect.V3, Path.of("")) == isOther)
+
+  // In pbrt-v4's image, 0.41 times as bright; a disk, cylinder or square is as bright
+  test("a sphere that emits is darker itself in pbrt-v4's \"lightpath\""):
+    def lit(integrator: String, shape: String) =
+      s"Integrator \"$integrator\"\nWorldBegin AreaLightSource \"diffuse\"\n" +
+        s"Translate 0 0 5 Shape \"$shape\""
+    assert(isWarned(lit("lightpath", "sphere"), Dialect.V4, Path.of("")))
+    assert(!isWarned(lit("path", "sphere"), Dialect.V4, Path.of("")))
+    assert(!isWarned(lit("lightpath", "disk"), Dialect.V4, Path.of("")))

@@ -43,6 +43,29 @@ class MitsubaRulesSuite extends AnyFunSuite:
   private def isNear(found: Vector[Double], right: Double*)(error: Double): Unit =
     for (a, b) <- found.zip(right) do assert(Math.abs(a - b) <= error, s"$found, not $right")
 
+  private def warnings(body: String, version: String = "3.0.0") =
+    inFile(body, version)(_.warnings)
+
+  test("#rrggbb is a warning, for Mitsuba 3 refuses it; 0.6 reads it"):
+    val bsdf = "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"#ff8000\"/></bsdf>"
+    val ball = sensor() + s"<shape type=\"sphere\">$bsdf</shape>"
+    assert(warnings(ball).map(_.message).exists(_.contains("takes no `#ff8000`")))
+    assert(!warnings(ball, "0.6.0").exists(_.message.contains("#ff8000")))
+    assert(!warnings(ball.replace("#ff8000", "1,.5,0")).exists(_.message.contains("takes no")))
+
+  test("a number of samples that becomes a square is a warning"):
+    def counted(count: Int) =
+      val text = sensor().replace("independent", "multijitter").replace("\"64\"", s"\"$count\"")
+      warnings(text).map(_.message).filter(_.contains("sample_count"))
+    assert(counted(128) == Vector("`sample_count` 128 becomes 144, the next square number"))
+    assert(counted(64).isEmpty)
+
+  test("a blend with a smooth part is a warning, for Mitsuba renders it otherwise"):
+    def blend(kind: String) = warnings(sensor() + "<shape type=\"sphere\"><bsdf " +
+      s"type=\"blendbsdf\"><bsdf type=\"diffuse\"/><bsdf type=\"twosided\"><bsdf type=\"$kind\"/>" +
+      "</bsdf></bsdf></shape>").filter(_.message.contains("smooth part of a blend"))
+    assert(blend("conductor").size == 1 && blend("roughconductor").isEmpty)
+
   test("the sun of a sky subtends its aperture"):
     val sun = "<emitter type=\"sunsky\"><vector name=\"sun_direction\" x=\"0\" y=\"0\" z=\"1\"/>" +
       "<float name=\"sun_aperture\" value=\"20\"/><float name=\"sky_scale\" value=\"0\"/></emitter>"

@@ -184,6 +184,10 @@ object Spectra:
 
   private def named(p: Param, site: Site, standIn: String): Option[Spectrum] =
     val name = p.strings.head
+    if NamedSpectra.Corrected(name) then
+      val message = s"pbrt-v4's table of `$name` is not the published one, which is used here; " +
+        "light of it has 8 % more red here"
+      site.problems.warn(Code.UnlikePbrt, p.valuesAt, message)
     NamedSpectra(name).orElse {
       val folder = site.declaration.folder
       folder.locate(name, Some(p.valuesAt)) match

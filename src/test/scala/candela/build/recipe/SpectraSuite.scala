@@ -127,6 +127,13 @@ final class SpectraSuite extends AnyFunSuite:
     // 3500 K has 0.6387 of its maximum (828 nm) there: Planck's law by hand, four digits
     assert(close(v2 * 0.6387f, v3, 2e-4f * v3.r))
 
+  test("an illuminant that pbrt-v4 has otherwise is named where it is used"):
+    def warned(name: String) =
+      val text = s"WorldBegin\nLightSource \"point\" \"spectrum I\" \"stdillum-$name\"\n"
+      SceneTexts.problems(text, Dialect.V4).filter(_.message.contains("pbrt-v4's table"))
+    assert(warned("D50").flatMap(_.pos).map(_.line) == Vector(2))
+    assert(warned("D65").isEmpty)
+
   test("a name that is neither a spectrum nor a file is an error"):
     val text = "WorldBegin\nLightSource \"point\" \"spectrum I\" \"stdillum-D66\"\n"
     val p = SceneTexts.problems(text, Dialect.V4).head
