@@ -190,6 +190,7 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
 
   /** Changes parameters of a statement that the scene has once, and keeps its others. */
   def change(setting: SceneSetting, parameters: Parameters): SceneBuilder =
+    if setting == SceneSetting.Film then warnOfSize(parameters)
     edited(s"change $setting", "", parameters)(SceneEdits.setting(setting, _))
 
   /** Changes parameters of a named material, and keeps its others. */
@@ -290,7 +291,13 @@ final class SceneBuilder private[api] (name: String, folder: SceneFolder, base: 
       scene <- base.flatMap(_.description)
       warning <- SceneEdits.dropped(which, parameters.located(at), at, scene)
     do runner.report(warning)
+    if which == SceneSetting.Film then warnOfSize(parameters)
     named(directive, kind, parameters)
+
+  private def warnOfSize(parameters: Parameters): Unit =
+    val at = position
+    for warning <- base.flatMap(SceneEdits.resized(_, parameters.located(at), at)) do
+      runner.report(warning)
 
   private def named(directive: String, name: String, parameters: Parameters): SceneBuilder =
     val pos = position

@@ -53,6 +53,15 @@ private[api] object SceneEdits:
       val help = s"change(SceneSetting.$setting, …) keeps what it doesn't name"
       Found.warning(Code.IdleParameter, at, message, Some(help))
 
+  /** The resolution that a scene was read with holds for a film of another size, too. */
+  def resized(scene: Scene, params: Vector[Param], at: SourcePos): Option[Found] =
+    for
+      _ <- scene.reading.core.resolution
+      p <- params.find(p => p.name == "xresolution" || p.name == "yresolution")
+    yield
+      val message = s"the scene was read with `resolution`, which replaces or scales `${p.name}`"
+      Found.warning(Code.IdleParameter, at, message, Some("read it without `resolution`"))
+
   /** @throws SceneError if there is no such material */
   def material(name: String, params: Vector[Param]): Edit = scene =>
     val names = scene.namedMaterials.map(_._1)

@@ -6,7 +6,7 @@ import candela.color.Srgb
 import org.lwjgl.stb.STBEasyFont
 import org.lwjgl.system.MemoryUtil
 
-/** Several pictures in one, in rows, each with its name below.
+/** Several pictures in one, in rows, each with its name below, over several lines if it is long.
   *
   * @param columns  pictures per row; None: about as many as rows
   * @param cellSize largest width and height of each picture, in pixels
@@ -25,20 +25,31 @@ final class ContactSheet(columns: Option[Int] = None, cellSize: Int = ContactShe
     val rows = (cells.size + perRow - 1) / perRow
     val cellWidth = Math.max(cells.map(_._2.width).max, SmallestCell)
     val cellHeight = cells.map(_._2.height).max
-    val (stepX, stepY) = (cellWidth + Gap, cellHeight + LabelHeight + Gap)
+    val labels = cells.map((name, _) => lines(name, cellWidth))
+    val labelHeight = LabelGap + LineHeight * labels.map(_.size).max
+    val (stepX, stepY) = (cellWidth + Gap, cellHeight + labelHeight + Gap)
     val sheet = Canvas(perRow * stepX + Gap, rows * stepY + Gap)
-    for ((name, image), i) <- cells.zipWithIndex do
+    for (((_, image), label), i) <- cells.zip(labels).zipWithIndex do
       val (x, y) = (Gap + i % perRow * stepX, Gap + i / perRow * stepY)
       sheet.draw(image, x + (cellWidth - image.width) / 2, y + cellHeight - image.height)
-      sheet.write(fitting(name, cellWidth), x, y + cellHeight + LabelGap)
+      for (line, j) <- label.zipWithIndex do
+        sheet.write(line, x, y + cellHeight + LabelGap + j * LineHeight)
     sheet.image
 
-  /** The end of a long name, which tells files apart. */
-  private def fitting(name: String, width: Int): String =
+  /** A name, or the end of one that is too long for the lines, which tells files apart. */
+  private def lines(name: String, width: Int): Vector[String] =
     val text = name.map(c => if c >= ' ' && c <= '~' then c else '?')
-    def drawn(t: String) = Scale * STBEasyFont.stb_easy_font_width(t)
-    if drawn(text) <= width then text
-    else text.tails.map(".." + _).find(drawn(_) <= width).getOrElse("")
+    def fits(t: String) = Scale * STBEasyFont.stb_easy_font_width(t) <= width
+    def wrapped(t: String): Vector[String] =
+      if fits(t) then Vector(t)
+      else
+        val line = t.inits.find(i => i.length <= 1 || fits(i)).get
+        line +: wrapped(t.drop(line.length))
+    val label = wrapped(text.takeRight(LabelCharacters))
+    if text.length <= LabelCharacters && label.size <= LabelLines then label
+    else
+      val ends = text.takeRight(LabelCharacters).tails.map(t => wrapped(".." + t))
+      ends.find(_.size <= LabelLines).get
 
 object ContactSheet:
   val UsualSize = 320
@@ -48,7 +59,11 @@ object ContactSheet:
   /** Pixels per pixel of the font. */
   private val Scale = 2
   private val LabelGap = 4
-  private val LabelHeight = LabelGap + 12 * Scale
+  private val LineHeight = 12 * Scale
+  private val LabelLines = 3
+
+  /** More than fit. */
+  private val LabelCharacters = 300
 
   private val Background = Srgb.decode(0.13f)
   private val Ink = Srgb.decode(0.85f)

@@ -168,7 +168,9 @@ object ImageFiles:
           s"not a valid .$extension file: $contents"
         else
           val kind = foreign.map(_.what).orElse(Option.when(Scenes(extension))("a scene"))
-          val explanation = kind.fold("unknown format")(w => s"it is $w, not an image")
+          val explanation = kind.fold("unknown format")(w =>
+            if w.endsWith("image") then s"$w can't be read" else s"it is $w, not an image"
+          )
           s"$explanation; $Readable"
       )
 

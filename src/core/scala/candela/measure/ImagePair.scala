@@ -66,9 +66,9 @@ object ImagePair:
       def size(i: Image) = s"${i.width}×${i.height}"
       throw ImageError(
         Code.DifferentImages,
-        s"image sizes differ: ${size(image)} and ${size(reference)} pixels; render's " +
-          s"--resolution ${reference.width}x${reference.height} has the reference's, " +
-          "image's --crop x0,x1,y0,y1 cuts a part"
+        s"image sizes differ: ${size(image)} and ${size(reference)} pixels; render " +
+          s"with --resolution ${reference.width}x${reference.height}, or cut the larger one " +
+          "with `candela image --crop x0,x1,y0,y1`"
       )
     new ImagePair(picked(image, channels), picked(reference, channels))
 

@@ -67,7 +67,10 @@ final class Tokenizer(
     else
       val token = source.text(start, cursor)
       val name = if kind == Token.Word then Defines.nameIn(token) else None
-      val cure = name.fold("")(n => s", which has no value (-D$n=VALUE sets it)")
+      val cure =
+        if token.exists(Tokenizer.CurlyQuotes.contains) then
+          ", with curly quotes: replace them by straight ones, `\"`"
+        else name.fold("")(n => s", which has no value (-D$n=VALUE sets it)")
       (if token.length > 60 then s"`${token.take(57)}…`" else s"`$token`") + cure
 
   def advance(): Unit =
@@ -247,12 +250,11 @@ final class Tokenizer(
       content = ""
       val message =
         if isEnd then "string not closed at the end of the file" else "string not closed"
-      throw SceneError(Problem.error(
-        Code.Token,
-        pos,
-        message,
-        Some("end it with `\"` on the same line")
-      ))
+      val isCurly = source.text(start, cursor).exists(Tokenizer.CurlyQuotes.contains)
+      val cure =
+        if isCurly then "replace curly quotes by straight ones, `\"`"
+        else "end it with `\"` on the same line"
+      throw SceneError(Problem.error(Code.Token, pos, message, Some(cure)))
     cursor += 1
     if hasEscapes then content = unescaped(start + 1, cursor - 1)
 
@@ -295,6 +297,9 @@ final class Tokenizer(
     }
 
 object Tokenizer:
+  /** As word processors and web pages write quotes. */
+  private val CurlyQuotes = "\u201c\u201d\u201e\u2018\u2019"
+
   /** Bytes that hold almost every number and its delimiter. */
   private val UsualNumber = 64
 

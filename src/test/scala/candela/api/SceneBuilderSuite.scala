@@ -4,7 +4,7 @@ import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import java.nio.file.Files
+import java.nio.file.{Files, Path}
 
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
@@ -157,6 +157,15 @@ class SceneBuilderSuite extends AnyFunSuite:
     assert(moved.problems.isEmpty && image(moved) == image(Candela.parse(movedText)))
     val atOrigin = start.edit().identity().camera("perspective", wide).scene()
     assert(image(atOrigin) == image(Candela.parse(text.replace("LookAt 0 1 -6  0 0 0  0 1 0", ""))))
+
+  test("a film of another size is a warning if the scene was read with a resolution"):
+    val reading = ReadSettings().withOption("resolution", "50%")
+    def told(settings: ReadSettings) =
+      val start = Candela.parse(LibraryScenes.text(), Path.of("a.pbrt"), settings)
+      val wide = Parameters().integer("xresolution", 12)
+      texts(start.edit().change(SceneSetting.Film, wide).scene().problems)
+    assert(told(reading).exists(_.contains("read with `resolution`")), told(reading))
+    assert(told(ReadSettings()).isEmpty)
 
   test("a new setting says which values of the scene's it drops"):
     val start = Candela.parse(LibraryScenes.text())

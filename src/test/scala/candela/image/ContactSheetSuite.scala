@@ -39,7 +39,11 @@ class ContactSheetSuite extends AnyFunSuite:
         sheet.data(3 * i) != background && sheet.data(3 * i + 1) != 0f
     assert(ink("") == 0)
     assert(ink("ab") > ink("a") && ink("a") > 20)
-    assert(ink("x" * 500 + "ab.exr") == ink(".." + "xxab.exr"))
+    // Ten letters fit a line, thirty a label
+    val long = (0 until 30).map(i => ('a' + i % 26).toChar).mkString
+    assert(ink(long.take(20)) > 1.5 * ink(long.take(10)))
+    assert(ink("x" * 500 + "ab.exr") == ink("x" * 900 + "ab.exr"))
+    assert(ink("x" * 500) > 2 * ink("xxxxxxxx"))
     assert(ink("ü") == ink("?"))
 
   test("NaN and infinity don't spread"):
