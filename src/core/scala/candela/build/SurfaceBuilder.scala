@@ -168,6 +168,7 @@ private[build] final class SurfaceBuilder(
       case ShapeGeometry.Solid(_, _) if toWorld.isFlat => () // reported before
       case ShapeGeometry.Solid(make, turned) =>
         if emitter.isDefined && !dressed.shape.inObject then
+          warnOfMissingPart()
           ScaledLight.warn(sinceV3, UniformScale.isOne, "samples it without the scale")(using site)
         val facesInwards = isReversed != (isConsistent && isReflected)
         // Samples of a mirrored emitter that is a cylinder lie on its other side, as in Mitsuba
@@ -192,6 +193,21 @@ private[build] final class SurfaceBuilder(
     private def isInverted: Boolean =
       if context.isV2 then dressed.declared.name == "disk"
       else !isConsistent && isReflected
+
+    /** pbrt samples whole spheres, also those of which only a part emits. */
+    private def warnOfMissingPart(): Unit =
+      val d = dressed.declared
+      def number(name: String, default: Float) =
+        d.param(name).flatMap(_.floats.headOption).getOrElse(default)
+      val radius = Math.abs(number("radius", 1f))
+      val ends = Seq(number("zmin", -radius), number("zmax", radius))
+      val isWhole = ends.min <= -radius && ends.max >= radius && number("phimax", 360f) >= 360f
+      if d.name == "sphere" && !isWhole && every(context.dialect) then
+        site.warn(
+          Code.UnlikePbrt,
+          "pbrt samples the light of this sphere on its missing part, too; how bright it makes " +
+            "what is near differs from pbrt's image"
+        )
 
     /** Is the shape mirrored where it is defined? Instances keep the outside of their objects. */
     private def isReflected: Boolean =

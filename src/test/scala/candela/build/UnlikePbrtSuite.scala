@@ -133,6 +133,15 @@ class UnlikePbrtSuite extends AnyFunSuite:
       val text = scene(s"AttributeBegin $lines $mesh AttributeEnd")
       assert(isWarned(text, Dialect.V3, Path.of("")) == isOther)
 
+  // Near a dome that emits inwards, pbrt-v4's image is 0.05 times as bright
+  test("a part of a sphere that emits is sampled as a whole one in pbrt"):
+    def lamp(parameters: String) =
+      s"WorldBegin AreaLightSource \"diffuse\" Translate 0 0 5 Shape \"sphere\" $parameters"
+    for dialect <- Seq(Dialect.V2, Dialect.V3, Dialect.V4) do
+      for part <- Seq("\"float zmin\" 0", "\"float zmax\" .5", "\"float phimax\" 90") do
+        assert(isWarned(lamp(part), dialect, Path.of("")), s"$part, $dialect")
+      assert(!isWarned(lamp("\"float radius\" 2"), dialect, Path.of("")))
+
   // In pbrt-v4's image, 0.41 times as bright; a disk, cylinder or square is as bright
   test("a sphere that emits is darker itself in pbrt-v4's \"lightpath\""):
     def lit(integrator: String, shape: String) =
