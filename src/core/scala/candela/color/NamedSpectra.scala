@@ -9,8 +9,10 @@ import java.util.concurrent.ConcurrentHashMap
   */
 object NamedSpectra:
 
-  /** Those whose light pbrt-v4 shows in other colours. */
-  val Corrected: Set[String] = Set("stdillum-D50")
+  /** How pbrt-v4's image differs, if its table of a spectrum is a wrong one. */
+  def difference(name: String): Option[String] = Option.when(name == "stdillum-D50"):
+    s"pbrt-v4's table of `$name` is not the published one, which is used here; light of it has 8 " +
+      "% more red here"
 
   /** Place of a spectrum: a file and a column after that of wavelengths. */
   private final class Place(val file: String, val column: Int = 1)

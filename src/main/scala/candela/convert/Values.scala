@@ -74,6 +74,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
     p.strings.headOption match
       case None => fromPairs(p.floats)
       case Some(name) =>
+        NamedSpectra.difference(name).foreach(warn(p, _))
         NamedSpectra(name).orElse:
           val read = numbersOf(p, d).flatMap(fromPairs)
           if read.isEmpty then warn(p, s"no such spectrum: `$name`; ignoring `${p.name}`")

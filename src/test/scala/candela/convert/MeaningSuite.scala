@@ -47,6 +47,12 @@ class MeaningSuite extends AnyFunSuite:
       // Before and after, spectra have their colours to 1e-3: see ColorimetrySuite
       assert(Math.abs(x - y) < 2e-3 * Math.max(1f, Math.abs(x)), s"$light: $a and $b")
 
+  test("an illuminant of which pbrt-v4 has a wrong table is a warning"):
+    def warned(name: String) =
+      val light = s"LightSource \"infinite\" \"spectrum L\" \"stdillum-$name\""
+      converted(light, Dialect.V4, Dialect.V3).warnings.map(_.message)
+    assert(warned("D50").exists(_.contains("8 % more red")) && warned("D65").isEmpty)
+
   test("flat spectra of media stay grey"):
     val fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" " +
       "\"spectrum sigma_s\" [300 .6 800 .6]\nWorldEnd"

@@ -184,9 +184,7 @@ object Spectra:
 
   private def named(p: Param, site: Site, standIn: String): Option[Spectrum] =
     val name = p.strings.head
-    if NamedSpectra.Corrected(name) then
-      val message = s"pbrt-v4's table of `$name` is not the published one, which is used here; " +
-        "light of it has 8 % more red here"
+    for message <- NamedSpectra.difference(name) do
       site.problems.warn(Code.UnlikePbrt, p.valuesAt, message)
     NamedSpectra(name).orElse {
       val folder = site.declaration.folder
