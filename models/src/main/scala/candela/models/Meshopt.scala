@@ -152,7 +152,7 @@ private final class MeshoptAttributes(data: Array[Byte], stride: Int):
       case 2 =>
         loop(n): i =>
           val bits = delta(0, i) | delta(1, i) << 8 | delta(2, i) << 16 | delta(3, i) << 24
-          val value = previous.getInt(from) ^ Integer.rotateLeft(bits, mode >> 4)
+          val value = previous.getInt(from) ^ Integer.rotateRight(bits, mode >> 4)
           previous.putInt(from, value): Unit
           out.putInt((first + i) * stride + from, value): Unit
       case _ => Meshopt.fail(s"unknown channel mode $mode")
