@@ -28,6 +28,7 @@ object FramedMaterial:
 
 /** `inner` in a frame of its own. */
 final class Framed(inner: Bsdf, frame: Frame) extends LeanBsdf:
+  def normal: Vec3 = frame.n
 
   /** The cosine is to be that to the normal of `inner`. */
   def f(wo: Vec3, wi: Vec3): Rgb =

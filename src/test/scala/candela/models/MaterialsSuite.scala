@@ -47,6 +47,28 @@ class MaterialsSuite extends AnyFunSuite, GltfModels:
     val thin = extension("iridescence", """"iridescenceThicknessMaximum":-1""")
     assert(thin.errors.exists(_.message.contains("at least 0 nm")))
 
+  test("a clear coat has its own normals, or those of the mesh"):
+    val coat = """"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1"""
+    val apart = ""","clearcoatNormalTexture":{"index":0,"scale":0.5}}}"""
+    val both = surface(scene(coat + apart + ""","normalTexture":{"index":0}"""))
+    assert(both.param("clearcoatnormalmap").isDefined && both.param("normalmap").isDefined)
+    assert(number(both, "clearcoatnormalscale") == 0.5f && both.param("normalscale").isEmpty)
+    assert(both.params.count(_.name == "softedges") == 1)
+    val smooth = surface(scene(coat + "}},\"normalTexture\":{\"index\":0}"))
+    assert(smooth.param("clearcoatnormalmap").isEmpty)
+    val small = ReadSettings(resolution = Some(Resolution.Size(8, 8)))
+    def image(material: String) =
+      val plan =
+        SceneBuilder.build(scene(material), RenderSettings(samples = Some(16), reading = small))._1
+      Renderer.render(plan, 1).image(plan.development).data.sum
+    val images = Vector(
+      coat + "}}",
+      coat + apart,
+      coat + "}},\"normalTexture\":{\"index\":0}",
+      coat + apart + ""","normalTexture":{"index":0}"""
+    ).map(image)
+    assert(images.distinct.size == 4, images)
+
   test("diffuse transmission has its share by alpha"):
     val s = extension(
       "diffuse_transmission",

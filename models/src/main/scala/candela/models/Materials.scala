@@ -71,8 +71,10 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
           Param.bool("thin", t.at, volume.isEmpty)
         )
     val all = params ++ coat(entry) ++ sheen(entry) ++ stretch(entry) ++ film(entry) ++
-      sheet(entry) ++ dispersion(entry, volume.isDefined && passes.isDefined) ++ normals(entry)
-    val d = session.declare("Material", "gltf", entry.at, all)
+      sheet(entry) ++ dispersion(entry, volume.isDefined && passes.isDefined) ++
+      normals(entry, "normalTexture")
+    // Two normal maps share a parameter
+    val d = session.declare("Material", "gltf", entry.at, all.distinctBy(_.name))
     val alpha = specularGlossiness.fold(opacity(entry, base(entry), "baseColor", hasColors)): o =>
       opacity(entry, o, "diffuse", hasColors)
     // What is behind a volume's boundary matters
@@ -136,14 +138,12 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
 
   private def coat(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_clearcoat").toVector.flatMap: c =>
-      for n <- c("clearcoatNormalTexture").orElse(entry("normalTexture")) do
-        session.warn(n.at, "the clear coat has the normals of what is beneath it")
       val factor = c.factor("clearcoatFactor", 0)
       val rough = c.factor("clearcoatRoughnessFactor", 0)
       Vector(
         textures.number("clearcoat", factor, c("clearcoatTexture"), "r", c.at),
         textures.number("clearcoatroughness", rough, c("clearcoatRoughnessTexture"), "g", c.at)
-      )
+      ) ++ normals(c, "clearcoatNormalTexture", "clearcoat")
 
   private def sheen(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_sheen").toVector.flatMap: s =>
@@ -198,11 +198,11 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         session.warn(d.at, "only volumes that transmit light disperse it; ignored")
       Option.when(strength > 0 && refracts)(Param.float("dispersion", d.at, strength.toFloat))
 
-  private def normals(entry: Json): Vector[Param] =
+  private def normals(entry: Json, member: String, prefix: String = ""): Vector[Param] =
     for
-      info <- entry("normalTexture").toVector
+      info <- entry(member).toVector
       p <- textures.picture(info).toVector
-      param <- textures.normalMap(p, info.number("scale", 1))
+      param <- textures.normalMap(p, info.number("scale", 1), prefix)
     yield param
 
   /** @param prefix of the factor and the texture of the colour, whose alpha it is */

@@ -173,7 +173,7 @@ private[models] final class MtlMaterials(session: Session, pictures: Pictures):
       map, {
         val ((su, sv), (du, dv)) = (map.scale, map.offset)
         Picture(
-          files.getOrElseUpdate(map.file, fileName(m.folder, map)),
+          files.getOrElseUpdate(map.file, pictures.fileName(m.folder, map.file, map.at)),
           second = false,
           Vector(su, 0f, du, 0f, sv, dv),
           Wraps(map.wrap, map.wrap),
@@ -183,21 +183,6 @@ private[models] final class MtlMaterials(session: Session, pictures: Pictures):
       }
     )
 
-  /** The image by its name; or by the last part of a name of another computer, as viewers do. */
-  private def fileName(folder: String, map: MtlMap): String =
-    val name = map.file.replace('\\', '/')
-    val isAbsolute = name.startsWith("/") || DriveLetter.findPrefixOf(name).isDefined
-    val wanted = if isAbsolute then name else folder + name
-    def locate(name: String) = session.folder.locate(name, Some(map.at))
-    val last = folder + name.drop(name.lastIndexOf('/') + 1)
-    val isForeign = isAbsolute && session.folder.belonging(wanted).isEmpty ||
-      locate(wanted).isEmpty
-    val located = if isForeign && locate(last).isDefined then last else wanted
-    if located != wanted then
-      session.warn(map.at, s"no such file: `$wanted`; using `$located`", Code.NoSuchFile)
-    locate(located).foreach(file => session.note(file.path))
-    located
-
 private object MtlMaterials:
   /** The exponent of Phong that is as smooth as can be. */
   private val MaxExponent = 1000f
@@ -205,7 +190,6 @@ private object MtlMaterials:
   /** Of Disney's clear coat. */
   private val CoatOfThickness = 0.25f
   private val UsualCoatRoughness = 0.03f
-  private val DriveLetter = "[A-Za-z]:".r
 
   /** Values of `illum` whose surfaces reflect their surroundings, or let light pass. */
   private val Reflecting = Set(3, 4, 5, 6, 7, 8)

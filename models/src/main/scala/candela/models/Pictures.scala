@@ -1,7 +1,7 @@
 package candela.models
 
 import candela.color.Rgb
-import candela.diagnostics.SourcePos
+import candela.diagnostics.{Code, SourcePos}
 import candela.scenefile.{Declaration, Dialect, GraphicsState, Param, ParamType, TextureDescription}
 
 import scala.collection.mutable
@@ -129,14 +129,18 @@ private[models] class Pictures(session: Session):
     described(name) = TextureDescription(name, kind, texture, GraphicsState.Identity)
     name
 
-  /** The normal map of a material. */
-  def normalMap(p: Picture, scale: Double): Vector[Param] =
-    Vector(Param.string("normalmap", p.at, p.file), Param.bool("softedges", p.at, false)) ++
+  /** The normal map of a material.
+    *
+    * @param prefix of the names of its parameters
+    */
+  def normalMap(p: Picture, scale: Double, prefix: String = ""): Vector[Param] =
+    def name(of: String) = s"${prefix}normal$of"
+    Vector(Param.string(name("map"), p.at, p.file), Param.bool("softedges", p.at, false)) ++
       Option.when(p.rows != Picture.Upright):
-        Param.floats(ParamType.Float, "normalmapuv", p.at, p.rows.toArray)
-      ++ p.wrap.params(("normalwrap", "normalwrapt"), p.at)
-      ++ Option.when(p.second)(Param.bool("normaluv2", p.at, true)) ++
-      Option.when(scale != 1)(Param.float("normalscale", p.at, scale.toFloat))
+        Param.floats(ParamType.Float, name("mapuv"), p.at, p.rows.toArray)
+      ++ p.wrap.params((name("wrap"), name("wrapt")), p.at)
+      ++ Option.when(p.second)(Param.bool(name("uv2"), p.at, true)) ++
+      Option.when(scale != 1)(Param.float(name("scale"), p.at, scale.toFloat))
 
   /** The area light of a colour times an image. */
   def light(
@@ -161,3 +165,21 @@ private[models] class Pictures(session: Session):
             Param.floats(ParamType.Float, "imageuv", at, p.rows.toArray)
     val sides = Option.when(isTwoSided)(Param.bool("twosided", at, true))
     session.declare("AreaLightSource", "diffuse", at, params ++ sides)
+
+  /** The image by its name; or by the last part of a name of another computer, as viewers do. */
+  def fileName(folder: String, file: String, at: SourcePos): String =
+    val name = file.replace('\\', '/')
+    val isAbsolute = name.startsWith("/") || Pictures.DriveLetter.findPrefixOf(name).isDefined
+    val wanted = if isAbsolute then name else folder + name
+    def locate(name: String) = session.folder.locate(name, Some(at))
+    val last = folder + name.drop(name.lastIndexOf('/') + 1)
+    val isForeign = isAbsolute && session.folder.belonging(wanted).isEmpty ||
+      locate(wanted).isEmpty
+    val located = if isForeign && locate(last).isDefined then last else wanted
+    if located != wanted then
+      session.warn(at, s"no such file: `$wanted`; using `$located`", Code.NoSuchFile)
+    locate(located).foreach(file => session.note(file.path))
+    located
+
+private object Pictures:
+  private val DriveLetter = "[A-Za-z]:".r

@@ -1,6 +1,6 @@
 package candela.bsdf.composite
 
-import candela.bsdf.{Bsdf, BsdfFlags, BsdfSample, CosineSampled, Hemisphere, WrappedBsdf}
+import candela.bsdf.{Bsdf, BsdfSample, CosineSampled, Hemisphere, WrappedBsdf}
 import candela.color.Rgb
 import candela.math.*
 
@@ -15,18 +15,6 @@ abstract class Dimmed(inner: Bsdf) extends WrappedBsdf(inner):
 
   override def diffuseReflectance(wo: Vec3): Rgb =
     inner.diffuseReflectance(wo) * passed(wo, Vec3.Z)
-
-/** What is under a clear coat: by the angle of `wo` alone, as in KHR_materials_clearcoat. */
-private final class UnderCoat(inner: Bsdf, coat: Float) extends Dimmed(inner):
-  protected def passed(wo: Vec3, wi: Vec3): Float = 1f - coat * ClearcoatReflectance(wo.z).r
-  override def flags: BsdfFlags = inner.flags | BsdfFlags.OneWay
-  override def regularized: Bsdf = UnderCoat(inner.regularized, coat)
-
-/** The reflection of that coat. */
-private final class OfCoat(inner: Bsdf, coat: Float) extends Dimmed(inner):
-  protected def passed(wo: Vec3, wi: Vec3): Float = coat * ClearcoatReflectance(wo.z).r
-  override def flags: BsdfFlags = inner.flags | BsdfFlags.OneWay
-  override def regularized: Bsdf = OfCoat(inner.regularized, coat)
 
 /** What is under fibres, by the share that these reflect from either direction, as in
   * KHR_materials_sheen.

@@ -1,8 +1,8 @@
 package candela.bsdf.composite
 
 import candela.bsdf.{
-  Bsdf, BsdfFlags, CosineSampled, Fresnel, FullReflectance, Lobes, Material, ReflectanceCurve,
-  SentThrough, WrappedBsdf
+  Bsdf, BsdfFlags, CosineSampled, Fresnel, Lobes, Material, ReflectanceCurve, SentThrough,
+  WrappedBsdf
 }
 import candela.bsdf.microfacet.{MicrofacetReflection, RoughDielectric, TrowbridgeReitz}
 import candela.color.Rgb
@@ -169,13 +169,7 @@ final class GltfMaterial(p: GltfParameters) extends Material, Textured(p):
   private def coated(at: ShadingPoint, base: Bsdf): Bsdf =
     val coat = unit(p.coat(at))
     if coat == 0f then base
-    else
-      val alpha = alphaOf(p.coatRoughness(at))
-      val layer = MicrofacetReflection(TrowbridgeReitz(alpha, alpha), FullReflectance)
-      Lobes.Builder()
-        .add(UnderCoat(base, coat), 1f)
-        .add(OfCoat(layer, coat), 0.1f * coat)
-        .result
+    else GltfCoat.covering(base, GltfCoat.layer(coat, p.coatRoughness(at)), coat, Vec3.Z)
 
 object GltfMaterial:
   /** Narrower microfacets than these are lost in the rounding of directions. */
@@ -184,8 +178,9 @@ object GltfMaterial:
   /** The fibres' distribution has no limit at 0. */
   private inline val MinSheenRoughness = 0.05f
 
-  private def unit(x: Float): Float = clamp(x, 0f, 1f)
-  private def alphaOf(roughness: Float): Float = Math.max(square(unit(roughness)), MinAlpha)
+  private[composite] def unit(x: Float): Float = clamp(x, 0f, 1f)
+  private[composite] def alphaOf(roughness: Float): Float =
+    Math.max(square(unit(roughness)), MinAlpha)
 
 /** Fresnel reflectance of [[GltfMaterial]], by Schlick's approximation.
   *

@@ -1,9 +1,12 @@
 package candela.build.materials
 
-import candela.bsdf.Material
-import candela.bsdf.composite.{FilmColors, GltfFilm, GltfMaterial, GltfParameters, GltfStretch}
+import candela.bsdf.{FramedMaterial, Material}
+import candela.bsdf.composite.{
+  CoatedGltf, FilmColors, GltfCoat, GltfFilm, GltfMaterial, GltfParameters, GltfStretch
+}
 import candela.build.recipe.*
 import candela.color.{Cauchy, Rgb}
+import candela.textures.ConstantFloat
 
 /** The material of glTF 2.0 and its extensions. */
 object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of glTF", onlyGltf):
@@ -23,6 +26,8 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
   private val thin = bool("thin", "transmit without refraction, as a thin wall")(true)
   private val coat = floatTexture("clearcoat", "strength of the clear coat")(0f)
   private val coatRoughness = floatTexture("clearcoatroughness", "roughness of the clear coat")(0f)
+  private val coatNormals =
+    NormalMapFields("clearcoat", "clear coat's normal map", onlyGltf)
   private val sheen = rgbTexture("sheencolor", "colour of the sheen")(Rgb.Black)
   private val sheenRoughness = floatTexture("sheenroughness", "roughness of the sheen")(0f)
   private val anisotropy = floatTexture("anisotropy", "stretch of the highlights")(0f)
@@ -58,6 +63,18 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
   private val sheetColor =
     rgbTexture("diffusetransmissioncolor", "colour of what is transmitted diffusely")(Rgb.White)
 
+  /** Whether the clear coat has other normals than what is beneath it. */
+  private def isCoatApart(using site: Site): Boolean =
+    site.declaration.param(coat.name).isDefined &&
+      (coatNormals.given_().isDefined || site.declaration.param("normalmap").isDefined)
+
+  override protected def covered(surface: Material)(using Site): Material =
+    if !isCoatApart then surface
+    else
+      val layer = GltfCoat(coat(), coatRoughness())
+      val above = relieved(layer, Some(coatNormals)).fold(layer)(FramedMaterial(_))
+      CoatedGltf(FramedMaterial(surface), above, coat())
+
   protected def create()(using site: Site): Material =
     val index = SpectralValue.Wavelengths(Cauchy(eta(), dispersion()))
     val atHero = if dispersion() > 0f then Indices.scalar(index) else eta()
@@ -71,7 +88,7 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
       specularColor(),
       transmission(),
       thin(),
-      coat(),
+      if isCoatApart then ConstantFloat(0f) else coat(),
       coatRoughness(),
       sheen(),
       sheenRoughness(),

@@ -16,6 +16,8 @@ import candela.textures.{
   AffineUvMapping, FloatTexture, MadeTexels, Mapping2D, MipLevel, Texels, Wrap
 }
 
+import scala.annotation.unused
+
 /** Recipes of materials. */
 object Materials:
   val all: Recipes[Material] = Recipes(
@@ -92,30 +94,8 @@ abstract class MaterialRecipe(
     floatTexture("bumpmap", "bump map height", untilV3, "scene units", "none")(0f)
   private val displacements: Option[Field[FloatTexture]] = Option.when(bumps):
     floatTexture("displacement", "bump map height", onlyV4, "scene units", "none")(0f)
-  private val normals: Option[Field[String]] = Option.when(bumps):
-    string("normalmap", "normal map image", onlyV4, shown = "none")("")
-  private val normalMapUv: Option[Field[Array[Float]]] = Option.when(bumps):
-    numbers(
-      "normalmapuv",
-      "float[6]",
-      "s and t of the normal map, by u, v and 1",
-      onlyOthers
-    )
-  private val pyramid = Once[MipLevel]()
-  private val strength: Option[Field[Float]] = Option.when(bumps):
-    float("normalscale", "scale of the normal map's tangential components", onlyGltf)(1f)
-  private val second: Option[Field[Boolean]] = Option.when(bumps):
-    bool("normaluv2", "use the second set of u and v for the normal map", onlyGltf)(false)
-  private val wrap: Option[Field[String]] = Option.when(bumps):
-    oneOf("normalwrap", "wrap mode of the normal map", WrapModes.Names, onlyGltf)("repeat")
-  private val wrapDown: Option[Field[String]] = Option.when(bumps):
-    oneOf(
-      "normalwrapt",
-      "that along t, if it differs",
-      WrapModes.Names,
-      onlyGltf,
-      shown = "`normalwrap`"
-    )("")
+  private val normals: Option[NormalMapFields] =
+    Option.when(bumps)(NormalMapFields("", "normal map", onlyV4))
   private val edges: Option[Field[Boolean]] = Option.when(bumps):
     bool("softedges", "soften the terminator on bumps", onlyOthers)(true)
   private val turns: Option[Field[Boolean]] = Option.when(bumps):
@@ -124,17 +104,23 @@ abstract class MaterialRecipe(
   override protected def assemble(site: Site): Material =
     given Site = site
     val smooth = create().folded
-    normalMap() match
-      case Some(picture) =>
-        site.resources.askForRelief("normal maps")
-        // What faces away is turned for each viewer, or at once
-        val faces = site.rules.bumps == Bumps.Displaced
-        val sides = Dialect.Gltf == site.rules.dialect
-        val scale = strength.fold(1f)(_())
-        raised(smooth, NormalMapMaterial(_, picture, uvMapping(), faces, scale, sides))
-      case None =>
-        val height = if site.dialect == Dialect.V4 then displacements else heights
-        height.fold(smooth)(field => bumped(smooth, field()))
+    covered(relieved(smooth, normals).getOrElse:
+      val height = if site.dialect == Dialect.V4 then displacements else heights
+      height.fold(smooth)(field => bumped(smooth, field())))
+
+  /** The material with what is above its bumps. */
+  protected def covered(surface: Material)(using @unused site: Site): Material = surface
+
+  /** The material with a normal map, if there is one. */
+  protected final def relieved(smooth: Material, fields: Option[NormalMapFields])(using
+      site: Site
+  ): Option[Material] =
+    for f <- fields; picture <- f() yield
+      site.resources.askForRelief("normal maps")
+      // What faces away is turned for each viewer, or at once
+      val faces = site.rules.bumps == Bumps.Displaced
+      val sides = Dialect.Gltf == site.rules.dialect
+      raised(smooth, NormalMapMaterial(_, picture, f.mapping, faces, f.scale, sides))
 
   /** A constant height has no effect on normals. */
   private def bumped(smooth: Material, height: FloatTexture)(using site: Site): Material =
@@ -157,47 +143,73 @@ abstract class MaterialRecipe(
         turns = turns.forall(_())
       )
 
-  private def uvMapping()(using Site): Mapping2D =
-    AffineUvMapping.of(normalMapUv.fold(Array.emptyFloatArray)(_()), second.exists(_()))
+  /** Parameters of a normal map.
+    *
+    * @param prefix of their names
+    * @param whose  what it is, in words
+    */
+  protected final class NormalMapFields(prefix: String, whose: String, dialects: Set[Dialect]):
+    private val file = string(s"${prefix}normalmap", s"$whose image", dialects, shown = "none")("")
+    private val uv = numbers(
+      s"${prefix}normalmapuv",
+      "float[6]",
+      s"s and t of the $whose, by u, v and 1",
+      if prefix.isEmpty then onlyOthers else dialects
+    )
+    private val strength =
+      float(s"${prefix}normalscale", s"scale of the $whose's tangential components", onlyGltf)(1f)
+    private val second =
+      bool(s"${prefix}normaluv2", s"use the second set of u and v for the $whose", onlyGltf)(false)
+    private val wrap =
+      oneOf(s"${prefix}normalwrap", s"wrap mode of the $whose", WrapModes.Names, onlyGltf)("repeat")
+    private val wrapDown = oneOf(
+      s"${prefix}normalwrapt",
+      "that along t, if it differs",
+      WrapModes.Names,
+      onlyGltf,
+      shown = s"`${prefix}normalwrap`"
+    )("")
+    private val pyramid = Once[MipLevel]()
 
-  private def wrapping(using Site): Wrap =
-    WrapModes.of(wrap.fold("repeat")(_()), wrapDown.fold("")(_()))
+    def scale(using Site): Float = strength()
+    def mapping(using Site): Mapping2D = AffineUvMapping.of(uv(), second())
+    private def wrapping(using Site): Wrap = WrapModes.of(wrap(), wrapDown())
 
-  private def normalMap()(using site: Site): Option[MipLevel] =
-    for
-      field <- normals
-      name <- field.given_() if name.nonEmpty
-      p <- site.declaration.param("normalmap")
-      map <- normalMap(name, p)
-    yield map
+    /** The parameter, if it names an image. */
+    def given_()(using site: Site): Option[Param] =
+      file.given_().filter(_.nonEmpty).flatMap(_ => site.declaration.param(file.name))
 
-  private def normalMap(name: String, p: Param)(using site: Site): Option[MipLevel] =
-    // pbrt-v4 decodes 8-bit files, except for PNG
-    val isPng = name.toLowerCase.endsWith(".png")
-    def decodes(encoding: Encoding) =
-      val isDecoded = site.rules.decodesNormals && encoding != Encoding.Linear && !isPng
-      if isDecoded then
-        site.problems.warn(
-          Code.AsInPbrt,
-          p.pos,
-          "pbrt-v4 decodes this normal map as sRGB; it reads PNG and EXR as they are"
-        )
-      isDecoded
-    def texels(image: ImageBands) =
-      Texels.color(image, if decodes(image.encoding) then Encoding.Srgb.decode(_) else identity)
-    site.resources.textures.tiles match
-      case Some(tiles) =>
-        val ways = s"normals ${site.rules.decodesNormals && !isPng} $wrapping"
-        for
-          image <- site.resources.tiled(tiles, p, site, StandIns.Magentas, ways, wrapping): bands =>
-            MadeTexels(texels(bands), None, bands.encoding, None)
-        yield
-          val _ = decodes(image.encoding)
-          pyramid(image.levels(0))
-      case None =>
-        for stored <- site.resources.image(p, site.declaration, site.problems) yield
-          val _ = decodes(stored.encoding)
-          pyramid(MipLevel(texels(ImageBands.of(stored)).inMemory, wrapping))
+    def apply()(using site: Site): Option[MipLevel] =
+      for p <- given_(); map <- image(p) yield map
+
+    private def image(p: Param)(using site: Site): Option[MipLevel] =
+      // pbrt-v4 decodes 8-bit files, except for PNG
+      val isPng = file().toLowerCase.endsWith(".png")
+      def decodes(encoding: Encoding) =
+        val isDecoded = site.rules.decodesNormals && encoding != Encoding.Linear && !isPng
+        if isDecoded then
+          site.problems.warn(
+            Code.AsInPbrt,
+            p.pos,
+            "pbrt-v4 decodes this normal map as sRGB; it reads PNG and EXR as they are"
+          )
+        isDecoded
+      def texels(image: ImageBands) =
+        Texels.color(image, if decodes(image.encoding) then Encoding.Srgb.decode(_) else identity)
+      site.resources.textures.tiles match
+        case Some(tiles) =>
+          val ways = s"normals ${site.rules.decodesNormals && !isPng} $wrapping"
+          for
+            image <- site.resources.tiled(tiles, p, site, StandIns.Magentas, ways, wrapping):
+              bands =>
+                MadeTexels(texels(bands), None, bands.encoding, None)
+          yield
+            val _ = decodes(image.encoding)
+            pyramid(image.levels(0))
+        case None =>
+          for stored <- site.resources.image(p, site.declaration, site.problems) yield
+            val _ = decodes(stored.encoding)
+            pyramid(MipLevel(texels(ImageBands.of(stored)).inMemory, wrapping))
 
 /** Base of materials with the common roughness parameters.
   *

@@ -1,8 +1,12 @@
 package candela.bsdf.composite
 
-import candela.bsdf.{Bsdf, BsdfLaws, Directions}
+import candela.bsdf.{
+  Bsdf, BsdfLaws, ConstantMaterial, Directions, DisplacedMaterial, FramedMaterial, Fresnel,
+  Material,
+  SoftTerminatorMaterial
+}
 import candela.color.{ColorBasis, Rgb}
-import candela.geometry.ShadingPoint
+import candela.geometry.{Frame, ShadingPoint}
 import candela.math.*
 import candela.textures.{ConstantFloat, ConstantRgb}
 
@@ -129,3 +133,54 @@ class GltfSuite extends BsdfLaws:
         yield bsdf.sample(wo, 0f, (a + 0.5f) / n, (b + 0.5f) / n).weight.r
       val albedo = samples.sum / samples.size
       assert(Math.abs(albedo - SheenAlbedo(wo.z, roughness)) < 0.03f * albedo + 0.01f, s"$degrees")
+
+  /** Turns the normals of a material. */
+  private final class Leaning(inner: Material, n: Vec3) extends DisplacedMaterial(inner):
+    def bsdf(at: ShadingPoint): Bsdf =
+      at.frame.set(Frame.along(n, Vec3.X))
+      inner.bsdf(at)
+
+  /** A rough surface under a coat with another normal. */
+  private def underCoat(n: Vec3, coat: Float = 0.8f, roughness: Float = 0.3f): Bsdf =
+    val layer = GltfCoat(ConstantFloat(coat), ConstantFloat(roughness))
+    val base = ConstantMaterial(surface())
+    val raised = SoftTerminatorMaterial(layer, Leaning(_, n), shadows = false)
+    CoatedGltf(base, FramedMaterial(raised), ConstantFloat(coat)).bsdf(ShadingPoint())
+
+  private val leaning = Vec3(0.3f, 0f, 1f).normalized
+  obeysLaws("coat that leans", underCoat(leaning), isReciprocal = false)
+
+  test("a coat of the same normals is that of the material"):
+    val same = underCoat(Vec3.Z)
+    val expected = surface(coat = 0.8f, coatRoughness = 0.3f)
+    for o <- 0 to 80 by 20; i <- 0 to 80 by 20 do
+      val (wo, wi) = (Directions.at(o, 0), Directions.at(i, 70))
+      val (a, b) = (same.f(wo, wi), expected.f(wo, wi))
+      assert((a - b).map(Math.abs(_)).max <= 1e-5f * b.max)
+      assert(Math.abs(same.pdf(wo, wi) / expected.pdf(wo, wi) - 1f) < 1e-4f)
+
+  test("the highlight of a coat is by its own normals, and so is what passes it"):
+    val wo = Vec3.Z
+    val mirrored = leaning * (2f * (wo dot leaning)) - wo
+    val (bare, coated) = (surface(), underCoat(leaning, roughness = 0.1f))
+    assert(coated.f(wo, mirrored).g > 10f * bare.f(wo, mirrored).g)
+    assert(coated.f(wo, Vec3.Z).g < bare.f(wo, Vec3.Z).g)
+    val dimmed = 1f - 0.8f * ClearcoatReflectance(wo dot leaning).r
+    val aside = Vec3(-mirrored.x, 0f, mirrored.z)
+    assert(Math.abs(coated.f(wo, aside).g / bare.f(wo, aside).g - dimmed) < 1e-3f)
+
+  test("under a film, neither side of a boundary returns more light than it receives"):
+    // The first film reflects more than the bare boundary, the second less
+    for (eta, nm, isBrighter) <- Vector((2.2f, 70f, true), (1.22f, 110f, false)) do
+      val film = ThinFilm(1f, eta, nm, FilmColors.of(ColorBasis.Srgb))
+      val outer = GltfReflectance(Rgb.gray(0.04f), 1f, Rgb.White, 0f, film)
+      val boundary = GltfInterface(outer, 1.5f, 1f)
+      val bare = Fresnel.dielectric(1f, 1.5f)
+      assert(if isBrighter then boundary(1f).max > 2f * bare else boundary(1f).max < 0.5f * bare)
+      for i <- 1 to 20 do
+        val outside = i / 20f
+        val inside = Fresnel.cosRefracted(outside, 1.5f)
+        for cosine <- Vector(outside, -inside) do
+          val sent = boundary.transmitted(cosine, Fresnel.dielectric(cosine, 1.5f))
+          val sum = boundary(cosine).max + sent
+          assert(sum <= 1f + 1e-5f && sent >= 0f, s"film $eta at $cosine: $sum")
