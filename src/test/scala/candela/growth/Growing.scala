@@ -2,6 +2,7 @@ package candela.growth
 
 import candela.scenefile.Dialect
 
+import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_8}
 import java.nio.file.{Files, Path}
 
 /** A scene of any number of one thing.
@@ -10,6 +11,7 @@ import java.nio.file.{Files, Path}
   * @param size    the number from which on growth is measured
   * @param isFaulty whether the scene has errors, whose messages may take time, too
   * @param defines values of `$NAME`, for so many
+  * @param suffix  of a model's file, whose characters are bytes
   * @param text    the scene with so many; its files are written to the folder
   */
 final case class Growing(
@@ -17,17 +19,21 @@ final case class Growing(
     dialect: Dialect,
     size: Int = 250,
     isFaulty: Boolean = false,
-    defines: Int => Map[String, String] = _ => Map.empty
+    defines: Int => Map[String, String] = _ => Map.empty,
+    suffix: Option[String] = None
 )(text: (Path, Int) => String):
 
   /** Writes the scene to the folder. */
   def write(folder: Path, count: Int): Path =
-    val suffix = if dialect == Dialect.Mitsuba then "xml" else "pbrt"
-    Files.writeString(folder.resolve(s"scene.$suffix"), text(folder, count))
+    val usual = if dialect == Dialect.Mitsuba then "xml" else "pbrt"
+    val encoding = if suffix.isEmpty then UTF_8 else ISO_8859_1
+    val file = folder.resolve(s"scene.${suffix.getOrElse(usual)}")
+    Files.writeString(file, text(folder, count), encoding)
 
 object Growing:
   val rows: Vector[Growing] =
-    GrowingRecipes.rows ++ GrowingPbrt.rows ++ GrowingLanguage.rows ++ GrowingMitsuba.rows
+    GrowingRecipes.rows ++ GrowingPbrt.rows ++ GrowingLanguage.rows ++ GrowingMitsuba.rows ++
+      GrowingModels.rows
 
   /** Different for each of 0 until `count`, below 1. */
   def share(i: Int, count: Int): Double = (i + 1.0) / (count + 1)

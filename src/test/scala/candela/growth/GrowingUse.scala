@@ -22,7 +22,7 @@ enum GrowingUse:
   /** What it does to a file. */
   def prepare(scene: Growing, file: Path, count: Int): () => AnyRef =
     val reading = ReadSettings(
-      Option.when(scene.dialect != Dialect.Mitsuba)(scene.dialect),
+      Option.when(Dialect.ofPbrt.contains(scene.dialect))(scene.dialect),
       defines = scene.defines(count)
     )
     def read() = Render.read(file, reading, BuildControl())

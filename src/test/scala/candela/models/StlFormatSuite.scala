@@ -42,8 +42,12 @@ class StlFormatSuite extends AnyFunSuite:
   test("text and binary are the same mesh, whose equal vertices are one"):
     val expected = corners.flatMap(_.map(_ + 0f).grouped(3))
     val long = "solid" + text.drop(5).replace("\n", "\r\n").toUpperCase
+    val oneLine = text.replaceFirst("\n", "\r").replaceAll("\n *", " ").replace("\r", "\n")
+      .replace("facet normal 0 0 0", "facet normal -nan(ind) 0 0")
     for content <-
-        Vector(bytes(text), bytes(long), binary(), binary("solid part"), binary(tail = 7))
+        Vector(
+          bytes(text), bytes(long), bytes(oneLine), binary(), binary("solid part"), binary(tail = 7)
+        )
     do
       val scene = model(content)
       assert(scene.errors.isEmpty && points(scene) == expected)

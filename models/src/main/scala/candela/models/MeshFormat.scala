@@ -73,20 +73,35 @@ private[models] object MeshFormat:
       insideMedium = surface.interior
     )
 
-  /** A matte surface of the colours of the vertices, if they have any. */
-  def plain(hasColors: Boolean, pictures: Pictures, at: SourcePos, session: Session): Surface =
-    val tint = if hasColors then Rgb.White else Rgb.gray(Gray)
-    val color = pictures.colorOf("reflectance", tint, None, at, hasColors)
+  /** A matte surface of an image and the colours of the vertices, if there are such. */
+  def plain(
+      hasColors: Boolean,
+      pictures: Pictures,
+      at: SourcePos,
+      session: Session,
+      image: Option[Picture] = None
+  ): Surface =
+    val tint = if hasColors || image.nonEmpty then Rgb.White else Rgb.gray(Gray)
+    val color = pictures.colorOf("reflectance", tint, image, at, hasColors)
     val d = session.declare("Material", "diffuse", at, Vector(color))
     Surface(MaterialRef.Inline(d), Vector.empty, None, "")
 
   /** The scene of one mesh without materials. */
   def scene(mesh: Mesh, session: Session): SceneDescription =
-    val (pictures, at) = (Pictures(session), session.position)
-    val surface = plain(mesh.colors.nonEmpty, pictures, at, session)
-    val isVeiled = (3 until mesh.colors.length by 4).exists(mesh.colors(_) < 1f)
-    val alpha = Option.when(isVeiled)(pictures.numberOf("alpha", 1, None, "a", at, true))
-    val shapes = Vector(shape(mesh, surface.copy(shape = alpha.toVector), at, session))
+    scene(Vector(mesh -> None), Pictures(session), session)
+
+  /** The scene of meshes without materials, which may have images. */
+  def scene(
+      meshes: Vector[(Mesh, Option[Picture])],
+      pictures: Pictures,
+      session: Session
+  ): SceneDescription =
+    val at = session.position
+    val shapes = meshes.map: (mesh, image) =>
+      val surface = plain(mesh.colors.nonEmpty, pictures, at, session, image)
+      val isVeiled = (3 until mesh.colors.length by 4).exists(mesh.colors(_) < 1f)
+      val alpha = Option.when(isVeiled)(pictures.numberOf("alpha", 1, None, "a", at, true))
+      shape(mesh, surface.copy(shape = alpha.toVector), at, session)
     SceneDescription(Dialect.Gltf, textures = pictures.result(), shapes = shapes)
 
   /** The linear value of an sRGB component, as files of meshes have them. */

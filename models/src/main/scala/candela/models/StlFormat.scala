@@ -95,12 +95,13 @@ private final class StlText(
             triangles.add(in.finite(), in.finite(), in.finite())
             corners += 1
           case "facet" =>
-            in.remainder(): Unit
             corners = 0
             isOpen = true
           case "endfacet" =>
             if corners != 3 then in.wrong(s"expected a facet of three vertices, found $corners")
             isOpen = false
+          // Some programs write normals that are no numbers
+          case "normal" => loop(3)(_ => if in.hasNext then in.word(): Unit)
           case "solid" | "endsolid" => in.remainder(): Unit
           case "outer" | "loop" | "endloop" => ()
           case _ =>

@@ -4,6 +4,8 @@ import candela.base.{IntBuffer, loop}
 
 /** Numbers the combinations of three indices that corners of faces have: each is a vertex. */
 final class CornerVertices:
+  import CornerVertices.Ratio
+
   private val keys = IntBuffer()
   private var slots = Array.fill(1024)(-1)
 
@@ -30,9 +32,9 @@ final class CornerVertices:
     first(vertex) == a && second(vertex) == b && third(vertex) == c
 
   private def hash(a: Int, b: Int, c: Int): Int =
-    // Multiplicative hashing: Knuth, "The Art of Computer Programming", volume 3, section 6.4
-    val mixed = ((a * 31L + b) * 31L + c) * 0x9e3779b97f4a7c15L
-    (mixed >>> 32).toInt & (slots.length - 1)
+    // Fibonacci hashing: Knuth, "The Art of Computer Programming", volume 3, section 6.4
+    val mixed = ((a * Ratio + b) * Ratio + c) * Ratio
+    (mixed >>> (java.lang.Long.numberOfLeadingZeros(slots.length) + 1)).toInt
 
   private def grow(): Unit =
     slots = Array.fill(2 * slots.length)(-1)
@@ -40,3 +42,7 @@ final class CornerVertices:
       var slot = hash(first(i), second(i), third(i))
       while slots(slot) >= 0 do slot = (slot + 1) & (slots.length - 1)
       slots(slot) = i
+
+object CornerVertices:
+  /** 2 to the power of 64, divided by the golden ratio. */
+  private inline val Ratio = 0x9e3779b97f4a7c15L

@@ -8,7 +8,7 @@ import java.nio.charset.StandardCharsets.ISO_8859_1
 import scala.annotation.switch
 import scala.collection.mutable
 
-import candela.scenefile.{NumberReader, Source}
+import candela.scenefile.{NumberReader, PlacedText, Source}
 
 /** Number types of PLY files, with their size in bytes in binary files. */
 private[build] enum PlyType(val bytes: Int):
@@ -40,13 +40,15 @@ private[build] final case class PlyElement(
 /** Header of a PLY file.
   *
   * @param bodyStart start of the body, in the source's window
+  * @param images    names of image files, from the comments that MeshLab writes
   *
   * Source: Turk, "The PLY Polygon File Format", 1994; both generations of type names.
   */
 private[build] final case class PlyHeader(
     format: PlyFormat,
     elements: Vector[PlyElement],
-    bodyStart: Int
+    bodyStart: Int,
+    images: Vector[PlacedText] = Vector.empty
 ):
   /** What stands for 1 in numbers of an unsigned type of one or two bytes. */
   def wholes: Map[String, Float] =
@@ -56,14 +58,16 @@ private[build] final case class PlyHeader(
       case PlyProperty(name, PlyType.UInt16, _) => name -> 65535f
     }.toMap
 
-  /** Elements and lists that are not read, which are all lists but `corners` of faces. */
-  def omitted(corners: Set[String]): Vector[String] =
-    val lists =
-      for
-        e <- elements if e.name == "vertex" || e.name == "face"
-        p <- e.properties if p.countType.nonEmpty && !(e.name == "face" && corners(p.name))
+  /** Elements and lists that are not read.
+    *
+    * @param lists of each element that is read
+    */
+  def omitted(lists: Map[String, Set[String]]): Vector[String] =
+    val (read, unread) = elements.filter(_.count > 0).partition(e => lists.contains(e.name))
+    val unreadLists =
+      for e <- read; p <- e.properties if p.countType.nonEmpty && !lists(e.name)(p.name)
       yield p.name
-    lists ++ elements.filter(e => e.count > 0 && e.name != "vertex" && e.name != "face").map(_.name)
+    unreadLists ++ unread.map(_.name)
 
 private[build] object PlyHeader:
 
@@ -71,6 +75,7 @@ private[build] object PlyHeader:
   def read(source: Source, fail: (Long, String) => Nothing): PlyHeader =
     var format = Option.empty[PlyFormat]
     val elements = mutable.ArrayBuffer.empty[PlyElement]
+    val images = mutable.ArrayBuffer.empty[PlacedText]
     val lines = Lines(source)
     if lines.line() != "ply" then fail(0, "not a PLY file; it must begin with `ply`")
     var isInHeader = true
@@ -92,10 +97,13 @@ private[build] object PlyHeader:
           val added = property(rest).getOrElse(wrong("unknown property"))
           elements(elements.length - 1) = last.copy(properties = last.properties :+ added)
         case "end_header" :: Nil => isInHeader = false
+        case "comment" :: "TextureFile" :: _ :: _ =>
+          val name = line.drop(line.indexOf("TextureFile") + "TextureFile".length).trim
+          images += PlacedText(name, lines.count, line.indexOf(name) + 1)
         case Nil | ("comment" | "obj_info") :: _ => ()
         case _ => wrong("unknown header line")
     val declaredFormat = format.getOrElse(fail(0, "the header must have a `format`"))
-    PlyHeader(declaredFormat, elements.toVector, lines.end)
+    PlyHeader(declaredFormat, elements.toVector, lines.end, images.toVector)
 
   private def words(line: String): List[String] =
     val tokens = java.util.StringTokenizer(line, " \t\n\u000b\f\r")
@@ -116,6 +124,7 @@ private[build] object PlyHeader:
     /** Start of the body in the source's window, once the last line is read. */
     def end: Int = next
     var lastStart = 0L
+    var count = 0
 
     private lazy val endsWithReturn =
       val first = source.bytes.indexWhere(b => b == '\n' || b == '\r')
@@ -131,6 +140,7 @@ private[build] object PlyHeader:
       val bytes = source.bytes
       val end = if endsWithReturn then '\r' else '\n'
       lastStart = source.offset(next)
+      count += 1
       val start = next
       while next < source.limit && bytes(next) != end && next - start < LongestLine do next += 1
       val line = new String(bytes, start, next - start, ISO_8859_1).trim
