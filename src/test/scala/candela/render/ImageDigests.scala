@@ -50,10 +50,9 @@ object ImageDigests:
   lazy val kept: Map[String, String] = rows.map(row => row.scene -> row.digest).toMap
 
   def of(scene: ReferenceScene): String =
-    val text = Files.readString(scene.file)
     val samples =
       if scene.guiding == GuidingMode.Off then SamplesPerPixel else GuidedSamplesPerPixel
-    of(ReferenceComparison.render(scene, text, Seed, samples, threads = 1))
+    of(ReferenceComparison.render(scene, scene.text, Seed, samples, threads = 1))
 
   /** Of size, names of channels and all bits. */
   def of(image: Image): String =

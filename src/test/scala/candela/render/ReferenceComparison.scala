@@ -5,8 +5,6 @@ import java.nio.file.{Files, Path}
 import candela.build.SceneBuilder
 import candela.image.{Image, ImageFiles}
 import candela.integrators.CausticsMode
-import candela.mitsuba.MitsubaScene
-import candela.scenefile.Parser
 
 /** Renders reference scenes, and compares them with their references. */
 object ReferenceComparison:
@@ -57,13 +55,9 @@ object ReferenceComparison:
       spp: Int,
       caustics: Option[CausticsMode] = None
   ): RenderPlan =
-    val description =
-      if scene.isMitsubas then
-        Parser.validated(MitsubaScene.readable(scene.file, Map.empty, keepGoing = false))
-      else Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
     val settings = scene.settings(spp, seed)
     SceneBuilder.build(
-      description,
+      scene.description(text),
       settings.copy(caustics = caustics.orElse(settings.caustics))
     )._1.piloted
 

@@ -8,9 +8,14 @@ import scala.util.Using
 import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
 import candela.integrators.CausticsMode
-import candela.settings.RenderSettings
+import candela.io.SceneFolder
+import candela.job.SceneFormat
+import candela.mitsuba.MitsubaScene
+import candela.scenefile.{Parser, Resolution, SceneDescription}
+import candela.settings.{ModelLight, ModelSettings, ReadSettings, RenderSettings}
 
-/** A scene of the `scenes` folder with the image that pbrt, or Mitsuba, makes of it.
+/** A scene of the `scenes` folder with the image that the program of its dialect makes of it: pbrt,
+  * Mitsuba, or Cycles of models.
   *
   * @param noise     variance of the reference's pixels, measured between two independent halves
   * @param allowance relative systematic difference that is known, measured and explained
@@ -30,12 +35,38 @@ final case class ReferenceScene(
       Some(samplesPerPixel),
       seed,
       guiding = Some(guiding),
-      caustics = Some(caustics)
+      caustics = Some(caustics),
+      reading = reading
     )
 
+  /** Meshes have neither a camera nor light. */
+  def reading: ReadSettings =
+    if !isModel then ReadSettings()
+    else
+      val size = ReadSettings(resolution = Some(Resolution.Size(image.width, image.height)))
+      if !SceneFormat.of(file).isMesh then size
+      else
+        val light = ModelLight.Surroundings(s"${ReferenceScenes.Sky}")
+        size.copy(
+          camera = Some(s"${ReferenceScenes.MeshCamera}"),
+          model = ModelSettings(light = Some(light))
+        )
+
+  /** That of its file, if it is one. */
+  def text: String = if isModel then "" else Files.readString(file)
+
+  def description(text: String): SceneDescription =
+    if isMitsubas then
+      Parser.validated(MitsubaScene.readable(file, Map.empty, keepGoing = false))
+    else if isModel then
+      Parser.validated(SceneFormat.of(file).read(file, SceneFolder.of(file), reading, None))
+    else Parser.parseText(file.toString, text, ReferenceScenes.Scenes)
+
   def isMitsubas: Boolean = name.startsWith("mi-")
+  def isModel: Boolean = ReferenceScenes.models.contains(name)
   def file: Path =
-    if isMitsubas then ReferenceScenes.OfMitsuba.resolve(s"$name.xml")
+    if isModel then ReferenceScenes.models(name)
+    else if isMitsubas then ReferenceScenes.OfMitsuba.resolve(s"$name.xml")
     else ReferenceScenes.Scenes.resolve(s"$name.pbrt")
 
   /** Scenes of caustics show how these are looked for. Under water, and in mist behind glass, few
@@ -46,19 +77,33 @@ final case class ReferenceScene(
     else if name.endsWith("-pool") || name.endsWith("-mist") then CausticsMode.Photons
     else CausticsMode.Auto
 
-  def image: Image = ImageFiles.read(ReferenceScenes.References.resolve(s"$name.exr"))
+  def image: Image =
+    val folder =
+      if isModel then ReferenceScenes.ReferencesOfModels else ReferenceScenes.References
+    ImageFiles.read(folder.resolve(s"$name.exr"))
 
 /** Finds the scenes that have a reference. */
 object ReferenceScenes:
   val Scenes: Path = Path.of("scenes")
   val OfMitsuba: Path = Scenes.resolve("mitsuba")
   val References: Path = Path.of("reference-images")
+  val ReferencesOfModels: Path = References.resolve("models")
+
+  private val OfModels = Scenes.resolve("models")
+  val MeshCamera: Path = OfModels.resolve("shapes-camera.pbrt")
+  val Sky: Path = Scenes.resolve("textures").resolve("sky-latlong.exr")
 
   /** Names without their ending. */
   def names(folder: Path, ending: String): Vector[String] =
     Using.resource(Files.list(folder)): files =>
       val all = files.iterator.asScala.map(_.getFileName.toString).filter(_.endsWith(ending))
       all.map(_.stripSuffix(ending)).toVector.sorted
+
+  /** Files of models, by their names. */
+  lazy val models: Map[String, Path] =
+    Using.resource(Files.list(OfModels)): files =>
+      val models = files.iterator.asScala.filter(SceneFormat.named(_).exists(_.isModel))
+      models.map(file => SceneFormat.stem(file) -> file).toMap
 
   /** Rows of `manifest.csv`, by the names of the columns. */
   lazy val manifest: Vector[Map[String, String]] =
@@ -68,7 +113,8 @@ object ReferenceScenes:
 
   lazy val all: Vector[ReferenceScene] =
     val rows = manifest.map(row => row("scene") -> row).toMap
-    for name <- names(OfMitsuba, ".xml") ++ names(Scenes, ".pbrt") if rows.contains(name) yield
+    val all = models.keys.toVector.sorted ++ names(OfMitsuba, ".xml") ++ names(Scenes, ".pbrt")
+    for name <- all if rows.contains(name) yield
       val row = rows(name)
       ReferenceScene(name, row("noise_variance").toDouble, row("allowance").toDouble)
 

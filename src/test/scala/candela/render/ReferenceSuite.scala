@@ -1,7 +1,5 @@
 package candela.render
 
-import java.nio.file.Files
-
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatest.tagobjects.Slow
 
@@ -14,13 +12,14 @@ import org.scalatest.tagobjects.Slow
   * unchanged renderer always gets the same answer. Images that disagree are left under
   * `target/render-diff`.
   *
-  * @param prefix of the dialect's scenes
-  * @param part   of so many suites of this dialect, which run side by side; counted from 0
+  * @param includes whether a scene is of the dialect
+  * @param part     of so many suites of this dialect, which run side by side; counted from 0
   */
-abstract class ReferenceSuite(prefix: String, part: Int = 0, parts: Int = 1) extends AnyFunSuite:
+abstract class ReferenceSuite(includes: ReferenceScene => Boolean, part: Int = 0, parts: Int = 1)
+    extends AnyFunSuite:
 
   private val scenes = ReferenceScenes.compared
-    .filter(_.name.startsWith(prefix)).zipWithIndex
+    .filter(includes).zipWithIndex
     .collect { case (scene, i) if i % parts == part => scene }
 
   for scene <- scenes do
@@ -33,7 +32,7 @@ abstract class ReferenceSuite(prefix: String, part: Int = 0, parts: Int = 1) ext
       assertAgreement(scene)
 
   private def assertAgreement(scene: ReferenceScene): Unit =
-    val agreement = ReferenceComparison(scene, Files.readString(scene.file))
+    val agreement = ReferenceComparison(scene, scene.text)
     val disagreements = agreement.disagreements(ReferenceComparison.Significance)
     if disagreements.nonEmpty then
       val first = disagreements.take(5).map(_.what).mkString("\n  ")
@@ -41,8 +40,9 @@ abstract class ReferenceSuite(prefix: String, part: Int = 0, parts: Int = 1) ext
       fail(s"${disagreements.size} disagreements, first\n  $first\nsee\n  $paths\n" +
         s"If the new image is right, renew the reference, then ${ImageDigests.Renewal}")
 
-class ReferenceV2Suite extends ReferenceSuite("v2-")
-class ReferenceV3Suite extends ReferenceSuite("v3-")
-class ReferenceV4FirstSuite extends ReferenceSuite("v4-", part = 0, parts = 2)
-class ReferenceV4SecondSuite extends ReferenceSuite("v4-", part = 1, parts = 2)
-class ReferenceMitsubaSuite extends ReferenceSuite("mi-")
+class ReferenceV2Suite extends ReferenceSuite(_.name.startsWith("v2-"))
+class ReferenceV3Suite extends ReferenceSuite(_.name.startsWith("v3-"))
+class ReferenceV4FirstSuite extends ReferenceSuite(_.name.startsWith("v4-"), part = 0, parts = 2)
+class ReferenceV4SecondSuite extends ReferenceSuite(_.name.startsWith("v4-"), part = 1, parts = 2)
+class ReferenceMitsubaSuite extends ReferenceSuite(_.isMitsubas)
+class ReferenceModelsSuite extends ReferenceSuite(_.isModel)

@@ -26,8 +26,9 @@ class RenderSuite extends AnyFunSuite:
     assert(agreement.disagreements(Significance).isEmpty)
 
   test("every reference has its scene, its place in the manifest, its noise and its digest"):
-    val images = ReferenceScenes.names(ReferenceScenes.References, ".exr")
-    assert(images == ReferenceScenes.manifest.map(_("scene")).sorted)
+    val folders = Vector(ReferenceScenes.ReferencesOfModels, ReferenceScenes.References)
+    val images = folders.flatMap(ReferenceScenes.names(_, ".exr"))
+    assert(images.sorted == ReferenceScenes.manifest.map(_("scene")).sorted)
     assert(images == ReferenceScenes.all.map(_.name))
     val titles = ReferenceScenes.compared.map(_.title).sorted
     assert(titles == ImageDigests.rows.map(_.scene), ImageDigests.Renewal)

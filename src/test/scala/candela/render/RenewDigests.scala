@@ -35,7 +35,7 @@ object RenewDigests:
     val row = old.get(scene.title)
     if row.exists(_.digest == digest) then (row, true)
     else
-      val agreement = ReferenceComparison(scene, Files.readString(scene.file))
+      val agreement = ReferenceComparison(scene, scene.text)
       val disagreements = agreement.disagreements(ReferenceComparison.Significance)
       println(s"${scene.title}: ${disagreements.headOption.fold("agrees")(_.what)}")
       if disagreements.isEmpty then (Some(ImageDigests.Row(scene.title, digest, commit)), true)
