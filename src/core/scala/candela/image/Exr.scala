@@ -24,9 +24,7 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
       admit: (Int, Int) => Unit = (_, _) => ()
   ): Image =
     val parts = ExrHeader.parts(file)
-    val hasColor = parts.map(p => p.channels.map(_.name).toSet).map: names =>
-      names("Y") || Image.RgbNames.forall(names)
-    val chosen = Math.max(0, hasColor.indexOf(true))
+    val chosen = this.chosen(parts)
     val part = parts(chosen)
     admit(part.width, part.height)
     parts.flatMap(_.obstacle).headOption match
@@ -39,6 +37,23 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
           s"$reason; ${OpenExr.help}"
         ))
           .read(file, part, reason)
+
+  /** The first part with colour, else the first. */
+  private def chosen(parts: Vector[ExrPart]): Int =
+    val hasColor = parts.map(p => p.channels.map(_.name).toSet).map: names =>
+      names("Y") || Image.RgbNames.forall(names)
+    Math.max(0, hasColor.indexOf(true))
+
+  /** Which of several parts is read.
+    *
+    * @param start of the file
+    */
+  def remark(start: Array[Byte]): Option[String] =
+    try
+      val (parts, _) = ExrHeader.ofBeginning(start)
+      Option.when(parts.size > 1):
+        s"the image has ${parts.size} parts, of which part ${chosen(parts) + 1} is read"
+    catch case _: ImageError => None // reported by the decoder
 
   private def decoded(file: Array[Byte], parts: Vector[ExrPart], chosen: Int): Image =
     val part = parts(chosen)

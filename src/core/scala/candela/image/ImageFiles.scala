@@ -100,15 +100,18 @@ object ImageFiles:
     val bytes = if Files.isRegularFile(path) then Files.readAllBytes(path) else Array.emptyByteArray
     Option.when(bytes.startsWith(ExrMark))(ExrHeader.parts(bytes).head)
 
-  /** How pbrt-v4 reads the file differently, if it does; or that pixels are missing. */
-  def remark(file: InputFile): Option[String] =
+  /** How pbrt-v4 reads the file differently, if it does; or what of it is missing. */
+  def remark(file: InputFile): Option[(Code, String)] =
     val suffix = FileName.suffix(file.path)
     val note =
-      if !Remarkable(suffix) then None
+      if suffix == "exr" then
+        val start = Using.resource(file.again())(_.readNBytes(HeadBytes))
+        Exr.remark(start).map(Code.ImageContents -> _)
+      else if !Remarkable(suffix) then None
       else
         val size = file.size
         val (start, end) = Using.resource(file.again()): in =>
-          val beginning = in.readNBytes(1 << 16)
+          val beginning = in.readNBytes(HeadBytes)
           in.skipNBytes(Math.max(0, size - beginning.length - (1 << 12)))
           (beginning, in.readAllBytes())
         // A small file has its end in the beginning
@@ -118,7 +121,10 @@ object ImageFiles:
         cut.orElse:
           if suffix == "qoi" then None
           else if suffix == "tga" then Tga.remark(start) else Pnm.remark(start)
-    note.map(text => s"$file: $text")
+        .map(Code.CutImage -> _)
+    note.map((code, text) => code -> s"$file: $text")
+
+  private val HeadBytes = 1 << 16
 
   private val Remarkable = Set("qoi", "tga", "ppm", "pgm", "pbm", "pnm", "jpg", "jpeg", "bmp")
 

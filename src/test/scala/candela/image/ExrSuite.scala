@@ -185,6 +185,13 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     assert(outcomes.exists(_.isLeft))
     assert(outcomes.exists(_.isRight))
 
+  test("which of several parts is read is a remark"):
+    assert(Exr.remark(resource("multipart")).exists(_.matches(
+      "the image has [0-9]+ parts, of which part [0-9]+ is read"
+    )))
+    assert(Exr.remark(resource("tiled")).isEmpty)
+    assert(Exr.remark(resource("multipart").take(60)).isEmpty)
+
   test("a wrong number of chunks is refused, which the decoder would not survive"):
     val file = resource("multipart")
     val at = file.indexOfSlice("chunkCount".getBytes) + "chunkCount\u0000int\u0000".length + 4

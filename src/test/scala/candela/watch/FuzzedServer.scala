@@ -1,5 +1,7 @@
 package candela.watch
 
+import candela.moving.CameraMoves
+
 import java.net.{InetAddress, InetSocketAddress, Socket, SocketException, SocketTimeoutException}
 
 import scala.util.Try
@@ -11,6 +13,9 @@ final class FuzzedServer extends AutoCloseable:
 
   private def answer(request: Request): Answer = request.path match
     case "/large" => Answer("application/octet-stream", large)
+    // As the page of `candela move` parses them
+    case "/camera" =>
+      CameraMoves.parse(request.query).fold(Answer.text(_, 400), _ => Answer.text(""))
     case path => Answer.text(path)
 
   private val server =

@@ -96,7 +96,7 @@ final class SharedResources(
   // Each of a hundred colour bases asks again
   private val files = ConcurrentHashMap[(SceneFolder, String), InputFile]()
   private val loaded = ConcurrentHashMap[Path, Either[ImageError, StoredImage]]()
-  private val remarks = ConcurrentHashMap[Path, Option[String]]()
+  private val remarks = ConcurrentHashMap[Path, Option[(Code, String)]]()
   private val opened = ConcurrentHashMap[Path, Option[Either[String, ExrLevels]]]()
   private val inFiles = ConcurrentHashMap[(Path, String), Option[CachedImage]]()
 
@@ -323,8 +323,8 @@ final class SharedResources(
       standIn: String
   ): Option[A] = image match
     case Right(image) =>
-      for remark <- remarks.computeIfAbsent(file.path, _ => ImageFiles.remark(file)) do
-        problems.warn(Code.CutImage, p.valuesAt, remark)
+      val remark = remarks.computeIfAbsent(file.path, _ => ImageFiles.remark(file))
+      for (code, text) <- remark do problems.warn(code, p.valuesAt, text)
       Some(image)
     case Left(e) =>
       problems.missing(e.code, p.valuesAt, e.getMessage, standIn)

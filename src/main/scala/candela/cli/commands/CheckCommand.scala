@@ -4,7 +4,9 @@ import candela.diagnostics.{SceneError, Severity}
 import candela.cli.files.FilmName
 import candela.cli.options.Options
 import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
-import candela.job.{Prepared, SceneLoader}
+import candela.job.{Prepared, SceneFormat, SceneLoader}
+
+import java.nio.file.Path
 
 import scala.util.Using
 
@@ -49,14 +51,14 @@ final class CheckCommand(
     report.warnings(loaded.warnings, all = options.verbose)
     if loaded.warnings.nonEmpty then warned += 1
     if !options.quiet then
-      terminal.out.println(s"$scene: ${contents(loaded)}")
+      terminal.out.println(s"$scene: ${contents(scene, loaded)}")
       for added <- read.description.additions do terminal.out.println(s"$scene: $added")
     if options.explain || (options.verbose && !options.quiet) then
       Explanation.print(loaded.plan, terminal.out)
     terminal.out.flush()
     ExitCode.Done
 
-  private def contents(loaded: Prepared): String =
+  private def contents(scene: String, loaded: Prepared): String =
     val d = loaded.description
     val crop = loaded.plan.crop
     val shapes = d.shapes.size + d.objects.values.map(_.size).sum
@@ -75,4 +77,6 @@ final class CheckCommand(
     ).collect:
       case (n, noun) if n > 0 => Figures.count(n, noun) + (if noun == "light" then suffix else "")
     val film = s"${crop.width}x${crop.height}, ${loaded.plan.sampler.samplesPerPixel} spp"
-    (Vector(d.dialect.toString.toLowerCase, film) ++ counted).mkString(", ")
+    // All models have the dialect of glTF's materials
+    val kind = SceneFormat.named(Path.of(scene)).filter(_.isModel).fold(s"${d.dialect}")(_.name)
+    (Vector(kind.toLowerCase, film) ++ counted).mkString(", ")

@@ -54,7 +54,7 @@ private[candela] object OptionTable extends OptionRows:
 
   private def parsing: Vector[Row] =
     settings("dialect", "define", "sensor", "camera", "light", "background") ++
-      settings("at", "animation", "variant")
+      settings("at", "animation", "variant", "up")
 
   /** The command `preview` sets that of its name. */
   private def allSettings: Vector[Row] =
