@@ -204,10 +204,26 @@ lazy val models: Project = (project in file("models"))
     )
   )
 
+/** Reads models of further formats by Assimp, in native code. A part of its own: the program's packages
+  * are without it. The tests are among the root's.
+  */
+lazy val assimp: Project = (project in file("assimp"))
+  .dependsOn(models)
+  .settings(
+    name := "candela-assimp",
+    description := "A physically based renderer for pbrt and Mitsuba scenes: models by Assimp",
+    target := (ThisBuild / baseDirectory).value / "target" / "assimp",
+    compiled,
+    Publishing.withoutDocumentation,
+    libraryDependencies += "org.lwjgl" % "lwjgl-assimp" % lwjgl,
+    libraryDependencies ++=
+      lwjglNatives.map(n => "org.lwjgl" % "lwjgl-assimp" % lwjgl % Runtime classifier n)
+  )
+
 /** What is run, staged, tested and distributed: the program with its benchmarks and models. */
 lazy val root: Project = (project in file("."))
-  .dependsOn(program, bench, models)
-  .aggregate(core, program, bench, models, LocalProject("cluster"))
+  .dependsOn(program, bench, models, assimp)
+  .aggregate(core, program, bench, models, assimp, LocalProject("cluster"))
   .enablePlugins(UniversalPlugin)
   .settings(
     name := "candela-all",
@@ -340,20 +356,27 @@ def programFiles = Def.task {
   val jars = (program / Runtime / fullClasspathAsJars).value.map(_.data)
   val benchJars = (bench / Runtime / fullClasspathAsJars).value.map(_.data).filterNot(jars.toSet)
   val modelJars = (models / Runtime / fullClasspathAsJars).value.map(_.data).filterNot(jars.toSet)
+  val assimpJars = (assimp / Runtime / fullClasspathAsJars).value.map(_.data)
+    .filterNot((jars ++ modelJars).toSet)
   val folder = target.value / "program"
   val options = jvmOptions ++ memory
   val ofNewest = options ++ withoutProfiles ++ builtOnce
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
-    val (natives, classes) = jars.partition(_.getName.contains("-natives-"))
+    val (natives, classes) =
+      (jars ++ assimpJars).partition(_.getName.contains("-natives-"))
+    val (ofAssimp, ofProgram) = classes.partition(assimpJars.toSet)
     val jar = folder / "candela.jar"
-    val modules =
-      Seq(benchJars -> folder / "candela-bench.jar", modelJars -> folder / "candela-models.jar")
-    ProgramJar.write(classes, jar, Some(mainOfProgram), modules.map(_._2.getName))
+    val modules = Seq(
+      benchJars -> folder / "candela-bench.jar",
+      modelJars -> folder / "candela-models.jar",
+      ofAssimp -> folder / "candela-assimp.jar"
+    )
+    ProgramJar.write(ofProgram, jar, Some(mainOfProgram), modules.map(_._2.getName))
     for ((own, to) <- modules) ProgramJar.write(own, to)
     ProgramJar.unpackNatives(natives, folder / "natives").toSet ++ modules.map(_._2) + jar
   }
-  val files = make((jars ++ benchJars ++ modelJars).toSet)
+  val files = make((jars ++ benchJars ++ modelJars ++ assimpJars).toSet)
   def written(name: String, lines: Seq[String]) = {
     IO.write(folder / name, lines.mkString("", "\n", "\n"))
     folder / name

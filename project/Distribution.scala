@@ -46,7 +46,11 @@ object Distribution {
       ZipWriter.write(entries.map(_.in(facts.folder)), file)
       entries
     }
-    for (platform <- Platform.all) zip(platform, None)
+    for (platform <- Platform.all) {
+      zip(platform, None)
+      val assimp = ProgramFiles.assimp(platform, program)
+      ZipWriter.write(assimp, folder.resolve(facts.assimp(platform)))
+    }
     val module = ProgramFiles.module(plan.module)
     val licence = program.filter(_.name == "LICENSE")
     val addon = Addon.entries(facts, ProgramFiles.module(plan.addon) ++ licence, module)
@@ -74,9 +78,10 @@ object Distribution {
       )
       path = folder.resolve(name) if Files.isRegularFile(path)
     } made += Artifact(name, platform, hasRuntime, ZipWriter.sha256(path), Files.size(path))
-    val addon = Some(folder.resolve(facts.addonFile)).filter(Files.isRegularFile(_))
+    val parts = (facts.addonFile +: Platform.all.map(facts.assimp(_))).map(folder.resolve(_))
+      .filter(Files.isRegularFile(_))
     val sums = made.map(a => a.sha256 -> a.file) ++
-      addon.map(path => ZipWriter.sha256(path) -> facts.addonFile)
+      parts.map(path => ZipWriter.sha256(path) -> path.getFileName.toString)
     val texts = Manifests.all(facts, made.toSeq, plan.libraries, plan.options) :+
       ("SHA256SUMS" -> sums.map { case (sum, file) => s"$sum  $file\n" }.mkString)
     for ((name, text) <- texts) {
@@ -84,7 +89,7 @@ object Distribution {
       Files.createDirectories(file.getParent)
       Files.writeString(file, text)
     }
-    for (path <- addon) say("%6.1f MB  %s".format(Files.size(path) / 1e6, facts.addonFile))
+    for (path <- parts) say("%6.1f MB  %s".format(Files.size(path) / 1e6, path.getFileName))
     for (a <- made) say("%6.1f MB  %s".format(a.size / 1e6, a.file))
   }
 

@@ -28,6 +28,9 @@ final case class Facts(
   def zip(platform: Platform, hasRuntime: Boolean): String =
     s"$command-$version-${platform.name}${if (hasRuntime) "" else "-without-java"}.zip"
 
+  /** The reader of further formats of models. */
+  def assimp(platform: Platform): String = s"$command-$version-${platform.name}-assimp.zip"
+
   def wheelFile(platform: Platform): String =
     s"${wheel.replace('-', '_')}-$wheelVersion-py3-none-${platform.wheelTag}.whl"
 

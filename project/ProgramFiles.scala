@@ -9,7 +9,14 @@ object ProgramFiles {
     * @param runtime files of a Java runtime, if it is to be part
     */
   def of(platform: Platform, program: Seq[Entry], runtime: Seq[Entry]): Seq[Entry] =
-    program.filter(entry => belongs(entry.name, platform)) ++ runtime
+    program.filter(e => belongs(e.name, platform) && !isOfAssimp(e.name)) ++ runtime
+
+  /** What the package of Assimp adds to the program's folder. */
+  def assimp(platform: Platform, program: Seq[Entry]): Seq[Entry] =
+    program.filter(e => belongs(e.name, platform) && isOfAssimp(e.name))
+
+  private def isOfAssimp(name: String): Boolean =
+    name == "lib/candela-assimp.jar" || name.matches("lib/natives/.*(?:assimp|draco)\\.[a-z]+")
 
   private def belongs(name: String, platform: Platform): Boolean =
     if (name.startsWith("lib/natives/")) name.startsWith(s"lib/natives/${platform.name}/")

@@ -96,6 +96,7 @@ object Architecture:
       "job" -> job,
       "api" -> (job + "job"),
       "models" -> models,
+      "models.assimp" -> (models + "models"),
       "report" -> report,
       "watch" -> (report ++ Set("film", "aov", "render", "report")),
       "moving" -> (job ++ Set("job", "convert", "report", "watch"))
@@ -107,12 +108,12 @@ object Architecture:
 
   /** Libraries beside Java's and Scala's own, by the beginnings of their names: who knows them. */
   private val libraries = Map(
-    "org.lwjgl" -> Set("image"),
+    "org.lwjgl" -> Set("image", "models.assimp"),
     "org.apache" -> Set("measure", "bench.statistics"),
     "scopt" -> Set("cli.options", "bench"),
     "sun" -> Set("cli", "cli.terminal"),
     "scalatags" -> Set("report", "bench.report"),
-    "ujson" -> Set("report", "cli", "bench.report", "models"),
+    "ujson" -> Set("report", "cli", "bench.report", "models", "models.assimp"),
     "com" -> Set("bench.suite"),
     "jdk" -> Set("accel.tracing")
   )

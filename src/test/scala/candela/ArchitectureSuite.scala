@@ -10,7 +10,8 @@ class ArchitectureSuite extends AnyFunSuite:
   private lazy val core = SourceText.under(Path.of("src/core/scala/candela"))
   private lazy val main = core ++ SourceText.under(Path.of("src/main/scala/candela")) ++
     SourceText.under(Path.of("bench/src/main/scala/candela")) ++
-    SourceText.under(Path.of("models/src/main/scala/candela"))
+    SourceText.under(Path.of("models/src/main/scala/candela")) ++
+    SourceText.under(Path.of("assimp/src/main/scala/candela"))
   private lazy val cluster = SourceText.under(Path.of("cluster/src/main/scala/candela"))
   private lazy val tests = SourceText.under(Path.of("src/test/scala/candela"))
 

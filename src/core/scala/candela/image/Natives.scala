@@ -41,22 +41,25 @@ object Natives:
 
   /** Called before LWJGL is: without its libraries, that prints advice of its own.
     *
-    * @param module of LWJGL, such as `tinyexr`; empty: its base
+    * @param module  of LWJGL, such as `tinyexr`; empty: its base
+    * @param library its file without prefix and suffix
     * @throws MissingNatives if a library is not there
     */
-  private[image] def require(module: String): Unit =
+  private[candela] def require(module: String, library: String): Unit =
     if Configuration.LIBRARY_PATH.get == null then
       besideProgram.foreach(folder => Configuration.LIBRARY_PATH.set(folder.toString))
-    for m <- Vector("", module).distinct if !loadedModules.contains(m) do
-      if !isThere(m) then throw MissingNatives(m, platform)
+    for (m, name) <- Map("" -> "lwjgl", module -> library) if !loadedModules.contains(m) do
+      if !isThere(m, name) then throw MissingNatives(m, name, platform)
       loadedModules.add(m): Unit
+
+  private[image] def require(module: String): Unit =
+    require(module, if module.isEmpty then "lwjgl" else s"lwjgl_$module")
 
   /** Modules whose libraries were found, lest each image looks for them. */
   private val loadedModules = ConcurrentHashMap.newKeySet[String]()
 
-  private def isThere(module: String): Boolean =
-    val suffix = if module.isEmpty then "" else s"_$module"
-    val file = System.mapLibraryName(s"lwjgl$suffix")
+  private def isThere(module: String, library: String): Boolean =
+    val file = System.mapLibraryName(library)
     val subfolder = if module.isEmpty then "" else s"$module/"
     val folder = s"${platform.replace('-', '/')}/org/lwjgl/$subfolder"
     // LWJGL itself sets the place once it has unpacked a library
@@ -87,12 +90,11 @@ object Natives:
 
 /** A native library of LWJGL is not there.
   *
-  * @param module of LWJGL; empty: its base
+  * @param module  of LWJGL; empty: its base
+  * @param library its file without prefix and suffix
   */
-final class MissingNatives private[image] (module: String, platform: String)
-    extends UnsatisfiedLinkError(
-      s"no native library ${if module.isEmpty then "lwjgl" else s"lwjgl_$module"} for $platform"
-    ):
+final class MissingNatives private[image] (module: String, library: String, platform: String)
+    extends UnsatisfiedLinkError(s"no native library $library for $platform"):
 
   /** For who depends on the library. */
   def help: String =
@@ -101,7 +103,8 @@ final class MissingNatives private[image] (module: String, platform: String)
     val version = org.lwjgl.Version.getVersion.takeWhile(c => c.isDigit || c == '.')
     s"add org.lwjgl:$name:$version with the classifier $classifier to the dependencies; " +
       "EXR files need lwjgl and lwjgl-tinyexr, PNG, JPEG and TGA files that are read need lwjgl " +
-      s"and lwjgl-stb; or -D${Natives.PathProperty}=FOLDER, the program's lib/natives/$platform"
+      "and lwjgl-stb, models of Assimp lwjgl-assimp; or " +
+      s"-D${Natives.PathProperty}=FOLDER, the program's lib/natives/$platform"
 
 /** What LWJGL prints is lost. */
 final class NoStream extends Supplier[PrintStream]:

@@ -15,8 +15,10 @@ private[job] object ForeignAdvice:
   /** The problem if a file of another kind was given as a scene. */
   def problem(file: Path): Option[Problem] =
     // A pipe can be read only once
-    Option.when(Files.isRegularFile(file))(Source.read(InputFile.named(file)))
-      .flatMap(_.toOption).flatMap(problem(file, _))
+    if !Files.isRegularFile(file) then None
+    else
+      MissingFormats.problem(file, SceneFormat.all).orElse:
+        Source.read(InputFile.named(file)).toOption.flatMap(problem(file, _))
 
   private def problem(file: Path, source: Source): Option[Problem] =
     try

@@ -36,8 +36,11 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
   def hasSensors: Boolean = false
   def isModel: Boolean = false
 
-  /** Whether its models are meshes that scenes may name, and leave open which axis points up. */
+  /** Whether its models are meshes that scenes may name. */
   def isMesh: Boolean = false
+
+  /** Whether it leaves open which axis points up. */
+  def leavesUpOpen: Boolean = isMesh
 
   /** Whether they may have animations and variants of materials. */
   def hasStates: Boolean = false
@@ -89,10 +92,11 @@ abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
       refuse(s"`$file` has no sensors", help)
     if !isModel && reading.model != ModelSettings() then
       refuse(s"`$file` is no model", "--light, --background, --turntable and --up are for models")
-    if !isMesh && reading.model.up.nonEmpty then
+    if !leavesUpOpen && reading.model.up.nonEmpty then
       refuse(s"which axis of `$file` points up is known", s"--up is for other formats than $name")
     if !hasStates && reading.model.state != ModelState() then
-      val help = "--at, --animation and --variant are for models in glTF"
+      val help =
+        "--at, --animation and --variant are for models in glTF and those that Assimp reads"
       refuse(s"`$file` has no animations and no variants", help)
     val several = reading.model.state.times.exists(_.count > 1)
     if several && reading.model.turntable.nonEmpty then

@@ -15,9 +15,16 @@ import scala.collection.mutable
 /** The JSON of a model, its buffers, and the images that they contain.
   *
   * Source: glTF 2.0 specification, §3.6 on buffers, §4.4 on the binary format.
+  *
+  * @param bins    buffers without `uri`, by their indices
+  * @param library materials that are MTL's, by their indices; beyond it, they are glTF's
   */
-private[models] final class GltfFile private (session: Session, json: Array[Byte], bin: ByteBuffer):
-  val root: Json = Json.parse(json, session)
+private[models] final class GltfFile(
+    session: Session,
+    val root: Json,
+    bins: Int => ByteBuffer,
+    val library: Vector[MtlMaterial] = Vector.empty
+):
   private val views = root.list("bufferViews")
   private val buffers = root.list("buffers")
   private val opened = mutable.HashMap.empty[Int, ByteBuffer]
@@ -27,7 +34,7 @@ private[models] final class GltfFile private (session: Session, json: Array[Byte
     opened.getOrElseUpdate(
       index.size, {
         val length = entry.required("byteLength").size
-        val all = entry("uri").fold(bin)(bytes)
+        val all = entry("uri").fold(bins(index.size))(bytes)
         if all.remaining < length then
           entry.fail(s"`byteLength` is $length, but there are ${all.remaining} bytes")
         all.duplicate.order(ByteOrder.LITTLE_ENDIAN).limit(all.position() + length)
@@ -171,7 +178,7 @@ private[models] object GltfFile:
         Session.fail(at, s"can't read the model: ${IoReason(e)}", Code.Unreadable)
 
   private def of(session: Session, text: ByteBuffer): GltfFile =
-    new GltfFile(session, array(text), ByteBuffer.allocate(0))
+    GltfFile(session, Json.parse(array(text), session), _ => ByteBuffer.allocate(0))
 
   /** A `.glb` file may have the contents of a `.gltf` file, but no others. */
   private def checkIsText(session: Session, bytes: Array[Byte]): Unit =
@@ -205,7 +212,8 @@ private[models] object GltfFile:
         case _ => ()
       from += 8L + length
     val text = json.getOrElse(fail("the file has no JSON"))
-    new GltfFile(session, array(text), bin.getOrElse(ByteBuffer.allocate(0)))
+    val binary = bin.getOrElse(ByteBuffer.allocate(0))
+    GltfFile(session, Json.parse(array(text), session), _ => binary)
 
   private def mapped(file: InputFile, uri: Json): ByteBuffer =
     try file.map()

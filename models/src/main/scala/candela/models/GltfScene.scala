@@ -1,15 +1,12 @@
 package candela.models
 
 import candela.diagnostics.Code
-import candela.io.SceneFolder
 import candela.math.Transform
 import candela.scenefile.{
   Dialect, GraphicsState, InstanceDescription, InstanceList,
   LightDescription, SceneDescription, ShapeDescription
 }
 import candela.settings.{ModelState, ReadSettings}
-
-import java.nio.file.Path
 
 import scala.collection.mutable
 
@@ -18,23 +15,19 @@ private[models] object GltfScene:
 
   /** The model, with what it lacks to be shown: see [[Studio]].
     *
-    * @param text   what is read instead of the file
     * @param sensor index of the camera that is asked for, if any is
     * @param world  number of the image of a turntable, or of a time
     * @throws SceneError if the file contains no model at all
     */
   def readable(
-      file: Path,
-      within: SceneFolder,
+      file: GltfFile,
+      session: Session,
       reading: ReadSettings,
-      text: Option[String],
       sensor: Option[Int],
       world: Int
   ): SceneDescription =
-    val session = Session(file, within, reading.keepGoing, reading.resolution)
-    val opened = text.fold(GltfFile.read(session))(GltfFile.ofText(session, _))
     val times = reading.model.state.times.filter(_.count > 1)
-    def reader(image: Int) = GltfScene(opened, session, reading.model.state, image)
+    def reader(image: Int) = GltfScene(file, session, reading.model.state, image)
     val current = reader(world)
     val model = current.result(sensor)
     // All images of an animation have the view of the first

@@ -28,8 +28,9 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
   private val unusedNames = NumberedNames()
   private val named = mutable.LinkedHashMap.empty[String, Declaration]
   private val media = mutable.LinkedHashMap.empty[String, MediumDescription]
+  private val translated = MtlMaterials(session, textures)
 
-  def result(): Vector[(String, Declaration)] = named.toVector
+  def result(): Vector[(String, Declaration)] = named.toVector ++ translated.result()
   def interiors: Vector[MediumDescription] = media.values.toVector
 
   /** @param index     of the material; none: the default
@@ -40,8 +41,10 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
       (index.map(_.size), hasColors), {
         val entry = index.fold(Materials.default(session))(_.element(entries, "materials"))
         warnOfOthers(entry)
-        if entry.extension("KHR_materials_unlit").isDefined then unlit(entry, hasColors)
-        else surface(entry, hasColors)
+        index.flatMap(i => file.library.lift(i.size)) match
+          case Some(m) => translated(m, hasColors)
+          case None if entry.extension("KHR_materials_unlit").isDefined => unlit(entry, hasColors)
+          case None => surface(entry, hasColors)
       }
     )
 

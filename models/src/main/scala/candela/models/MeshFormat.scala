@@ -38,13 +38,8 @@ abstract class MeshFormat private[models] (name: String, suffix: String, up: UpA
     val turned = MeshFormat.upright(surfaces(input, session), axis)
     val complete =
       Studio.complete(turned, session, reading.model, world.getOrElse(0), isWhole = false)
-    val opposite = if axis == UpAxis.Y then UpAxis.Z else UpAxis.Y
-    def word(a: UpAxis) = a.toString.toLowerCase
-    val upward = Option.when(reading.model.up.isEmpty):
-      s"${word(axis)} points up: --up ${word(opposite)} changes that"
-    val scene = session.finished(complete)
+    val scene = MeshFormat.withAxis(session.finished(complete), reading.model.up, up)
     scene.copy(
-      additions = Some((scene.additions ++ upward).mkString("; ")).filter(_.nonEmpty),
       isFollowed = scene.isFollowed && world.isDefined && reading.model.turntable.nonEmpty
     )
 
@@ -56,12 +51,29 @@ private[models] object MeshFormat:
     val name = s"$file"
     within.withParts(Map(name -> ByteBuffer.wrap(text.getBytes(UTF_8)))).part(name).get
 
+  /** From Blender's axes, which are those of most CAD: z is up, −y the front. */
+  val Upright: Transform = Transform.rotate(-90, 1, 0, 0).get
+
   private def upright(scene: SceneDescription, axis: UpAxis): SceneDescription = axis match
     case UpAxis.Y => scene
     case UpAxis.Z =>
-      // Blender's, and that of most CAD: z is up, −y the front
-      val turn = GraphicsState.constant(Transform.rotate(-90, 1, 0, 0).get)
+      val turn = GraphicsState.constant(Upright)
       scene.copy(shapes = scene.shapes.map(_.copy(objectToWorld = turn)))
+
+  /** Tells which axis points up, unless it was asked for.
+    *
+    * @param usual the axis that does
+    */
+  def withAxis(
+      scene: SceneDescription,
+      asked: Option[UpAxis],
+      usual: UpAxis
+  ): SceneDescription =
+    val opposite = if usual == UpAxis.Y then UpAxis.Z else UpAxis.Y
+    def word(a: UpAxis) = a.toString.toLowerCase
+    val upward = Option.when(asked.isEmpty):
+      s"${word(usual)} points up: --up ${word(opposite)} changes that"
+    scene.copy(additions = Some((scene.additions ++ upward).mkString("; ")).filter(_.nonEmpty))
 
   def shape(mesh: Mesh, surface: Surface, at: SourcePos, session: Session): ShapeDescription =
     ShapeDescription(

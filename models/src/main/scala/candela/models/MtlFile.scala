@@ -16,14 +16,16 @@ import scala.collection.mutable
   * @param wrap    beyond 0 to 1
   * @param bump    multiplier of relief
   * @param channel of the image that is used, if the library says
+  * @param second  whether by the second set of u and v
   */
 private[models] final case class MtlMap(
     file: String,
     scale: (Float, Float) = (1f, 1f),
     offset: (Float, Float) = (0f, 0f),
-    wrap: String = "repeat",
+    wrap: Wraps = Wraps("repeat", "repeat"),
     bump: Float = 1f,
     channel: Option[String] = None,
+    second: Boolean = false,
     at: SourcePos
 )
 
@@ -165,7 +167,7 @@ private final class MtlParser(
         case "-s" => m = m.copy(scale = pair(1f))
         case "-o" => m = m.copy(offset = pair(0f))
         case "-bm" => m = m.copy(bump = in.finite())
-        case "-clamp" => if in.word() == "on" then m = m.copy(wrap = "clamp")
+        case "-clamp" => if in.word() == "on" then m = m.copy(wrap = Wraps("clamp", "clamp"))
         case "-imfchan" => m = m.copy(channel = Some(in.word().toLowerCase))
         case "-mm" =>
           val (base, gain) = (in.finite(), in.finite())

@@ -174,9 +174,9 @@ private[models] final class MtlMaterials(session: Session, pictures: Pictures):
         val ((su, sv), (du, dv)) = (map.scale, map.offset)
         Picture(
           files.getOrElseUpdate(map.file, pictures.fileName(m.folder, map.file, map.at)),
-          second = false,
+          map.second,
           Vector(su, 0f, du, 0f, sv, dv),
-          Wraps(map.wrap, map.wrap),
+          map.wrap,
           isSmooth = true,
           map.at
         )

@@ -14,12 +14,14 @@ import scala.collection.mutable
   *
   * @param keepGoing  if true, replaces missing files
   * @param resolution of the image, if one is asked for
+  * @param label      names the place of a JSON pointer, for messages
   */
 private[models] final class Session(
     val file: Path,
     var folder: SceneFolder,
     keepGoing: Boolean,
-    resolution: Option[Resolution] = None
+    resolution: Option[Resolution] = None,
+    label: String => String = identity
 ):
   val members: Members = Members()
   private val collected = Problems()
@@ -30,7 +32,7 @@ private[models] final class Session(
   def position: SourcePos = SourcePos(s"$file", 0, 0)
 
   /** The place of a JSON pointer. */
-  def at(pointer: String): SourcePos = SourcePos(s"$file#$pointer", 0, 0)
+  def at(pointer: String): SourcePos = SourcePos(s"$file#${label(pointer)}", 0, 0)
 
   def report(p: Problem): Unit = if reported.add(p) then collected.add(p)
   def warn(

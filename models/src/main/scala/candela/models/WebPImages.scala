@@ -3,6 +3,7 @@ package candela.models
 import candela.diagnostics.{Code, Limit, SourcePos}
 import candela.io.IoReason
 
+import java.awt.image.RenderedImage
 import java.io.{ByteArrayInputStream, ByteArrayOutputStream, IOException}
 import java.nio.ByteBuffer
 import java.nio.charset.StandardCharsets.ISO_8859_1
@@ -50,18 +51,22 @@ private[models] object WebPImages:
         s"an image of $width × $height pixels"
       )
       if pixels > MaxPixels then Session.fail(at, s"$width × $height pixels", Code.TooLarge)
-      val out = ByteArrayOutputStream()
-      val writer = ImageIO.getImageWritersByFormatName("png").next()
-      val stream = MemoryCacheImageOutputStream(out)
-      try
-        writer.setOutput(stream)
-        writer.write(reader.read(0))
-      finally
-        writer.dispose()
-        stream.close()
-      ByteBuffer.wrap(out.toByteArray)
+      encoded(reader.read(0))
     catch
       case e: IOException => fail(if e.getMessage == null then "it is damaged" else IoReason(e))
       // Damaged files can lead readers beyond their arrays
       case _: (IndexOutOfBoundsException | IllegalArgumentException | NegativeArraySizeException) =>
         fail("it is damaged")
+
+  /** An image as PNG. */
+  def encoded(image: RenderedImage): ByteBuffer =
+    val out = ByteArrayOutputStream()
+    val writer = ImageIO.getImageWritersByFormatName("png").next()
+    val stream = MemoryCacheImageOutputStream(out)
+    try
+      writer.setOutput(stream)
+      writer.write(image)
+    finally
+      writer.dispose()
+      stream.close()
+    ByteBuffer.wrap(out.toByteArray)
