@@ -36,6 +36,7 @@ class NamedCommandsSuite extends AnyFunSuite:
     "CATEGORY" -> "material",
     "TYPE" -> "plastic",
     "PARAMETER" -> "fov",
+    "x0,x1,y0,y1" -> "0,9,0,9",
     "MASTER" -> "local[2]",
     "n" -> "3"
   )
