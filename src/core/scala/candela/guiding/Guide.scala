@@ -6,7 +6,9 @@ import candela.sampling.SampleHash
 
 /** What the paths of one rendering learn, shared by all workers. Passes end after 1, 2, 4, 8, …
   * samples per pixel: the paths of a pass use the field of those before, and record for the next.
-  * No path uses what it recorded itself, so every sample is unbiased. After a quarter of the
+  * No path uses what it recorded itself, so every sample is unbiased. The image is their mean,
+  * weighted by [[GuideProgress.weight]], which earlier samples of the same image determine: it is
+  * unbiased but for that correlation, which vanishes with more samples. After a quarter of the
   * samples nothing more is learnt; or, if the settings say so, when a pass has brought no more.
   *
   * @param planned samples per pixel

@@ -1,8 +1,15 @@
 package candela.integrators
 
-/** What looks for caustics beside the camera's paths: nothing; light paths or photons, where they
-  * pay, for the light that the camera's paths find, too; light paths, for all light; or photons,
-  * which blur it a little.
-  */
+/** What looks for caustics beside the camera's paths. */
 enum CausticsMode:
-  case Off, Auto, On, Photons
+  /** Nothing. */
+  case Off
+
+  /** Light paths or photons, where they pay, for the light that the camera's paths find, too. */
+  case Auto
+
+  /** Light paths, for all light, also that of delta lights: unbiased. */
+  case On
+
+  /** Photons, which blur caustics a little: biased, but consistent. */
+  case Photons

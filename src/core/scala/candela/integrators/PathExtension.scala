@@ -18,12 +18,14 @@ class PathExtension:
   /** The ray was traced to the next surface. */
   def travel(sampler: Sampler): Unit = ()
 
-  /** Called before a distance is sampled in the medium. True if photons bring all the light that it
-    * scatters: the path was then attenuated up to the surface, and no distance is sampled.
+  /** Adds what photons scatter to the path along the ray. True if they bring all light of the
+    * medium: the path is then attenuated up to the surface, and no distance is sampled.
     */
-  def goStraightThrough(medium: Int): Boolean = false
+  def gatherInMedium(medium: Int): Boolean = false
 
-  /** Factor of what the path has met of a light: of how much of it is left to other techniques. */
+  /** Share of the light just met that the path keeps: its MIS weight against light paths; 0 if
+    * photons bring the light, or the emitter is hidden. The weight against light sampling is apart.
+    */
   def emissionFactor(index: Int, light: EnvironmentLight): Float = 1f
   def emissionFactor(index: Int, light: SurfaceLight): Float = 1f
 

@@ -29,6 +29,9 @@ import candela.media.PathWeights
   *     [[candela.media.VaryingMedium]] samples collisions with a majorant m, and β has σs/m over
   *     the probability of scattering, or (m − σt)/m over that of going on. Phase functions are
   *     sampled exactly: their f/p is 1.
+  *   - A guided direction has the mixture's density for p. Splitting into n expected branches
+  *     divides β by n ([[Guidance]]). Light paths take 1 − w of what both find
+  *     ([[CausticWeights]]). Photon maps ([[PhotonLight]]) are biased.
   *
   * Between surfaces one density is enough ([[SurfacePath]]). In media each colour has its own
   * ([[VolumePath]]).

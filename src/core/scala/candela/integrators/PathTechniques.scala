@@ -61,7 +61,7 @@ private final class PathTechniques(
         path.scale(march.transmitted)
       else path.scale(march.transmittance(tracer.ray, VolumeMarch.StepsToLights))
 
-  override def goStraightThrough(medium: Int): Boolean =
+  override def gatherInMedium(medium: Int): Boolean =
     val ofRay = segment
     photons != null && ofRay != null && {
       ofRay.start(tracer.ray, medium)

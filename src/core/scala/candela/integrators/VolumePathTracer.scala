@@ -24,9 +24,9 @@ final class VolumePathTracer private (
     options: PathOptions,
     work: MediumWork,
     volumePath: VolumePath,
-    lights: LightConnection,
+    lightConnection: LightConnection,
     extend: CameraPath => PathExtension
-) extends CameraPath(scene, volumePath, lights, extend):
+) extends CameraPath(scene, volumePath, lightConnection, extend):
   import options.samplesLights
   private val crossesPanes = options.crossesPanes && scene.hasPanes
   private val visibility = MediumVisibility(scene, media, work, crossesPanes)
@@ -56,7 +56,7 @@ final class VolumePathTracer private (
       val t = if volumePath.medium < 0 then -1f else sampleMedium(sampler)
       if volumePath.isBlack then goesOn = false
       else if t >= 0f then
-        if hasHad(limits.maxDepth) then goesOn = false
+        if isAtMaxDepth then goesOn = false
         else
           scatterInMedium(t, sampler)
           roulette(volumePath, limits, sampler)
@@ -78,7 +78,7 @@ final class VolumePathTracer private (
             extension.meetSurface(point.areaLight, Le, weight)
         val isPane = crossesPanes && scene.isPane(point)
         if scene.isPassed(ray, hit, point) || extension.isHidden then skipIntersection()
-        else if !isPane && hasHad(limits.maxDepth) then goesOn = false
+        else if !isPane && isAtMaxDepth then goesOn = false
         else
           volumePath.depth += 1
           vertex.evaluate()
@@ -89,10 +89,10 @@ final class VolumePathTracer private (
             // Sample direct light. Random numbers are drawn at all surfaces but panes
             val isSampled = !vertex.bsdf.isSpecular && volumePath.depth <= limits.maxDepth
             if isSampled || !isPane then
-              val u = sampler.next1D(matters = lights.isRandom)
+              val u = sampler.next1D(matters = connection.isRandom)
               sampler.next2D()
-              if isSampled && hasLights && lights.choose(point.p, vertex.lightNormal, u) &&
-                lights.samplePoint(point.p, sampler.x, sampler.y) && extension.takesLightSample
+              if isSampled && hasLights && connection.choose(point.p, vertex.lightNormal, u) &&
+                connection.samplePoint(point.p, sampler.x, sampler.y) && extension.takesLightSample
               then addDirect()
             extension.addCaustics()
             // Sample the BSDF for the next direction
@@ -110,7 +110,7 @@ final class VolumePathTracer private (
           roulette(volumePath, limits, sampler)
     radianceSoFar
 
-  private def hasHad(events: Int): Boolean = volumePath.depth == events
+  private def isAtMaxDepth: Boolean = volumePath.depth == limits.maxDepth
 
   /** Samples the next scattering event in the medium before the end of the ray, and weights the
     * path up to there, or to the end.
@@ -118,9 +118,10 @@ final class VolumePathTracer private (
     * @return the ray's parameter of a scattering event; −1: none
     */
   private def sampleMedium(sampler: Sampler): Float =
-    if extension.goStraightThrough(volumePath.medium) then -1f
+    if extension.gatherInMedium(volumePath.medium) then -1f
     else
-      // The last event may be in a medium that shines, if paths find light only where they meet it
+      // As in pbrt-v4, media emit only while another scattering event may follow. Without light
+      // sampling, the last segment counts, too
       val emits = volumePath.depth < limits.maxDepth || !samplesLights
       val t = media(volumePath.medium).follow(ray, sampler.next1D(), emits, work)
       extension.meetMedia(emitted)
@@ -134,11 +135,12 @@ final class VolumePathTracer private (
     val phase = media(volumePath.medium).phase
     extension.arriveInMedium(p, wo, volumePath.medium)
     if hasLights then
-      val u = sampler.next1D(matters = lights.isRandom)
+      val u = sampler.next1D(matters = connection.isRandom)
       sampler.next2D()
-      if lights.choose(p, Vec3.Zero, u) && lights.samplePoint(p, sampler.x, sampler.y) then
-        val f = phase.value(wo, lights.wi)
-        if visibility.reaches(p, lights.sample, volumePath.medium) then
+      if connection.choose(p, Vec3.Zero, u) && connection.samplePoint(p, sampler.x, sampler.y) then
+        val f = phase.value(wo, connection.wi)
+        if visibility.reaches(p, connection.sample, volumePath.medium) then
+          // Any local direction: in a medium guiding needs only that in the world
           val arriving = sampled(extension.directionPdf(Vec3.Z, f)) * f
           addSample(arriving)
     if extension.sampleDirectionInstead(sampler) then leaveVertex()
@@ -151,6 +153,7 @@ final class VolumePathTracer private (
       leaveInMedium(p, wi, pdf)
 
   override def leaveVertex(): Unit =
+    // Guiding samples phase functions as BSDFs of vertices in the medium
     if vertex.isInMedium then
       val bounce = vertex.bounce
       extension.leaveInMedium(vertex.localPdf(bounce.wi))
@@ -174,12 +177,12 @@ final class VolumePathTracer private (
 
   /** Adds the light sample at a surface, if it is visible. */
   private def addDirect(): Unit =
-    val wi = lights.wi
+    val wi = connection.wi
     val localWi = vertex.point.frame.toLocal(wi)
     val f = vertex.received(wi, localWi)
     if !f.isBlack then
       val beyond = media.beyond(vertex.point, wi, volumePath.medium)
-      if visibility.reaches(vertex.point.offsetOrigin(wi), lights.sample, beyond) then
+      if visibility.reaches(vertex.point.offsetOrigin(wi), connection.sample, beyond) then
         val arriving = sampled(extension.directionPdf(localWi, vertex.localPdf(localWi)))
         addSample(arriving * f * (Math.abs(localWi.z) * extension.sampleFactor(localWi)))
 
@@ -197,9 +200,9 @@ final class VolumePathTracer private (
     val w = volumePath.weights
     val s = work.shadow
     val passing = w.ur * s.lr + w.ug * s.lg + w.ub * s.lb
-    val byLight = lights.pdf * passing * (1f / 3f)
+    val byLight = connection.pdf * passing * (1f / 3f)
     val byPath =
-      if lights.isDelta then 0f
+      if connection.isDelta then 0f
       else
         // A path that goes straight passes media as a light sample does
         val unscattered =
@@ -208,7 +211,7 @@ final class VolumePathTracer private (
     if !(byLight > 0f) then Rgb.Black
     else
       val weight = LightTransport.powerHeuristic(byLight, byPath) / byLight
-      w.throughput * s.throughput * lights.sample.radiance.toRgb * weight
+      w.throughput * s.throughput * connection.sample.radiance.toRgb * weight
 
 object VolumePathTracer:
   /** @param guide,parts as in [[PathTracer$]] */
@@ -221,7 +224,7 @@ object VolumePathTracer:
       parts: LightParts | Null = null
   ): VolumePathTracer =
     val work = MediumWork()
-    val lights = LightConnection(scene)
+    val connection = LightConnection(scene)
     val extend = PathTechniques.of(
       scene,
       options,
@@ -230,6 +233,7 @@ object VolumePathTracer:
       parts,
       within = Some((media, work))
     )
+    // The weights that media change are the path's own
     new VolumePathTracer(
-      scene, media, limits, options, work, VolumePath(work.weights), lights, extend
+      scene, media, limits, options, work, VolumePath(work.weights), connection, extend
     )

@@ -73,8 +73,8 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
           ),
           Param.bool("thin", t.at, volume.isEmpty)
         )
-    val all = params ++ coat(entry) ++ sheen(entry) ++ stretch(entry) ++ film(entry) ++
-      sheet(entry) ++ dispersion(entry, volume.isDefined && passes.isDefined) ++
+    val all = params ++ coat(entry) ++ sheen(entry) ++ anisotropy(entry) ++ iridescence(entry) ++
+      diffuseTransmission(entry) ++ dispersion(entry, volume.isDefined && passes.isDefined) ++
       normals(entry, "normalTexture")
     // Two normal maps share a parameter
     val d = session.declare("Material", "gltf", entry.at, all.distinctBy(_.name))
@@ -157,7 +157,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         textures.number("sheenroughness", rough, s("sheenRoughnessTexture"), "a", s.at)
       )
 
-  private def stretch(entry: Json): Vector[Param] =
+  private def anisotropy(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_anisotropy").toVector.flatMap: a =>
       val strength = a.factor("anisotropyStrength", 0)
       val info = a("anisotropyTexture")
@@ -169,7 +169,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         Param.float("anisotropyrotation", a.at, a.number("anisotropyRotation", 0).toFloat)
       ) ++ direction
 
-  private def film(entry: Json): Vector[Param] =
+  private def iridescence(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_iridescence").toVector.flatMap: f =>
       def nm(member: String, default: Double) =
         f(member).fold(default): m =>
@@ -183,7 +183,7 @@ private[models] final class Materials(file: GltfFile, session: Session, textures
         Param.float("iridescencemax", f.at, nm("iridescenceThicknessMaximum", 400).toFloat)
       ) ++ thickness.map(t => textures.number("iridescencethickness", 1, Some(t), "g", f.at))
 
-  private def sheet(entry: Json): Vector[Param] =
+  private def diffuseTransmission(entry: Json): Vector[Param] =
     entry.extension("KHR_materials_diffuse_transmission").toVector.flatMap: d =>
       val share = d.factor("diffuseTransmissionFactor", 0)
       val color = Materials.rgb(d, "diffuseTransmissionColorFactor", Rgb.White)

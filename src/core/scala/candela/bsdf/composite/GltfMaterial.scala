@@ -26,10 +26,11 @@ import candela.textures.{FloatTexture, RgbTexture, Textured}
   * @param coatRoughness  roughness of the clear coat
   * @param sheen          colour of the fibres above the surface
   * @param sheenRoughness how far the fibres stray from the normal
-  * @param stretch        of the highlights
-  * @param film           above the surface, under the clear coat
-  * @param sheet          fraction of the diffuse lobe that is transmitted instead of reflected
-  * @param sheetColor     colour of that
+  * @param anisotropy     of the highlights
+  * @param iridescence    a film above the surface, under the clear coat
+  * @param diffuseTransmission      fraction of the diffuse lobe that is transmitted instead of
+  *                                 reflected
+  * @param diffuseTransmissionColor colour of that
   */
 final class GltfParameters(
     val color: RgbTexture,
@@ -44,13 +45,13 @@ final class GltfParameters(
     val coatRoughness: FloatTexture,
     val sheen: RgbTexture,
     val sheenRoughness: FloatTexture,
-    val stretch: GltfStretch,
-    val film: GltfFilm,
-    val sheet: FloatTexture,
-    val sheetColor: RgbTexture
+    val anisotropy: GltfAnisotropy,
+    val iridescence: GltfIridescence,
+    val diffuseTransmission: FloatTexture,
+    val diffuseTransmissionColor: RgbTexture
 ) extends Textured(
       color, metallic, roughness, specular, specularColor, transmission, coat, coatRoughness,
-      sheen, sheenRoughness, stretch, film, sheet, sheetColor
+      sheen, sheenRoughness, anisotropy, iridescence, diffuseTransmission, diffuseTransmissionColor
     )
 
 /** How highlights are stretched.
@@ -59,7 +60,7 @@ final class GltfParameters(
   * @param x, y     direction from the tangent to the bitangent, from 0 for -1 to 1
   * @param rotation of the direction, in radians
   */
-final class GltfStretch(
+final class GltfAnisotropy(
     val strength: FloatTexture,
     x: FloatTexture,
     y: FloatTexture,
@@ -85,7 +86,7 @@ final class GltfStretch(
   * @param thinnest  thickness in nm where `thickness` is 0
   * @param thickest  where it is 1
   */
-final class GltfFilm(
+final class GltfIridescence(
     weight: FloatTexture,
     eta: Float,
     thinnest: Float,
@@ -118,42 +119,49 @@ final class GltfMaterial(p: GltfParameters) extends Material, Textured(p):
   def bsdf(at: ShadingPoint): Bsdf =
     val color = p.color.albedo(at)
     val metallic = unit(p.metallic(at))
-    val passing = unit(p.transmission(at))
+    val transmission = unit(p.transmission(at))
     val specular = unit(p.specular(at))
-    val normal = p.specularColor.positive(at).map(c => Math.min(c * reflectance, 1f) * specular)
-    val curve = GltfReflectance(normal, specular, color, metallic, p.film(at))
-    val facets = facetsAt(at)
+    val f0 = p.specularColor.positive(at).map(c => Math.min(c * reflectance, 1f) * specular)
+    val fresnel = GltfReflectance(f0, specular, color, metallic, p.iridescence(at))
+    val distribution = distributionAt(at)
 
     val lobes = Lobes.Builder()
-    val broad = (1f - metallic) * (1f - passing)
-    val sent = unit(p.sheet(at))
-    val reflected = color * (broad * (1f - sent))
-    lobes.add(GltfDiffuse(reflected, curve), reflected.max)
-    if broad * sent > 0f then
-      val sheet = p.sheetColor.albedo(at) * (broad * sent)
-      val through = SentThrough(GltfDiffuse(sheet, curve))
-      val refracts = passing > 0f && !p.isThin
-      lobes.add(if refracts then UncompressedSheet(through) else through, sheet.max): Unit
-    val clear = (1f - metallic) * passing
-    val passed = color * clear
-    val glossy = Math.max(curve(1f).max, 0.04f)
-    if passed.isBlack then lobes.add(MicrofacetReflection(facets, curve), glossy)
+    val diffuseWeight = (1f - metallic) * (1f - transmission)
+    val diffuseTransmission = unit(p.diffuseTransmission(at))
+    val reflected = color * (diffuseWeight * (1f - diffuseTransmission))
+    lobes.add(GltfDiffuse(reflected, fresnel), reflected.max)
+    if diffuseWeight * diffuseTransmission > 0f then
+      val transmitted =
+        p.diffuseTransmissionColor.albedo(at) * (diffuseWeight * diffuseTransmission)
+      val through = SentThrough(GltfDiffuse(transmitted, fresnel))
+      val refracts = transmission > 0f && !p.isThin
+      lobes.add(
+        if refracts then UncompressedTransmission(through) else through,
+        transmitted.max
+      ): Unit
+    val transmissionWeight = (1f - metallic) * transmission
+    val transmissionColor = color * transmissionWeight
+    val glossy = Math.max(fresnel(1f).max, 0.04f)
+    if transmissionColor.isBlack then lobes.add(MicrofacetReflection(distribution, fresnel), glossy)
     else if p.isThin then
-      lobes.add(MicrofacetReflection(facets, curve), glossy)
-      lobes.add(SentThrough(MicrofacetReflection(facets, curve.passed, passed)), passed.max)
+      lobes.add(MicrofacetReflection(distribution, fresnel), glossy)
+      lobes.add(
+        SentThrough(MicrofacetReflection(distribution, fresnel.passed, transmissionColor)),
+        transmissionColor.max
+      )
     else
       // One lobe, so that each microfacet reflects or refracts as often as its Fresnel term says
-      val interface = GltfInterface(curve, bending, clear)
+      val interface = GltfInterface(fresnel, bending, transmissionWeight)
       lobes.add(
-        RoughDielectric(facets, bending, Rgb.White, passed, Some(interface)),
-        glossy + passed.max
+        RoughDielectric(distribution, bending, Rgb.White, transmissionColor, Some(interface)),
+        glossy + transmissionColor.max
       )
     coated(at, fibrous(at, lobes.result))
 
-  private def facetsAt(at: ShadingPoint): TrowbridgeReitz =
+  private def distributionAt(at: ShadingPoint): TrowbridgeReitz =
     val alpha = alphaOf(p.roughness(at))
-    val strength = unit(p.stretch.strength(at))
-    if strength > 0f then p.stretch.turn(at)
+    val strength = unit(p.anisotropy.strength(at))
+    if strength > 0f then p.anisotropy.turn(at)
     TrowbridgeReitz(lerp(square(strength), alpha, 1f), alpha)
 
   private def fibrous(at: ShadingPoint, base: Bsdf): Bsdf =
@@ -184,13 +192,13 @@ object GltfMaterial:
 
 /** Fresnel reflectance of [[GltfMaterial]], by Schlick's approximation.
   *
-  * @param normal   of the dielectric, at normal incidence
+  * @param f0       of the dielectric, at normal incidence
   * @param grazing  of the dielectric, at grazing incidence
   * @param color    of the metal, at normal incidence
   * @param film     above either; null: none
   */
 final class GltfReflectance(
-    normal: Rgb,
+    f0: Rgb,
     grazing: Float,
     color: Rgb,
     metallic: Float,
@@ -199,14 +207,14 @@ final class GltfReflectance(
 
   /** By the weight of grazing incidence. */
   private[composite] def dielectric(cosTheta: Float, weight: Float): Rgb =
-    filmed(normal.map(n => lerp(weight, n, grazing)), normal, cosTheta)
+    filmed(f0.map(n => lerp(weight, n, grazing)), f0, cosTheta)
 
   private def dielectric(cosTheta: Float): Rgb =
     dielectric(cosTheta, Schlick.weight(Math.abs(cosTheta)))
 
-  private def filmed(bare: Rgb, normal: Rgb, cosTheta: Float): Rgb =
+  private def filmed(bare: Rgb, f0: Rgb, cosTheta: Float): Rgb =
     val layer = film
-    if layer == null then bare else layer.coated(bare, normal, cosTheta)
+    if layer == null then bare else layer.coated(bare, f0, cosTheta)
 
   def apply(cosTheta: Float): Rgb = blend(dielectric(cosTheta), cosTheta)
 
@@ -227,15 +235,15 @@ final class GltfReflectance(
 /** Fresnel reflectance of the boundary of a volume: by the exact equations, scaled between the
   * reflectances at normal and grazing incidence. From inside, that of the dielectric alone.
   *
-  * @param outer that of the surface of a thin wall
-  * @param clear weight of the reflection from inside
+  * @param outer              that of the surface of a thin wall
+  * @param transmissionWeight of the reflection from inside
   */
-private final class GltfInterface(outer: GltfReflectance, eta: Float, clear: Float)
+private final class GltfInterface(outer: GltfReflectance, eta: Float, transmissionWeight: Float)
     extends ReflectanceCurve:
   private val f0 = Schlick.normal(eta)
 
   def apply(cosTheta: Float): Rgb =
-    if cosTheta < 0f then Rgb.gray(clear * Fresnel.dielectric(cosTheta, eta))
+    if cosTheta < 0f then Rgb.gray(transmissionWeight * Fresnel.dielectric(cosTheta, eta))
     else outer.blend(dielectric(cosTheta), cosTheta)
 
   private def dielectric(cosTheta: Float): Rgb =
@@ -252,13 +260,13 @@ private final class GltfInterface(outer: GltfReflectance, eta: Float, clear: Flo
 /** What passes a boundary diffusely beside light that is refracted. The radiance of that alone is
   * scaled by the square of the index.
   */
-private final class UncompressedSheet(sheet: Bsdf) extends WrappedBsdf(sheet):
-  override def flags: BsdfFlags = sheet.flags | BsdfFlags.OneWay
-  override def regularized: Bsdf = UncompressedSheet(sheet.regularized)
+private final class UncompressedTransmission(base: Bsdf) extends WrappedBsdf(base):
+  override def flags: BsdfFlags = base.flags | BsdfFlags.OneWay
+  override def regularized: Bsdf = UncompressedTransmission(base.regularized)
 
 /** The diffuse base under a dielectric, which lets through what its microfacets don't reflect. */
-final class GltfDiffuse(color: Rgb, curve: GltfReflectance) extends CosineSampled:
+final class GltfDiffuse(color: Rgb, fresnel: GltfReflectance) extends CosineSampled:
   protected def value(wo: Vec3, wi: Vec3): Rgb =
     val across = wo + wi
     val cosine = if across.isZero then 0f else wi dot across.normalized
-    color * (InvPi * curve.passed(cosine))
+    color * (InvPi * fresnel.passed(cosine))

@@ -2,7 +2,7 @@ package candela.build.materials
 
 import candela.bsdf.{FramedMaterial, Material}
 import candela.bsdf.composite.{
-  CoatedGltf, FilmColors, GltfCoat, GltfFilm, GltfMaterial, GltfParameters, GltfStretch
+  CoatedGltf, FilmColors, GltfAnisotropy, GltfCoat, GltfIridescence, GltfMaterial, GltfParameters
 }
 import candela.build.recipe.*
 import candela.color.{Cauchy, Rgb}
@@ -31,22 +31,23 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
   private val sheen = rgbTexture("sheencolor", "colour of the sheen")(Rgb.Black)
   private val sheenRoughness = floatTexture("sheenroughness", "roughness of the sheen")(0f)
   private val anisotropy = floatTexture("anisotropy", "stretch of the highlights")(0f)
-  private val rotation =
+  private val anisotropyRotation =
     float("anisotropyrotation", "angle of that stretch from the tangent", unit = "radians")(0f)
-  private val stretchX =
+  private val anisotropyX =
     floatTexture("anisotropyx", "direction of the stretch along the tangent, from 0 for -1")(1f)
-  private val stretchY =
+  private val anisotropyY =
     floatTexture("anisotropyy", "likewise along the bitangent")(0.5f)
-  private val film = floatTexture("iridescence", "strength of a thin film on the surface")(0f)
-  private val filmEta =
+  private val iridescence =
+    floatTexture("iridescence", "strength of a thin film on the surface")(0f)
+  private val iridescenceEta =
     float("iridescenceeta", "index of the film", range = Range.atLeast(1f).limited)(1.3f)
-  private val thinnest = float(
+  private val minThickness = float(
     "iridescencemin",
     "thickness of the film where its texture is 0",
     unit = "nm",
     range = Range.atLeast(0f).limited
   )(100f)
-  private val thickest = float(
+  private val maxThickness = float(
     "iridescencemax",
     "thickness of the film where its texture is 1",
     unit = "nm",
@@ -56,11 +57,11 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
     floatTexture("iridescencethickness", "thickness of the film between both")(1f)
   private val dispersion =
     float("dispersion", "20 over the Abbe number", range = Range.atLeast(0f).limited)(0f)
-  private val sheet = floatTexture(
+  private val diffuseTransmission = floatTexture(
     "diffusetransmission",
     "fraction of diffuse light that is transmitted instead of reflected"
   )(0f)
-  private val sheetColor =
+  private val diffuseTransmissionColor =
     rgbTexture("diffusetransmissioncolor", "colour of what is transmitted diffusely")(Rgb.White)
 
   /** Whether the clear coat has other normals than what is beneath it. */
@@ -92,8 +93,10 @@ object GltfRecipe extends MaterialRecipe("gltf", "metallic-roughness material of
       coatRoughness(),
       sheen(),
       sheenRoughness(),
-      GltfStretch(anisotropy(), stretchX(), stretchY(), rotation()),
-      GltfFilm(film(), filmEta(), thinnest(), thickest(), thickness(), colors),
-      sheet(),
-      sheetColor()
+      GltfAnisotropy(anisotropy(), anisotropyX(), anisotropyY(), anisotropyRotation()),
+      GltfIridescence(
+        iridescence(), iridescenceEta(), minThickness(), maxThickness(), thickness(), colors
+      ),
+      diffuseTransmission(),
+      diffuseTransmissionColor()
     )))

@@ -45,8 +45,8 @@ class GltfSuite extends BsdfLaws:
       number(coatRoughness),
       ConstantRgb(sheen),
       number(sheenRoughness),
-      GltfStretch(number(anisotropy), number(1f), number(0.5f), 0.5f),
-      GltfFilm(number(film), 1.4f, 100f, 500f, number(0.9f), FilmColors.of(basis)),
+      GltfAnisotropy(number(anisotropy), number(1f), number(0.5f), 0.5f),
+      GltfIridescence(number(film), 1.4f, 100f, 500f, number(0.9f), FilmColors.of(basis)),
       number(sheet),
       ConstantRgb(Rgb(0.2f, 0.9f, 0.5f))
     )).bsdf(ShadingPoint())
@@ -113,7 +113,7 @@ class GltfSuite extends BsdfLaws:
   test("highlights are stretched in the direction of the texture, turned by the angle"):
     def stretched(x: Float, y: Float, rotation: Float) =
       val number = ConstantFloat(_)
-      GltfStretch(number(1f), number(x), number(y), rotation)
+      GltfAnisotropy(number(1f), number(x), number(y), rotation)
     def tangent(x: Float, y: Float, rotation: Float) =
       val at = ShadingPoint()
       stretched(x, y, rotation).turn(at)
