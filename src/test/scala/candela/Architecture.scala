@@ -312,14 +312,19 @@ object Architecture:
 
   private val constant = raw"\bval\s+([A-Z]\w*)\s*(?::[^=]+)?=\s*-?[\d.]".r
 
-  /** The name of a number says what it counts: `MaxDepth`, not `Most`. */
+  private val capitalised = raw"\b(?:val|def)\s+([A-Z]\w*)".r
+
+  /** The name of a number says what it counts: `MaxDepth`, not `Most` or `MostDepth`. */
   def constants(sources: Vector[SourceText]): Vector[String] =
     for
       source <- sources
       (line, i) <- source.code.zipWithIndex
-      name <- constant.findAllMatchIn(line).map(_.group(1))
-      if FunctionWords.contains(name)
-    yield s"${source.path}:${i + 1}: `$name` does not say what it counts"
+      fault <-
+        constant.findAllMatchIn(line).map(_.group(1)).filter(FunctionWords.contains)
+          .map(name => s"`$name` does not say what it counts") ++
+          capitalised.findAllMatchIn(line).map(_.group(1))
+            .flatMap(name => FunctionWords.prefixed(name).map(n => s"`$name` is usually `$n`"))
+    yield s"${source.path}:${i + 1}: $fault"
 
   private val declaration = raw"\b(?:val|var|def)\s+([a-z]\w*)".r
 

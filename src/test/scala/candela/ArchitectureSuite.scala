@@ -150,6 +150,9 @@ class ArchitectureSuite extends AnyFunSuite:
     assert(constants("  private inline val Most = 3") == wrong("Most"))
     assert(constants("  val Least: Long = 1 << 16") == wrong("Least"))
     assert(constants("  final val Patience = -.5") == wrong("Patience"))
+    for (name, usual) <- Vector("MostRays" -> "MaxRays", "FewestRuns" -> "MinRuns") do
+      assert(constants(s"  val $name: Long = Rays / 2") ==
+        Vector(s"film/A.scala:2: `$name` is usually `$usual`"))
     for line <- Vector("val MaxDepth = 3", "val Most = Depth(3)", "val most = 3", "// val Few = 3")
     do assert(constants(line).isEmpty, line)
 

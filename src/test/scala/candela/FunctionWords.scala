@@ -27,4 +27,12 @@ object FunctionWords:
     """all at by first from between get in last leaves left long mean near next none of open out
       part parts sent set take this up""".split("\\s+").toSet
 
+  private val quantifier = "(Most|Least|Fewest)([A-Z0-9].*)".r
+
+  /** A name that begins with a word of quantity, with the usual prefix in its place. */
+  def prefixed(name: String): Option[String] = name match
+    case quantifier("Most", quantity) => Some(s"Max$quantity")
+    case quantifier(_, quantity) => Some(s"Min$quantity")
+    case _ => None
+
   def contains(name: String): Boolean = words(name.toLowerCase)

@@ -34,7 +34,7 @@ final class RenderResult private[api] (
   def duration: Duration = Times.of(rendering.seconds)
 
   /** Samples discarded because their value was not finite. */
-  def discarded: Long = rendering.refused.fold(0L)(_.count)
+  def discarded: Long = rendering.discarded.fold(0L)(_.count)
 
   /** Estimated error of the image, the root of the relative mean squared error: 0.01 is 1 %.
     * Present from 2 samples per pixel on, with [[RenderControl.withErrorEstimates]] or a goal.

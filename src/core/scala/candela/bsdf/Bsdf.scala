@@ -54,7 +54,7 @@ abstract class Bsdf:
   /** Whether light is scattered to a range of directions on the other side. */
   def scattersThrough: Boolean = isTransmissive && !isSpecular
   final def isDiffuse: Boolean = flags.hasAny(BsdfFlags.Diffuse)
-  final def isReciprocal: Boolean = !flags.hasAny(BsdfFlags.OneWay)
+  final def isReciprocal: Boolean = !flags.hasAny(BsdfFlags.NonReciprocal)
   final def isDispersive: Boolean = flags.hasAny(BsdfFlags.Dispersive)
   final def choosesLobes: Boolean = flags.hasAny(BsdfFlags.Choosing)
   final def isPane: Boolean = flags.hasAny(BsdfFlags.Pane)

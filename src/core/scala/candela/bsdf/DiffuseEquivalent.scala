@@ -50,4 +50,4 @@ object DiffuseEquivalent:
       else BsdfSample(wi, weight, pdf(wo, wi), isSpecular = false)
 
     def flags: BsdfFlags =
-      BsdfFlags.Diffuse | BsdfFlags.OneWay | inner.flags.mask(BsdfFlags.Dispersive)
+      BsdfFlags.Diffuse | BsdfFlags.NonReciprocal | inner.flags.mask(BsdfFlags.Dispersive)

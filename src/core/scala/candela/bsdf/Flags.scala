@@ -38,7 +38,7 @@ object BsdfFlags:
   /** Values change when `wo` and `wi` change places, by more than the square of the index in
     * refraction. Light subpaths are then weighted by the values that the camera sees.
     */
-  def OneWay: BsdfFlags = new BsdfFlags(64)
+  def NonReciprocal: BsdfFlags = new BsdfFlags(64)
 
   /** Directions depend on the `choice` of [[Bsdf.sample]]. */
   def Choosing: BsdfFlags = new BsdfFlags(128)

@@ -48,7 +48,7 @@ final class Framed(inner: Bsdf, frame: Frame) extends LeanBsdf:
     val s = inner.sampleSpecular(frame.toLocal(wo), choice)
     BsdfSample(frame.toWorld(s.wi), s.weight, s.pdf, s.isSpecular, s.eta)
 
-  def flags: BsdfFlags = inner.flags | BsdfFlags.OneWay
+  def flags: BsdfFlags = inner.flags | BsdfFlags.NonReciprocal
   override def straight(wo: Vec3): Rgb = inner.straight(frame.toLocal(wo))
   override def diffuseReflectance(wo: Vec3): Rgb = inner.diffuseReflectance(frame.toLocal(wo))
   override def regularized: Bsdf = Framed(inner.regularized, frame)

@@ -83,7 +83,7 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
       if lobes(i).isTransmissive then transmissive += 1
       i += 1
     // Light may be compressed by one of two lobes that transmit it, and not by the other
-    if transmissive < 2 then combined else combined | BsdfFlags.OneWay
+    if transmissive < 2 then combined else combined | BsdfFlags.NonReciprocal
 
   override val scattersThrough: Boolean =
     var through = false

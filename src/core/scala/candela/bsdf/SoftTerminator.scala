@@ -124,7 +124,7 @@ final class SoftTerminator(
       BsdfSample(outerWi, s.weight * shadowing, s.pdf, s.isSpecular, s.eta)
 
   val flags: BsdfFlags =
-    val changed = inner.flags.minus(BsdfFlags.Pane) | BsdfFlags.OneWay
+    val changed = inner.flags.minus(BsdfFlags.Pane) | BsdfFlags.NonReciprocal
     // Through the perturbed surface, where its normals are turned
     if base.z < 1f then changed | BsdfFlags.Transmissive else changed
 

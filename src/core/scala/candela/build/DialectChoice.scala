@@ -12,7 +12,7 @@ import candela.scenefile.*
 object DialectChoice:
   /** Weight of a parameter that only one of v2 and v3 has, and of all of them together. */
   private val PerParameter = 3
-  private val MostOfParameters = 15
+  private val MaxParameterWeight = 15
 
   /** Weight from which a clue against the choice is told. */
   private val Contrary = 3
@@ -91,7 +91,7 @@ object DialectChoice:
 
   /** Many files repeat what one exporter writes. */
   private def capped(clues: Vector[DialectClue]): Vector[DialectClue] =
-    val limit = MostOfParameters / PerParameter
+    val limit = MaxParameterWeight / PerParameter
     val (v2, v3) = clues.partition(_.v2 > 0)
     v2.take(limit) ++ v3.take(limit)
 

@@ -45,7 +45,7 @@ private[build] final class MaterialTable private (
   def inBasis(bases: Int, isDispersive: Boolean, integrator: IntegratorPlan)(
       context: () => BuildContext
   ): SceneMaterials =
-    ofScene.inBasis(isDispersive, Math.max(MaterialTable.MostKept / bases, 1)): () =>
+    ofScene.inBasis(isDispersive, Math.max(MaterialTable.MaxMaterials / bases, 1)): () =>
       maker(context(), integrator)
 
   /** Whether any material disperses light in this colour basis of a scene that may. */
@@ -73,7 +73,7 @@ private[build] final class MaterialTable private (
 
 private[build] object MaterialTable:
   /** Materials kept in all colour bases together, of half a kilobyte each. */
-  private val MostKept = 1 << 19
+  private val MaxMaterials = 1 << 19
 
   /** @param shapes all shapes to render */
   def of(

@@ -117,13 +117,13 @@ private[build] final class MediaBuilder(
   /** The step size that is asked for, if a ray can have so many. */
   private def stepSize(volumes: Regions): Float =
     val requested = volumeMethod.stepSize
-    val minimum = volumes.extent / Regions.MostAcross
+    val minimum = volumes.extent / Regions.MaxStepsAcross
     if requested >= minimum || !minimum.isFinite then requested
     else
       problems.warn(
         Code.CorrectedValue,
         description.volumeIntegrator.map(_.pos),
-        s"`stepsize` of $requested needs more than ${Regions.MostAcross} steps through the " +
+        s"`stepsize` of $requested needs more than ${Regions.MaxStepsAcross} steps through the " +
           s"volumes; using $minimum"
       )
       minimum

@@ -17,7 +17,7 @@ import candela.settings.{BuildControl, LightGrouping, RenderSettings}
   */
 object SceneBuilder:
   /** Pixels of which the films of a rendering can have all their values. */
-  private val MostPixels = Int.MaxValue / 16
+  private val MaxPixels = Int.MaxValue / 16
 
   /** Returns the plan and warnings about unsupported features. Throws [[SceneError]] with all
     * errors, including those of the description.
@@ -52,11 +52,11 @@ object SceneBuilder:
       context.resources.askForFootprints(
         s"the image's ${layer.channelsOf(Vector.empty).mkString(" and ")}"
       )
-    if crop.pixels > MostPixels then
+    if crop.pixels > MaxPixels then
       context.problems.error(
         Code.TooLarge,
         context.placeOf(context.description.film),
-        s"can't render ${crop.width}×${crop.height} pixels at once, at most $MostPixels",
+        s"can't render ${crop.width}×${crop.height} pixels at once, at most $MaxPixels",
         Some("give the film a crop window, or render parts of it with --cropwindow")
       )
     checkLimits(context, image, crop, sampling)

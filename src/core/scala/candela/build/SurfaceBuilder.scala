@@ -247,7 +247,7 @@ private[build] final class SurfaceBuilder(
     /** @param isTurned do rays see the other sides? */
     private def addMesh(mesh: ShapeGeometry.Triangles, isTurned: Boolean): Unit =
       val count = mesh.indices.length / 3
-      val limit = SurfaceBuilder.MostTriangles
+      val limit = SurfaceBuilder.MaxTriangles
       if soup.triangleCount.toLong + count > limit then
         site.error(Code.TooLarge, s"more than $limit triangles in the world or in one object")
       else
@@ -321,4 +321,4 @@ private[build] final class SurfaceBuilder(
 
 private[build] object SurfaceBuilder:
   /** 9 Floats per triangle must fit into one array. */
-  val MostTriangles = 200_000_000
+  val MaxTriangles = 200_000_000

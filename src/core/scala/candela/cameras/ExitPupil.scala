@@ -1,6 +1,7 @@
 package candela.cameras
 
 import candela.base.loop
+import candela.math.square
 
 /** Exit pupil bounds: for each of several rings of film positions around the centre, the rectangle
   * on the rear lens surface through which light can reach them. They hold for positions on the
@@ -125,8 +126,6 @@ object ExitPupil:
       scale *= 3
       remaining /= 3
     digits.toDouble / scale.toDouble
-
-  private def square(x: Double): Double = x * x
 
   private def store(to: Array[Double], ring: Int, x0: Double, x1: Double, top: Double): Unit =
     to(4 * ring) = x0

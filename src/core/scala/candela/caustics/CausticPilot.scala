@@ -134,7 +134,7 @@ private[candela] final class CausticPilot(
         else
           // The weight is 1 / (1 + others); q/p of the light path
           val ratio =
-            Math.min(if misRatios > 0.0 then 1.0 / Math.sqrt(misRatios) else MostRatio, MostRatio)
+            Math.min(if misRatios > 0.0 then 1.0 / Math.sqrt(misRatios) else MaxRatio, MaxRatio)
           findings.splatted.addSplat(x, y, weighted, weighted * (1.0 + misRatios), ratio)
 
   /** Samples of an image for which light paths shall pay. In media they seem to bring more than
@@ -176,7 +176,7 @@ private[candela] object CausticPilot:
   inline val MaxPathsPerSample = 16.0
 
   /** What one light path finds must not decide alone. */
-  inline val MostRatio = 1e6
+  inline val MaxRatio = 1e6
 
   /** A power of two, not above `best`, within bounds.
     *

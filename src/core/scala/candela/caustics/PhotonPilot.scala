@@ -32,7 +32,7 @@ private[candela] final class PhotonPilot(
       val learning = visible.learn()
       if learning.isEmpty then PilotResult.none("no photons arrive where the camera sees them")
       else
-        val bringsAll = mayBringAll && visible.othersOfPath() > LeastOthers
+        val bringsAll = mayBringAll && visible.othersOfPath() > MinOthersOfPath
         val radius = Pixels * visible.footprint
         val choice =
           PhotonChoice(light.casters.aimed(learning.aim), radius, bringsAll, brought(bringsAll))
@@ -61,4 +61,4 @@ private[candela] object PhotonPilot:
   /** Photons that a light path leaves in media where the camera looks, from which on they bring all
     * that media scatter: then a ray passes a few in each pass.
     */
-  inline val LeastOthers = 0.5
+  inline val MinOthersOfPath = 0.5

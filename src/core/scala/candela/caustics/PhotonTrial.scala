@@ -3,6 +3,7 @@ package candela.caustics
 import candela.concurrency.{GivenUp, Parallel}
 import candela.film.View
 import candela.integrators.{Integrator, PhotonLight}
+import candela.math.square
 import candela.scene.Scene
 
 /** Estimates by few paths whether photons pay: by how much they reduce variance times rays. Depends
@@ -67,8 +68,6 @@ private final class PhotonTrial(
 
   private def followed(integrators: () => (Integrator, Integrator)): PilotBlocks =
     CameraPairs.followed(view, CausticPilot.Seed + 3, pool, 0, Pairs)(integrators)
-
-  private def square(x: Double): Double = x * x
 
 private object PhotonTrial:
   /** Pairs of paths, and light paths of each of the two maps. */

@@ -2,6 +2,7 @@ package candela.caustics
 
 import candela.base.loop
 import candela.film.View
+import candela.math.square
 
 /** Places on the film, in pixels, evenly spread for any number of them: the additive recurrence of
   * the plastic number.
@@ -126,8 +127,6 @@ private final class PilotBlocks(view: View):
     val mean = means.sum / count
     loop(count): i =>
       use(i, means(i), 1.0 / (square(means(i)) + square(Floor * mean)), pixels(i), scale)
-
-  private def square(x: Double): Double = x * x
 
 private object PilotBlocks:
   /** Relative variances.

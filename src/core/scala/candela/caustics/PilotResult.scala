@@ -2,15 +2,15 @@ package candela.caustics
 
 /** What a pilot has found out.
   *
-  * @param choice what it would do, if it can do anything
-  * @param work   expected relative variance of a sample, times its rays relative to those of the
-  *               camera's paths alone
-  * @param pays   is it better to do it?
-  * @param why    in words
+  * @param choice       what it would do, if it can do anything
+  * @param expectedWork expected relative variance of a sample, times its rays relative to those of
+  *                     the camera's paths alone
+  * @param pays         is it better to do it?
+  * @param why          in words
   */
 final case class PilotResult(
     choice: Option[CausticChoice],
-    work: Double,
+    expectedWork: Double,
     pays: Boolean,
     why: String
 ):
@@ -19,8 +19,8 @@ final case class PilotResult(
     if pays then (choice, why) else (None, s"none: $why")
 
   /** The better of both, which is this one unless the other is `margin` times as good. */
-  def orElse(other: PilotResult, margin: Double): PilotResult =
-    if other.pays && !(pays && work < margin * other.work) then other
+  def better(other: PilotResult, margin: Double): PilotResult =
+    if other.pays && !(pays && expectedWork < margin * other.expectedWork) then other
     else if pays then this
     else copy(why = s"$why; ${other.why}")
 
@@ -29,7 +29,7 @@ private[candela] object PilotResult:
     * have found once in a billion samples counts for them, too, and fireflies may be missed. And
     * guiding, which photons exclude, may bring as much.
     */
-  inline val LeastGain = 3.0
+  inline val MinGain = 3.0
 
   /** Nothing can be done. */
   def none(why: String): PilotResult = PilotResult(None, Double.PositiveInfinity, pays = false, why)
@@ -46,4 +46,4 @@ private[candela] object PilotResult:
     val gain = if expectedWork > 0.0 then baseline / expectedWork else 1.0
     val times = if gain > 10.0 then "more than 10" else f"$gain%.2f"
     val reason = s"the pilot expects $times times the efficiency, with $choice"
-    PilotResult(Some(choice), expectedWork, !mustPay || gain > LeastGain, reason)
+    PilotResult(Some(choice), expectedWork, !mustPay || gain > MinGain, reason)

@@ -35,7 +35,7 @@ private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.sh
 
   /** As above, with an error of at most `tolerance` in all channels together. */
   def reach(target: Array[Double], tolerance: Double): Boolean =
-    var remaining = MostSteps
+    var remaining = MaxSteps
     evaluate(target)
     while remaining > 0 && !(distance < tolerance) do
       remaining -= 1
@@ -123,7 +123,7 @@ private[color] final class SpectrumFit(responses: Array[Double] = Colorimetry.sh
 private[color] object SpectrumFit:
   private inline val Iterations = 8
   private inline val Longest = 20.0
-  private inline val MostSteps = 12
+  private inline val MaxSteps = 12
   private inline val LongestReach = 50.0
 
   /** Of sums of a hundred products, where Newton's method ends. */

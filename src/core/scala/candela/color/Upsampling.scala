@@ -42,7 +42,7 @@ object Upsampling:
   private val fits = ConcurrentHashMap[(Rgb, ColorSpace), Fit]()
 
   private def fit(color: Rgb, space: ColorSpace): Fit =
-    if fits.size > MostFits then fits.clear()
+    if fits.size > MaxFits then fits.clear()
     fits.computeIfAbsent(
       (color.map(clamp(_, 0f, 1f)), space),
       (c, _) => fromTable(c, space).getOrElse(fromGrey(c, space))
@@ -130,7 +130,7 @@ object Upsampling:
 
   /** Number of steps from grey to black or white. */
   private val Steps = 20
-  private val MostFits = 10000
+  private val MaxFits = 10000
 
   /** Halvings of the last step of a walk. */
   private val Halvings = 6

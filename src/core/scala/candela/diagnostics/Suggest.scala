@@ -14,7 +14,7 @@ object Suggest:
     val lower = name.toLowerCase
     var closest = Option.empty[String]
     var bestDistance = Int.MaxValue
-    for k <- known.iterator.take(MostKnown) do
+    for k <- known.iterator.take(MaxKnownNames) do
       val limit = math.min(bestDistance, math.max(1, math.max(name.length, k.length) / 3))
       // The distance is at least the difference in length, so most names need no table.
       if math.abs(k.length - name.length) <= limit then
@@ -28,7 +28,7 @@ object Suggest:
   def help(name: String, known: Iterable[String]): Option[String] =
     nearest(name, known).map(k => s"did you mean `$k`?").orElse {
       Option.when(known.nonEmpty):
-        if known.sizeIs <= MostListed then
+        if known.sizeIs <= MaxListedNames then
           known.toVector.sorted.distinct.mkString("known: ", ", ", "")
         else
           known.iterator.take(Examples).mkString(
@@ -39,10 +39,10 @@ object Suggest:
     }
 
   /** Of objects and textures there may be millions, and as many names that are none of them. */
-  private val MostKnown = 5000
+  private val MaxKnownNames = 5000
 
   /** Names that are listed; of more, examples. */
-  private val MostListed = 500
+  private val MaxListedNames = 500
   private val Examples = 5
 
   /** The nearest of the names in the folder of a missing file. A file with another number is not

@@ -17,26 +17,28 @@ import java.math.BigDecimal
   */
 final class ExactSums(val size: Int):
   private val high = new Array[Double](size)
-  private val lows = new Array[Array[Double] | Null]((size + ExactSums.Run - 1) / ExactSums.Run)
-  @volatile private var tails = Map.empty[Int, BigDecimal]
+  private val lows =
+    new Array[Array[Double] | Null]((size + ExactSums.BlockSize - 1) / ExactSums.BlockSize)
+  @volatile private var thirdParts = Map.empty[Int, BigDecimal]
 
   private def low(at: Int): Double =
-    val run = lows(at / ExactSums.Run)
-    if run == null then 0.0 else run(at % ExactSums.Run)
+    val block = lows(at / ExactSums.BlockSize)
+    if block == null then 0.0 else block(at % ExactSums.BlockSize)
 
-  /** The second parts of the sums around `at`. Without a lock where they exist: what a thread sees
-    * of an array is its zeros, and what it wrote itself.
+  /** The second parts of the sums around `at`. Read without a lock: a racing thread sees null and
+    * takes the lock, or the array with its zeros. Only who owns a sum writes its element.
     */
   private def lowsOf(at: Int): Array[Double] =
-    val run = lows(at / ExactSums.Run)
-    if run != null then run else makeLows(at / ExactSums.Run)
+    val block = lows(at / ExactSums.BlockSize)
+    if block != null then block else makeLows(at / ExactSums.BlockSize)
 
-  private def makeLows(run: Int): Array[Double] = lows.synchronized:
-    val cached = lows(run)
-    if cached != null then cached
+  private def makeLows(index: Int): Array[Double] = lows.synchronized:
+    val block = lows(index)
+    if block != null then block
     else
-      val created = new Array[Double](Math.min(ExactSums.Run, size - run * ExactSums.Run))
-      lows(run) = created
+      val created =
+        new Array[Double](Math.min(ExactSums.BlockSize, size - index * ExactSums.BlockSize))
+      lows(index) = created
       created
 
   def add(at: Int, value: Double): Unit =
@@ -49,43 +51,44 @@ final class ExactSums(val size: Int):
       if error != 0.0 then addLow(at, error)
 
   private def addLow(at: Int, value: Double): Unit =
-    val run = lowsOf(at)
-    val inRun = at % ExactSums.Run
-    val l = run(inRun)
+    val block = lowsOf(at)
+    val inBlock = at % ExactSums.BlockSize
+    val l = block(inBlock)
     val sum = l + value
-    run(inRun) = sum
+    block(inBlock) = sum
     val error = ExactSums.error(l, value, sum)
     if error != 0.0 then
       // Moves what the high part can hold there, which makes room
       val h = high(at)
       high(at) = h + sum
       val moved = ExactSums.error(h, sum, high(at))
-      run(inRun) = moved + error
-      val residual = ExactSums.error(moved, error, run(inRun))
-      if residual != 0.0 then addRest(at, BigDecimal(residual))
+      block(inBlock) = moved + error
+      val thirdPart = ExactSums.error(moved, error, block(inBlock))
+      if thirdPart != 0.0 then addThirdPart(at, BigDecimal(thirdPart))
 
-  private def addRest(at: Int, value: BigDecimal): Unit = lows.synchronized:
-    tails = tails.updated(at, tails.get(at).fold(value)(_.add(value)))
+  private def addThirdPart(at: Int, value: BigDecimal): Unit = lows.synchronized:
+    thirdParts = thirdParts.updated(at, thirdParts.get(at).fold(value)(_.add(value)))
 
   /** The sum, rounded once. */
   def apply(at: Int): Double =
-    if tails.isEmpty || !tails.contains(at) then high(at) + low(at) else exact(at).doubleValue
+    if thirdParts.isEmpty || !thirdParts.contains(at) then high(at) + low(at)
+    else exact(at).doubleValue
 
   /** Adds the sums from `from` on to `to` at `at`, each rounded once. */
   def addTo(to: Array[Double], at: Int, from: Int, count: Int): Unit =
-    if tails.isEmpty then loop(count)(i => to(at + i) += high(from + i) + low(from + i))
+    if thirdParts.isEmpty then loop(count)(i => to(at + i) += high(from + i) + low(from + i))
     else loop(count)(i => to(at + i) += this(from + i))
 
   /** The difference of the sum and its rounded value, rounded. */
   def remainder(at: Int): Double =
-    if tails.isEmpty || !tails.contains(at) then
+    if thirdParts.isEmpty || !thirdParts.contains(at) then
       ExactSums.error(high(at), low(at), high(at) + low(at))
     else
       val total = exact(at)
       total.subtract(BigDecimal(total.doubleValue)).doubleValue
 
   private def exact(at: Int): BigDecimal =
-    BigDecimal(high(at)).add(BigDecimal(low(at))).add(tails.getOrElse(at, BigDecimal.ZERO))
+    BigDecimal(high(at)).add(BigDecimal(low(at))).add(thirdParts.getOrElse(at, BigDecimal.ZERO))
 
   /** Adds all sums of `other`, or subtracts them. */
   def add(other: ExactSums, isNegative: Boolean = false): Unit =
@@ -94,11 +97,12 @@ final class ExactSums(val size: Int):
     loop(size): i =>
       add(i, sign * other.high(i))
       add(i, sign * other.low(i))
-    for (i, value) <- other.tails do addRest(i, if isNegative then value.negate else value)
+    for (i, value) <- other.thirdParts do
+      addThirdPart(i, if isNegative then value.negate else value)
 
   /** Bytes in use, but for the third parts. */
   def memory: Long =
-    8L * size + lows.map(run => if run == null then 0L else 8L * run.length).sum
+    8L * size + lows.map(block => if block == null then 0L else 8L * block.length).sum
 
   /** Writes the sums, in a form that depends on their values only: the rounded sums, the rounded
     * remainders, and what these leave of some, as decimal numbers.
@@ -106,11 +110,11 @@ final class ExactSums(val size: Int):
   def save(to: CheckedOutput): Unit =
     loop(size)(i => to.double(this(i) + 0.0)) // no negative zeros
     loop(size)(i => to.double(remainder(i) + 0.0))
-    val residuals = Vector.newBuilder[(Int, BigDecimal)]
-    for i <- tails.keys do
+    val remaining = Vector.newBuilder[(Int, BigDecimal)]
+    for i <- thirdParts.keys do
       val value = exact(i).subtract(BigDecimal(this(i))).subtract(BigDecimal(remainder(i)))
-      if value.signum != 0 then residuals += i -> value
-    val sorted = residuals.result().sortBy(_._1)
+      if value.signum != 0 then remaining += i -> value
+    val sorted = remaining.result().sortBy(_._1)
     to.int(sorted.size)
     for (i, value) <- sorted do
       to.int(i)
@@ -123,20 +127,20 @@ final class ExactSums(val size: Int):
     loop(from.count(bytes = 8)): _ =>
       val index = from.int()
       require(index >= 0 && index < size, s"there is no sum $index")
-      addRest(index, ExactSums.parse(from.text()))
+      addThirdPart(index, ExactSums.parse(from.text()))
 
 object ExactSums:
   /** So many sums get their second parts together: a power of two. */
-  private inline val Run = 2048
+  private inline val BlockSize = 2048
 
   /** Decimal digits, before or behind the point, of numbers that are sums of Doubles. */
-  private val MostDigits = 1100
+  private val MaxDigits = 1100
 
   /** What two Doubles leave of a sum; of other numbers, sums may fill the memory. */
   private def parse(text: String): BigDecimal =
-    require(text.length <= 2 * MostDigits, s"a number of ${text.length} digits")
+    require(text.length <= 2 * MaxDigits, s"a number of ${text.length} digits")
     val value = BigDecimal(text)
-    require(Math.abs(value.scale) <= MostDigits, s"a number of ${value.scale} decimal places")
+    require(Math.abs(value.scale) <= MaxDigits, s"a number of ${value.scale} decimal places")
     value
 
   /** The rounding error of `sum` = `a` + `b`; exact. */

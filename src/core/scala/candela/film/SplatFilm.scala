@@ -52,7 +52,7 @@ final class SplatFilm(
   private val coarse = new Array[Long](fine.length)
 
   /** Rows of a strip: a splat reaches two at most. */
-  private val rows = Math.max(LeastRows, Math.ceil(2.0 * filter.radiusY).toInt + 1)
+  private val rows = Math.max(MinRows, Math.ceil(2.0 * filter.radiusY).toInt + 1)
   private val strips = Array.fill((height + rows - 1) / rows)(Strip(columns))
   private def columns = Math.ceil(2.0 * filter.radiusX).toInt + 1
   private val samples = LongAdder()
@@ -239,7 +239,7 @@ final class SplatFilm(
 
 object SplatFilm:
   /** So that few splats take two locks, and threads seldom meet. */
-  private val LeastRows = 8
+  private val MinRows = 8
 
   /** The lock of some rows, and memory for the weights of a splat whose first row is among them. */
   private final class Strip(columns: Int):

@@ -19,7 +19,7 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
   private val samples = if settings.learnsOn then Int.MaxValue else planned
 
   private val isLongEnough =
-    !settings.adapts || samples >= FewestSamples && pixels * samples >= FewestPaths
+    !settings.adapts || samples >= MinSamples && pixels * samples >= MinPaths
 
   private var learning: GuideLearning | Null = null
   private var progress = GuideProgress()
@@ -61,9 +61,10 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
     val field = current.field
     GuideOutcome(
       samples = current.begun,
-      regions = field.shares.count(_ < 1f),
+      regions = field.bsdfProbabilities.count(_ < 1f),
       allRegions = field.regions,
-      lobes = field.lobeCounts.zip(field.shares).collect { case (n, share) if share < 1f => n }.sum,
+      lobes =
+        field.lobeCounts.zip(field.bsdfProbabilities).collect { case (n, p) if p < 1f => n }.sum,
       bounces = tallies.map(_.bounces).sum,
       guided = tallies.map(_.guided).sum,
       varianceRatio = progress.varianceRatio,
@@ -126,7 +127,7 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
     val ending = current
     val eventRate = perPath(ending, sample, growth.events.count)
     val isSettled = settings.learnsOn && settings.adapts && ending.field.guides &&
-      sample >= SettledSamples && progress.isSettledBy(growth.verdict)
+      sample >= MinSettledSamples && progress.isSettledBy(growth.verdict)
     progress = after(ending, growth.verdict, sample)
     current =
       if progress.gaveUp then Pass(GuideField.Start, sample, fraction = 0f, null)
@@ -164,7 +165,7 @@ final class Guide(val settings: GuideSettings, planned: Int, pixels: Long):
       else
         val isTried = field.guides && goesOn(next(end))
         val trial =
-          if progress.isWorthwhile then Promising
+          if progress.isWorthwhile then PromisingPaths
           else if isTried then TrialPaths
           else LearningPaths
         Math.min(1.0, trial / (paths * Math.max(lit, 1e-3))).toFloat
@@ -234,11 +235,11 @@ object Guide:
     SampleHash.toUnit(mixed(mixed(0, origin), direction))
 
   /** Samples per pixel, and paths, of a rendering in which learning may pay. */
-  private val FewestSamples = 16
-  private val FewestPaths = 1 << 17
+  private val MinSamples = 16
+  private val MinPaths = 1 << 17
 
   /** Passes that end before are short: what they learn costs little, and brings much later. */
-  private val SettledSamples = 32
+  private val MinSettledSamples = 32
 
   /** Paths of a pass that learn and find light, about, until it is certain that guiding pays: of
     * the first pass, and of the last that learns, whose field is that of all later paths.
@@ -249,7 +250,7 @@ object Guide:
   private val TrialPaths = 1 << 14
 
   /** Likewise, where it has paid, but not clearly: of a short rendering nearly all. */
-  private val Promising = 1 << 17
+  private val PromisingPaths = 1 << 17
 
   /** Events per sample that find light, before they were counted. */
   private val UsualEvents = 3.0

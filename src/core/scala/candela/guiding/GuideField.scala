@@ -15,7 +15,7 @@ import candela.math.*
   * @param axis    of each node of space that is divided: 0, 1 or 2; the first seven are the roots
   * @param split   where it is divided
   * @param below   first of its two children, which follow each other; of a leaf −1 − its region
-  * @param shares  of each region, the probability that directions are sampled from the BSDF
+  * @param bsdfProbabilities that directions are sampled from the BSDF, of each region
   *                instead; 1: it is not guided
   * @param centres of each region: three coordinates
   * @param lobes   [[GuideField.Lobes]] of each region, heavy ones first, with [[GuideField.Size]]
@@ -32,7 +32,7 @@ final class GuideField private[guiding] (
     val axis: Array[Int],
     val split: Array[Float],
     val below: Array[Int],
-    val shares: Array[Float],
+    val bsdfProbabilities: Array[Float],
     val centres: Array[Float],
     val lobes: Array[Float],
     val splittingFactors: Array[Float],
@@ -42,7 +42,7 @@ final class GuideField private[guiding] (
 
   private val tree = RegionTree(axis, split, below)
 
-  def regions: Int = shares.length
+  def regions: Int = bsdfProbabilities.length
 
   /** Of each region, the lobes that are not too light to be used; none without light. */
   private[guiding] val lobeCounts: Array[Int] =
@@ -50,7 +50,7 @@ final class GuideField private[guiding] (
       (0 until Lobes).count(k => lobes((region * Lobes + k) * Size + Factor) > 0f)
 
   /** Are there regions that guide? */
-  val guides: Boolean = shares.exists(_ < 1f)
+  val guides: Boolean = bsdfProbabilities.exists(_ < 1f)
 
   /** The region of the point whose coordinates begin at `p(at)`, on a surface that faces this side;
     * points outside belong to the nearest.
@@ -64,7 +64,7 @@ final class GuideField private[guiding] (
     for all <- Vector(axis, below) do
       to.int(all.length)
       loop(all.length)(i => to.int(all(i)))
-    for all <- Vector(split, shares, centres, lobes, splittingFactors, measurements) do
+    for all <- Vector(split, bsdfProbabilities, centres, lobes, splittingFactors, measurements) do
       to.int(all.length)
       loop(all.length)(i => to.float(all(i)))
 
@@ -111,9 +111,9 @@ object GuideField:
     def ints() = Array.fill(from.count(bytes = 4))(from.int())
     def floats() = Array.fill(from.count(bytes = 4))(from.float())
     val (axis, below) = (ints(), ints())
-    val (split, shares, centres, lobes) = (floats(), floats(), floats(), floats())
+    val (split, bsdfProbabilities, centres, lobes) = (floats(), floats(), floats(), floats())
     val (splittingFactors, measurements) = (floats(), floats())
-    val (nodes, regions) = (axis.length, shares.length)
+    val (nodes, regions) = (axis.length, bsdfProbabilities.length)
     def isLeaf(node: Int) = below(node) < 0 && -1 - below(node) < regions
     // Children follow their parent, so every way down has an end
     def isDivided(node: Int) =
@@ -125,4 +125,6 @@ object GuideField:
         (0 until nodes).forall(node => isLeaf(node) || isDivided(node)),
       "its guiding field has no such regions"
     )
-    GuideField(axis, split, below, shares, centres, lobes, splittingFactors, measurements)
+    GuideField(
+      axis, split, below, bsdfProbabilities, centres, lobes, splittingFactors, measurements
+    )

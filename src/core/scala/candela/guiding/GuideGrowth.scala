@@ -57,16 +57,17 @@ private[guiding] final class GuideGrowth(
 
   /** The field, when all regions have grown. */
   def result(): GuideField =
-    val centres, lobes, shares, splittingFactors, measurements = FloatBuffer()
-    val unit = Math.sqrt(cost / Math.max(verdict.noise, LeastNoise)).toFloat
+    val centres, lobes, bsdfProbabilities, splittingFactors, measurements = FloatBuffer()
+    val unit = Math.sqrt(cost / Math.max(verdict.noise, MinNoise)).toFloat
     for leaf <- leaves do
-      shares += leaf.share
+      bsdfProbabilities += leaf.bsdfProbability
       splittingFactors += (if leaf.effort > 0f then leaf.effort * unit else leaf.splittingFactor)
       measurements += leaf.measurement
       loop(3)(a => centres += leaf.centre(a))
       loop(Lobes * GuideField.Size)(i => lobes += leaf.lobes(i))
     GuideField(
-      axis.drain(), split.drain(), below.drain(), shares.drain(), centres.drain(), lobes.drain(),
+      axis.drain(), split.drain(), below.drain(), bsdfProbabilities.drain(), centres.drain(),
+      lobes.drain(),
       splittingFactors.drain(), measurements.drain()
     )
 
@@ -172,4 +173,4 @@ private object GuideGrowth:
   val Fewest = 60
 
   /** Relative variance of a path that is taken for less. */
-  private val LeastNoise = 1e-6
+  private val MinNoise = 1e-6

@@ -29,7 +29,7 @@ private[guiding] final class GuideLeaf(
   var lobes: Array[Float] = old.lobes.slice(region * Lobes * Size, (region + 1) * Lobes * Size)
 
   /** The probability of BSDF sampling. */
-  var share: Float = old.shares(region)
+  var bsdfProbability: Float = old.bsdfProbabilities(region)
 
   /** As in [[GuideField]]. */
   var splittingFactor: Float = old.splittingFactors(region)
@@ -53,7 +53,7 @@ private[guiding] final class GuideLeaf(
   def judge(): Unit =
     if isEnough && !isJudged then
       val light = GuideFit.meanLight(events, of)
-      share = bestShare(light)
+      bsdfProbability = bestBsdfProbability(light)
       expect(light)
       compare()
     isJudged = true
@@ -107,19 +107,21 @@ private[guiding] final class GuideLeaf(
   /** A half where that would have had the lesser second moment, by what the old field had learnt.
     * What it has not learnt is tried. Less than a half has outliers: rare directions count more.
     */
-  private def bestShare(meanLight: Float): Float =
+  private def bestBsdfProbability(meanLight: Float): Float =
     val isWorthwhile =
       !settings.adapts || !old.isFitted(region) ||
         moment(BsdfProbability, meanLight) < moment(1f, meanLight)
     if isWorthwhile then BsdfProbability else 1f
 
-  private def moment(share: Float, meanLight: Float): Double =
+  private def moment(bsdfProbability: Float, meanLight: Float): Double =
     val limit = Brightest * meanLight
     var sum = 0.0
     loop(of.length): j =>
       val event = of(j)
       val light = Math.min(events(event + Light), limit)
-      val pdf = share * events(event + BsdfPdf) + (1f - share) * events(event + GuidePdf)
+      val pdf = bsdfProbability * events(event + BsdfPdf) + (1f - bsdfProbability) * events(
+        event + GuidePdf
+      )
       sum += light * light * events(event + Pdf) / pdf
     sum
 

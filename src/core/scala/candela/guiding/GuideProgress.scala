@@ -57,14 +57,14 @@ private[guiding] final case class GuideProgress(
   private def effortOf(verdict: GuideVerdict) = Math.max(1.0, verdict.cost / cost)
 
   private def ratioOf(verdict: GuideVerdict) =
-    verdict.varianceRatio * Math.max(TimeOfRay, effortOf(verdict) / Overstated)
+    verdict.varianceRatio * Math.max(TimeOfRay, effortOf(verdict) / BranchCostFactor)
 
   /** Has the field that was learnt from the pass before brought no more? What counts for equal time
     * is the variance of a path times its rays.
     */
   def isSettledBy(verdict: GuideVerdict): Boolean =
     isWorthwhile && ratioOf(verdict) < 1.0 && verdict.paths >= MinPaths &&
-      verdict.noise * effortOf(verdict) > Settled * noise * effort
+      verdict.noise * effortOf(verdict) > MaxSettledRatio * noise * effort
 
   /** What a guided path counts beside those of the first passes: the inverse of its variance, a
     * power of two. So products with it are exact, and one path more or less seldom changes it: it
@@ -76,7 +76,7 @@ private[guiding] final case class GuideProgress(
   def weight: Float = plain match
     case None => 1f
     case Some(before) =>
-      val ratio = (before / Math.max(noise, before / MostWeight)).toFloat
+      val ratio = (before / Math.max(noise, before / MaxWeight)).toFloat
       Math.scalb(1f, Math.max(0, Math.getExponent(ratio * Sqrt2)))
 
   def save(to: CheckedOutput): Unit =
@@ -97,7 +97,7 @@ private[guiding] object GuideProgress:
   /** The number of rays overstates what branches cost, by up to a quarter: they share the path
     * before them, and later fields are finer.
     */
-  private val Overstated = 1.1
+  private val BranchCostFactor = 1.1
 
   /** Ratios by which the first evaluated pass decides: beyond the second, guiding leaves all of the
     * variance, and a finer field won't help.
@@ -108,10 +108,10 @@ private[guiding] object GuideProgress:
   /** What another pass of learning must leave of the variance times the rays: it costs some percent
     * of its time.
     */
-  private val Settled = 0.98
+  private val MaxSettledRatio = 0.98
 
   /** So that a variance that was estimated too low does not discard all other passes. */
-  private val MostWeight = 32.0
+  private val MaxWeight = 32.0
 
   private val Sqrt2 = Math.sqrt(2.0).toFloat
 

@@ -30,4 +30,4 @@ private[integrators] object Branches:
   final class Branch(val path: PathState):
     val history: PathHistory = PathHistory(path)
     val departure: Departure = Departure()
-    val mark: Guidance.Mark = Guidance.Mark()
+    val state: Guidance.BranchState = Guidance.BranchState()

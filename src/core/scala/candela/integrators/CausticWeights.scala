@@ -125,5 +125,3 @@ final class CausticWeights(scene: Scene, casters: Casters, camera: Camera, perSa
 
   private def weight(camera: Double, light: Double): Float =
     (camera / (camera + square(light))).toFloat
-
-  private def square(x: Double): Double = x * x

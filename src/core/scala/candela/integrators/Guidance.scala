@@ -9,8 +9,9 @@ import candela.sampling.Sampler
   * and records what the path finds. Specular directions, those through a surface, and those that
   * the BSDF would not sample, are left to it. Mutable, one per worker.
   *
-  * Each direction is weighted by the density of both ways of sampling it. That of BSDF sampling may
-  * be approximate, if it is the same for both: it only weighs them.
+  * BSDF and field are combined by the one-sample balance heuristic. Its weights need only sum to 1,
+  * so the BSDF's density may be approximate, as for layered BSDFs, if both techniques use the same
+  * one.
   *
   * Throughputs and light are averages of the colours.
   *
@@ -38,9 +39,9 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   private var chances, splits = 1f
 
   // Of the vertex: is it guided or recorded?
-  private var isKept = false
+  private var isGuidedOrRecorded = false
   private var isFitted = false
-  private var share = 1f
+  private var bsdfProbability = 1f
 
   private val wi, localWi = MutableVec3()
   private var side, region = -1
@@ -51,7 +52,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   private var measurement = 0f
 
   /** Has the field decided at this vertex whether the path ends? */
-  private var isExpected = false
+  private var fieldDecidesRoulette = false
 
   private val points = BranchPoints()
 
@@ -59,7 +60,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   def branches: Int = Math.max(1, points.count)
 
   /** Keeps what is known of the branch. */
-  def store(to: Mark): Unit =
+  def store(to: BranchState): Unit =
     to.ratio = ratio
     to.chances = chances
     to.splits = splits
@@ -67,15 +68,15 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     to.lastEvent = path.lastEvent
 
   /** Keeps where the random numbers of a branch go on. */
-  def keepPosition(branch: Int, to: Mark): Unit = to.position = points.position(branch)
+  def keepPosition(branch: Int, to: BranchState): Unit = to.position = points.position(branch)
 
-  /** Goes on with another branch, after `found` light in all. */
-  def follow(from: Mark, found: Float): Unit =
+  /** Goes on with another branch, after so much radiance in all. */
+  def follow(from: BranchState, radianceSoFar: Float): Unit =
     ratio = from.ratio
     chances = from.chances
     splits = from.splits
     measurement = from.measurement
-    path.follow(from.lastEvent, found)
+    path.follow(from.lastEvent, radianceSoFar)
 
   /** Starts a path with a camera ray. */
   def startPath(ray: Ray): Unit =
@@ -92,32 +93,32 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   /** The vertex has its BSDF. */
   def arrive(): Unit =
     val field = pass.field
-    leaveAlone()
+    skipVertex()
     path.step()
-    isKept = (buffer != null || field.guides) && !vertex.bsdf.isSpecular
-    if isKept then
+    isGuidedOrRecorded = (buffer != null || field.guides) && !vertex.bsdf.isSpecular
+    if isGuidedOrRecorded then
       side =
         if vertex.isInMedium then GuideField.Medium
         else
           GuideField.side(if vertex.localWo.z < 0f then -vertex.point.frame.n
           else vertex.point.frame.n)
       region = mixture.region(field, vertex.point.p, side)
-      share = if ratio < LeastRatio then 1f else field.shares(region)
+      bsdfProbability = if ratio < MinDensityRatio then 1f else field.bsdfProbabilities(region)
       isFitted = field.isFitted(region)
-      isKept = buffer != null || share < 1f
-      if isKept && isFitted then mixture.locate(field, region, vertex.point.p)
+      isGuidedOrRecorded = buffer != null || bsdfProbability < 1f
+      if isGuidedOrRecorded && isFitted then mixture.locate(field, region, vertex.point.p)
 
   /** The vertex is neither guided nor recorded. */
-  def leaveAlone(): Unit =
-    isKept = false
+  def skipVertex(): Unit =
+    isGuidedOrRecorded = false
     isFitted = false
     region = -1
-    share = 1f
+    bsdfProbability = 1f
 
   /** Density of the directions that are taken. */
   def pdf(local: Vec3, world: Vec3, byBsdf: Float): Float =
-    if share == 1f || byBsdf == 0f then byBsdf
-    else share * byBsdf + (1f - share) * fieldPdf(local, world)
+    if bsdfProbability == 1f || byBsdf == 0f then byBsdf
+    else bsdfProbability * byBsdf + (1f - bsdfProbability) * fieldPdf(local, world)
 
   /** Density of the field's directions. */
   private def fieldPdf(local: Vec3, world: Vec3): Float =
@@ -133,24 +134,25 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   /** Samples a direction: the vertex' bounce. One coordinate of the point also chooses between BSDF
     * and field, so that evenly spread points give evenly spread directions of both.
     *
-    * @param throughput before it
-    * @param found      light so far
-    * @param branch     whose point is taken
+    * @param throughput    before it
+    * @param radianceSoFar in all branches
+    * @param branch        whose point is taken
     */
-  def scatter(throughput: Float, found: Float, branch: Int): Unit =
+  def scatter(throughput: Float, radianceSoFar: Float, branch: Int): Unit =
     if throughput == 0f then vertex.bounce.absorb()
-    else if !isKept then
+    else if !isGuidedOrRecorded then
       if !vertex.bsdf.isSpecular then tally.bounces += 1
       vertex.draw(points.choice(branch), points.x(branch), points.y(branch))
     else
       tally.bounces += 1
-      if share < 1f then tally.guided += 1
+      if bsdfProbability < 1f then tally.guided += 1
       val x = points.x(branch)
       val y = points.y(branch)
       val byBsdf =
-        if x < share then drawBsdf(points.choice(branch), belowOne(x / share), y)
-        else drawField(belowOne((x - share) / (1f - share)), y)
-      if byBsdf > 0f then turn(byBsdf, throughput, found)
+        if x < bsdfProbability then
+          drawBsdf(points.choice(branch), belowOne(x / bsdfProbability), y)
+        else drawField(belowOne((x - bsdfProbability) / (1f - bsdfProbability)), y)
+      if byBsdf > 0f then weighDirection(byBsdf, throughput, radianceSoFar)
 
   /** @return the BSDF's density of the direction; 0: the bounce is as it shall be */
   private def drawBsdf(choice: Float, x: Float, y: Float): Float =
@@ -162,9 +164,9 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     if byBsdf > 0f then
       vertex.point.frame.toWorld(bounce.wi, wi)
       bounce.scale(byBsdf)
-    else if share < 1f then
-      ratio *= share
-      bounce.scale(1f / share)
+    else if bsdfProbability < 1f then
+      ratio *= bsdfProbability
+      bounce.scale(1f / bsdfProbability)
     byBsdf
 
   /** Likewise. */
@@ -182,10 +184,10 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   /** Goes on in the direction `wi`, which is also that of the bounce, whose weight is f·|cos|, or
     * an estimate of it.
     */
-  private def turn(byBsdf: Float, throughput: Float, found: Float): Unit =
+  private def weighDirection(byBsdf: Float, throughput: Float, radianceSoFar: Float): Unit =
     val bounce = vertex.bounce
     val byField = if isFitted then fieldPdf(bounce.wi, wi) else 0f
-    val pdf = share * byBsdf + (1f - share) * byField
+    val pdf = bsdfProbability * byBsdf + (1f - bsdfProbability) * byField
     bounce.set(bounce.wi, bounce.weight * (1f / pdf), pdf, isSpecular = false, bounce.eta)
     ratio *= pdf / byBsdf
     val to = buffer
@@ -196,7 +198,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
         vertex.point.p,
         side,
         wi,
-        found,
+        radianceSoFar,
         throughput,
         pdf,
         byBsdf,
@@ -219,13 +221,13 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     * @return factor of the throughput
     */
   def rouletteOrSplit(throughput: Float, sampler: Sampler): Float =
-    val n = expected(throughput)
+    val n = expectedBranches(throughput)
     points.draw(n, vertex.bsdf.choosesLobes, sampler)
     if points.count == 0 then 0f else 1f / n
 
   /** Branches in which the path leaves on average; one where the field does not know. */
-  private def expected(throughput: Float): Float =
-    isExpected = false
+  private def expectedBranches(throughput: Float): Float =
+    fieldDecidesRoulette = false
     if region < 0 then 1f
     else
       val field = pass.field
@@ -235,8 +237,8 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       if factor == 0f || measurement == 0f || transmits then 1f
       else if throughput.isNaN then 1f // a lost path: its sample is discarded
       else
-        isExpected = true
-        val maxBranches = Math.min(BranchPoints.MaxBranches.toFloat, MostInAll / splits)
+        fieldDecidesRoulette = true
+        val maxBranches = Math.min(BranchPoints.MaxBranches.toFloat, MaxBranchesOfPath / splits)
         val n = Math.max(MinBranches, Math.min(throughput * factor / measurement, maxBranches))
         chances *= n
         splits *= Math.max(1f, n)
@@ -247,17 +249,17 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     * there: it must not end them.
     */
   def rouletteThroughput(rrBeta: Float): Float =
-    if isExpected then Float.PositiveInfinity else rrBeta * ratio * splits
+    if fieldDecidesRoulette then Float.PositiveInfinity else rrBeta * ratio * splits
 
 private object Guidance:
   /** Branches in which a path leaves a vertex, on average, where it is expected to meet little. */
   inline val MinBranches = 0.5f
 
   /** Branches of a path. */
-  inline val MostInAll = 64f
+  inline val MaxBranchesOfPath = 64f
 
   /** What is known of a branch that is followed later. Mutable. */
-  final class Mark:
+  final class BranchState:
     var ratio, chances, splits, measurement = 0f
     var lastEvent = -1
 
@@ -267,4 +269,4 @@ private object Guidance:
   /** Paths that are as much rarer than by BSDF sampling are guided no further: it bounds how much
     * their light counts.
     */
-  inline val LeastRatio = 0.1f
+  inline val MinDensityRatio = 0.1f

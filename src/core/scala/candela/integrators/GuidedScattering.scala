@@ -12,7 +12,7 @@ private final class GuidedScattering(guide: Guide, tracer: CameraPath, history: 
   private val guidance = Guidance(guide, tracer.vertex)
   private val branches = Branches(() => tracer.path.another())
 
-  export guidance.{arrive, startPath, leaveAlone, pdf, rouletteThroughput}
+  export guidance.{arrive, startPath, skipVertex, pdf, rouletteThroughput}
 
   /** Samples the next direction, and leaves in all branches but one, unless there is one only. */
   def scatter(sampler: Sampler): Unit =
@@ -39,19 +39,19 @@ private final class GuidedScattering(guide: Guide, tracer: CameraPath, history: 
       if tracer.goesOn then
         val branch = branches.push()
         save(branch)
-        guidance.keepPosition(i, branch.mark)
+        guidance.keepPosition(i, branch.state)
     restorePath(branches.origin)
 
   private def save(branch: Branches.Branch): Unit =
     branch.path.set(tracer.path)
     branch.history.set(history)
     branch.departure.set(tracer.ray)
-    guidance.store(branch.mark)
+    guidance.store(branch.state)
 
   /** Goes on with the path as it was; its radiance so far stays. */
   private def restore(branch: Branches.Branch): Unit =
     restorePath(branch)
-    guidance.follow(branch.mark, radiance)
+    guidance.follow(branch.state, radiance)
 
   private def restorePath(branch: Branches.Branch): Unit =
     tracer.path.set(branch.path)
@@ -65,6 +65,6 @@ private final class GuidedScattering(guide: Guide, tracer: CameraPath, history: 
     if waits then
       val branch = branches.pop()
       restore(branch)
-      sampler.goTo(branch.mark.position)
+      sampler.goTo(branch.state.position)
     else guidance.finish(radiance)
     waits

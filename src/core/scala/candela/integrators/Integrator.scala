@@ -105,6 +105,6 @@ abstract class ChainWalker:
   def y: Int
 
   /** Number of discarded paths, whose radiance was NaN or infinite. */
-  def refused: Long
+  def discarded: Long
   def raysTraced: Long
   def lastMaterial: Int

@@ -1,7 +1,8 @@
 package candela.integrators
 
-/** What [[PathTechniques]] know of a path: beside its state, what they remember themselves.
-  * Mutable; each branch that waits has a copy.
+/** What [[PathTechniques]] remember of a path beside its state: how it has scattered, the densities
+  * with which light paths would have made it, and whether photons replace what it meets. Mutable;
+  * each branch that waits has a copy.
   */
 private[candela] final class PathHistory(path: PathState):
   export path.{carried, depth, isAlone, lastN, lastP}
@@ -24,20 +25,22 @@ private[candela] final class PathHistory(path: PathState):
     */
   var bsdfPdf: Float = 0f
 
-  /** What is left to photons: a number of [[PhotonLight]]. */
-  var chain: Int = PhotonLight.NotGathered
+  /** What the path has met since it gathered photons: a state of [[PhotonLight]], which decides
+    * what is left to them.
+    */
+  var gatherState: Int = PhotonLight.NoGatherYet
 
   def start(): Unit =
     anyNonSpecularBounces = false
     densityRatio = 0.0
     casterRatio = 0.0
-    chain = PhotonLight.NotGathered
+    gatherState = PhotonLight.NoGatherYet
 
   /** The path has emerged from beneath a surface: no light path competes, and no photon begins. */
   def emerge(): Unit =
     anyNonSpecularBounces = true
     densityRatio = 0.0
-    chain = PhotonLight.NotGathered
+    gatherState = PhotonLight.NoGatherYet
 
   /** Becomes a copy. */
   def set(from: PathHistory): Unit =
@@ -45,4 +48,4 @@ private[candela] final class PathHistory(path: PathState):
     densityRatio = from.densityRatio
     casterRatio = from.casterRatio
     bsdfPdf = from.bsdfPdf
-    chain = from.chain
+    gatherState = from.gatherState

@@ -108,7 +108,7 @@ private final class PathTechniques(
     if scene.isDispersive && !path.isAlone && vertex.bsdf.isDispersive then
       path.terminateSecondary()
     if weights != null then weights.arrive(eye, vertex, history)
-    if guiding != null then if isGuided then guiding.arrive() else guiding.leaveAlone()
+    if guiding != null then if isGuided then guiding.arrive() else guiding.skipVertex()
     isBoundary = seesThrough && scene.isSubsurface(vertex.point.material)
 
   override def arriveInMedium(p: Vec3, wo: Vec3, medium: Int): Unit =
@@ -145,7 +145,7 @@ private final class PathTechniques(
   override def moveToExit(sampler: Sampler): Boolean =
     val inside = if probe == null || path.isBlack then null else vertex.beneath
     inside != null && probe != null && {
-      if guiding != null then guiding.leaveAlone()
+      if guiding != null then guiding.skipVertex()
       path.scale(probe.enter(vertex.point, inside, tracer.ray.time, sampler, vertex.point))
       if !path.isBlack then
         vertex.scatterBy(inside.entry, vertex.point.frame.n)

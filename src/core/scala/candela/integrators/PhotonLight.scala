@@ -7,10 +7,10 @@ import candela.scene.{Casters, Scene}
 /** Light that photons bring in place of a path: what emitters send, by casters alone, to a surface
   * or a medium that receives it. Of each worker, as the photons are those of a pass.
   *
-  * It is gathered along every part of the path in a medium, at every vertex that is no caster, and
-  * at one that is (a rough one) if none has gathered since the last of these. So a light's way to
-  * the camera is cut at one place: the path leaves out what it meets behind casters only, and what
-  * light sampling finds there.
+  * It is gathered along every part of the path in a medium, at every vertex that receives photons
+  * and is no caster, and at one that is (a rough one) if none has gathered since the last of these.
+  * So a light's way to the camera is cut at one place: the path leaves out what it meets behind
+  * casters only, and what light sampling finds there.
   *
   * @param casters   where photons begin
   * @param maxDepth  scattering events of a path, at most
@@ -48,10 +48,12 @@ abstract class PhotonLight(
   /** Adds what the medium scatters to the path. */
   private[integrators] final def scatter(segment: MediumSegment, path: PathHistory): Unit =
     val events = maxDepth - path.depth
-    if events > 0 then along(segment, events, path.isAlone, isSeen = path.chain < Started)
+    if events > 0 then
+      along(segment, events, path.isAlone, isSeen = path.gatherState < CastersSinceGather)
 
   /** The path leaves a place in a medium. */
-  private[integrators] final def leaveMedium(path: PathHistory): Unit = path.chain = Started
+  private[integrators] final def leaveMedium(path: PathHistory): Unit =
+    path.gatherState = CastersSinceGather
 
   /** What the vertex reflects towards the path. */
   private[integrators] final def reflected(vertex: SurfaceVertex, path: PathHistory): Rgb =
@@ -59,11 +61,14 @@ abstract class PhotonLight(
     if events > 0 && gathers(vertex, path) then gather(vertex, events, path.isAlone) else Rgb.Black
 
   private def gathers(vertex: SurfaceVertex, path: PathHistory): Boolean =
-    receives(scene, vertex) && (path.chain < Started || !scene.isCaster(vertex.point))
+    receives(
+      scene,
+      vertex
+    ) && (path.gatherState < CastersSinceGather || !scene.isCaster(vertex.point))
 
   /** Do they bring what the path meets at the emitter? */
   private[integrators] final def covers(light: Int, path: PathHistory): Boolean =
-    path.chain == MayBeginPhoton && isBrought(light)
+    path.gatherState == PhotonMayBegin && isBrought(light)
 
   /** Do they bring what a light sample finds at the vertex, which the ray has met? */
   private[integrators] final def covers(
@@ -73,7 +78,7 @@ abstract class PhotonLight(
       hit: Hit,
       path: PathHistory
   ): Boolean =
-    path.chain >= Started && isBrought(light) && canBegin(vertex, ray, hit)
+    path.gatherState >= CastersSinceGather && isBrought(light) && canBegin(vertex, ray, hit)
 
   private def canBegin(vertex: SurfaceVertex, ray: Ray, hit: Hit): Boolean =
     scene.isCaster(vertex.point) && casters.density(ray, hit, vertex.point) > 0f
@@ -85,21 +90,26 @@ abstract class PhotonLight(
       hit: Hit,
       path: PathHistory
   ): Unit =
-    val chain = path.chain
-    path.chain =
-      if gathers(vertex, path) then if vertex.bounce.isSpecular then NotGathered else Started
-      else if chain < Started then chain
-      else if canBegin(vertex, ray, hit) then MayBeginPhoton
-      else if scene.isCaster(vertex.point) then Started
-      else NotGathered
+    val gatherState = path.gatherState
+    path.gatherState =
+      if gathers(vertex, path) then
+        if vertex.bounce.isSpecular then NoGatherYet else CastersSinceGather
+      else if gatherState < CastersSinceGather then gatherState
+      else if canBegin(vertex, ray, hit) then PhotonMayBegin
+      else if scene.isCaster(vertex.point) then CastersSinceGather
+      else NoGatherYet
 
 private[candela] object PhotonLight:
-  /** The path has met casters only, since a vertex that gathered photons; `MayBeginPhoton`: and a
-    * photon may begin at the last of them; `NotGathered`: there is no such vertex.
+  /** States of [[PathHistory.gatherState]]: no vertex has gathered photons, or one that is no
+    * caster has followed without doing so.
     */
-  inline val Started = 1
-  inline val MayBeginPhoton = 2
-  inline val NotGathered = -1
+  inline val NoGatherYet = -1
+
+  /** Since a vertex that gathered photons, the path has met casters only. */
+  inline val CastersSinceGather = 1
+
+  /** Likewise, and a photon may begin at the last of them. */
+  inline val PhotonMayBegin = 2
 
   /** Are photons stored at such a vertex? Not where they would be found in a narrow lobe, or would
     * go on beneath the surface.

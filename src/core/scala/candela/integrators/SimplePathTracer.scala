@@ -35,9 +35,9 @@ final class SimplePathTracer(
     startPath(cameraRay, sampler)
     while goesOn do
       val isHit = intersect()
-      val isSampled = !path.lightSamplingMisses
+      val lightWasSampled = !path.lightSamplingMisses
       if isHit then
-        if !isSampled then addEmission()
+        if !lightWasSampled then addEmission()
         val isLast = path.depth + path.passed == maxDepth
         if isLast || vertex.isInterface && !crosses then end()
         else if vertex.isInterface then
@@ -53,6 +53,6 @@ final class SimplePathTracer(
             case Onward.Sphere => scatterUniformly(bothSides = true, sampler)
           leaveVertex()
           if !samplesLights then path.startSegment(path.lastP, path.lastN, pdf = 0f)
-      else if isSampled then end()
+      else if lightWasSampled then end()
       else addEnvironment()
     L.toRgb

@@ -100,7 +100,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
         remaining = length - ((origin - start) dot direction)
         // Surfaces that touch are crossed at one distance
         crossings += 1
-        goesOn = remaining > 0f && crossings < SubsurfaceProbe.MostCrossings
+        goesOn = remaining > 0f && crossings < SubsurfaceProbe.MaxCrossings
     count
 
   private def isEntry(there: Int, here: Int): Boolean =
@@ -116,4 +116,4 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
 
 object SubsurfaceProbe:
   /** Limit of crossings, so that every probe ray ends. */
-  private inline val MostCrossings = 10000
+  private inline val MaxCrossings = 10000

@@ -45,7 +45,7 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
       val start = work.overlap.start
       val end = work.overlap.end
       val wanted = Math.ceil(((end - start) * unit / stepSize).toDouble).toInt
-      val count = clamp(wanted, 1, Regions.MostSteps)
+      val count = clamp(wanted, 1, Regions.MaxSteps)
       val step = (end - start) / count
       val offset = sampler.next1D()
       work.clearDepth()

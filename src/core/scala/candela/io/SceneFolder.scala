@@ -186,7 +186,7 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
   def namesBeside(file: Path): Vector[String] =
     def list(folder: Path) = Try:
       Using.resource(Files.list(folder)): all =>
-        all.iterator.asScala.take(FileGuard.MostNames).map(_.getFileName.toString).toVector
+        all.iterator.asScala.take(FileGuard.MaxNames).map(_.getFileName.toString).toVector
     Option(file.toAbsolutePath.getParent)
       .fold(Vector.empty)(listed.computeIfAbsent(_, list(_).getOrElse(Vector.empty)))
 
@@ -211,4 +211,4 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
     yield target
 
 private object FileGuard:
-  private val MostNames = 10_000
+  private val MaxNames = 10_000

@@ -86,7 +86,7 @@ object WholeFile:
     *
     * @throws IOException if the links are a circle
     */
-  def target(path: Path): Option[Path] = followed(path, MostLinks)
+  def target(path: Path): Option[Path] = followed(path, MaxLinks)
     .filterNot(file => Files.exists(file) && !Files.isRegularFile(file) && !Files.isDirectory(file))
 
   /** Whether it is a pipe, where the system tells: writing waits for its reader. */
@@ -109,7 +109,7 @@ object WholeFile:
   private val WrittenAtOnce = 1 << 20
 
   /** As Linux. */
-  private val MostLinks = 40
+  private val MaxLinks = 40
 
   /** The reason of a failure, without the file name. */
   def reason(e: IOException): String = e match

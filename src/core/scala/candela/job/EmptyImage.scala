@@ -20,13 +20,13 @@ object EmptyImage:
       seen = survey.firstSurfaces
       if seen.rays > 0
       why <-
-        if seen.isNothing then Some(s"$Past, and no light is there")
+        if seen.hitsNothing then Some(s"$Past, and no light is there")
         else
           val inside = "the camera is inside a closed surface, which no light enters: "
           Option.when(survey.isEnclosed)(inside + nearest(seen))
     yield
       val help =
-        if seen.isNothing then "turn the camera: the second point of LookAt is what it looks at"
+        if seen.hitsNothing then "turn the camera: the second point of LookAt is what it looks at"
         else "`candela preview` shows the surfaces in view"
       warning(Code.EmptyView, plan, text, why, help)
 
@@ -97,7 +97,7 @@ object EmptyImage:
     else
       ViewSurvey.of(plan).map(_.firstSurfaces).filter(_.rays > 0).fold("no sample has light"):
         seen =>
-          if seen.isNothing then Past
+          if seen.hitsNothing then Past
           else s"no light comes from the surfaces that the camera sees: ${nearest(seen)}"
 
   private def nearest(seen: FirstSurfaces): String =
@@ -110,7 +110,7 @@ object EmptyImage:
     else "; the light is not: the film's sensor, white balance or scale makes them so"
 
   private def sameness(plan: RenderPlan): String =
-    ViewSurvey.of(plan).map(_.firstSurfaces).filter(_.isNothing)
+    ViewSurvey.of(plan).map(_.firstSurfaces).filter(_.hitsNothing)
       .fold("")(_ => s": $Past")
 
   private def share(count: Int, of: Colors): String =

@@ -6,7 +6,8 @@ import candela.image.Image
 import candela.measure.{CurvePoint, ErrorEstimate, Errors, HalfScatter, Interval}
 import candela.render.{Looks, Pass, Rendering, RenderListener}
 
-/** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
+/** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, or estimates it after 2,
+  * 4, 8, …; and at the end.
   *
   * @param reference same size as the image; None: errors are estimated from the noise
   * @param estimates when errors are estimated

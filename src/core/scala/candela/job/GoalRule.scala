@@ -7,7 +7,7 @@ import candela.settings.RenderGoal
 
 /** Stops a rendering at a time, or at an error, whichever comes first, with a whole number of
   * samples in every pixel. The error is low enough with as many samples as the latest estimate,
-  * after 1, 2, 4, 8, … samples, says that it needs: it is not measured again.
+  * after 2, 4, 8, … samples, says that it needs: it is not measured again.
   *
   * @param goal                a time, an error, or both
   * @param planned             samples per pixel at which it ends in any case
@@ -62,7 +62,8 @@ final class GoalRule(
       end(GoalRule.Ending.Error)
     val measured = (pass.endSeconds - pass.beginSeconds) / Math.max(1, pass.samples - samplesDone)
     // The first ones are slow: the JVM compiles meanwhile
-    perSample = measured * GoalRule.Warm(Math.min(passCount, GoalRule.Warm.size - 1))
+    perSample =
+      measured * GoalRule.WarmUpFactors(Math.min(passCount, GoalRule.WarmUpFactors.size - 1))
     passCount += 1
     samplesDone = pass.samples
     step = pass.step
@@ -106,7 +107,7 @@ final class GoalRule(
 
   /** Whether the rendering ended before its goal, because all samples were taken. */
   def isMissed(rendering: Rendering): Boolean =
-    val isEarly = goal.time.forall(rendering.seconds < GoalRule.Nearly * _)
+    val isEarly = goal.time.forall(rendering.seconds < GoalRule.MinTimeFraction * _)
     ending.isEmpty && isEarly && rendering.samplesDone >= planned
 
 object GoalRule:
@@ -117,7 +118,7 @@ object GoalRule:
     case Samples extends Ending("spp")
 
   /** Of a time; what ends later was asked for. */
-  private val Nearly = 0.9
+  private val MinTimeFraction = 0.9
 
   /** No regular sample takes longer without any progress. */
   private val MaxIdleSeconds = 0.5
@@ -128,7 +129,7 @@ object GoalRule:
   /** What a sample is expected to take after each part, relative to those of the part. If it takes
     * longer, the rendering ends in the midst of it, in time.
     */
-  private val Warm = Vector(0.25, 0.5, 1.0)
+  private val WarmUpFactors = Vector(0.25, 0.5, 1.0)
 
   /** Fewer samples per pixel say little about an error. */
   val MinSamples = 4

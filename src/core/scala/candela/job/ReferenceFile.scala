@@ -78,7 +78,7 @@ object ReferenceFile:
   val UsualSamples = 64
 
   /** Fewer runs tell little about their variance. */
-  val FewestRuns = 8
+  val MinRuns = 8
 
   // Names of what the file says of itself
   val Runs = "runs"

@@ -29,7 +29,7 @@ private[math] object PolarDecomposition:
     var r = m
     var change = Double.PositiveInfinity
     var steps = 0
-    while change > 1e-14 && steps < MostSteps do
+    while change > 1e-14 && steps < MaxSteps do
       val (last, inverse) = (r, transposedInverse(r))
       val next = nine(i => 0.5 * (last(i) + inverse(i)))
       change = 0
@@ -39,7 +39,7 @@ private[math] object PolarDecomposition:
     val rotation = if determinant(r) < 0 then r.map(-_) else r
     quaternion(rotation, product(transposed(rotation), m))
 
-  private val MostSteps = 100
+  private val MaxSteps = 100
 
   /** A matrix of three rows, without boxing: there may be many thousands of motions. */
   private inline def nine(inline entry: Int => Double): Array[Double] =

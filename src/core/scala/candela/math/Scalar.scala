@@ -23,6 +23,7 @@ inline val MachineEpsilon = 5.9604645e-8f
 inline def gamma(inline n: Int): Float = (n * MachineEpsilon) / (1f - n * MachineEpsilon)
 
 inline def square(x: Float): Float = x * x
+inline def square(x: Double): Double = x * x
 inline def sqrt(x: Float): Float = Math.sqrt(x.toDouble).toFloat
 
 /** Square root of an argument that rounding may have made slightly negative. */

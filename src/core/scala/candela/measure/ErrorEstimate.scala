@@ -14,7 +14,8 @@ package candela.measure
   * @param samples  N
   * @param absolute D(N), as [[Metrics.mse]] is
   * @param relative D(N), as [[Metrics.relativeMse]] is
-  * @param lowest   the same if the values of bright pixels are true, not chance
+  * @param lowest   the same, relative to the pixel's own value where that is above the local mean:
+  *   as if bright pixels were truly bright, not by chance
   * @param decay    of the relative D(N), from 2 to 8
   * @param pixels   effective number of pixels that have the error: (ΣR)² / ΣR², for the relative
   *   scatter R of each
@@ -35,8 +36,8 @@ final case class ErrorEstimate private (
   /** The part of V(N) that falls as 1 / n³. */
   private val smooth = (decay - Independent) / ((Smooth - Independent) * (Smooth - 1) * factor)
 
-  /** V(n) / V(N). Between two powers of two the next points balance each other only: they are as if
-    * independent.
+  /** V(n) / V(N). The part b / n³ falls at powers of two only: in between, further points balance
+    * none but each other, as if independent.
     */
   def falloff(n: Double): Double =
     val doubled = Math.scalb(1.0, Math.max(0, Math.getExponent(n / samples)))
@@ -46,18 +47,22 @@ final case class ErrorEstimate private (
     val scale = factor * falloff(n)
     Errors(absolute * scale, relative * scale, None, None, None, Vector.empty)
 
-  /** The relative MSE with its 95 % interval. V(N) is D(N) where all falls as 1 / n. Variances of
-    * whole pixels fall at most as 1 / n² (Mitchell, "Consequences of Stratified Sampling in
-    * Graphics", SIGGRAPH 1996), which leaves a third.
+  /** The relative MSE of n samples per pixel with its 95 % interval, from V(N) = D(N), where all
+    * falls as 1 / n, down to V(N) = D(N) / 3, where all falls as 1 / n²: variances of whole pixels
+    * fall no faster (Mitchell, "Consequences of Stratified Sampling in Graphics", SIGGRAPH 1996).
     *
     * The square of a normal value has the relative variance 2, and the mean square 3. So the
     * logarithm of a sum of squares over these pixels has the variance 2 / (3 pixels), and both the
     * scatter and the true error are such sums.
     */
   def interval(n: Double): Interval =
-    val far = Math.exp(1.959964 * Math.sqrt(4 / (3 * pixels)))
+    val intervalFactor = Math.exp(1.959964 * Math.sqrt(4 / (3 * pixels)))
     val estimate = relative * factor
-    Interval(estimate, Math.min(estimate, lowest / 3) / far, relative * far) * falloff(n)
+    Interval(
+      estimate,
+      Math.min(estimate, lowest / 3) / intervalFactor,
+      relative * intervalFactor
+    ) * falloff(n)
 
   /** Samples per pixel with which the relative MSE is at most this, with the 95 % interval. */
   def samplesUntil(relativeMse: Double): Interval =

@@ -58,7 +58,7 @@ final class Regions(all: Array[Region]):
             val start = out.overlap.start * unit
             val end = out.overlap.end * unit
             // Shorter ones would not get on, far from the ray's origin
-            val minLength = Math.max(Math.ulp(end), (end - start) / Regions.MostSteps)
+            val minLength = Math.max(Math.ulp(end), (end - start) / Regions.MaxSteps)
             val length = Math.max(step, minLength)
             var t = start + offset * length
             while t < end do
@@ -108,10 +108,10 @@ final class Regions(all: Array[Region]):
 object Regions:
   /** Maximum number of steps along a ray through all regions. Others lead from each to the lights.
     */
-  inline val MostAcross = 2048
+  inline val MaxStepsAcross = 2048
 
   /** Maximum number of steps through a region, for any step size. */
-  inline val MostSteps = 65536
+  inline val MaxSteps = 65536
 
 /** Scratch memory for traversing [[Regions]], one per worker. */
 final class RegionWork(count: Int):

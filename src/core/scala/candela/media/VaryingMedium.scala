@@ -76,7 +76,7 @@ abstract class VaryingMedium(
     val walk = work.walk
     val unit = ray.direction.length
     if !w.isLost && enter(ray, walk) then
-      var stepsLeft = VaryingMedium.MostSteps
+      var stepsLeft = VaryingMedium.MaxSteps
       var isStraight = true
       while isStraight && !w.isDead && !w.isLost && walk.next() do
         val rateR = extinction.r * walk.majorant * unit
@@ -166,4 +166,4 @@ object VaryingMedium:
   /** Most collisions along a segment. No sound medium is a thousandth as dense where it does not
     * scatter; with densities of a damaged file, segments would have no end.
     */
-  private val MostSteps = 1 << 22
+  private val MaxSteps = 1 << 22

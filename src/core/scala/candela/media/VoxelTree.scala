@@ -125,7 +125,7 @@ object VoxelTree:
   val NodeWidth = 128
 
   /** Limits the memory for the space between far nodes. */
-  private val MostNodes = 1 << 22
+  private val MaxNodes = 1 << 22
 
   /** The tree of these nodes, at most one per place; None if they are too far apart. Places count
     * nodes, not voxels.
@@ -138,7 +138,7 @@ object VoxelTree:
         (coordinates.min, coordinates.max.toLong - coordinates.min + 1)
     val ((x, nx), (y, ny), (z, nz)) = (range(_(0)), range(_(1)), range(_(2)))
     val fits =
-      nx <= MostNodes && ny <= MostNodes && nx * ny <= MostNodes && nx * ny * nz <= MostNodes
+      nx <= MaxNodes && ny <= MaxNodes && nx * ny <= MaxNodes && nx * ny * nz <= MaxNodes
     Option.when(fits):
       val empty = VoxelNode.constant(background)
       val nodes = Array.fill((nx * ny * nz).toInt)(empty)

@@ -19,7 +19,7 @@ import java.util.concurrent.locks.LockSupport
 private[candela] final class Bootstrap(asked: Int, mutations: Long):
   import Bootstrap.*
 
-  private val maxPaths = Math.max(asked.toLong, Math.min(mutations, MostPaths)).toInt
+  private val maxPaths = Math.max(asked.toLong, Math.min(mutations, MaxPaths)).toInt
   @volatile private var round = Round(asked, Sums(0, 0, 0), None)
   @volatile private var result: Option[Start] = None
   @volatile private var failure: Option[Throwable] = None
@@ -70,7 +70,7 @@ private[candela] object Bootstrap:
   /** Minimum number of paths for a reliable error estimate. */
   private val Fewest = 1000
 
-  private val MostPaths = 1L << 30
+  private val MaxPaths = 1L << 30
   private val LargestRound = 1 << 20
   private val PartSize = 256
 

@@ -33,7 +33,7 @@ private[candela] final class MarkovWalker(
 
   private var filmX, filmY = 0f
   var pending = 0f
-  var refused = 0L
+  var discarded = 0L
   def x: Int = Math.floor(filmX).toInt
   def y: Int = Math.floor(filmY).toInt
   def raysTraced: Long = paths.raysTraced
@@ -93,7 +93,7 @@ private[candela] final class MarkovWalker(
     if weight > 0f then
       val light = paths.radiance(rays.ray, samples.light, samples.joins, s)
       if light.isFinite then proposed.add(filmX, filmY, light * (weight * share), 0)
-      else refused += 1
+      else discarded += 1
 
 /** The splats of one point of [[PrimarySamples]]. Mutable. */
 private[candela] final class Contribution(view: View) extends Splats:

@@ -101,7 +101,7 @@ private[candela] final class WholePhotons(scene: Scene, settings: PhotonSettings
 abstract class PhotonMaps(first: Float, asked: Int, view: View) extends SharedPasses:
   import PhotonMaps.*
 
-  private val paths = if asked > 0 then asked else Math.min(view.crop.pixels, MostPaths).toInt
+  private val paths = if asked > 0 then asked else Math.min(view.crop.pixels, MaxPaths).toInt
   private val shutter = view.shutter.getOrElse(Shutter(0f, 0f))
   private val recent = new Array[Pass | Null](SharedPasses.MaxOpen)
 
@@ -135,7 +135,7 @@ abstract class PhotonMaps(first: Float, asked: Int, view: View) extends SharedPa
 private[candela] object PhotonMaps:
   private val Alpha: Double = 2.0 / 3.0
   val PartSize = 1024
-  private val MostPaths = 100_000_000L
+  private val MaxPaths = 100_000_000L
 
   /** In nanoseconds; short beside a pass. */
   private val Pause = 50_000L

@@ -12,9 +12,9 @@ private[render] final class ChainWorker(
 
   def raysTraced: Long = walker.raysTraced
 
-  def refused: Option[Refused] =
-    Option.when(walker.refused > 0):
-      Refused(walker.refused, walker.x, walker.y, 0, walker.lastMaterial)
+  def discarded: Option[DiscardedSamples] =
+    Option.when(walker.discarded > 0):
+      DiscardedSamples(walker.discarded, walker.x, walker.y, 0, walker.lastMaterial)
 
   protected def work(chain: Int, wave: Int): Boolean =
     !schedule.takesChain(chain) ||

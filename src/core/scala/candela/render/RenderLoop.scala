@@ -48,7 +48,7 @@ private[render] final class RenderLoop(plan: RenderPlan, control: RenderControl)
   /** The waves before which the workers wait for each other. */
   private def pauses: Iterator[Int] = frequency match
     case Looks.Never => Iterator(schedule.waves)
-    case Looks.Doublings => schedule.passes.iterator
+    case Looks.Doublings => schedule.doublings.iterator
     case Looks.Waves => Iterator.range(0, schedule.waves).map(_ + 1)
 
   /** Renders all waves before `endWave`, in several passes if the rule asks for fewer samples. */

@@ -9,7 +9,7 @@ import scala.jdk.CollectionConverters.*
   * from a saved state ends with the same image, bit for bit, as one that was not interrupted.
   */
 final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Vector[Worker]):
-  private var earlier = Vector.empty[Refused]
+  private var earlier = Vector.empty[DiscardedSamples]
 
   /** Samples that every pixel has at least, of those of its shard. */
   def samplesDone: Int = job.schedule.samplesDone(queue.progress)
@@ -19,7 +19,8 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     job.schedule.hasReached(i, queue.progress.get(i), samples)
   )
 
-  private[render] def refused: Option[Refused] = Refused.of(earlier ++ workers.flatMap(_.refused))
+  private[render] def discarded: Option[DiscardedSamples] =
+    DiscardedSamples.of(earlier ++ workers.flatMap(_.discarded))
 
   /** Completes the film of a rendering that ends and is not continued from here. */
   private[render] def settle(): Unit =
@@ -38,7 +39,7 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
       samplesTaken = 0,
       workers.map(_.raysTraced).sum,
       seconds = 0,
-      refused,
+      discarded,
       job.layers,
       job.guide.map(_.outcome),
       job.guide.fold(0.0)(_.seconds)
@@ -55,9 +56,9 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     job.layers.foreach(_.save(to))
     job.chains.foreach(_.save(to))
     job.guide.foreach(_.save(to))
-    val rejected = refused.toVector
-    to.int(rejected.size)
-    for r <- rejected do
+    val counts = discarded.toVector
+    to.int(counts.size)
+    for r <- counts do
       to.long(r.count)
       for number <- Vector(r.x, r.y, r.sample, r.material) do to.int(number)
     if !queue.begun.isEmpty then saveBegun(to)
@@ -81,7 +82,7 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     val progress = new Array[Long](job.schedule.pieces)
     for i <- progress.indices do
       val done = from.long()
-      require(done >= 0 && done <= job.schedule.mostProgress, s"piece $i has $done samples")
+      require(done >= 0 && done <= job.schedule.maxProgress, s"piece $i has $done samples")
       progress(i) = done
       if done > queue.progress.get(i) then
         queue.progress.set(i, done)
@@ -91,7 +92,7 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     job.chains.foreach(_.load(from))
     job.guide.foreach(_.load(from))
     for _ <- 0 until from.count(bytes = 24) do
-      earlier :+= Refused(from.long(), from.int(), from.int(), from.int(), from.int())
+      earlier :+= DiscardedSamples(from.long(), from.int(), from.int(), from.int(), from.int())
     if !from.isAtEnd then loadBegun(from, progress)
 
   private def loadBegun(from: CheckedInput, progress: Array[Long]): Unit =

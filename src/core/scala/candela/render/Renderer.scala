@@ -38,4 +38,4 @@ object Renderer:
     val (film, worker) = Job.single(plan, x, y, report)
     worker.traceSample(x, y, sample)
     val data = film.toImage(1f).data
-    Option.when(worker.refused.isEmpty)(Rgb(data(0), data(1), data(2)))
+    Option.when(worker.discarded.isEmpty)(Rgb(data(0), data(1), data(2)))

@@ -57,11 +57,11 @@ final class Cancellation(others: Cancellation*):
   * @param x        pixel of the first one, with `y`: lowest sample number, then lowest row
   * @param material index of the last material that its path hit; −1: unknown
   */
-final case class Refused(count: Long, x: Int, y: Int, sample: Int, material: Int = -1)
+final case class DiscardedSamples(count: Long, x: Int, y: Int, sample: Int, material: Int = -1)
 
-private[render] object Refused:
+private[render] object DiscardedSamples:
   /** The first, with the count of all. */
-  def of(all: Vector[Refused]): Option[Refused] =
+  def of(all: Vector[DiscardedSamples]): Option[DiscardedSamples] =
     all.minByOption(r => (r.sample, r.y, r.x)).map(_.copy(count = all.map(_.count).sum))
 
 /** Result of a rendering.
@@ -70,7 +70,7 @@ private[render] object Refused:
   * @param samplesDone     samples that every pixel has at least; fewer than planned if cancelled
   * @param samplesTaken    camera samples in all pixels
   * @param rays            traced rays of all kinds
-  * @param refused         discarded samples, if any
+  * @param discarded       discarded samples, if any
   * @param layers          requested AOVs, if any
   * @param learned         what its paths learnt, if they did
   * @param learning        of the seconds, those that workers did nothing but learn
@@ -84,7 +84,7 @@ final case class Rendering(
     samplesTaken: Long,
     rays: Long,
     seconds: Double,
-    refused: Option[Refused],
+    discarded: Option[DiscardedSamples],
     layers: Option[LayerFilm] = None,
     learned: Option[GuideOutcome] = None,
     learning: Double = 0,

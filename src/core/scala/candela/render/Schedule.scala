@@ -58,7 +58,7 @@ private[render] abstract class Schedule(
     endSample(waveOf(last))
 
   /** Greatest progress of a piece. */
-  def mostProgress: Long = Int.MaxValue
+  def maxProgress: Long = Int.MaxValue
 
   /** Samples per pixel that a piece with this progress has at least. */
   protected def samplesOf(piece: Int, progress: Long): Int
@@ -80,9 +80,9 @@ private[render] abstract class Schedule(
   def endSample(wave: Int): Int = firstSample(wave + 1)
 
   /** Waves after which every pixel has 1, 2, 4, 8, … samples, and the last wave. */
-  def passes: Vector[Int] =
-    val doublings = Iterator.iterate(1L)(_ * 2).takeWhile(_ <= samplesPerPixel).flatMap(endingAt)
-    (doublings ++ Iterator(waves)).toVector.distinct
+  def doublings: Vector[Int] =
+    val powers = Iterator.iterate(1L)(_ * 2).takeWhile(_ <= samplesPerPixel)
+    (powers.flatMap(endingAt) ++ Iterator(waves)).toVector.distinct
 
   /** The number of waves that have this many samples, if no wave is divided. */
   private def endingAt(samples: Long): Option[Int] =
@@ -143,7 +143,7 @@ private[render] final class ChainSchedule(
   /** Number of paths of the chain after `samples` per pixel. */
   def paths(chain: Int, samples: Int): Long = (samples * pixels + pieces - 1 - chain) / pieces
 
-  override def mostProgress: Long = paths(0, Int.MaxValue)
+  override def maxProgress: Long = paths(0, Int.MaxValue)
 
   def hasReached(chain: Int, progress: Long, samples: Int): Boolean =
     progress >= paths(chain, samples)

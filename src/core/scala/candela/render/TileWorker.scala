@@ -25,7 +25,7 @@ private[render] final class TileWorker(
     beginWave: TileWorker.BeginWave = TileWorker.Unweighted
 ) extends Worker(schedule, queue):
   private val camera = plan.camera
-  private val getsOn = () => beat()
+  private val onProgress = () => beat()
   private val planSampler = plan.sampler.copy()
   private var sampler = planSampler
   private val rays = CameraRays(camera, plan.shutter, plan.differentialScale, plan.hidesSky)
@@ -36,9 +36,10 @@ private[render] final class TileWorker(
   private val layerFilm: LayerFilm | Null = layers.orNull
   private val bands: BandFilm | Null = film.bands.orNull
   private val visible: VisibleSurface | Null = plan.layers.map(_.surface.copy()).orNull
-  private val dimmer: SampleLimit | Null = plan.indirectLimit.orNull
+  private val indirectLimit: SampleLimit | Null = plan.indirectLimit.orNull
   private val lightParts: LightParts | Null =
-    if dimmer != null || plan.layers.exists(_.groups.isDefined) then integrator.lightParts else null
+    if indirectLimit != null || plan.layers.exists(_.groups.isDefined) then integrator.lightParts
+    else null
   if visible != null then visible.lightParts = lightParts
 
   private val firstSamples: FirstSamples | Null = plan.adaptive.map(FirstSamples(_)).orNull
@@ -56,21 +57,21 @@ private[render] final class TileWorker(
   private var x, y, sample = 0
   private var tile = schedule.tiles(0)
 
-  private var refusedCount = 0L
-  private var refusedX, refusedY, refusedSample, refusedMaterial = 0
+  private var discardedCount = 0L
+  private var discardedX, discardedY, discardedSample, discardedMaterial = 0
 
   def raysTraced: Long = integrator.raysTraced
 
-  def refused: Option[Refused] =
-    Option.when(refusedCount > 0):
-      Refused(refusedCount, refusedX, refusedY, refusedSample, refusedMaterial)
+  def discarded: Option[DiscardedSamples] =
+    Option.when(discardedCount > 0):
+      DiscardedSamples(discardedCount, discardedX, discardedY, discardedSample, discardedMaterial)
 
   /** Takes one sample of the first tile, independent of the schedule. */
   def traceSample(x: Int, y: Int, sample: Int): Unit =
     this.x = x
     this.y = y
     this.sample = sample
-    waveWeight = beginWave(sample, getsOn)
+    waveWeight = beginWave(sample, onProgress)
     beginTile(0)
     takeSample()
     if shares != null then shares.end()
@@ -87,7 +88,7 @@ private[render] final class TileWorker(
     while next < last && isWhole && queue.goesOn() && !queue.isAbandoned do
       sample = next
       if takes(tile, sample) then
-        if !begun then waveWeight = beginWave(first, getsOn)
+        if !begun then waveWeight = beginWave(first, onProgress)
         begun = true
         isWhole = waveWeight != TileWorker.Stopped && renderSample(tile)
       if isWhole then
@@ -171,7 +172,7 @@ private[render] final class TileWorker(
       if isPlaced() then
         if isColorOnly then
           val light = trial.light(traced)
-          if !queue.isLost then if light.isFinite then add(light) else refuse()
+          if !queue.isLost then if light.isFinite then add(light) else discard()
         else follow()
         traced += 1
       sample += 1
@@ -229,13 +230,14 @@ private[render] final class TileWorker(
       if layerFilm != null && visible != null then
         if lightParts != null then develop(lightParts, radiance, light)
         layerFilm.add(x, y, light, ownWeight, visible)
-    else refuse()
+    else discard()
 
   /** The radiance in sRGB, its indirect part limited. */
   private def inSrgb(estimate: Rgb, weight: Float): Rgb =
     val srgb = plan.basis.toSrgb(estimate)
     if lightParts != null && !plan.basis.isSrgb then lightParts.convert(lightParts, plan.basis)
-    if dimmer != null && lightParts != null then lightParts.limit(dimmer, weight) else srgb
+    if indirectLimit != null && lightParts != null then lightParts.limit(indirectLimit, weight)
+    else srgb
 
   /** The light that the film gets of it. */
   private def limited(radiance: Rgb, weight: Float): Rgb =
@@ -268,15 +270,15 @@ private[render] final class TileWorker(
     if limit != null && weighsLast then radiance * (limit.scale(radiance) * weight)
     else radiance * weight
 
-  private def refuse(): Unit =
-    val comesFirst = sample < refusedSample ||
-      (sample == refusedSample && (y < refusedY || (y == refusedY && x < refusedX)))
-    if refusedCount == 0 || comesFirst then
-      refusedX = x
-      refusedY = y
-      refusedSample = sample
-      refusedMaterial = integrator.lastMaterial
-    refusedCount += 1
+  private def discard(): Unit =
+    val comesFirst = sample < discardedSample ||
+      (sample == discardedSample && (y < discardedY || (y == discardedY && x < discardedX)))
+    if discardedCount == 0 || comesFirst then
+      discardedX = x
+      discardedY = y
+      discardedSample = sample
+      discardedMaterial = integrator.lastMaterial
+    discardedCount += 1
 
 private[render] object TileWorker:
   type BeginWave = (Int, () => Unit) => Float

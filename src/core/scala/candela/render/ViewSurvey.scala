@@ -29,7 +29,7 @@ final case class FirstSurfaces(
     distance: Float,
     statement: Option[SourcePos]
 ):
-  def isNothing: Boolean = hits == 0
+  def hitsNothing: Boolean = hits == 0
   def isAround: Boolean = rays > 0 && hits == rays
 
 /** Looks through the pixels of a plan's image, before or after it is rendered. */
@@ -42,12 +42,12 @@ final class ViewSurvey(plan: RenderPlan, sight: Sight):
 
   /** What rays through a grid meet; through a finer one, if they meet nothing. */
   lazy val firstSurfaces: FirstSurfaces =
-    val coarse = through(GridSize)
-    if coarse.isNothing then through(FineGridSize) else coarse
+    val coarse = surveyGrid(GridSize)
+    if coarse.hitsNothing then surveyGrid(FineGridSize) else coarse
 
   /** Whether rays from the camera in all directions meet a surface. */
-  lazy val isEnclosed: Boolean = firstSurfaces.isAround && camera(0.5f, 0.5f) &&
-    firstOf(Directions)(toSphere(ray.origin, _)).isAround
+  lazy val isEnclosed: Boolean = firstSurfaces.isAround && setCameraRay(0.5f, 0.5f) &&
+    survey(Directions)(setSphereRay(ray.origin, _)).isAround
 
   /** Whether no sample of a grid of pixels has any light. Photons take too long to tell. */
   lazy val isDark: Boolean = !plan.method.blurs && {
@@ -60,14 +60,14 @@ final class ViewSurvey(plan: RenderPlan, sight: Sight):
   }
 
   /** What the rays through the points of a grid meet. */
-  private def through(size: Int): FirstSurfaces = firstOf(size * size): i =>
-    camera((i % size + 0.5f) / size, (i / size + 0.5f) / size)
+  private def surveyGrid(size: Int): FirstSurfaces = survey(size * size): i =>
+    setCameraRay((i % size + 0.5f) / size, (i / size + 0.5f) / size)
 
   /** Sets the ray through a point of the crop; false if the camera has none there.
     *
     * @param u from the left, with `v` from the top, in [0, 1]
     */
-  private def camera(u: Float, v: Float): Boolean =
+  private def setCameraRay(u: Float, v: Float): Boolean =
     ray.weight = 1f
     for shutter <- plan.shutter do ray.time = shutter.at(0.5f)
     val crop = plan.crop
@@ -75,7 +75,7 @@ final class ViewSurvey(plan: RenderPlan, sight: Sight):
     ray.weight != 0f
 
   /** Sets one of the rays from a point in all directions: a Fibonacci spiral. */
-  private def toSphere(origin: Vec3, i: Int): Boolean =
+  private def setSphereRay(origin: Vec3, i: Int): Boolean =
     val z = 1 - (2 * i + 1f) / Directions
     val radius = sqrt(Math.max(0f, 1 - z * z))
     val phi = i * GoldenAngle
@@ -83,8 +83,11 @@ final class ViewSurvey(plan: RenderPlan, sight: Sight):
     ray.set(origin, w, Float.PositiveInfinity)
     true
 
-  /** @param set sets the ray; false: there is none */
-  private def firstOf(count: Int)(set: Int => Boolean): FirstSurfaces =
+  /** What `count` rays meet.
+    *
+    * @param set sets the ray of a number; false: there is none
+    */
+  private def survey(count: Int)(set: Int => Boolean): FirstSurfaces =
     var rays, hits = 0
     var distance = Float.PositiveInfinity
     var nearest = -1

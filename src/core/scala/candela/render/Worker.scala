@@ -8,7 +8,7 @@ import java.util.concurrent.atomic.AtomicLong
   */
 private[render] abstract class Worker(schedule: Schedule, queue: TaskQueue) extends Runnable:
   def raysTraced: Long
-  def refused: Option[Refused]
+  def discarded: Option[DiscardedSamples]
 
   /** False if cancelled on the way. */
   protected def work(piece: Int, wave: Int): Boolean

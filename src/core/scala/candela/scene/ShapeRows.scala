@@ -58,7 +58,7 @@ final class ShapeRows(parallel: Parallel):
     builder.add(curves, toWorld)
     val added = builder.count - oldCount
     addRows(added, material, ShapeTable.Dark)
-    if builder.count >= MostSegments then endStrands()
+    if builder.count >= MaxSegments then endStrands()
     added
 
   private def strandsOf(form: CurveForm, toWorld: Transform, isReversed: Boolean): CurveBuilder =
@@ -89,7 +89,7 @@ object ShapeRows:
   /** From which on the segments of curves are made: so many keep all threads busy, and the curves
     * that they are made from do not live long.
     */
-  private val MostSegments = 1 << 15
+  private val MaxSegments = 1 << 15
 
   /** Length of the largest arrays. */
   private val MaxElements = Int.MaxValue - 8L

@@ -38,7 +38,7 @@ object DisplacedMesh:
       indices: Array[Int],
       toWorld: Transform,
       longest: Float,
-      maxVertices: Int = MostVertices
+      maxVertices: Int = MaxVertices
   )(height: (Vec3, Float, Float) => Float): DisplacedMesh =
     if leastVertices(positions, indices, toWorld, longest) > maxVertices then
       throw tooMany(longest, maxVertices)
@@ -82,7 +82,7 @@ object DisplacedMesh:
     MeshError(s"an edge length of $longest makes more than $maxVertices vertices")
 
   /** Vertices of the finest mesh: some 4 GB. */
-  val MostVertices: Int = 100_000_000
+  val MaxVertices: Int = 100_000_000
 
   private def vector(of: Array[Float], i: Int) = Vec3(of(3 * i), of(3 * i + 1), of(3 * i + 2))
 

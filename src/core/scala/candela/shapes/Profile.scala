@@ -137,5 +137,3 @@ object Profile:
 
   /** To a thousandth of the larger squared radius. */
   private def isAlike(a: Double, b: Double, largest: Double) = Math.abs(a - b) <= 1e-3 * largest
-
-  private def square(x: Double): Double = x * x

@@ -33,14 +33,14 @@ final class DotsRgb(mapping: Mapping2D, dot: RgbTexture, ground: RgbTexture) ext
 
 private object Dots:
   private val Radius = 0.35f
-  private val MostShift = 0.5f - Radius
+  private val MaxShift = 0.5f - Radius
 
   def isInside(c: TexCoord): Boolean =
     val s = Math.floor(c.s + 0.5).toFloat
     val t = Math.floor(c.t + 0.5).toFloat
     PerlinNoise(s + 0.5f, t + 0.5f) > 0f && {
-      val ds = c.s - (s + MostShift * PerlinNoise(s + 1.5f, t + 2.8f))
-      val dt = c.t - (t + MostShift * PerlinNoise(s + 4.5f, t + 9.8f))
+      val ds = c.s - (s + MaxShift * PerlinNoise(s + 1.5f, t + 2.8f))
+      val dt = c.t - (t + MaxShift * PerlinNoise(s + 4.5f, t + 9.8f))
       ds * ds + dt * dt < Radius * Radius
     }
 

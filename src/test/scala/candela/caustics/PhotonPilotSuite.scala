@@ -102,5 +102,5 @@ final class PhotonPilotSuite extends AnyFunSuite:
         (poor, fair, fair),
         (fair, poor, fair)
       )
-    do assert(mine.orElse(other, margin = 2.0) == better)
-    assert(poor.orElse(of(2.0, false), margin = 2.0).result == (None, "none: 1.0; 2.0"))
+    do assert(mine.better(other, margin = 2.0) == better)
+    assert(poor.better(of(2.0, false), margin = 2.0).result == (None, "none: 1.0; 2.0"))

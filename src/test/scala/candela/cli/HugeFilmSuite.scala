@@ -36,10 +36,10 @@ class HugeFilmSuite extends AnyFunSuite:
       body(folder, Files.writeString(folder.resolve("s.pbrt"), text).toString)
 
   /** The whole film would be 4,000 times as large. */
-  private val MostBytes = 1_000_000L
+  private val MaxBytes = 1_000_000L
 
   private def read(file: Path): Image =
-    assert(Files.size(file) < MostBytes)
+    assert(Files.size(file) < MaxBytes)
     val image = ImageFiles.read(file)
     assert((image.width, image.height) == (width, height))
     image
@@ -70,7 +70,7 @@ class HugeFilmSuite extends AnyFunSuite:
       run(file, "--spp", "2", "--outfile", s"${path("a.film")},${path("a.exr")}")
       run("resume", path("a.film"), "--spp", "4")
       for film <- "a.film" +: Vector("0.film", "1.film") do
-        assert(Files.size(folder.resolve(film)) < MostBytes)
+        assert(Files.size(folder.resolve(film)) < MaxBytes)
       val whole = read(folder.resolve("whole.exr")).data
       assert(whole.sameElements(read(folder.resolve("merged.exr")).data))
       assert(whole.sameElements(read(folder.resolve("a.exr")).data))
@@ -88,7 +88,7 @@ class HugeFilmSuite extends AnyFunSuite:
       assert(read(folder.resolve("a.exr")).data.sameElements(read(folder.resolve("b.exr")).data))
       val part = "0.4667,0.4674,0.4849,0.4852"
       run(file, "--cropwindow", part, "--outfile", s"$folder/c.exr")
-      assert(Files.size(folder.resolve("c.exr")) < MostBytes)
+      assert(Files.size(folder.resolve("c.exr")) < MaxBytes)
       run("view", s"$folder/a.exr", "--outfile", s"$folder/v.png")
       run("image", s"$folder/a.exr", "--crop", "2,6,2,6", "--outfile", s"$folder/d.exr")
       val cut = ImageFiles.read(folder.resolve("d.exr"))

@@ -87,7 +87,7 @@ private final class Campaign(kind: Kind, count: Int, seconds: Int):
     val watch = Watch(seconds)
     watches.add(watch)
     val last = LastAttempt(folder)
-    while begun.getAndIncrement() < count && findings.get < Campaign.MostFindings do
+    while begun.getAndIncrement() < count && findings.get < Campaign.MaxFindings do
       val attempt = attempts.next()
       last.set(attempt.what)
       watch.during(attempt.what)(attempt.judge()).foreach: wrong =>
@@ -98,7 +98,7 @@ private final class Campaign(kind: Kind, count: Int, seconds: Int):
           println(s"  kept as $kept")
 
 private object Campaign:
-  private val MostFindings = 50
+  private val MaxFindings = 50
   private val Interval = 10_000_000_000L
 
 /** A file that tells the last attempt: native code may end the process. */

@@ -43,13 +43,13 @@ final class Requests(place: Place) extends Attempts:
   private def held(bytes: Array[Byte]): Option[String] =
     val socket = server.connected()
     slow += socket
-    if slow.size > MostSlow then slow.dequeue().close()
+    if slow.size > MaxSlowSockets then slow.dequeue().close()
     // It may have given way to others
     val _ = Try(socket.getOutputStream.write(bytes))
     None
 
 private object Requests:
-  private val MostSlow = 60
+  private val MaxSlowSockets = 60
 
   private val Corpus: Vector[Array[Byte]] = Vector(
     "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n",

@@ -25,7 +25,7 @@ final class GallerySuite extends AnyFunSuite:
         catch case error: SceneError => fail(error.problems.map(_.message).mkString("\n"))
       assert(problems.isEmpty, problems.map(_.message))
       val rendering = Renderer.render(plan, threads = 1)
-      assert(rendering.refused.isEmpty)
+      assert(rendering.discarded.isEmpty)
       val seen = shades(rendering.image(plan.development))
       val drawn = shades(ImageFiles.read(Gallery.picture(e.file)).linear)
       val worst = seen.indices.map(i => Math.abs(seen(i) - drawn(i))).max

@@ -15,20 +15,20 @@ final case class Looks(mean: Double, spread: Double, black: Double, white: Doubl
 
   /** What keeps it from showing anything. */
   def faults: Vector[String] = Vector(
-    Option.when(mean < Looks.Darkest || black > Looks.MostClipped)("black"),
-    Option.when(mean > Looks.Brightest || white > Looks.MostClipped)("white"),
-    Option.when(spread < Looks.LeastSpread)("of one colour"),
-    Option.when(noise > Looks.MostNoise)("noisy")
+    Option.when(mean < Looks.Darkest || black > Looks.MaxClipped)("black"),
+    Option.when(mean > Looks.Brightest || white > Looks.MaxClipped)("white"),
+    Option.when(spread < Looks.MinSpread)("of one colour"),
+    Option.when(noise > Looks.MaxNoise)("noisy")
   ).flatten
 
 object Looks:
   private val Darkest = 0.15
   private val Brightest = 0.85
-  private val MostClipped = 0.3
-  private val LeastSpread = 0.04
+  private val MaxClipped = 0.3
+  private val MinSpread = 0.04
 
   /** Five times what rounding to 8 bits makes is hardly seen. */
-  private val MostNoise = 0.006
+  private val MaxNoise = 0.006
 
   /** @param picture of 8 bits */
   def of(picture: Image): Looks =

@@ -17,7 +17,8 @@ class ForgedFieldSuite extends AnyFunSuite:
 
   private def field(axis: Array[Int], nodes: Array[Int]): GuideField =
     GuideField(
-      axis, Start.split, nodes, Start.shares, Start.centres, Start.lobes, Start.splittingFactors,
+      axis, Start.split, nodes, Start.bsdfProbabilities, Start.centres, Start.lobes,
+      Start.splittingFactors,
       Start.measurements
     )
 

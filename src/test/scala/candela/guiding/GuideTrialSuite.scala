@@ -42,7 +42,7 @@ class GuideTrialSuite extends AnyFunSuite:
     for made <- Vector(before, after) do assert(GuideLearning(made).help(() => (), () => false))
     assert(judged == after.verdict && judged == before.verdict && judged.paths > 10000)
     assert(before.result().lobes sameElements after.result().lobes)
-    assert(before.result().shares sameElements after.result().shares)
+    assert(before.result().bsdfProbabilities sameElements after.result().bsdfProbabilities)
 
   test("until it is certain that guiding pays, mixtures are fitted to fewer events"):
     // Regions of many events

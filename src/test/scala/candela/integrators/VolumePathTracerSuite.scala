@@ -83,7 +83,7 @@ final class VolumePathTracerSuite extends AnyFunSuite:
         "float scale" $scale $more"""
       val plan = SceneTexts.plan(furnace(Dialect.V4, medium, spp = 2, depth = 20), Dialect.V4)
       val rendering = Renderer.render(plan, threads = 1)
-      assert(rendering.refused.isEmpty, s"$kind $scale")
+      assert(rendering.discarded.isEmpty, s"$kind $scale")
       val seen = SceneTexts.mean(furnace(Dialect.V4, medium, spp = 2, depth = 20), Dialect.V4)
       assert(seen.max < 1.5f, s"$kind $scale $seen")
 

@@ -67,7 +67,7 @@ class AdaptiveSamplingSuite extends AnyFunSuite:
       val done = Renderer.render(plan, threads = 1)
       val pixels = done.film.width * done.film.height
       assert(done.samplesTaken == (if several then All else Few) * pixels)
-      assert(done.refused.map(_.count).contains(if several then pixels else Few * pixels))
+      assert(done.discarded.map(_.count).contains(if several then pixels else Few * pixels))
 
   private val noise: (Where, Sampler) => Rgb = (where, sampler) =>
     Rgb(sampler.next1D(), sampler.next1D() * (1e-6f + where.x * 1e-2f), 1e-3f)

@@ -45,7 +45,7 @@ object ReferenceComparison:
 
   private def render(plan: RenderPlan, threads: Int): Image =
     val rendering = Renderer.render(plan, threads)
-    assert(rendering.refused.isEmpty, s"not a number: ${rendering.refused}")
+    assert(rendering.discarded.isEmpty, s"not a number: ${rendering.discarded}")
     rendering.image(plan.development)
 
   private def planned(

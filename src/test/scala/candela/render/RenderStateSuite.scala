@@ -281,7 +281,7 @@ class RenderStateSuite extends AnyFunSuite:
   test("chains make as many paths as all pixels have samples"):
     val schedule = ChainSchedule(3, pixels = 10, samplesPerPixel = 4, Shard.Whole)
     val paths = (0 until 3).map(schedule.paths(_, Int.MaxValue))
-    assert(paths.sum == 10L * Int.MaxValue && paths.max == schedule.mostProgress)
+    assert(paths.sum == 10L * Int.MaxValue && paths.max == schedule.maxProgress)
 
   test("no tile has a sample in part that it can't have"):
     withFolder: folder =>

@@ -27,7 +27,7 @@ class RendererSuite extends AnyFunSuite:
     assert(rendering.samplesDone == 5)
     assert(rendering.samplesTaken == 40L * 27 * 5)
     assert(rendering.rays == rendering.samplesTaken)
-    assert(rendering.refused.isEmpty)
+    assert(rendering.discarded.isEmpty)
 
   test("the image is the same, bit for bit, whatever the number of threads"):
     val plan = TinyPlan(width = 50, height = 37, spp = 11): (_, sampler) =>
@@ -80,7 +80,7 @@ class RendererSuite extends AnyFunSuite:
     for threads <- 1 to 3 do
       val rendering = Renderer.render(plan, threads)
       assert(pixels(rendering.film.toImage(1f)).forall(_ == gray))
-      assert(rendering.refused.contains(Refused(3, x = 20, y = 20, sample = 3)))
+      assert(rendering.discarded.contains(DiscardedSamples(3, x = 20, y = 20, sample = 3)))
 
   test("a sample that fails stops the rendering, which then names pixel, sample and cause"):
     val bug = ArithmeticException("planted")

@@ -72,7 +72,7 @@ class SharedSamplesSuite extends AnyFunSuite:
       val rendering = Renderer.render(bad, threads)
       val image = rendering.film.toImage(1f)
       assert(image.data.grouped(3).forall(_.sameElements(Array(0.5f, 0.25f, 2f))))
-      assert(rendering.refused.contains(Refused(2, x = 20, y = 20, sample = 3)))
+      assert(rendering.discarded.contains(DiscardedSamples(2, x = 20, y = 20, sample = 3)))
 
   test("a cancelled rendering is the mean of what there is"):
     val cancellation = Cancellation()

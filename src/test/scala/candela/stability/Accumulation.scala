@@ -103,7 +103,7 @@ private object Sums:
         refused += 1
       Rgb(v(0), v(1), v(2))
     val rendering = Renderer.render(plan, threads = 1)
-    assert(rendering.refused.map(_.count).contains(refused))
+    assert(rendering.discarded.map(_.count).contains(refused))
     assert(rendering.film.toImage(1f).data.forall(_ == 1f)): Unit
 
   def crops(count: Long): Unit =

@@ -18,7 +18,7 @@ final class HardCausticsSuite extends AnyFunSuite:
     val settings = RenderSettings(Some(spp), seed, color = ColorMode.Rgb, caustics = Some(mode))
     val plan = SceneTexts.plan(text, Dialect.V4, settings)
     val rendering = Renderer.render(plan, threads = 2)
-    assert(rendering.refused.isEmpty, s"$mode")
+    assert(rendering.discarded.isEmpty, s"$mode")
     rendering.image(plan.development)
 
   for (what, scene) <- CausticTracerSuite.Hard do

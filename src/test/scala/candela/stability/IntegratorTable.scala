@@ -67,7 +67,7 @@ final case class Way(
       val plan = SceneTexts.plan(text, ball.dialect, options)
       val rendering = Renderer.render(plan, threads = 1)
       val data = rendering.image(plan.development).data
-      (data.map(_.toDouble).sum / data.length, rendering.refused.fold(0L)(_.count))
+      (data.map(_.toDouble).sum / data.length, rendering.discarded.fold(0L)(_.count))
     Means(found.map(_._1), found.map(_._2).sum)
 
 object Way:

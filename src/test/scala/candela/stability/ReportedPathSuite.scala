@@ -140,5 +140,5 @@ class ReportedPathSuite extends AnyFunSuite:
       assert(Renderer.trace(plan, 5, 2, 3, PathReport(_ => ())).isEmpty)
       assert(Renderer.trace(plan, 5, 2, 2, PathReport(_ => ())).contains(Rgb.White))
       val rendering = Renderer.render(plan, threads = 2)
-      assert(rendering.refused.exists(r => (r.count, r.x, r.y, r.sample) == (1L, 5, 2, 3)))
+      assert(rendering.discarded.exists(r => (r.count, r.x, r.y, r.sample) == (1L, 5, 2, 3)))
       assert(rendering.film.toImage(1f).data.forall(_ == 1f))

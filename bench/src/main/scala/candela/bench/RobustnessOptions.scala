@@ -25,7 +25,7 @@ object RobustnessOptions:
   final val UsualRays = 200_000L
 
   /** A day or more. */
-  final val MostRays = 1_000_000_000_000L
+  final val MaxRays = 1_000_000_000_000L
 
   def of(o: Options): RobustnessOptions =
     o.module.collect { case options: RobustnessOptions => options }.getOrElse(RobustnessOptions())
@@ -45,8 +45,8 @@ private[bench] object RobustnessTable extends OptionRows:
       .text(s"rays, inputs or pixels of each row (default ${RobustnessOptions.UsualRays})")
       .validate(atLeast("rays", 1))
       .validate: n =>
-        if n <= RobustnessOptions.MostRays then success
-        else failure(s"--rays must be at most ${RobustnessOptions.MostRays}, found `$n`")
+        if n <= RobustnessOptions.MaxRays then success
+        else failure(s"--rays must be at most ${RobustnessOptions.MaxRays}, found `$n`")
       .action((n, o) => change(o)(_.copy(rays = n))),
     opt[Seq[String]]("only").valueName("KIND,...")
       .text(s"only these kinds of faults: ${kinds.mkString(", ")}")

@@ -57,7 +57,7 @@ object Scale:
       for
         size <- sizes.toVector
         (kind, make) <- kinds
-        if kind != "none" || size <= MostForNone
+        if kind != "none" || size <= MaxTrianglesOfNone
       yield
         val row = measure(kind, make, size)
         println(csv(row))
@@ -131,4 +131,4 @@ object Scale:
     )
 
   /** Triangles from which on a ray takes some milliseconds. */
-  private val MostForNone = 400_000
+  private val MaxTrianglesOfNone = 400_000

@@ -40,9 +40,10 @@ private[tracing] object ScalarKernel extends WideKernel:
       anyHit,
       (node, limit) => childrenHit(tree.nodes, node, width, ray, limit - WideWalk.Slack, anyHit),
       corners => trianglesHit(tree.blocks, corners, lanes, ray),
+      // Every candidate is tested as if it were at an edge
       marksEdges = false,
-      (_, _) => 0,
-      (_, _) => false
+      inRange = (_, _) => 0,
+      inside = (_, _) => false
     )
 
   /** Bit mask of the children that the ray hits. Of a slab's two distances the lesser one, as an

@@ -48,11 +48,11 @@ private final class UnderCoat(inner: Bsdf, coat: Float, normal: Vec3) extends Di
     // Normals that face away are mirrored, as those of the coat
     val facing = if cosine * wo.z > 0f then cosine else 2f * normal.z * wo.z - cosine
     1f - coat * ClearcoatReflectance(facing).r
-  override def flags: BsdfFlags = inner.flags | BsdfFlags.OneWay
+  override def flags: BsdfFlags = inner.flags | BsdfFlags.NonReciprocal
   override def regularized: Bsdf = UnderCoat(inner.regularized, coat, normal)
 
 /** The reflection of that coat. */
 private final class OfCoat(inner: Bsdf, coat: Float) extends Dimmed(inner):
   protected def passed(wo: Vec3, wi: Vec3): Float = coat * ClearcoatReflectance(wo.z).r
-  override def flags: BsdfFlags = inner.flags | BsdfFlags.OneWay
+  override def flags: BsdfFlags = inner.flags | BsdfFlags.NonReciprocal
   override def regularized: Bsdf = OfCoat(inner.regularized, coat)

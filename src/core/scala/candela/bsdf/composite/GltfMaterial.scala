@@ -261,7 +261,7 @@ private final class GltfInterface(outer: GltfReflectance, eta: Float, transmissi
   * scaled by the square of the index.
   */
 private final class UncompressedTransmission(base: Bsdf) extends WrappedBsdf(base):
-  override def flags: BsdfFlags = base.flags | BsdfFlags.OneWay
+  override def flags: BsdfFlags = base.flags | BsdfFlags.NonReciprocal
   override def regularized: Bsdf = UncompressedTransmission(base.regularized)
 
 /** The diffuse base under a dielectric, which lets through what its microfacets don't reflect. */

@@ -145,7 +145,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
       else BsdfSample.Absorbed
 
   def flags: BsdfFlags =
-    BsdfFlags.Glossy | BsdfFlags.Transmissive | BsdfFlags.OneWay | BsdfFlags.Choosing
+    BsdfFlags.Glossy | BsdfFlags.Transmissive | BsdfFlags.NonReciprocal | BsdfFlags.Choosing
 
 object Hair:
   /** R, TT, TRT, and one lobe for the rest. */

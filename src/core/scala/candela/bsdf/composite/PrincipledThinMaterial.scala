@@ -71,7 +71,7 @@ private final class FacetsBetween(inner: Bsdf) extends WrappedBsdf(inner):
     val i = Hemisphere.above(wi)
     (Hemisphere.flipped(i) dot (Hemisphere.above(wo) + i)) < 0f
 
-  override def flags: BsdfFlags = inner.flags | BsdfFlags.OneWay
+  override def flags: BsdfFlags = inner.flags | BsdfFlags.NonReciprocal
   override def f(wo: Vec3, wi: Vec3): Rgb = if isBehind(wo, wi) then inner.f(wo, wi) else Rgb.Black
   override def pdf(wo: Vec3, wi: Vec3): Float = if isBehind(wo, wi) then inner.pdf(wo, wi) else 0f
 

@@ -98,7 +98,7 @@ final class AdaptiveReflection(
       if color.isBlack || !color.isFinite then BsdfSample.Absorbed
       else BsdfSample(wi, color, density, isSpecular = false)
 
-  def flags: BsdfFlags = BsdfFlags.Glossy | BsdfFlags.OneWay | BsdfFlags.Choosing
+  def flags: BsdfFlags = BsdfFlags.Glossy | BsdfFlags.NonReciprocal | BsdfFlags.Choosing
 
 object AdaptiveReflection:
 

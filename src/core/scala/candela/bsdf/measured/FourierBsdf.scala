@@ -149,7 +149,7 @@ final class FourierBsdf(table: FourierTable) extends Bsdf:
       BsdfSample(wi, weight, pdf, isSpecular = false, eta)
 
   def flags: BsdfFlags =
-    BsdfFlags.Glossy | BsdfFlags.Transmissive | BsdfFlags.OneWay | BsdfFlags.Choosing
+    BsdfFlags.Glossy | BsdfFlags.Transmissive | BsdfFlags.NonReciprocal | BsdfFlags.Choosing
 
 object FourierBsdf:
   /** Cosine of the azimuth between the light's propagation direction and `wo`. */

@@ -79,8 +79,8 @@ final class TrowbridgeReitz(val alphaX: Float, val alphaY: Float) extends Microf
     else TrowbridgeReitz(TrowbridgeReitz.widened(alphaX), TrowbridgeReitz.widened(alphaY))
 
   // Roughness in one direction requires a minimum in the other, to keep d finite.
-  private val ax = Math.max(alphaX, TrowbridgeReitz.LeastAlpha)
-  private val ay = Math.max(alphaY, TrowbridgeReitz.LeastAlpha)
+  private val ax = Math.max(alphaX, TrowbridgeReitz.MinAlpha)
+  private val ay = Math.max(alphaY, TrowbridgeReitz.MinAlpha)
 
   def d(m: Vec3): Float =
     val e = square(m.x / ax) + square(m.y / ay) + m.z * m.z
@@ -133,7 +133,7 @@ object TrowbridgeReitz:
   private[microfacet] inline val Wide = 0.25f
 
   /** Minimum roughness along one axis of a surface that is rough along the other. */
-  inline val LeastAlpha = 1e-4f
+  inline val MinAlpha = 1e-4f
 
 /** Blinn microfacet distribution (cosine power) and its anisotropic form.
   *

@@ -35,8 +35,8 @@ final class SeparableTrowbridgeReitz(alphaX: Float, alphaY: Float) extends Micro
 abstract class GaussianMasking(alphaX: Float, alphaY: Float) extends MicrofacetDistribution:
   import GaussianMasking.Unmasked
   private val visible = TrowbridgeReitz(alphaX, alphaY)
-  protected final val ax = Math.max(alphaX, TrowbridgeReitz.LeastAlpha)
-  protected final val ay = Math.max(alphaY, TrowbridgeReitz.LeastAlpha)
+  protected final val ax = Math.max(alphaX, TrowbridgeReitz.MinAlpha)
+  protected final val ay = Math.max(alphaY, TrowbridgeReitz.MinAlpha)
 
   def isSmooth: Boolean = false
   def isNarrow: Boolean = visible.isNarrow

@@ -44,8 +44,8 @@ enum WardVariant:
   */
 final class WardLobe(specular: Rgb, alphaX: Float, alphaY: Float, variant: WardVariant)
     extends LeanBsdf:
-  private val ax = Math.max(alphaX, TrowbridgeReitz.LeastAlpha)
-  private val ay = Math.max(alphaY, TrowbridgeReitz.LeastAlpha)
+  private val ax = Math.max(alphaX, TrowbridgeReitz.MinAlpha)
+  private val ay = Math.max(alphaY, TrowbridgeReitz.MinAlpha)
   private val scale = 1.0 / (4.0 * Math.PI * ax * ay)
 
   /** The Gaussian of the slopes of `m`. */

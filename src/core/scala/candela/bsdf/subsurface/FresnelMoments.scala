@@ -73,4 +73,4 @@ final class NormalizedFresnel(eta: Float) extends LeanBsdf:
       out.set(wi, Rgb.gray(passed(wi) * Pi), Hemisphere.cosinePdf(wi), isSpecular = false)
     else out.absorb()
 
-  def flags: BsdfFlags = BsdfFlags.Diffuse | BsdfFlags.OneWay
+  def flags: BsdfFlags = BsdfFlags.Diffuse | BsdfFlags.NonReciprocal

@@ -28,16 +28,18 @@ private object CausticMethod:
       tracer: Tracer
   )(using site: Site): RenderMethod =
     val mode = site.resources.settings.choices.caustics
-    val alone = GuidedMethod(scene)((over, guide, parts) => tracer(over, options, guide, parts))
-    if mode == CausticsMode.Off then alone
-    else if !scene.mayHaveCasters then withoutCaustics("no surface casts caustics", alone)
+    val cameraPathsOnly =
+      GuidedMethod(scene)((workerScene, guide, parts) => tracer(workerScene, options, guide, parts))
+    if mode == CausticsMode.Off then cameraPathsOnly
+    else if !scene.mayHaveCasters then withoutCaustics("no surface casts caustics", cameraPathsOnly)
     else
-      isOut(scene, options) match
-        case Some(why) if mode == CausticsMode.Photons => refuse(why, "write --caustics off", alone)
+      reasonAgainst(scene, options) match
+        case Some(why) if mode == CausticsMode.Photons =>
+          reject(why, "write --caustics off", cameraPathsOnly)
         case None if mode == CausticsMode.Photons && scene.lightGroups.isDefined =>
           val reason = "photons do not separate light, as --fireflies clamp and AOVs of light need"
-          refuse(reason, "write --caustics on: light paths do", alone)
-        case Some(why) => withoutCaustics(why, alone)
+          reject(reason, "write --caustics on: light paths do", cameraPathsOnly)
+        case Some(why) => withoutCaustics(why, cameraPathsOnly)
         case None =>
           val light = CausticLight(
             scene.casters,
@@ -50,7 +52,7 @@ private object CausticMethod:
           val beside = Beside(scene, options, light, tracer)
           val takesPhotons = mode == CausticsMode.Photons
           Piloted(
-            alone,
+            cameraPathsOnly,
             MethodPilot(
               beside.pilot(mode, _).result,
               beside.method,
@@ -59,17 +61,17 @@ private object CausticMethod:
             )
           )
 
-  private def withoutCaustics(why: String, alone: RenderMethod): RenderMethod =
-    Piloted(alone, MethodPilot.unchanged(why, alone))
+  private def withoutCaustics(why: String, cameraPathsOnly: RenderMethod): RenderMethod =
+    Piloted(cameraPathsOnly, MethodPilot.unchanged(why, cameraPathsOnly))
 
-  private def refuse(why: String, instead: String, alone: RenderMethod)(using
+  private def reject(why: String, instead: String, cameraPathsOnly: RenderMethod)(using
       site: Site
   ): RenderMethod =
     site.error(Code.OptionMisfit, s"--caustics photons: $why", Some(instead))
-    alone
+    cameraPathsOnly
 
   /** Why light paths would find other light than the camera's, if they would. */
-  private def isOut(scene: Scene, options: PathOptions): Option[String] =
+  private def reasonAgainst(scene: Scene, options: PathOptions): Option[String] =
     if options.regularizes then Some("\"regularize\" roughens the surfaces that cast caustics")
     else if scene.hasInterfaces && options.interfaces.stopsLight then
       Some("\"path\" stops light at interfaces of media; \"volpath\" does not")
@@ -92,7 +94,7 @@ private object CausticMethod:
       case CausticsMode.Photons => byPhotons(view, mustPay = false)
       // Photons neither divide light nor have outliers
       case _ if scene.lightGroups.isDefined || reweights => byLightPaths(view)
-      case _ => byLightPaths(view).orElse(byPhotons(view, mustPay = true), PhotonMargin)
+      case _ => byLightPaths(view).better(byPhotons(view, mustPay = true), PhotonMargin)
 
     private def byLightPaths(view: View): PilotResult =
       def paths(weights: CausticWeights) = tracer(scene, weighed(weights), null, null)
@@ -111,19 +113,19 @@ private object CausticMethod:
 
     /** Paths of the camera, beside light paths. */
     private def beside(choice: LightPathChoice): RenderMethod =
-      def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): over =>
+      def makers(view: View, guide: Option[Guide]) = WorkerIntegrators(scene): workerScene =>
         val chosen = light.copy(casters = choice.casters)
-        val cameraOptions = weighed(choice.weights(over, view))
+        val cameraOptions = weighed(choice.weights(workerScene, view))
         val paths = guide match
-          case None => tracer(over, cameraOptions, null, null)
+          case None => tracer(workerScene, cameraOptions, null, null)
           case Some(by) =>
             PartlyGuided(
-              over,
+              workerScene,
               by,
-              tracer(over, cameraOptions, by, _),
-              tracer(over, cameraOptions, null, _)
+              tracer(workerScene, cameraOptions, by, _),
+              tracer(workerScene, cameraOptions, null, _)
             )
-        CausticTracer(over, paths, view, chosen, choice.perSample)
+        CausticTracer(workerScene, paths, view, chosen, choice.perSample)
       SplattedTiles(
         makers(_, None),
         beside = true,
@@ -146,7 +148,7 @@ private object CausticMethod:
           choice.bringsAll && light.suitsPhotons,
           site.resources.seed,
           _,
-          (over, map) => tracer(over, options.copy(photons = Some(map)), null, null)
+          (workerScene, map) => tracer(workerScene, options.copy(photons = Some(map)), null, null)
         ),
         bias = Some("photon maps of shrinking radius (Knaus, Zwicker 2011)")
       )

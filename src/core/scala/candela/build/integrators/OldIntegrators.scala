@@ -109,16 +109,16 @@ object DipoleSubsurfaceRecipe
     val depth = maxDepth() + 1
     IntegratorPlan(
       (scene, samples) =>
-        RenderMethod.tiles(scene): over =>
-          if scene.hasSubsurface then DipoleLighting(over, depth, samples)
-          else DirectLighting(over, depth, samples),
+        RenderMethod.tiles(scene): workerScene =>
+          if scene.hasSubsurface then DipoleLighting(workerScene, depth, samples)
+          else DirectLighting(workerScene, depth, samples),
       samplesBsdf = true,
       "dipolesubsurface, all lights at each point",
       goesBeneath = true,
       throughVolumes = Some((scene, samples, march) =>
-        RenderMethod.tiles(scene): over =>
-          if scene.hasSubsurface then DipoleLighting(over, depth, samples, march())
-          else DirectLighting(over, depth, samples, march())
+        RenderMethod.tiles(scene): workerScene =>
+          if scene.hasSubsurface then DipoleLighting(workerScene, depth, samples, march())
+          else DirectLighting(workerScene, depth, samples, march())
       )
     )
 

@@ -44,8 +44,9 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           interfaces = interfaces,
           countsPassed = countsPassed
         )
-        CausticMethod(scene, limits, options, media = None): (over, own, guide, parts) =>
-          PathTracer(over, limits, own, guide = guide, parts = parts)
+        CausticMethod(scene, limits, options, media = None):
+          (workerScene, pathOptions, guide, parts) =>
+            PathTracer(workerScene, limits, pathOptions, guide = guide, parts = parts)
       ,
       samplesBsdf = true,
       s"$name, up to $depth scattering events" + (if regularizes then ", regularised" else ""),
@@ -63,8 +64,9 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           crossesPanes = crossesPanes,
           hidesEmitters = hides()
         )
-        CausticMethod(scene, limits, options, Some(media)): (over, own, guide, parts) =>
-          VolumePathTracer(over, media, limits, own, guide, parts)
+        CausticMethod(scene, limits, options, Some(media)):
+          (workerScene, pathOptions, guide, parts) =>
+            VolumePathTracer(workerScene, media, limits, pathOptions, guide, parts)
       ,
       throughVolumes = Some((scene, _, march) =>
         RenderMethod.tiles(scene)(PathTracer(_, limits, volumes = march()))
@@ -85,8 +87,13 @@ private object GuidedMethod:
           unguided,
           settings,
           guide =>
-            WorkerIntegrators(scene): over =>
-              PartlyGuided(over, guide, tracer(over, guide, _), tracer(over, null, _))
+            WorkerIntegrators(scene): workerScene =>
+              PartlyGuided(
+                workerScene,
+                guide,
+                tracer(workerScene, guide, _),
+                tracer(workerScene, null, _)
+              )
         )
 
 object SimplePathRecipe extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4):

@@ -19,7 +19,7 @@ private[build] object BsdfFile:
   private inline val HeaderBytes = 64
 
   /** Keeps n² within an Int; real files have some hundred cosines. */
-  private inline val MostCosines = 4096
+  private inline val MaxCosines = 4096
 
   /** Returns the table, or an error message. */
   def read(file: InputFile): Either[String, FourierTable] =
@@ -44,7 +44,7 @@ private[build] object BsdfFile:
       else if channels != 1 && channels != 3 then
         Left(s"number of channels must be 1 or 3, found $channels")
       else if bases != 1 then Left(s"number of bases must be 1, found $bases")
-      else if n < 2 || n > MostCosines || coefficients < 0 then
+      else if n < 2 || n > MaxCosines || coefficients < 0 then
         Left(s"invalid table of $n cosines and $coefficients coefficients")
       else if bytes.length < expected then
         Left(s"size must be at least $expected bytes by its header, found ${bytes.length}")

@@ -45,7 +45,7 @@ private[media] object NanoVdbTree:
     val size: Int = table + 8 * slots
 
   /** Limits the memory for nodes that hold one value; they are rare. */
-  private val MostConstants = 1000
+  private val MaxConstants = 1000
 
   private val LeafValues = 96
   private val LeafSize = LeafValues + 4 * VoxelNode.LeafSize
@@ -157,8 +157,8 @@ private[media] object NanoVdbTree:
         java.lang.Float.floatToIntBits(value),
         VoxelNode(Array.fill(VoxelNode.LeafCount)(constant(value)))
       )
-      if constantNodes.size > MostConstants then
-        throw NanoVdbError(s"more than $MostConstants of its large tiles differ")
+      if constantNodes.size > MaxConstants then
+        throw NanoVdbError(s"more than $MaxConstants of its large tiles differ")
       node
 
     private def number(value: Float): Float =

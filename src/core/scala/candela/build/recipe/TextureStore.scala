@@ -115,7 +115,7 @@ object TextureStore:
 
   /** In memory up to this share of the heap, and this size. */
   private val ShareOfHeap = 8
-  private val MostInMemory = 1_000_000_000L
+  private val MaxBytesInMemory = 1_000_000_000L
 
   private val Environments = Set("infinite", "exinfinite")
 
@@ -151,7 +151,7 @@ object TextureStore:
     else
       val size =
         sizeOf(textures)(_.asTexture) + sizeOf(maps)(s => s.width.toLong * s.height * Pixel)
-      val defaultLimit = Math.min(Runtime.getRuntime.maxMemory / ShareOfHeap, MostInMemory)
+      val defaultLimit = Math.min(Runtime.getRuntime.maxMemory / ShareOfHeap, MaxBytesInMemory)
       val limit = control.memory.getOrElse(defaultLimit)
       val images = if files.size == 1 then "1 image" else s"${files.size} images"
       val about = s"about ${ByteCount.format(size)}"

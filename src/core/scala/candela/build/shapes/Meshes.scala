@@ -129,7 +129,7 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
           mesh.indices ++ halves,
           toWorld,
           longest,
-          site.allowance.capped(Limit.Triangles, DisplacedMesh.MostVertices)
+          site.allowance.capped(Limit.Triangles, DisplacedMesh.MaxVertices)
         ): (p, u, v) =>
           point.p = p
           point.u = u

@@ -47,7 +47,7 @@ object PlySize:
           header.elements.filter(_.name != "face").map(e => e.count.toLong * bytes(e))
         val bytesPerFace = (length - header.bodyStart - otherBytes.sum).toDouble / faces
         val beside = named("face").fold(0)(bytes(_)) + list.countType.fold(0)(_.bytes)
-        Math.max(3.0, Math.min(MostCorners, (bytesPerFace - beside) / list.valueType.bytes))
+        Math.max(3.0, Math.min(MaxCorners, (bytesPerFace - beside) / list.valueType.bytes))
       case _ => 3.0
     PlySize(vertex.fold(0L)(_.count.toLong), faces, corners, numbers)
 
@@ -57,4 +57,4 @@ object PlySize:
 
   private val UsualHeader = 1 << 11
   private val Beginning = 1 << 16
-  private val MostCorners = 8.0
+  private val MaxCorners = 8.0

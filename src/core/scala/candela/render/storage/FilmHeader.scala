@@ -138,14 +138,14 @@ object FilmHeader:
 
   /** `3/16, 5/16 to 9/16`; of many runs the first ones. */
   def named(runs: Vector[(Int, Int)], count: Int): String =
-    val listed = runs.take(MostNamed).map: (first, last) =>
+    val listed = runs.take(MaxNamedRuns).map: (first, last) =>
       if first == last then s"$first/$count"
       else if last == first + 1 then s"$first/$count, $last/$count"
       else s"$first/$count to $last/$count"
-    val omitted = runs.drop(MostNamed).map((first, last) => last.toLong - first + 1).sum
+    val omitted = runs.drop(MaxNamedRuns).map((first, last) => last.toLong - first + 1).sum
     listed.mkString(", ") + (if omitted > 0 then s" and $omitted more" else "")
 
-  private val MostNamed = 10
+  private val MaxNamedRuns = 10
 
   private[storage] def load(from: CheckedInput): FilmHeader =
     def texts() = Vector.fill(from.count(bytes = 4))(from.text())

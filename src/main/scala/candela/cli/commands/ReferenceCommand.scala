@@ -118,7 +118,7 @@ final class ReferenceCommand(
       rendering
 
   private def isEnough(mean: ReferenceMean): Boolean =
-    val isGood = mean.runs >= ReferenceFile.FewestRuns &&
+    val isGood = mean.runs >= ReferenceFile.MinRuns &&
       goal.error.exists(most => mean.relativeError.exists(_ <= most))
     isGood || goal.time.exists(_ < seconds + ofLast / 2)
 

@@ -50,9 +50,9 @@ private[cli] final class Sequence(options: Options):
   def summary: Option[String] =
     Option.when(frames.size > 1 || skipped > 0):
       def counted(count: Int, what: String) = Option.when(count > 0)(s"$count $what")
-      val unnamed = failed.size - Sequence.MostNamed
+      val unnamed = failed.size - Sequence.MaxNamedScenes
       val names =
-        failed.take(Sequence.MostNamed) ++ Option.when(unnamed > 0)(s"… and $unnamed more")
+        failed.take(Sequence.MaxNamedScenes) ++ Option.when(unnamed > 0)(s"… and $unnamed more")
       val missing = frames.size - failed.size - succeeded
       val counts =
         counted(succeeded - skipped, "rendered") ++ counted(skipped, "skipped (done already)") ++
@@ -62,7 +62,7 @@ private[cli] final class Sequence(options: Options):
 
 private[cli] object Sequence:
   /** Failed scenes in the summary. */
-  private val MostNamed = 20
+  private val MaxNamedScenes = 20
 
   /** Name of the metadata that identify a complete rendering. */
   val Digest = "rendering"

@@ -130,7 +130,7 @@ object CommandLine:
     val words = FilmOptions.withValues(joined(arguments))
     words.find(isTooLong) match
       case Some(word) =>
-        val message = s"no option begins with `${word.take(MostShort)}`"
+        val message = s"no option begins with `${word.take(MaxShownCharacters)}`"
         Left(refusal(Vector(UsageError(Code.UnknownOption, message)), command))
       case None =>
         val parser = CommandTable.parser(command)
@@ -150,7 +150,7 @@ object CommandLine:
     word.length > LongestWord && word.startsWith("-") && !word.startsWith("--")
 
   private val LongestWord = 1000
-  private val MostShort = 20
+  private val MaxShownCharacters = 20
 
   private val setup: OParserSetup = new DefaultOParserSetup:
     override def showUsageOnError: Option[Boolean] = Some(false)

@@ -28,7 +28,7 @@ final case class FilmOptions(
 
 object FilmOptions:
   /** All of them are listed. */
-  private[cli] val MostFrames = 1_000_000
+  private[cli] val MaxFrames = 1_000_000
 
   def isFilm(name: String): Boolean =
     name.toLowerCase(Locale.ROOT).endsWith(s".${FilmFile.Suffix}")
@@ -102,8 +102,8 @@ private[cli] object FilmTable extends OptionRows:
       .validate: r =>
         // Java has no range so long
         val size = (r.end.toLong - r.start) / r.step + 1
-        if size <= FilmOptions.MostFrames then success
-        else failure(s"--frames must be at most ${FilmOptions.MostFrames} frames, found `$size`")
+        if size <= FilmOptions.MaxFrames then success
+        else failure(s"--frames must be at most ${FilmOptions.MaxFrames} frames, found `$size`")
       .action((r, o) => change(o)(_.copy(frames = Some(r), skipDone = true))),
     opt[Unit]("skip-done")
       .text("skip scenes whose complete image, with the same options, exists")

@@ -42,7 +42,7 @@ private[cli] final class HelpText(columns: Int):
 
   /** A name, and behind it, or below if it is long, the text. */
   private def row(name: String, text: String, width: Int = NameWidth): Vector[String] =
-    val lines = TextTable.wrap(text, Math.max(LeastText, columns - width - Indent.length))
+    val lines = TextTable.wrap(text, Math.max(MinTextColumns, columns - width - Indent.length))
     val margin = Indent + " " * width
     if name.length + 2 <= width then
       s"$Indent${name.padTo(width, ' ')}${lines.head}" +: lines.tail.map(margin + _)
@@ -60,7 +60,7 @@ private[cli] object HelpText:
   private val Indent = "  "
   private val NameWidth = 26
   private val CommandWidth = 12
-  private val LeastText = 24
+  private val MinTextColumns = 24
 
   /** Options in the overview. */
   private val Usual =

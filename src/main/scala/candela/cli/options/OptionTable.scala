@@ -34,14 +34,14 @@ private[candela] object OptionTable extends OptionRows:
       .action((_, o) => o.copy(verbose = true))
 
   /** More than any machine's processors; each thread takes memory, and a slot of the system. */
-  private val MostThreads = 4096
+  private val MaxThreads = 4096
 
   private def threads: Row = opt[Int]('j', "nthreads").valueName("N")
     .text("number of render threads (default: one per processor)")
     .validate(atLeast("nthreads", 1))
     .validate: n =>
-      if n <= MostThreads then success
-      else failure(s"--nthreads must be at most $MostThreads, found `$n`")
+      if n <= MaxThreads then success
+      else failure(s"--nthreads must be at most $MaxThreads, found `$n`")
     .action((n, o) => o.controlling(_.copy(threads = n)))
 
   private def watch(meaning: String): Row =

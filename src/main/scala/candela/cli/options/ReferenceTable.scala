@@ -20,7 +20,7 @@ private[cli] object ReferenceTable extends OptionRows:
       OptionText(
         "end when the reference's own relative error is below X, e.g. 0.002 or 0.2%",
         s"The error is estimated from the differences between runs, at least " +
-          s"${ReferenceFile.FewestRuns}: [references](NOISE.md#references)."
+          s"${ReferenceFile.MinRuns}: [references](NOISE.md#references)."
       )
     ),
     setting("time", "end with the run that ends nearest to this time of rendering, e.g. 2h"),

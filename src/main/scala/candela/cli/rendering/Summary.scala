@@ -5,7 +5,7 @@ import candela.cli.options.Options
 import candela.cli.terminal.{Figures, ProblemText, Terminal}
 import candela.job.{GoalRule, Prepared, StrategyFiles}
 import candela.measure.Interval
-import candela.render.{Refused, Rendering}
+import candela.render.{DiscardedSamples, Rendering}
 import candela.render.storage.FilmFile
 
 import java.nio.file.Path
@@ -101,15 +101,15 @@ object Summary:
 
   /** A discarded sample counts as black. */
   private def darkness(r: Rendering): String =
-    val discarded = r.refused.fold(0L)(_.count)
+    val discarded = r.discarded.fold(0L)(_.count)
     val done = Math.max(r.samplesTaken, r.film.width.toLong * r.film.height * r.samplesDone)
-    if discarded * LeastLoss <= done then ""
+    if discarded * SamplesPerDiscarded <= done then ""
     else
       val share = Figures.percentage(discarded.toDouble / done)
       s"; the image is too dark: $share of its samples were discarded"
 
   /** One discarded sample among so many is not worth a word in the last line. */
-  private val LeastLoss = 1000
+  private val SamplesPerDiscarded = 1000
 
   /** Of images that a rendering without samples did not replace. */
   def unreplaced(images: Vector[Path], r: Rendering, isLate: Boolean = false): String =
@@ -139,8 +139,8 @@ object Summary:
       noise: String = "",
       ending: Option[String] = None
   ): Unit =
-    for r <- rendering.refused do
-      terminal.err.println(refused(r, isTraceable = !options.settings.preview))
+    for r <- rendering.discarded do
+      terminal.err.println(discarded(r, isTraceable = !options.settings.preview))
     if !options.quiet && written.nonEmpty then
       if options.verbose then
         terminal.err.println(phases(prepared, rendering, after))
@@ -169,7 +169,7 @@ object Summary:
     durations.map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
 
   /** @param isTraceable whether `render` can trace the same sample: not of a smaller image */
-  def refused(r: Refused, isTraceable: Boolean): String =
+  def discarded(r: DiscardedSamples, isTraceable: Boolean): String =
     val material = if r.material < 0 then "" else s", material ${r.material}"
     val options = s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
     val advice = if isTraceable then s"; trace it with `candela render $options`" else ""

@@ -70,8 +70,8 @@ final class Report(
     this.warnings(warnings, all = isVerbose)
     val count = errors.distinct.size
     val kinds = grouped(errors, all = isVerbose)
-    kinds.take(Report.MostErrors).foreach(printAll)
-    val omitted = kinds.drop(Report.MostErrors).map((_, places) => places).sum
+    kinds.take(Report.MaxErrorKinds).foreach(printAll)
+    val omitted = kinds.drop(Report.MaxErrorKinds).map((_, places) => places).sum
     if omitted > 0 then err.println(s"and ${Figures.count(omitted, "more error")}")
     else if count > 1 then err.println(Figures.count(count, "error"))
     if canKeepGoing && errors.forall(_.standIn.nonEmpty) then
@@ -107,7 +107,7 @@ final class Report(
 
   /** An exception and its causes. */
   private def causes(e: Throwable): Vector[Throwable] =
-    Vector.unfold(Option(e))(_.map(c => (c, Option(c.getCause)))).take(Report.MostCauses)
+    Vector.unfold(Option(e))(_.map(c => (c, Option(c.getCause)))).take(Report.MaxCauses)
 
   private def isInterrupt(e: Throwable): Boolean = e match
     case _: InterruptedException | _: ClosedByInterruptException => true
@@ -150,10 +150,10 @@ final class Report(
 
 object Report:
   /** Causes may refer to each other. */
-  private val MostCauses = 20
+  private val MaxCauses = 20
 
   /** Limit for readability. */
-  private[cli] val MostErrors = 20
+  private[cli] val MaxErrorKinds = 20
 
 /** Formats a problem as text; no other class does:
   *
@@ -213,12 +213,12 @@ object ProblemText:
   private def includes(at: SourcePos): Vector[String] =
     val lines =
       Vector.unfold(at.includedFrom)(_.map(from => (s" included from $from", from.includedFrom)))
-    if lines.size <= MostIncludes then lines
+    if lines.size <= MaxIncludes then lines
     else
-      val halfLimit = MostIncludes / 2
+      val halfLimit = MaxIncludes / 2
       (lines.take(halfLimit) :+ s" … ${lines.size - 2 * halfLimit} more …") ++ lines.takeRight(
         halfLimit
       )
 
   /** More, of files that include each other, are left out. */
-  private val MostIncludes = 10
+  private val MaxIncludes = 10

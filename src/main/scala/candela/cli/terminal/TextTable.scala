@@ -12,9 +12,9 @@ final class TextTable(columns: Int):
       val wanted = rows.head.indices.init.map(i => rows.map(_(i).length).max)
       def room(widest: Int) =
         columns - indent - wanted.map(w => w.min(widest) + TextTable.Gap).sum
-      val widest = TextTable.Widest.find(room(_) >= TextTable.LeastText).getOrElse(12)
+      val widest = TextTable.Widest.find(room(_) >= TextTable.MinTextColumns).getOrElse(12)
       val fixed = wanted.map(_.min(widest))
-      val width = Math.max(TextTable.LeastText, room(widest))
+      val width = Math.max(TextTable.MinTextColumns, room(widest))
       rows.flatMap: row =>
         val cells =
           row.init.zip(fixed).map((text, w) => TextTable.wrap(text, w).map(_.padTo(w, ' ')))
@@ -34,7 +34,7 @@ object TextTable:
   private val Widest = 26 to 12 by -1
 
   /** Minimum width of the last column, however narrow the terminal. */
-  private val LeastText = 24
+  private val MinTextColumns = 24
 
   /** Breaks between words; words longer than a line stay whole. */
   def wrap(text: String, width: Int): Vector[String] =

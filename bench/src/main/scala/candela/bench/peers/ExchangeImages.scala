@@ -31,11 +31,11 @@ private[peers] object ExchangeImages:
   def sky(d: Declaration, p: Param, files: SideFiles, values: ExchangeValues): String =
     written(d, Some(p), files, values): stored =>
       val source = stored.linear.toRgb
-      val height = Math.min(source.height, MostRows)
+      val height = Math.min(source.height, MaxRows)
       val to = PolarLatLongMap(height)
       SkyImages.resampled(source, EqualAreaMap, 2 * height, height, to, smooth = false)
 
-  private val MostRows = 2048
+  private val MaxRows = 2048
 
   private def written(
       d: Declaration,

@@ -85,12 +85,12 @@ object PeerScenes:
         ExchangeScene.write(moved, depth(scene), files) match
           case None => Right(exchangeFolder.resolve("scene.xml"))
           case Some(inexpressible) =>
-            val listed = inexpressible.reasons.take(MostReasons).mkString(", ")
-            val remaining = inexpressible.reasons.size - MostReasons
+            val listed = inexpressible.reasons.take(MaxReasons).mkString(", ")
+            val remaining = inexpressible.reasons.size - MaxReasons
             Left(s"not converted: $listed${if remaining > 0 then s" and $remaining more" else ""}")
     catch case e: SceneError => Left(e.problems.head.message)
 
-  private val MostReasons = 3
+  private val MaxReasons = 3
 
   /** Rendered by paths, of as many bounces as the scene says. */
   private def normal(scene: SceneDescription): SceneDescription =

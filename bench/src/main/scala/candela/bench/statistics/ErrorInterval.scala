@@ -27,7 +27,7 @@ final case class ErrorInterval(interval: Interval, events: Double)
 
 object ErrorInterval:
   /** Fewer events allow for no upper limit: what the next seed finds may outweigh all of them. */
-  val FewestEvents = 12.0
+  val MinEvents = 12.0
 
   /** How large an event the next seed may have, relative to the largest one's square over the
     * deviation of the mean: by docs/NOISE.md, "Intervals".
@@ -57,7 +57,7 @@ object ErrorInterval:
       val missed = NextEvent * (1 + 1.0 / seeds) * spread.largest * spread.largest /
         Math.sqrt(spread.variance)
       val high =
-        if events < FewestEvents then Double.PositiveInfinity
+        if events < MinEvents then Double.PositiveInfinity
         else gamma(mean + missed, spread.variance + missed * missed, t)
       ErrorInterval(Interval(mean, low, high), events)
 

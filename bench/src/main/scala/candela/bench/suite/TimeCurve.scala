@@ -32,7 +32,7 @@ private[suite] final case class TimeCurve(points: Vector[(Int, Double)]):
         val (n0, t0) = rising(upperIndex - 1)
         val (n1, t1) = rising(upperIndex)
         n0 + (seconds - t0) / Math.max(Fastest, (t1 - t0) / (n1 - n0))
-    Math.max(1, Math.min(exact, MostSamples).toInt)
+    Math.max(1, Math.min(exact, MaxSamples).toInt)
 
   /** Samples of the next trial; None if the last took so long that longer runs of up to `budget`
     * seconds are foreseeable.
@@ -50,7 +50,7 @@ private[suite] object TimeCurve:
 
   /** Of a time budget: times beyond count as unequal. */
   private val Tolerance = 0.1
-  private val MostSamples = 1e7
+  private val MaxSamples = 1e7
   private val FirstStep = 8
   private val LargestStep = 16
 
